@@ -114,8 +114,8 @@ namespace {
 
 using enum Role;
 
-// A joint of the clip, with the limb of the tree that carries this joint. Limbs are rigid, so the joint's children keep
-// their rest offsets and turn with that limb.
+// A joint of the clip, with the limb of the tree to which this joint is fixed. Limbs are rigid, so the joint's children
+// keep their rest offsets and turn with that limb.
 struct ClipJointRow {
   std::string_view name;
   int parent;

@@ -20,7 +20,7 @@ constexpr Named<LimitSet> kLimitSets[] = {{"adult", LimitSet::kAdult},
 constexpr double kMaxSidewaysDeg = 80;
 constexpr double kNotGiven = -1;
 
-// Angles from the anatomical position in degrees, one per column of table 3.1.
+// The extreme angles of one movement, degrees from the anatomical position: one per column of table 3.1.
 using Movement = std::array<double, 4>;
 constexpr Movement kNone{0, 0, 0, 0};
 constexpr Movement kShoulderFlexion{180, 180, 90, 150};
@@ -62,7 +62,7 @@ struct DofRow {
   const Movement& rises;
 };
 
-// All degrees of freedom in the tree's order.
+// The rows of all degrees of freedom, in the order of the tree's angles.
 constexpr std::array<DofRow, 29> kDofs = {{
     {kTreeLeftAnkle, 0, kAnkleDorsiflexion, kAnklePlantarflexion},
     {kTreeLeftKnee, 0, kNone, kKneeFlexion},

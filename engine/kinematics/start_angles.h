@@ -12,8 +12,8 @@ namespace etude {
 /// Returns the pose of paper B's body (`MakeBodyTree`) whose limbs point as in `joints` (section 3.3); the root stands
 /// at the left foot. From the root outwards, every joint takes the angles that point its limb in the desired direction,
 /// given the actual pose of the joints before it. If an angle is clipped at its limit, the next joint therefore
-/// compensates as far as possible. Two positions do not define the rotation of a limb about itself. These rules define
-/// it *(ours)*:
+/// compensates as far as possible. The positions of a limb's two ends do not define its rotation about its own line.
+/// These rules do *(ours)*:
 /// - upper arms and the right thigh: the X axis of elbow and knee is normal to both limbs, unless these are nearly
 ///   parallel (3°). In that case, and for the neck, the smallest rotation from the parent's rest frame is used;
 /// - the left leg, whose three limbs are joined by hinges with a common X axis: this axis is the mean of the normals at

@@ -7,7 +7,7 @@
 
 namespace etude {
 
-// Each function appends the faults of its kinds, by the rules of FindMotionFaults. It leaves the faults' sentences
+// Each function below appends the faults of some kinds, by the rules of FindMotionFaults, and leaves their sentences
 // empty.
 
 /// Appends jumps, floats and sinks.

@@ -55,7 +55,7 @@ void AppendGaps(const BodyMotion& motion, const FaultOptions& options, std::vect
   }
 }
 
-/// Appends a fault if in the median frame a joint is faster than the feet of sprinters.
+/// Appends a fault if the median speed of the fastest joint exceeds that of a sprinter's feet.
 void AppendSpeed(const BodyMotion& motion, std::vector<MotionFault>& faults) {
   const double speed = ComputeStatistics(motion).speed_median_m_s;
   if (speed <= fault_limits::kFast_m_s) return;

@@ -9,8 +9,8 @@
 
 namespace etude {
 
-/// Evaluates a clip's twenty joints at any time, in the file's unit and axes. Only joints that carry a role are
-/// evaluated, and no memory is allocated for a frame. `clip` must outlive this object.
+/// Evaluates a clip's twenty joints at any time, in the file's unit and axes. Only joints with a role and their
+/// ancestors are evaluated, and no memory is allocated for a frame. `clip` must outlive this object.
 class BodySampler {
  public:
   BodySampler(const Clip& clip, const JointMap& map);

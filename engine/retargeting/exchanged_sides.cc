@@ -16,7 +16,7 @@ using enum Role;
 constexpr std::array<std::array<Role, 4>, 2> kChains = {
     {{kLeftShoulder, kLeftElbow, kLeftWrist, kLeftHand}, {kLeftHip, kLeftKnee, kLeftAnkle, kLeftFoot}}};
 
-/// Mean and standard deviation of a number over frames.
+/// The mean over frames of a number, and its standard deviation.
 struct Spread {
   double count = 0, sum = 0, squares = 0;
   void Add(double value) {
@@ -28,7 +28,8 @@ struct Spread {
   double Deviation() const { return std::sqrt(std::max(0.0, count > 0 ? squares / count - Mean() * Mean() : 0)); }
 };
 
-/// The evidence that the left and right limbs between two pairs of joints cross, because one pair is exchanged.
+/// The evidence that the left and right limbs between two pairs of joints cross, because the joints of one pair are
+/// exchanged.
 struct Crossing {
   bool is_certain = false;
   bool may_be = false;  ///< true if exchanging one pair makes the limbs shorter in nearly all frames

@@ -13,8 +13,8 @@ namespace etude {
 /// Returns the left joints that look exchanged with the right ones (ours). A left and a right limb cross if exchanging
 /// the joints at one of their ends makes both limbs shorter and their lengths far more constant. Upper arms also cross
 /// if the exchange makes them much shorter. Thighs also cross if the exchange makes them shorter in nearly all frames;
-/// so do upper arms and forearms together. Of the two ways to undo all crossings, the one with fewer joints is
-/// returned. `frames` have any unit; unseen joints do not count.
+/// so do upper arms and forearms together. Two sets of joints undo all crossings; the smaller set is returned. `frames`
+/// have any unit; unseen joints do not count.
 std::vector<Role> FindExchangedJoints(std::span<const JointPositions> frames);
 /// Returns a message for the user that these left joints look exchanged with the right ones, or "" if the list is
 /// empty. `name_of` returns the name of a joint for the message.

@@ -35,7 +35,7 @@ struct SkinDepths {
   bool has_elbow_widths = false;
 };
 
-/// The joints of one side of a body in one frame, with their names mirrored for the right side.
+/// The joints of one side of a body in one frame, addressed by left roles for either side.
 class SideOf {
  public:
   SideOf(JointPositions& places, bool is_left) : places_(places), is_left_(is_left) {}
@@ -68,8 +68,8 @@ glm::dvec3 Chord(const glm::dvec3& other_end, const glm::dvec3& marker, const gl
   return marker - depth * share * limb / length + depth * std::sqrt(1 - share * share) * aside;
 }
 
-/// Returns the inward direction. Blends from `rough`, which is always known, to the normal of the bend, which is more
-/// reliable for a stronger bend. A marker that is `depth` beside a straight limb makes the limb seem bent; this
+/// Returns the inward direction. Blends `rough`, which is always known, with the normal of the bend plane, which gets
+/// more weight as the limb bends more. A marker that is `depth` beside a straight limb makes the limb seem bent; this
 /// apparent bend is subtracted.
 glm::dvec3 Inward(const glm::dvec3& rough, const glm::dvec3& upper, const glm::dvec3& lower, double sign, double depth) {
   constexpr double kCertain = 1.2, kRange = 0.25;  // kCertain multiplies the apparent bend; kRange is a sine
@@ -93,7 +93,7 @@ SkinDepths DepthsOf(const MarkerSet& set, const std::map<std::string, double>& s
     std::vector<double> lengths;
     bool is_of_file = true;
     for (const bool is_left : {true, false}) {
-      // Take the joint's width from the file if possible; otherwise the distance is a share of the limb's length.
+      // Compute the distance from the joint's width if the file has it; otherwise take a share of the limb's length.
       const auto width = size((is_left ? "L" : "R") + std::string(joint.size));
       const bool is_offset = joint.left == kLeftShoulder;
       const double radius = 0.5 * size("MARKERDIAMETER").value_or(kUsualMarker);
@@ -136,8 +136,9 @@ glm::dvec3 ByWand(const glm::dvec3& wand, const glm::dvec3& other_end, const glm
   return UnitOr(-Across(wand - other_end, marker - other_end), glm::dvec3(0));
 }
 
-/// Returns the inward direction at a knee, from the line between the hips and the bend of the knee. The bend of the
-/// markers gives a first direction and thereby joint centres; the bend of these centres gives the result.
+/// Returns the inward direction at a knee, from the line between the hips and the bend of the knee. The bend seen in
+/// the markers gives a first direction and thereby joint centres; the bend of the limb through these centres gives the
+/// result.
 glm::dvec3 KneeInward(const SideOf& side, const SkinDepths& depths) {
   const glm::dvec3 hip = *side[kLeftHip], skin = *side[kLeftKnee], ankle = *side[kLeftAnkle];
   const double sign = side.is_left() ? -1 : 1, depth = depths.metres[Index(side.On(kLeftKnee))];

@@ -20,7 +20,7 @@ constexpr double kHandPerForearm = 18.0 / 25.0;
 constexpr double kFootPerShank = 18.0 / 42.0;
 constexpr double kHeadPerTrunk = 25.0 / 50.0;
 
-/// The plausible range of a tip's length, as a multiple of the length by the proportions above.
+/// The plausible range of a tip's length, in multiples of the length that follows from the proportions above.
 struct TipLength {
   double shortest;
   double longest;
@@ -46,9 +46,9 @@ Finger FingerBelow(const SkeletonTree& tree, int joint, int top) {
   return Finger::kNotNamed;
 }
 
-/// Returns the farthest joint among `top` and its descendants that is at a plausible distance (computed by `distance`)
-/// and for which `may_be` is true. Of equally far joints, returns the one with the most suitable finger name, then the
-/// first in the skeleton. Without this rule, rounding could choose different fingers on the left and on the right.
+/// Returns the farthest joint among `top` and its descendants that is at a plausible `distance` and for which `may_be`
+/// is true. Of equally far joints, returns the one with the most suitable finger name, then the first in the skeleton.
+/// Without this rule, rounding could choose different fingers on the left and on the right.
 template <typename Distance, typename MayBe>
 std::optional<int> FarthestTip(const SkeletonTree& tree, int top, double proportion, const TipLength& plausible,
                                Distance distance_of, MayBe may_be) {

@@ -76,9 +76,9 @@ double WorstGap(const BodyPose& a, const BodyPose& b) {
   return worst;
 }
 
-/// Returns the length, in frames, of a constant T-pose at the start that does not belong to the motion: the motion
-/// jumps away from it by more than 5 % of the stature, and by much more than in the next step. Returns 0 without such a
-/// T-pose.
+/// Returns the length, in frames, of a constant T-pose at the start that does not belong to the motion: the motion's
+/// first step away from the T-pose exceeds 5 % of the stature and is much larger than the second step. Returns 0
+/// without such a T-pose.
 std::size_t CountForeignTPose(const Clip& clip, BodySampler& sampler, UpAxis up) {
   constexpr double kStillPerStature = 1e-4;
   constexpr double kJumpPerStature = 0.05;
@@ -205,7 +205,7 @@ Result<void> FindUnit(const BodyPose& rest, const std::vector<BodyPose>& poses, 
 }
 
 double FindFloor(const std::vector<BodyPose>& poses) {
-  // Use a percentile, not the minimum: a single frame with a lost marker must not raise the whole clip.
+  // Take a percentile, not the minimum: a single frame with a lost marker must not raise the whole clip.
   constexpr double kLow = 0.05;
   return LowerPercentile(OverFrames(poses, LowestHeight), kLow);
 }
@@ -214,7 +214,8 @@ double LeftLegLength(const BodyPose& pose) {
   return glm::distance(pose[kLeftHip], pose[kLeftKnee]) + glm::distance(pose[kLeftKnee], pose[kLeftAnkle]);
 }
 
-/// Returns `told` if it is within a leg's length of the floor that FindFloor finds, otherwise the floor of FindFloor.
+/// Returns the height `told` if it differs from FindFloor's height by less than a leg's length, otherwise FindFloor's
+/// height.
 double FloorOf(const std::vector<BodyPose>& poses, const std::optional<double>& told) {
   const double own = FindFloor(poses);
   return told && std::abs(own - *told) <= LeftLegLength(poses.front()) ? *told : own;

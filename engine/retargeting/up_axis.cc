@@ -19,7 +19,7 @@ using enum Role;
 /// Measurements of a motion under the assumption that one axis points up. Lengths are multiples of the stature.
 struct Stance {
   double upright = 0;   ///< share of the frames with the trunk upright, the hips above the feet, and the head on top
-  double balanced = 0;  ///< share of the frames with the weight over the feet
+  double balanced = 0;  ///< share of the frames with the mass centre over the feet
   double straight = 0;  ///< share of the frames with trunk, head and legs straight along the axis, as in static trials
   double floor = 0;     ///< range of the lowest joint's height (5th to 95th percentile)
   double way = 0;       ///< distance that the hips travel perpendicular to the axis
@@ -84,7 +84,7 @@ double Lowest(const BodyPose& pose, const glm::dvec3& up) {
   return lowest;
 }
 
-/// The frames to measure: every n-th pose, each with a pose about a twentieth of a second later.
+/// The frames to measure: every n-th pose, each paired with the pose about a twentieth of a second later.
 struct Frames {
   std::span<const BodyPose> poses;
   std::size_t stride = 1, later = 1;
@@ -146,7 +146,7 @@ Stance MeasureStance(const Frames& frames, const glm::dvec3& up) {
 /// Returns true if a motion is sufficient evidence that `other` points up, and not the usual axis.
 bool Overrules(const Stance& other, const Stance& usual, bool is_opposite, const UpRule& rule) {
   constexpr double kMostly = 0.8, kStillFloor = 0.05;
-  // Exclude a handstand: the hands are beyond the head and stay on the floor.
+  // Exclude a handstand, in which the hands are beyond the head and the lowest joint stays at one height.
   if (is_opposite && other.on_hands > 0.5 && usual.floor < kStillFloor) return false;
   // Accept `other` if the floor is constant along that axis only.
   constexpr double kNow = 0.1, kFloorless = 0.15;
@@ -155,7 +155,7 @@ bool Overrules(const Stance& other, const Stance& usual, bool is_opposite, const
   }
   if (other.upright < kMostly || usual.upright >= kHardlyEver) return false;
   // Accept the opposite axis, because nobody stands on the head without the hands. (If the usual axis is only a guess,
-  // the body may instead lie along it.)
+  // the body may instead lie along this axis.)
   if (is_opposite && other.on_hands <= 0.5 && rule.evidence != UpEvidence::kPosture) return true;
   // Accept `other` if the body walks perpendicular to it.
   if (other.way > 0.5 && other.steps > 0.4) return true;

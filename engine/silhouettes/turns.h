@@ -21,7 +21,7 @@ glm::dvec3 TurnOf(const glm::dmat3& rotation);
 /// vector in the world), and the rest is added to the angles, which are clamped to their limits.
 TreeState Moved(const KinematicTree& tree, const TreeState& state, std::span<const double> by);
 
-/// Returns the mean of two poses; the root's rotation is half-way between theirs.
+/// Returns the mean of two poses; the mean's root rotation is half-way between the rotations of the two roots.
 TreeState MeanState(const TreeState& a, const TreeState& b);
 
 /// Extrapolates a motion: adds to `last` the fraction `share` of the change from `before` to `last`.

@@ -5,7 +5,7 @@
 
 namespace etude {
 
-/// The sums of squares and products of pixels' offsets from their mean.
+/// Sums over pixels: squares and products of the coordinates' deviations from the mean pixel.
 struct Scatter {
   double xx = 0, xy = 0, yy = 0;
 
@@ -19,7 +19,7 @@ struct Scatter {
     const double angle = 0.5 * std::atan2(2 * xy, xx - yy);
     return {std::cos(angle), std::sin(angle)};
   }
-  /// Returns the sum of squares along the principal axis.
+  /// Returns the sum of squared deviations along the principal axis.
   double AlongAxis() const { return 0.5 * (xx + yy) + std::hypot(0.5 * (xx - yy), xy); }
 };
 

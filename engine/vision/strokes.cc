@@ -78,7 +78,8 @@ std::optional<glm::dvec2> ReadDisc(const Pixels& pixels) {
   constexpr double kWhole = 0.95;
   if (static_cast<double>(pixels.size()) >= kWhole * kPi * kDiscRadius * kDiscRadius) return mean;
 
-  // The mean of a partly covered disc would be biased to its visible side; instead, search for all possible centres.
+  // If a disc is partly covered, the mean of the visible pixels is not the centre. Search instead for all possible
+  // centres.
   constexpr double kGridStep = 0.25;
   constexpr double kRasterSlack = 0.25;
   const double radius = kDiscRadius + kRasterSlack;

@@ -74,7 +74,7 @@ class Follower {
   const KinematicTree& tree_;
   std::span<const AngleRange> ranges_;
   const FabrikPass& pass_;
-  std::vector<std::vector<int>> led_;  // of each joint: the limbs with tips that it moves, its own limb first
+  std::vector<std::vector<int>> led_;  // for each joint: the limbs with tips that the joint moves, its own limb first
   std::vector<LimbFrame> limbs_;       // current frames
 };
 

@@ -43,7 +43,7 @@ class ScalarHelp final : public GaussNewtonHelp {
   bool MeetsGoals(int n, std::span<const double> angles) override { return MeetsGoalsOf(find_(n), angles); }
 
   void Sweep(int n, const GaussNewtonCourse::Next& next, GaussNewtonCourse& course, std::span<double> angles) override {
-    // Start from the given angles, or from a scattered pose, within the allowed ranges.
+    // Start within the allowed ranges: at the given angles, or at the pose of the restart.
     IkProblem problem = find_(n);
     problem.limits = AllowedRanges(problem, options_);
     std::vector<double> start = problem.start.angles;
@@ -169,7 +169,7 @@ class BatchQueue final : public GaussNewtonQueue {
   ScalarHelp& help_;
   IkBatchSolution& solution_;
   Column column_;
-  // A copy of a problem with the allowed ranges in place of its limits; empty if they are the same.
+  // The allowed ranges in the order of a problem's limits; empty if they equal the limits.
   std::vector<double> own_ranges_;
 };
 

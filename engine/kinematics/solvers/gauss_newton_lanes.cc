@@ -20,9 +20,9 @@ HWY_BEFORE_NAMESPACE();
 namespace etude::HWY_NAMESPACE {
 
 /// Solves one problem per lane in rounds: a round places all poses, passes their residuals to the lanes' courses, and
-/// steps. A lane skips the step of a round if its course requests another action, or if its step needs another
-/// active-set pass that few other lanes need. The results of a lane depend on its own problem alone; only their timing
-/// depends on the others.
+/// steps. A lane skips the step of a round if its course requests another action, or if few other lanes need one more
+/// active-set pass as it does. The results of a lane depend on its own problem alone; only their timing depends on the
+/// others.
 template <class T>
 class GaussNewtonLanes {
  public:
@@ -209,7 +209,7 @@ class GaussNewtonLanes {
     }
   }
 
-  /// Gathers the quadratics from the leaves to the root and eliminates every hinge on the way.
+  /// Adds up the quadratics from the leaves to the root and eliminates every hinge on the way.
   void Eliminate() {
     for (std::size_t e = 0; e < tree_.effectors.size(); ++e) {
       const GaussNewtonTree::Effector& effector = tree_.effectors[e];

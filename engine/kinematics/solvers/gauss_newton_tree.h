@@ -71,7 +71,7 @@ struct LimbPacks {
     int hinge_count = 0;                                   ///< number of hinges of the joint that has the most
     /// Slot of the first hinge; slot s holds the angle indices 4 s … 4 s + 3.
     int first_slot = 0;
-    int ends = -1;  ///< index in LimbPacks::ends of this level's effectors; −1 if it has none
+    int ends = -1;  ///< index of this level's effectors in LimbPacks::ends; −1 if the level has no effectors
   };
   /// One effector of each of four limbs. For a limb without an effector, the target has weight 0.
   struct Ends {
@@ -99,10 +99,10 @@ struct LimbPacks {
   std::vector<Level> levels;  ///< the levels of the first pack from the trunk outwards, then those of the next pack
   std::vector<Ends> ends;
   std::vector<TrunkJoint> trunk;  ///< parents before children, the root first
-  std::vector<Branch> branches;   ///< of the first trunk joint, then of the next, in the order in which they are added
+  std::vector<Branch> branches;   ///< the first trunk joint's branches, then the next joint's, in the order of addition
   std::vector<int> inwards;       ///< trunk joints without the root, each after all joints beyond it
   std::vector<int> places;        ///< the angle index of each degree of freedom
-  std::vector<int> end_places;    ///< of each effector: 4 times its index in `ends`, plus its lane
+  std::vector<int> end_places;    ///< for each effector: 4 times its index in `ends`, plus its lane
   int slot_count = 0;
   int trunk_hinge_count = 0;
   int first_trunk_place = 0;

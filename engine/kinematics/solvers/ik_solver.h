@@ -27,7 +27,7 @@ struct IkSolverSetting {
   std::function<void(SolverSettings& settings, double value)> set;
 };
 
-/// A solver of IkProblems, by the name that scenario files use.
+/// A solver of IkProblems; `name` is its name in scenario files.
 struct IkSolver {
   std::string name;
   std::string description;    ///< one line, for people
