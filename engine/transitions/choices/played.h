@@ -16,7 +16,8 @@ struct PlayedOptions {
   /// The maximum time at the start of the wanted clip that may be skipped, seconds. At most the first third is ever
   /// skipped.
   double most_skipped_s = 1.5;
-  /// The maximum time that an intermediate clip, which stands up or lies down, may be shown, seconds.
+  /// The maximum time, seconds, for which an intermediate clip may be shown (a clip in which the person stands up or
+  /// lies down).
   double most_through_s = 4;
 };
 const SettingTable<PlayedOptions>& PlayedSettings();

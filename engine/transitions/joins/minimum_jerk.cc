@@ -25,7 +25,7 @@ glm::dvec3 MinimumJerkAt(const Movement& movement, double seconds, double blend_
   if (seconds >= blend_s) return glm::dvec3(0);
   const double s = seconds / blend_s, rest = 1 - s;
   // Compute the basis functions 1 − 10s³ + 15s⁴ − 6s⁵ (position) and s − 6s³ + 8s⁴ − 3s⁵ (start velocity), factored by
-  // their triple root at s = 1. The basis function of the end velocity is the mirrored second one.
+  // their triple root at s = 1. The basis function of the end velocity is the mirror image of the start velocity's.
   const double s3 = s * s * s, rest3 = rest * rest * rest;
   return rest3 * ((1 + 3 * s + 6 * s * s) * movement.start + s * (1 + 3 * s) * blend_s * movement.start_velocity) -
          s3 * rest * (1 + 3 * rest) * blend_s * movement.end_velocity;

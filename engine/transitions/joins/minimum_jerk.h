@@ -57,12 +57,12 @@ class WindowTurns {
 };
 
 /// Computes the shown poses of a window, frame by frame. There are three kinds of join:
-/// - kDecays: the new motion plays, and limb by limb the old motion's offset from it decays with minimum jerk.
-///   Velocities are measured from the point to the next frame, so the first shown frame is the old motion's next frame,
-///   and a jump of the new motion at the point has no effect. If the old motion has ended, velocities are measured up
-///   to the point.
-/// - kFades: both motions play, and the share of the new motion grows along a minimum-jerk curve, limb by limb. This
-///   shows less of either motion's accelerations and more of the difference between them.
+/// - kDecays: the new motion plays, and limb by limb the offset of the old motion from the new motion decays with
+///   minimum jerk. Velocities are measured from the point to the next frame, so the first shown frame is the old
+///   motion's next frame, and a jump of the new motion at the point has no effect. If the old motion has ended,
+///   velocities are measured up to the point.
+/// - kFades: both motions play, and the share of the new motion grows along a minimum-jerk curve, limb by limb. The
+///   shown motion has less of the two motions' accelerations, and more of the difference between the motions.
 /// - kDirect: every limb and the hip centre move with minimum jerk from the old motion's pose to the new motion's pose
 ///   at the end of the join, with the motions' velocities at both ends. Accelerations of the motions within the join
 ///   are not shown.

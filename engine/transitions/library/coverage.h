@@ -11,7 +11,8 @@
 
 namespace etude {
 
-/// How many frames of one clip match frames of one other clip, or of any other clip of a library.
+/// The shares of one clip's frames that match a frame of another clip. `Coverage` compares either with one other clip
+/// or with all other clips of the library.
 struct ClipCoverage {
   double frame_share = 0;   ///< share of all frames that match a frame of the other clip
   double bridge_share = 0;  ///< share of the bridge frames that match a bridge frame of the other clip

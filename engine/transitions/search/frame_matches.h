@@ -9,7 +9,7 @@
 
 namespace etude {
 
-/// A clip prepared for comparing its frames with those of other clips.
+/// A clip, prepared for a comparison of its frames with the frames of other clips.
 class MatchClip {
  public:
   /// Prepares a clip. `grades` and `tags` have one entry per frame; tags are read only if `rules.within_class`.
@@ -29,7 +29,7 @@ class MatchClip {
   std::vector<double> steps_;   // distance to the frame before
   std::vector<GradeBox> boxes_;  // one per sixteen of `frames_`
   // The targets: `frames_` without the clip's last frame, in blocks of sixteen in time order. Consecutive frames are
-  // near each other, so most blocks can be rejected by their box.
+  // near each other, so most blocks can be rejected by the block's box.
   int target_count_ = 0;
   std::vector<FrameBlock> targets_;
   std::vector<BoxBlock> target_boxes_;  // target_boxes_[i]: boxes of targets_[16 i] … targets_[16 i + 15]

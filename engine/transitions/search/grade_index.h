@@ -40,7 +40,7 @@ class GradeIndex {
   /// frame blocks.
   struct Level {
     std::vector<BoxBlock> boxes;  ///< boxes of each node's children
-    std::vector<int> first_frames, last_frames;  ///< of each child: its first and last frame
+    std::vector<int> first_frames, last_frames;  ///< for each child: the first and the last frame
   };
   struct Node;
 
