@@ -87,7 +87,7 @@ BodyPose ToBodyPose(const KinematicTree& body, const TreeState& state);
 /// programs expect. The skeleton's root has the pelvis's rotation. The tree's left leg runs from the toe up to the hip;
 /// the skeleton's left leg runs from the hip down. The conversion is exact: ComputeGlobals gives every joint the
 /// position that `ToBodyPose` gives. Joints have MotionBuilder's names, which FindJointMap knows; "LowerBack" coincides
-/// with the hips and carries the navel's rotation. At rest the skeleton stands with hanging arms, facing +Z.
+/// with the hips and has the navel's rotation. At rest the skeleton stands with hanging arms, facing +Z.
 Clip ToClip(const KinematicTree& body, std::span<const TreeState> states, double rate_hz, const std::string& name);
 
 }  // namespace etude

@@ -17,7 +17,7 @@ constexpr double kMinLimbLengthM = 1e-4;
 constexpr double kMaxOffLineM = 1e-4;
 // A range that never limits an angle: start angles are within half a turn of zero, so no angle reaches ±3π.
 constexpr double kUnlimited = 3 * kPi;
-// The limit of a joint that does not coincide with a role.
+// The largest absolute angle of a joint that coincides with no role, radians.
 constexpr double kMaxHiddenAngle = Radians(90);
 const glm::dvec3 kToTheRight(-1, 0, 0), kDownwards(0, -1, 0), kAhead(0, 0, 1);
 
@@ -104,7 +104,7 @@ class Parts {
     while (carrier != pelvis_ && AreSame(all_[carrier].at, positions_[role])) carrier = all_[carrier].parent;
   }
 
-  // Removes one part without tips. Returns false if there is none.
+  // Removes one part without tips (`TipsOf`). Returns false if every part has tips.
   bool LeaveOutOne() {
     for (std::size_t i = 0; i < all_.size(); ++i) {
       const int part = static_cast<int>(i);
@@ -271,7 +271,7 @@ class Builder {
     return {x, glm::cross(kDownwards, x), kDownwards};
   }
 
-  // Returns 3 for limbs whose rotation about their own axis is visible, else 2.
+  // Returns the limb's number of degrees of freedom: 3 if its rotation about its own axis is visible, else 2.
   int DofsOf(int part, const RestLimb& limb) const {
     const bool is_branched = parts_.ChildrenOf(part).size() > 1 || part == parts_.pelvis();
     const glm::dvec3 z = glm::normalize(limb.to - limb.from);

@@ -38,8 +38,8 @@ class IkBatch {
     return row(3 * dofs_ + kRootNumbers + effector * kTargetNumbers + number);
   }
 
-  /// One problem: element k is `numbers[k * stride]`. The order is start angles, lower limits, upper limits, root,
-  /// targets.
+  /// The numbers of one problem; number k is `numbers[k * stride]`. The order is start angles, lower limits, upper
+  /// limits, root, targets.
   struct Column {
     const double* numbers = nullptr;
     std::size_t stride = 1;

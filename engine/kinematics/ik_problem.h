@@ -61,8 +61,8 @@ bool IsAdaptive(WeightRule rule);
 /// radians. For `kWangChen` the factor 1 + ρ is missing: multiply `position` by `WangChenFactor` at each joint.
 EffectorWeights ComputeWeights(WeightRule rule, double distance, const glm::dvec3& axis_angles);
 
-/// Returns 1 + ρ, where ρ = min / max of the distances of the effector and of its target from the joint; returns 1 if
-/// both distances are 0.
+/// Returns 1 + ρ, where ρ is the ratio min / max of two distances from the joint: the effector's and the target's.
+/// Returns 1 if these are 0.
 double WangChenFactor(const glm::dvec3& current, const glm::dvec3& desired);
 
 /// The desired pose X_WD of one end effector, and the weights of its position and of its axes.
@@ -159,7 +159,7 @@ struct IkSolution {
 /// Upper bound on the magnitude of every number of a problem (in metres: 1,000 km). For larger numbers, squared
 /// distances lose the digits that the goals depend on.
 inline constexpr double kMaxIkValue = 1e6;
-/// Tolerances on the squared length of an axis and on the determinant of a frame, which should both be 1.
+/// Tolerances for two numbers that should be 1: the squared length of an axis, and the determinant of a frame.
 inline constexpr double kUnitTolerance = 2e-6, kFrameTolerance = 1e-5;
 
 /// Returns the fault of a problem as text, or an empty text if there is none. Faults are: joints that form no tree;
@@ -194,7 +194,7 @@ struct WorstError {
   double position = 0;  ///< metres
   double axis = 0;      ///< radians, of a single axis
 
-  /// Returns true if both errors are below the goals; false for NaN.
+  /// Returns true if `position` and `axis` are below their goals; false for NaN.
   bool Within(const IkOptions& options) const { return position < options.position_goal && axis < options.axis_goal; }
 };
 /// Returns the largest errors of all effectors.

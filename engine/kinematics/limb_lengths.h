@@ -49,7 +49,7 @@ std::optional<BodyPose> FixLimbLengths(const LimbObservation& observation, const
 LimbLengths MeasureLimbLengths(std::span<const BodyPose> poses);
 
 /// Completes an observation so that `FixLimbLengths` can use it. Observed values stay as they are, and `lacks_end` and
-/// `lacks_direction` still mark the completed ones. *(Ours; in paper B every limb is marked in every picture.)*
+/// `lacks_direction` still mark the completed values. *(Ours; in paper B every limb is marked in every picture.)*
 /// - A missing limb direction is the direction in `like`, rotated with the nearest observed limb on the way to the
 ///   trunk: by the smallest rotation from that limb's direction in `like` to its observed direction. If there is no
 ///   such limb, the direction in `like` is used unchanged.

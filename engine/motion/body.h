@@ -78,7 +78,7 @@ struct Bone {
   Role parent;
   Role child;
 };
-/// Lists the nineteen limbs, in the order of their child's role.
+/// Lists the nineteen limbs, in the order of the role at each limb's outer end.
 std::span<const Bone, kRoleCount - 1> AllBones();
 /// Lists the two long bones of each arm and leg, without hands and feet.
 std::span<const Bone, 8> ArmAndLegBones();

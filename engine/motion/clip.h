@@ -64,8 +64,8 @@ void ComputeGlobals(const Skeleton& skeleton, const LocalPose& pose, std::vector
 /// linearly. `part` is 0 at `from` and 1 at `to`.
 LocalTransform Between(const LocalTransform& from, const LocalTransform& to, double part);
 
-/// Returns the pose of a clip at a frame number from 0, which may be fractional and is clamped to the clip. Every
-/// joint's rotation is interpolated along the shorter great arc (slerp), translations and scales linearly.
+/// Returns the pose of a clip at a frame number. The number counts from 0, may be fractional, and is clamped to the
+/// clip. Every joint's rotation is interpolated along the shorter great arc (slerp), translations and scales linearly.
 /// Interpolating rotations keeps the lengths of limbs; interpolating positions would shorten them. A whole number
 /// returns the frame unchanged. The clip must have at least one frame.
 LocalPose SampleFrame(const Clip& clip, double frame);

@@ -156,7 +156,7 @@ std::vector<Displacement> FindCommon(const BodyMotion& motion, const std::vector
   return found;
 }
 
-/// A large third difference of one joint at one step.
+/// A step at which one joint has a large third difference.
 struct Hot {
   int step = 0;
   Role joint = Role::kHipCentre;
@@ -241,7 +241,7 @@ glm::dvec2 WeightedMean(const std::vector<PoseSteps>& excesses, int f) {
   return {sum.x / weights, sum.z / weights};
 }
 
-/// Finds steps of the velocity along the floor: second differences that stand out from those of the neighbouring
+/// Finds sudden changes of the velocity along the floor: second differences much larger than in the neighbouring
 /// frames.
 std::vector<VelocityStep> FindVelocitySteps(const BodyMotion& motion, const Displacements& found) {
   constexpr double kTolerance = 0.4;

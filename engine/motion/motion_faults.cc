@@ -226,7 +226,7 @@ MotionFaults FindMotionFaults(const BodyMotion& motion, const FaultOptions& opti
   const std::size_t count = found.faults.size();
   FindFalls(ground, found.faults);
   if (found.faults.size() == count) AppendSpeed(motion, found.faults);
-  // Convert times to the file's time, describe the faults and sort them.
+  // Convert the faults' times to the file's clock, write the sentences, and sort the faults.
   const double duration = static_cast<double>(motion.poses.size() - 1) / motion.rate_hz;
   for (MotionFault& fault : found.faults) {
     const bool is_always = fault.from_s <= 0 && fault.to_s >= duration;

@@ -12,8 +12,8 @@ namespace etude {
 // above the joints that bear it.
 
 /// Returns the acceleration of the mass centre in frame `frame`, metres per second²: the second difference over a tenth
-/// of a second in each direction. Near the ends, the nearest frame with both neighbours is used. Returns 0 if the
-/// motion is too short.
+/// of a second in each direction. In the first and the last tenth of a second, the nearest frame outside of these is
+/// used. Returns 0 if the motion is too short.
 glm::dvec3 AccelerationAt(std::span<const glm::dvec3> centres, int frame, double rate_hz);
 
 /// Returns the zero-moment point (x, z), metres: the point of the floor about which the floor's force on the body has

@@ -23,7 +23,7 @@ struct RawMotion {
   double rate_hz = 30;
   std::optional<double> start_s = {};  ///< the first frame's time by the file's own clock, if the file states one
   std::vector<std::string> joints;  ///< names of the joints
-  /// Indices of joints that the file does not name: BVH's End Sites, and the hip centre that its reader adds.
+  /// Indices of joints that the file does not name: BVH's End Sites, and the hip centre that the reader adds.
   std::vector<int> added;
   std::vector<int> parents;         ///< parent of each joint; −1: a root; empty: the file has points, not a skeleton
   std::array<int, kRoleCount> roles = NoRoles();  ///< the joint that plays each role, by Index(role); −1: none

@@ -47,8 +47,8 @@ struct GlideRule {
 };
 constexpr GlideRule kShort{0.3, 0.45, 0.12}, kLong{0.6, 0.4, 0.06};
 
-/// Returns the most frequent velocity of the feet around a frame if the body is carried along: enough foot joints share
-/// the velocity, and few rest (GlideRule).
+/// Returns the most frequent velocity of the feet around a frame if the whole body glides: enough foot joints share the
+/// velocity, and few of them rest (GlideRule).
 std::optional<Glide> GlideAround(const GroundView& ground, int frame, const GlideRule& rule) {
   constexpr double kEvery_s = 1.0 / 30, kMinSpeed = 0.11, kRest = 0.35;
   constexpr double kNear = 0.07, kNearShare = 0.12;

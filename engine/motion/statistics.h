@@ -7,8 +7,8 @@
 
 namespace etude {
 
-/// Returns the stature of a pose in the pose's unit: the length along the limbs from the ankles over knees, hips, spine
-/// and neck to the head (mean of both legs), divided by 0.92. These limbs cover about 92 % of the stature.
+/// Returns the stature of a pose in the pose's unit: the length along the limbs from an ankle over knee, hip, spine and
+/// neck to the head (mean of left and right), divided by 0.92. These limbs cover about 92 % of the stature.
 double Stature(const BodyPose& pose);
 
 /// Returns the height of a pose's lowest joint; this need not be a foot, because people also lie and sit. Finger tips

@@ -89,7 +89,8 @@ void RemoveRaisedFeet(std::span<const BodyPose> poses, const SupportRules& rules
   using enum Role;
   for (const auto& [ankle, foot] : {std::pair{kLeftAnkle, kLeftFoot}, std::pair{kRightAnkle, kRightFoot}}) {
     const auto rise = [&](std::size_t f) { return poses[f][ankle].y - poses[f][foot].y; };
-    // A foot is flat in the frame in which its ankle is lowest relative to its toes, while both rest.
+    // A foot is flat in the frame in which the ankle is lowest relative to the toes, among frames in which ankle and
+    // toes rest.
     double flat = std::numeric_limits<double>::infinity();
     for (std::size_t f = 0; f < poses.size(); ++f) {
       if (bearing[f].rests[Index(ankle)] && bearing[f].rests[Index(foot)]) flat = std::min(flat, rise(f));

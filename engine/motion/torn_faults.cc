@@ -176,8 +176,8 @@ class TornFinder {
     while (!wrong_.empty()) {
       std::array<int, kRoleCount> count{};
       for (const Wrong& wrong : wrong_) {
-        // The outer joint of a distance gets a little more weight, so that of two joints with equally many wrong
-        // distances the outer one counts as torn.
+        // The outer joint of a distance gets a little more weight: if two joints have equally many wrong distances, the
+        // outer joint counts as torn.
         count[Index(wrong.inner)] += 4;
         count[Index(wrong.outer)] += 5;
       }

@@ -145,7 +145,7 @@ class AnatomyFinder {
                                (end > 0 ? RangeScore(end / lower, wanted.end_low, wanted.end_high) : kNoEnd) *
                                (skipped > 0 ? RangeScore(skipped / upper, 1e-9, wanted.skipped_high) : 1) *
                                SymmetryScore(pair, i, j, k);
-          // Among equal scores, prefer proportions near the middle of their range.
+          // Among equal scores, prefer limbs whose proportions are near the middle of the ranges.
           const double ratio = std::log(upper / lower / std::sqrt(wanted.upper_low * wanted.upper_high));
           const double ending = end > 0 ? std::log(end / lower / std::sqrt(wanted.end_low * wanted.end_high)) : 0;
           const double rank = score * std::exp(-0.1 * (ratio * ratio + 0.3 * ending * ending));
@@ -159,7 +159,7 @@ class AnatomyFinder {
     return best;
   }
 
-  /// Returns a score for the symmetry of both sides: how well the bones' lengths agree.
+  /// Returns a score for the symmetry of a pair of limbs: how well the lengths of left and right bones agree.
   double SymmetryScore(const ChainPair& pair, std::size_t i, std::size_t j, std::size_t k) const {
     constexpr double kLow = 0.95;
     const auto& [one, other] = pair.chains;

@@ -16,7 +16,8 @@ class BodySampler {
   BodySampler(const Clip& clip, const JointMap& map);
 
   BodyPose Rest();
-  /// Returns the pose at a frame number from 0, which may be fractional (SampleFrame) and must lie within the clip.
+  /// Returns the pose at a frame number. The number counts from 0, may be fractional (SampleFrame), and must lie within
+  /// the clip.
   BodyPose At(double frame);
 
  private:

@@ -78,7 +78,7 @@ bool IsTrunkTwisted(std::span<const JointPositions> frames) {
 std::vector<Role> FindExchangedJoints(std::span<const JointPositions> frames) {
   std::vector<Role> exchanged, others;
   for (const auto& chain : kChains) {
-    // If the first two limbs of a chain may both cross, both count as crossing.
+    // If each of the first two limbs of a chain may cross, the two count as crossing.
     std::array<Crossing, 3> limbs;
     for (std::size_t i = 0; i < limbs.size(); ++i) limbs[i] = CrossingOf(frames, chain[i], chain[i + 1]);
     if (limbs[0].may_be && limbs[1].may_be) limbs[0].is_certain = limbs[1].is_certain = true;

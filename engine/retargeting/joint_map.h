@@ -34,8 +34,8 @@ struct JointMapOverrides;
 
 /// Finds the roles in a skeleton by the naming schemes of joint_names.h and by its shape:
 /// - Shoulders, elbows, wrists, hips, knees, ankles, the base of the neck and the head are found by name. If several
-///   joints have a name, those that form a chain are taken. Wrists and ankles may descend from a control outside of the
-///   limbs. If no neck is named, it is *composed*: a point midway between the shoulders.
+///   joints have a name, the joints that form a chain are taken. Wrists and ankles may descend from a control outside
+///   of the limbs. If no neck is named, it is *composed*: a point midway between the shoulders.
 /// - The hip centre is midway between the hips, wherever the file's root is (paper B's P₁). The map contains the hips'
 ///   lowest common ancestor; `Evaluate` computes the midpoint.
 /// - The spine is the joint nearest to the middle of the chain from that ancestor to the base of the neck.

@@ -39,7 +39,7 @@ class SkeletonTree {
   const std::string& NameOf(int joint) const { return skeleton_.joints[joint].name; }
   int ParentOf(int joint) const { return skeleton_.joints[joint].parent; }
   const glm::dvec3& RestOf(int joint) const { return rest_[joint].position; }
-  /// Returns true for end sites: those of the file, and joints whose names show that they are end sites (EndSites).
+  /// Returns true if `joint` is an end site by the file or by its name (EndSites).
   bool IsEnd(int joint) const { return ends_[joint]; }
 
   /// Returns true if `joint` is a descendant of `ancestor`; a joint is not a descendant of itself.

@@ -32,8 +32,8 @@ bool IsOfLimb(std::string name) {
   });
 }
 
-/// Returns true if, in a tenth of the frames, the origin is farther from the markers' centroid than twice their median
-/// distance from that centroid. The positions are then not relative to a point of the body.
+/// Returns true if, in a tenth of the frames, the origin is farther from the markers' centroid than twice the markers'
+/// median distance from that centroid. The positions are then not relative to a point of the body.
 bool IsFarFromZero(const MarkerMotion& markers) {
   constexpr double kTimes = 2, kTenth = 0.1;
   const auto is_far = [](const auto& frame) {

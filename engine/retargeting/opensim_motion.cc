@@ -38,7 +38,7 @@ struct PartAngle {
   std::optional<TreeAngle> range = {};
 };
 
-/// The part that ends at `end`. Only right parts and parts of the middle are listed; left parts mirror the right ones.
+/// The part that ends at `end`. Only right parts and parts of the middle are listed; left parts mirror the right parts.
 struct Part {
   Role end;
   std::array<PartAngle, 3> angles;  ///< the angles about Z, X and Y

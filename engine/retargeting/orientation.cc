@@ -82,7 +82,7 @@ double Bend(const glm::dvec3& forward, const glm::dvec3& upper, const glm::dvec3
 /// over.
 struct Sides {
   double shoulders = 0, toes = 0, knees = 0, arms = 0;  ///< sums over frames (and limbs); positive if sides are right
-  std::vector<double> knee_bends;                       ///< Bend of both knees in each frame
+  std::vector<double> knee_bends;                       ///< result of Bend for left and right knee in each frame
 };
 
 Sides MeasureSides(std::span<const BodyPose> poses) {

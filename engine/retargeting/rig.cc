@@ -49,9 +49,9 @@ namespace {
 using enum Role;
 
 /// For each limb, in the order of kLimbs, a direction in the middle of the upper bone's range, in the axes of chest or
-/// hips. To find the twist of a straight limb, a hanging limb is rotated to this direction and from there to the pose,
-/// both times by the shortest rotation. The twist is discontinuous only in the opposite direction, which must lie
-/// outside of the range: inward through the chest, or backward through the hips.
+/// hips. To find the twist of a straight limb, a hanging limb is rotated to this direction by the shortest rotation,
+/// and from there to its direction in the pose by the shortest rotation. The twist is discontinuous only in the
+/// opposite direction, which must lie outside of the range: inward through the chest, or backward through the hips.
 constexpr std::array<glm::dvec3, kLimbs.size()> kMidDirections = {
     {{0.71, 0, 0.71}, {-0.71, 0, 0.71}, {0, -0.87, 0.5}, {0, -0.87, 0.5}}};
 

@@ -18,9 +18,9 @@ using enum Role;
 
 /// A kind of joint whose markers lie on the skin.
 struct SkinJoint {
-  Role left, before;       ///< a joint of the left side, and the joint at the other end of its limb
+  Role left, before;       ///< a joint of the left side, and the joint at the limb's other end
   std::string_view size;   ///< the name of the joint's width in files, without the side
-  double share;            ///< distance from marker to centre over the length between the limb's markers
+  double share;            ///< distance from marker to centre, as a share of the distance of both markers
   std::string_view where;  ///< text for users: "knees {:.1f} cm inside"
 };
 constexpr std::array<SkinJoint, 4> kSkinJoints = {{{kLeftKnee, kLeftHip, "KNEEWIDTH", 0.12, "knees"},
@@ -184,7 +184,7 @@ void MoveLeg(const SideOf& side, const Wands& wands, const UsedWands& used, cons
   const glm::dvec3 in = thigh && used.thigh[index] ? ByWand(*thigh, hip, skin) : KneeInward(side, depths);
   const glm::dvec3 knee = Chord(hip, skin, in, depths.metres[Index(side.On(kLeftKnee))]);
   side[kLeftKnee] = knee;
-  // Ankle: its axis is parallel to the knee's, unless its wand shows another axis.
+  // The ankle's axis is parallel to the knee's, unless the shank's wand shows another axis.
   const glm::dvec3 at_ankle = shank && used.shank[index] ? ByWand(*shank, knee, ankle) : knee - skin;
   side[kLeftAnkle] = Chord(knee, ankle, at_ankle, depths.metres[Index(side.On(kLeftAnkle))]);
 }

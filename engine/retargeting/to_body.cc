@@ -63,7 +63,7 @@ UpFinding UpOf(const BodyOptions& options, const BodyPose& rest, const UpSamples
 
 UpAxis AsUpAxis(const UpFinding& up) { return up.axis.z > 0 ? UpAxis::kZ : UpAxis::kY; }
 
-/// Replaces the scales of every frame by those of the rest pose.
+/// Replaces the joints' scales in every frame by the scales in the rest pose.
 void ResetScales(Clip& clip) {
   for (LocalPose& frame : clip.frames) {
     for (std::size_t i = 0; i < frame.size(); ++i) frame[i].scale = clip.skeleton.joints[i].rest.scale;
@@ -137,7 +137,7 @@ Result<std::vector<BodyPose>> Resampled(const Clip& clip, BodySampler& sampler, 
 
 double MedianStature(const std::vector<BodyPose>& poses) { return LowerPercentile(OverFrames(poses, Stature), 0.5); }
 
-/// Returns the unit in which `stature` is that of a human, or null if there is none.
+/// Returns the unit in which `stature` is a human's, or null if there is no such unit.
 const Unit* UnitOf(double stature) {
   const auto is_human = [&](const Unit& unit) {
     return stature * unit.metres >= unit.min_stature && stature * unit.metres <= kMaxStature;
@@ -156,7 +156,8 @@ Result<void> FindUnit(const BodyPose& rest, const std::vector<BodyPose>& poses, 
                       const std::string& file, BodyConversion& done, std::vector<std::string>& remarks) {
   const std::optional<double>& given = options.metres_per_unit;
   const double at_rest = Stature(rest), own = MedianStature(poses), moving = options.stature.value_or(own);
-  // Compare the frames with the rest pose, with the file's other clips, and with each other.
+  // Compare the stature in the frames with that in the rest pose, with that in the file's other clips, and from frame
+  // to frame.
   const double ratio = moving / at_rest;
   const bool is_alike = AreAlike(ratio);
   if (!AreAlike(own / moving)) {

@@ -143,12 +143,12 @@ Stance MeasureStance(const Frames& frames, const glm::dvec3& up) {
   return stance;
 }
 
-/// Returns true if a motion is sufficient evidence that `other` points up, and not the usual axis.
+/// Returns true if the motion is sufficient evidence that the axis of `other` points up instead of the axis of `usual`.
 bool Overrules(const Stance& other, const Stance& usual, bool is_opposite, const UpRule& rule) {
   constexpr double kMostly = 0.8, kStillFloor = 0.05;
   // Exclude a handstand, in which the hands are beyond the head and the lowest joint stays at one height.
   if (is_opposite && other.on_hands > 0.5 && usual.floor < kStillFloor) return false;
-  // Accept `other` if the floor is constant along that axis only.
+  // Accept `other` if the lowest joint stays at one height along `other`, but not along the usual axis.
   constexpr double kNow = 0.1, kFloorless = 0.15;
   if (other.upright >= kNow && other.floor < kStillFloor && usual.floor > std::max(kFloorless, 3 * other.floor)) {
     return true;
@@ -160,7 +160,8 @@ bool Overrules(const Stance& other, const Stance& usual, bool is_opposite, const
   // Accept `other` if the body walks perpendicular to it.
   if (other.way > 0.5 && other.steps > 0.4) return true;
   if (rule.is_of_rest) return false;
-  // Accept `other` if the body stands on its feet, and either moves over a constant floor or stands quite still.
+  // Accept `other` if the body stands on its feet along it, and either the lowest joint's height varies less or the
+  // body is still.
   if (other.balanced > 0.75 && other.floor < kStillFloor && usual.floor > std::max(0.06, 2 * other.floor)) return true;
   return other.straight > 0.9 && other.balanced > 0.9 && other.floor < 0.02;
 }

@@ -50,8 +50,8 @@ struct UpFinding {
 /// missing toe must be at the position of its ankle.
 UpFinding FindUp(std::span<const BodyPose> poses, double rate_hz, const UpRule& rule);
 
-/// Finds the up axis, Y or Z, of a clip with a skeleton. The usual axis is the one along which the rest pose stands
-/// upright, or Y if it stands along neither.
+/// Finds the up axis, Y or Z, of a clip with a skeleton. The usual axis is the axis along which the rest pose stands
+/// upright, or Y if the rest pose stands along neither axis.
 UpFinding FindUp(const BodyPose& rest, std::span<const BodyPose> poses, double rate_hz);
 
 /// The rules of formats. For TRC, C3D without Y_SCREEN and joint arrays there is no rule, only a usual axis.

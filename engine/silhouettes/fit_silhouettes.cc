@@ -20,8 +20,8 @@ struct CapsuleMotion {
   std::vector<std::array<double, 6>> columns;
 };
 
-// For one seen joint: its offset from the pixel where it was seen, its loss (Geman and McClure), and the weight of the
-// squared offset in a step. All three numbers are 0 for a joint behind the camera.
+// For one seen joint: the offset of its projection from the pixel where it was seen, the loss (Geman and McClure), and
+// the weight of the squared offset in a step. All three numbers are 0 for a joint behind the camera.
 struct JointError {
   glm::dvec2 off{0};
   double loss = 0, weight = 0;

@@ -56,7 +56,7 @@ struct TrackOptions {
   int thickness_passes = 2;
 };
 
-/// The views of one moment: the pictures that all cameras took at one time, without those that show nobody.
+/// The views of one moment: the pictures that all cameras took at one time, without pictures that show nobody.
 using MomentViews = std::vector<SilhouetteView>;
 
 /// Fits a body to one moment: by a search, from a known pose, or from the previous moments.

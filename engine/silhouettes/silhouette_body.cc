@@ -143,7 +143,7 @@ BodyPose RestPose(const LimbLengths& lengths, double scale) {
   return rest;
 }
 
-// Makes the tree of JointRows(), with the offsets between the joints of the rest pose.
+// Makes the tree of JointRows(); the offsets between joints are those in `rest`.
 KinematicTree MakeTree(const BodyPose& rest) {
   KinematicTree tree;
   tree.standing_root = kRising;

@@ -31,8 +31,8 @@ class PixelScale {
   glm::dvec2 PixelOf(const glm::dvec3& p_WQ) const {
     return glm::dvec2(glm::dot(rows_[0], p_WQ) + offsets_[0], glm::dot(rows_[1], p_WQ) + offsets_[1]) / DepthOf(p_WQ);
   }
-  /// Returns the size in pixels of one metre at a depth of one metre: the focal length, as the geometric mean over both
-  /// directions.
+  /// Returns the size in pixels of one metre at a depth of one metre: the focal length, as the geometric mean of the
+  /// focal lengths along u and v.
   double focal_px() const { return focal_px_; }
 
   /// The gradients, with respect to the point's position, of u, of v, and of the scale at the point (pixels per metre).
@@ -147,8 +147,8 @@ void AddContainmentLosses(const std::vector<ProjectedCapsule>& flesh, const Silh
 void OutlineDistances(const std::vector<ProjectedCapsule>& flesh, const Silhouette& silhouette,
                       std::span<double> distances);
 
-/// Geman and McClure's loss of a residual e, which is e²/(1 + e²/reach²) in units of sigma², and the weight of e² in a
-/// Gauss–Newton step.
+/// Geman and McClure's loss for a residual e: `loss` is e²/(1 + e²/reach²) in units of sigma², `weight` is the weight
+/// of e² in a Gauss–Newton step.
 struct Loss {
   double loss = 0;
   double weight = 0;

@@ -7,7 +7,8 @@
 
 namespace etude {
 
-/// The number of coordinates of a free root: three of its position, three of its rotation. The angles come after them.
+/// The number of coordinates of a free root: three of its position, three of its rotation. The angles are the
+/// coordinates after these six.
 constexpr int kRootDofs = 6;
 
 /// Returns the rotation about the direction of `turn` by the length of `turn`, radians (Rodrigues' formula).

@@ -20,8 +20,8 @@ struct PointMotion {
   /// The spectral density q of the acceleration along each axis, m²/s³: in a short time t the variance of the velocity
   /// grows by q · t. Typical values are 1 for a trunk and 100 for a hand.
   double acceleration_density = 10;
-  /// The time constant of the velocity's decay, seconds. The default suits limbs, which reverse about twice a second
-  /// *(ours)*. A very large value means constant velocity.
+  /// The time constant of the velocity's decay, seconds. The default suits limbs, whose velocity reverses about twice a
+  /// second *(ours)*. A very large value means constant velocity.
   double velocity_memory_s = 0.5;
   /// The standard deviations of the prior of the first state, metres and m/s; the prior's mean is a point at rest at
   /// the origin. These deviations are so large that any measurement outweighs the prior.
@@ -37,8 +37,8 @@ struct SmoothedTrack {
 };
 
 /// Smooths a track by the method of Rauch, Tung and Striebel (1965): a Kalman filter forwards, then a backward pass
-/// that corrects earlier frames by later ones. The result is the mean of the state given all measurements, which is
-/// also the least-squares solution over all frames.
+/// that corrects earlier frames by later frames. The result is the mean of the state given all measurements; it is also
+/// the least-squares solution over all frames.
 SmoothedTrack SmoothTrack(std::span<const PointMeasurement> measurements, const PointMotion& motion);
 
 /// Returns the acceleration density among 0.01 · 4ᵏ m²/s³, k = 0…9, that has the maximum likelihood; of equally likely

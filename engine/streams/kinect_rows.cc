@@ -62,7 +62,7 @@ bool FourthsAreStates(const NumberRows& table, const RowLayout& layout) {
   return some_tracked;
 }
 
-/// Returns true if the first column contains only integers.
+/// Returns true if the first column of `table` contains only integers.
 bool CountsWhole(const NumberRows& table) {
   for (std::size_t t = 0; t < table.RowCount(); ++t) {
     if (table.Row(t)[0] != std::floor(table.Row(t)[0])) return false;

@@ -13,7 +13,7 @@ namespace etude {
 namespace {
 
 constexpr std::size_t kMaxBytes = std::size_t{16} << 20;
-constexpr double kMaxTime_s = 1e12;  // seconds; clocks may start at any time
+constexpr double kMaxTime_s = 1e12;  // upper bound of a time in seconds; clocks may start at any time
 constexpr std::size_t kMaxNameBytes = 200;
 
 /// One cell of a line: its text and its column, from 1.

@@ -25,7 +25,7 @@ enum class StreamFormat {
 /// Lists "etude-csv", "trc", "kinect-v2", "kinect-v1", "ntu", "azure-kinect", in the order of the enum.
 const std::vector<std::string>& StreamFormatNames();
 std::string_view StreamFormatName(StreamFormat format);
-/// Returns the format with this name, which must be one of StreamFormatNames().
+/// Returns the format with this name. `name` must be one of StreamFormatNames().
 StreamFormat FindStreamFormat(std::string_view name);
 
 /// Detects the format of a text by its first lines; nullopt if the format is not supported.

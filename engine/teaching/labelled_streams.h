@@ -45,8 +45,8 @@ struct LabelledPart {
 Result<std::vector<LabelledPart>> MatchLabels(const std::vector<Label>& labels, const std::string& file,
                                               const std::vector<NamedStream>& streams);
 
-/// Returns one right performance for each stream, for streams without labels: the whole stream. The move has the file's
-/// name; for NTU's files it is the action ("A013").
+/// For streams without labels: returns one right performance for each stream, which spans the whole stream. The move
+/// has the file's name; for NTU's files it is the action ("A013").
 std::vector<LabelledPart> WholeStreams(const std::vector<NamedStream>& streams);
 
 /// Returns only the frames [begin, end).
@@ -58,7 +58,7 @@ struct RecordedPerson {
   std::vector<std::size_t> streams;  ///< indices of this person's recordings
 };
 
-/// Recordings, the performances in them, their people, and the names of the moves.
+/// A data set: recordings, performances in the recordings, people, and names of moves.
 struct LabelledStreams {
   std::string file;  ///< the labels' file, for error messages; without labels, the first recording's file
   std::vector<NamedStream> streams;

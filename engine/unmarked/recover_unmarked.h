@@ -94,7 +94,7 @@ struct UnmarkedMotion {
   Clip clip;          ///< the motion on the person's own skeleton, metres
   BodyMotion motion;  ///< the same motion as twenty joints
   double stature_m = 0;
-  std::size_t held = 0;  ///< number of frames in which fewer than two pictures show a person; they repeat the last pose
+  std::size_t held = 0;  ///< number of frames that repeat the last pose, because fewer than two pictures show a person
   /// The mean of `SilhouetteFit::picture_cost` over cameras and tracked frames.
   double cost = 0;
   std::vector<ColourImage> rooms;              ///< the empty room of each camera

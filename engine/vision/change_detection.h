@@ -65,7 +65,7 @@ enum class Segmenter {
 
 /// Returns the names used in scenarios: "rgb", "hue", "hue-gated", "ratio", "running", "likelihood".
 std::vector<std::string> SegmenterNames();
-/// Returns the segmenter with this name, which must be one of SegmenterNames().
+/// Returns the segmenter with this name. `name` must be one of SegmenterNames().
 Segmenter SegmenterNamed(std::string_view name);
 
 struct ChangeOptions {

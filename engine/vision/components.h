@@ -7,8 +7,8 @@
 
 namespace etude {
 
-/// The neighbours that are connected to a pixel: the four that share an edge with it, or also the four that share a
-/// corner.
+/// The neighbours that are connected to a pixel: the four neighbours across an edge, or also the four neighbours across
+/// a corner.
 enum class Connectivity { kFour, kEight };
 
 /// The connected components of a mask, stored as runs of pixels.

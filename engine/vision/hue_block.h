@@ -21,9 +21,9 @@ struct HueBlockResult {
   bool is_sure = true;       ///< false if rounding may have decided a comparison
 };
 
-/// Writes to `out`, for each pixel, 1 if the hues differ by more than a threshold angle, otherwise 0. `cosine2` is the
-/// squared cosine of that angle. Uses SIMD in single precision. Dot products of chromas are integers below 2²⁴ and
-/// exact; only the squares of the products are rounded.
+/// Writes to `out`, for each pixel, 1 if the hues of picture and background differ by more than a threshold angle,
+/// otherwise 0. `cosine2` is the squared cosine of that angle. Uses SIMD in single precision. Dot products of chromas
+/// are integers below 2²⁴ and exact; only the squares of the products are rounded.
 HueBlockResult CompareHueBlock(const HueBlock& block, float cosine2, std::uint8_t* out);
 
 }  // namespace etude

@@ -164,7 +164,7 @@ Region RegionOf(const LimbImage& limbs, std::uint8_t label, const PixelBox& box,
   for (std::size_t i = 0; i < is_thick.size(); ++i)
     largest = is_thick[i] ? std::max(largest, found.pieces[i].size) : largest;
   const double smallest = std::max<double>(options.min_piece_px, options.piece_share * largest);
-  // Convert the runs of these components to the picture's coordinates, and sum up their pixels.
+  // Convert the runs of these components to the picture's coordinates, and sum up the pixels of the runs.
   for (const Components::Run& in_crop : found.runs) {
     if (!is_thick[in_crop.piece] || found.pieces[in_crop.piece].size < smallest) continue;
     const PixelRun run{in_crop.row + box.low.y, in_crop.begin + box.low.x, in_crop.end + box.low.x};

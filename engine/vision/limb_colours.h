@@ -32,7 +32,7 @@ struct LimbColourOptions {
   /// Every component must contain a square with this side, pixels: along edges two colours mix, and the mixture
   /// resembles a third colour.
   int min_side_px = 4;
-  int border_px = 3;  ///< width of the border between two limbs in which their colours mix, pixels
+  int border_px = 3;  ///< width of the strip between two limbs in which the limbs' colours mix, pixels
 };
 
 /// Segments the person into limbs by chromaticity alone, because shading does not change it. Each pixel gets the

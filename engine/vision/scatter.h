@@ -14,7 +14,7 @@ struct Scatter {
     xy += offset.x * offset.y;
     yy += offset.y * offset.y;
   }
-  /// Returns the unit vector of the principal axis, along which the pixels vary most.
+  /// Returns the unit vector of the principal axis, the direction in which the pixels' positions vary most.
   glm::dvec2 Axis() const {
     const double angle = 0.5 * std::atan2(2 * xy, xx - yy);
     return {std::cos(angle), std::sin(angle)};

@@ -46,7 +46,7 @@ glm::dvec2 Mean(const Pixels& pixels) {
   return sum / static_cast<double>(pixels.size());
 }
 
-// Returns the principal axis of the pixels, along which they vary most.
+// Returns the principal axis: the direction in which the pixels' positions vary most.
 glm::dvec2 PrincipalAxis(const Pixels& pixels, const glm::dvec2& mean) {
   Scatter scatter;
   for (const glm::dvec2& p : pixels) scatter.Add(p - mean);

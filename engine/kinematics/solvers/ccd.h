@@ -41,7 +41,7 @@ struct HingeGain {
 
   /// Returns the best φ within `range`, which must contain 0, so that keeping the angle is always allowed. The optimum
   /// is taken modulo 2π. If the optimum is outside `range`, returns the end of the range with the larger g, or the
-  /// lower end if both are equal.
+  /// lower end if g is equal at the two ends.
   double OptimumWithin(const AngleRange& range) const;
 };
 
@@ -143,7 +143,7 @@ class AndersonMixing {
   Vector last_f_, last_g_;       // f and g of the pair recorded last
   Vector rest_;                  // the part of f that is orthogonal to the basis
   std::vector<Vector> df_, dg_;  // the differences Δf and Δg, newest first
-  std::vector<Vector> basis_;    // orthonormal basis of the df that are linearly independent of newer ones
+  std::vector<Vector> basis_;    // orthonormal basis of the df that do not depend linearly on newer df
   std::vector<Vector> parts_;    // df_[chosen_[r]] = Σ_k parts_[r][k] · basis_[k]
   std::vector<int> chosen_;
   Vector shares_;  // γ of the chosen differences

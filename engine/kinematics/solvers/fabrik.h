@@ -43,7 +43,7 @@ class FabrikPass {
 
   FabrikPass(const KinematicTree& tree, std::span<const EffectorTarget> targets);
 
-  /// Runs both passes, starting from the limbs in `frames`.
+  /// Runs the backward and the forward pass, starting from the limbs in `frames`.
   void Run(const TreeFrames& frames);
 
   /// Returns the tips of one limb; an empty span if there is no target beyond the limb.

@@ -212,7 +212,7 @@ HWY_INLINE void Linearise(const TargetLanes<V>& target, const V (&R_WE)[3][3], c
   miss.squares = miss.squares + squares;
 }
 
-/// Expands the quadratic of one target into full matrices Λ and η. Replaces `sum` by them, or adds them to `sum`.
+/// Expands the quadratic of one target into full matrices Λ and η. Replaces `sum` by Λ and η, or adds these to `sum`.
 template <bool kIsFirst, class V>
 HWY_INLINE void Gather(const TargetQuadraticLanes<V>& asked, QuadraticLanes<V>& sum) {
   // `put` sets an entry of Λ or adds to it; float keeps only the lower triangle.

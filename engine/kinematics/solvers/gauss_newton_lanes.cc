@@ -63,7 +63,7 @@ class GaussNewtonLanes {
   /// Variables with one number per lane.
   enum Register {
     kDamping,
-    kToStart,    // 1 or 0, like the following flags
+    kToStart,    // 1 if the step is pulled to the start, else 0; the following are flags, too
     kKeepsLast,  // the present pose is stored as the last one
     kKeepsBest,  // the present pose is stored as the best one
     kCounts,     // the lane takes part in this active-set pass
@@ -213,7 +213,7 @@ class GaussNewtonLanes {
   void Eliminate() {
     for (std::size_t e = 0; e < tree_.effectors.size(); ++e) {
       const GaussNewtonTree::Effector& effector = tree_.effectors[e];
-      // Initialise the quadratics of limbs with those of their effectors.
+      // Initialise each limb's quadratic with the quadratics of the limb's effectors.
       QuadraticLanes<V>& limb = quadratics_[tree_.joints[effector.joint].quadratic];
       if (effector.is_first) {
         Gather<true>(poses_.AskedOf(e), limb);

@@ -27,7 +27,7 @@ struct GaussNewtonTree {
     double sign[3] = {};        ///< for each axis: 1 if it points as the parent's axis does, −1 if opposite to it
     double R_PJ[3][3] = {};     ///< columns
     double p_PJ[3] = {};
-    int quadratic = -1;  ///< index of the limb's quadratic; the parent's limb may share it
+    int quadratic = -1;  ///< index of the limb's quadratic; the parent's limb may have the same index
   };
   struct Effector {
     int joint = 0;

@@ -8,11 +8,11 @@
 // angle q has the gain
 //     x cos q + y sin q,   x = M_i·ê_i + M_j·ê_j,   y = M_i·ê_j − M_j·ê_i,
 // where M_i is a row and ê = (e_W, −p_WJ·e_W) an axis of the frame before the hinge turns: M_i·ê_j sums the current
-// components along i times the desired ones along j, both relative to the joint J. So the best angle has the direction
-// (x, y) (paper B's equations 3.10–3.13 for several effectors). The turn by the best angle mixes rows i and j. A step
-// to the parent's joint, at the offset p_PJ, adds p_PJ[r] times the last row to row r. Columns never change. The
-// vectors ê are also enough for forward kinematics: a turn mixes two of them, and a step by p_PJ subtracts p_PJ[k] from
-// the last component of ê_k.
+// components along i times the desired components along j, all relative to the joint J. So the best angle has the
+// direction (x, y) (paper B's equations 3.10–3.13 for several effectors). The turn by the best angle mixes rows i and
+// j. A step to the parent's joint, at the offset p_PJ, adds p_PJ[r] times the last row to row r. Columns never change.
+// The vectors ê are also enough for forward kinematics: a turn mixes two of them, and a step by p_PJ subtracts p_PJ[k]
+// from the last component of ê_k.
 #include "engine/kinematics/solvers/moment_sweep.h"
 
 #include <algorithm>
@@ -114,7 +114,7 @@ HWY_INLINE double TurnHinge(const Quad& from, const Quad& towards, HingeState& h
   return dc * dc + ds * ds;
 }
 
-// Adds the moments of an effector to those of its limb, or sets them if it is the limb's first effector.
+// Adds an effector's moments to the moments of its limb. The limb's first effector sets the limb's moments instead.
 void AddEffector(const SweepTree::Effector& effector, const GoalState& goal, Moments& moments) {
   const Quad pull = goal.position * goal.position_pull;
   const auto add = [&](const Quad& row, Quad& sum) { sum = effector.is_first ? row : sum + row; };

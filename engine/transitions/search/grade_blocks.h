@@ -73,8 +73,8 @@ void ForEachLane(std::uint32_t bits, const Visit& visit) {
 BlockResult SquaredDistances(const GradeMetric& metric, const Grades& query, const FrameBlock& block, double limit);
 
 /// For each box (rounded outwards), returns a lower bound of d² between any frame in `query` and any frame in the box.
-/// The bound never exceeds d² as `ComputeDistance` rounds it, because both use the same operations in the same order,
-/// and rounding is monotonic.
+/// The bound never exceeds d² as `ComputeDistance` rounds it, because the two functions use the same operations in the
+/// same order, and rounding is monotonic.
 BlockResult SquaredBounds(const GradeMetric& metric, const GradeBox& query, const BoxBlock& block, double limit);
 
 /// Returns a limit for d²: a frame whose rounded distance is at most `distance` never exceeds the limit.
