@@ -77,7 +77,7 @@ struct EffectorTarget {
 /// `start`; the root of `start` stays fixed.
 struct IkProblem {
   TreeState start;
-  std::vector<EffectorTarget> targets;  ///< one per effector of the tree, in its order
+  std::vector<EffectorTarget> targets;  ///< one per effector of the tree, in the tree's order
   std::vector<AngleRange> limits;       ///< one per degree of freedom; usually the tree's own limits
 };
 
@@ -95,7 +95,7 @@ struct SolverSettings {
   bool operator==(const SolverSettings&) const = default;
 };
 
-/// Options that all solvers share. Each solver's own options are in its header.
+/// Options that all solvers share. A solver's own options are in the solver's header.
 struct IkOptions {
   WeightRule weights = WeightRule::kAdaptive;  ///< the rule of weights; only the CCD solvers read this option
   WeightRefresh refresh = WeightRefresh::kSweep;

@@ -16,7 +16,7 @@ using enum Role;
 constexpr std::array<std::array<Role, 4>, 2> kChains = {
     {{kLeftShoulder, kLeftElbow, kLeftWrist, kLeftHand}, {kLeftHip, kLeftKnee, kLeftAnkle, kLeftFoot}}};
 
-/// The mean over frames of a number, and its standard deviation.
+/// The mean of a number over frames, and the number's standard deviation.
 struct Spread {
   double count = 0, sum = 0, squares = 0;
   void Add(double value) {

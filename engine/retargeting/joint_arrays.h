@@ -53,7 +53,8 @@ struct ArrayOptions {
 /// gaps count as not seen (RepairMarkers). Fails for a missing rate, a wrong number of names, a size that no unit
 /// explains, and values beyond ±10⁹.
 Result<RawMotion> ReadRawNpz(const Npz& arrays, const std::string& file, const ArrayOptions& told = {});
-/// Returns the twenty joints of a motion, whose joints may be in any order; nullopt if it has other joints, or gaps.
+/// Returns the twenty joints of a motion, whose joints may be in any order; nullopt if the motion has other joints or
+/// gaps.
 std::optional<BodyMotion> BodyOf(const RawMotion& motion);
 /// Returns the joints of a motion as markers with the joints' names; gaps stay gaps.
 MarkerMotion MarkersOf(const RawMotion& motion);

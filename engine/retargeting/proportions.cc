@@ -143,7 +143,7 @@ double NeededDrop(const BodyPose& pose, const Limb& leg, const glm::dvec3& ankle
 }
 
 /// Returns the side of the line from hip to ankle (`along`) on which the knee lies: a unit vector perpendicular to
-/// `along`, from the direction of the thigh. For a straight leg, returns the direction in front of the hips.
+/// `along`, found from the thigh's direction. For a straight leg, returns the direction in front of the hips.
 glm::dvec3 KneeSide(const BodyPose& pose, const glm::dvec3& thigh, const glm::dvec3& along) {
   constexpr double kStraight = 0.02, kBent = 0.08;  // offset of the knee from the line, in thigh lengths
   const double length = glm::length(thigh);

@@ -90,7 +90,7 @@ glm::dquat UpperOf(const Limb& limb, const glm::dvec3& middle, const glm::dquat&
   const auto [root, hinge, end] = limb.roles;
   const glm::dvec3 upper = VectorBetween(pose, root, hinge), lower = VectorBetween(pose, hinge, end),
                    tip = VectorBetween(pose, end, limb.tip);
-  // Upper × lower bone points to the right for a bent arm, and to the left for a bent leg.
+  // The cross product of upper and lower bone points to the right for a bent arm, and to the left for a bent leg.
   const glm::dvec3 hanging_axis(limb.is_arm ? -1 : 1, 0, 0);
   const glm::dquat swing = ShortestTurn(trunk * middle, upper) * trunk * ShortestTurn(glm::dvec3(0, -1, 0), middle);
   glm::dvec3 axis = swing * hanging_axis;

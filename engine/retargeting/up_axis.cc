@@ -112,7 +112,7 @@ Stance MeasureStance(const Frames& frames, const glm::dvec3& up) {
   glm::dvec3 low = frames.poses.front()[kHipCentre], high = low;
   const auto flat = [&](const glm::dvec3& v) { return v - glm::dot(v, up) * up; };
   for (std::size_t i = 0; i < frames.poses.size(); i += frames.stride) {
-    // Measure postures and the lowest joint.
+    // Classify the posture, and measure the height of the lowest joint.
     const BodyPose& pose = frames.poses[i];
     count += 1;
     stance.upright += IsUpright(pose, up) ? 1 : 0;

@@ -263,7 +263,8 @@ class Tracker {
     }
   }
 
-  // Predicts a frame as the mean of its two neighbours, or as the only neighbour that is fitted.
+  // Predicts a frame's pose: the mean of the two neighbouring frames' poses, or the pose of the only neighbour that is
+  // fitted.
   std::optional<TreeState> Between(const Fits& fits, std::size_t k) const {
     const bool before = k > 0 && fits[k - 1], after = k + 1 < frame_count_ && fits[k + 1];
     if (before && after) return MeanState(fits[k - 1]->state, fits[k + 1]->state);

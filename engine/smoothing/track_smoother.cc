@@ -47,7 +47,7 @@ Estimate FirstEstimate(const PointMotion& motion) {
   return first;
 }
 
-constexpr double kMinInformationShare = 1e-12;  // eigenvalues below this share of the largest count as unmeasured
+constexpr double kMinInformationShare = 1e-12;  // a smaller share of the largest eigenvalue means "not measured"
 
 /// A measurement in the form y = A p with errors of unit variance, one row for each measured direction.
 struct WhiteMeasurement {

@@ -98,7 +98,7 @@ struct UnmarkedMotion {
   /// The mean of `SilhouetteFit::picture_cost` over cameras and tracked frames.
   double cost = 0;
   std::vector<ColourImage> rooms;              ///< the empty room of each camera
-  std::vector<std::vector<Mask>> silhouettes;  ///< the person, per camera and frame
+  std::vector<std::vector<Mask>> silhouettes;  ///< [camera][frame]: the mask of the person
   /// For each camera and frame, 1 − intersection over union of the projected body and the silhouette; nullopt if body
   /// or silhouette has no pixels.
   std::vector<std::vector<std::optional<double>>> apart;

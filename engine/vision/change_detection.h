@@ -45,8 +45,8 @@ enum class Segmenter {
   /// it takes shadows for a person.
   kRgb,
   kHue,  ///< "hue": compares hues only (paper B, chapter 4)
-  /// "hue-gated" (ours): compares hues if both colours are far enough from grey, and saturations otherwise. Then
-  /// compares intensities, allowing for shadows and drift of the lamp.
+  /// "hue-gated" (ours): compares hues if the colours of pixel and background are far enough from grey, and saturations
+  /// otherwise. Then compares intensities, allowing for shadows and drift of the lamp.
   kHueGated,
   /// "ratio": tests whether the pixel's colour is the background's colour times one factor, as in a shadow or under
   /// more light (Horprasert et al. 1999: brightness and chromaticity distortion, without their per-pixel standard
@@ -72,10 +72,10 @@ struct ChangeOptions {
   /// A larger difference between hues is a change, radians. Pixel noise of 2 levels rotates the hue of a moderately
   /// coloured wall (30 levels of chroma) by 4° rms, so this is about four standard deviations.
   double hue_threshold = Radians(16);
-  /// hue-gated: hues are compared only if both pixels are more saturated than this.
+  /// hue-gated: hues are compared only if pixel and background are more saturated than this.
   double min_saturation = 0.10;
-  /// hue-gated: hues are compared only if both pixels are at least this far from grey, levels. In the dark, saturation
-  /// is noise.
+  /// hue-gated: hues are compared only if pixel and background are at least this far from grey, levels. In the dark,
+  /// saturation is noise.
   double min_chroma = 14;
   /// hue-gated: if hues are not compared, a larger difference between saturations is a change.
   double saturation_threshold = 0.18;

@@ -21,7 +21,7 @@ struct Components {
     std::size_t piece = 0;  ///< index of the run's component in `pieces`
   };
   struct Piece {
-    bool set = false;  ///< true for a component of 1s, false for one of 0s
+    bool set = false;  ///< true for a component of 1s, false for a component of 0s
     int size = 0;      ///< pixels
     bool touches_border = false;
   };

@@ -122,7 +122,7 @@ class Residuals final : public ceres::CostFunction {
   const KinematicTree& tree_;
   const IkProblem& problem_;
   const std::vector<int> moving_;
-  mutable TreeState state_;  // the pose of the last evaluation
+  mutable TreeState state_;  // the pose at which the residuals were evaluated last
   mutable TreeFrames frames_;
   mutable TreeJacobian moves_;
 };

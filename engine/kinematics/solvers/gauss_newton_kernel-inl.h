@@ -94,7 +94,7 @@ HWY_INLINE void Copy3(const V (&from)[3], V (&to)[3]) {
 
 template <class V>
 struct FrameLanes {
-  V axes[3][3];  ///< columns
+  V axes[3][3];  ///< [axis][coordinate]
   V position[3];
 };
 
@@ -132,7 +132,7 @@ HWY_INLINE void SetScrew(const V (&axis)[3], const V (&p_RJ_W)[3], V (&screw)[6]
 template <class V>
 struct TargetLanes {
   V position[3];
-  V axes[3][3];       ///< columns
+  V axes[3][3];       ///< [axis][coordinate]
   V position_weight;  ///< weight of a squared error in units of `kPositionScale`²
   V axis_weights[3];
 };
@@ -400,7 +400,7 @@ HWY_INLINE void EliminateHinge(const Four& damping, double to_start, double to_l
 }
 
 /// Computes the hinge's change. `movement` is first the movement of the limb before the hinge, and afterwards the
-/// movement of the limb beyond it. Returns true if the hinge has changed sides.
+/// movement of the limb beyond it. Returns true if the hinge's `side` has changed.
 HWY_INLINE bool SubstituteHinge(double to_lower, double to_upper, TrunkHinge& hinge, double& change, SixRow& movement) {
   const Four best = Four(hinge.best) - Four(hinge.scale) * DotRows(LoadRow(hinge.matrix_s), movement);
   const Four lower(to_lower), upper(to_upper);

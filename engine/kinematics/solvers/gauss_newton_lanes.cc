@@ -247,8 +247,8 @@ class GaussNewtonLanes {
     }
   }
 
-  /// Computes the change of every hinge from the root to the leaves. Returns the lanes in which a hinge has changed
-  /// sides.
+  /// Computes the change of every hinge from the root to the leaves. Returns the lanes in which the `side` of a hinge
+  /// has changed.
   M Substitute() {
     const M counts = Flag(kCounts);
     M has_changed = Below(V(0.0), V(0.0));

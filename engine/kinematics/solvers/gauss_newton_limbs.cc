@@ -187,7 +187,8 @@ class LimbLanes final : public GaussNewtonLimbs {
     }
   }
 
-  /// Computes the changes of the trunk's hinges, outwards from the root. Returns true if a hinge has changed sides.
+  /// Computes the changes of the trunk's hinges, outwards from the root. Returns true if the `side` of a hinge has
+  /// changed.
   bool SubstituteTrunk() {
     SixRow& at_rest = trunk_[0].movement;
     at_rest = {Four(0.0), Four(0.0)};
@@ -205,7 +206,7 @@ class LimbLanes final : public GaussNewtonLimbs {
     return has_changed;
   }
 
-  /// Computes the changes of four limbs' hinges. Returns true if a hinge has changed sides.
+  /// Computes the changes of four limbs' hinges. Returns true if the `side` of a hinge has changed.
   bool SubstituteLimbs(const LimbPacks::Pack& pack) {
     const SixRow* from[LimbPacks::kWidth];
     for (int lane = 0; lane < LimbPacks::kWidth; ++lane) from[lane] = &trunk_[pack.parents[lane]].movement;

@@ -25,7 +25,7 @@ struct GaussNewtonTree {
     bool renames_axes = false;  ///< true if every axis of `R_PJ` is ± an axis of the parent
     int from[3] = {};           ///< for each axis: the index of the parent's axis along which it lies
     double sign[3] = {};        ///< for each axis: 1 if it points as the parent's axis does, −1 if opposite to it
-    double R_PJ[3][3] = {};     ///< columns
+    double R_PJ[3][3] = {};     ///< [column][row]
     double p_PJ[3] = {};
     int quadratic = -1;  ///< index of the limb's quadratic; the parent's limb may have the same index
   };
@@ -64,7 +64,7 @@ struct LimbPacks {
 
   /// One joint of each limb of a pack.
   struct Level {
-    alignas(kAlignment) double R_PJ[3][3][kWidth] = {};  ///< columns
+    alignas(kAlignment) double R_PJ[3][3][kWidth] = {};  ///< [column][row]
     alignas(kAlignment) double p_PJ[3][kWidth] = {};
     alignas(kAlignment) double has_hinge[3][kWidth] = {};  ///< 1 if the limb has this hinge, else 0
     bool turns_axes = false;                               ///< true if `R_PJ` of any limb is not the identity
@@ -89,7 +89,7 @@ struct LimbPacks {
   };
   struct TrunkJoint {
     int parent = -1;
-    double R_PJ[3][3] = {};  ///< columns
+    double R_PJ[3][3] = {};  ///< [column][row]
     double p_PJ[3] = {};
     int first_hinge = 0, hinge_count = 0;  ///< hinge h has the angle index first_trunk_place + h
     int first_branch = 0, branch_count = 0;

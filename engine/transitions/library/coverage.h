@@ -45,7 +45,7 @@ class Coverage {
   const ClipCoverage& Of(int from, int to) const { return pairs_[Pair(from, to)]; }
 
   /// Returns the clips that have no bridge frame matching a bridge frame of clip `wanted`. Paper A (section 3.5)
-  /// demands that every move has such a frame for the corrective clip.
+  /// demands that every move has a matching bridge frame for the corrective clip.
   const std::vector<int>& WithoutWayInto(int wanted) const { return without_.at(wanted); }
 
  private:

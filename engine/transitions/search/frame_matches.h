@@ -26,7 +26,7 @@ class MatchClip {
   std::vector<int> frames_;
   std::vector<Grades> grades_;  // one per frame of `frames_`, like the next two members
   std::vector<Tags> tags_;      // the ten tags of each frame; empty if the rules do not compare within classes
-  std::vector<double> steps_;   // distance to the frame before
+  std::vector<double> steps_;   // fuzzy distance from the frame before
   std::vector<GradeBox> boxes_;  // one per sixteen of `frames_`
   // The targets: `frames_` without the clip's last frame, in blocks of sixteen in time order. Consecutive frames are
   // near each other, so most blocks can be rejected by the block's box.
