@@ -197,7 +197,7 @@ class Builder {
     return Add(part, below < 0 ? 0 : limb_of_[below], limb);
   }
 
-  // Adds a limb that leads away from the pelvis; its far end is its farthest tip.
+  // Adds a limb that leads away from the pelvis; the limb's far end is the part's farthest tip.
   Result<void> AddOutwardLimb(int part) {
     RestLimb limb{.from = parts_[part].at, .to = parts_[part].at, .tips = parts_.TipsOf(part)};
     for (const glm::dvec3& tip : limb.tips) {
@@ -253,7 +253,8 @@ class Builder {
                               : IsArm(limb.leads_to)  ? glm::cross(z, kAhead)
                                                       : kToTheRight;
     glm::dvec3 x = wanted - glm::dot(wanted, z) * z;
-    // If that X axis is nearly parallel to Z, take the forward axis; if that is too, take the downward axis.
+    // If that X axis is nearly parallel to Z, take the forward axis instead; if the forward axis is, too, take the
+    // downward axis.
     constexpr double kAlong = 0.1;
     if (glm::length(x) < kAlong) x = kAhead - glm::dot(kAhead, z) * z;
     if (glm::length(x) < kAlong) x = kDownwards - glm::dot(kDownwards, z) * z;

@@ -27,7 +27,7 @@ struct TreeJoint {
   int parent = -1;     ///< parents come before children; −1 for the root, which does not turn
   glm::dvec3 p_PJ{0};  ///< metres
   glm::dmat3 R_PJ{1};
-  int first_dof = 0;  ///< index of its X angle in the list of all angles
+  int first_dof = 0;  ///< index of the joint's X angle in the list of all angles
   int dof_count = 0;  ///< 0…3
 };
 

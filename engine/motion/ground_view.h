@@ -50,7 +50,7 @@ class GroundView {
   bool IsOnFeet(int frame) const;
   /// Returns true if trunk and legs are upright.
   bool IsUpright(int frame) const { return is_upright_[frame]; }
-  /// Returns the share of upright frames.
+  /// Returns the share of the frames in `range` in which trunk and legs are upright.
   double UprightShare(const FrameRange& range) const;
   double UprightShare() const { return UprightShare({0, frames() - 1}); }
 

@@ -66,7 +66,7 @@ struct FaultOptions {
   bool is_of_markers = false;  ///< true: joints were found from markers on the skin, so the lengths of limbs may change
 };
 
-/// Shorter motions are not judged.
+/// Motions with fewer frames are not judged.
 constexpr std::size_t kMinFramesForFaults = 8;
 
 /// Finds the faults of a motion without knowing its true motion; the method is our own. FaultRules states the rules.

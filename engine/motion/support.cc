@@ -302,7 +302,7 @@ std::optional<double> BalanceOffset(const BodyPose& pose, const JointSet& joints
 }
 
 std::optional<double> OffsetFromJoints(const glm::dvec2& point, const BodyPose& pose, const JointSet& joints) {
-  std::vector<glm::dvec2> points;  // relative to `point`
+  std::vector<glm::dvec2> points;  // positions on the floor relative to `point`
   for (std::size_t j = 0; j < kRoleCount; ++j) {
     if (joints[j]) points.push_back(glm::dvec2(pose.joints[j].x, pose.joints[j].z) - point);
   }

@@ -265,8 +265,8 @@ class MapFinder {
   const MovingPoses& moving_;
 };
 
-/// Returns how upright a pose is: the smallest cosine of the angles between the line from shoulders to hips and each
-/// thigh and shank. Returns nullopt unless all joints of arms and legs are found by name.
+/// Returns how upright a pose is: the cosine of the largest angle between a thigh or shank and the line from shoulders
+/// to hips. Returns nullopt unless all joints of arms and legs are found by name.
 std::optional<double> StandingOf(const Skeleton& skeleton, const JointNames& names, const LocalPose& pose) {
   const SkeletonTree tree(skeleton, pose);
   std::array<glm::dvec3, kRoleCount> at{};

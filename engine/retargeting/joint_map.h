@@ -47,12 +47,13 @@ struct JointMapOverrides;
 /// If names fail, the limbs follow from the shape (anatomy.h). The proposal must have a confidence of at least 0.9 and
 /// must not contradict a role that was found by name.
 ///
-/// Poses of `frames` are used if the rest pose is not a human pose. If its legs do not point away from its trunk, the
-/// most upright frame replaces it; tips that are implausible at rest are searched in motion (FindTips). The roles in
-/// `taught` are assigned before any name is searched, and checked like the others. Fails for missing limbs (with a list
-/// of the file's names), hips without a common ancestor, a knee that does not descend from its hip and similar errors,
-/// hips that are not on opposite sides of their common ancestor, and joints of `taught` that do not exist (with their
-/// line in the joint-map file). ToBodyMotion checks on the moving body that left and right are not exchanged.
+/// Poses of `frames` are used if the rest pose is not a human pose. If the rest pose's legs do not point away from the
+/// trunk, the most upright frame replaces this pose; tips that are implausible at rest are searched in motion
+/// (FindTips). The roles in `taught` are assigned before any name is searched, and checked like the others. Fails for
+/// missing limbs (with a list of the file's names), hips without a common ancestor, a knee that does not descend from
+/// its hip and similar errors, hips that are not on opposite sides of their common ancestor, and joints of `taught`
+/// that do not exist (with their line in the joint-map file). ToBodyMotion checks on the moving body that left and
+/// right are not exchanged.
 Result<JointMap> FindJointMap(const Skeleton& skeleton, const std::string& file,
                               const JointMapOverrides* taught = nullptr, std::span<const LocalPose> frames = {});
 

@@ -64,8 +64,8 @@ struct FoundLimb {
 
 /// Finds a limb by the first scheme whose three names, with one prefix, belong to a chain of descendants. As a second
 /// choice, the third joint may be outside of the chain of the first two, because control rigs separate the feet from
-/// the legs. If no scheme fits, returns the joints of the scheme that names the most. Joints in `taught` are used as
-/// they are; −1 there means that the user did not give the joint.
+/// the legs. If no scheme fits, returns the joints of the scheme that names the most joints. Joints in `taught` are
+/// used as they are; −1 there means that the user did not give the joint.
 FoundLimb FindLimb(const JointNames& names, const SkeletonTree& tree, std::span<const LimbNames> schemes, Side side,
                    const std::array<int, 3>& taught);
 

@@ -31,7 +31,7 @@ constexpr std::array<SkinJoint, 4> kSkinJoints = {{{kLeftKnee, kLeftHip, "KNEEWI
 /// The distances from markers to centres, metres, by role.
 struct SkinDepths {
   std::array<double, kRoleCount> metres{};
-  std::vector<std::string> of_file, of_limb;  ///< the kinds of joints whose sizes come from each source
+  std::vector<std::string> of_file, of_limb;  ///< kinds of joints with sizes from the file, and from limb lengths
   bool has_elbow_widths = false;
 };
 
@@ -158,7 +158,7 @@ UsedWands FindUsedWands(const std::vector<Wands>& wands, const SkinDepths& depth
   constexpr double kAside = 0.3;
   UsedWands used;
   for (const bool is_left : {true, false}) {
-    // Compute the median over the frames of the cosine between the wand's direction and the knee's axis.
+    // Compute the median, over the frames, of the cosine of the angle between wand and knee axis.
     std::array<std::vector<double>, 2> cosines;
     const std::size_t index = is_left ? 0 : 1;
     for (std::size_t t = 0; t < frames.size(); ++t) {

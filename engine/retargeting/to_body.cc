@@ -51,7 +51,7 @@ constexpr double kDefaultStature = 1.70;
 constexpr double kMaxSeconds = 3600;
 constexpr double kMaxPoses = 500'000;
 constexpr double kMinToldFloor_cm = 0.1;  // smaller heights are rounding errors
-constexpr double kMinBody = 1e-6;  // in any unit; smaller bodies have no size
+constexpr double kMinBody = 1e-6;  // in the file's unit; a smaller body counts as one without size
 
 /// Returns the up axis that the user gives, otherwise the format's, otherwise the axis that FindUp finds.
 UpFinding UpOf(const BodyOptions& options, const BodyPose& rest, const UpSamples& samples) {

@@ -19,7 +19,7 @@ struct JointTarget {
 /// The targets by role; nullopt for joints whose position is not known.
 using JointTargets = std::array<std::optional<JointTarget>, kRoleCount>;
 
-/// Finds the pose of the body nearest to the targets by the method of Levenberg and Marquardt. The angle priors
+/// Finds the body's pose nearest to the targets by the method of Levenberg and Marquardt. The angle priors
 /// (`SilhouetteBody::Habit`) determine the angles that the targets leave open. The search starts from `start` or,
 /// without it, from several headings and the `Postures`.
 TreeState FitJoints(const SilhouetteBody& body, const JointTargets& targets,

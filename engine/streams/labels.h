@@ -43,7 +43,7 @@ constexpr double kActionPointTolerance = 0.333;
 Result<std::vector<Label>> ReadLabels(std::string_view text, const std::string& file, std::string_view clip = "");
 
 /// Returns true if the label belongs to the recording with this name: the names are equal or, for UTKinect, the
-/// recording's name contains the label's.
+/// recording's name contains `label.clip`.
 bool IsLabelOf(const Label& label, std::string_view recording);
 
 }  // namespace etude

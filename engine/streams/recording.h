@@ -57,7 +57,7 @@ struct StreamRecording {
 /// Properties of a file that the user can state.
 struct StreamReading {
   std::optional<StreamFormat> format = {};  ///< if absent, detected by content
-  std::optional<double> rate_hz = {};       ///< for files without a clock; if absent, 30
+  std::optional<double> rate_hz = {};       ///< frame rate of a file without a clock; if absent: 30 Hz
   std::optional<int> body = {};  ///< index of the body, by first appearance; if absent: the body in most frames
 };
 

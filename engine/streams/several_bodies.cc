@@ -113,7 +113,7 @@ void Bodies::JoinContinued(StreamRecording& recording) {
     next[pair.before] = pair.after;
     continues[pair.after] = true;
   }
-  // Join the chains of accepted pairs.
+  // Join the bodies of each chain of accepted pairs.
   std::vector<Body> joined;
   for (std::size_t a = 0; a < bodies_.size(); ++a) {
     if (continues[a]) continue;

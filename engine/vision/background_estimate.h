@@ -13,7 +13,7 @@ using Activity = Image<float>;
 
 struct MotionOptions {
   std::size_t lag = 1;  ///< picture n is compared with pictures n − lag and n + lag
-  /// Half the side of the square around a pixel in which motion is counted, pixels. Choose about a quarter of a trunk's
+  /// Half the side of the square in which motion around a pixel is counted, pixels. Choose about a quarter of a trunk's
   /// width: a trunk shows motion only at its rim, and the trunk's middle must not count as background.
   int reach = 12;
   int change = 14;  ///< colour difference, in levels, that counts as motion; several standard deviations of noise

@@ -63,7 +63,7 @@ Border MeasureBorder(const std::vector<glm::dvec2>& points, const glm::dvec2& li
   glm::dvec2 to_limb(-along.y, along.x);
   if (glm::dot(limb_middle - border.middle, to_limb) < 0) to_limb = -to_limb;
   const double mean_square = scatter.AlongAxis() / static_cast<double>(points.size());
-  // Sum up the bend: how much farther the border's end points lie on the limb's side than its middle points.
+  // Sum up the bend: how much farther the border's end points lie on the limb's side than the border's middle points.
   double bend = 0, low = 0, high = 0;
   for (const glm::dvec2& p : points) {
     const glm::dvec2 d = p - border.middle;

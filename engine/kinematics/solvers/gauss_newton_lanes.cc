@@ -64,8 +64,8 @@ class GaussNewtonLanes {
   enum Register {
     kDamping,
     kToStart,    // 1 if the step is pulled to the start, else 0; the following are flags, too
-    kKeepsLast,  // the present pose is stored as the last one
-    kKeepsBest,  // the present pose is stored as the best one
+    kKeepsLast,  // the present pose is stored as the last pose
+    kKeepsBest,  // the present pose is stored as the best pose
     kCounts,     // the lane takes part in this active-set pass
     kHasChanged,
     kMoves,

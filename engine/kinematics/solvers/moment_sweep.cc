@@ -105,7 +105,7 @@ HWY_INLINE double TurnHinge(const Quad& from, const Quad& towards, HingeState& h
   const double old_c = hinge.c, old_s = hinge.s;
   const double c = is_flat ? old_c : is_inside ? x * scale : end_c;
   const double s = is_flat ? old_s : is_inside ? y * scale : end_s;
-  // Mix the two rows.
+  // Mix rows i and j of the moments.
   hinge.c = c;
   hinge.s = s;
   row_i = a * c - b * s;
@@ -284,7 +284,7 @@ void MomentSweep::State::MeasureGoals() {
   }
 }
 
-// Returns the angle, clamped to its range.
+// Returns the angle of degree of freedom `dof`, radians, clamped to its range.
 double MomentSweep::State::AngleOf(std::size_t dof) const {
   const HingeState& hinge = hinges[dof];
   const double from_middle = std::atan2(hinge.s * hinge.cos_middle - hinge.c * hinge.sin_middle,

@@ -73,7 +73,7 @@ SweepTree::SweepTree(const KinematicTree& tree) : steps(StepsOf(tree)) {
 }
 
 void SweepTree::NameAxes(const KinematicTree& tree) {
-  std::vector<glm::dmat3> R_LS;  // of each limb: the axes of the sweep's frame in the tree's frame
+  std::vector<glm::dmat3> R_LS;  // for each limb: the axes of the limb's frame S in its frame L
   for (const TreeJoint& from : tree.joints) {
     Joint& joint = joints.emplace_back();
     joint.parent = from.parent;

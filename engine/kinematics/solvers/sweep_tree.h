@@ -19,7 +19,7 @@ struct SweepTree {
     bool is_aligned = false;  ///< true if `R_PJ` is the identity
     int base[3] = {};         ///< indices of the limb's axes before its hinges turn; may equal indices of the parent's
     int axes[3] = {};         ///< indices of the limb's axes after all hinges of the joint have turned
-    double R_PJ[3][3] = {};   ///< rows
+    double R_PJ[3][3] = {};   ///< [row][column]
     double p_PJ[3] = {};
   };
   struct Effector {

@@ -22,7 +22,7 @@ namespace {
 struct PairSurvey {
   AllowedFrames allowed;
   std::int64_t matching = 0;
-  std::int64_t nearer = 0;          ///< matching pairs with a smaller distance than the taken pair
+  std::int64_t nearer = 0;          ///< number of matching pairs with a smaller distance than the taken pair
   std::vector<RankedPair> nearest;  ///< by frame that may be left: the frame's nearest pair, except the taken pair
 };
 

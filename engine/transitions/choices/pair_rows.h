@@ -67,7 +67,7 @@ class DiagonalSums {
 
   int first_row_, next_row_, columns_;
   int depth_;                ///< a power of two, so that ring indices need no division
-  std::vector<Value> sums_;  ///< a ring of rows
+  std::vector<Value> sums_;  ///< ring buffer of rows; each entry is the sum of the diagonal up to its cell
 };
 
 /// The numbers of frames before a pair and after it that exist in both clips, each at most half a window.

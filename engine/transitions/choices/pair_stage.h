@@ -20,7 +20,7 @@ constexpr std::array kLengths_s = {0.3, 0.4, 0.5, 0.65, 0.8, 1.0, 1.2};
 /// motion that has ended counts as 0.
 using OwnAccelerations = std::vector<std::array<double, kRoleCount>>;
 
-/// Sums up the cost of a join. Its frames are added in order, from the transition point on.
+/// Sums up the cost of a join, whose frames are added in order from the transition point on.
 class CostMeter {
  public:
   /// `usual` is the entry of MotionLibrary::usual_accelerations for the calmer clip. All arguments must outlive this

@@ -45,9 +45,9 @@ const SettingTable<PlayedOptions>& PlayedSettings();
 /// - one second for each centimetre that the slowest support glides farther than a clip's own joint does there.
 ///
 /// Pairs are left out if their join would raise or lower the body without support (NeedsClip). If no other pair is
-/// allowed, the transition goes, after the wait, through an intermediate clip that stands up or lies down
-/// (FindThroughClip); without such a clip in the library the record has no segments. The last segment of the record
-/// holds the preferred join (PreferredJoin).
+/// allowed, the transition goes, after the wait, through an intermediate clip in which the person stands up or lies
+/// down (FindThroughClip); without such a clip in the library the record has no segments. The last segment of the
+/// record holds the preferred join (PreferredJoin).
 ///
 /// This choice is ours. It searches by the resulting motion instead of similarity, after Kovar, Gleicher and Pighin
 /// 2002 and Bollo 2018. Support is computed as in the evaluation of transitions, but the choice does not know the

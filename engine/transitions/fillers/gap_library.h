@@ -34,7 +34,7 @@ class GapLibrary {
  private:
   struct Entry {
     TreeMotion motion;
-    std::vector<double> seen;  ///< frames × features (AppendSeen)
+    std::vector<double> seen;  ///< the features (AppendSeen) of every frame, frame by frame
   };
   /// A gap of the library: the index of the motion, the frame before the gap, and the squared distance from the gap to
   /// be filled, m².

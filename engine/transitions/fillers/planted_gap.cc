@@ -258,7 +258,7 @@ class FootPlanner {
   std::vector<Footfalls> found_;
 };
 
-/// Returns the cheapest pair of footfalls.
+/// Returns the cheapest combination of the left foot's and the right foot's footfalls.
 std::array<Footfalls, 2> PlanFeet(const std::array<std::vector<Footfalls>, 2>& feet, std::size_t frames) {
   const double per_frame = 0.3 / static_cast<double>(frames);  // price of a frame in which no foot stands
   double least = std::numeric_limits<double>::infinity();

@@ -6,7 +6,7 @@
 namespace etude {
 
 /// A rotation vector: axis × angle, in radians. Bodies are joint positions without local frames, so a limb's rotation
-/// is the smallest rotation between its two directions.
+/// is the smallest rotation from one direction of the limb to another.
 using LimbTurn = glm::dvec3;
 
 /// Returns the smallest rotation between the directions of two vectors; zero if either vector is zero. For opposite

@@ -59,8 +59,8 @@ Inertialiser DecayOf(const JoinWindow& window, int frames) {
                   .preferred = {},
                   .rate_hz = window.rate_hz};
   double direction = 1;
-  // Use forward differences: the frames after the point replace those before, which reverses time, so velocities change
-  // their sign.
+  // Use forward differences: the frames after the point take the place of the frames before it. This reverses time, so
+  // velocities change their sign.
   if (window.old_frames > 0) {
     input.shown.before = window.old[1];
     input.target.before = window.next[1];

@@ -16,7 +16,7 @@ struct TweenRules {
   /// The maximum angular velocity of any limb (reached half-way), radians per second, > 0.
   double turn_speed = Radians(360);
   double shortest_s = 0.3;  ///< minimum duration of a tween, seconds
-  /// If a limb rotates farther than this between two keys, radians, the keys are connected through the hub.
+  /// If a limb rotates by more than this angle (radians) between two keys, the keys are connected through the hub.
   double widest_turn = Radians(120);
 };
 
