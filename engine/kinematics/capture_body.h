@@ -81,8 +81,8 @@ BodyPose ToBodyPose(const CaptureBody& body, const TreeFrames& frames);
 
 /// Makes the inverse-kinematics problem whose start pose is `start`: move the end effectors back to their observed
 /// positions, and point the last limbs in their observed directions if `CaptureBody::ends` gives them a direction. The
-/// X and Y axes of such a target are those of the start pose, turned by the smallest rotation to that direction; they
-/// have weight 0. Positions and directions that `observation` lacks have weight 0. The problem has the tree's limits.
+/// X and Y axes of such a target have weight 0; they are the start pose's axes, turned by the smallest rotation to that
+/// direction. Positions and directions that `observation` lacks have weight 0. The problem has the tree's limits.
 IkProblem MakeImageProblem(const CaptureBody& body, const LimbObservation& observation, const TreeState& start);
 
 /// Returns a motion of the body as a clip with its own skeleton: metres, Y up, rooted at the hips. The conversion is

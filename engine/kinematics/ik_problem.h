@@ -54,7 +54,8 @@ struct WeightFormula {
 /// Returns the rule in SI units; for `kWangChen` the formula lacks the factor 1 + ρ.
 WeightFormula FormulaOf(WeightRule rule);
 
-/// Returns true if the weights depend on the errors. The weights of `kWangChen` depend on the joint that turns instead.
+/// Returns true if the weights depend on the errors. Instead, the weights of `kWangChen` depend on the joint that
+/// turns.
 bool IsAdaptive(WeightRule rule);
 
 /// Returns the weights of an effector that is `distance` metres from its target and whose axes are off by `axis_angles`

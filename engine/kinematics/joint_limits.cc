@@ -26,7 +26,7 @@ constexpr Movement kNone{0, 0, 0, 0};
 constexpr Movement kShoulderFlexion{180, 180, 90, 150};
 constexpr Movement kShoulderExtension{60, 45, 45, 50};
 constexpr Movement kShoulderAbduction{180, 180, 180, 180};
-constexpr Movement kShoulderAdduction{30, 30, 30, 30};  // not in the table
+constexpr Movement kShoulderAdduction{30, 30, 30, 30};  // not in table 3.1; ours
 constexpr Movement kShoulderInner{70, 70, 55, 90};
 constexpr Movement kShoulderOuter{90, 90, 45, 90};
 constexpr Movement kElbowFlexion{150, 145, 150, 140};

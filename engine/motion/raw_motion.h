@@ -29,7 +29,7 @@ struct RawMotion {
   std::array<int, kRoleCount> roles = NoRoles();  ///< the joint that plays each role, by Index(role); −1: none
   std::vector<glm::dvec3> positions;              ///< frames × joints; NaN: not seen
   std::vector<glm::dquat> rotations;  ///< global rotations, frames × joints; empty: the file has points, not rotations
-  /// The file's rest pose: each joint's position and global rotation; both are empty if `rotations` is.
+  /// The file's rest pose: each joint's position and global rotation; the two lists are empty if `rotations` is.
   std::vector<glm::dvec3> rest_positions;
   std::vector<glm::dquat> rest_rotations;
   /// The file's labels of contacts with the floor, frames × 4: left heel, left toes, right heel, right toes. Empty if

@@ -67,7 +67,7 @@ struct SupportingClip {
 
 /// The joints that support a body in a shown frame.
 struct Support {
-  JointSet joints;      ///< joints at rest where the same joint of a clip rests, or moving as in a clip
+  JointSet joints;      ///< joints that rest where the same joint of a clip rests, or move as that joint does
   bool flight = false;  ///< the body is in flight and needs no support
 
   bool Holds() const { return joints.any() || flight; }

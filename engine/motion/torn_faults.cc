@@ -97,7 +97,7 @@ class TornFinder {
 
   bool Shows(int frame, Role joint) const { return unseen_.empty() || !unseen_[frame][Index(joint)]; }
 
-  /// Returns the distance between two joints in each frame; NaN where one is not seen.
+  /// Returns the distance between two joints in each frame; NaN where one of the two joints is not seen.
   std::vector<double> Distances(Role a, Role b) const {
     std::vector<double> distances;
     for (int f = 0; f < frames(); ++f) {

@@ -31,7 +31,7 @@ glm::dvec3 DirectionOf(const glm::dvec3& v) {
 /// The path along the bones from a joint to the farthest of its descendants.
 struct Chain {
   std::vector<int> joints;
-  double length = 0;  ///< the sum of its bones' lengths
+  double length = 0;  ///< the sum of the lengths of the chain's bones
 };
 
 /// Two siblings with equally long chains.

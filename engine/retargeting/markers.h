@@ -23,7 +23,7 @@ struct MarkerOptions {
 
 /// A body found in the trajectories of markers.
 struct MarkerBody {
-  std::string name;   ///< the prefix of its markers ("Derrick" of "Derrick:LANK"), or ""
+  std::string name;   ///< the prefix of the body's markers ("Derrick" of "Derrick:LANK"), or ""
   BodyMotion motion;  ///< at the file's rate; metres, Y up, feet on the floor
   UpFinding up;       ///< the axis of the file that became the motion's Y axis
   double floor = 0;   ///< the height of the floor in the file, metres; in `motion` this height is 0
@@ -32,8 +32,8 @@ struct MarkerBody {
   std::vector<std::string> changes;
   /// The joints exactly as the markers show them, in all frames of the file: gaps are not filled, no joint is placed by
   /// a rule, and the floor is not moved. First come the joints that the set determines, named by role, then the
-  /// person's other markers under their own names in lower case. Metres, Y up. Its remark names the set and the
-  /// assumptions. It has no frames unless MarkerOptions::keeps_shown is set.
+  /// person's other markers under their own names in lower case. Metres, Y up. The motion's remark names the set and
+  /// the assumptions. The motion has no frames unless MarkerOptions::keeps_shown is set.
   MarkerMotion shown = {};
 
   /// Returns `changes` as one line, separated by semicolons.

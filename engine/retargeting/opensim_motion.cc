@@ -119,7 +119,7 @@ glm::dmat3 InOpenSim(const glm::dmat3& turn) {
 
 double Unwrapped(double angle, double near) { return angle - 2 * kPi * std::round((angle - near) / (2 * kPi)); }
 
-/// Returns the angles a, b, c of R = Rz(a) Rx(b) Ry(c). Among all such triples, takes the one nearest to `before`.
+/// Returns the angles a, b, c of R = Rz(a) Rx(b) Ry(c). Among all such triples, takes the triple nearest to `before`.
 glm::dvec3 TurnsOf(const glm::dmat3& R, const glm::dvec3& before) {
   const auto at = [&](int row, int column) { return R[column][row]; };
   constexpr double kLocked = 1e-9;

@@ -92,7 +92,7 @@ namespace {
 
 using enum Role;
 
-/// Returns the length of thigh and shank.
+/// Returns the sum of the lengths of thigh and shank.
 double LegLength(const BodyPose& pose, const Limb& leg) {
   const auto [hip, knee, ankle] = leg.roles;
   return glm::distance(pose[hip], pose[knee]) + glm::distance(pose[knee], pose[ankle]);

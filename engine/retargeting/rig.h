@@ -14,7 +14,7 @@ namespace etude {
 glm::dquat ShortestTurn(const glm::dvec3& from, const glm::dvec3& to);
 
 /// Returns the orientation whose X axis points along `x` and whose Y axis lies in the plane of `x` and `y`, on `y`'s
-/// side. If `x` and `y` are parallel, or one is zero, returns the shortest rotation from X to `x`.
+/// side. If `x` and `y` are parallel, or one of them is zero, returns the shortest rotation from X to `x`.
 glm::dquat Orientation(const glm::dvec3& x, const glm::dvec3& y);
 
 /// Returns the local transforms that bring BodySkeleton(rest) into `pose`. The orientations of hips and chest follow

@@ -13,8 +13,8 @@
 namespace etude {
 namespace {
 
-/// Returns the joint that moves the body: the first one with changing positions on the path from the hips to the root;
-/// −1 if there is none.
+/// Returns the joint that moves the body: the first joint with changing positions on the path from the hips to the
+/// root; −1 if no position changes.
 int MovedJoint(const Clip& clip, const JointMap& map) {
   for (int joint = map[Role::kHipCentre].joint; joint >= 0; joint = clip.skeleton.joints[joint].parent) {
     const glm::dvec3 first = clip.frames.front()[joint].translation;

@@ -47,7 +47,7 @@ struct StreamRecording {
   bool records_times = false;   ///< false: frames are one period of `rate_hz` apart
   bool is_level = false;      ///< Y points up and the floor is at 0, because Etude wrote the file
   double rate_hz = kJudgedRateHz;
-  double seconds_per_count = 1;            ///< the unit of the clock's column
+  double seconds_per_count = 1;            ///< the unit of the clock's column, seconds
   double first_count = 0;                  ///< the number in the clock's column at 0 s
   double metres_per_unit = 1;              ///< the factor that was applied to positions
   std::vector<RecordedFrame> frames = {};  ///< in ascending order of time

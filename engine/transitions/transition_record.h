@@ -99,7 +99,7 @@ struct TransitionRecord {
   std::vector<FuzzyDistance> distances;  ///< one per transition point: segments.size() − 1 entries
   /// The taken pair and the best other pairs, at most kMaxCandidates, in order of frames.
   std::vector<Candidate> candidates;
-  std::int64_t pairs_seen = 0;     ///< pairs of frames within the budget, including those after a first match
+  std::int64_t pairs_seen = 0;     ///< number of pairs within the budget, including pairs after the first match
   std::int64_t pairs_matched = 0;  ///< number of these pairs that match
   double wait_s = 0;               ///< time from the request until the wanted clip plays
   std::string cost_unit;           ///< unit of the candidates' `cost`, for example "cm"; empty without costs

@@ -82,8 +82,8 @@ struct UnmarkedOptions {
   /// A pixel of the room is the median over this number of pictures, those with the least motion at the pixel. Keep it
   /// small: a pixel of the room may be visible only for a moment.
   std::size_t kept = 5;
-  /// Pixels within this distance of the body, in pixels, may be the body's shadow or rim, and are avoided in estimates
-  /// of the room.
+  /// A picture's pixels at most this many pixels away from the body may show the body's shadow or rim, and are left out
+  /// of estimates of the room.
   double body_reach_px = 8;
   /// The standard deviation of the distance between a keypoint of confidence 1 and the true joint, pixels.
   double keypoint_px = 3;

@@ -20,7 +20,7 @@ struct LimbEvidence {
 };
 
 struct PictureEvidence {
-  /// The limbs by stroke; nullopt if too little of the limb is visible to determine its line.
+  /// The evidence of each limb, by stroke; nullopt if too little of the limb is visible to determine its line.
   std::array<std::optional<LimbEvidence>, kStrokeCount> limbs;
   /// Estimated pixels of joint centres where a visible limb touches its parent part, and of tips.
   std::array<std::optional<glm::dvec2>, kRoleCount> joints;
@@ -29,8 +29,8 @@ struct PictureEvidence {
 /// The kind of figure determines where joints lie in the visible part of a limb. Methods may know it, because an
 /// observer recognises it at first sight.
 enum class FigureKind {
-  /// The figure in paper B's studio, which consists of capsules. Where two limbs meet, the thicker limb ends near the
-  /// joint. Hips, shoulders and the neck lie inside the trunk, beyond the visible part of the limb that begins there.
+  /// The figure made of capsules in paper B's studio. Where two limbs meet, the thicker limb ends near the joint. Hips,
+  /// shoulders and the neck lie inside the trunk, beyond the visible part of the limb that begins there.
   kCapsules,
   kDressed,  ///< a dressed person, whose limbs are cut across at the joints (sim/character)
 };

@@ -273,7 +273,7 @@ class Accelerated {
   std::vector<double> Angles() const { return sweep_.Angles(); }
 
   /// Makes one iteration. Returns the largest turn of the sweep, radians. The caller counts one forward-kinematics
-  /// pass; a second one is counted here.
+  /// pass; a second pass is counted here.
   double Step(IkRun& run) {
     sweep_.ReadHalfTangents(now_);
     const double change = sweep_.Turn();

@@ -29,9 +29,9 @@ IkSolution SolveFabrik(const KinematicTree& tree, const IkProblem& problem, cons
 /// it fits its tips by least squares:
 /// - backward, tips to root: the mean of the tips moves to the mean of their desired positions; the limb turns about it
 ///   to fit the tips and the old position of its base, which has the weight of one tip;
-/// - forward, root to tips: the base is at the end of the limb before; the limb turns about it to fit the tips. Both
-/// passes use the smallest rotation: a limb whose points lie on one line does not turn about that line. A limb without
-/// a target moves along with the limb before it.
+/// - forward, root to tips: the base is at the end of the limb before; the limb turns about it to fit the tips.
+/// Both passes use the smallest rotation: a limb whose points lie on one line does not turn about that line. A limb
+/// without a target moves along with the limb before it.
 class FabrikPass {
  public:
   /// A point T of a limb that leads to a target: the base of another limb, or an effector.

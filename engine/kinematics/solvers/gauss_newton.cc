@@ -199,7 +199,7 @@ GaussNewtonCourse::GaussNewtonCourse(const IkOptions& options, const GaussNewton
   Begin(Phase::kToStart, kProgress, patience_);
 }
 
-// Copies one problem into the layout of `GaussNewtonLimbs` and its solution back.
+// Copies one problem into the layout of `GaussNewtonLimbs`, and copies the solution back.
 class GaussNewtonSolver::Solver {
  public:
   explicit Solver(const KinematicTree& tree) : tree_(tree), packs_(tree), limbs_(GaussNewtonLimbs::Make(packs_)) {}

@@ -20,8 +20,8 @@ HWY_BEFORE_NAMESPACE();
 namespace etude::HWY_NAMESPACE {
 
 /// Solves one problem per lane in rounds: a round places all poses, passes their residuals to the lanes' courses, and
-/// steps. A lane skips the step of a round if its course requests another action, or if few other lanes need one more
-/// active-set pass as it does. The results of a lane depend on its own problem alone; only their timing depends on the
+/// steps. A lane skips the step of a round if its course requests another action, or if it needs one more active-set
+/// pass and few other lanes do. The results of a lane depend on its own problem alone; only their timing depends on the
 /// others.
 template <class T>
 class GaussNewtonLanes {

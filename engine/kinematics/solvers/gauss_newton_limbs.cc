@@ -235,8 +235,8 @@ class LimbLanes final : public GaussNewtonLimbs {
     return Any(has_changed);
   }
 
-  /// Adds the changes to the angles. If one is too large, all are scaled down together; if one is infinite, no angle
-  /// moves. Returns the largest change.
+  /// Adds the changes to the angles. If a change is too large, all changes are scaled down together; if a change is
+  /// infinite, no angle moves. Returns the largest change.
   double Move(double max_change) {
     RowVector largest(0.0);
     auto is_finite = AtLeast(RowVector(0.0), RowVector(0.0));

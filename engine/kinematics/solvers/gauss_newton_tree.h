@@ -35,8 +35,8 @@ struct GaussNewtonTree {
     bool is_first = false;  ///< true for the first effector of its limb
   };
 
-  /// One step of elimination: a hinge, or, after all hinges of a joint, the addition of its limb's quadratic to that of
-  /// the parent.
+  /// One step of elimination: a hinge, or, after all hinges of a joint, the addition of the limb's quadratic to the
+  /// parent limb's quadratic.
   struct Step {
     int joint = 0;
     int dof = -1;  ///< −1 if the step is the addition
@@ -68,7 +68,7 @@ struct LimbPacks {
     alignas(kAlignment) double p_PJ[3][kWidth] = {};
     alignas(kAlignment) double has_hinge[3][kWidth] = {};  ///< 1 if the limb has this hinge, else 0
     bool turns_axes = false;                               ///< true if `R_PJ` of any limb is not the identity
-    int hinge_count = 0;                                   ///< number of hinges of the joint that has the most
+    int hinge_count = 0;                                   ///< largest number of hinges of a joint of the level
     /// Slot of the first hinge; slot s holds the angle indices 4 s … 4 s + 3.
     int first_slot = 0;
     int ends = -1;  ///< index of this level's effectors in LimbPacks::ends; −1 if the level has no effectors

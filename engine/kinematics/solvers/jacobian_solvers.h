@@ -11,7 +11,7 @@ namespace etude {
 
 /// The way in which a solver of dense linear steps keeps angles within their ranges.
 enum class Bounds {
-  kClamped,  ///< make an unlimited step (`Step`), then clamp the angles; free angles do not compensate for clamped ones
+  kClamped,  ///< make an unlimited step (`Step`), then clamp the angles; free angles do not compensate for this
   /// Solve for the best step within the ranges (`StepWithin`): angles that would leave their range are fixed at its
   /// end, and the other angles compensate.
   kActiveSet,
@@ -91,7 +91,7 @@ struct JacobianPinvOptions {
 ///     dΘ = J⁺dX + (I − J⁺J) dZ,   J⁺ = Jᵀ(JJᵀ + μI)⁻¹,   dZ = Θ₀ − Θ
 /// *Ours*: the preferred posture is the start Θ₀, and no step turns an angle by more than 0.6 rad. As in the paper, μ
 /// is zero by default, and limits are kept by clamping the stepped angles. The error may rise near a singularity and
-/// where limits are active, because other angles do not compensate for a clamped one. If JJᵀ is singular (a stretched
+/// where limits are active, because other angles do not compensate for a clamped angle. If JJᵀ is singular (a stretched
 /// limb, figure 3.8), the formula is undefined (`DampedInverse`), and the solver stalls with its present angles.
 /// `IkOptions::weights` and `refresh` do not apply. One iteration is one step; each costs one forward-kinematics pass.
 IkSolution SolveJacobianPinv(const KinematicTree& tree, const IkProblem& problem, const IkOptions& options,

@@ -16,7 +16,7 @@ struct TreeJacobian {
   static constexpr int kPerEffector = 6;
 
   int rows = 0;                ///< kPerEffector times the number of effectors
-  std::vector<double> values;  ///< rows × degrees of freedom, column by column
+  std::vector<double> values;  ///< entries of the matrix, rows × degrees of freedom, column by column
 
   std::span<const double> column(int dof) const {
     return {values.data() + static_cast<std::size_t>(dof) * rows, static_cast<std::size_t>(rows)};

@@ -23,9 +23,9 @@ class PairRows {
   virtual void Compute(int leave_frame, std::span<const int> enter_frames, std::span<double> costs) = 0;
 };
 
-/// Keeps running sums along the diagonals of a table. Its rows are frames of one clip, its columns are frames of
-/// another; along a diagonal, both clips advance by one frame per cell. The sum over any stretch of a diagonal takes
-/// two look-ups. Rows are added one by one. `Value` is a number or a vector of numbers.
+/// Keeps running sums along the diagonals of a table. The table's rows are frames of one clip, its columns are frames
+/// of another clip; along a diagonal, both clips advance by one frame per cell. The sum over any stretch of a diagonal
+/// takes two look-ups. Rows are added one by one. `Value` is a number or a vector of numbers.
 template <class Value>
 class DiagonalSums {
  public:

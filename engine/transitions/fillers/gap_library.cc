@@ -30,7 +30,8 @@ glm::dquat HeadingOf(const glm::dquat& turn) {
   return length > 0 ? glm::dquat(turn.w / length, 0, turn.y / length, 0) : glm::dquat(1, 0, 0, 0);
 }
 
-/// The root's displacement (m) and rotation (times kReach_m) between two frames, in the root frame of the first.
+/// The root's displacement (m) and rotation (times kReach_m) from one frame to another, in the first frame's root
+/// frame.
 struct RootWay {
   glm::dvec3 way, turn;
   RootWay(const TreePose& from, const TreePose& to)

@@ -49,8 +49,8 @@ JoinWindow WindowOf(const JoinInput& input, int frames) {
 
 namespace {
 
-/// Makes the inertialisation of a join of style kDecays: the new motion plays, and the old motion's offset from it
-/// decays.
+/// Makes the inertialisation of a join of style kDecays: the new motion plays, and the old motion's offset from the new
+/// motion decays.
 Inertialiser DecayOf(const JoinWindow& window, int frames) {
   JoinInput input{.shown = window.shown,
                   .target = {window.target_before, window.next[0]},

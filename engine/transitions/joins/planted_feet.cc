@@ -136,7 +136,7 @@ int WaitsUntil(Frames stands, int frame, int last) {
 }
 
 /// Returns the possible steps of a foot, which begin and end at tenths of the window. In variants of a step, the foot
-/// keeps the position of its last stance before the step, takes the position of its next stance after the step, or
+/// keeps the position of its last stance before the step, takes the position of its next stance after the step, or does
 /// both.
 std::vector<StepOption> OptionsOf(const FootTracks& foot) {
   constexpr int kParts = 10, kMinStepFrames = 8;
