@@ -61,7 +61,7 @@ bool IsATree(const KinematicTree& tree) {
 struct FixedPoint {
   glm::dvec3 position;
   std::vector<int> joints;  // from the point to the root
-  double last_limb = 0;     // length from the last joint to the point
+  double last_limb = 0;     // distance of the point from the first of `joints`, metres
 };
 
 FixedPoint FixedBy(const KinematicTree& tree, const Effector& effector, const EffectorTarget& target) {

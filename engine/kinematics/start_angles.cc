@@ -43,8 +43,8 @@ std::optional<Directions> FindDirections(const BodyPose& joints) {
 
 // Returns R_WL of the left foot's limb, whose X axis is the common axis of the hinges at ankle and knee.
 std::optional<glm::dmat3> FindRootFrame(const Directions& directions) {
-  // Both hinges have positive angles about +X when the leg bends. Each cross product is proportional to the sine of its
-  // angle, which weights the normals by their accuracy.
+  // Both hinges have positive angles about +X when the leg bends. Each cross product is proportional to the sine of a
+  // hinge's angle, which weights the normals by their accuracy.
   glm::dvec3 normal = glm::cross(directions[kTreeLeftAnkle], directions[kTreeLeftToe] + directions[kTreeLeftKnee]);
   if (glm::length(normal) < std::sin(kStraight)) {
     // If toe, ankle, knee and hip lie on one line (in a leap, or on the toes), use the hip line instead.

@@ -45,7 +45,7 @@ struct MotionFault {
   FaultKind kind = FaultKind::kFloats;
   double from_s = 0, to_s = 0;     ///< times of the fault's first and last frame
   std::optional<Role> joint = {};  ///< the joint at fault; a limb is named by its far end; absent: the whole body
-  double size = 0;                 ///< the comment of `kind` in FaultKind states its meaning and unit
+  double size = 0;                 ///< meaning and unit: see the comment of `kind` in FaultKind
   std::string text = {};           ///< a sentence for users: "floats 6 cm from 1.20 to 3.20 s"
 };
 

@@ -46,8 +46,8 @@ struct Bearing {
 /// frame.
 std::vector<BodyPose> JointVelocities(std::span<const BodyPose> poses, double rate_hz);
 
-/// Finds the joints that bear a body in every frame of its clip. No floor is assumed: any of the lowest joints may bear
-/// the body.
+/// Finds, for every frame of a clip, the joints that bear the body. No floor is assumed: any of the lowest joints may
+/// bear the body.
 std::vector<Bearing> FindBearing(std::span<const BodyPose> poses, double rate_hz, const SupportRules& rules = {});
 
 /// The rules for a foot in stance. They are stricter than the default rules, so that contacts are unambiguous.

@@ -62,8 +62,8 @@ int BridgeGaps(std::vector<JointPositions>& frames, std::size_t joint, std::size
 }
 
 /// Sets the hip joint centres by the regression of Harrington et al. (2007), "Prediction of the hip joint centre in
-/// adults, children, and patients with cerebral palsy", table 6. Its offsets are in millimetres from the midpoint of
-/// the front markers.
+/// adults, children, and patients with cerebral palsy", table 6. The table's offsets are in millimetres from the
+/// midpoint of the front markers.
 void PlaceHips(const std::array<glm::dvec3, 4>& pelvis, JointPositions& places) {
   const glm::dvec3 front = 0.5 * (pelvis[0] + pelvis[1]), back = 0.5 * (pelvis[2] + pelvis[3]);
   const glm::dvec3 right = glm::normalize(pelvis[1] - pelvis[0]);

@@ -38,7 +38,7 @@ LimbLengths AdultLengths(double stature_m) {
 double FitStature(const SilhouetteBody& body, double stature_m, std::span<const PosedViews> moments,
                   const FitOptions& options) {
   constexpr std::array kScales = {0.94, 0.96, 0.98, 1.0, 1.02, 1.04, 1.06};
-  // Compute the cost of every scale: the sum over all moments of the take.
+  // For every scale of the stature, sum the cost over the moments (pictures of one time).
   const SilhouetteBody average = MakeSilhouetteBody(AdultLengths(stature_m));
   std::array<double, kScales.size()> costs{};
   FitWorkspace workspace;

@@ -58,7 +58,7 @@ HueBlockResult CompareBlock(const HueBlock& block, float cosine2, std::uint8_t* 
     auto x = hn::Add(hn::Sub(r, g), hn::Sub(r, b));
     x = hn::IfThenElse(hn::Eq(hn::Or(x, y), zero), red, x);
     const auto bx = hn::LoadU(wide, block.background_x + i), by = hn::LoadU(wide, block.background_y + i);
-    // Compare both halves and store the bytes.
+    // Compare the two halves of each vector, and store the results as bytes.
     const Half half;
     const auto low = Compare(hn::LowerHalf(half, x), hn::LowerHalf(half, y), hn::LowerHalf(half, bx),
                              hn::LowerHalf(half, by), cosine2, close);

@@ -26,8 +26,8 @@ struct Movement {
   glm::dvec3 start{0}, start_velocity{0}, end_velocity{0};
 };
 /// Returns the position in a movement, relative to its end, `seconds` after its start. The curve is the quintic of
-/// minimum jerk (Flash and Hogan 1985), with the given velocities and zero accelerations at both ends. It is zero from
-/// `blend_s` on.
+/// minimum jerk (Flash and Hogan 1985), with the given velocities and zero accelerations at both ends. The result is
+/// zero from `blend_s` on.
 glm::dvec3 MinimumJerkAt(const Movement& movement, double seconds, double blend_s);
 
 /// The frames of a join, in the frame of the spliced motion.

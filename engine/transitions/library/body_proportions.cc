@@ -63,7 +63,7 @@ double FloorHeight(std::vector<double> heights) {
   return *fifth_percentile;
 }
 
-/// Gives the body new limb lengths; its height above the floor is not corrected.
+/// Gives a moving body the limb lengths of `proportions`; does not correct the body's height above the floor.
 void Rescale(const BodyProportions& proportions, BodyMotion& motion) {
   if (motion.poses.empty()) return;
   const double own_height = StandingHipHeight(motion.poses.front());
