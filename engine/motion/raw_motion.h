@@ -16,8 +16,8 @@ namespace etude {
 /// The number of columns of RawMotion::contacts.
 constexpr std::size_t kFootContacts = 4;
 
-/// A motion as its file has it: all joints, the file's own rate and floor. Only positions are converted, to metres with
-/// Y up.
+/// A motion as its file has it: all joints, the file's own rate and floor. Only unit and axes are converted, to metres
+/// and Y up.
 struct RawMotion {
   std::string name;  ///< the name under which the file was requested
   double rate_hz = 30;

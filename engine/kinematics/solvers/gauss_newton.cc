@@ -169,7 +169,8 @@ class BatchQueue final : public GaussNewtonQueue {
   ScalarHelp& help_;
   IkBatchSolution& solution_;
   Column column_;
-  // The allowed ranges in the order of a problem's limits; empty if they equal the limits.
+  // The numbers of the current problem, with the allowed ranges in place of the limits; empty if ranges and limits are
+  // equal.
   std::vector<double> own_ranges_;
 };
 
