@@ -33,7 +33,7 @@ constexpr std::array<BodyTreeLimb, kBodyTreeJointCount> kLimbs = {{
     {kRightAnkle, kRightFoot},
 }};
 
-// R_WL of limbs when the body stands at rest, facing +Z. The columns are the limb's X, Y and Z axes.
+// R_WL of limbs when the body stands at rest, facing +Z. The columns of a matrix are a limb's X, Y and Z axes.
 const glm::dvec3 kRight(-1, 0, 0), kUp(0, 1, 0), kForward(0, 0, 1);
 const glm::dmat3 kClimbing(kRight, kForward, kUp);
 const glm::dmat3 kHipLine(kForward, kUp, kRight);
@@ -114,8 +114,8 @@ namespace {
 
 using enum Role;
 
-// A joint of the clip, with the limb of the tree that carries this joint. Limbs are rigid, so the joint's children keep
-// their rest offsets and turn with that limb.
+// A joint of the clip, with the limb of the tree to which this joint is fixed. Limbs are rigid, so the joint's children
+// keep their rest offsets and turn with that limb.
 struct ClipJointRow {
   std::string_view name;
   int parent;

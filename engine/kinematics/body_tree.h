@@ -18,7 +18,7 @@ struct LimbLengths {
   double hip_width = 0.18;
   double trunk = 0.50;           ///< navel (midway between the hips) to the base of the neck
   double neck = 0.25;            ///< base of the neck to the head
-  double shoulder_width = 0.36;  ///< distance of the shoulders; the base of the neck is midway between them
+  double shoulder_width = 0.36;  ///< distance between the shoulders; the base of the neck is their midpoint
   double upper_arm = 0.29;
   double forearm = 0.25;
   double hand = 0.18;  ///< wrist to finger tips
@@ -66,8 +66,8 @@ enum BodyTreeJoint {
 
 /// Returns paper B's body (figure 3.10): rooted at the left toe, with 15 joints, 29 degrees of freedom, limits `adult`
 /// and the effectors right foot, left hand, right hand, head, in this order. At rest (all angles zero) it stands with
-/// hanging arms. *Ours*: its feet are level in the rest pose, because with this choice, real clips keep the ankles
-/// within their limits most often.
+/// hanging arms. *Ours*: the feet are level in the rest pose, because the ankles of real clips then stay within their
+/// limits most often.
 KinematicTree MakeBodyTree(const LimbLengths& lengths);
 
 /// One limb of the tree, named by two roles of the canonical body.
@@ -84,10 +84,10 @@ std::span<const BodyTreeLimb, kBodyTreeJointCount> BodyTreeLimbs();
 BodyPose ToBodyPose(const KinematicTree& body, const TreeState& state);
 
 /// Returns a motion of paper B's body as a clip with its own skeleton: metres, Y up, rooted at the hips as other
-/// programs expect. The root's rotation is that of the pelvis. In the tree, the left leg runs from the toe up to the
-/// hip; in the skeleton, from the hip down. The conversion is exact: ComputeGlobals gives every joint the position that
-/// `ToBodyPose` gives. Joint names are MotionBuilder's, so FindJointMap knows them; "LowerBack" coincides with the hips
-/// and carries the navel's rotation. At rest the skeleton stands with hanging arms, facing +Z.
+/// programs expect. The skeleton's root has the pelvis's rotation. The tree's left leg runs from the toe up to the hip;
+/// the skeleton's left leg runs from the hip down. The conversion is exact: ComputeGlobals gives every joint the
+/// position that `ToBodyPose` gives. Joints have MotionBuilder's names, which FindJointMap knows; "LowerBack" coincides
+/// with the hips and has the navel's rotation. At rest the skeleton stands with hanging arms, facing +Z.
 Clip ToClip(const KinematicTree& body, std::span<const TreeState> states, double rate_hz, const std::string& name);
 
 }  // namespace etude

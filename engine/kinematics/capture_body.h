@@ -16,14 +16,14 @@
 
 namespace etude {
 
-/// The body model of a capture: a kinematic tree, and what an observer sees of its parts.
+/// The body model of a capture: a kinematic tree, and what pictures show of the tree's limbs.
 struct CaptureBody {
-  /// The observable parts of an end effector: its position, the direction of the limb that leads to its role, or both.
+  /// What pictures show of an end effector: its position, the direction of its last limb, or both quantities.
   struct End {
     Role role;
     bool has_position = true;
     bool has_direction = true;
-    double sense = 1;  ///< −1 if the tree's limb points towards the trunk, against the strokes; else 1
+    double sense = 1;  ///< −1 if the tree's limb points inwards and the annotator's stroke outwards; else 1
   };
   /// The twist of a limb, given by two neighbouring limbs: the limb's X axis points along
   /// `bends` · (middle − upper) × (lower − middle).
@@ -36,14 +36,14 @@ struct CaptureBody {
   struct ClipJoint {
     std::string name;
     int parent = -1;
-    glm::dvec3 offset{0};  ///< from the parent, in the rest pose, metres
-    int limb = 0;          ///< the limb of the tree that carries this joint
+    glm::dvec3 offset{0};  ///< position relative to the parent in the rest pose, metres
+    int limb = 0;          ///< the limb of the tree to which this joint is fixed
     glm::dmat3 R_LC{1};    ///< the joint's axes in that limb; at rest they are the world's axes
     bool is_end = false;
   };
 
   bool is_paper = false;  ///< true for paper B's body, which has its own rules for lengths and start angles
-  KinematicTree tree;     ///< rooted at the left toe; the root is put at the toe's observed position
+  KinematicTree tree;     ///< its root is the left toe, which is put at the toe's observed position
   std::array<TreePoint, kRoleCount> roles;
   /// True if each hip turns relative to the pelvis by a joint of its own. The hip centre is then the midpoint of both
   /// hips and not a point of a limb.
@@ -52,7 +52,7 @@ struct CaptureBody {
   std::vector<Twist> twists;
   LimbLengths lengths;                      ///< paper B's lengths; each is the mean of left and right
   std::array<double, kRoleCount> bones{};   ///< for each role, the distance from its parent role at rest, metres
-  std::array<bool, kRoleCount> is_rigid{};  ///< of each role: true if no joint lies between it and its parent role
+  std::array<bool, kRoleCount> is_rigid{};  ///< for each role: true if no joint lies between role and parent role
   std::vector<ClipJoint> skeleton;          ///< parents first; empty for paper B's body, which has its own `ToClip`
   TreePoint skeleton_root;                  ///< the position of the first joint of `skeleton`
 };
@@ -63,10 +63,10 @@ CaptureBody PaperBody(const LimbLengths& lengths);
 /// Makes a body for one person from a rest pose: every joint of `rest` that lies between two of the twenty roles
 /// becomes a joint of the tree, so the tree can follow everything the person does. The tree is rooted at the left toe,
 /// where the whole body turns freely. *(Ours.)*
-/// - Joints without a role beyond them are left out. A joint between the pelvis and a hip, as in skeletons of depth
+/// - A joint is left out if no role lies beyond it. A joint between the pelvis and a hip, as in skeletons of depth
 ///   sensors, is kept (`hips_turn`).
-/// - A limb with one child along its own line has two degrees of freedom, which point it in any direction; its rotation
-///   about itself is not visible.
+/// - A limb has two degrees of freedom if its only child lies on the limb's line: two angles point the limb in any
+///   direction, and pictures do not show its rotation about this line.
 /// - These limbs have three degrees of freedom: the pelvis, limbs with several children, limbs whose points do not lie
 ///   on one line, and the upper arms, the right thigh and the left shank, whose rotation turns the plane in which elbow
 ///   or knee bends.
@@ -81,8 +81,8 @@ BodyPose ToBodyPose(const CaptureBody& body, const TreeFrames& frames);
 
 /// Makes the inverse-kinematics problem whose start pose is `start`: move the end effectors back to their observed
 /// positions, and point the last limbs in their observed directions if `CaptureBody::ends` gives them a direction. The
-/// X and Y axes of such a target are those of the start pose, turned by the smallest rotation to that direction; they
-/// have weight 0. Parts that `observation` lacks have weight 0. The limits are those of the tree.
+/// X and Y axes of such a target have weight 0; they are the start pose's axes, turned by the smallest rotation to that
+/// direction. Positions and directions that `observation` lacks have weight 0. The problem has the tree's limits.
 IkProblem MakeImageProblem(const CaptureBody& body, const LimbObservation& observation, const TreeState& start);
 
 /// Returns a motion of the body as a clip with its own skeleton: metres, Y up, rooted at the hips. The conversion is

@@ -17,7 +17,7 @@ constexpr double kMinLimbLengthM = 1e-4;
 constexpr double kMaxOffLineM = 1e-4;
 // A range that never limits an angle: start angles are within half a turn of zero, so no angle reaches ±3π.
 constexpr double kUnlimited = 3 * kPi;
-// The limit of a joint that does not coincide with a role.
+// The largest absolute angle of a joint that coincides with no role, radians.
 constexpr double kMaxHiddenAngle = Radians(90);
 const glm::dvec3 kToTheRight(-1, 0, 0), kDownwards(0, -1, 0), kAhead(0, 0, 1);
 
@@ -41,13 +41,13 @@ class Parts {
     all_[pelvis_].parent = -1;
   }
 
-  /// Returns true if every role belongs to the pelvis or a descendant of it.
+  /// Returns true if every role belongs to the pelvis or to a descendant of the pelvis.
   bool AreConnected() const {
     return std::ranges::all_of(AllRoles(), [&](Role role) { return IsBelowPelvis(carrier_[Index(role)]); });
   }
 
-  /// Removes parts that do not belong to the pelvis or its descendants, and parts without tips. Parts that turn about
-  /// the same point get the same parent.
+  /// Removes parts that do not belong to the pelvis or its descendants, and parts without tips. If a part turns about
+  /// the same point as its parent, it becomes a child of its grandparent.
   void Simplify() {
     for (std::size_t i = 0; i < all_.size(); ++i) all_[i].is_left_out = !IsBelowPelvis(static_cast<int>(i));
     for (const Role role : AllRoles()) AssignToParent(role);
@@ -69,7 +69,7 @@ class Parts {
     return children;
   }
 
-  /// Returns the positions of a part's children and roles that differ from its own joint.
+  /// Returns the positions of a part's children and roles, without those that coincide with the part's own joint.
   std::vector<glm::dvec3> TipsOf(int part) const {
     std::vector<glm::dvec3> tips;
     for (const Role role : AllRoles()) {
@@ -104,7 +104,7 @@ class Parts {
     while (carrier != pelvis_ && AreSame(all_[carrier].at, positions_[role])) carrier = all_[carrier].parent;
   }
 
-  // Removes one part without tips. Returns false if there is none.
+  // Removes one part without tips (`TipsOf`). Returns false if every part has tips.
   bool LeaveOutOne() {
     for (std::size_t i = 0; i < all_.size(); ++i) {
       const int part = static_cast<int>(i);
@@ -182,7 +182,8 @@ class Builder {
     rest_axes_.push_back(glm::dmat3(1));
   }
 
-  // Adds the limb of a part of the left leg, or of the pelvis. The limb begins at the end of limb `below`.
+  // Adds the limb for `part`, which is the pelvis or a part of the left leg. The limb begins at the end of limb
+  // `below`.
   Result<void> AddLeftLegLimb(int part, int below) {
     RestLimb limb;
     limb.from = below < 0 ? parts_.places()[kLeftFoot] : parts_[below].at;
@@ -196,7 +197,7 @@ class Builder {
     return Add(part, below < 0 ? 0 : limb_of_[below], limb);
   }
 
-  // Adds a limb that leads away from the pelvis; its far end is its farthest tip.
+  // Adds a limb that leads away from the pelvis; the limb's far end is the part's farthest tip.
   Result<void> AddOutwardLimb(int part) {
     RestLimb limb{.from = parts_[part].at, .to = parts_[part].at, .tips = parts_.TipsOf(part)};
     for (const glm::dvec3& tip : limb.tips) {
@@ -224,7 +225,7 @@ class Builder {
     }
     // If the parent turns about the same point, attach the limb to the first ancestor that turns about another point.
     while (parent > 0 && AreSame(OriginOf(parent), limb.from)) parent = body_.tree.joints[parent].parent;
-    // Set the limb's axes at rest and its axes at zero angles.
+    // Compute the limb's axes in the rest pose and the limb's axes when all angles are zero.
     TreeJoint joint{.name = {}, .parent = parent};
     const glm::dmat3 R_WL = RestAxes(part, limb);
     joint.p_PJ = glm::transpose(rest_axes_[parent]) * (limb.from - OriginOf(parent));
@@ -252,7 +253,8 @@ class Builder {
                               : IsArm(limb.leads_to)  ? glm::cross(z, kAhead)
                                                       : kToTheRight;
     glm::dvec3 x = wanted - glm::dot(wanted, z) * z;
-    // If that X axis is nearly parallel to Z, take the forward axis instead, then the downward one.
+    // If that X axis is nearly parallel to Z, take the forward axis instead; if the forward axis is, too, take the
+    // downward axis.
     constexpr double kAlong = 0.1;
     if (glm::length(x) < kAlong) x = kAhead - glm::dot(kAhead, z) * z;
     if (glm::length(x) < kAlong) x = kDownwards - glm::dot(kDownwards, z) * z;
@@ -260,9 +262,9 @@ class Builder {
     return {x, glm::cross(z, x), z};
   }
 
-  // Returns the limb's axes at zero angles. Euler angles are singular where a limb points along ±X. For an upper arm X
-  // is therefore diagonal. The two singular directions are then forward-outward and backward-inward (behind the trunk).
-  // Arms point there less often than down, sideways or forward.
+  // Returns the limb's axes when its angles are zero. Euler angles are singular where a limb points along ±X. For an
+  // upper arm X is therefore diagonal. The two singular directions are then forward-outward and backward-inward (behind
+  // the trunk). Arms point there less often than down, sideways or forward.
   glm::dmat3 NeutralAxes(const RestLimb& limb, const glm::dmat3& R_WL) const {
     if (limb.leads_to != kLeftElbow && limb.leads_to != kRightElbow) return R_WL;
     const double back = limb.leads_to == kLeftElbow ? -1 : 1;
@@ -270,7 +272,7 @@ class Builder {
     return {x, glm::cross(kDownwards, x), kDownwards};
   }
 
-  // Returns 3 for limbs whose rotation about their own axis is visible, else 2.
+  // Returns the limb's number of degrees of freedom: 3 if its rotation about its own axis is visible, else 2.
   int DofsOf(int part, const RestLimb& limb) const {
     const bool is_branched = parts_.ChildrenOf(part).size() > 1 || part == parts_.pelvis();
     const glm::dvec3 z = glm::normalize(limb.to - limb.from);
@@ -325,8 +327,8 @@ class Builder {
     add(kLeftAnkle, kLeftHip, kLeftKnee, kLeftAnkle, -1);
   }
 
-  // Adds paper B's four ends. The left foot needs no target position, because the root is put at its observed position;
-  // only the direction of the foot's limb is a target.
+  // Adds paper B's four end effectors. The left foot needs no target position, because the root is put at its observed
+  // position; only the direction of the foot's limb is a target.
   void AddEnds() {
     for (const Role role : {kRightFoot, kLeftHand, kRightHand, kHead}) AddEnd(role, true);
     AddEnd(kLeftFoot, false);
@@ -335,7 +337,7 @@ class Builder {
   void AddEnd(Role role, bool has_position) {
     const glm::dvec3 outer = parts_.places()[role], inner = parts_.places()[*ParentOf(role)];
     const int limb = limb_of_[parts_.CarrierOf(role)];
-    // In the left leg, the limb begins at the outer joint and ends at the inner joint.
+    // A limb of the left leg begins at the joint nearer to the toe and ends at the joint nearer to the pelvis.
     const bool is_climbed = AreSame(OriginOf(limb), outer);
     const TreePoint end = PointAt(is_climbed ? inner : outer, parts_.CarrierOf(role));
     // A direction is a target only if the stroke between the two roles runs along the rigid limb itself.

@@ -56,7 +56,7 @@ void IkBatch::Set(int problem_index, const IkProblem& problem) {
 }
 
 IkProblem IkBatch::Get(int problem_index) const {
-  // Read the column's numbers one after the other, in the order of `Column`.
+  // Read the numbers of this problem's column in the order that `Column` declares.
   const double* from = numbers_.data() + problem_index;
   const auto take = [&] {
     const double number = *from;
@@ -111,7 +111,7 @@ std::vector<int> IkBatch::FindSound() const {
       return std::abs(determinant - 1) < kFrameTolerance;
     });
   };
-  // Check that angles and limits are finite and in order.
+  // Check that angles and limits are finite and that lower ≤ upper.
   for (int dof = 0; dof < dofs_; ++dof) {
     demand_sane(start_angles(dof));
     demand_sane(lower_limits(dof));

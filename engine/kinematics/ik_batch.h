@@ -8,13 +8,13 @@
 
 namespace [[gnu::visibility("default")]] etude {
 
-/// Many problems of one tree as a structure of arrays: one row per number of an `IkProblem`, one column per problem.
+/// Many problems of one tree as one matrix: a row for each number of an `IkProblem`, a column for each problem.
 class IkBatch {
  public:
   /// Makes `count` problems, all zeros.
   IkBatch(const KinematicTree& tree, int count);
-  /// Copies a list of problems. A problem whose lists do not fit the tree stays all zeros; `FindSound` never accepts
-  /// it, because zero axes are not unit vectors.
+  /// Copies a list of problems. If a problem's lists do not fit the tree, its column stays zero; `FindSound` never
+  /// accepts this column, because zero axes are not unit vectors.
   IkBatch(const KinematicTree& tree, std::span<const IkProblem> problems);
 
   int count() const { return count_; }
@@ -22,10 +22,11 @@ class IkBatch {
   std::span<double> start_angles(int dof) { return row(dof); }
   std::span<double> lower_limits(int dof) { return row(dofs_ + dof); }
   std::span<double> upper_limits(int dof) { return row(2 * dofs_ + dof); }
-  /// Returns the row of one number of the root: 0…2 are p_WL, 3…11 are R_WL, column by column.
+  /// Returns the row of one number of the root, over all problems: numbers 0…2 are p_WL, 3…11 are R_WL, column by
+  /// column.
   std::span<double> root(int number) { return row(3 * dofs_ + number); }
-  /// Returns the row of one number of a target: 0…2 are p_WD, 3…11 are R_WD, column by column, 12 is the position
-  /// weight, 13…15 are the axis weights.
+  /// Returns the row of one number of a target, over all problems: numbers 0…2 are p_WD, 3…11 are R_WD, column by
+  /// column, 12 is the position weight, 13…15 are the axis weights.
   std::span<double> target(int effector, int number) {
     return row(3 * dofs_ + kRootNumbers + effector * kTargetNumbers + number);
   }
@@ -37,8 +38,8 @@ class IkBatch {
     return row(3 * dofs_ + kRootNumbers + effector * kTargetNumbers + number);
   }
 
-  /// One problem: element k is `numbers[k * stride]`. The order is start angles, lower limits, upper limits, root,
-  /// targets.
+  /// The numbers of one problem; number k is `numbers[k * stride]`. The order is start angles, lower limits, upper
+  /// limits, root, targets.
   struct Column {
     const double* numbers = nullptr;
     std::size_t stride = 1;

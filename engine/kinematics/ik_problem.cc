@@ -57,17 +57,17 @@ bool IsATree(const KinematicTree& tree) {
   return std::ranges::all_of(tree.effectors, [&](const Effector& e) { return e.joint >= 0 && e.joint < joints; });
 }
 
-// A point whose world position is fixed by a target, and the chain of joints from it to the root.
+// A point whose world position is fixed by a target, and the chain of joints from this point to the root.
 struct FixedPoint {
   glm::dvec3 position;
   std::vector<int> joints;  // from the point to the root
-  double last_limb = 0;     // length from the last joint to the point
+  double last_limb = 0;     // distance of the point from the first of `joints`, metres
 };
 
 FixedPoint FixedBy(const KinematicTree& tree, const Effector& effector, const EffectorTarget& target) {
   FixedPoint point{target.position, {}, glm::length(effector.p_LE)};
   const glm::dvec3& w = target.axis_weights;
-  if (w.x > 0 && w.y > 0 && w.z > 0) {  // if all axes have targets, the upper end of the limb is fixed, too
+  if (w.x > 0 && w.y > 0 && w.z > 0) {  // if all axes have targets, the limb's joint is fixed, too
     point.position -= target.axes * effector.p_LE;
     point.last_limb = 0;
   }
@@ -77,7 +77,7 @@ FixedPoint FixedBy(const KinematicTree& tree, const Effector& effector, const Ef
 
 // The chain of limbs from a point up to a joint.
 struct Branch {
-  double length = 0;  // total length of its limbs, metres
+  double length = 0;  // total length of the chain's limbs, metres
   int top = -1;       // the last joint of the chain; −1 if it has none
 };
 
@@ -96,7 +96,7 @@ Branch BranchOf(const KinematicTree& tree, const FixedPoint& point, std::span<co
 double LongestBetween(const KinematicTree& tree, const FixedPoint& a, const FixedPoint& b) {
   const Branch to_a = BranchOf(tree, a, b.joints), to_b = BranchOf(tree, b, a.joints);
   if (to_a.top < 0 || to_b.top < 0) return to_a.length + to_b.length;
-  // Both chains end on the same rigid limb, so the distance between their joints on it is known exactly.
+  // Both chains end at joints of the same rigid limb, so the distance between these two joints is constant.
   const glm::dvec3& p_PA = tree.joints[to_a.top].p_PJ;
   const glm::dvec3& p_PB = tree.joints[to_b.top].p_PJ;
   return to_a.length + to_b.length - glm::length(p_PA) - glm::length(p_PB) + glm::distance(p_PA, p_PB);

@@ -14,8 +14,8 @@
 
 namespace [[gnu::visibility("default")]] etude {
 
-/// The rule for weighting an end effector's position error against the errors of its three axes. Paper B, section
-/// 3.7.3, proposes weights that depend on the errors but gives no formula; the formulas are ours. Here e is the
+/// The rule that weights an end effector's position error against the errors of the effector's three axes. Paper B,
+/// section 3.7.3, proposes weights that depend on the errors but gives no formula; the formulas are ours. Here e is the
 /// distance to the target in cm, and θ_k the angle of axis k to its target axis.
 enum class WeightRule {
   kFixed,          ///< w_p = 1, w_o = 1
@@ -26,7 +26,7 @@ enum class WeightRule {
   kWangChen,       ///< w_p = 0.0007 (1 + min/max(|P_d|, |P_c|)), w_o = 1 (Wang and Chen 1991)
 };
 
-/// How often a sweep recomputes adaptive weights: once per sweep, per joint, or per degree of freedom.
+/// How often a solver recomputes adaptive weights: once per sweep, joint, or degree of freedom.
 enum class WeightRefresh { kSweep, kJoint, kDof };
 
 /// Returns the names that scenario files use: "fixed", "fixed-tuned", … and "sweep", "joint", "dof".
@@ -54,7 +54,7 @@ struct WeightFormula {
 /// Returns the rule in SI units; for `kWangChen` the formula lacks the factor 1 + ρ.
 WeightFormula FormulaOf(WeightRule rule);
 
-/// Returns true if the weights depend on the errors. The weights of `kWangChen` do not; they depend on the joint that
+/// Returns true if the weights depend on the errors. Instead, the weights of `kWangChen` depend on the joint that
 /// turns.
 bool IsAdaptive(WeightRule rule);
 
@@ -62,14 +62,14 @@ bool IsAdaptive(WeightRule rule);
 /// radians. For `kWangChen` the factor 1 + ρ is missing: multiply `position` by `WangChenFactor` at each joint.
 EffectorWeights ComputeWeights(WeightRule rule, double distance, const glm::dvec3& axis_angles);
 
-/// Returns 1 + ρ, where ρ = min / max of the distances of the effector and of its target from the joint; returns 1 if
-/// both distances are 0.
+/// Returns 1 + ρ, where ρ is the ratio min / max of two distances from the joint: the effector's and the target's.
+/// Returns 1 if these are 0.
 double WangChenFactor(const glm::dvec3& current, const glm::dvec3& desired);
 
-/// The desired pose X_WD of one end effector, and the weight of each part of it.
+/// The desired pose X_WD of one end effector, and the weights of its position and of its axes.
 struct EffectorTarget {
   glm::dvec3 position{0};      ///< p_WD, metres
-  glm::dmat3 axes{1};          ///< R_WD: its three axes in the world, unit columns
+  glm::dmat3 axes{1};          ///< R_WD: the desired axes in the world, as unit columns
   double position_weight = 1;  ///< multiplies w_p of the weight rule; 0 if the position is unknown
   glm::dvec3 axis_weights{1};  ///< multiplies w_o of each axis; (0, 0, 1) when only the limb's direction is known
 };
@@ -78,7 +78,7 @@ struct EffectorTarget {
 /// `start`; the root of `start` stays fixed.
 struct IkProblem {
   TreeState start;
-  std::vector<EffectorTarget> targets;  ///< one per effector of the tree, in its order
+  std::vector<EffectorTarget> targets;  ///< one per effector of the tree, in the tree's order
   std::vector<AngleRange> limits;       ///< one per degree of freedom; usually the tree's own limits
 };
 
@@ -96,26 +96,26 @@ struct SolverSettings {
   bool operator==(const SolverSettings&) const = default;
 };
 
-/// Options that all solvers share. Each solver's own options are in its header.
+/// Options that all solvers share. A solver's own options are in the solver's header.
 struct IkOptions {
-  WeightRule weights = WeightRule::kAdaptive;  ///< the rule of weights; only CCD solvers use it
+  WeightRule weights = WeightRule::kAdaptive;  ///< the rule of weights; only the CCD solvers read this option
   WeightRefresh refresh = WeightRefresh::kSweep;
   SolverSettings solver_settings;  ///< settings of single solvers, which `IkSolver::solve` reads
   bool limits = true;              ///< true: angles stay within their limits (paper B, 3.7.1); false: they are free
   /// Maximum difference between an angle and its start angle, radians (paper B, section 3.7.2). nullopt means no limit.
   std::optional<double> angle_change_tolerance;
   int max_iterations = 200;
-  /// A pose has converged if every effector is nearer to its target than `position_goal`, and each of its axes is
-  /// nearer to the target's axis than `axis_goal`. Axes and positions of weight 0 do not count. (A mean over the axes
-  /// would accept a twisted limb, because a twist does not change the limb's own axis.) The defaults, 0.1 cm and 0.1°,
-  /// mean "solved practically".
+  /// A pose has converged if every effector is nearer to its target than `position_goal`, and each of the effector's
+  /// axes is nearer to the target's axis than `axis_goal`. Axes and positions of weight 0 do not count. (A mean over
+  /// the axes would accept a twisted limb, because a twist does not change the limb's own axis.) The defaults, 0.1 cm
+  /// and 0.1°, mean "solved practically".
   double position_goal = 0.001;     ///< metres
   double axis_goal = Radians(0.1);  ///< radians
-  /// A solver has stalled if no angle moves by more than this in one iteration, radians. The default is far below any
-  /// goal and above rounding.
+  /// A solver has stalled if no angle changes by more than `stall_change` radians in one iteration. The default is far
+  /// below any goal and above rounding.
   double stall_change = 1e-10;
   bool trace = false;  ///< if true, IkSolution::trace is filled
-  /// Maximum number of trace entries; later ones are dropped. Lower it for long runs: an entry takes half a kilobyte
+  /// Maximum number of trace entries; later entries are dropped. Lower it for long runs: an entry takes half a kilobyte
   /// and costs time.
   int max_trace_entries = std::numeric_limits<int>::max();
 
@@ -135,14 +135,14 @@ struct EffectorError {
   double position = 0;        ///< metres
   glm::dvec3 axis_angles{0};  ///< angles between the axes and their target axes, radians
 
-  /// Returns the mean angle over the axes whose weight is positive, radians; 0 if there is none.
+  /// Returns the mean of `axis_angles` over the axes of positive weight, radians; 0 if no weight is positive.
   double MeanAxisAngle(const glm::dvec3& axis_weights) const;
 };
 
-/// The state after one iteration; entry 0 is the start.
+/// The errors after one iteration of a solver; entry 0 of a trace has the errors of the start pose.
 struct IkTraceEntry {
   double worst_position = 0;   ///< metres, the largest over the effectors
-  double worst_axis = 0;       ///< radians, the largest of a single axis; this is compared with `axis_goal`
+  double worst_axis = 0;       ///< radians, the largest of a single axis; `axis_goal` is the limit for this error
   double worst_mean_axis = 0;  ///< radians, the largest mean over an effector's axes
   std::vector<EffectorError> errors;
   std::vector<double> angles;
@@ -160,7 +160,7 @@ struct IkSolution {
 /// Upper bound on the magnitude of every number of a problem (in metres: 1,000 km). For larger numbers, squared
 /// distances lose the digits that the goals depend on.
 inline constexpr double kMaxIkValue = 1e6;
-/// Tolerances on the squared length of an axis and on the determinant of a frame, which should both be 1.
+/// Tolerances for two numbers that should be 1: the squared length of an axis, and the determinant of a frame.
 inline constexpr double kUnitTolerance = 2e-6, kFrameTolerance = 1e-5;
 
 /// Returns the fault of a problem as text, or an empty text if there is none. Faults are: joints that form no tree;
@@ -168,8 +168,8 @@ inline constexpr double kUnitTolerance = 2e-6, kFrameTolerance = 1e-5;
 /// finite or exceed `kMaxIkValue`; limbs of zero length (a joint may coincide with the root); limits with lower >
 /// upper; axes that are not orthonormal; negative weights; an iteration limit below 1.
 std::string_view FindFault(const KinematicTree& tree, const IkProblem& problem, const IkOptions& options);
-/// Each of the following functions makes only some of these checks. They check, in this order: tree and options; the
-/// tree; the options; a problem whose tree has no faults.
+/// Each of the following four functions makes some of these checks: the first checks tree and options, the second only
+/// the tree, the third only the options, the fourth a problem whose tree has no faults.
 std::string_view FindFault(const KinematicTree& tree, const IkOptions& options);
 std::string_view FindTreeFault(const KinematicTree& tree);
 std::string_view FindFault(const IkOptions& options);
@@ -180,14 +180,14 @@ std::string_view FindProblemFault(const KinematicTree& tree, const IkProblem& pr
 /// returns false, the targets may still be unreachable.
 bool IsOutOfReach(const KinematicTree& tree, const IkProblem& problem);
 
-/// Returns the range that every angle may take: the intersection of its limits (if `IkOptions::limits` is true) with
-/// the angle-change tolerance around its start angle. The start angle is first clamped into its limits, so the
+/// Returns the range that each angle may take: the angle's limits (if `IkOptions::limits` is true), intersected with
+/// the angle-change tolerance around the start angle. The start angle is first clamped to the limits, so the
 /// intersection is never empty.
 std::vector<AngleRange> AllowedRanges(const IkProblem& problem, const IkOptions& options);
 /// Returns the range that one angle may take, by the rule of `AllowedRanges`.
 AngleRange AllowedRange(double start_angle, const AngleRange& limits, const IkOptions& options);
 
-/// Returns the distance of an effector from its target, and the angles between their axes.
+/// Returns the distance of an effector from its target, and the angles between the effector's and the target's axes.
 EffectorError ErrorOf(const LimbFrame& effector, const EffectorTarget& target);
 
 /// The largest errors over all effectors; positions and axes of weight 0 do not count.
@@ -195,7 +195,7 @@ struct WorstError {
   double position = 0;  ///< metres
   double axis = 0;      ///< radians, of a single axis
 
-  /// Returns true if both errors are below the goals; false for NaN.
+  /// Returns true if `position` and `axis` are below their goals; false for NaN.
   bool Within(const IkOptions& options) const { return position < options.position_goal && axis < options.axis_goal; }
 };
 /// Returns the largest errors of all effectors.

@@ -20,13 +20,13 @@ constexpr Named<LimitSet> kLimitSets[] = {{"adult", LimitSet::kAdult},
 constexpr double kMaxSidewaysDeg = 80;
 constexpr double kNotGiven = -1;
 
-// Angles from the anatomical position in degrees, one per column of table 3.1.
+// The extreme angles of one movement, degrees from the anatomical position: one per column of table 3.1.
 using Movement = std::array<double, 4>;
 constexpr Movement kNone{0, 0, 0, 0};
 constexpr Movement kShoulderFlexion{180, 180, 90, 150};
 constexpr Movement kShoulderExtension{60, 45, 45, 50};
 constexpr Movement kShoulderAbduction{180, 180, 180, 180};
-constexpr Movement kShoulderAdduction{30, 30, 30, 30};  // not in the table
+constexpr Movement kShoulderAdduction{30, 30, 30, 30};  // not in table 3.1; ours
 constexpr Movement kShoulderInner{70, 70, 55, 90};
 constexpr Movement kShoulderOuter{90, 90, 45, 90};
 constexpr Movement kElbowFlexion{150, 145, 150, 140};
@@ -62,7 +62,7 @@ struct DofRow {
   const Movement& rises;
 };
 
-// All degrees of freedom in the tree's order.
+// The rows of all degrees of freedom, in the order of the tree's angles.
 constexpr std::array<DofRow, 29> kDofs = {{
     {kTreeLeftAnkle, 0, kAnkleDorsiflexion, kAnklePlantarflexion},
     {kTreeLeftKnee, 0, kNone, kKneeFlexion},

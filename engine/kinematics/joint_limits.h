@@ -15,7 +15,7 @@ enum class LimitSet {
   kAaos,        ///< American Academy of Orthopaedic Surgeons
   kKendall,     ///< Kendall and McCreary; values missing here, in kHoppenfeld or in kAma are taken from kAaos
   kHoppenfeld,  ///< Hoppenfeld
-  /// American Medical Association. The table splits its trunk into two parts: flexion and rotation are the thoracic
+  /// American Medical Association. Its column has two parts of the trunk: flexion and rotation are the thoracic
   /// spine's, extension and lateral bending the lumbar spine's.
   kAma,
 };
@@ -29,10 +29,12 @@ std::optional<LimitSet> FindLimitSet(std::string_view name);
 /// the tree is *ours*; the left side mirrors the right side:
 /// - X is flexion and extension (hips, knees, ankles, trunk, neck, shoulders, elbows, wrists); Y is abduction, the
 ///   wrist's radial abduction, and lateral bending of trunk and neck; Z is rotation about the limb. Inversion of the
-///   foot turns its toes inward and is therefore a rotation about Y; the ankle at the root has no such axis.
+///   foot turns its toes inward and is therefore a rotation about Y; the left ankle, next to the tree's root, has no Y
+///   axis.
 /// - The tree runs up the left leg, so the left hip's angles turn the pelvis about the thigh: X is abduction
 ///   (negative), Y outer (negative) and inner rotation, Z flexion (negative). Each angle alone has the same range of
-///   movement as on the right side. Several angles together are composed in another order than at the right hip.
+///   movement as on the right side. If several angles differ from zero, the left hip applies them in another order than
+///   the right hip.
 /// - |Y| is limited to 80°, below the singularity of the three Euler angles at 90°. This shortens the shoulder's
 ///   abduction.
 /// - The table has no shoulder adduction, so it is taken from `adult`. The tree has no axis for pronation and

@@ -37,7 +37,7 @@ bool IsUsable(const LimbObservation& observation) {
   return true;
 }
 
-// Builds one chain of figure 3.2(a) from its end inwards.
+// Builds one limb chain of figure 3.2(a), from the end effector inwards.
 class ChainBuilder {
  public:
   ChainBuilder(const LimbObservation& observation, BodyPose& joints) : observation_(observation), joints_(joints) {}
@@ -84,8 +84,8 @@ class Completer {
       CompleteDirections({chain.middle, chain.wrist, chain.end});
     }
     CompleteDirections({kHead});
-    // Find the midpoints of hips and shoulders from the observed end effectors. Without these, a midpoint follows from
-    // the other midpoint, from the head, or from `like`.
+    // Find the midpoints of hips and shoulders from the observed end effectors. If neither effector of a pair was seen,
+    // the midpoint follows from the other midpoint, from the head, or from `like`.
     const LimbPair legs{kLeftLegChain,  kRightLegChain, lengths_.hip_width,
                         lengths_.thigh, lengths_.shank, lengths_.foot};
     const LimbPair arms{kLeftArmChain,      kRightArmChain,   lengths_.shoulder_width,
@@ -98,7 +98,7 @@ class Completer {
                             : Lacks(kHead)   ? like_[kHipCentre]
                                              : whole_.ends[kHead] - neck - trunk;
     const glm::dvec3 shoulders = seen_shoulders.value_or(hips + trunk);
-    // Extend the limbs from these midpoints to the missing ends.
+    // Extend arms and legs from these midpoints to the missing end effectors.
     PutEnds(legs, hips);
     PutEnds(arms, shoulders);
     if (Lacks(kHead)) whole_.ends[kHead] = shoulders + neck;
@@ -130,18 +130,19 @@ class Completer {
 
   bool Lacks(Role end) const { return whole_.lacks_end[Index(end)]; }
 
-  /// Returns the vector from the root of a chain to its end, from its lengths and directions.
+  /// Returns the vector from a chain's root to its end, computed from the lengths and directions of the limbs.
   glm::dvec3 Reach(const Chain& chain, const LimbPair& pair) const {
     return pair.upper * Direction(chain.middle) + pair.lower * Direction(chain.wrist) +
            pair.last * Direction(chain.end);
   }
 
-  /// Returns the vector from the midpoint of both chain roots to the right root.
+  /// Returns the vector from the midpoint of both chains' roots to the right chain's root.
   glm::dvec3 HalfAcross(const LimbPair& pair) const {
     return 0.5 * pair.width * UnitOr(like_[pair.right.root] - like_[pair.left.root], {-1, 0, 0});
   }
 
-  /// Returns the midpoint of both chain roots, computed from the observed ends; nullopt if none was observed.
+  /// Returns the midpoint of both chains' roots, computed from the observed end effectors; nullopt if neither was
+  /// observed.
   std::optional<glm::dvec3> MiddleOfRoots(const LimbPair& pair) const {
     const glm::dvec3 from_left = whole_.ends[pair.left.end] - Reach(pair.left, pair) + HalfAcross(pair);
     const glm::dvec3 from_right = whole_.ends[pair.right.end] - Reach(pair.right, pair) - HalfAcross(pair);

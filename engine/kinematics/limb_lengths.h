@@ -31,26 +31,26 @@ std::span<const Role, 13> ObservedLimbs();
 /// the value lies between the built-in body's 0.40 and 0.5.*
 constexpr double kSpineShare = 0.45;
 
-/// Returns the twenty joints after every limb is given its known length (paper B, section 3.2, figure 3.2):
-/// (a) Start at every end and follow the limbs' directions inwards as far as hips and shoulders.
+/// Returns the positions of the twenty joints after every limb got its known length (paper B, section 3.2, figure 3.2):
+/// (a) Start at every end effector and follow the limbs' directions inwards as far as hips and shoulders.
 /// (b) Join the legs by the hip vector and the arms by the shoulder vector, each with its known width; the left side
 ///     stays and the right side moves.
 /// (c) P₁ is the midpoint of the hips, P₂ the foot of the perpendicular from P₁ on the line through both shoulders.
-///     Both arms move along that line until P₂ is their midpoint. *Ours*: P₂ and the arms then move along P₁P₂ until
-///     the trunk has its known length. The head follows from P₂.
-/// Afterwards all lengths are right, and the left foot is at its observed position. The other ends have moved, and
-/// inverse kinematics must move them back. Returns nullopt if the input is not finite, a direction or a length is not
-/// positive, or both hips, both shoulders, or P₁ and P₂ coincide.
+///     Both arms move along that line until P₂ is the midpoint of the shoulders. *Ours*: P₂ and the arms then move
+///     along P₁P₂ until the trunk has its known length. The head follows from P₂.
+/// Afterwards all lengths are right, and the left foot is at its observed position. The other end effectors have moved,
+/// and inverse kinematics must move them back. Returns nullopt if the input is not finite, a direction or a length is
+/// not positive, or both hips, both shoulders, or P₁ and P₂ coincide.
 std::optional<BodyPose> FixLimbLengths(const LimbObservation& observation, const LimbLengths& lengths);
 
-/// Returns the limb lengths with which paper B's body follows a motion: means over both sides and all frames. The trunk
-/// ends midway between the shoulders, where the neck begins, as in paper B's model (a real neck begins a little
+/// Returns the limb lengths of a moving person for paper B's body: means over left and right and over all poses. The
+/// trunk ends midway between the shoulders, where the neck begins, as in paper B's model (a real neck begins a little
 /// higher). `poses` must not be empty.
 LimbLengths MeasureLimbLengths(std::span<const BodyPose> poses);
 
 /// Completes an observation so that `FixLimbLengths` can use it. Observed values stay as they are, and `lacks_end` and
-/// `lacks_direction` still mark the completed ones. *(Ours; in paper B every limb is marked in every picture.)*
-/// - A missing limb direction is the direction in `like`, rotated with the nearest observed limb between it and the
+/// `lacks_direction` still mark the completed values. *(Ours; in paper B every limb is marked in every picture.)*
+/// - A missing limb direction is the direction in `like`, rotated with the nearest observed limb on the way to the
 ///   trunk: by the smallest rotation from that limb's direction in `like` to its observed direction. If there is no
 ///   such limb, the direction in `like` is used unchanged.
 /// - A missing end effector follows from the rest of the body: hips and shoulders have their orientation in `like`, and

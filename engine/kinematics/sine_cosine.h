@@ -10,8 +10,8 @@ struct SineCosine {
 };
 
 /// Returns sine and cosine of an angle in radians, for |angle| ≤ 10⁶. The error is at most 1.5 units in the last place
-/// up to 100 rad and 2.5 beyond. The code has no branches, so compilers can compute several angles at once. It gives
-/// the same bits with every C library.
+/// for angles up to 100 rad, and 2.5 units for larger angles. The code has no branches, so compilers can compute
+/// several angles at once. It gives the same bits with every C library.
 ///
 /// The angle is reduced to r in [−π/4, π/4] by subtracting the nearest multiple of π/2, with π/2 split into three parts
 /// (Cody and Waite); the first part is short enough for its multiple to be exact. In that interval, the Taylor series

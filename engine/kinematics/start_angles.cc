@@ -18,7 +18,7 @@ constexpr double kStraight = Radians(3);  // if two limbs are this close to one 
 constexpr double kMinLengthM = 1e-6;
 const glm::dvec3 kAlong(0, 0, 1);  // every limb points along this direction in its own frame
 
-// A limb whose rotation about itself follows from the hinge at its end.
+// A limb whose rotation about its own Z axis is determined by the axis of the hinge at its far end.
 struct TwistHinge {
   BodyTreeJoint limb, hinge;
   double bends;  // sign of the rotation about X by which the hinge bends
@@ -41,10 +41,10 @@ std::optional<Directions> FindDirections(const BodyPose& joints) {
   return directions;
 }
 
-// Returns R_WL of the left foot. Its X axis is the common axis of the hinges at ankle and knee.
+// Returns R_WL of the left foot's limb, whose X axis is the common axis of the hinges at ankle and knee.
 std::optional<glm::dmat3> FindRootFrame(const Directions& directions) {
-  // Both hinges turn about +X by positive angles from foot to thigh. Each cross product is proportional to the sine of
-  // its angle, which weights the normals by their accuracy.
+  // Both hinges have positive angles about +X when the leg bends. Each cross product is proportional to the sine of a
+  // hinge's angle, which weights the normals by their accuracy.
   glm::dvec3 normal = glm::cross(directions[kTreeLeftAnkle], directions[kTreeLeftToe] + directions[kTreeLeftKnee]);
   if (glm::length(normal) < std::sin(kStraight)) {
     // If toe, ankle, knee and hip lie on one line (in a leap, or on the toes), use the hip line instead.

@@ -12,10 +12,11 @@ namespace etude {
 /// Returns the pose of paper B's body (`MakeBodyTree`) whose limbs point as in `joints` (section 3.3); the root stands
 /// at the left foot. From the root outwards, every joint takes the angles that point its limb in the desired direction,
 /// given the actual pose of the joints before it. If an angle is clipped at its limit, the next joint therefore
-/// compensates as far as possible. Two positions do not define the rotation of a limb about itself. These rules define
-/// it *(ours)*:
-/// - upper arms and the right thigh: the X axis of elbow and knee is normal to both limbs, unless these are nearly
-///   parallel (3°). In that case, and for the neck, the smallest rotation from the parent's rest frame is used;
+/// compensates as far as possible. The positions of a limb's two ends do not define its rotation about its own line.
+/// These rules do *(ours)*:
+/// - upper arms and the right thigh: the X axis of elbow or knee is normal to the two limbs that meet there, unless
+///   these limbs are nearly parallel (3°). In that case, and for the neck, the smallest rotation from the parent's rest
+///   frame is used;
 /// - the left leg, whose three limbs are joined by hinges with a common X axis: this axis is the mean of the normals at
 ///   ankle and knee, and the limbs lie in the plane normal to it, as near as possible to their directions. If the whole
 ///   leg with the foot is straight, the axis is the component of the hip line that is normal to the leg;

@@ -27,11 +27,11 @@ struct TreeJoint {
   int parent = -1;     ///< parents come before children; −1 for the root, which does not turn
   glm::dvec3 p_PJ{0};  ///< metres
   glm::dmat3 R_PJ{1};
-  int first_dof = 0;  ///< index of its X angle in the list of all angles
+  int first_dof = 0;  ///< index of the joint's X angle in the list of all angles
   int dof_count = 0;  ///< 0…3
 };
 
-/// The free end E of a limb L that has a target. Its axes are the limb's axes.
+/// The end effector E of a limb L. The axes of E are the limb's axes.
 struct Effector {
   std::string_view name;
   int joint = 0;       ///< the joint whose limb ends here
@@ -73,8 +73,8 @@ struct LimbFrame {
 /// The result of forward kinematics for one pose; everything is expressed in the world.
 struct TreeFrames {
   std::vector<LimbFrame> joints;     ///< X_WL of each joint's limb
-  std::vector<glm::dmat3> R_WJ;      ///< of each joint: the axes of its limb before the joint turns
-  std::vector<glm::dvec3> dof_axes;  ///< of each degree of freedom: unit vector of its rotation axis
+  std::vector<glm::dmat3> R_WJ;      ///< for each joint: the limb's axes before the joint turns
+  std::vector<glm::dvec3> dof_axes;  ///< for each degree of freedom: the unit vector of the rotation axis
   std::vector<LimbFrame> effectors;  ///< X_WE
 };
 

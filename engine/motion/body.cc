@@ -8,7 +8,7 @@ namespace {
 
 struct RoleFacts {
   std::string_view name;
-  Role parent;  // the root's parent is itself
+  Role parent;  // the root is its own parent
   Role mirrored;
 };
 
@@ -99,8 +99,8 @@ BodyPose FloorMove::Apply(const BodyPose& pose) const {
 }
 
 glm::dvec3 Facing(const BodyPose& pose) {
-  // The lines from right to left through hips and shoulders point to the person's left (+X at rest); left × up is
-  // forward.
+  // The vectors from right to left hip and from right to left shoulder point to the person's left (+X at rest); left ×
+  // up is forward.
   const glm::dvec3 left = (pose[kLeftHip] - pose[kRightHip]) + (pose[kLeftShoulder] - pose[kRightShoulder]);
   const glm::dvec3 forward = glm::cross(left, glm::dvec3(0, 1, 0));
   const double length = glm::length(forward);

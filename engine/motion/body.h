@@ -48,7 +48,7 @@ std::string_view RoleName(Role role);
 std::optional<Role> FindRole(std::string_view name);
 /// Returns the joint's parent; the hip centre has none.
 std::optional<Role> ParentOf(Role role);
-/// A side of the body, the person's own.
+/// A side of the body: the person's own left or right.
 enum class Side { kLeft, kRight };
 
 /// Returns the same joint on the other side; a joint on the body's middle line is returned unchanged.
@@ -78,9 +78,9 @@ struct Bone {
   Role parent;
   Role child;
 };
-/// Lists the nineteen limbs, in the order of their child's role.
+/// Lists the nineteen limbs, in the order of the role at each limb's outer end.
 std::span<const Bone, kRoleCount - 1> AllBones();
-/// Lists both bones of each arm and leg, without hands and feet.
+/// Lists the two long bones of each arm and leg, without hands and feet.
 std::span<const Bone, 8> ArmAndLegBones();
 
 double BoneLength(const BodyPose& pose, const Bone& bone);
@@ -108,8 +108,8 @@ FloorMove ToOrigin(const BodyPose& pose);
 /// other. Heights and limbs do not change.
 FloorMove AlignOnFloor(const BodyPose& pose, const BodyPose& onto);
 
-/// Returns the largest distance between the same joints of two poses, metres, after `AlignOnFloor`. Heading and
-/// position on the floor therefore have no effect.
+/// Returns the largest distance between the same joints of two poses, metres, after `AlignOnFloor`. The poses' headings
+/// and positions on the floor therefore have no effect.
 double PoseGap(const BodyPose& a, const BodyPose& b);
 
 }  // namespace etude

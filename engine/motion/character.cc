@@ -39,7 +39,7 @@ DeformedMesh Deform(const SkinnedMesh& mesh, const std::vector<GlobalTransform>&
   deformed.positions.reserve(mesh.vertices.size());
   deformed.normals.reserve(mesh.vertices.size());
   for (const SkinnedMesh::Vertex& vertex : mesh.vertices) {
-    if (vertex.weights[0] == 1) {  // the usual case: one binding
+    if (vertex.weights[0] == 1) {  // the usual case: one binding has the whole weight
       const Move& move = moves[vertex.bindings[0]];
       deformed.positions.push_back(move.shift + move.axes * vertex.position);
       deformed.normals.push_back(TransformedNormal(normal_moves[vertex.bindings[0]], vertex.normal));

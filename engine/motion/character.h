@@ -15,7 +15,7 @@ namespace etude {
 struct Material {
   std::string name;
   glm::dvec3 colour{0.8};   ///< linear RGB, 0…1 (glTF's base colour factor)
-  SharedTexture texture{};  ///< if set, replaces `colour`; its texels are already multiplied by the colour
+  SharedTexture texture{};  ///< if set, replaces `colour`; the texels are already multiplied by `colour`
 };
 
 /// A surface that follows a skeleton by linear blend skinning (glTF's skin). A rigid mesh has one binding.
@@ -28,19 +28,19 @@ struct SkinnedMesh {
   struct Vertex {
     glm::dvec3 position{0};
     glm::dvec3 normal{0};                       ///< unit vector
-    std::array<int, 4> bindings{};              ///< indices into the mesh's bindings
+    std::array<int, 4> bindings{};              ///< indices of bindings in SkinnedMesh::bindings
     std::array<double, 4> weights{1, 0, 0, 0};  ///< weights of these bindings; they sum to 1
     glm::dvec2 on_texture{0};                   ///< texture coordinates
   };
 
   std::string name;
-  int material = 0;  ///< index into the character's materials
+  int material = 0;  ///< index of the mesh's material in Character::materials
   std::vector<Binding> bindings;
   std::vector<Vertex> vertices;
   std::vector<std::array<std::uint32_t, 3>> triangles;  ///< counter-clockwise seen from outside
 };
 
-/// A figure that can be drawn: surfaces on a skeleton, in the unit and axes of its file.
+/// A figure that can be drawn: meshes bound to a skeleton, in the unit and axes of the character's file.
 struct Character {
   std::string name;
   Skeleton skeleton;

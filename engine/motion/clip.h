@@ -39,7 +39,7 @@ struct Skeleton {
 
 LocalPose RestPose(const Skeleton& skeleton);
 
-/// A motion clip with its own full skeleton, in its file's own unit and axes.
+/// A motion clip with the whole skeleton of its file, in the file's unit and axes.
 struct Clip {
   std::string name;
   Skeleton skeleton;
@@ -50,7 +50,8 @@ struct Clip {
   double DurationSeconds() const { return frames.empty() ? 0 : static_cast<double>(frames.size() - 1) / rate_hz; }
 };
 
-/// A joint's pose in the world: p ↦ position + axes · p. The axes are a rotation unless a joint above has a scale.
+/// A joint's pose in the world: p ↦ position + axes · p. `axes` is a rotation unless the joint or one of its ancestors
+/// has a scale.
 struct GlobalTransform {
   glm::dvec3 position{0};
   glm::dmat3 axes{1};
@@ -63,19 +64,19 @@ void ComputeGlobals(const Skeleton& skeleton, const LocalPose& pose, std::vector
 /// linearly. `part` is 0 at `from` and 1 at `to`.
 LocalTransform Between(const LocalTransform& from, const LocalTransform& to, double part);
 
-/// Returns the pose of a clip at a frame number from 0, which may be fractional and is clamped to the clip. Every
-/// joint's rotation is interpolated along the shorter great arc (slerp), translations and scales linearly.
+/// Returns the pose of a clip at a frame number. The number counts from 0, may be fractional, and is clamped to the
+/// clip. Every joint's rotation is interpolated along the shorter great arc (slerp), translations and scales linearly.
 /// Interpolating rotations keeps the lengths of limbs; interpolating positions would shorten them. A whole number
 /// returns the frame unchanged. The clip must have at least one frame.
 LocalPose SampleFrame(const Clip& clip, double frame);
 
 /// Returns a skeleton that names its joints after the twenty roles, in metres, Y up, rooted at the hip centre. Its rest
-/// pose is `rest`, with all axes parallel to the world's. Characters are bound to this skeleton.
+/// pose is `rest`, with the axes of all joints parallel to the world's. Characters are bound to this skeleton.
 Skeleton BodySkeleton(const BodyPose& rest);
 
 /// Converts a motion to a clip whose skeleton is BodySkeleton of the first frame. All rotations are the identity, and
-/// every joint has its own translation from its parent. ComputeGlobals therefore returns every position exactly, even
-/// if limbs change their lengths. The motion must have at least one frame.
+/// every joint has a translation from its parent in every frame. ComputeGlobals therefore returns every position
+/// exactly, even if limbs change their lengths. The motion must have at least one frame.
 Clip ToClip(const BodyMotion& motion, std::string name);
 
 }  // namespace etude

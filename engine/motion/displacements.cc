@@ -56,7 +56,7 @@ double AgreedLength(const PoseSteps& vectors, const glm::dvec3& median, double r
   return count >= fault_limits::kAgreeingShare * kRoleCount ? length : 0;
 }
 
-/// Groups frames: neighbours at most two frames apart share a group.
+/// Groups ascending frame numbers: numbers at most two apart are in one group.
 std::vector<FrameRange> GroupsOf(const std::vector<int>& frames) {
   constexpr int kMaxGap = 2;
   std::vector<FrameRange> groups;
@@ -72,7 +72,7 @@ std::vector<FrameRange> GroupsOf(const std::vector<int>& frames) {
 
 std::vector<FrameRange> FindFrozen(const BodyMotion& motion) {
   constexpr double kNeverAsStill = 0.003;  // stricter limit of the joints' mean speed near a freeze, metres per second
-  constexpr double kGentle = 0.6;          // a step beside a freeze is gentle up to this share of the next farther step
+  constexpr double kGentle = 0.6;          // a step beside a freeze is gentle up to this share of the step beyond
   // Compute the mean speed of the joints at each step, and mark the steps without motion.
   const int steps = static_cast<int>(motion.poses.size()) - 1;
   std::vector<double> mean(steps);
@@ -93,7 +93,7 @@ std::vector<FrameRange> FindFrozen(const BodyMotion& motion) {
     std::vector<double> elsewhere(mean.begin(), mean.begin() + range.first);
     elsewhere.insert(elsewhere.end(), mean.begin() + range.last + 1, mean.end());
     if (elsewhere.empty()) continue;
-    // If the body is never nearly still in other frames, use a stricter limit.
+    // If the body is never nearly still outside of these frames, use a stricter limit.
     constexpr std::size_t kMinElsewhere = 20;
     const bool is_never_as_still = elsewhere.size() > kMinElsewhere && Quantile(elsewhere, 0.02) > kNeverAsStill;
     const double limit = is_never_as_still ? kNeverAsStill : fault_limits::kAbrupt_m_s;
@@ -115,8 +115,8 @@ bool IsAtFrozenEnd(const FrameRange& span, const std::vector<FrameRange>& frozen
   return std::ranges::any_of(frozen, [&](const FrameRange& f) { return is_near(f.first) || is_near(f.last); });
 }
 
-/// Measures the displacement of `joint` over `steps`; if `joint` is absent, that of the whole body. The mean of the
-/// steps just before and after is subtracted.
+/// Measures the displacement of `joint` over `steps`; if `joint` is absent, measures the displacement of the whole
+/// body. Subtracts the mean of the steps just before and after.
 Displacement Measure(const BodyMotion& motion, const FrameRange& steps, std::optional<Role> joint = std::nullopt) {
   const PoseSteps before = StepsFrom(motion, steps.first - 1), after = StepsFrom(motion, steps.last + 1);
   Displacement found{.before = steps.first, .after = steps.last + 1};
@@ -131,7 +131,7 @@ Displacement Measure(const BodyMotion& motion, const FrameRange& steps, std::opt
 }
 
 /// Narrows `steps` to the main steps of a displacement: a displacement also changes the third differences of the
-/// neighbouring steps, by half of its size. `size_of` returns a step's third difference.
+/// neighbouring steps, by half of the displacement's size. `size_of` returns the size of a step's third difference.
 template <typename SizeOf>
 FrameRange MainSteps(FrameRange steps, double largest, SizeOf size_of) {
   constexpr double kMainShare = 0.6;
@@ -156,7 +156,7 @@ std::vector<Displacement> FindCommon(const BodyMotion& motion, const std::vector
   return found;
 }
 
-/// A large third difference of one joint at one step.
+/// A step at which one joint has a large third difference.
 struct Hot {
   int step = 0;
   Role joint = Role::kHipCentre;
@@ -224,7 +224,7 @@ std::vector<Pop> FindPops(const BodyMotion& motion, const std::vector<PoseSteps>
 }
 
 /// Returns the weighted mean of the joints' excesses (see FindVelocitySteps) at step `f`. A joint's weight is the
-/// inverse of its squared excesses in the frames around, so a standing foot weighs most.
+/// inverse of the sum of its squared excesses in nearby frames, so a standing foot weighs most.
 glm::dvec2 WeightedMean(const std::vector<PoseSteps>& excesses, int f) {
   constexpr int kNear = 2, kFar = 6;   // a velocity step also changes the excesses of the neighbouring frames
   constexpr double kSmallest = 1e-10;  // avoids a division by zero; square metres
@@ -241,7 +241,7 @@ glm::dvec2 WeightedMean(const std::vector<PoseSteps>& excesses, int f) {
   return {sum.x / weights, sum.z / weights};
 }
 
-/// Finds steps of the velocity along the floor: second differences that stand out from those of the neighbouring
+/// Finds sudden changes of the velocity along the floor: second differences much larger than in the neighbouring
 /// frames.
 std::vector<VelocityStep> FindVelocitySteps(const BodyMotion& motion, const Displacements& found) {
   constexpr double kTolerance = 0.4;
@@ -261,7 +261,7 @@ std::vector<VelocityStep> FindVelocitySteps(const BodyMotion& motion, const Disp
       excesses[f][j] = bends[f][j] - 0.5 * (bends[f - 1][j] + bends[f + 1][j]);
     }
   }
-  // Take the excesses that most joints share, except near displacements and frozen frames.
+  // Find the steps at which most joints share an excess, except near displacements and frozen frames.
   std::vector<VelocityStep> steps;
   for (int f = 2; f + 2 < frames; ++f) {
     const double length = AgreedLength(excesses[f], MedianOfJoints(excesses[f]), kTolerance, 0);

@@ -22,8 +22,8 @@ std::vector<FrameRange> RangesOf(const std::vector<bool>& is_marked);
 /// A displacement that all joints share, between the frames `before` and `after`.
 struct Displacement {
   int before = 0, after = 0;
-  glm::dvec3 lasting{0};  ///< metres; how far the frames from `after` on are displaced
-  glm::dvec3 largest{0};  ///< metres; the largest displacement of a frame after `before` up to `after`
+  glm::dvec3 lasting{0};  ///< metres; displacement of all frames from `after` on
+  glm::dvec3 largest{0};  ///< metres; largest displacement of a single frame in (`before`, `after`]
 };
 
 /// A displacement of one joint alone.
@@ -41,7 +41,7 @@ struct VelocityStep {
 
 /// The displacements in a motion: changes from frame to frame that no real body makes.
 struct Displacements {
-  std::vector<FrameRange> frozen;    ///< frames that repeat the pose of the first one, for 0.9 s or more
+  std::vector<FrameRange> frozen;    ///< frames that repeat the first frame's pose for 0.9 s or more
   std::vector<Displacement> common;  ///< never at the ends of frozen stretches
   std::vector<Pop> pops;             ///< never at the ends of frozen stretches
   std::vector<VelocityStep> steps;   ///< never at the ends of frozen stretches

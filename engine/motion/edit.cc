@@ -103,7 +103,7 @@ namespace {
 
 constexpr glm::dquat kNoTurn{1, 0, 0, 0};
 
-/// Reflects a transform whose two frames are both reflected: M T M with M = diag(−1, 1, 1).
+/// Replaces a transform T by its mirror image M T M, M = diag(−1, 1, 1).
 void Reflect(LocalTransform& local) {
   local.translation.x = -local.translation.x;
   local.rotation.y = -local.rotation.y;
@@ -230,7 +230,8 @@ Clip WithoutScales(Clip clip) {
 Clip WithWorldAxesAtRest(Clip clip) {
   std::vector<Joint>& joints = clip.skeleton.joints;
   if (std::ranges::all_of(joints, [](const Joint& joint) { return joint.rest.rotation == kNoTurn; })) return clip;
-  // A joint's new coordinate frame is its old one rotated by R₀⁻¹, where R₀ are the joint's axes at rest in the world.
+  // A joint's new coordinate frame is its old frame rotated by R₀⁻¹, where R₀ are the joint's axes at rest in the
+  // world.
   std::vector<glm::dquat> at_rest(joints.size());
   const auto above = [&](std::size_t joint) {
     return joints[joint].parent < 0 ? kNoTurn : at_rest[joints[joint].parent];
@@ -261,7 +262,7 @@ Clip WithOneRoot(Clip clip) {
 
 Clip WithRootAt(const Clip& clip, int joint) {
   const std::vector<Joint>& old = clip.skeleton.joints;
-  // Reverse the path from the new root to the old one.
+  // Reverse the path from the new root to the old root.
   std::vector<int> parents;
   for (const Joint& one : old) parents.push_back(one.parent);
   for (int child = joint, parent = old[joint].parent; parent >= 0;) {

@@ -9,24 +9,24 @@
 
 namespace etude {
 
-/// Resamples a clip: returns its poses (SampleFrame) at k / rate_hz seconds, from the first frame to the last such time
-/// within the clip. The first frame is unchanged; at the clip's own rate nothing changes. `rate_hz` > 0; the clip must
-/// have at least one frame.
+/// Resamples a clip: returns its poses (SampleFrame) at the times k / rate_hz seconds after the first frame, k = 0, 1,
+/// …, up to the clip's end. The first frame is unchanged; at the clip's own rate nothing changes. `rate_hz` > 0; the
+/// clip must have at least one frame.
 Clip Resample(const Clip& clip, double rate_hz);
 
 /// Returns the frames from `from_s` to `to_s`, seconds from the first frame, ends included. Both ends are rounded to
 /// the nearest frame. Fails if the range ends before it begins, or if it is not within the clip.
 Result<Clip> Trim(const Clip& clip, double from_s, double to_s);
 
-/// Returns the mirror image of a clip: every transform is reflected in the plane x = 0, and joints named for one side
-/// get the other side's name (WithSidesSwapped). Mirroring twice returns the clip itself.
+/// Returns the mirror image of a clip: every transform is reflected in the plane x = 0, and joints whose names state a
+/// side get the other side's name (WithSidesSwapped). Mirroring twice returns the clip itself.
 Clip Mirror(Clip clip);
 /// Returns the mirror image of a motion of the twenty joints: left and right roles are exchanged.
 BodyMotion Mirror(const BodyMotion& motion);
 
 /// Returns the motion without scales, for formats that have none (BVH). Joints keep their positions in the world, so
-/// translations may change from frame to frame. Each rotation is the one nearest to the scaled axes (polar
-/// decomposition); a joint whose axes are flattened or mirrored keeps its own rotation.
+/// translations may change from frame to frame. Each joint's new rotation is the rotation nearest to the joint's scaled
+/// axes (polar decomposition); a joint whose axes are flattened or mirrored keeps its own rotation.
 Clip WithoutScales(Clip clip);
 
 /// Returns the motion on a skeleton without rotations at rest: every joint's axes at rest are the world's, as in BVH.

@@ -50,7 +50,7 @@ void FindFalls(const GroundView& ground, std::vector<MotionFault>& faults) {
   constexpr double kHalf = 0.5;
   std::vector<Flight> flights = FindFlights(ground);
   if (flights.empty()) return;
-  // Take the weighted median of the accelerations. The weight is the height of the arc, because long flights are
+  // Take the weighted median of the accelerations. A flight's weight is the height of its arc, because long flights are
   // measured best.
   std::ranges::stable_sort(flights, {}, &Flight::fall);
   double whole = 0, sum = 0;

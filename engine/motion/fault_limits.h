@@ -17,8 +17,8 @@ struct Hovering {
 };
 inline constexpr Hovering kHoverings[] = {{0.5, 1, false}, {0.25, 1, true}, {0.09, 2, true}};
 
-// Skates. The first line limits sudden changes of the whole body's velocity and the time between two of them, the
-// second a velocity that feet which should stand share, the third the velocity of one foot.
+// Skates. The first line limits sudden changes of the whole body's velocity and the time between two changes. The
+// second limits a velocity shared by feet in stance, the third the velocity of one foot.
 inline constexpr double kStep_m_s = 0.12, kMinCarried_s = 0.25, kMaxCarried_s = 20;
 inline constexpr double kGlide_m_s = 0.14, kGlide_s = 0.5;
 inline constexpr double kFootSkate_m_s = 0.14, kFootSkate_s = 0.4,
@@ -27,9 +27,9 @@ inline constexpr double kFootSkate_m_s = 0.14, kFootSkate_s = 0.4,
 // Jumps and pops.
 inline constexpr double kJumpAlongFloor_m = 0.10, kJump_m = 0.25;
 inline constexpr double kPop_m = 0.25, kSurePop_m = 0.45, kPopTimesUsual = 6, kUsualPop = 0.95;
-/// In clips of kShortClipFrames to kPopFrames / (1 − kUsualPop) frames, the usual size of third differences ignores the
-/// `kPopFrames` largest ones; a pop exceeds `kShortPop_m` and kPopTimesUsual times that size. Clips below
-/// `kShortClipFrames` have no such limit.
+/// In clips of kShortClipFrames to kPopFrames / (1 − kUsualPop) frames, the usual third difference ignores the
+/// `kPopFrames` largest differences; a pop exceeds `kShortPop_m` and kPopTimesUsual times the usual difference. Clips
+/// below `kShortClipFrames` have no such limit.
 inline constexpr double kShortPop_m = 0.36, kShortClipFrames = 45, kPopFrames = 9;
 
 // Freezes.

@@ -7,12 +7,12 @@
 
 namespace etude {
 
-// Each function appends the faults of its kinds, by the rules of FindMotionFaults. It leaves the faults' sentences
+// Each function below appends the faults of some kinds, by the rules of FindMotionFaults, and leaves their sentences
 // empty.
 
 /// Appends jumps, floats and sinks.
 void FindLevelFaults(const GroundView& ground, std::vector<MotionFault>& faults);
-/// Appends skates of both feet and of one foot. `unseen`: see FaultOptions::unseen.
+/// Appends skates: of the whole body, and of one foot alone. `unseen`: see FaultOptions::unseen.
 void FindSkates(const GroundView& ground, std::span<const JointSet> unseen, std::vector<MotionFault>& faults);
 /// Appends one fault if flights show an acceleration that is not gravity's.
 void FindFalls(const GroundView& ground, std::vector<MotionFault>& faults);

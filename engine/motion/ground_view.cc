@@ -43,8 +43,8 @@ bool IsUprightPose(const BodyPose& pose) {
 
 GroundView::GroundView(const BodyMotion& motion, const Displacements& displacements, std::optional<double> floor)
     : motion_(motion), displacements_(displacements), offsets_(motion.poses.size()) {
-  // Sum the displacements. Frames within a displacement are offset by its largest size, and frames after it by its
-  // lasting size.
+  // Sum the displacements. `largest` is the offset of the frames within a displacement, `lasting` that of all later
+  // frames.
   for (const Displacement& d : displacements.common) {
     for (int f = d.before + 1; f < d.after; ++f) offsets_[f] += d.largest;
     for (int f = d.after; f < frames(); ++f) offsets_[f] += d.lasting;

@@ -14,7 +14,7 @@ namespace etude {
 /// The joints of the feet.
 inline constexpr std::array kFootJoints = {Role::kLeftFoot, Role::kRightFoot, Role::kLeftAnkle, Role::kRightAnkle};
 
-/// A motion from which the displacements of the whole body are removed, with its floor.
+/// A motion with its floor, without the displacements of the whole body.
 class GroundView {
  public:
   /// `motion` and `displacements` must outlive this object. FindMotionFaults says how the floor is found.
@@ -30,8 +30,8 @@ class GroundView {
   const glm::dvec3& Offset(int frame) const { return offsets_[frame]; }
   /// Returns a joint's position without the displacements.
   glm::dvec3 Place(int frame, Role role) const { return motion_.poses[frame][role] - offsets_[frame]; }
-  /// Returns a joint's velocity without the displacements, metres per second: the mean over a fifteenth of a second
-  /// before and after the frame.
+  /// Returns a joint's velocity without the displacements, metres per second: the mean from a fifteenth of a second
+  /// before the frame to a fifteenth after it.
   glm::dvec3 Velocity(int frame, Role role) const;
 
   /// Returns the height at which a foot joint rests most often, without the displacements, metres.
@@ -50,7 +50,7 @@ class GroundView {
   bool IsOnFeet(int frame) const;
   /// Returns true if trunk and legs are upright.
   bool IsUpright(int frame) const { return is_upright_[frame]; }
-  /// Returns the share of upright frames.
+  /// Returns the share of the frames in `range` in which trunk and legs are upright.
   double UprightShare(const FrameRange& range) const;
   double UprightShare() const { return UprightShare({0, frames() - 1}); }
 

@@ -25,8 +25,9 @@ struct Level {
   double offset = 0;
 };
 
-/// Returns the vertical displacement of the frames that are at the right height: the level with the lowest cost. A
-/// level costs less if its feet rest near the floor, if the clip begins and ends on it, and if it lasts long.
+/// Returns the vertical displacement of the frames at the right height. These frames are the level of the lowest cost.
+/// A level costs less if the feet rest near the floor, if the clip begins and ends on this level, and if the level
+/// lasts long.
 double ReferenceOffset(const GroundView& ground, const std::vector<Level>& levels) {
   constexpr double kSame = 0.025, kLowest = -0.01, kHighest = 0.1;  // metres; levels count as equal up to kSame
   constexpr double kPerMetre = 2, kForTime = 0.04, kForEnd = 0.03;
@@ -51,7 +52,8 @@ double ReferenceOffset(const GroundView& ground, const std::vector<Level>& level
   return reference;
 }
 
-/// The frames that were reported as displaced, and the vertical offset, metres, of the frames at the right height.
+/// The frames that were reported as displaced, and the vertical displacement, metres, that frames at the right height
+/// have.
 struct Told {
   std::vector<bool> frames;
   double reference = 0;

@@ -59,7 +59,7 @@ bool Shows(std::span<const JointSet> unseen, int frame, std::initializer_list<Ro
 struct LengthChanges {
   Role end = kHead;           ///< the limb's far end
   std::vector<double> share;  ///< change by frame, as a share of the median; 0 in ignored frames
-  double usual = 0;           ///< median over the frames that show the limb
+  double usual = 0;           ///< median of the absolute `share` over the frames that show the limb
 };
 
 /// Returns the changes of upper arms, forearms, thighs and shanks. Frames near pops are ignored.
@@ -96,9 +96,9 @@ std::vector<LengthChanges> FindLengthChanges(const BodyMotion& motion, std::span
   return all;
 }
 
-/// Appends limbs whose lengths differ from their medians by more than 3 % for at least 0.05 s in all. One fault covers
-/// all frames with such a difference. Joints that were found from markers move, because skin moves over bones; their
-/// limbs must differ by fifteen times the usual deviation.
+/// Appends limbs whose lengths differ from their medians by more than 3 % for at least 0.05 s in all. One fault of a
+/// limb covers all frames with such a difference. If joints were found from markers, skin that moves over the bones
+/// changes the lengths; the difference must then also exceed fifteen times the usual deviation.
 void FindStretches(const BodyMotion& motion, const FaultOptions& options, const std::vector<Pop>& pops,
                    std::vector<MotionFault>& faults) {
   constexpr int kMinFrames = 3;
@@ -183,8 +183,8 @@ double SegmentDistance(const glm::dvec3& a, const glm::dvec3& b, const glm::dvec
   const glm::dvec3 u = b - a, v = d - c, w = a - c;
   const double uu = glm::dot(u, u), vv = glm::dot(v, v), uv = glm::dot(u, v), uw = glm::dot(u, w), vw = glm::dot(v, w);
   const double normal = uu * vv - uv * uv;
-  // Take the point of the first line nearest to the second line, the point of the second segment nearest to that, and
-  // again the nearest point of the first segment.
+  // Take the first line's point nearest to the second line, then the second segment's point nearest to this point, then
+  // the first segment's point nearest to the second segment's point.
   double s = normal > kTiny ? std::clamp((uv * vw - uw * vv) / normal, 0.0, 1.0) : 0;
   const double t = vv > kTiny ? std::clamp((uv * s + vw) / vv, 0.0, 1.0) : 0;
   s = uu > kTiny ? std::clamp((uv * t - uw) / uu, 0.0, 1.0) : 0;

@@ -21,8 +21,8 @@ double SegmentDistance(const glm::dvec3& a, const glm::dvec3& b, const glm::dvec
 /// hand.
 double ArmFromSpine(const BodyPose& pose, Side side, bool sees_hand = true);
 
-/// Appends joints that are torn from their neighbours, judged by distances, and exchanged left and right sides
-/// (FaultRules, "torn").
+/// Appends a fault for each joint at a wrong distance from its neighbours, and a fault for exchanged left and right
+/// sides (FaultRules, "torn").
 void FindTorn(const BodyMotion& motion, std::span<const JointSet> unseen, std::vector<MotionFault>& faults);
 
 /// Appends limbs that change their lengths, knees that bend backwards and arms that pass through the trunk (FaultRules

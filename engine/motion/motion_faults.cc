@@ -55,7 +55,7 @@ void AppendGaps(const BodyMotion& motion, const FaultOptions& options, std::vect
   }
 }
 
-/// Appends a fault if in the median frame a joint is faster than the feet of sprinters.
+/// Appends a fault if the median speed of the fastest joint exceeds that of a sprinter's feet.
 void AppendSpeed(const BodyMotion& motion, std::vector<MotionFault>& faults) {
   const double speed = ComputeStatistics(motion).speed_median_m_s;
   if (speed <= fault_limits::kFast_m_s) return;
@@ -226,7 +226,7 @@ MotionFaults FindMotionFaults(const BodyMotion& motion, const FaultOptions& opti
   const std::size_t count = found.faults.size();
   FindFalls(ground, found.faults);
   if (found.faults.size() == count) AppendSpeed(motion, found.faults);
-  // Convert times to the file's time, describe the faults and sort them.
+  // Convert the faults' times to the file's clock, write the sentences, and sort the faults.
   const double duration = static_cast<double>(motion.poses.size() - 1) / motion.rate_hz;
   for (MotionFault& fault : found.faults) {
     const bool is_always = fault.from_s <= 0 && fault.to_s >= duration;

@@ -43,15 +43,15 @@ std::string_view FaultUnit(FaultKind kind);
 /// One fault in a motion.
 struct MotionFault {
   FaultKind kind = FaultKind::kFloats;
-  double from_s = 0, to_s = 0;     ///< times of its first and last frame
+  double from_s = 0, to_s = 0;     ///< times of the fault's first and last frame
   std::optional<Role> joint = {};  ///< the joint at fault; a limb is named by its far end; absent: the whole body
-  double size = 0;                 ///< FaultKind states its meaning and unit
+  double size = 0;                 ///< meaning and unit: see the comment of `kind` in FaultKind
   std::string text = {};           ///< a sentence for users: "floats 6 cm from 1.20 to 3.20 s"
 };
 
 struct MotionFaults {
   double floor_m = 0;           ///< the height of the floor that the motion is judged by
-  bool is_floor_found = false;  ///< true if the motion is far from height 0 and its floor is where its feet rest
+  bool is_floor_found = false;  ///< true if the motion is far from height 0 and the floor is where the feet rest
   std::vector<MotionFault> faults = {};  ///< sorted by kind, then by time
 };
 
@@ -62,11 +62,11 @@ struct FaultOptions {
   /// For each frame, the joints that it does not show, because the file lacks them and a reader guessed their
   /// positions; empty: all joints are shown. Limbs that end at such joints are not judged.
   std::vector<JointSet> unseen = {};
-  double lost_before_s = 0, lost_after_s = 0;  ///< seconds of the file before and after the motion that lack joints
+  double lost_before_s = 0, lost_after_s = 0;  ///< seconds of the file before and after the motion, without joints
   bool is_of_markers = false;  ///< true: joints were found from markers on the skin, so the lengths of limbs may change
 };
 
-/// Shorter motions are not judged.
+/// Motions with fewer frames are not judged.
 constexpr std::size_t kMinFramesForFaults = 8;
 
 /// Finds the faults of a motion without knowing its true motion; the method is our own. FaultRules states the rules.

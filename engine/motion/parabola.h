@@ -12,7 +12,7 @@ struct Parabola {
   double stray = 0;  ///< root mean square deviation, metres
 };
 
-/// Fits heights at equal time steps by least squares, with orthogonal polynomials.
+/// Fits a parabola to heights at equal time steps by least squares, with orthogonal polynomials.
 inline Parabola FitParabola(std::span<const double> heights, double rate_hz) {
   const auto count = static_cast<double>(heights.size());
   const auto time = [&](std::size_t i) { return (static_cast<double>(i) - 0.5 * (count - 1)) / rate_hz; };

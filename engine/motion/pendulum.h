@@ -12,12 +12,12 @@ namespace etude {
 // above the joints that bear it.
 
 /// Returns the acceleration of the mass centre in frame `frame`, metres per second²: the second difference over a tenth
-/// of a second in each direction. Near the ends, the nearest frame with both neighbours is used. Returns 0 if the
-/// motion is too short.
+/// of a second in each direction. In the first and the last tenth of a second, the nearest frame outside of these is
+/// used. Returns 0 if the motion is too short.
 glm::dvec3 AccelerationAt(std::span<const glm::dvec3> centres, int frame, double rate_hz);
 
-/// Returns the zero-moment point (x, z), metres: the point of the ground in which the ground's force on the body has no
-/// horizontal moment. `centres` holds the mass centre in every frame; `ground` is the height of the floor.
+/// Returns the zero-moment point (x, z), metres: the point of the floor about which the floor's force on the body has
+/// no horizontal moment. `centres` holds the mass centre in every frame; `ground` is the height of the floor.
 glm::dvec2 ZeroMomentPoint(std::span<const glm::dvec3> centres, int frame, double rate_hz, double ground);
 
 /// Returns the horizontal distance from the zero-moment point to the joints that bear the body, metres; nullopt without

@@ -16,20 +16,20 @@ namespace etude {
 /// The number of columns of RawMotion::contacts.
 constexpr std::size_t kFootContacts = 4;
 
-/// A motion as its file has it: all joints, the file's own rate and floor. Only its unit and its up axis are converted,
-/// to metres and Y up.
+/// A motion as its file has it: all joints, the file's own rate and floor. Only unit and axes are converted, to metres
+/// and Y up.
 struct RawMotion {
   std::string name;  ///< the name under which the file was requested
   double rate_hz = 30;
-  std::optional<double> start_s = {};  ///< the first frame's time by the file's own clock, if it states one
+  std::optional<double> start_s = {};  ///< the first frame's time by the file's own clock, if the file states one
   std::vector<std::string> joints;  ///< names of the joints
-  /// Indices of joints that the file does not name: BVH's End Sites, and the hip centre that its reader adds.
+  /// Indices of joints that the file does not name: BVH's End Sites, and the hip centre that the reader adds.
   std::vector<int> added;
   std::vector<int> parents;         ///< parent of each joint; −1: a root; empty: the file has points, not a skeleton
   std::array<int, kRoleCount> roles = NoRoles();  ///< the joint that plays each role, by Index(role); −1: none
   std::vector<glm::dvec3> positions;              ///< frames × joints; NaN: not seen
   std::vector<glm::dquat> rotations;  ///< global rotations, frames × joints; empty: the file has points, not rotations
-  /// The file's rest pose: each joint's position and global rotation; both are empty if `rotations` is.
+  /// The file's rest pose: each joint's position and global rotation; the two lists are empty if `rotations` is.
   std::vector<glm::dvec3> rest_positions;
   std::vector<glm::dquat> rest_rotations;
   /// The file's labels of contacts with the floor, frames × 4: left heel, left toes, right heel, right toes. Empty if
@@ -53,8 +53,8 @@ struct RawMotion {
 /// The name of the joint that AddMidwayHips adds.
 constexpr const char* kMidwayHips = "(midway between the hips)";
 
-/// Appends a joint midway between the hips, which then plays the hip centre. It gets the orientation of the joint that
-/// carries the left hip. Does nothing if a hip is missing.
+/// Appends a joint midway between the hips, which then plays the hip centre. The new joint gets the orientation of the
+/// left hip's parent. Does nothing if a hip is missing.
 void AddMidwayHips(RawMotion& motion);
 /// Returns true if a joint of the file itself plays the hip centre.
 bool HasOwnRoot(const RawMotion& motion);

@@ -53,7 +53,7 @@ RestBody RestBodyOf(std::span<const BodyPose> poses) {
     for (const BodyPose& pose : poses) sum += BoneLength(pose, bone);
     const RestBody::RoleAnchor upper = body.roles[Index(bone.parent)];
     const glm::dvec3 lower = upper.position + sum / static_cast<double>(poses.size()) * DirectionAtRest(bone.child);
-    int joint = 0;  // index of the pelvis, which carries both hips
+    int joint = 0;  // index of the pelvis, to which both hips are fixed
     if (bone.child != kLeftHip && bone.child != kRightHip) {
       joint = static_cast<int>(body.joints.size());
       body.joints.push_back({NameOfLimbTo(bone), upper.joint, upper.position});

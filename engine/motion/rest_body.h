@@ -14,8 +14,8 @@ namespace etude {
 /// arms and faces +Z; the left hip and shoulder point to +X.
 glm::dvec3 DirectionAtRest(Role child);
 
-/// One person's body as measured before a take: its joints in a rest pose, metres, Y up, facing +Z. The joints' axes of
-/// rotation are not part of it.
+/// One person's body as measured before a take: its joints in a rest pose, metres, Y up, facing +Z. A RestBody has no
+/// axes of rotation.
 struct RestBody {
   struct Joint {
     std::string name;

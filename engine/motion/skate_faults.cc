@@ -33,13 +33,13 @@ std::vector<glm::dvec2> FootVelocities(const GroundView& ground, const FrameRang
   return velocities;
 }
 
-/// The common velocity along the floor of feet in stance, in a window around a frame.
+/// The common velocity along the floor of feet in stance, over a window of frames around one frame.
 struct Glide {
   int frame = 0;
   glm::dvec2 velocity{0};
 };
 
-/// The rule for a glide: the length of the window, and limits for shares of the velocities in it.
+/// The rule for a glide: the length of its window, and limits for shares of the velocities in this window.
 struct GlideRule {
   double half_s = 0;     ///< half the length of the window, seconds
   double min_share = 0;  ///< minimum share of velocities that are alike
@@ -47,8 +47,8 @@ struct GlideRule {
 };
 constexpr GlideRule kShort{0.3, 0.45, 0.12}, kLong{0.6, 0.4, 0.06};
 
-/// Returns the most frequent velocity of the feet around a frame if the body is carried along: enough foot joints share
-/// the velocity, and few rest (GlideRule).
+/// Returns the most frequent velocity of the feet around a frame if the whole body glides: enough foot joints share the
+/// velocity, and few of them rest (GlideRule).
 std::optional<Glide> GlideAround(const GroundView& ground, int frame, const GlideRule& rule) {
   constexpr double kEvery_s = 1.0 / 30, kMinSpeed = 0.11, kRest = 0.35;
   constexpr double kNear = 0.07, kNearShare = 0.12;
@@ -120,7 +120,7 @@ void AppendSkate(const GroundView& ground, const std::vector<Glide>& glides, std
   faults.push_back(ground.FaultOf(FaultKind::kSkates, {first, last}, glm::length(velocity)));
 }
 
-/// Returns true if, among the foot joints that may be in stance, more move at about `velocity` than rest.
+/// Returns true if, among the foot joints that may be in stance, more joints move at about `velocity` than rest.
 bool Carries(const GroundView& ground, const FrameRange& span, const glm::dvec2& velocity) {
   constexpr double kNear = 0.07, kNearShare = 0.3, kRest = 0.5;
   const double near = std::max(kNear, kNearShare * glm::length(velocity));

@@ -114,7 +114,7 @@ FootSlide MeasureFootSlide(const BodyMotion& motion) {
       ++stances[side];
     }
   }
-  // Average over the frames, for each foot and for both.
+  // Average the speeds over the frames: for each foot, then for both feet together.
   for (std::size_t side = 0; side < 2; ++side) {
     if (stances[side] > 0) slide.of_foot[side] = sum[side] / stances[side];
     slide.stance_share[side] = stances[side] / static_cast<double>(motion.poses.size());

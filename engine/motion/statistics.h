@@ -7,8 +7,8 @@
 
 namespace etude {
 
-/// Returns the stature of a pose in the pose's unit: the length along the limbs from the ankles over knees, hips, spine
-/// and neck to the head (mean of both legs), divided by 0.92. These limbs cover about 92 % of the stature.
+/// Returns the stature of a pose in the pose's unit: the length along the limbs from an ankle over knee, hip, spine and
+/// neck to the head (mean of left and right), divided by 0.92. These limbs cover about 92 % of the stature.
 double Stature(const BodyPose& pose);
 
 /// Returns the height of a pose's lowest joint; this need not be a foot, because people also lie and sit. Finger tips
@@ -26,15 +26,15 @@ struct FootSlide {
 /// joint of the body is at rest in a frame, the lowest joints of the feet count as in stance, unless they are more than
 /// SupportRules::height above the floor. Glides and treadmills therefore count as sliding, and jumps do not. The floor
 /// is the lower quartile of the height of the body's lowest joint: neither a single low frame nor a jump changes the
-/// quartile. The speed of a foot is the speed of its slower joint in stance, so a rolling foot is not counted as
-/// sliding. Velocities are computed by JointVelocities.
+/// quartile. If toes and ankle are both in stance, the foot's speed is the speed of the slower joint, so a rolling foot
+/// does not count as sliding. Velocities are computed by JointVelocities.
 FootSlide MeasureFootSlide(const BodyMotion& motion);
 
 /// Summary measures of a motion, in metres and seconds.
 struct MotionStatistics {
   double stature_m = 0;         ///< median over the frames (Stature)
   double travelled_m = 0;       ///< distance covered by the hip centre along the floor
-  double speed_median_m_s = 0;  ///< median over the frames of the fastest joint's speed
+  double speed_median_m_s = 0;  ///< speed of each frame's fastest joint, median over the frames
   double speed_p95_m_s = 0;
   double speed_peak_m_s = 0;
   Role fastest = Role::kHead;  ///< the joint with the highest speed

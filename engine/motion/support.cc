@@ -34,9 +34,9 @@ namespace {
 
 double FloorSpeed(const glm::dvec3& velocity) { return std::hypot(velocity.x, velocity.z); }
 
-/// For each frame, returns true if the mass centre accelerates downwards by SupportRules::min_fall or more. The
-/// acceleration is the second difference over a tenth of a second in each direction. Near the clip's ends, the nearest
-/// frame with both neighbours is used.
+/// Returns a flag for each frame: true if the mass centre's downward acceleration is SupportRules::min_fall or more.
+/// The acceleration is the second difference over a tenth of a second in each direction. In the first and the last
+/// tenth of a second, the nearest frame outside of these is used.
 std::vector<bool> FallingFrames(std::span<const BodyPose> poses, double rate_hz, const SupportRules& rules) {
   constexpr double kReach_s = 0.1;
   const int reach = std::max(static_cast<int>(std::lround(kReach_s * rate_hz)), 1);
@@ -82,14 +82,15 @@ bool FitsFlight(std::span<const BodyPose> poses, int first, int last, double rat
   return rules.min_fall <= fit.fall && fit.fall <= rules.max_fall && fit.stray <= rules.flight_stray;
 }
 
-/// Removes raised feet from the joints that bear a clip: an ankle whose heel is up while its toes bear, and toes high
-/// above the lowest joint. (Both may be slow enough to count as at rest.) If no other joint bears the body in a frame,
-/// the frame is not changed.
+/// Removes raised feet from the joints that bear a clip: an ankle whose heel is up while the toes bear the body, and
+/// toes high above the lowest joint. (Ankle and toes may be slow enough to count as at rest.) If no other joint bears
+/// the body in a frame, the frame is not changed.
 void RemoveRaisedFeet(std::span<const BodyPose> poses, const SupportRules& rules, std::vector<Bearing>& bearing) {
   using enum Role;
   for (const auto& [ankle, foot] : {std::pair{kLeftAnkle, kLeftFoot}, std::pair{kRightAnkle, kRightFoot}}) {
     const auto rise = [&](std::size_t f) { return poses[f][ankle].y - poses[f][foot].y; };
-    // A foot is flat in the frame in which its ankle is lowest relative to its toes, while both rest.
+    // A foot is flat in the frame in which the ankle is lowest relative to the toes, among frames in which ankle and
+    // toes rest.
     double flat = std::numeric_limits<double>::infinity();
     for (std::size_t f = 0; f < poses.size(); ++f) {
       if (bearing[f].rests[Index(ankle)] && bearing[f].rests[Index(foot)]) flat = std::min(flat, rise(f));
@@ -209,8 +210,8 @@ class SupportFinder::ClipSupport {
     for (std::size_t i = 0; i < heights.size(); ++i) {
       // A joint that has sunk into the floor is also supported.
       if (i == 0 && height >= heights[i] - rules_.level && height <= heights[i] + rules_.height) return true;
-      // A height is a separate surface only if the clip's joint does not also rest a little below it. (While a heel
-      // bears the body, the toes rest a little below it.)
+      // A height is a separate surface only if the clip's joint does not also rest a little below this height. (Toes
+      // rest a little lower while the heel bears the body.)
       const bool surface = i > 0 && heights[i] - heights[i - 1] > rules_.level;
       if (surface && std::abs(height - heights[i]) <= rules_.height) return true;
     }
@@ -301,13 +302,13 @@ std::optional<double> BalanceOffset(const BodyPose& pose, const JointSet& joints
 }
 
 std::optional<double> OffsetFromJoints(const glm::dvec2& point, const BodyPose& pose, const JointSet& joints) {
-  std::vector<glm::dvec2> points;  // relative to `point`
+  std::vector<glm::dvec2> points;  // positions on the floor relative to `point`
   for (std::size_t j = 0; j < kRoleCount; ++j) {
     if (joints[j]) points.push_back(glm::dvec2(pose.joints[j].x, pose.joints[j].z) - point);
   }
   if (points.empty()) return std::nullopt;
-  // The hull does not contain the origin if, as seen from the origin, all points lie to the left of some vertex. Its
-  // nearest point is then on a line segment between two of the points.
+  // The hull does not contain the origin if, as seen from the origin, all points lie to the left of some vertex. The
+  // hull's nearest point is then on a line segment between two of the points.
   bool holds = true;
   double nearest = glm::length(points.front());
   for (const glm::dvec2& a : points) {

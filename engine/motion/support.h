@@ -22,8 +22,8 @@ struct SupportRules {
   double lowest = 0.12;       ///< a joint may bear the body if it is at most this high above the lowest joint
   double rest_speed = 0.5;    ///< a joint is at rest up to this speed (feet roll, and captures are noisy)
   double height = 0.025;      ///< maximum height of a shown joint above the clip's joint at rest
-  double heel = 0.03;         ///< a clip's ankle does not support if this much higher above its toes than in flat feet
-  double toes = 0.05;         ///< a clip's toes do not support if they are higher than this above its lowest joint
+  double heel = 0.03;         ///< a raised ankle: this much higher above the toes than in a flat foot
+  double toes = 0.05;         ///< raised toes: higher than this above the clip's lowest joint
   double level = 0.12;        ///< rest heights that differ by more than this are two surfaces, such as floor and step
   double window_s = 1.0 / 3;  ///< a clip's rest heights are searched this long before and after a frame
   /// A body without support is in flight if the downward acceleration of its mass centre is in this range, metres per
@@ -37,8 +37,8 @@ struct SupportRules {
 struct Bearing {
   JointSet rests;  ///< lowest joints that are at rest; none while the mass centre falls (SupportRules::min_fall)
   /// Equals `rests` unless `rests` is empty (a jump, walking on the spot, a skating foot). Then it contains all of the
-  /// lowest joints except gliding ones, because the clip itself shows them as support. A joint glides if it moves over
-  /// the floor faster than SupportRules::rest_speed and faster than three times its speed relative to the hips.
+  /// lowest joints that do not glide, because the clip itself shows them as support. A joint glides if it moves over
+  /// the floor faster than SupportRules::rest_speed and faster than three times its speed relative to the hip centre.
   JointSet bears;
 };
 
@@ -46,8 +46,8 @@ struct Bearing {
 /// frame.
 std::vector<BodyPose> JointVelocities(std::span<const BodyPose> poses, double rate_hz);
 
-/// Finds the joints that bear a body in every frame of its clip. No floor is assumed: any of the lowest joints may bear
-/// the body.
+/// Finds, for every frame of a clip, the joints that bear the body. No floor is assumed: any of the lowest joints may
+/// bear the body.
 std::vector<Bearing> FindBearing(std::span<const BodyPose> poses, double rate_hz, const SupportRules& rules = {});
 
 /// The rules for a foot in stance. They are stricter than the default rules, so that contacts are unambiguous.
@@ -56,7 +56,7 @@ constexpr SupportRules kFootRules{.lowest = 0.06, .rest_speed = 0.3};
 using FootContacts = std::array<std::vector<bool>, 2>;
 FootContacts FindFootContacts(std::span<const BodyPose> poses, double rate_hz);
 
-/// A played clip, and when it was played. It shows where a body may be supported.
+/// A played clip with the time at which it was played. The clip shows where a body may be supported.
 struct SupportingClip {
   std::span<const BodyPose> poses;  ///< poses of the clip, moved on the floor to where the clip is shown
   int begin = 0;                    ///< the shown frame of poses[0]; may be outside of the requested frames
@@ -67,7 +67,7 @@ struct SupportingClip {
 
 /// The joints that support a body in a shown frame.
 struct Support {
-  JointSet joints;      ///< joints at rest where the same joint of a clip rests, or moving as in a clip
+  JointSet joints;      ///< joints that rest where the same joint of a clip rests, or move as that joint does
   bool flight = false;  ///< the body is in flight and needs no support
 
   bool Holds() const { return joints.any() || flight; }
@@ -78,11 +78,11 @@ struct Support {
 /// joint bears the clip (SupportRules::heel, toes). A joint supports the body
 /// - if it is at rest where the same joint of a clip rests near that time: at most SupportRules::height above and at
 ///   most SupportRules::level below the lowest such height, or within `height` of a higher surface; or
-/// - if it moves like a joint that bears the clip in that frame or a neighbouring one: its height differs by at most
-///   SupportRules::height, its velocity by at most SupportRules::rest_speed.
+/// - if it moves like a joint that bears the clip in that frame or a neighbouring one: the heights of the two joints
+///   differ by at most SupportRules::height, their velocities by at most SupportRules::rest_speed.
 /// Consecutive frames without support are a flight if the body is supported just before and just after them, if the
 /// ground can have thrown it (SupportRules::max_push), and if the mass centre falls as SupportRules states over these
-/// frames, or over these and the two neighbouring ones. A flight is judged over at least five frames.
+/// frames, or over these frames and the two neighbouring frames. A flight is judged over at least five frames.
 class SupportFinder {
  public:
   /// The clips' poses must outlive this object.
@@ -101,7 +101,7 @@ class SupportFinder {
   std::vector<ClipSupport> clip_supports_;
 };
 
-/// Does the same as SupportFinder::Find. Use it if the clips are needed only once.
+/// Makes a SupportFinder and returns the result of its Find. Use it if the clips are needed only once.
 std::vector<Support> FindSupport(std::span<const BodyPose> shown, std::span<const SupportingClip> clips, int first,
                                  int last, double rate_hz, const SupportRules& rules = {});
 

@@ -18,8 +18,8 @@ using enum Role;
 constexpr double kUnseen = std::numeric_limits<double>::quiet_NaN();
 
 // All limits are shares of the body's size: the length of a leg plus the trunk. In 269 clips of seven libraries,
-// captured bodies without faults stay below 0.8 of each limit. Drawn bodies stay below 1, except for figures that grow
-// or come apart.
+// captured bodies without faults stay below 0.8 of each limit. The bodies of drawn figures stay below 1 of each limit,
+// unless they grow or come apart.
 
 /// Two joints whose distance hardly changes. Limbs are not listed, because FindStretches judges them.
 struct Link {
@@ -62,7 +62,7 @@ struct Wrong {
   double size;
 };
 
-/// The frames in which a joint is torn, and how far it is from where it should be.
+/// The frames in which a joint is torn, and the joint's largest distance from its right position.
 struct Tear {
   std::vector<bool> frames;
   double size = 0;
@@ -97,7 +97,7 @@ class TornFinder {
 
   bool Shows(int frame, Role joint) const { return unseen_.empty() || !unseen_[frame][Index(joint)]; }
 
-  /// Returns the distance between two joints in each frame; NaN where one is not seen.
+  /// Returns the distance between two joints in each frame; NaN where one of the two joints is not seen.
   std::vector<double> Distances(Role a, Role b) const {
     std::vector<double> distances;
     for (int f = 0; f < frames(); ++f) {
@@ -145,7 +145,7 @@ class TornFinder {
     double largest = 0;
     for (int f = 0; f < frames(); ++f) {
       if (wrong[f])
-        largest = std::max(largest, std::abs(distances[f] - median));  // NaN: a joint not seen, which is never larger
+        largest = std::max(largest, std::abs(distances[f] - median));  // NaN (a joint not seen) is never larger
     }
     return largest;
   }
@@ -171,13 +171,13 @@ class TornFinder {
   }
 
   /// Attributes the wrong distances to joints: first to the joint with the most wrong distances, then to the joint with
-  /// most of the rest, and so on.
+  /// most of the remaining wrong distances, and so on.
   void NameTorn() {
     while (!wrong_.empty()) {
       std::array<int, kRoleCount> count{};
       for (const Wrong& wrong : wrong_) {
-        // The outer joint of a distance gets a little more weight, so that of two joints with equally many wrong
-        // distances the outer one counts as torn.
+        // The outer joint of a distance gets a little more weight: if two joints have equally many wrong distances, the
+        // outer joint counts as torn.
         count[Index(wrong.inner)] += 4;
         count[Index(wrong.outer)] += 5;
       }
@@ -224,13 +224,13 @@ class TornFinder {
       return std::ranges::all_of(joints, [&](Role joint) { return Shows(f, joint); });
     };
     const auto median = [&](Role a, Role b) { return MedianOf(Distances(a, b)).value_or(0); };
-    // Head: it points down the trunk.
+    // The head is wrong if it points down the trunk.
     Add(tears_[kHead], Lasting([&](int f) {
           return shows(f, {kHead}) &&
                  is_against(between(f, kShoulderCentre, kHead), between(f, kHipCentre, kShoulderCentre));
         }),
         2 * median(kShoulderCentre, kHead));
-    // Feet: they point behind the shank. Both feet at once mean exchanged sides.
+    // A foot is wrong if it points behind the shank. If both feet do so at once, the sides are exchanged.
     const auto points_back = [&](int f, Role knee, Role ankle, Role foot) {
       const glm::dvec3 front = glm::cross(between(f, kRightHip, kLeftHip), between(f, ankle, knee));
       return shows(f, {knee, ankle, foot}) && is_against(between(f, ankle, foot), front);
@@ -241,7 +241,8 @@ class TornFinder {
     const auto only = [&](const std::vector<bool>& one) { return Lasting([&](int f) { return one[f] && !both[f]; }); };
     Add(tears_[kLeftFoot], only(left), 2 * median(kLeftAnkle, kLeftFoot));
     Add(tears_[kRightFoot], only(right), 2 * median(kRightAnkle, kRightFoot));
-    // Sides: the lines of hips and shoulders point in opposite directions, or both hips or both shoulders coincide.
+    // Sides are exchanged if the line of the hips points opposite to the line of the shoulders. Two hips or two
+    // shoulders that coincide count as well.
     const auto is_exchanged = [&](int f) {
       const glm::dvec3 hips = between(f, kRightHip, kLeftHip), shoulders = between(f, kRightShoulder, kLeftShoulder);
       return is_against(hips, shoulders) || glm::length(shoulders) < kMinShoulders * size_ ||

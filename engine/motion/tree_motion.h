@@ -12,7 +12,7 @@ namespace etude {
 struct JointTree {
   std::vector<std::string> names;
   std::vector<int> parents;         ///< parent indices; −1 for joint 0
-  std::vector<glm::dvec3> offsets;  ///< from the parent, in its frame, metres; zero for joint 0
+  std::vector<glm::dvec3> offsets;  ///< from the parent, in the parent's frame, metres; zero for joint 0
   std::vector<bool> is_point;       ///< true for joints without a rotation: end sites, and points that a reader added
 
   std::size_t size() const { return names.size(); }
@@ -35,9 +35,9 @@ struct TreeMotion {
 };
 
 /// Converts a motion to rotations relative to the parents. The tree's offsets are taken from the first frame; later
-/// changes of limb lengths are dropped. Joints that the file does not have itself (RawMotion::added) become points.
-/// Consecutive quaternions of a joint do not flip their signs. Fails for a motion without rotations or frames, with
-/// positions that are not seen, or with several roots.
+/// changes of limb lengths are dropped. Joints that a reader has added (RawMotion::added) become points. Consecutive
+/// quaternions of a joint do not flip their signs. Fails for a motion without rotations or frames, with positions that
+/// are not seen, or with several roots.
 Result<TreeMotion> TreeMotionOf(const RawMotion& motion);
 
 /// Appends the position (metres) and rotation of every joint in the world, for one pose.

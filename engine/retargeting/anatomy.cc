@@ -14,8 +14,8 @@ namespace {
 
 using enum Role;
 
-/// Returns 1 if a ratio lies between `low` and `high`, less outside of that range (a Gaussian of the ratio's
-/// logarithm), and 0 if the ratio is not finite or not positive.
+/// Returns 1 if `ratio` lies between `low` and `high`. Outside of that range, returns a Gaussian of the ratio's
+/// logarithm; returns 0 if the ratio is not finite or not positive.
 double RangeScore(double ratio, double low, double high) {
   if (!std::isfinite(ratio) || ratio <= 0) return 0;
   constexpr double kFallOff = 0.25;
@@ -28,10 +28,10 @@ glm::dvec3 DirectionOf(const glm::dvec3& v) {
   return length > 0 ? v / length : glm::dvec3(0);
 }
 
-/// The path from a joint along the bones to the farthest end below it.
+/// The path along the bones from a joint to the farthest of its descendants.
 struct Chain {
   std::vector<int> joints;
-  double length = 0;  ///< the sum of its bones' lengths
+  double length = 0;  ///< the sum of the lengths of the chain's bones
 };
 
 /// Two siblings with equally long chains.
@@ -39,7 +39,7 @@ struct ChainPair {
   std::array<Chain, 2> chains;
 };
 
-/// The upper, middle and end joint of both limbs of a pair, as indices along the chains.
+/// The upper, middle and end joints of a pair of limbs, as indices along the two chains.
 struct Limbs {
   const ChainPair* pair = nullptr;
   std::array<std::size_t, 3> at{};
@@ -49,8 +49,8 @@ struct Limbs {
   int Tip(std::size_t side) const { return pair->chains[side].joints.back(); }
 };
 
-/// The plausible ranges of a limb's proportions. Of two candidates within a range, the one nearer to its middle is
-/// taken.
+/// The plausible ranges of a limb's proportions. Of two candidates within a range, the candidate nearer to the range's
+/// middle is taken.
 struct Proportions {
   double upper_low, upper_high;  ///< length of the upper bone ÷ length of the lower bone
   double end_low, end_high;      ///< length of the chain beyond the lower bone ÷ length of the lower bone
@@ -132,7 +132,7 @@ class AnatomyFinder {
     Limbs best{.pair = &pair};
     double best_rank = 0;
     const std::vector<int>& chain = pair.chains[0].joints;
-    constexpr std::size_t kMaxChain = 20;  // joints beyond this number are fingers, or not part of a limb
+    constexpr std::size_t kMaxChain = 20;  // joints farther along the chain are fingers, or not part of a limb
     const std::size_t count = std::min(chain.size(), kMaxChain);
     for (std::size_t i = 0; i < count; ++i) {
       for (std::size_t j = i + 1; j < count; ++j) {
@@ -145,7 +145,7 @@ class AnatomyFinder {
                                (end > 0 ? RangeScore(end / lower, wanted.end_low, wanted.end_high) : kNoEnd) *
                                (skipped > 0 ? RangeScore(skipped / upper, 1e-9, wanted.skipped_high) : 1) *
                                SymmetryScore(pair, i, j, k);
-          // Among equal scores, prefer proportions near the middle of their range.
+          // Among equal scores, prefer limbs whose proportions are near the middle of the ranges.
           const double ratio = std::log(upper / lower / std::sqrt(wanted.upper_low * wanted.upper_high));
           const double ending = end > 0 ? std::log(end / lower / std::sqrt(wanted.end_low * wanted.end_high)) : 0;
           const double rank = score * std::exp(-0.1 * (ratio * ratio + 0.3 * ending * ending));
@@ -159,7 +159,7 @@ class AnatomyFinder {
     return best;
   }
 
-  /// Returns a score for the symmetry of both sides: how well the bones' lengths agree.
+  /// Returns a score for the symmetry of a pair of limbs: how well the lengths of left and right bones agree.
   double SymmetryScore(const ChainPair& pair, std::size_t i, std::size_t j, std::size_t k) const {
     constexpr double kLow = 0.95;
     const auto& [one, other] = pair.chains;

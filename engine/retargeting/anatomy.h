@@ -10,8 +10,8 @@ namespace etude {
 
 /// The limbs that a skeleton's shape suggests, independently of its joints' names.
 struct AnatomyProposal {
-  /// Shoulders, elbows, wrists, hips, knees and ankles, by Index(role); −1 for all other roles, and for all roles if no
-  /// two pairs of limbs were found.
+  /// The skeleton's joints that play shoulders, elbows, wrists, hips, knees and ankles, by Index(role). −1 for all
+  /// other roles; −1 for every role if two pairs of limbs were not found.
   std::array<int, kRoleCount> joints;
   double confidence = 0;  ///< 0 to 1
 };
@@ -27,7 +27,8 @@ constexpr double kMinAnatomyConfidence = 0.9;
 /// range of adults and decreases outside.
 AnatomyProposal ProposeByAnatomy(const SkeletonTree& tree);
 
-/// A joint map under construction, with the positions of its roles in the rest pose. `tree` must outlive this object.
+/// A joint map under construction, with the positions of the assigned roles in the rest pose. `tree` must outlive this
+/// object.
 class JointMapDraft {
  public:
   explicit JointMapDraft(const SkeletonTree& tree) : tree_(tree) {}
@@ -43,10 +44,10 @@ class JointMapDraft {
 
   /// Assigns `joint` to the role.
   void Set(Role role, int joint);
-  /// Assigns a point fixed to `joint` to the role. `rest` is the point's position in the rest pose.
+  /// Assigns to the role a point that is fixed to `joint`. `rest` is the point's position in the rest pose.
   void Compose(Role role, int joint, const glm::dvec3& rest);
-  /// Assigns a point fixed to `joint` to the role. `offset` is the point's position in the joint's frame, `rest` its
-  /// position in the rest pose.
+  /// Assigns to the role a point that is fixed to `joint`. `offset` is the point's position in the joint's frame,
+  /// `rest` the point's position in the rest pose.
   void ComposeAt(Role role, int joint, const glm::dvec3& offset, const glm::dvec3& rest);
 
  private:

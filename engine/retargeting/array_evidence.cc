@@ -12,7 +12,7 @@ namespace etude {
 namespace {
 
 /// Returns true if the body stands on its hands: its wrists are near the lowest joint in most frames, and that joint
-/// stays at nearly the same height. The body is `length` long; `columns` are those of the wrists.
+/// stays at nearly the same height. `length` is the body's length; `columns` are the columns of the wrists.
 bool StandsOnHands(std::span<const glm::dvec3> positions, std::size_t joints, const std::array<std::size_t, 2>& columns,
                    double length) {
   constexpr double kStillFloor = 0.1, kNear = 0.3, kMost = 0.5;  // first two in body lengths, kMost a share of frames

@@ -9,14 +9,15 @@
 
 namespace etude {
 
-/// Evaluates a clip's twenty joints at any time, in the file's unit and axes. Only joints that carry a role are
-/// evaluated, and no memory is allocated for a frame. `clip` must outlive this object.
+/// Evaluates a clip's twenty joints at any time, in the file's unit and axes. Only joints with a role and their
+/// ancestors are evaluated, and no memory is allocated for a frame. `clip` must outlive this object.
 class BodySampler {
  public:
   BodySampler(const Clip& clip, const JointMap& map);
 
   BodyPose Rest();
-  /// Returns the pose at a frame number from 0, which may be fractional (SampleFrame) and must lie within the clip.
+  /// Returns the pose at a frame number. The number counts from 0, may be fractional (SampleFrame), and must lie within
+  /// the clip.
   BodyPose At(double frame);
 
  private:

@@ -22,7 +22,7 @@ constexpr double kUnseen = std::numeric_limits<double>::quiet_NaN();
 constexpr std::array<std::array<Role, 4>, 2> kChains = {
     {{kLeftShoulder, kLeftElbow, kLeftWrist, kLeftHand}, {kLeftHip, kLeftKnee, kLeftAnkle, kLeftFoot}}};
 
-/// Mean and standard deviation of a number over frames.
+/// The mean of a number over frames, and the number's standard deviation.
 struct Spread {
   double count = 0, sum = 0, squares = 0;
   void Add(double value) {
@@ -34,7 +34,8 @@ struct Spread {
   double Deviation() const { return std::sqrt(std::max(0.0, count > 0 ? squares / count - Mean() * Mean() : 0)); }
 };
 
-/// The evidence that the left and right limbs between two pairs of joints cross, because one pair is exchanged.
+/// The evidence that the left and right limbs between two pairs of joints cross, because the joints of one pair are
+/// exchanged.
 struct Crossing {
   bool is_certain = false;
   bool may_be = false;  ///< true if exchanging one pair makes the limbs shorter in nearly all frames
@@ -83,7 +84,7 @@ bool IsTrunkTwisted(std::span<const JointPositions> frames) {
 std::vector<Role> FindExchangedJoints(std::span<const JointPositions> frames) {
   std::vector<Role> exchanged, others;
   for (const auto& chain : kChains) {
-    // If the first two limbs of a chain may both cross, both count as crossing.
+    // If each of the first two limbs of a chain may cross, the two count as crossing.
     std::array<Crossing, 3> limbs;
     for (std::size_t i = 0; i < limbs.size(); ++i) limbs[i] = CrossingOf(frames, chain[i], chain[i + 1]);
     if (limbs[0].may_be && limbs[1].may_be) limbs[0].is_certain = limbs[1].is_certain = true;

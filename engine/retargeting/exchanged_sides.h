@@ -11,11 +11,11 @@
 
 namespace etude {
 
-/// Returns the left joints that look exchanged with the right ones (ours). A left and a right limb cross if exchanging
-/// the joints at one of their ends makes both limbs shorter and their lengths far more constant. Upper arms also cross
+/// Returns the left joints that look exchanged with the right ones (ours). A left and a right limb cross if an exchange
+/// of the two joints at one end makes the two limbs shorter and their lengths far more constant. Upper arms also cross
 /// if the exchange makes them much shorter. Thighs also cross if the exchange makes them shorter in nearly all frames;
-/// so do upper arms and forearms together. Of the two ways to undo all crossings, the one with fewer joints is
-/// returned. `frames` have any unit; unseen joints do not count.
+/// so do upper arms and forearms together. Two sets of joints undo all crossings; the smaller set is returned. `frames`
+/// have any unit; unseen joints do not count.
 std::vector<Role> FindExchangedJoints(std::span<const JointPositions> frames);
 /// A left joint that exchanges its place with the right one between two frames.
 struct Exchange {

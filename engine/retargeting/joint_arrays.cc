@@ -57,7 +57,7 @@ Result<double> RateOf(const Npz& arrays, const std::string& file) {
       kMinRate_hz, kMaxRate_hz);
 }
 
-/// Returns the length of the arrays' unit in metres; states in `notes` whatever was assumed.
+/// Returns the length of the arrays' unit in metres; appends each assumption to `notes`.
 Result<double> UnitOf(const Npz& arrays, const RawMotion& motion, const std::string& file,
                       std::vector<std::string>& notes) {
   double unit = 1;
@@ -86,7 +86,7 @@ Result<double> UnitOf(const Npz& arrays, const RawMotion& motion, const std::str
   return *likely;
 }
 
-/// Turns positions that stand for gaps into NaN (RepairMarkers), and says so in the notes.
+/// Replaces positions that stand for gaps by NaN (RepairMarkers), and states this in the notes.
 void LeaveGapsOut(RawMotion& motion) {
   MarkerMotion markers = MarkersOf(motion);
   RepairMarkers(markers);

@@ -17,18 +17,19 @@
 namespace etude {
 
 /// Converts an array T × J × 3 (frames, joints, X Y Z; NaN: not seen) to trajectories. The file states no frame rate,
-/// so the rate is kJudgedRateHz. `layout` is one of JointLayoutNames(); without it, the layout with J joints is taken.
-/// The unit is the metre, unless the joints' extent is a person's size in centimetres or millimetres. If no up axis is
-/// `told` and the body is upside down in three of four frames without standing on its hands, the array is taken to be
-/// in a camera's frame (Y down, Z forwards) and is rotated by half a turn about X. `note` states layout and unit. Fails
-/// for other shapes, a layout with another number of joints, 17 joints without a layout, and positions beyond ±10⁹.
+/// so the rate is kJudgedRateHz. `layout` is one of JointLayoutNames(); without a `layout`, the layout with J joints is
+/// taken. The unit is the metre, or the centimetre or millimetre if the extent of the joints in this unit is a person's
+/// size. If no up axis is `told` and the body is upside down in three of four frames without standing on its hands, the
+/// array is taken to be in a camera's frame (Y down, Z forwards) and is rotated by half a turn about X. `note` states
+/// layout and unit. Fails for other shapes, a layout with another number of joints, 17 joints without a layout, and
+/// positions beyond ±10⁹.
 Result<MarkerMotion> JointsOfArray(const NumberArray& array, const std::optional<std::string>& layout,
                                    const std::string& file, std::string& note, std::optional<UpAxis> told = {});
 
 /// Returns the joints in SAM 3D Body's results: `pred_joint_coords` (frames × 127 × 3), otherwise `pred_keypoints_3d`
-/// (frames × 70 × 3), in metres. They are translated by `pred_cam_t` (frames × 3) if that exists, and rotated from the
-/// camera's frame (y down, z forwards) to Y up, z backwards. The body is upright if the camera was level. Returns
-/// nullopt if neither array exists.
+/// (frames × 70 × 3), in metres. The joints are translated by `pred_cam_t` (frames × 3) if that array exists, and
+/// rotated from the camera's frame (y down, z forwards) to Y up, z backwards. The body is upright if the camera was
+/// level. Returns nullopt if neither array exists.
 std::optional<NumberArray> JointsOfSam(const Npz& arrays);
 
 /// Writes a body's motion as an .npz file. Its arrays are `names`, and in the order of `names`: `positions` (T × 20 ×
@@ -44,16 +45,17 @@ struct ArrayOptions {
   std::optional<double> rate_hz = {}, metres_per_unit = {};
   std::optional<UpAxis> up = {};
 };
-/// Reads the positions from arrays like WriteBodyNpz's: any joints, with their names in `names` (without names, the
+/// Reads positions from arrays like those of WriteBodyNpz: any joints, with their names in `names` (without names, the
 /// twenty roles); NaN where a joint was not seen. A joint named like a role plays that role. A joint named pelvis or
 /// hips plays the hip centre if no other joint does. The file states `rate_hz`, `unit` ("cm", otherwise metres) and
-/// `up` ("z", otherwise Y, or as in JointsOfArray). Positions are converted to metres with Y up.
-/// If nobody states the unit and the joints extend over less than 0.3 m or more than 4 m in the median frame, the unit
-/// is taken to be the metre, centimetre or millimetre, whichever gives a person's size, and `notes` states this.
-/// Positions that stand for gaps count as not seen (RepairMarkers). Fails for a missing rate, a
-/// wrong number of names, a size that no unit explains, and values beyond ±10⁹.
+/// `up` ("z", otherwise Y, or as in JointsOfArray). Positions are converted to metres with Y up. If nobody states the
+/// unit and the joints extend over less than 0.3 m or more than 4 m in the median frame, the unit is taken to be the
+/// metre, centimetre or millimetre, whichever gives a person's size, and `notes` states this. Positions that stand for
+/// gaps count as not seen (RepairMarkers). Fails for a missing rate, a wrong number of names, a size that no unit
+/// explains, and values beyond ±10⁹.
 Result<RawMotion> ReadRawNpz(const Npz& arrays, const std::string& file, const ArrayOptions& told = {});
-/// Returns the twenty joints of a motion, whose joints may be in any order; nullopt if it has other joints, or gaps.
+/// Returns the twenty joints of a motion, whose joints may be in any order; nullopt if the motion has other joints or
+/// gaps.
 std::optional<BodyMotion> BodyOf(const RawMotion& motion);
 /// Returns the positions of the joints that play a role, in every frame.
 std::vector<JointPositions> RolesIn(const RawMotion& motion);

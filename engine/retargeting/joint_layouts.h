@@ -15,8 +15,8 @@ struct JointLayout {
 /// Lists the known layouts.
 const std::vector<JointLayout>& JointLayouts();
 
-/// Returns the layouts of joints that arrays may have: "etude" (20), "smpl" (22 or 24), "h36m" (17), "coco" (17),
-/// "body_25", "halpe_26", "mhr70" and "mhr" (127).
+/// Returns the names of the layouts, listed here with their numbers of joints: "etude" (20), "smpl" (22 or 24), "h36m"
+/// (17), "coco" (17), "body_25", "halpe_26", "mhr70" and "mhr" (127).
 std::vector<std::string> JointLayoutNames();
 
 /// Returns the names of a layout's joints in its order; a joint that plays a role has the role's name. `joints` selects

@@ -126,8 +126,8 @@ class MapFinder {
     return {};
   }
 
-  /// Returns the first joint with one of these names for which `fits` is true, preferably with the limbs' prefix; −1
-  /// without such a joint.
+  /// Returns the first joint that has one of these names and for which `fits` is true; prefers joints with the limbs'
+  /// prefix. Returns −1 without such a joint.
   template <typename Fits>
   int FindInMiddle(std::span<const std::string_view> role_names, Fits fits) const {
     for (const std::string_view name : role_names) {
@@ -146,8 +146,8 @@ class MapFinder {
     if (head < 0) head = HeadByShape();
     if (!draft_.Has(kHead) && head >= 0) draft_.Set(kHead, head);
     if (draft_.Has(kShoulderCentre)) return;
-    // CMU's "Neck" lies at its parent, a chest joint; its "Neck1" is at the base of the neck. The threshold is a share
-    // of a limb's length, because limb lengths do not depend on the rest pose.
+    // CMU's "Neck" coincides with its parent, a chest joint; CMU's "Neck1" is at the base of the neck. The threshold is
+    // a share of a limb's length, because limb lengths do not depend on the rest pose.
     const double tiny = 0.01 * glm::distance(draft_.RestOf(kLeftShoulder), draft_.RestOf(kLeftElbow));
     const int neck = FindInMiddle(NeckNames(), [&](int joint) {
       return is_above_pelvis(joint) && (head < 0 || tree_.DescendsFrom(head, joint)) &&
@@ -160,7 +160,7 @@ class MapFinder {
   }
 
   /// Finds the highest joint that belongs to no limb and lies 0.15 to 0.8 trunk lengths beyond the shoulders in the
-  /// direction of the trunk. If that joint is an end site and its parent does not carry the shoulders, returns the
+  /// direction of the trunk. If that joint is an end site whose parent is not an ancestor of the shoulders, returns the
   /// parent; otherwise returns the joint. Returns −1 without such a joint.
   int HeadByShape() const {
     const int carrier = tree_.CommonAncestor(draft_.JointOf(kLeftShoulder), draft_.JointOf(kRightShoulder));
@@ -189,7 +189,8 @@ class MapFinder {
   /// Assigns the spine: the joint nearest to the middle of the chain from the pelvis to the base of the neck.
   void FindSpine() {
     if (draft_.Has(kSpine)) return;
-    // Measure distances along the chain; they do not depend on the rest pose, which is folded up in some files.
+    // Measure distances along the chain, because these do not depend on the rest pose, which is folded up in some
+    // files.
     const int pelvis = draft_.JointOf(kHipCentre);
     const int neck = draft_.JointOf(kShoulderCentre);
     std::vector<int> chain;
@@ -264,8 +265,8 @@ class MapFinder {
   const MovingPoses& moving_;
 };
 
-/// Returns how upright a pose is: the smallest cosine of the angles between the line from shoulders to hips and each
-/// thigh and shank. Returns nullopt unless all joints of arms and legs are found by name.
+/// Returns how upright a pose is: the cosine of the largest angle between a thigh or shank and the line from shoulders
+/// to hips. Returns nullopt unless all joints of arms and legs are found by name.
 std::optional<double> StandingOf(const Skeleton& skeleton, const JointNames& names, const LocalPose& pose) {
   const SkeletonTree tree(skeleton, pose);
   std::array<glm::dvec3, kRoleCount> at{};

@@ -32,8 +32,8 @@ glm::dvec3 SkeletonTree::InFrameOf(int joint, const glm::dvec3& point) const {
 
 namespace {
 
-// Ratings of a limb whose three joints are all found by name. The rating of any other limb is the number of its joints
-// that are found.
+// Ratings of limbs whose three joints are all found by name. The rating of any other limb is the number of joints found
+// in it.
 constexpr int kAllNamed = 3;
 constexpr int kLooseChain = 4;
 constexpr int kChain = 5;

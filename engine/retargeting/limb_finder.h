@@ -39,7 +39,7 @@ class SkeletonTree {
   const std::string& NameOf(int joint) const { return skeleton_.joints[joint].name; }
   int ParentOf(int joint) const { return skeleton_.joints[joint].parent; }
   const glm::dvec3& RestOf(int joint) const { return rest_[joint].position; }
-  /// Returns true for end sites: those of the file, and joints whose names show that they are end sites (EndSites).
+  /// Returns true if `joint` is an end site by the file or by its name (EndSites).
   bool IsEnd(int joint) const { return ends_[joint]; }
 
   /// Returns true if `joint` is a descendant of `ancestor`; a joint is not a descendant of itself.
@@ -55,17 +55,17 @@ class SkeletonTree {
   std::vector<bool> ends_;
 };
 
-/// A limb found by names: its joints from the trunk outwards; −1 for a missing joint.
+/// A limb found by the names of its joints, which are listed from the trunk outwards; −1 for a missing joint.
 struct FoundLimb {
   std::array<int, 3> joints{-1, -1, -1};
   std::string prefix;                 ///< the common prefix of the joints' names
   const LimbNames* scheme = nullptr;  ///< the scheme that names the most joints; null if none names any
 };
 
-/// Finds a limb by the first scheme whose three names, with one prefix, belong to joints that descend from each other.
-/// As a second choice, the third joint may descend from neither of the others, because control rigs separate the feet
-/// from the legs. If no scheme fits, returns the joints of the scheme that names the most. Joints in `taught` are used
-/// as they are; −1 there means that the user did not give the joint.
+/// Finds a limb by the first scheme whose three names, with one prefix, belong to a chain of descendants. As a second
+/// choice, the third joint may be outside of the chain of the first two, because control rigs separate the feet from
+/// the legs. If no scheme fits, returns the joints of the scheme that names the most joints. Joints in `taught` are
+/// used as they are; −1 there means that the user did not give the joint.
 FoundLimb FindLimb(const JointNames& names, const SkeletonTree& tree, std::span<const LimbNames> schemes, Side side,
                    const std::array<int, 3>& taught);
 

@@ -18,8 +18,8 @@ struct JointOverride {
   Place place;       ///< position in the file, for error messages
 };
 
-/// The content of a joint-map file: the joints that play roles, and properties that clip files lack. Roles that it
-/// leaves out are found by FindJointMap.
+/// The content of a joint-map file: the joints that play roles, and properties that clip files lack. FindJointMap finds
+/// the roles that the file leaves out.
 struct JointMapOverrides {
   std::map<Role, JointOverride> joints;
   std::optional<double> metres_per_unit = {};

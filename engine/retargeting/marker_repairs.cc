@@ -32,8 +32,8 @@ bool IsOfLimb(std::string name) {
   });
 }
 
-/// Returns true if, in a tenth of the frames, the origin is farther from the markers' centroid than twice their median
-/// distance from that centroid. The markers are then not relative to a point of the body.
+/// Returns true if, in a tenth of the frames, the origin is farther from the markers' centroid than twice the markers'
+/// median distance from that centroid. The positions are then not relative to a point of the body.
 bool IsFarFromZero(const MarkerMotion& markers) {
   constexpr double kTimes = 2, kTenth = 0.1;
   const auto is_far = [](const auto& frame) {
@@ -54,8 +54,8 @@ bool IsFarFromZero(const MarkerMotion& markers) {
   return static_cast<double>(far) > kTenth * static_cast<double>(markers.frames.size());
 }
 
-/// Removes positions at 0, 0, 0: of markers that have other positions in other frames, of limbs' markers if other
-/// markers move, and of all markers if the body is far from the origin. (The root of a root-relative pose stays,
+/// Removes positions at 0, 0, 0 of three kinds of markers: those with other positions in other frames, those of limbs
+/// if other markers move, and all markers if the body is far from the origin. (The root of a root-relative pose stays,
 /// because it is always at 0.) Returns the number of removed positions.
 int LeaveZerosOut(MarkerMotion& markers) {
   int zeros = 0;
@@ -82,8 +82,8 @@ int LeaveZerosOut(MarkerMotion& markers) {
   return zeros;
 }
 
-/// Removes positions that are a hundred times farther from the middle of their frame than usual, because some programs
-/// write numbers such as -9999 for a gap. Returns the number of removed positions.
+/// Removes positions that are a hundred times farther from the middle of the frame's markers than usual, because some
+/// programs write numbers such as -9999 for a gap. Returns the number of removed positions.
 int LeaveFarOut(MarkerMotion& markers) {
   constexpr double kTimesUsual = 100;
   constexpr std::size_t kMinMarkers = 5;

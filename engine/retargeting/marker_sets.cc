@@ -51,7 +51,7 @@ std::vector<MarkerSet> MakeSets() {
               {{Role::kHipCentre, {"hip"}}, {Role::kShoulderCentre, {"neck"}}, {Role::kHead, {"nose", "head"}}},
               with_toes, "l", "r"));
   sets.push_back(MakeSet("COCO", "coco", {{Role::kHead, {"left_ear", "right_ear"}}}, pose_limbs, "left_", "right_"));
-  // Bones; each is placed at the joint in which it begins.
+  // Bones. A bone's position in the file is that of the joint in which the bone begins.
   sets.push_back(MakeSet("Motive's bones", "motive", {{Role::kShoulderCentre, {"neck"}}, {Role::kHead, {"head"}}},
                          {{Role::kLeftShoulder, {"?uarm"}},
                           {Role::kLeftElbow, {"?farm"}},

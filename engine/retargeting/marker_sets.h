@@ -21,7 +21,7 @@ struct MarkerRule {
 /// A convention of marker names, in lower case.
 struct MarkerSet {
   std::string name;
-  std::string key;  ///< its name for --marker-set
+  std::string key;  ///< the value of --marker-set that selects this set
   std::vector<MarkerRule> rules;
   std::array<std::string, 4> pelvis = {};  ///< markers of the pelvis: left and right front, left and right back; the
                                            ///< hips follow from them
@@ -30,7 +30,7 @@ struct MarkerSet {
   /// then show the planes in which the limbs bend.
   bool has_skin_limbs = false;
   bool has_skin_shoulders = false;  ///< true if shoulders have one marker each, on top
-  int rank = 0;                     ///< of several sets in a file, the one with the highest rank is used
+  int rank = 0;                     ///< if a file has several sets, the set with the highest rank is used
 };
 
 /// Lists the supported conventions.
@@ -50,7 +50,8 @@ inline constexpr std::array kNeededJoints = {Role::kLeftShoulder,  Role::kLeftEl
 
 /// Returns true if a person has all of these markers.
 bool HasAll(const MarkerColumns& columns, std::span<const std::string> markers);
-/// Returns the markers of the pelvis, the sacrum's twice if it stands for the back; nullopt if some are missing.
+/// Returns the pelvis's markers; the sacrum's marker stands twice if it replaces the markers on the back. nullopt if
+/// markers are missing.
 std::optional<std::array<std::string, 4>> PelvisOf(const MarkerSet& set, const MarkerColumns& columns);
 /// Returns true if the set determines a joint from a person's markers.
 bool Determines(const MarkerSet& set, const MarkerColumns& columns, Role role);
@@ -62,8 +63,8 @@ struct ChosenSet {
   const MarkerSet* set = nullptr;
   const MarkerSet* other = nullptr;
 };
-/// Chooses a complete set: the set with key `wanted` if that is not empty, otherwise the one with the highest rank,
-/// then with the most joints that it determines. The sets in the result are null if none is complete.
+/// Chooses a complete set: the set with key `wanted` if that is not empty, otherwise the set with the highest rank; of
+/// equal ranks, the set that determines the most joints. The sets in the result are null if none is complete.
 ChosenSet ChooseSet(const MarkerColumns& columns, const std::string& wanted);
 
 }  // namespace etude

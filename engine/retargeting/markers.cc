@@ -62,8 +62,8 @@ int BridgeGaps(std::vector<JointPositions>& frames, std::size_t joint, std::size
 }
 
 /// Sets the hip joint centres by the regression of Harrington et al. (2007), "Prediction of the hip joint centre in
-/// adults, children, and patients with cerebral palsy", table 6. Its offsets are in millimetres from the midpoint of
-/// the front markers.
+/// adults, children, and patients with cerebral palsy", table 6. The table's offsets are in millimetres from the
+/// midpoint of the front markers.
 void PlaceHips(const std::array<glm::dvec3, 4>& pelvis, JointPositions& places) {
   const glm::dvec3 front = 0.5 * (pelvis[0] + pelvis[1]), back = 0.5 * (pelvis[2] + pelvis[3]);
   const glm::dvec3 right = glm::normalize(pelvis[1] - pelvis[0]);
@@ -166,8 +166,7 @@ bool IsWhole(const JointPositions& frame) {
   return std::ranges::all_of(kNeededJoints, [&](Role role) { return frame[Index(role)].has_value(); });
 }
 
-/// Finds the axis that points up from the frames with all needed joints. A foot without a marker is placed at its
-/// ankle.
+/// Finds the file's up axis; uses the frames with all needed joints. A foot without a marker is placed at its ankle.
 UpFinding FindUpOf(const std::vector<JointPositions>& frames, double rate_hz, const UpRule& rule) {
   std::vector<BodyPose> poses;
   for (const JointPositions& places : frames) {
@@ -234,7 +233,7 @@ double FloorOf(const std::vector<BodyPose>& poses) {
 }
 
 /// Moves the poses so that the floor is at 0. Does nothing if the user keeps the floor, or if Etude wrote the file and
-/// its floor is near 0.
+/// the floor is near 0.
 void StandOnFloor(bool keeps_floor, bool is_own, MarkerBody& body) {
   constexpr double kMaxOwn = 0.5, kMinTold = 0.001;
   const double floor = FloorOf(body.motion.poses);
@@ -324,8 +323,8 @@ double MiddleStature(const BodyMotion& motion) {
   return LowerPercentile(std::move(statures), 0.5);
 }
 
-/// Makes the body in the file's unit. If its size is then implausible, the unit is multiplied by the power of ten that
-/// gives a person's size, which the note states. Fails if no power of ten does.
+/// Makes the body in the file's unit. If the body's size is implausible, multiplies the unit by the power of ten that
+/// gives a person's size, and states this in the note. Fails if no power of ten gives such a size.
 Result<std::optional<MarkerBody>> BodyOf(const MarkerMotion& markers, const MarkerSet& set,
                                          const MarkerColumns& columns, const MarkerOptions& options,
                                          const std::string& file) {

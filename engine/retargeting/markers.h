@@ -23,17 +23,17 @@ struct MarkerOptions {
 
 /// A body found in the trajectories of markers.
 struct MarkerBody {
-  std::string name;             ///< the prefix of its markers ("Derrick" of "Derrick:LANK"), or ""
-  BodyMotion motion;            ///< at the file's rate; metres, Y up, feet on the floor
-  UpFinding up;                 ///< the axis of the file that became Y
-  double floor = 0;             ///< the height of the file's floor, metres; it became 0
+  std::string name;   ///< the prefix of the body's markers ("Derrick" of "Derrick:LANK"), or ""
+  BodyMotion motion;  ///< at the file's rate; metres, Y up, feet on the floor
+  UpFinding up;       ///< the axis of the file that became the motion's Y axis
+  double floor = 0;   ///< the height of the floor in the file, metres; in `motion` this height is 0
   std::size_t first_frame = 0;  ///< the file's index of the first kept frame
   /// The name of the marker set, then a text for users about each correction of the file's data.
   std::vector<std::string> changes;
   /// The joints exactly as the markers show them, in all frames of the file: gaps are not filled, no joint is placed by
   /// a rule, and the floor is not moved. First come the joints that the set determines, named by role, then the
-  /// person's other markers under their own names in lower case. Metres, Y up. Its remark names the set and the
-  /// assumptions. It has no frames unless MarkerOptions::keeps_shown is set.
+  /// person's other markers under their own names in lower case. Metres, Y up. The motion's remark names the set and
+  /// the assumptions. The motion has no frames unless MarkerOptions::keeps_shown is set.
   MarkerMotion shown = {};
 
   /// Returns `changes` as one line, separated by semicolons.
@@ -45,18 +45,18 @@ struct MarkerBody {
 /// is ignored. The text before the last ':' is a prefix, and each prefix is one person. Joint centres are found by
 /// these rules, which are ours where no source is named:
 /// - the mean of the markers on both sides of a joint, if a set has both;
-/// - hips from the four markers of the pelvis (or one on the sacrum for its back) by the regression of Harrington et
-///   al. (2007);
+/// - hips from the four markers of the pelvis (or one on the sacrum for the pelvis's back) by the regression of
+///   Harrington et al. (2007);
 /// - for single markers on the skin, the centre by MoveToJointCentres;
 /// - joints missing from a set: hip centre and shoulder centre midway between left and right, the spine midway between
 ///   these centres, the head 0.3 trunk lengths above, hands 0.7 forearm lengths beyond the wrist, toes 16 cm ahead of
 ///   the ankle and 4 cm below.
 /// Gaps of up to a second are interpolated linearly and counted. If there are longer gaps, only the longest stretch
 /// without such a gap is kept, and the note states this. Positions at 0, 0, 0 may count as gaps (RepairMarkers). The
-/// note names joints that seem to be exchanged between left and right (DescribeExchangedJoints). FindUp finds the axis
-/// that points up, by `options.up`. The floor (5th percentile of the lowest joint's height) becomes 0. For Etude's own
-/// joints, Y is up, and the floor stays unless it is over half a metre from 0. If a file has several complete sets, the
-/// set with the highest rank is used, then the set that determines most joints; the note names the other.
+/// note names joints that seem to be exchanged between left and right (FindExchangedJoints). FindUp finds the up axis
+/// by the rule `options.up`. The floor (5th percentile of the lowest joint's height) becomes 0. For Etude's own joints,
+/// Y is up, and the floor stays unless it is over half a metre from 0. If a file has several complete sets, the set
+/// with the highest rank is used, then the set that determines most joints; the note names the other.
 ///
 /// If a body is not 0.4 to 4 m tall (median), its unit is assumed to be wrong. The unit is then multiplied by the power
 /// of ten that makes the body 1.2 to 2.3 m tall, and the note states this. A unit given in `options` is never changed.

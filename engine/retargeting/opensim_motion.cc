@@ -24,20 +24,21 @@ namespace {
 
 using enum Role;
 
-/// Identifies the range of an angle in `MakeBodyTree`. `is_reversed`: the angle has the opposite sign there.
+/// An angle of `MakeBodyTree`, whose range limits an angle of the file. `is_reversed`: the tree's angle has the
+/// opposite sign.
 struct TreeAngle {
   BodyTreeJoint joint;
   int axis = 0;
   bool is_reversed = false;
 };
 
-/// An angle of a part: its name without the side, and its range on the right side.
+/// An angle of a part: the angle's name without the side, and its range on the right side.
 struct PartAngle {
   std::string_view name;
   std::optional<TreeAngle> range = {};
 };
 
-/// The part that ends at `end`. Only right parts and parts of the middle are listed; left parts mirror the right ones.
+/// The part that ends at `end`. Only right parts and parts of the middle are listed; left parts mirror the right parts.
 struct Part {
   Role end;
   std::array<PartAngle, 3> angles;  ///< the angles about Z, X and Y
@@ -75,7 +76,7 @@ const std::array<Part, 12> kParts = {{
        {"ankle_rotation"}}}},
 }};
 
-/// A part as it is written to the file, of either side.
+/// A left or right part as it is written to the file.
 struct WrittenPart {
   Role end;
   std::array<std::string, 3> names;
@@ -118,7 +119,7 @@ glm::dmat3 InOpenSim(const glm::dmat3& turn) {
 
 double Unwrapped(double angle, double near) { return angle - 2 * kPi * std::round((angle - near) / (2 * kPi)); }
 
-/// Returns the angles a, b, c of R = Rz(a) Rx(b) Ry(c). Among all such triples, takes the one nearest to `before`.
+/// Returns the angles a, b, c of R = Rz(a) Rx(b) Ry(c). Among all such triples, takes the triple nearest to `before`.
 glm::dvec3 TurnsOf(const glm::dmat3& R, const glm::dvec3& before) {
   const auto at = [&](int row, int column) { return R[column][row]; };
   constexpr double kLocked = 1e-9;
@@ -135,7 +136,7 @@ glm::dvec3 TurnsOf(const glm::dmat3& R, const glm::dvec3& before) {
   return glm::distance(one, before) <= glm::distance(other, before) ? one : other;
 }
 
-/// Returns each part's rotation in the world relative to the rest pose, by the role at its end.
+/// Returns the world rotation of each part relative to the rest pose, by the role at the part's end.
 std::array<glm::dmat3, kRoleCount> PartTurns(const BodyPose& pose, const BodyPose& rest, const Clip& rig,
                                              const LocalPose& frame) {
   std::vector<GlobalTransform> joints;
@@ -143,8 +144,8 @@ std::array<glm::dmat3, kRoleCount> PartTurns(const BodyPose& pose, const BodyPos
   std::array<glm::dmat3, kRoleCount> turns;
   turns[Index(kHipCentre)] = joints[Index(kHipCentre)].axes;
   for (const Bone& bone : AllBones()) {
-    // The joint in which a limb begins carries the limb. If several limbs begin in one joint, each takes the shortest
-    // rotation from the joint's orientation to its own direction.
+    // A limb turns with the joint in which it begins. If several limbs begin in one joint, each limb takes the shortest
+    // rotation from the joint's orientation to the limb's own direction.
     const glm::dmat3& axes = joints[Index(bone.parent)].axes;
     const glm::dvec3 carried = axes * (rest[bone.child] - rest[bone.parent]);
     turns[Index(bone.child)] = glm::mat3_cast(ShortestTurn(carried, pose[bone.child] - pose[bone.parent])) * axes;
@@ -188,7 +189,7 @@ std::string HeaderOf(const BodyMotion& motion, const std::vector<WrittenPart>& p
 /// A part as read from the file, with the columns of its angles.
 struct ReadPart {
   Role end;
-  std::optional<Role> after;  ///< the parent part's end; nullopt: the ground
+  std::optional<Role> after;  ///< the role at the parent part's end; nullopt: the ground
   glm::dvec3 bone;            ///< vector from the part's beginning to its end, in OpenSim's axes, metres
   std::array<std::string, 3> names;
   std::array<glm::dvec3, 3> axes;  ///< the signed axes of the three rotations

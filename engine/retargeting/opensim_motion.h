@@ -17,10 +17,10 @@ namespace etude {
 ///     part right_knee after right_hip bone 0 -0.4165 0 turns +Z hip_flexion_r +X hip_adduction_r +Y hip_rotation_r
 ///     limit hip_flexion_r -30 120
 /// A part begins at the end of the part named after `after`, is rotated relative to that part by R = Rz Rx Ry with the
-/// given signs, and ends at R · bone. Flexion, adduction, inversion and internal rotation are positive on both sides,
-/// and so is extension of the trunk and the neck. An angle that also exists in OpenSim's models has the name that it
-/// has there. Limits come from LimitSet::kAdult; an angle without a limit line has no limits. Angles are continuous
-/// from frame to frame, without jumps of full turns.
+/// given signs, and ends at R · bone from there. Flexion, adduction, inversion and internal rotation are positive on
+/// both sides, and so is extension of the trunk and the neck. An angle that also exists in OpenSim's models has the
+/// name that it has there. Limits come from LimitSet::kAdult; an angle without a limit line has no limits. Angles are
+/// continuous from frame to frame, without jumps of full turns.
 ///
 /// All rotations are the identity in `rest`. The limbs have the directions of the motion's limbs but the lengths of
 /// `rest`. `name` is written to the header with control characters replaced by '_'.
@@ -29,12 +29,11 @@ std::string WriteOpenSimMotion(const BodyMotion& motion, const BodyPose& rest, s
 /// Returns true if these bytes are a .mot file that contains the model of its angles.
 bool HasModelOfAngles(std::string_view bytes);
 
-/// Reads a .mot file that contains the model of its angles, as WriteOpenSimMotion writes it. Returns the ends of the
-/// twenty parts as joints, metres, Y up. `LayOnClock` resamples rows to a constant rate by their times, and `note`
-/// states its changes; a single row has 30 Hz. Angles are degrees, or radians after "inDegrees=no". Fails, with the
-/// line, for more than 64 MB, parts that are not the twenty roles (each once, after its parent), angles or translations
-/// without a column, rows of another length, numbers beyond ±10⁹, no rows, and times that run backwards.
-Result<BodyMotion> ReadOpenSimMotion(std::string_view bytes, const std::string& file, std::string* note = nullptr,
-                                     double* start_s = nullptr);
+/// Reads a .mot file that contains the model of its angles, as WriteOpenSimMotion writes it. Returns the positions of
+/// the twenty parts' ends as joints, metres, Y up. `LayOnClock` resamples rows to a constant rate by their times, and
+/// `note` states its changes; a single row has 30 Hz. Angles are degrees, or radians after "inDegrees=no". Fails, with
+/// the line, for more than 64 MB, parts that are not the twenty roles (each once, after its parent), angles or
+/// translations without a column, rows of another length, numbers beyond ±10⁹, no rows, and times that run backwards.
+Result<BodyMotion> ReadOpenSimMotion(std::string_view bytes, const std::string& file, std::string* note = nullptr);
 
 }  // namespace etude

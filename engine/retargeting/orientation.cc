@@ -72,16 +72,17 @@ glm::dvec3 Reach(const BodyPose& pose, Role upper, Role middle, Role end) {
   return length > 0 ? (pose[end] - pose[upper]) / length : glm::dvec3(0);
 }
 
-/// Returns the bending angle of a limb's middle joint, radians; negative if it bends away from `forward`.
+/// Returns the bending angle of a limb's middle joint, radians; negative if the joint points away from `forward`.
 double Bend(const glm::dvec3& forward, const glm::dvec3& upper, const glm::dvec3& middle, const glm::dvec3& end) {
   const double angle = AngleBetween(middle - upper, end - middle);
   return glm::dot(forward, middle - 0.5 * (upper + end)) < 0 ? -angle : angle;
 }
 
-/// Evidence that left and right are correct. It is measured in the body's own frame, so the body may lie or turn over.
+/// Evidence that left and right are not exchanged. It is measured in the body's own frame, so the body may lie or turn
+/// over.
 struct Sides {
-  double shoulders = 0, toes = 0, knees = 0, arms = 0;  ///< sums over frames (and limbs); positive for humans
-  std::vector<double> knee_bends;                       ///< Bend of both knees in each frame
+  double shoulders = 0, toes = 0, knees = 0, arms = 0;  ///< sums over frames (and limbs); positive if sides are right
+  std::vector<double> knee_bends;                       ///< result of Bend for left and right knee in each frame
 };
 
 Sides MeasureSides(std::span<const BodyPose> poses) {

@@ -22,8 +22,8 @@ bool IsTurned(const glm::dquat& a, const glm::dquat& b) {
   return half > std::sin(0.5 * kStill);
 }
 
-// A skeleton as a clip uses it: the mean translation of each joint, its rotation if that is constant, and whether it
-// rotates.
+// Each joint of a skeleton as a clip moves it: the joint's mean translation, its rotation if that is constant, and
+// whether it rotates.
 struct Measured {
   LocalPose rest;
   std::vector<bool> turns;
@@ -50,7 +50,7 @@ Measured Measure(const Clip& clip, std::size_t first) {
   return measured;
 }
 
-/// Returns true if the joint of every role is the hip centre's joint or its descendant.
+/// Returns true if every role's joint is the hip centre's joint or a descendant of that joint.
 bool DescendsFromPelvis(const RestBody& rest) {
   const int pelvis = rest.roles[Index(Role::kHipCentre)].joint;
   return std::ranges::all_of(rest.roles, [&](const RestBody::RoleAnchor& role) {
@@ -72,7 +72,7 @@ RestBody MeasureBody(const Clip& clip, const JointMap& map, const BodyConversion
 
   // Keep the joints that rotate; others are merged into their parents.
   RestBody rest;
-  std::vector<int> index(globals.size());  // for each joint of the skeleton: the body's joint that carries it
+  std::vector<int> index(globals.size());  // for each joint of the skeleton: the body's joint with which it moves
   for (std::size_t i = 0; i < globals.size(); ++i) {
     const Joint& joint = clip.skeleton.joints[i];
     if (joint.parent >= 0 && !measured.turns[i]) {
@@ -92,7 +92,7 @@ namespace {
 
 using enum Role;
 
-/// Returns the length of thigh and shank.
+/// Returns the sum of the lengths of thigh and shank.
 double LegLength(const BodyPose& pose, const Limb& leg) {
   const auto [hip, knee, ankle] = leg.roles;
   return glm::distance(pose[hip], pose[knee]) + glm::distance(pose[knee], pose[ankle]);
@@ -130,8 +130,8 @@ BodyPose WithNewLimbs(const BodyPose& performer, const BodyPose& body, double sc
   return pose;
 }
 
-/// Returns how far the hips must be lowered for the leg to reach `ankle`, metres. A foot in the air counts less, and a
-/// high one not at all.
+/// Returns how far the hips must be lowered for the leg to reach `ankle`, metres; less for a foot in the air, and 0 for
+/// a high foot.
 double NeededDrop(const BodyPose& pose, const Limb& leg, const glm::dvec3& ankle, double toe_height) {
   constexpr double kStands = 0.05, kFlies = 0.15;  // height of the toes above the floor, metres
   const double stands = 1 - Smoothstep(kStands, kFlies, toe_height);
@@ -143,7 +143,7 @@ double NeededDrop(const BodyPose& pose, const Limb& leg, const glm::dvec3& ankle
 }
 
 /// Returns the side of the line from hip to ankle (`along`) on which the knee lies: a unit vector perpendicular to
-/// `along`, from the direction of the thigh. For a straight leg, returns the direction in front of the hips.
+/// `along`, found from the thigh's direction. For a straight leg, returns the direction in front of the hips.
 glm::dvec3 KneeSide(const BodyPose& pose, const glm::dvec3& thigh, const glm::dvec3& along) {
   constexpr double kStraight = 0.02, kBent = 0.08;  // offset of the knee from the line, in thigh lengths
   const double length = glm::length(thigh);
@@ -156,7 +156,7 @@ glm::dvec3 KneeSide(const BodyPose& pose, const glm::dvec3& thigh, const glm::dv
 }
 
 /// Solves two-bone inverse kinematics: brings the ankle to `wanted`, or as near as the leg reaches, and keeps the knee
-/// on its side. The foot keeps its slope.
+/// on the same side of the leg. The foot keeps its slope.
 void Reach(BodyPose& pose, const Limb& leg, const glm::dvec3& wanted) {
   constexpr double kThere = 1e-9;
   const auto [hip, knee, ankle] = leg.roles;

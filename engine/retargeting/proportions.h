@@ -14,11 +14,11 @@ namespace etude {
 /// controls), the body consists of the roles only (RestBodyOf). `body` must be the result of ToBodyMotion for the clip.
 RestBody MeasureBody(const Clip& clip, const JointMap& map, const BodyConversion& body);
 
-/// Transfers a motion to a body with the limb lengths of `body`: every limb keeps its direction, and the hips' path and
-/// height are scaled by the ratio of leg lengths. (The performer's leg length is a median, because measured lengths
-/// vary.) Two-bone inverse kinematics then brings the toes to their scaled positions, so standing feet do not slide
-/// (Gleicher 1998 keeps the same contacts). Feet on the floor stay there; if a leg is too short, the hips are lowered.
-/// `body` may be any pose of the target; only its lengths are used.
+/// Transfers a motion to a body with the limb lengths of `body`: every limb keeps its direction, and the hip centre's
+/// path and height are scaled by the ratio of the two bodies' leg lengths. (The performer's leg length is a median,
+/// because measured lengths vary.) Two-bone inverse kinematics then brings the toes to their scaled positions, so
+/// standing feet do not slide (Gleicher 1998 keeps the same contacts). Feet on the floor stay there; if a leg is too
+/// short, the hips are lowered. `body` may be any pose of the target; only its lengths are used.
 BodyMotion Retarget(const BodyMotion& motion, const BodyPose& body);
 
 }  // namespace etude

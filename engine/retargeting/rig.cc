@@ -49,14 +49,14 @@ namespace {
 using enum Role;
 
 /// For each limb, in the order of kLimbs, a direction in the middle of the upper bone's range, in the axes of chest or
-/// hips. To find the twist of a straight limb, a hanging limb is rotated to this direction and from there to the pose,
-/// both times by the shortest rotation. The twist is discontinuous only in the opposite direction, which must lie
-/// outside of the range: inward through the chest, or backward through the hips.
+/// hips. To find the twist of a straight limb, a hanging limb is rotated to this direction by the shortest rotation,
+/// and from there to its direction in the pose by the shortest rotation. The twist is discontinuous only in the
+/// opposite direction, which must lie outside of the range: inward through the chest, or backward through the hips.
 constexpr std::array<glm::dvec3, kLimbs.size()> kMidDirections = {
     {{0.71, 0, 0.71}, {-0.71, 0, 0.71}, {0, -0.87, 0.5}, {0, -0.87, 0.5}}};
 
-/// Bend angles. Below kStraight, the plane of an elbow or knee is mostly noise; above kBent, that plane alone
-/// determines the twist.
+/// Bend angles. Below kStraight, the plane in which an elbow or knee bends is mostly noise; above kBent, this plane
+/// alone determines the twist.
 constexpr double kStraight = Radians(10);
 constexpr double kBent = Radians(60);
 
@@ -73,14 +73,14 @@ glm::dquat HipsOf(const BodyPose& pose) {
 }
 
 glm::dquat ChestOf(const BodyPose& pose) {
-  // The chest's Y axis follows the trunk exactly; its X axis follows the shoulders as far as it can stay perpendicular,
-  // because shoulders rise with the arms. Hips do not rise with the legs, so their X axis is exact.
+  // The chest's Y axis follows the trunk exactly; the X axis follows the shoulders as far as possible at a right angle
+  // to Y, because shoulders rise with the arms. Hips do not rise with the legs, so their X axis is exact.
   const glm::dquat up_first =
       Orientation(VectorBetween(pose, kSpine, kShoulderCentre), VectorBetween(pose, kLeftShoulder, kRightShoulder));
   return up_first * glm::angleAxis(-kPi / 2, glm::dvec3(0, 0, 1));
 }
 
-/// Blends from `axis` to the normal of two bones, which gets the weight `shown`.
+/// Blends `axis` with the normal of two bones; the normal gets the weight `shown`.
 glm::dvec3 Towards(const glm::dvec3& axis, const glm::dvec3& normal, double shown) {
   const double length = glm::length(normal);
   return length > 0 && shown > 0 ? glm::mix(axis, normal / length, shown) : axis;
@@ -90,7 +90,7 @@ glm::dquat UpperOf(const Limb& limb, const glm::dvec3& middle, const glm::dquat&
   const auto [root, hinge, end] = limb.roles;
   const glm::dvec3 upper = VectorBetween(pose, root, hinge), lower = VectorBetween(pose, hinge, end),
                    tip = VectorBetween(pose, end, limb.tip);
-  // Upper × lower bone points to the right for a bent arm, and to the left for a bent leg.
+  // The cross product of upper and lower bone points to the right for a bent arm, and to the left for a bent leg.
   const glm::dvec3 hanging_axis(limb.is_arm ? -1 : 1, 0, 0);
   const glm::dquat swing = ShortestTurn(trunk * middle, upper) * trunk * ShortestTurn(glm::dvec3(0, -1, 0), middle);
   glm::dvec3 axis = swing * hanging_axis;
@@ -137,8 +137,8 @@ std::array<glm::dquat, kRoleCount> Turns(const BodyPose& rest, const BodyPose& p
   return turns;
 }
 
-/// A rotation has two unit quaternions, q and −q. Chooses for each joint the one nearer to the previous frame's,
-/// because some programs interpolate the components.
+/// A rotation has two unit quaternions, q and −q. For each joint, chooses the quaternion nearer to the previous
+/// frame's, because some programs interpolate the components.
 void KeepSign(const LocalPose& before, LocalPose& frame) {
   for (std::size_t i = 0; i < frame.size(); ++i) {
     if (glm::dot(before[i].rotation, frame[i].rotation) < 0) frame[i].rotation = -frame[i].rotation;

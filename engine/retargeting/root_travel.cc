@@ -13,8 +13,8 @@
 namespace etude {
 namespace {
 
-/// Returns the joint that moves the body: the first one with changing positions on the path from the hips to the root;
-/// −1 if there is none.
+/// Returns the joint that moves the body: the first joint with changing positions on the path from the hips to the
+/// root; −1 if no position changes.
 int MovedJoint(const Clip& clip, const JointMap& map) {
   for (int joint = map[Role::kHipCentre].joint; joint >= 0; joint = clip.skeleton.joints[joint].parent) {
     const glm::dvec3 first = clip.frames.front()[joint].translation;
@@ -32,7 +32,8 @@ std::string DescribeRootTravel(const Clip& clip, const JointMap& map) {
   const int moved = clip.frames.empty() ? -1 : MovedJoint(clip, map);
   const auto apart = static_cast<std::size_t>(std::max(1.0, std::round(kStep_s * clip.rate_hz)));
   if (moved < 0 || clip.frames.size() < apart + kMinSteps) return "";
-  // The steps of both ankles and of the moved joint from sampled frames to those a thirtieth of a second later.
+  // The steps of both ankles and of the moved joint, each from a sampled frame to the frame a thirtieth of a second
+  // later.
   struct Step {
     glm::dvec3 left, right, root;
   };

@@ -18,9 +18,9 @@ using enum Role;
 
 /// A kind of joint whose markers lie on the skin.
 struct SkinJoint {
-  Role left, before;       ///< a joint of the left side, and the joint at the other end of its limb
+  Role left, before;       ///< a joint of the left side, and the joint at the limb's other end
   std::string_view size;   ///< the name of the joint's width in files, without the side
-  double share;            ///< distance from marker to centre over the length between the limb's markers
+  double share;            ///< distance from marker to centre, as a share of the distance of both markers
   std::string_view where;  ///< text for users: "knees {:.1f} cm inside"
 };
 constexpr std::array<SkinJoint, 4> kSkinJoints = {{{kLeftKnee, kLeftHip, "KNEEWIDTH", 0.12, "knees"},
@@ -31,11 +31,11 @@ constexpr std::array<SkinJoint, 4> kSkinJoints = {{{kLeftKnee, kLeftHip, "KNEEWI
 /// The distances from markers to centres, metres, by role.
 struct SkinDepths {
   std::array<double, kRoleCount> metres{};
-  std::vector<std::string> of_file, of_limb;  ///< the kinds of joints whose sizes come from each source
+  std::vector<std::string> of_file, of_limb;  ///< kinds of joints with sizes from the file, and from limb lengths
   bool has_elbow_widths = false;
 };
 
-/// The joints of one side of a body in one frame, with their names mirrored for the right side.
+/// The joints of one side of a body in one frame, addressed by left roles for either side.
 class SideOf {
  public:
   SideOf(JointPositions& places, bool is_left) : places_(places), is_left_(is_left) {}
@@ -68,8 +68,8 @@ glm::dvec3 Chord(const glm::dvec3& other_end, const glm::dvec3& marker, const gl
   return marker - depth * share * limb / length + depth * std::sqrt(1 - share * share) * aside;
 }
 
-/// Returns the inward direction. Blends from `rough`, which is always known, to the normal of the bend, which is more
-/// reliable for a stronger bend. A marker that is `depth` beside a straight limb makes the limb seem bent; this
+/// Returns the inward direction. Blends `rough`, which is always known, with the normal of the bend plane, which gets
+/// more weight as the limb bends more. A marker that is `depth` beside a straight limb makes the limb seem bent; this
 /// apparent bend is subtracted.
 glm::dvec3 Inward(const glm::dvec3& rough, const glm::dvec3& upper, const glm::dvec3& lower, double sign, double depth) {
   constexpr double kCertain = 1.2, kRange = 0.25;  // kCertain multiplies the apparent bend; kRange is a sine
@@ -93,7 +93,7 @@ SkinDepths DepthsOf(const MarkerSet& set, const std::map<std::string, double>& s
     std::vector<double> lengths;
     bool is_of_file = true;
     for (const bool is_left : {true, false}) {
-      // Take the joint's width from the file if possible; otherwise the distance is a share of the limb's length.
+      // Compute the distance from the joint's width if the file has it; otherwise take a share of the limb's length.
       const auto width = size((is_left ? "L" : "R") + std::string(joint.size));
       const bool is_offset = joint.left == kLeftShoulder;
       const double radius = 0.5 * size("MARKERDIAMETER").value_or(kUsualMarker);
@@ -136,8 +136,9 @@ glm::dvec3 ByWand(const glm::dvec3& wand, const glm::dvec3& other_end, const glm
   return UnitOr(-Across(wand - other_end, marker - other_end), glm::dvec3(0));
 }
 
-/// Returns the inward direction at a knee, from the line between the hips and the bend of the knee. The bend of the
-/// markers gives a first direction and thereby joint centres; the bend of these centres gives the result.
+/// Returns the inward direction at a knee, from the line between the hips and the bend of the knee. The bend seen in
+/// the markers gives a first direction and thereby joint centres; the bend of the limb through these centres gives the
+/// result.
 glm::dvec3 KneeInward(const SideOf& side, const SkinDepths& depths) {
   const glm::dvec3 hip = *side[kLeftHip], skin = *side[kLeftKnee], ankle = *side[kLeftAnkle];
   const double sign = side.is_left() ? -1 : 1, depth = depths.metres[Index(side.On(kLeftKnee))];
@@ -157,7 +158,7 @@ UsedWands FindUsedWands(const std::vector<Wands>& wands, const SkinDepths& depth
   constexpr double kAside = 0.3;
   UsedWands used;
   for (const bool is_left : {true, false}) {
-    // Compute the median over the frames of the cosine between the wand's direction and the knee's axis.
+    // Compute the median, over the frames, of the cosine of the angle between wand and knee axis.
     std::array<std::vector<double>, 2> cosines;
     const std::size_t index = is_left ? 0 : 1;
     for (std::size_t t = 0; t < frames.size(); ++t) {
@@ -183,7 +184,7 @@ void MoveLeg(const SideOf& side, const Wands& wands, const UsedWands& used, cons
   const glm::dvec3 in = thigh && used.thigh[index] ? ByWand(*thigh, hip, skin) : KneeInward(side, depths);
   const glm::dvec3 knee = Chord(hip, skin, in, depths.metres[Index(side.On(kLeftKnee))]);
   side[kLeftKnee] = knee;
-  // Ankle: its axis is parallel to the knee's, unless its wand shows another axis.
+  // The ankle's axis is parallel to the knee's, unless the shank's wand shows another axis.
   const glm::dvec3 at_ankle = shank && used.shank[index] ? ByWand(*shank, knee, ankle) : knee - skin;
   side[kLeftAnkle] = Chord(knee, ankle, at_ankle, depths.metres[Index(side.On(kLeftAnkle))]);
 }

@@ -14,7 +14,8 @@ namespace etude {
 using MarkerPosition = std::optional<glm::dvec3>;
 using JointPositions = std::array<MarkerPosition, kRoleCount>;
 
-/// The markers beside a limb that show the plane in which it bends, in one frame: thighs and shanks, left then right.
+/// The positions in one frame of the wands: markers beside thighs and shanks that show the planes in which the limbs
+/// bend. Left, then right.
 struct Wands {
   std::array<MarkerPosition, 2> thigh = {}, shank = {};
 };

@@ -20,14 +20,14 @@ constexpr double kHandPerForearm = 18.0 / 25.0;
 constexpr double kFootPerShank = 18.0 / 42.0;
 constexpr double kHeadPerTrunk = 25.0 / 50.0;
 
-/// The plausible range of a tip's length, as a multiple of the length by the proportions above.
+/// The plausible range of a tip's length, in multiples of the length that follows from the proportions above.
 struct TipLength {
   double shortest;
   double longest;
 };
 // CMU's fingers end at half the length of a hand.
 constexpr TipLength kPlausibleHand{0.4, 1.6};
-// The feet of the clip Boxing_Toes are 1.4 times as long as paper B's, those of KayKit's toy figures 2.6 times.
+// The feet of the clip Boxing_Toes are 1.4 times as long as paper B's, the feet of KayKit's toy figures 2.6 times.
 constexpr TipLength kPlausibleFoot{0.4, 3.0};
 // A single "Head" joint lies at the base of the skull, 0.2 trunk lengths above the neck.
 constexpr TipLength kPlausibleHead{0.5, 1.6};
@@ -36,8 +36,8 @@ constexpr TipLength kPlausibleHead{0.5, 1.6};
 // decimals, in metres.
 constexpr double kEquallyFar = 1e-4;
 
-/// Returns the finger to which a joint below `top` belongs, by the joint's name or by the name of its nearest ancestor
-/// that names a finger. End sites have no names of their own.
+/// Returns the finger to which a joint below `top` belongs, by the joint's name or, if that names no finger, by the
+/// name of the nearest ancestor that does. End sites have no names of their own.
 Finger FingerBelow(const SkeletonTree& tree, int joint, int top) {
   for (; joint != top; joint = tree.ParentOf(joint)) {
     const Finger finger = FingerOf(tree.NameOf(joint));
@@ -46,9 +46,9 @@ Finger FingerBelow(const SkeletonTree& tree, int joint, int top) {
   return Finger::kNotNamed;
 }
 
-/// Returns the farthest joint among `top` and its descendants that is at a plausible distance (computed by `distance`)
-/// and for which `may_be` is true. Of equally far joints, returns the one with the most suitable finger name, then the
-/// first in the skeleton. Without this rule, rounding could choose different fingers on the left and on the right.
+/// Returns the farthest joint among `top` and its descendants that is at a plausible `distance` and for which `may_be`
+/// is true. Of equally far joints, returns the one with the most suitable finger name, then the first in the skeleton.
+/// Without this rule, rounding could choose different fingers on the left and on the right.
 template <typename Distance, typename MayBe>
 std::optional<int> FarthestTip(const SkeletonTree& tree, int top, double proportion, const TipLength& plausible,
                                Distance distance_of, MayBe may_be) {

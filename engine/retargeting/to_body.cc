@@ -51,7 +51,7 @@ constexpr double kDefaultStature = 1.70;
 constexpr double kMaxSeconds = 3600;
 constexpr double kMaxPoses = 500'000;
 constexpr double kMinToldFloor_cm = 0.1;  // smaller heights are rounding errors
-constexpr double kMinBody = 1e-6;  // in any unit; smaller bodies have no size
+constexpr double kMinBody = 1e-6;  // in the file's unit; a smaller body counts as one without size
 
 /// Returns the up axis that the user gives, otherwise the format's, otherwise the axis that FindUp finds.
 UpFinding UpOf(const BodyOptions& options, const BodyPose& rest, const UpSamples& samples) {
@@ -63,7 +63,7 @@ UpFinding UpOf(const BodyOptions& options, const BodyPose& rest, const UpSamples
 
 UpAxis AsUpAxis(const UpFinding& up) { return up.axis.z > 0 ? UpAxis::kZ : UpAxis::kY; }
 
-/// Replaces the scales of every frame by those of the rest pose.
+/// Replaces the joints' scales in every frame by the scales in the rest pose.
 void ResetScales(Clip& clip) {
   for (LocalPose& frame : clip.frames) {
     for (std::size_t i = 0; i < frame.size(); ++i) frame[i].scale = clip.skeleton.joints[i].rest.scale;
@@ -76,9 +76,9 @@ double WorstGap(const BodyPose& a, const BodyPose& b) {
   return worst;
 }
 
-/// Returns the length, in frames, of a constant T-pose at the start that does not belong to the motion: the motion
-/// jumps away from it by more than 5 % of the stature, and by much more than in the next step. Returns 0 without such a
-/// T-pose.
+/// Returns the length, in frames, of a constant T-pose at the start that does not belong to the motion: the motion's
+/// first step away from the T-pose exceeds 5 % of the stature and is much larger than the second step. Returns 0
+/// without such a T-pose.
 std::size_t CountForeignTPose(const Clip& clip, BodySampler& sampler, UpAxis up) {
   constexpr double kStillPerStature = 1e-4;
   constexpr double kJumpPerStature = 0.05;
@@ -140,7 +140,7 @@ Result<std::vector<BodyPose>> Resampled(const Clip& clip, BodySampler& sampler, 
 
 double MedianStature(const std::vector<BodyPose>& poses) { return LowerPercentile(OverFrames(poses, Stature), 0.5); }
 
-/// Returns the unit in which `stature` is that of a human, or null if there is none.
+/// Returns the unit in which `stature` is a human's, or null if there is no such unit.
 const Unit* UnitOf(double stature) {
   const auto is_human = [&](const Unit& unit) {
     return stature * unit.metres >= unit.min_stature && stature * unit.metres <= kMaxStature;
@@ -159,7 +159,8 @@ Result<void> FindUnit(const BodyPose& rest, const std::vector<BodyPose>& poses, 
                       const std::string& file, BodyConversion& done, std::vector<std::string>& remarks) {
   const std::optional<double>& given = options.metres_per_unit;
   const double at_rest = Stature(rest), own = MedianStature(poses), moving = options.stature.value_or(own);
-  // Compare the frames with the rest pose, with the file's other clips, and with each other.
+  // Compare the stature in the frames with that in the rest pose, with that in the file's other clips, and from frame
+  // to frame.
   const double ratio = moving / at_rest;
   const bool is_alike = AreAlike(ratio);
   if (!AreAlike(own / moving)) {
@@ -208,7 +209,7 @@ Result<void> FindUnit(const BodyPose& rest, const std::vector<BodyPose>& poses, 
 }
 
 double FindFloor(const std::vector<BodyPose>& poses) {
-  // Use a percentile, not the minimum: a single frame with a lost marker must not raise the whole clip.
+  // Take a percentile, not the minimum: a single frame with a lost marker must not raise the whole clip.
   constexpr double kLow = 0.05;
   return LowerPercentile(OverFrames(poses, LowestHeight), kLow);
 }
@@ -217,7 +218,8 @@ double LeftLegLength(const BodyPose& pose) {
   return glm::distance(pose[kLeftHip], pose[kLeftKnee]) + glm::distance(pose[kLeftKnee], pose[kLeftAnkle]);
 }
 
-/// Returns `told` if it is within a leg's length of the floor that FindFloor finds, otherwise the floor of FindFloor.
+/// Returns the height `told` if it differs from FindFloor's height by less than a leg's length, otherwise FindFloor's
+/// height.
 double FloorOf(const std::vector<BodyPose>& poses, const std::optional<double>& told) {
   const double own = FindFloor(poses);
   return told && std::abs(own - *told) <= LeftLegLength(poses.front()) ? *told : own;

@@ -34,12 +34,12 @@ struct BodyConversion {
   std::string unit;  ///< "centimetre", "CMU", …; "unknown" (scaled to a human), "scaled", "given"
   UpAxis up = UpAxis::kY;
   UpFinding found_up = {};         ///< the axis of the file that points up, and its evidence
-  double floor = 0;                ///< height of the floor in the file's unit, along its up axis
+  double floor = 0;                ///< height of the floor along the file's up axis, in the file's unit
   std::size_t dropped_frames = 0;  ///< length of a leading T-pose that was dropped, frames
   /// A text for users about each finding and each correction of the file's data: "1 unit = 5.64 cm (CMU)", "dropped a
   /// leading T-pose".
   std::vector<std::string> changes = {};
-  std::vector<std::string> doubts = {};  ///< those of `changes` that say what looks wrong in the file
+  std::vector<std::string> doubts = {};  ///< the entries of `changes` that state what looks wrong in the file
   BodyMotion motion;
 
   /// Appends `text` to `doubts` and to `changes`, unless it is empty.
@@ -63,8 +63,8 @@ struct BodyConversion {
 ///   divided by 0.92. If the median stature over the frames differs by a factor of more than 1.25, that median is used
 ///   and the note states it; if no unit fits the median, the rest pose's unit is used and the frames are scaled back,
 ///   positions included (if the joints themselves are scaled, use UndoScales). The note also states a ratio above 1.05,
-///   and a size that changes by a factor of more than 1.25 within the clip. Clips of one file share a unit: pass them
-///   FindGround's stature; the note states if a clip's own median differs.
+///   and a stature that changes by a factor of more than 1.25 within the clip. Clips of one file share a unit: pass
+///   them FindGround's stature; the note states if a clip's own median differs.
 /// - Floor: the 5th percentile, over the frames, of the lowest joint's height (finger tips excluded) becomes y = 0.
 ///   Horizontal position and heading stay as in the file. Clips of one file share a floor: pass them the floor of
 ///   FindGround. If a clip stays farther from that floor than the length of its legs, the clip has another root and
@@ -93,9 +93,9 @@ struct Ground {
 std::optional<Ground> FindGround(std::span<const Clip> clips, const JointMap& map, const BodyOptions& options = {});
 
 /// Removes scales from a file's frames that its rest pose does not have, such as a scale of the hips. The scales are
-/// removed only if the body at rest has a person's size in some unit, and only the scales make the body in the frames
-/// taller or smaller by a factor of more than 1.25 (median over the clips). Returns that factor; nullopt if the clips
-/// are unchanged.
+/// removed only if the body at rest has a person's size in some unit, and if the scales alone make the body in the
+/// frames taller or smaller by a factor of more than 1.25 (median over the clips). Returns that factor; nullopt if the
+/// clips are unchanged.
 std::optional<double> UndoScales(std::span<Clip> clips, const JointMap& map);
 
 /// Returns the transform from the file's unit and axes to the world of ToBodyMotion's result. Apply it to the clip's

@@ -19,7 +19,7 @@ using enum Role;
 /// Measurements of a motion under the assumption that one axis points up. Lengths are multiples of the stature.
 struct Stance {
   double upright = 0;   ///< share of the frames with the trunk upright, the hips above the feet, and the head on top
-  double balanced = 0;  ///< share of the frames with the weight over the feet
+  double balanced = 0;  ///< share of the frames with the mass centre over the feet
   double straight = 0;  ///< share of the frames with trunk, head and legs straight along the axis, as in static trials
   double floor = 0;     ///< range of the lowest joint's height (5th to 95th percentile)
   double way = 0;       ///< distance that the hips travel perpendicular to the axis
@@ -84,7 +84,7 @@ double Lowest(const BodyPose& pose, const glm::dvec3& up) {
   return lowest;
 }
 
-/// The frames to measure: every n-th pose, each with a pose about a twentieth of a second later.
+/// The frames to measure: every n-th pose, each paired with the pose about a twentieth of a second later.
 struct Frames {
   std::span<const BodyPose> poses;
   std::size_t stride = 1, later = 1;
@@ -112,7 +112,7 @@ Stance MeasureStance(const Frames& frames, const glm::dvec3& up) {
   glm::dvec3 low = frames.poses.front()[kHipCentre], high = low;
   const auto flat = [&](const glm::dvec3& v) { return v - glm::dot(v, up) * up; };
   for (std::size_t i = 0; i < frames.poses.size(); i += frames.stride) {
-    // Measure postures and the lowest joint.
+    // Classify the posture, and measure the height of the lowest joint.
     const BodyPose& pose = frames.poses[i];
     count += 1;
     stance.upright += IsUpright(pose, up) ? 1 : 0;
@@ -143,24 +143,25 @@ Stance MeasureStance(const Frames& frames, const glm::dvec3& up) {
   return stance;
 }
 
-/// Returns true if a motion is sufficient evidence that `other` points up, and not the usual axis.
+/// Returns true if the motion is sufficient evidence that the axis of `other` points up instead of the axis of `usual`.
 bool Overrules(const Stance& other, const Stance& usual, bool is_opposite, const UpRule& rule) {
   constexpr double kMostly = 0.8, kStillFloor = 0.05;
-  // Exclude a handstand: the hands are beyond the head and stay on the floor.
+  // Exclude a handstand, in which the hands are beyond the head and the lowest joint stays at one height.
   if (is_opposite && other.on_hands > 0.5 && usual.floor < kStillFloor) return false;
-  // Accept `other` if the floor is constant along that axis only.
+  // Accept `other` if the lowest joint stays at one height along `other`, but not along the usual axis.
   constexpr double kNow = 0.1, kFloorless = 0.15;
   if (other.upright >= kNow && other.floor < kStillFloor && usual.floor > std::max(kFloorless, 3 * other.floor)) {
     return true;
   }
   if (other.upright < kMostly || usual.upright >= kHardlyEver) return false;
   // Accept the opposite axis, because nobody stands on the head without the hands. (If the usual axis is only a guess,
-  // the body may instead lie along it.)
+  // the body may instead lie along this axis.)
   if (is_opposite && other.on_hands <= 0.5 && rule.evidence != UpEvidence::kPosture) return true;
   // Accept `other` if the body walks perpendicular to it.
   if (other.way > 0.5 && other.steps > 0.4) return true;
   if (rule.is_of_rest) return false;
-  // Accept `other` if the body stands on its feet, and either moves over a constant floor or stands quite still.
+  // Accept `other` if the body stands on its feet along it, and either the lowest joint's height varies less or the
+  // body is still.
   if (other.balanced > 0.75 && other.floor < kStillFloor && usual.floor > std::max(0.06, 2 * other.floor)) return true;
   return other.straight > 0.9 && other.balanced > 0.9 && other.floor < 0.02;
 }

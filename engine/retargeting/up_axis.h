@@ -17,7 +17,7 @@ std::string_view UpEvidenceName(UpEvidence evidence);
 
 /// Knowledge about a file's up axis that does not come from its motion.
 struct UpRule {
-  glm::dvec3 axis{0, 1, 0};  ///< the axis that points up; with kPosture the usual one, which the posture may overrule
+  glm::dvec3 axis{0, 1, 0};  ///< the axis that points up; with kPosture the usual axis, which the posture may overrule
   UpEvidence evidence = UpEvidence::kPosture;
   /// A text that names the source of the axis: "the usual axis of TRC files", "the rule of AMASS".
   std::string source = "the usual axis";
@@ -50,14 +50,14 @@ struct UpFinding {
 /// missing toe must be at the position of its ankle.
 UpFinding FindUp(std::span<const BodyPose> poses, double rate_hz, const UpRule& rule);
 
-/// Finds the up axis, Y or Z, of a clip with a skeleton. The usual axis is the one along which the rest pose stands
-/// upright, or Y if it stands along neither.
+/// Finds the up axis, Y or Z, of a clip with a skeleton. The usual axis is the axis along which the rest pose stands
+/// upright, or Y if the rest pose stands along neither axis.
 UpFinding FindUp(const BodyPose& rest, std::span<const BodyPose> poses, double rate_hz);
 
 /// The rules of formats. For TRC, C3D without Y_SCREEN and joint arrays there is no rule, only a usual axis.
 UpRule TrcUp();
-/// `axis` is 'X', 'Y' or 'Z' as in the file's entry Y_SCREEN, or 0 without that entry. Without it, Z is the usual axis,
-/// by the convention of biomechanics.
+/// `axis` is 'X', 'Y' or 'Z' as in the file's entry Y_SCREEN, or 0 without that entry. Without that entry, Z is the
+/// usual axis, by the convention of biomechanics.
 UpRule C3dUp(char axis, bool is_negative);
 UpRule ArrayUp();
 UpRule RawArraysUp();  ///< for arrays that ReadRawNpz has already rotated

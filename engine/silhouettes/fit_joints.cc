@@ -86,14 +86,14 @@ class JointFit {
       const glm::dvec3 moves = glm::cross(axis, p_WQ - about);
       motion.col(coordinate) = Eigen::Vector3d(moves.x, moves.y, moves.z);
     };
-    // Root: three translations and three rotations.
+    // Fill the root's columns: three translations and three rotations.
     for (int axis = 0; axis < 3; ++axis) {
       motion(axis, axis) = 1;
       glm::dvec3 unit(0);
       unit[axis] = 1;
       turn(3 + axis, unit, frames_.joints[0].position);
     }
-    // Angles: those of the joints from the point's limb up to the root.
+    // Fill the columns of the angles that move the point: of every joint from the point's limb up to the root.
     for (int j = point.joint; j >= 0; j = body_.tree.joints[j].parent) {
       const TreeJoint& joint = body_.tree.joints[j];
       for (int dof = joint.first_dof; dof < joint.first_dof + joint.dof_count; ++dof) {
@@ -174,7 +174,7 @@ JointTargets TargetsOf(const BodyPose& pose, double sigma_m) {
 }
 
 TreeState TurnedRound(const SilhouetteBody& body, const TreeState& state) {
-  constexpr double kExact = 0.05;  // standard deviation of the joints, left and right exchanged; metres
+  constexpr double kExact = 0.05;  // standard deviation of the target positions, metres
   const BodyPose pose = ToBodyPose(body, state);
   BodyPose exchanged;
   for (const Role role : AllRoles()) exchanged[role] = pose[Mirrored(role)];

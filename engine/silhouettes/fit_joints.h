@@ -19,7 +19,7 @@ struct JointTarget {
 /// The targets by role; nullopt for joints whose position is not known.
 using JointTargets = std::array<std::optional<JointTarget>, kRoleCount>;
 
-/// Finds the pose of the body nearest to the targets by the method of Levenberg and Marquardt. The angle priors
+/// Finds the body's pose nearest to the targets by the method of Levenberg and Marquardt. The angle priors
 /// (`SilhouetteBody::Habit`) determine the angles that the targets leave open. The search starts from `start` or,
 /// without it, from several headings and the `Postures`.
 TreeState FitJoints(const SilhouetteBody& body, const JointTargets& targets,
@@ -28,9 +28,9 @@ TreeState FitJoints(const SilhouetteBody& body, const JointTargets& targets,
 /// Makes targets of all twenty joints of `pose` with equal accuracy.
 JointTargets TargetsOf(const BodyPose& pose, double sigma_m = 0.01);
 
-/// Turns the body front to back *(ours)*: its left limbs move to where the right limbs are in `state`, and its right
-/// limbs to where the left limbs are, as far as the joints' limits allow. Feet and head are not constrained. The
-/// silhouettes of both poses are nearly the same.
+/// Turns the body front to back *(ours)*: each limb moves to the position that the same limb of the other side has in
+/// `state`, as far as the joints' limits allow. Feet and head are not constrained. The silhouettes of both poses are
+/// nearly the same.
 TreeState TurnedRound(const SilhouetteBody& body, const TreeState& state);
 
 }  // namespace etude

@@ -13,15 +13,15 @@
 namespace etude {
 namespace {
 
-// The derivatives of a capsule's two ends in one picture. Each coordinate that moves the limb has one column, with the
-// six numbers δ of SilhouetteResidual.
+// The derivatives of a capsule's two projected ends. Each coordinate that moves the capsule's limb has one column, with
+// the six numbers δ of SilhouetteResidual.
 struct CapsuleMotion {
   std::vector<int> coordinates;
   std::vector<std::array<double, 6>> columns;
 };
 
-// For one seen joint: its offset from the pixel where it was seen, its loss (Geman and McClure), and the weight of the
-// squared offset in a step. All are 0 for a joint behind the camera.
+// For one seen joint: the offset of its projection from the pixel where it was seen, the loss (Geman and McClure), and
+// the weight of the squared offset in a step. All three numbers are 0 for a joint behind the camera.
 struct JointError {
   glm::dvec2 off{0};
   double loss = 0, weight = 0;
@@ -175,7 +175,8 @@ void ForEachPrior(const SilhouetteBody& body, const TreeState& state, const Pose
   }
 }
 
-// Projects the flesh of `state` into all views: fills `workspace.frames` and `workspace.flesh`.
+// Projects the flesh capsules of the body in the pose `state` into all views: fills `workspace.frames` and
+// `workspace.flesh`.
 void See(const SilhouetteBody& body, std::span<const SilhouetteView> views, const TreeState& state,
          FitWorkspace& workspace) {
   ComputeFrames(body.tree, state, workspace.frames);
@@ -186,7 +187,7 @@ void See(const SilhouetteBody& body, std::span<const SilhouetteView> views, cons
   }
 }
 
-// Linearises the residuals at `state`; `workspace.kept` must hold the flesh of this pose.
+// Linearises the residuals at `state`; `workspace.kept` must hold the capsules projected in this pose.
 Linearisation LineariseAt(const SilhouetteBody& body, std::span<const SilhouetteView> views, const TreeState& state,
                           const PosePrior* prior, const SilhouetteCostOptions& options, FitWorkspace& workspace) {
   Linearisation linear(body, kRootDofs + body.tree.dof_count());
@@ -231,7 +232,7 @@ Eigen::VectorXd Step(const Linearisation& linear, const std::vector<bool>& held,
   return -h.llt().solve(g);
 }
 
-// Computes the cost of `state` from `flesh`, its projected flesh.
+// Computes the cost of `state`; `flesh` holds the capsules projected in that pose.
 SilhouetteFit CostOfSeen(const SilhouetteBody& body, std::span<const SilhouetteView> views, const TreeState& state,
                          const PosePrior* prior, const SilhouetteCostOptions& options,
                          const std::vector<SeenFlesh>& flesh, const FitWorkspace& workspace) {

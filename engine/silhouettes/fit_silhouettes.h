@@ -8,7 +8,7 @@
 
 namespace etude {
 
-/// A normal prior of a pose: its mean `near` and standard deviations.
+/// A normal prior of the body's pose: the mean pose `near`, and standard deviations.
 struct PosePrior {
   TreeState near;
   double place_m = 0.1;    ///< standard deviation of the root's position along each axis, metres
@@ -34,8 +34,8 @@ struct SilhouetteFit {
 /// Memory that later fits use again.
 struct FitWorkspace {
   TreeFrames frames;
-  std::vector<SeenFlesh> flesh;  ///< per view: the flesh in the pose whose cost was computed last
-  std::vector<SeenFlesh> kept;   ///< per view: the flesh in the pose at which the last fit ended
+  std::vector<SeenFlesh> flesh;  ///< per view: the capsules in the pose whose cost was computed last
+  std::vector<SeenFlesh> kept;   ///< per view: the capsules in the pose at which the last fit ended
   std::vector<SilhouetteResidual> residuals;
 };
 
@@ -43,10 +43,10 @@ struct FitWorkspace {
 SilhouetteFit CostOf(const SilhouetteBody& body, std::span<const SilhouetteView> views, const TreeState& state,
                      const PosePrior* prior, const SilhouetteCostOptions& options, FitWorkspace& workspace);
 
-/// Fits the body to the silhouettes of one moment by the method of Levenberg and Marquardt, from `start`, over the
-/// root's position, the root's rotation and all angles within their limits. Angles that are held at a limit are left
-/// out of the step. This is analysis by synthesis: no pixel is labelled with a limb; each outline point is attributed
-/// to the nearest capsule.
+/// Fits the body to the silhouettes of one moment (the pictures of one time) by the method of Levenberg and Marquardt,
+/// from `start`, over the root's position, the root's rotation and all angles within their limits. Angles that are held
+/// at a limit are left out of the step. This is analysis by synthesis: no pixel is labelled with a limb; each outline
+/// point is attributed to the nearest capsule.
 SilhouetteFit FitSilhouettes(const SilhouetteBody& body, std::span<const SilhouetteView> views, const TreeState& start,
                              const PosePrior* prior, const FitOptions& options, FitWorkspace& workspace);
 /// Continues a fit with other options. `start` must be the pose at which the last fit with this `workspace` ended, for
@@ -55,8 +55,8 @@ SilhouetteFit FitFurther(const SilhouetteBody& body, std::span<const SilhouetteV
                          const PosePrior* prior, const FitOptions& options, FitWorkspace& workspace);
 
 /// The normal equations of a step of `FitSilhouettes`: the gradient of half the cost, and its Hessian in the
-/// Gauss–Newton approximation, stored by columns. The coordinates are the root's position, its rotation (a rotation
-/// vector in the world), then the angles.
+/// Gauss–Newton approximation, stored by columns. The coordinates are the root's position, the root's rotation (a
+/// rotation vector in the world), then the angles.
 struct NormalEquations {
   std::vector<double> gradient;
   std::vector<double> hessian;

@@ -15,7 +15,8 @@ double InRange(const KinematicTree& tree, int dof, double share) {
   return std::lerp(tree.limits[dof].lower, tree.limits[dof].upper, share);
 }
 
-// Sets the first angle of every upper arm (or thigh) to `upper`, and its elbow (or knee) to `lower`.
+// Sets the first angle of both shoulders (or hips) to `upper`, and the first angle of both elbows (or knees) to
+// `lower`.
 void Bend(const SilhouetteBody& body, bool arms, double upper, double lower, TreeState& state) {
   for (const SilhouetteBody::Limb& limb : body.limbs) {
     if (limb.is_arm != arms) continue;
@@ -24,13 +25,13 @@ void Bend(const SilhouetteBody& body, bool arms, double upper, double lower, Tre
   }
 }
 
-// Returns true if `joint` is `ancestor` or its descendant.
+// Returns true if `joint` is `ancestor` or a descendant of `ancestor`.
 bool MovesWith(const KinematicTree& tree, int joint, int ancestor) {
   while (joint > ancestor) joint = tree.joints[joint].parent;
   return joint == ancestor;
 }
 
-// Computes the cost of one limb's position while the rest of the body stays in place.
+// Computes the cost of a pose in which only one limb differs from a given pose.
 class LimbCost {
  public:
   LimbCost(const SilhouetteBody& body, std::span<const SilhouetteView> views, const TreeState& state, int upper,
@@ -71,8 +72,8 @@ class LimbCost {
 
   const std::span<const SilhouetteView> views_;
   const SilhouetteCostOptions& options_;
-  SilhouetteBody limb_;                       // the body with only this limb's flesh
-  std::vector<std::vector<double>> to_rest_;  // [view][outline column]: distance to the rest of the body's flesh
+  SilhouetteBody limb_;                       // the body with this limb's capsules only
+  std::vector<std::vector<double>> to_rest_;  // [view][outline column]: distance to the other limbs' capsules, pixels
   TreeFrames frames_;
   std::vector<ProjectedCapsule> flesh_;
   std::vector<double> distances_;
@@ -103,7 +104,7 @@ std::vector<TreeState> LimbCandidates(const SilhouetteBody& body, std::span<cons
   LimbCost cost(body, views, state, limb.upper, options);
   std::vector<Candidate> best;
   TreeState trial = state;
-  // Try the middle of every cell of the grid, and keep the positions with the lowest costs, in order.
+  // Try the middle of every cell of the grid, and keep the limb positions with the lowest costs, in ascending order.
   const auto share = [](int i, int count) { return (i + 0.5) / count; };
   for (int x = 0; x < kForward; ++x) {
     trial.angles[upper] = InRange(body.tree, upper, share(x, kForward));

@@ -54,11 +54,11 @@ SilhouetteBody ThicknessEstimate::Apply() const {
 namespace {
 
 // A search uses losses with a wider reach than the final fit, and fewer iterations.
-constexpr double kWideReach = 3;  // multiple of the reach that the options state
+constexpr double kWideReach = 3;  // factor on every reach in SilhouetteCostOptions
 constexpr int kCoarseSteps = 8, kFineSteps = 12;
 constexpr double kSpeedKept = 0.6;  // share of the last change that is extrapolated to the next frame
 
-// Triangulates the silhouettes' centres; returns nullopt if that fails.
+// Returns the point triangulated from the silhouettes' centres; nullopt if the triangulation fails.
 std::optional<glm::dvec3> FindMiddle(const MomentViews& views) {
   std::vector<Sighting> sightings;
   for (const SilhouetteView& view : views) sightings.push_back({view.matrix, view.silhouette->centre});

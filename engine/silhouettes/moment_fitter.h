@@ -10,9 +10,9 @@
 
 namespace etude {
 
-/// Estimates the thickness of a person's parts relative to the average body, by least squares over the outline points
-/// of many frames: if the outline lies outside a capsule on both sides, the capsule is too thin. Parts whose outline is
-/// rarely visible keep their thickness.
+/// Estimates the thickness of a person's trunk, head, arms and legs relative to the average body, by least squares over
+/// the outline points of many frames: if the outline lies outside a capsule on both sides, the capsule is too thin.
+/// Parts whose outline is rarely visible keep their thickness.
 class ThicknessEstimate {
  public:
   explicit ThicknessEstimate(const SilhouetteBody& body);
@@ -26,7 +26,7 @@ class ThicknessEstimate {
 
  private:
   const SilhouetteBody& body_;
-  std::vector<double> products_, squares_;  // sums per part: Σ w r e, Σ w r²
+  std::vector<double> products_, squares_;  // per body part: Σ w r e, Σ w r² (residual e, radius r)
 };
 
 /// Options for finding and following a body. `TrackSilhouettes` uses them for a whole take, `SilhouetteFollower`
@@ -52,11 +52,11 @@ struct TrackOptions {
   /// The number of passes over a whole take in which lost frames are searched again and all frames are smoothed.
   int repairs = 2;
   /// The number of passes that estimate the thickness of trunk, head, arms and legs. Each pass uses the poses of the
-  /// previous one. 0 keeps the average body.
+  /// previous pass. 0 keeps the average thickness.
   int thickness_passes = 2;
 };
 
-/// The pictures of one moment, without the cameras that show nobody.
+/// The views of one moment: the pictures that all cameras took at one time, without pictures that show nobody.
 using MomentViews = std::vector<SilhouetteView>;
 
 /// Fits a body to one moment: by a search, from a known pose, or from the previous moments.
@@ -65,14 +65,14 @@ class MomentFitter {
   /// `body` and `options` must outlive this object. The body's thickness may be changed between calls.
   MomentFitter(const SilhouetteBody& body, const TrackOptions& options);
 
-  /// Fits one moment from `start`. If `is_far`, a fit with a wide reach of the loss comes first. `prior` may be null.
+  /// Fits one moment from `start`. If `is_far`, a fit comes first whose loss has a wider reach. `prior` may be null.
   SilhouetteFit Fit(const MomentViews& views, const TreeState& start, const PosePrior* prior, bool is_far);
   /// Fits one moment from a known start; the options state the start's accuracy.
   SilhouetteFit FitKnown(const MomentViews& views, const TreeState& start);
   /// Fits the next moment of a body whose last two poses were `before_last` and `last`.
   SilhouetteFit Follow(const MomentViews& views, const TreeState& before_last, const TreeState& last);
-  /// Searches for the body. Returns at most three fits: the most likely pose first, then poses with other headings;
-  /// none if the silhouettes' centres cannot be triangulated.
+  /// Searches for the body. Returns at most three fits: the most likely pose first, then poses with other headings.
+  /// Returns no fit if the silhouettes' centres cannot be triangulated.
   std::vector<SilhouetteFit> Find(const MomentViews& views);
   /// Tries other positions for every arm and leg. Returns the fit with the positions that lower the cost.
   SilhouetteFit WithLimbsFound(const MomentViews& views, const SilhouetteFit& fit, const PosePrior* prior);

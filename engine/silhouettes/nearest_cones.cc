@@ -64,7 +64,7 @@ void FindNearest(const ConeColumns& cones, const PointColumns& points, double* d
       hn::StoreU(SignedDistance(ConesFrom(cones, i), centre_u, centre_v), real, near + i);
     }
     for (size_t i = 0; i < cones.count; ++i) least = near[i] < least ? near[i] : least;
-    // Compute the reach: a cone farther from the centre can lower the distance of no point in the block.
+    // Compute the reach. A cone farther than this from the block's centre lowers the distance of no point in the block.
     double farthest = distance[first_point];
     for (size_t i = 1; i < kBlockPoints; ++i) {
       farthest = distance[first_point + i] > farthest ? distance[first_point + i] : farthest;

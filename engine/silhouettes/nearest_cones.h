@@ -6,9 +6,9 @@ namespace etude {
 
 inline constexpr std::size_t kConeLanes = 8, kMaxCones = 64, kBlockPoints = 8;
 
-/// The numbers of a projected capsule, pixels: end 0 (u, v), the axis from end 0 to end 1 (u, v), its squared length,
-/// the growth of the radius from end 0 to end 1, √(squared length − growth²), and the radius of end 0. kOnlyEnd is the
-/// end whose circle contains the other end's circle, or −1.
+/// The numbers of a projected capsule, pixels: end 0 (u, v), the axis from end 0 to end 1 (u, v), the axis's squared
+/// length, the growth of the radius from end 0 to end 1, √(squared length − growth²), and the radius of end 0. kOnlyEnd
+/// is the end whose circle contains the other end's circle, or −1.
 enum ConeRow { kEndU, kEndV, kAxisU, kAxisV, kLength2, kWidens, kSlant, kRadius, kOnlyEnd, kConeRows };
 
 /// Projected capsules, one per column; `count` is a multiple of kConeLanes. Spare columns and columns of invalid
@@ -26,11 +26,11 @@ struct PointColumns {
   const double *centre_u = nullptr, *centre_v = nullptr, *radius = nullptr;
 };
 
-/// For each point, finds the smallest signed distance to the cones, pixels, negative inside. If it is smaller than the
-/// point's `distance`, writes it to `distance`, and the cone's index (the first of equally near cones) to `owner`. For
-/// each block, only cones that can be nearest to one of its points are tested: a signed distance changes by at most as
-/// much as the point moves. Uses SIMD in double precision; with any vector width, the bits equal those of
-/// `NearestOnCone` (silhouette_cost.cc).
+/// For each point, finds the smallest signed distance to the cones, pixels, negative inside. If this distance is
+/// smaller than the point's entry in `distance`, it replaces the entry, and the index of the cone (of equally near
+/// cones, the first) goes to `owner`. For each block, only cones that can be nearest to a point of the block are
+/// tested: between two points, a signed distance changes by at most their distance. Uses SIMD in double precision; with
+/// any vector width, the bits equal those of `NearestOnCone` (silhouette_cost.cc).
 void FindNearestCones(const ConeColumns& cones, const PointColumns& points, double* distance, double* owner);
 
 }  // namespace etude

@@ -20,7 +20,8 @@ class Envelope {
 
   // Computes out[x] = min over q of (x − q)² + heights[q]; heights of at least `kNone` count as infinite.
   void Fill(const std::vector<double>& heights, int size, std::vector<double>& out) {
-    // Add the parabolas from left to right. Each removes earlier ones that are no longer lowest anywhere.
+    // Add the parabolas from left to right. Each new parabola removes earlier parabolas that are no longer lowest
+    // anywhere.
     int last = -1;
     for (int q = 0; q < size; ++q) {
       if (heights[q] >= kNone) continue;
@@ -156,7 +157,7 @@ Mask CutOut(const Mask& mask, const Box& box) {
 }
 
 // Returns the pixels whose signed distance is at most `distance`: a dilation, or an erosion for a negative value. A
-// dilation keeps all set pixels and an erosion all unset pixels, so each needs only one of the two distance maps.
+// dilation keeps all set pixels, and an erosion keeps all unset pixels, so only one of the two distance maps is needed.
 Mask Grown(const Mask& mask, double distance) {
   const bool erodes = distance < 0;
   const std::vector<double> squared = SquaredDistancesTo(mask, erodes ? 0 : 1);

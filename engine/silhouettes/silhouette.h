@@ -11,14 +11,14 @@ namespace [[gnu::visibility("default")]] etude {
 /// outside, negative inside. The border runs half a pixel outside the centres of set pixels, so |distance| ≥ 0.5. The
 /// distances are exact; the time is linear in the number of pixels (P. Felzenszwalb and D. Huttenlocher, "Distance
 /// transforms of sampled functions", Theory of Computing 8 (2012), section 2). If no pixel is set, every distance is
-/// width + height; if all are set, −(width + height).
+/// width + height; if all pixels are set, −(width + height).
 Image<float> SignedDistances(const Mask& mask);
 
 struct SilhouetteOptions {
   /// The width of a mask pixel in pixels of the camera: 2 for a mask of half the picture's size.
   double mask_pixel = 1;
   /// Outline points are sampled on a grid of squares: one point per square, whose side is this many mask pixels. Larger
-  /// squares give fewer points and a faster fit; with 3, a person who fills a picture of 320 × 240 has about two
+  /// squares give fewer points and a faster fit; with 3, a person as tall as a picture of 320 × 240 has about two
   /// hundred points.
   int spacing = 3;
   /// The radius, in mask pixels, of the disc of the morphological opening. The opening removes parts thinner than the
@@ -33,7 +33,8 @@ struct OutlinePoint {
   glm::dvec2 normal{0};  ///< unit vector, points out of the silhouette
 };
 
-/// The pixels of an outline as columns, with neighbouring points together (nearest_cones.h).
+/// An outline's points as columns of coordinates, sorted so that neighbouring points are close in memory
+/// (nearest_cones.h).
 struct OutlineColumns {
   std::vector<int> places;  ///< the column of each outline point
   std::vector<double> u, v;
@@ -48,18 +49,18 @@ struct Silhouette {
   int width = 0, height = 0;  ///< size of the whole mask
   double mask_pixel = 1;
   std::vector<OutlinePoint> outline;
-  OutlineColumns columns;  ///< the same points as `outline`
+  OutlineColumns columns;  ///< the points of `outline`, sorted into columns
   glm::dvec2 centre{0};    ///< mean of the set pixels, in the camera's pixels
   int area = 0;            ///< number of set pixels of the mask; 0 if the picture shows nobody and is not used
 };
 
 Silhouette MakeSilhouette(const Mask& mask, const SilhouetteOptions& options = {});
 
-/// Returns the signed distance at a pixel of the camera, in the camera's pixels, and its gradient, by bilinear
-/// interpolation between pixel centres. Outside the box around the person, the distance is the sum of the distance at
-/// the box's edge and the distance to the box; this is never less than the true distance. Outside the picture, the
-/// distance is that of the nearest pixel inside, and the gradient across the picture's edge is 0, so flesh outside the
-/// picture is not pulled back. Precondition: `silhouette.area` > 0.
+/// Returns the signed distance at a pixel of the camera, in the camera's pixels, and the gradient of this distance.
+/// Both numbers come from bilinear interpolation between pixel centres. Outside the box around the person, the distance
+/// is the sum of the distance at the box's edge and the distance to the box; this is never less than the true distance.
+/// Outside the picture, the distance equals the distance at the nearest pixel inside, and the gradient across the
+/// picture's edge is 0, so flesh outside the picture is not pulled back. Precondition: `silhouette.area` > 0.
 struct DistanceAt {
   double distance = 0;
   glm::dvec2 gradient{0};

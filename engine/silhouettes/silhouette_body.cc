@@ -35,7 +35,8 @@ enum JointIndex {
 
 enum Part { kTrunk, kHeadAndNeck, kArms, kHands, kLegs, kFeet, kPartCount };
 
-// The axes X, Y, Z of the limbs, as columns, in the world, for a body that stands at rest and faces +Z.
+// Axes of limbs in the world, for a body that stands at rest and faces +Z. The columns of the matrices are a limb's X,
+// Y and Z axes.
 const glm::dvec3 kRight(-1, 0, 0), kUp(0, 1, 0), kForward(0, 0, 1);
 const glm::dmat3 kRising(kRight, kForward, kUp);
 const glm::dmat3 kHanging(kRight, -kForward, -kUp);
@@ -45,9 +46,9 @@ const glm::dmat3 kFootwards(kRight, -kUp, kForward);
 
 using AngleHabit = SilhouetteBody::Habit;
 
-// A joint of the tree: its position and the limb that rotates about it. Limits are in degrees, one range for each
-// degree of freedom: X bends forward and back, Y moves the limb sideways, Z rotates it about its own axis. The limits
-// of joint_limits.h are widened to what people really reach, so every pose in a picture is allowed.
+// A joint of the tree: its position, and the limb that rotates about the joint. Limits are in degrees, one range for
+// each degree of freedom: X bends forward and back, Y moves the limb sideways, Z rotates it about its own axis. The
+// limits of joint_limits.h are widened to what people really reach, so every pose in a picture is allowed.
 struct JointRow {
   JointIndex self;
   std::string_view name;
@@ -109,7 +110,7 @@ const std::array<JointRow, kJointCount>& JointRows() {
   return rows;
 }
 
-// The limb that carries each joint of the canonical body, in the order of Role.
+// For each joint of the canonical body, in the order of Role: the limb to which the joint is fixed.
 constexpr std::array<JointIndex, kRoleCount> kCarriers = {
     kPelvis,   kChest,         kNeck,         kNeck,       kLeftUpperArm, kLeftForearm, kLeftPalm,
     kLeftPalm, kRightUpperArm, kRightForearm, kRightPalm,  kRightPalm,    kLeftThigh,   kLeftShank,
@@ -142,7 +143,7 @@ BodyPose RestPose(const LimbLengths& lengths, double scale) {
   return rest;
 }
 
-// Makes the tree of JointRows(), with the offsets between the joints of the rest pose.
+// Makes the tree of JointRows(); the offsets between joints are those in `rest`.
 KinematicTree MakeTree(const BodyPose& rest) {
   KinematicTree tree;
   tree.standing_root = kRising;
@@ -162,9 +163,9 @@ KinematicTree MakeTree(const BodyPose& rest) {
   return tree;
 }
 
-// A capsule on the left half or in the middle of the body; capsules on the right mirror those on the left. Each end is
-// a joint's position plus an offset in the standing body: centimetres to the left, up and forward, for a person of 1.70
-// m.
+// A capsule on the left half or in the middle of the body; the right half's capsules mirror the left half's. Each end
+// is a joint's position plus an offset in the standing body: centimetres to the left, up and forward, for a person of
+// 1.70 m.
 struct FleshRow {
   Part part;
   JointIndex limb;
@@ -177,8 +178,8 @@ struct FleshRow {
 
 const std::vector<FleshRow>& FleshRows() {
   static const std::vector<FleshRow> rows = {
-      // In centimetres, the pelvis and the chest are about 34 wide and 23 deep, and the waist 29 wide; the crotch lies
-      // 8 below the hip joints.
+      // The pelvis and the chest are about 34 cm wide and 23 cm deep, the waist is 29 cm wide, and the crotch lies 8 cm
+      // below the hip joints.
       {kTrunk, kPelvis, kHipCentre, {4, -1, 0}, kHipCentre, {5.5, 2, -1}, 7.5, 11.8},
       {kTrunk, kPelvis, kHipCentre, {5.5, 2, -1}, kHipCentre, {4.5, 9, 0}, 11.8, 11},
       {kTrunk, kLoins, kHipCentre, {4.2, 8, 0}, kSpine, {4.5, 0, 0}, 10.7, 10.7},

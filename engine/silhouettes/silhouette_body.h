@@ -15,7 +15,7 @@ namespace etude {
 struct FleshCapsule {
   TreePoint a, b;
   double radius_a = 0, radius_b = 0;
-  int part = 0;  ///< index of the body part whose thickness the capsule shares; both arms are one part
+  int part = 0;  ///< index of the body part that determines the capsule's thickness; both arms are one part
 };
 
 /// A person's body model for comparison with silhouettes: the kinematic tree, the twenty joints as points of the tree,
@@ -32,7 +32,7 @@ struct SilhouetteBody {
     double spread = 1;
   };
   std::vector<Habit> habits;
-  /// The two joints of an arm or leg that the search for a lost limb varies, from the trunk outwards.
+  /// The two joints of an arm or leg, from the trunk outwards, whose angles the search for a lost limb varies.
   struct Limb {
     int upper = 0;
     int lower = 0;
@@ -42,9 +42,9 @@ struct SilhouetteBody {
 };
 
 /// Makes the body of a generic adult with these limb lengths; only the lengths are specific to the person in the
-/// pictures. The root is the hip centre, which moves and rotates freely; the back bends at two joints; a collar bone
-/// carries each shoulder. The flesh is an average clothed adult's, scaled by the stature that the lengths imply. Girths
-/// are *ours*: round figures, not from a table, with a centimetre of clothes on the trunk.
+/// pictures. The root is the hip centre, which moves and rotates freely; the back bends at two joints; each shoulder
+/// lies at the end of a collar bone. The capsules are those of an average clothed adult, scaled by the stature that the
+/// lengths imply. Girths are *ours*: round figures, not from a table, with a centimetre of clothes on the trunk.
 SilhouetteBody MakeSilhouetteBody(const LimbLengths& lengths);
 
 /// Returns the world position of a point of the tree.

@@ -15,7 +15,7 @@ constexpr double kNearest = 0.05;  // metres in front of the camera; a capsule w
 
 struct ConePoint {
   double along = 0;     // position on the axis: 0 at a, 1 at b
-  double distance = 0;  // distance from the pixel to this point of the axis, pixels
+  double distance = 0;  // distance from the pixel to the point at `along`, pixels
   double signed_distance = 0;
 };
 
@@ -84,8 +84,8 @@ DistanceAt DistanceAtSample(const Silhouette& silhouette, const ProjectedCapsule
   return DistanceAtPixel(silhouette, glm::mix(capsule.a, capsule.b, kSamples[sample]));
 }
 
-// Calls take(residual) for every residual of containment. distance_at(capsule, sample) must return the silhouette's
-// signed distance at that sample.
+// Calls take(residual) for every containment residual. distance_at(capsule, sample) must return the silhouette's signed
+// distance at that sample of the capsule's axis.
 template <typename Distance, typename Take>
 void ForEachContainment(const std::vector<ProjectedCapsule>& flesh, const SilhouetteCostOptions& options,
                         const Distance& distance_at, const Take& take) {

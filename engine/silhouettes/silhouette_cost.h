@@ -12,8 +12,8 @@
 
 namespace etude {
 
-/// A camera's projection matrix, normalised so that depths are metres, with its scale in pixels. Frames: W the world, Q
-/// any point.
+/// A camera's projection matrix, normalised so that depths are in metres, with the camera's focal length in pixels.
+/// Frames: W the world, Q any point.
 class PixelScale {
  public:
   explicit PixelScale(const ProjectionMatrix& matrix) {
@@ -31,11 +31,11 @@ class PixelScale {
   glm::dvec2 PixelOf(const glm::dvec3& p_WQ) const {
     return glm::dvec2(glm::dot(rows_[0], p_WQ) + offsets_[0], glm::dot(rows_[1], p_WQ) + offsets_[1]) / DepthOf(p_WQ);
   }
-  /// Returns the size in pixels of one metre at a depth of one metre: the focal length, as the geometric mean over both
-  /// directions.
+  /// Returns the size in pixels of one metre at a depth of one metre: the focal length, as the geometric mean of the
+  /// focal lengths along u and v.
   double focal_px() const { return focal_px_; }
 
-  /// The gradients of u, of v and of the pixels per metre with respect to the point's position.
+  /// The gradients, with respect to the point's position, of u, of v, and of the scale at the point (pixels per metre).
   struct Slopes {
     glm::dvec3 u, v, pixels_per_metre;
   };
@@ -59,7 +59,7 @@ struct SeenJoint {
   double sigma_px = 4;  ///< standard deviation along u and v
 };
 
-/// One camera's matrix and silhouette in a frame, with the joints that were seen in it.
+/// One camera's matrix and silhouette in a frame, with the joints that were seen in this picture.
 struct SilhouetteView {
   ProjectionMatrix matrix;  ///< world (metres) to pixels
   const Silhouette* silhouette = nullptr;
@@ -68,13 +68,13 @@ struct SilhouetteView {
 
 /// Options for comparing a pose with silhouettes. All lengths are in pixels of the camera.
 struct SilhouetteCostOptions {
-  /// The residual that counts as one standard deviation, relative to the priors of the body's angles. It is several
-  /// times the error of one outline point, because clothes and differences in body shape make the errors of
-  /// neighbouring points correlated.
+  /// The residual that weighs as much as one standard deviation in the priors of the body's angles. It is several times
+  /// the error of one outline point, because clothes and differences in body shape make the errors of neighbouring
+  /// points correlated.
   double sigma_px = 8;
   /// The reach of the loss (Geman and McClure). A larger residual, of an outline point or of flesh outside the
   /// silhouette, loses weight: it comes from a shadow, a lost piece of the mask, or a limb in another position. Use a
-  /// wide reach far from the solution and a narrow one near it.
+  /// wide reach far from the solution, and a narrow reach near it.
   double outline_reach_px = 14;
   double inside_reach_px = 60;
   /// The share of each flesh radius that must lie inside the silhouette. It is below 1 because the person may be
@@ -104,7 +104,7 @@ struct SilhouetteResidual {
   bool is_inside = false;  ///< true: a sample of the flesh (containment); false: a point of the outline (coverage)
 };
 
-/// Projects the flesh of the body in the pose of `frames` into one picture.
+/// Projects the body's flesh capsules, placed by `frames`, into one picture.
 void ProjectFlesh(const SilhouetteBody& body, const TreeFrames& frames, const ProjectionMatrix& matrix,
                   std::vector<ProjectedCapsule>& out);
 
@@ -120,19 +120,19 @@ double SignedDistanceTo(const ProjectedCapsule& capsule, const glm::dvec2& pixel
 struct SeenFlesh {
   std::vector<ProjectedCapsule> capsules;
   std::vector<double> distances;  ///< by column of the silhouette: the smallest signed distance to a capsule, pixels
-  std::vector<double> owners;     ///< by column: that capsule's index; -1 if none is valid
+  std::vector<double> owners;     ///< by column: the nearest capsule's index; -1 if no capsule is valid
   /// For each capsule, the silhouette's signed distances at kInsideSamples points along the capsule's axis, pixels.
   static constexpr std::size_t kInsideSamples = 4;
   std::vector<std::array<DistanceAt, kInsideSamples>> inside;
 };
-/// Fills all distances of `flesh` for `flesh.capsules`.
+/// Computes all distances of `flesh` from `flesh.capsules`.
 void MeasureFlesh(const Silhouette& silhouette, SeenFlesh& flesh);
 
 /// Appends the residuals of the flesh in one picture to `out`:
-/// - coverage: every point of the silhouette's outline should lie on the outline of the flesh. The residual is its
-///   signed distance to the nearest capsule;
-/// - containment: every capsule should lie inside the silhouette. The residual of a sample on its axis is the
-///   silhouette's signed distance plus `inside_share` of the radius; there is none if this sum is at most 0.
+/// - coverage: every point of the silhouette's outline should lie on the outline of the capsules. The residual is the
+///   point's signed distance to the nearest capsule;
+/// - containment: every capsule should lie inside the silhouette. The residual of a sample on the capsule's axis is the
+///   silhouette's signed distance there plus `inside_share` of the radius; there is none if this sum is at most 0.
 void AppendResiduals(const SeenFlesh& flesh, const Silhouette& silhouette, const SilhouetteCostOptions& options,
                      std::vector<SilhouetteResidual>& out);
 
@@ -147,8 +147,8 @@ void AddContainmentLosses(const std::vector<ProjectedCapsule>& flesh, const Silh
 void OutlineDistances(const std::vector<ProjectedCapsule>& flesh, const Silhouette& silhouette,
                       std::span<double> distances);
 
-/// Geman and McClure's loss of a residual e, which is e²/(1 + e²/reach²) in units of sigma², and the weight of e² in a
-/// Gauss–Newton step.
+/// Geman and McClure's loss for a residual e: `loss` is e²/(1 + e²/reach²) in units of sigma², `weight` is the weight
+/// of e² in a Gauss–Newton step.
 struct Loss {
   double loss = 0;
   double weight = 0;

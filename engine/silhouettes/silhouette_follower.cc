@@ -7,9 +7,9 @@
 namespace etude {
 namespace {
 
-constexpr int kSearchEvery = 5;           // moments between searches; a search costs as much as dozens of moments
+constexpr int kSearchEvery = 5;           // moments between searches; a search takes as long as dozens of moments
 constexpr std::size_t kRemembered = 100;  // number of moments from which the usual cost is estimated
-constexpr int kThicknessMoments = 20;     // number of moments for one thickness estimate
+constexpr int kThicknessMoments = 20;     // number of moments from which the thickness is estimated once
 
 }  // namespace
 
@@ -68,7 +68,7 @@ std::optional<SilhouetteFit> SilhouetteFollower::Next(std::span<const Silhouette
     if (silhouettes[c].area > 0) views.push_back({cameras_[c], &silhouettes[c]});
   }
   if (views.size() < 2) return std::nullopt;
-  // Start paths in the first moment, or follow those that exist.
+  // Start paths in the first moment that shows a person; later, follow each path to this moment.
   ++since_search_;
   if (paths_.empty()) {
     Begin(views);

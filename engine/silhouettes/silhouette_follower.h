@@ -11,11 +11,11 @@
 
 namespace etude {
 
-/// Follows a body by its silhouettes online: each pose depends only on the pictures up to its moment. Without a known
-/// start, the body is searched for in the first moment that shows somebody; the most likely poses are followed in
-/// parallel for `trial_frames`, and the pose with the lowest total cost is kept. If the cost of a moment is far higher
-/// than usual, other positions of arms and legs are tried. The thickness is estimated from the pictures so far.
-/// Returned poses are final; they are not smoothed afterwards.
+/// Follows a body by its silhouettes online: each pose depends only on the pictures up to its moment (a moment is the
+/// pictures of one time). Without a known start, the body is searched for in the first moment that shows somebody; the
+/// most likely poses are followed in parallel for `trial_frames`, and the pose with the lowest total cost is kept. If
+/// the cost of a moment is far higher than usual, other positions of arms and legs are tried. The thickness is
+/// estimated from the pictures so far. Returned poses are final; they are not smoothed afterwards.
 class SilhouetteFollower {
  public:
   /// @param cameras projections from the world (metres) to pixels, at least two
@@ -33,11 +33,11 @@ class SilhouetteFollower {
   const SilhouetteBody& body() const { return body_; }
 
  private:
-  /// A candidate sequence of poses that is followed.
+  /// One of several candidate sequences of poses, which are followed in parallel.
   struct Path {
     SilhouetteFit fit;
     TreeState before;  ///< the last pose but one
-    double cost = 0;   ///< sum of `picture_cost` over its moments
+    double cost = 0;   ///< sum of `picture_cost` over the path's moments
   };
 
   void Begin(const MomentViews& views);
@@ -53,7 +53,7 @@ class SilhouetteFollower {
   std::vector<Path> paths_;    ///< by ascending cost; empty until somebody was found
   int moments_ = 0;            ///< moments since the body was found
   int since_search_ = 0;       ///< moments since the last search for limbs
-  std::vector<double> costs_;  ///< `picture_cost` of the last moments that were returned, in order
+  std::vector<double> costs_;  ///< `picture_cost` of the last returned fits, oldest first
   std::optional<ThicknessEstimate> thickness_;
   int thickness_passes_ = 0, thickness_moments_ = 0;
 };

@@ -15,8 +15,8 @@ namespace {
 using Fits = std::vector<std::optional<SilhouetteFit>>;
 
 constexpr std::size_t kFollowedAnchors = 2;  // maximum number of start poses that are followed through the take
-constexpr int kTurnedMoments = 5;            // number of frames in which the reversed body is searched for
-constexpr double kClearlyBetter = 0.95;      // ratio of costs below which the reversed body is taken
+constexpr int kTurnedMoments = 5;            // number of frames in which the body turned front to back is searched for
+constexpr double kClearlyBetter = 0.95;      // the turned body is taken if the ratio of costs is lower
 
 double Squared(double x) { return x * x; }
 
@@ -59,7 +59,7 @@ class Tracker {
       is_first = false;
     }
     if (is_first) return {body_, std::move(fits)};
-    // Try the body turned front to back.
+    // Track the body turned front to back, and keep it if its cost is clearly lower.
     fits = EitherWayRound(std::move(fits));
     // Estimate the thickness, and fit every frame again.
     for (int i = 0; i < options_.thickness_passes; ++i) {
@@ -91,7 +91,7 @@ class Tracker {
     return std::nullopt;
   }
 
-  // Follows an anchor's body through the frames around the anchor, and returns their mean cost.
+  // Follows the body from the pose of `anchor` through the frames around it, and returns the mean cost of these frames.
   double TrialCost(const Anchor& anchor) {
     const std::size_t reach = options_.trial_frames;
     const std::size_t first = anchor.frame < reach ? 0 : anchor.frame - reach;
@@ -191,7 +191,7 @@ class Tracker {
     return OwnCost(turned) < kClearlyBetter * OwnCost(fits) ? Better(fits, turned) : fits;
   }
 
-  // Returns the sum of the frames' costs, without the costs of the changes between frames.
+  // Returns the sum of the frames' own costs; changes from frame to frame do not count.
   double OwnCost(const Fits& fits) {
     double sum = 0;
     for (std::size_t k = 0; k < frame_count_; ++k) {
@@ -200,8 +200,8 @@ class Tracker {
     return sum;
   }
 
-  // Follows the take forwards and backwards, each time from the pose in `fits` at that end, and returns the better
-  // path.
+  // Follows the take forwards and backwards, beginning with the pose that `fits` has at the start or at the end, and
+  // returns the path of lower cost.
   Fits Retraced(const Fits& fits) {
     const auto first = std::ranges::find_if(fits, [](const auto& fit) { return fit.has_value(); });
     const auto last = std::find_if(fits.rbegin(), fits.rend(), [](const auto& fit) { return fit.has_value(); });
@@ -263,7 +263,8 @@ class Tracker {
     }
   }
 
-  // Predicts a frame as the mean of its two neighbours, or as the only neighbour that is fitted.
+  // Predicts a frame's pose: the mean of the two neighbouring frames' poses, or the pose of the only neighbour that is
+  // fitted.
   std::optional<TreeState> Between(const Fits& fits, std::size_t k) const {
     const bool before = k > 0 && fits[k - 1], after = k + 1 < frame_count_ && fits[k + 1];
     if (before && after) return MeanState(fits[k - 1]->state, fits[k + 1]->state);
@@ -285,7 +286,7 @@ class Tracker {
   }
 
   // Searches for lost limbs in every fifth frame with an excessive cost, and follows the results through the other
-  // frames, forwards and backwards in time. Keeps the better path.
+  // frames, forwards and backwards in time. Keeps the path of lower cost.
   void Repair(Fits& fits) {
     constexpr int kFollowed = 4;
     const double too_much = options_.lost * UsualCost(fits);
@@ -310,7 +311,8 @@ class Tracker {
     }
   }
 
-  // Fits every frame once more near the mean of its neighbours: first the even frames, then the odd ones.
+  // Fits every frame once more, with the mean of the neighbouring frames' poses as prior: first the even frames, then
+  // the odd frames.
   void Smooth(Fits& fits) {
     for (const bool odd : {false, true}) {
       for (std::size_t k = odd; k < frame_count_; k += 2) {

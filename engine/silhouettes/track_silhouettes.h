@@ -34,7 +34,7 @@ struct SilhouetteTrack {
 /// found in a few frames by trying headings and postures. Each frame is fitted twice: from the frame before it, and
 /// backwards in time from the frame after it. Viterbi's algorithm chooses one of the two poses in each frame. The same
 /// is done for the body turned front to back (`TurnedRound`), which is taken if its cost is clearly lower. Finally,
-/// lost limbs are searched for, and every frame is fitted once more with its neighbours as a prior.
+/// lost limbs are searched for, and every frame is fitted once more with the neighbouring frames' poses as a prior.
 SilhouetteTrack TrackSilhouettes(const SilhouetteBody& body, const SilhouetteTake& take,
                                  const TrackOptions& options = {});
 

@@ -7,7 +7,8 @@
 
 namespace etude {
 
-/// The number of coordinates of a free root: three of its position, three of its rotation. The angles come after them.
+/// The number of coordinates of a free root: three of its position, three of its rotation. The angles are the
+/// coordinates after these six.
 constexpr int kRootDofs = 6;
 
 /// Returns the rotation about the direction of `turn` by the length of `turn`, radians (Rodrigues' formula).
@@ -21,7 +22,7 @@ glm::dvec3 TurnOf(const glm::dmat3& rotation);
 /// vector in the world), and the rest is added to the angles, which are clamped to their limits.
 TreeState Moved(const KinematicTree& tree, const TreeState& state, std::span<const double> by);
 
-/// Returns the mean of two poses; the root's rotation is half-way between theirs.
+/// Returns the mean of two poses; the mean's root rotation is half-way between the rotations of the two roots.
 TreeState MeanState(const TreeState& a, const TreeState& b);
 
 /// Extrapolates a motion: adds to `last` the fraction `share` of the change from `before` to `last`.

@@ -23,8 +23,8 @@ struct Transition {
     const double t = motion.frame_s, q = motion.acceleration_density, tau = motion.velocity_memory_s;
     // The integrals of e^(−s/τ) and of e^(−2s/τ) over one frame.
     const double once = -tau * std::expm1(-t / tau), twice = -tau / 2 * std::expm1(-2 * t / tau);
-    // The variance of the position for q = 1: τ² (t − 2·once + twice). For large τ the terms cancel, so use its Taylor
-    // series.
+    // The variance that one frame adds to the position for q = 1: τ² (t − 2·once + twice). For large τ the terms
+    // cancel, so use the Taylor series of this expression.
     const double x = t / tau;
     constexpr double kCancels = 1e-3;
     const double drift =
@@ -47,7 +47,7 @@ Estimate FirstEstimate(const PointMotion& motion) {
   return first;
 }
 
-constexpr double kMinInformationShare = 1e-12;  // eigenvalues below this share of the largest count as unmeasured
+constexpr double kMinInformationShare = 1e-12;  // a smaller share of the largest eigenvalue means "not measured"
 
 /// A measurement in the form y = A p with errors of unit variance, one row for each measured direction.
 struct WhiteMeasurement {
@@ -59,7 +59,7 @@ struct WhiteMeasurement {
     for (int i = 0; i < 3; ++i) {
       for (int k = 0; k < 3; ++k) information(i, k) = measurement.information[k][i];
     }
-    // Directions are measured if they are eigenvectors of the information with a positive eigenvalue.
+    // The measured directions are the eigenvectors of the information matrix whose eigenvalues are positive.
     const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> eigen(information);
     const double min_information = kMinInformationShare * eigen.eigenvalues()[2];
     int rows = 0;

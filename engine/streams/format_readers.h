@@ -7,8 +7,8 @@
 
 namespace etude {
 
-/// Each function reads one format. Positions are in the file's own unit. ReadStreamRecording applies the checks that
-/// all formats share.
+/// Each function reads one format. The positions in the result are in the file's own unit. ReadStreamRecording then
+/// applies the checks that all formats share.
 Result<StreamRecording> ReadEtudeCsv(std::string_view text, const std::string& file, const StreamReading& reading);
 Result<StreamRecording> ReadTrcStream(std::string_view text, const std::string& file);
 Result<StreamRecording> ReadKinectRows(std::string_view text, const std::string& file, StreamFormat format,
@@ -28,7 +28,7 @@ Result<StreamRecording> ReadFormat(StreamFormat format, std::string_view text, c
 /// gives a human trunk.
 Result<void> ToMetres(StreamRecording& recording, const std::string& file);
 
-/// Returns true if rows with `columns` numbers can belong to the format.
+/// Returns true if the format has rows of `columns` numbers.
 bool HasColumnsOf(StreamFormat format, std::size_t columns);
 
 }  // namespace etude

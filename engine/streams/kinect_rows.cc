@@ -10,13 +10,13 @@
 namespace etude {
 namespace {
 
-/// The layout of a row of numbers.
+/// The meaning of the columns in a row of numbers.
 struct RowLayout {
   std::size_t columns;
   std::size_t joints;
   std::size_t first;   ///< index of the first joint's first number
   std::size_t stride;  ///< numbers for each joint
-  bool has_fourth;     ///< the fourth number of a joint may be its state
+  bool has_fourth;     ///< the fourth number of a joint may be the joint's tracking state
 };
 
 constexpr double kMaxClock = 1e18;
@@ -42,8 +42,8 @@ const RowLayout* FindLayout(StreamFormat format, std::size_t columns) {
   return nullptr;
 }
 
-/// Converts a point from the sensor's space (X to the sensor's left, Y up, Z away from it) to a space in which a person
-/// who faces the sensor looks along +Z.
+/// Converts a point from the sensor's space (X to the sensor's left, Y up, Z away from the sensor) to a space in which
+/// a person who faces the sensor looks along +Z.
 glm::dvec3 FromSensor(const glm::dvec3& p) { return {-p.x, p.y, -p.z}; }
 
 /// Returns true if the fourth number of each joint is its tracking state in the SDK (0 not tracked, 1 inferred, 2
@@ -62,7 +62,7 @@ bool FourthsAreStates(const NumberRows& table, const RowLayout& layout) {
   return some_tracked;
 }
 
-/// Returns true if the first column contains only integers.
+/// Returns true if the first column of `table` contains only integers.
 bool CountsWhole(const NumberRows& table) {
   for (std::size_t t = 0; t < table.RowCount(); ++t) {
     if (table.Row(t)[0] != std::floor(table.Row(t)[0])) return false;
@@ -70,10 +70,10 @@ bool CountsWhole(const NumberRows& table) {
   return true;
 }
 
-/// Returns the unit of the first column in seconds, from the median step between rows: seconds, frames at 30 Hz,
-/// milliseconds or microseconds. Integers with a step below 16 are frame numbers with gaps, because no skeleton sensor
-/// is faster than 60 Hz; a remark reports the gaps. Returns nullopt if the clock stands still or its steps are too
-/// large.
+/// Returns the length in seconds of the first column's unit, which is a second, a frame at 30 Hz, a millisecond or a
+/// microsecond. The median step between rows decides. Integers with a step below 16 are frame numbers with gaps,
+/// because no skeleton sensor is faster than 60 Hz; a remark reports the gaps. Returns nullopt if the clock stands
+/// still or its steps are too large.
 std::optional<double> SecondsPerCount(const NumberRows& table, std::vector<std::string>& remarks) {
   constexpr double kMinStepMs = 16;
   std::vector<double> steps;
@@ -93,7 +93,7 @@ std::optional<double> SecondsPerCount(const NumberRows& table, std::vector<std::
   return std::nullopt;
 }
 
-// Converts a row to a frame. Joints without a position and joints that are not tracked are missing in it.
+// Converts a row to a frame. The frame lacks joints that have no position or are not tracked.
 RecordedFrame FrameOf(std::span<const double> row, const RowLayout& layout, bool has_states) {
   std::vector<std::optional<glm::dvec3>> places(layout.joints);
   std::vector<TrackingState> states(layout.joints, TrackingState::kTracked);
@@ -114,7 +114,7 @@ RecordedFrame FrameOf(std::span<const double> row, const RowLayout& layout, bool
   return frame;
 }
 
-/// Converts a row to the recording's frame with index `index`, with its time.
+/// Converts a row to frame number `index` of the recording, with the frame's time.
 Result<RecordedFrame> TimedFrame(std::span<const double> row, Place place, const RowLayout& layout,
                                  const StreamRecording& recording, std::size_t index) {
   RecordedFrame frame = FrameOf(row, layout, recording.records_states);
@@ -138,7 +138,7 @@ bool HasColumnsOf(StreamFormat format, std::size_t columns) { return FindLayout(
 Result<StreamRecording> ReadKinectRows(std::string_view text, const std::string& file, StreamFormat format,
                                        const StreamReading& reading) {
   ASSIGN_OR_RETURN(const NumberRows table, ReadNumberRows(text, file, kMaxClock));
-  // Find the layout by the number of columns, then the meaning of its columns.
+  // Find the layout by the number of columns, then determine what the first column and the fourth numbers mean.
   const RowLayout* layout = FindLayout(format, table.columns);
   if (layout == nullptr) {
     return Fail({file, table.lines.front()}, "{} numbers in a row; allowed for {}: {}", table.columns,

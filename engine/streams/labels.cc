@@ -13,7 +13,7 @@ namespace etude {
 namespace {
 
 constexpr std::size_t kMaxBytes = std::size_t{16} << 20;
-constexpr double kMaxTime_s = 1e12;  // seconds; clocks may start at any time
+constexpr double kMaxTime_s = 1e12;  // upper bound of a time in seconds; clocks may start at any time
 constexpr std::size_t kMaxNameBytes = 200;
 
 /// One cell of a line: its text and its column, from 1.
@@ -111,7 +111,7 @@ Result<std::vector<Label>> ReadCsv(Lines lines, const std::string& file) {
     if (!cell(5).text.empty()) {
       ASSIGN_OR_RETURN(label.person, NameIn(cell(5), file, number, "person"));
     }
-    // Read the times: both, only the first, or none.
+    // Read `from_s` and `to_s`; the cell of `to_s`, or each of the two cells, may be empty.
     for (const std::size_t i : {1, 2}) {
       if (cell(i).text.empty()) continue;
       ASSIGN_OR_RETURN((i == 1 ? label.from_s : label.to_s), NumberIn(cell(i), file, number, kMaxTime_s));
@@ -127,8 +127,8 @@ Result<std::vector<Label>> ReadCsv(Lines lines, const std::string& file) {
   return labels;
 }
 
-/// Reads MSRC-12's tag stream. Its ticks have 49.875 MHz and are converted to the recording's clock, which counts
-/// microseconds.
+/// Reads MSRC-12's tag stream. Times in the stream are ticks of 49.875 MHz; they are converted to the recording's
+/// clock, which counts microseconds.
 Result<std::vector<Label>> ReadTags(Lines lines, const std::string& file, std::string_view clip) {
   constexpr double kTicksPerSecond = 49'875'000;
   std::vector<Label> labels;

@@ -12,14 +12,14 @@ namespace etude {
 /// An observer's statement about what was performed in a recording.
 struct Label {
   std::string clip;  ///< the recording: its file's name without folder and extension
-  /// The label's times, in seconds. If both are given, the performance lasts from one to the other. If only the first
-  /// is given, it is an action point: the moment at which observers can recognise the performance. If none is given,
-  /// the whole recording is one performance.
+  /// The label's times, in seconds. If both times are given, the performance lasts from `from_s` to `to_s`. If only
+  /// `from_s` is given, it is an action point: the moment at which observers can recognise the performance. If neither
+  /// time is given, the whole recording is one performance.
   std::optional<double> from_s, to_s;
   std::string move;           ///< the intended move
-  std::string fault;          ///< the fault, if the performance was wrong; empty: it was right
+  std::string fault;          ///< the fault of a wrong performance; empty if the performance was right
   std::string person;         ///< the performer; empty: unknown
-  bool by_own_clock = false;  ///< times refer to the recording's own clock instead of its first frame
+  bool by_own_clock = false;  ///< true: times are of the recording's own clock; false: they count from its first frame
   int line = 0;
 
   bool IsRight() const { return fault.empty(); }
@@ -38,12 +38,12 @@ constexpr double kActionPointTolerance = 0.333;
 ///   UTKinect's actionLabel.txt: `s01_e01`, then `walk: 252 390` in frames at 30 Hz by the recording's own clock;
 ///     labels of NaN are left out; a label belongs to any recording whose name contains `s01_e01`
 ///
-/// Fails, with file, line and column, for unknown headings, times that are not numbers, ends that are not after their
-/// beginnings, a file without labels, and more than 16 MiB.
+/// Fails, with file, line and column, for unknown headings, times that are not numbers, performances that do not end
+/// after they begin, a file without labels, and more than 16 MiB.
 Result<std::vector<Label>> ReadLabels(std::string_view text, const std::string& file, std::string_view clip = "");
 
 /// Returns true if the label belongs to the recording with this name: the names are equal or, for UTKinect, the
-/// recording's name contains the label's.
+/// recording's name contains `label.clip`.
 bool IsLabelOf(const Label& label, std::string_view recording);
 
 }  // namespace etude

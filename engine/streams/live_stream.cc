@@ -68,7 +68,7 @@ Result<void> LiveStream::Finish(std::vector<SensedFrame>& stream) {
   return Start(true, stream);
 }
 
-// Estimates the stream's properties from the lines so far; does nothing if too few of them show a body.
+// Estimates the stream's properties from the lines read so far; does nothing if too few of these lines show a body.
 Result<void> LiveStream::Start(bool at_end, std::vector<SensedFrame>& stream) {
   const auto format = reading_.format ? reading_.format : DetectStreamFormat(first_lines_);
   const bool is_rows = format && (*format == StreamFormat::kEtudeCsv || *format == StreamFormat::kKinectV1 ||
@@ -91,7 +91,7 @@ Result<void> LiveStream::Start(bool at_end, std::vector<SensedFrame>& stream) {
     return Fail({name_, line_}, "nobody is visible so far");
   }
   if (!recording.is_level) RETURN_IF_ERROR(ToMetres(recording, name_));
-  // Estimate the level, then convert the lines so far.
+  // Estimate up direction and floor, then convert the lines read so far.
   if (options_.levels && !recording.is_level) level_ = EstimateLevel(recording.frames, recording.rate_hz);
   maker_.emplace(level_, options_, name_);
   std::vector<RecordedFrame> frames = std::move(recording.frames);

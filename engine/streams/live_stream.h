@@ -14,7 +14,7 @@ namespace etude {
 /// Reads skeletons line by line as a device sends them: Etude's CSV, and rows of Kinect v1 and v2. The format is
 /// recognised from the first lines. Some properties are usually estimated from a whole file (unit, clock, gravity and
 /// floor; for CSV only the clock). Here they are estimated from the first second in which a body is visible. The frames
-/// of that second are returned together; afterwards each line returns its frames at once.
+/// of that second are returned together; afterwards each line immediately gives the frames that it completes.
 class LiveStream {
  public:
   /// `name` is the stream's name in error messages.
@@ -29,8 +29,8 @@ class LiveStream {
 
   /// Returns the format, units and clock that were detected; nullopt before the first frames are returned.
   const std::optional<StreamRecording>& Meaning() const { return meaning_; }
-  /// Returns a remark about the sensor's level: it was rotated, or trunks are far from upright. Returns "" without such
-  /// a finding, and before the start.
+  /// Returns a remark if the frames were rotated upright, or if trunks are far from upright. Returns "" otherwise, and
+  /// before the first frames are returned.
   std::string RemarkOnLevel() const;
 
  private:

@@ -30,7 +30,7 @@ bool IsWholeNumber(std::string_view line) {
   return !line.empty() && line.size() <= 9 && line.find_first_not_of("0123456789") == std::string_view::npos;
 }
 
-/// Returns the number of columns of the first row of numbers; 0 if there is none.
+/// Returns the number of columns in the first row of numbers; 0 if the text has no such row.
 std::size_t FirstRowColumns(std::string_view text) {
   while (!text.empty()) {
     const std::string_view line = Trimmed(TakeLine(text));
@@ -72,7 +72,7 @@ Result<void> CheckMarkerNames(const std::vector<std::string>& names, const std::
               Join(unknown), rest, Join(missing));
 }
 
-/// Returns the median distance between two joints over the frames that have both; 0 if there are none.
+/// Returns the distance between two joints, median over the frames that have both joints; 0 without such frames.
 double MiddleDistance(const StreamRecording& recording, Role a, Role b) {
   std::vector<double> lengths;
   for (const RecordedFrame& frame : recording.frames) {
@@ -97,7 +97,7 @@ Result<void> CheckReach(const StreamRecording& recording, const std::string& fil
   return {};
 }
 
-/// Checks that times do not decrease. Of several frames with the same time, keeps only the last.
+/// Checks that times do not decrease. If several frames have the same time, keeps only the last of these frames.
 Result<void> OrderTimes(StreamRecording& recording, const std::string& file) {
   std::vector<RecordedFrame> ordered;
   for (const RecordedFrame& frame : recording.frames) {

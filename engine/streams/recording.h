@@ -14,7 +14,7 @@ namespace etude {
 
 /// The supported formats of skeleton files (described in docs/streams.md).
 enum class StreamFormat {
-  kEtudeCsv,     ///< as written by `etude clip convert`: `time_s`, `hip_centre_x_m`, …
+  kEtudeCsv,     ///< the CSV that `etude clip convert` writes: `time_s`, `hip_centre_x_m`, …
   kTrc,          ///< markers with the names of Etude's joints
   kKinectV2,     ///< one row per frame: 25 × (x, y, z), with orientations or with states
   kKinectV1,     ///< one row per frame: 20 × (x, y, z) or (x, y, z, state), after an optional clock
@@ -25,7 +25,7 @@ enum class StreamFormat {
 /// Lists "etude-csv", "trc", "kinect-v2", "kinect-v1", "ntu", "azure-kinect", in the order of the enum.
 const std::vector<std::string>& StreamFormatNames();
 std::string_view StreamFormatName(StreamFormat format);
-/// Returns the format with this name, which must be one of StreamFormatNames().
+/// Returns the format with this name. `name` must be one of StreamFormatNames().
 StreamFormat FindStreamFormat(std::string_view name);
 
 /// Detects the format of a text by its first lines; nullopt if the format is not supported.
@@ -34,21 +34,21 @@ std::optional<StreamFormat> DetectStreamFormat(std::string_view text);
 /// One frame as a file contains it.
 struct RecordedFrame {
   double time_s = 0;  ///< time by the file's own clock
-  int line = 0;       ///< its line in the text, from 1; 0: not known
+  int line = 0;       ///< number of the frame's line in the text, from 1; 0: not known
   /// The positions of the joints in the file's own space with Y up, metres; nullopt if a joint was not reported.
   RolePositions places = {};
   std::array<TrackingState, kRoleCount> states{};  ///< states of the joints that have a position
 };
 
-/// The content of a file, not yet levelled and resampled.
+/// The content of a file of skeletons, before it is rotated upright and resampled.
 struct StreamRecording {
   StreamFormat format = StreamFormat::kEtudeCsv;
   bool records_states = false;  ///< false: every joint that has a position counts as tracked
   bool records_times = false;   ///< false: frames are one period of `rate_hz` apart
   bool is_level = false;      ///< Y points up and the floor is at 0, because Etude wrote the file
   double rate_hz = kJudgedRateHz;
-  double seconds_per_count = 1;            ///< the unit of the clock's column
-  double first_count = 0;                  ///< the time in the clock's column that became 0 s
+  double seconds_per_count = 1;            ///< the unit of the clock's column, seconds
+  double first_count = 0;                  ///< the number in the clock's column at 0 s
   double metres_per_unit = 1;              ///< the factor that was applied to positions
   std::vector<RecordedFrame> frames = {};  ///< in ascending order of time
   std::vector<std::string> remarks = {};   ///< decisions made while reading ("2 bodies, of which body 0")
@@ -57,8 +57,8 @@ struct StreamRecording {
 /// Properties of a file that the user can state.
 struct StreamReading {
   std::optional<StreamFormat> format = {};  ///< if absent, detected by content
-  std::optional<double> rate_hz = {};       ///< for files without a clock; if absent, 30
-  std::optional<int> body = {};  ///< which of several bodies, by first appearance; if absent, the one in most frames
+  std::optional<double> rate_hz = {};       ///< frame rate of a file without a clock; if absent: 30 Hz
+  std::optional<int> body = {};  ///< index of the body, by first appearance; if absent: the body in most frames
 };
 
 /// Reads a file of skeletons. Fails, with file, line and column, for an unknown format, a wrong number of joints, text

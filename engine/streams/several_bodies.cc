@@ -16,16 +16,16 @@
 namespace etude {
 namespace {
 
-/// The people of one file, distinguished by the identifiers in it.
+/// The people of one file, distinguished by the file's identifiers of bodies.
 class Bodies {
  public:
   /// Adds a frame in which the body `id` is seen. `frame` is the frame's index in the file.
   void Add(std::string_view id, std::size_t frame, const RolePositions& places,
            const std::array<TrackingState, kRoleCount>& states);
 
-  /// Copies one body into the recording's frames. Takes the requested body, counted by first appearance; without a
-  /// request, the body in most frames. If several are in equally many frames, takes the one that moves most, because in
-  /// crowded rooms sensors sometimes take furniture for a person. Calls JoinContinued before it chooses.
+  /// Copies one body into the recording's frames: the requested body, counted by first appearance, or, without a
+  /// request, the body in most frames. Of bodies in equally many frames, takes the body that moves most, because
+  /// sensors sometimes take furniture for a person. Calls JoinContinued before it chooses.
   Result<void> Choose(const StreamReading& reading, const std::string& file, StreamRecording& recording);
 
  private:
@@ -40,9 +40,9 @@ class Bodies {
   };
 
   /// Joins bodies that are one person (ours): a tracker that loses a person for a moment gives the person a new
-  /// identifier. The second body must begin at most a second after the first one ends, with a mean distance of the
-  /// joints of at most half a trunk. The nearest pair is joined first, and a body continues at most one other. A remark
-  /// reports each pair.
+  /// identifier. The second body must appear at most a second after the first body disappears, and the joints of the
+  /// two must then be at most half a trunk apart on average. The nearest pair is joined first, and a body continues at
+  /// most one other body. A remark reports each pair.
   void JoinContinued(StreamRecording& recording);
 
   static double PathOf(const Body& body);
@@ -70,7 +70,8 @@ double Bodies::PathOf(const Body& body) {
   return path;
 }
 
-/// Returns the mean distance, in trunk lengths, between the joints that both frames have; nullopt without a trunk.
+/// Returns the mean distance, in trunk lengths, between the joints that are in both frames; nullopt if a frame lacks
+/// the trunk.
 std::optional<double> Bodies::GapInTrunks(const Seen& before, const Seen& after) {
   const auto &hips = before.places[Index(Role::kHipCentre)], &neck = before.places[Index(Role::kShoulderCentre)];
   double sum = 0;
@@ -90,7 +91,7 @@ void Bodies::JoinContinued(StreamRecording& recording) {
     double gap;
     std::size_t before, after;
   };
-  // Collect the pairs of bodies of which the second can continue the first.
+  // Collect the pairs in which the second body can continue the first.
   std::vector<Pair> pairs;
   const auto begin_of = [](const Body& body) { return body.frames.front().frame; };
   for (std::size_t a = 0; a < bodies_.size(); ++a) {
@@ -112,7 +113,7 @@ void Bodies::JoinContinued(StreamRecording& recording) {
     next[pair.before] = pair.after;
     continues[pair.after] = true;
   }
-  // Join the chains of accepted pairs.
+  // Join the bodies of each chain of accepted pairs.
   std::vector<Body> joined;
   for (std::size_t a = 0; a < bodies_.size(); ++a) {
     if (continues[a]) continue;
@@ -170,8 +171,9 @@ std::optional<double> NumberAt(const Json& list, std::size_t i) {
   return std::isfinite(value) ? std::optional(value) : std::nullopt;
 }
 
-/// Returns a body's confidences, K4ABT_JOINT_CONFIDENCE_* (0 none, 1 low, 2 medium, 3 high); null if it has none. The
-/// offline processor does not write confidences; recorders derived from it do, under one of these names.
+/// Returns a body's confidences, K4ABT_JOINT_CONFIDENCE_* (0 none, 1 low, 2 medium, 3 high); null if the body has none.
+/// The offline processor does not write confidences; recorders derived from this processor do, under one of these
+/// names.
 const Json* ConfidencesOf(const Json& body) {
   for (const char* key : {"confidence_level", "confidence_levels", "joint_confidence"}) {
     const auto found = body.find(key);
@@ -180,9 +182,9 @@ const Json* ConfidencesOf(const Json& body) {
   return nullptr;
 }
 
-/// Converts a position from the depth camera's space (X to the camera's right, Y down, Z away from it, millimetres) to
-/// a space with Y up in which a person who faces the camera looks along +Z. Returns nullopt for a missing or zero
-/// position.
+/// Converts a position from the depth camera's space (X to the camera's right, Y down, Z away from the camera,
+/// millimetres) to a space with Y up in which a person who faces the camera looks along +Z. Returns nullopt for a
+/// missing or zero position.
 std::optional<glm::dvec3> PlaceAt(const Json& joint) {
   const auto x = NumberAt(joint, 0), y = NumberAt(joint, 1), z = NumberAt(joint, 2);
   if (!x || !y || !z || (*x == 0 && *y == 0 && *z == 0)) return std::nullopt;

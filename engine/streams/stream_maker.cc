@@ -20,7 +20,7 @@ using enum Role;
 constexpr double kMaxTilt = Radians(30), kMaxDifference = Radians(15);
 const glm::dvec3 kFileUp(0, 1, 0);
 
-/// Returns the median direction of the trunk, normalised; the median is taken axis by axis.
+/// Returns the trunk's median direction: the median of each coordinate over the frames, normalised.
 std::optional<glm::dvec3> UpOfTrunk(std::span<const RecordedFrame> frames) {
   std::vector<double> axes[3];
   for (const RecordedFrame& frame : frames) {
@@ -35,7 +35,7 @@ std::optional<glm::dvec3> UpOfTrunk(std::span<const RecordedFrame> frames) {
   return glm::normalize(middle);
 }
 
-/// Lists the positions of standing feet: those slower than 0.1 m/s.
+/// Lists the positions of standing feet, which are the feet slower than 0.1 m/s.
 std::vector<glm::dvec3> PlantedFeet(std::span<const RecordedFrame> frames, double rate_hz) {
   constexpr double kStill = 0.1;
   std::vector<glm::dvec3> points;
@@ -67,7 +67,7 @@ std::optional<glm::dvec3> UpOfFeet(const std::vector<glm::dvec3>& points) {
     xy += d.x * d.y / n;
     zy += d.z * d.y / n;
   }
-  // The points must extend in both horizontal directions.
+  // Give up if the points extend in one horizontal direction only.
   const double smaller = 0.5 * (xx + zz) - std::sqrt(0.25 * (xx - zz) * (xx - zz) + xz * xz);
   if (smaller < kSpread * kSpread) return std::nullopt;
   // Solve for the plane by least squares, and test the distance of the points from it.
@@ -101,7 +101,7 @@ glm::dmat3 QuarterTurns(int quarters) {
 int QuartersOfSensor(std::span<const RecordedFrame> frames) {
   constexpr double kMinShare = 0.7, kHardlyAny = 0.05, kFaces = 0.7;
   std::array<double, 4> upright{};
-  std::vector<double> fronts;  // the angle by which the body faces up or down in the file's axes
+  std::vector<double> fronts;  // by frame: the angle by which the body faces up or down in the file's axes
   double all = 0;
   for (const RecordedFrame& frame : frames) {
     const auto &hips = frame.places[Index(kHipCentre)], &neck = frame.places[Index(kShoulderCentre)],
@@ -199,7 +199,7 @@ bool ShowsBody(const RecordedFrame& frame) {
   return std::ranges::any_of(frame.places, [](const auto& place) { return place.has_value(); });
 }
 
-/// Interpolates between two frames. A joint that one of them lacks is missing in the result.
+/// Interpolates between two frames. The result lacks a joint if one of the two frames lacks it.
 RecordedFrame Between(const RecordedFrame& a, const RecordedFrame& b, double part) {
   RecordedFrame frame;
   for (std::size_t i = 0; i < kRoleCount; ++i) {
@@ -242,8 +242,8 @@ Result<void> StreamMaker::Add(const RecordedFrame& frame, std::vector<SensedFram
                 "time {:.6g} s after {:.6g} s; allowed: a clock that increases, by at most {} s per row", frame.time_s,
                 before_->time_s, kMaxLoss_s);
   }
-  // Make the stream's frames up to the time of this frame. Each is a recorded frame, an interpolation between two, or a
-  // frame without a body.
+  // Make the stream's frames up to the time of this frame. Each is a recorded frame, an interpolation between two
+  // recorded frames, or a frame without a body.
   for (;; ++next_) {
     const double time = start_s_ + static_cast<double>(next_) / options_.rate_hz;
     if (time > frame.time_s + kSameTime) break;

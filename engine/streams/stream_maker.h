@@ -18,11 +18,11 @@ struct StreamLevel {
   enum class By { kNothing, kFeet, kTrunk };
 
   glm::dmat3 R_WF{1};       ///< rotates the file's directions into the world: first by turn_deg, then by tilt_deg
-  double floor_m = 0;       ///< height of the floor after that rotation
+  double floor_m = 0;       ///< height of the floor after the rotation by `R_WF`, metres
   int turn_deg = 0;         ///< turn of a sensor in portrait or upside down, about its line of sight: 0, 90, 180, 270
   double tilt_deg = 0;      ///< angle of the rotation about a horizontal axis
   By up_by = By::kNothing;  ///< the evidence for the up direction
-  /// The angle between the trunk and the file's up direction, degrees, if the file's up was kept although the trunk
+  /// The angle between the trunk and the file's up direction, degrees, if this direction was kept although the trunk
   /// contradicts it; otherwise 0.
   double trunk_deg = 0;
 
@@ -30,13 +30,13 @@ struct StreamLevel {
 };
 
 /// Estimates gravity and floor from the body alone, because few files contain the tilt of their sensor (ours). Up is
-/// the normal of the plane under standing feet if they determine it (standard deviation of at least 10 cm in both
-/// directions, at most 3 cm off the plane, within 15° of the trunk). Otherwise up is the trunk's median direction, so a
-/// constant lean counts as a tilt of the sensor. If the result is more than 30° from the file's own up, nothing is
-/// rotated. A sensor in portrait or upside down is turned back first. It is recognised by the trunk, which in seven of
-/// ten frames is within 30° of another axis of the file, and hardly ever near the file's up. In portrait, the body must
-/// also face the sensor, because a lying body faces up or down. The floor is the 10th percentile of the lower foot's
-/// height. `rate_hz` > 0 is the frames' rate.
+/// the normal of the plane under standing feet if the feet determine the plane (standard deviation of at least 10 cm in
+/// both directions, at most 3 cm off the plane, within 15° of the trunk). Otherwise up is the trunk's median direction,
+/// so a constant lean counts as a tilt of the sensor. If the result is more than 30° from the file's own up, nothing is
+/// rotated. A sensor in portrait or upside down is turned back first. Such a sensor is recognised by the trunk: in
+/// seven of ten frames it is within 30° of another axis of the file, and hardly ever near the file's up axis. In
+/// portrait, the body must also face the sensor, because a lying body faces up or down. The floor is the 10th
+/// percentile of the lower foot's height. `rate_hz` > 0 is the frames' rate.
 StreamLevel EstimateLevel(std::span<const RecordedFrame> frames, double rate_hz);
 
 /// Describes a level for users: "up by the trunk (6.3 degrees), floor 0.83 m below the sensor". Also mentions a sensor
@@ -44,12 +44,12 @@ StreamLevel EstimateLevel(std::span<const RecordedFrame> frames, double rate_hz)
 std::string Describe(const StreamLevel& level);
 
 struct StreamOptions {
-  bool levels = true;     ///< true: estimate gravity and floor if the file does not define them; false: keep its own
-  bool reflects = false;  ///< negate X, for files whose X axis points the other way, which mirrors bodies
+  bool levels = true;     ///< true: estimate gravity and floor if the file does not define them; false: keep the file's
+  bool reflects = false;  ///< true: X is negated, for files whose X axis points the other way and mirrors bodies
   double rate_hz = kJudgedRateHz;
 };
 
-/// Resamples recorded frames online to a constant rate: frame k is at k / rate_hz seconds after the first one. Between
+/// Resamples recorded frames online to a constant rate: frame k is k / rate_hz seconds after the first frame. Between
 /// two recorded frames at most 0.2 s apart, joints are interpolated linearly; over a longer gap the body is lost. A
 /// joint that is not reported keeps its last position with the state "not tracked", as on a Kinect; before its first
 /// report it is at its parent's position. A recorded frame within half a millisecond of a stream's frame is used
@@ -86,9 +86,9 @@ struct MadeStream {
 Result<MadeStream> MakeStream(const StreamRecording& recording, const std::string& file,
                               const StreamOptions& options = {});
 
-/// Returns the mean cosine of the angle between the feet and the facing direction, which is computed from the body's
-/// left and right: +1 is straight ahead; −1 is backwards, as in a mirrored recording. Returns nullopt if no foot was
-/// tracked.
+/// Returns the cosine of the angle between a foot and the facing direction, as a mean over feet and frames. The facing
+/// direction follows from the body's left and right. +1: feet point straight ahead; −1: backwards, as in a mirrored
+/// recording. Returns nullopt if no foot was tracked.
 std::optional<double> FeetForward(const SkeletonStream& stream);
 
 }  // namespace etude

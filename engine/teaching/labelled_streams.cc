@@ -12,7 +12,8 @@
 namespace etude {
 namespace {
 
-/// Returns for each stream the person that its labels name; "" if they name nobody. Fails if they name two people.
+/// Returns, for each stream, the person that the stream's labels name; "" if no label names a person. Fails if the
+/// labels of a stream name two people.
 Result<std::vector<std::string>> NamedByLabels(const LabelledStreams& all) {
   std::vector<std::string> names(all.streams.size());
   for (const LabelledPart& part : all.parts) {
@@ -98,7 +99,7 @@ SkeletonStream PartOf(const SkeletonStream& stream, int begin, int end) {
 Result<LabelledStreams> LabelStreams(std::vector<NamedStream> streams, const LabelTexts& labels) {
   LabelledStreams all;
   all.streams = std::move(streams);
-  // Find the performed parts: by the labels, or each whole stream.
+  // Find the performances: the parts that labels name or, without labels, each whole stream.
   all.file = all.streams.front().source;
   if (labels.empty()) {
     all.parts = WholeStreams(all.streams);

@@ -28,12 +28,12 @@ struct NamedStream {
 /// "p06" in "P1_1_1_p06", UTKinect's "s01" in "joints_s01_e02". Returns "" for other names.
 std::string PersonInName(std::string_view name);
 
-/// A performance within its recording.
+/// A performance, as a range of frames in a recording.
 struct LabelledPart {
   std::size_t stream = 0;  ///< index of the recording
   std::string move, fault, person;
   int begin = 0, end = 0;        ///< frames [begin, end)
-  bool is_action_point = false;  ///< `begin` is the frame of the action point; `end` is one more
+  bool is_action_point = false;  ///< the part is one frame, that of an action point
   int line = 0;
 
   bool IsRight() const { return fault.empty(); }
@@ -45,8 +45,8 @@ struct LabelledPart {
 Result<std::vector<LabelledPart>> MatchLabels(const std::vector<Label>& labels, const std::string& file,
                                               const std::vector<NamedStream>& streams);
 
-/// Returns one right performance for each stream, for streams without labels: the whole stream. The move has the file's
-/// name; for NTU's files it is the action ("A013").
+/// For streams without labels: returns one right performance for each stream, which spans the whole stream. The move
+/// has the file's name; for NTU's files it is the action ("A013").
 std::vector<LabelledPart> WholeStreams(const std::vector<NamedStream>& streams);
 
 /// Returns only the frames [begin, end).
@@ -58,7 +58,7 @@ struct RecordedPerson {
   std::vector<std::size_t> streams;  ///< indices of this person's recordings
 };
 
-/// Recordings, the people in them, and the moves performed.
+/// A data set: recordings, performances in the recordings, people, and names of moves.
 struct LabelledStreams {
   std::string file;  ///< the labels' file, for error messages; without labels, the first recording's file
   std::vector<NamedStream> streams;

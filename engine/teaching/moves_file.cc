@@ -19,7 +19,7 @@ constexpr double kMaxCoordinateMm = 100'000, kMaxRateHz = 1000;
 constexpr Range kTolerances{0.1, 360}, kDegrees{-360, 360};
 constexpr double kMillimetres = 1000;
 
-// --- writing
+// --- Writing
 
 char LetterOf(const SensedFrame& frame, Role role) {
   if (!frame.body_seen) return '-';
@@ -69,7 +69,7 @@ void WriteMove(const TaughtMove& move, std::string& text) {
   WriteStreams("wrong", move.counter_examples, text);
 }
 
-// --- reading
+// --- Reading
 
 Result<PoseTarget> ReadTarget(const Node::Entry& entry, double tolerance_deg) {
   const Feature* feature = FindFeature(entry.key);
@@ -152,7 +152,7 @@ Result<SkeletonStream> ReadStream(const Node& node) {
   Place place = fields.Raw("frames")->place;
   std::string_view rest = frames;
   while (!rest.empty()) {
-    ++place.line;  // the block begins in the line after its key
+    ++place.line;  // the block of frames begins in the line after the key
     ASSIGN_OR_RETURN(stream.frames.emplace_back(), ReadFrame(TakeLine(rest), {place.file, place.line, 0}));
   }
   return stream;

@@ -35,20 +35,20 @@ Track TrackOf(const SkeletonStream& stream) {
   return smooth;
 }
 
-/// Returns the difference between the 95th and the 5th percentile of an angle.
+/// Returns the difference between an angle's 95th and 5th percentile over the frames.
 double RangeOf(const Track& track, std::size_t feature) {
   std::vector<double> values;
   for (const Angles& angles : track) values.push_back(angles[feature]);
   return LowerPercentile(values, 0.95) - LowerPercentile(values, 0.05);
 }
 
-/// Groups of angles: if a key pose uses one angle of a group, it uses all of them.
+/// Groups of angles: if a key pose uses one angle of a group, it uses every angle of the group.
 constexpr Feature kTogether[][4] = {{Feature::kRH, Feature::kLH, Feature::kRHE, Feature::kLHE},
                                     {Feature::kRF, Feature::kRFK, Feature::kRF, Feature::kRFK},
                                     {Feature::kLF, Feature::kLFK, Feature::kLF, Feature::kLFK}};
 
-/// Returns the angles that define the move: those with a large range in the median example, and the rest of their
-/// groups. For a move that hardly moves, returns the arms' angles.
+/// Returns the angles that define the move: the angles whose median range over the examples is large, and all angles of
+/// the same groups. If no angle changes much, returns the arms' angles.
 std::vector<std::size_t> AnglesThatMatter(std::span<const Track> tracks, const TeachOptions& options) {
   // Find the median range of each angle over the examples.
   std::array<double, kFeatureCount> ranges{};
@@ -81,9 +81,9 @@ double Distance(const Angles& a, const Angles& b, std::span<const std::size_t> f
   return std::sqrt(sum);
 }
 
-/// Marks the held poses, so that a recogniser can match a key pose in several frames. A pose is held if within a tenth
-/// of a second before and after, no angle differs by the minimum tolerance or more. If the move never rests, all poses
-/// are marked.
+/// Marks the held poses, so that a recogniser can match a key pose in several frames. A pose is held if no angle
+/// changes by the minimum tolerance or more within a tenth of a second before or after it. If the move never rests, all
+/// poses are marked.
 std::vector<bool> HeldPoses(const Track& track, std::span<const std::size_t> features, double rate_hz,
                             const TeachOptions& options) {
   const auto count = static_cast<int>(track.size());
@@ -102,7 +102,7 @@ std::vector<bool> HeldPoses(const Track& track, std::span<const std::size_t> fea
   return held;
 }
 
-/// Returns the index of the top of the first peak that is nearly as high as the highest peak.
+/// Returns the index of the first peak of `distances` that is nearly as high as the highest peak.
 std::size_t FirstOfFarthest(const std::vector<double>& distances) {
   constexpr double kNearPeak = 0.95;
   const double farthest = *std::ranges::max_element(distances);
@@ -126,7 +126,7 @@ std::vector<std::size_t> KeyFrames(const Track& track, std::span<const std::size
     distances.push_back(held[t] ? Distance(track[t], mean, features) : 0.0);
   }
   std::vector<std::size_t> frames = {FirstOfFarthest(distances)};
-  // Add the held pose farthest from the key poses so far, while it is far enough away.
+  // Add the held pose farthest from all key poses chosen so far; stop when that pose is too near to one of them.
   double first_gap = 0;
   while (frames.size() < static_cast<std::size_t>(options.most_poses)) {
     for (std::size_t t = 0; t < track.size(); ++t) {
@@ -226,7 +226,7 @@ Result<TaughtMove> TeachMove(const std::string& name, std::vector<SkeletonStream
                              std::vector<SkeletonStream> wrong, const TeachOptions& options) {
   constexpr double kMinSeconds = 0.5, kSlowestFactor = 1.3;
   if (right.empty()) return Fail({}, "move '{}' has no right performance to learn from", name);
-  // Check the performances and compute their angles.
+  // Check the performances, and compute the angles of each.
   std::vector<Track> tracks;
   double longest = 0;
   for (const SkeletonStream& stream : right) {

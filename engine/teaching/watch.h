@@ -18,7 +18,7 @@ struct WatchOptions {
   DecisionOptions decision;
 };
 
-/// One spotted move.
+/// A move that was spotted in a stream.
 struct Spotting {
   std::size_t move = 0;
   int frame = 0;
@@ -44,8 +44,9 @@ class StreamWatcher {
 std::vector<Spotting> Watch(const SkeletonStream& stream, const Recogniser& recogniser, std::size_t moves,
                             const WatchOptions& options);
 
-/// Returns the move that the frames [begin, end) most likely show: MoveFollower::Whole of these frames or, without it,
-/// the move whose evidence becomes highest in them. Other frames do not count. Returns nullopt if no move has evidence.
+/// Returns the move that the frames [begin, end) most likely show: the answer of MoveFollower::Whole for these frames
+/// or, without an answer, the move whose evidence becomes highest in these frames. Other frames do not count. Returns
+/// nullopt if no move has evidence.
 std::optional<std::size_t> Classify(const SeenStream& seen, int begin, int end, const Recogniser& recogniser,
                                     std::size_t moves);
 

@@ -42,8 +42,8 @@ std::string_view BranchName(Branch branch);
 
 /// The ways in which the joins `minimum-jerk` and `planted-feet` change from the old motion to the new one.
 enum class JoinStyle {
-  kDecays,  ///< the new motion plays, and the old motion's offset from it decays
-  kFades,   ///< both motions play, and the share of the new one grows
+  kDecays,  ///< the new motion plays, and the old motion's offset from the new one decays
+  kFades,   ///< both motions play, and the new motion's share grows
   kDirect,  ///< each limb moves from its old pose to the new motion's pose at the end of the join
 };
 
@@ -74,9 +74,9 @@ struct Segment {
 /// The outcome for a pair of frames that a choice considered.
 enum class CandidateOutcome {
   kTaken,
-  kTooFar,  ///< its distance is not below the threshold
-  kLater,   ///< it matches, but an earlier match is taken
-  kWorse,   ///< it matches, but another pair ranks higher
+  kTooFar,  ///< the pair's distance is not below the threshold
+  kLater,   ///< the pair matches, but an earlier match is taken
+  kWorse,   ///< the pair matches, but another pair ranks higher
 };
 /// Returns "taken", "too far", "later" or "worse".
 std::string_view OutcomeName(CandidateOutcome outcome);
@@ -88,7 +88,7 @@ struct Candidate {
   FuzzyDistance distance;
   std::optional<double> cost;  ///< the cost by which the choice ranks pairs; nullopt if it ranks them by `distance`
   CandidateOutcome outcome = CandidateOutcome::kTooFar;
-  int point = 0;  ///< index of the record's transition point to which it belongs
+  int point = 0;  ///< index of the record's transition point to which the pair belongs
 };
 
 /// The record of a transition: its segments, and how they were found.
@@ -99,10 +99,10 @@ struct TransitionRecord {
   std::vector<FuzzyDistance> distances;  ///< one per transition point: segments.size() − 1 entries
   /// The taken pair and the best other pairs, at most kMaxCandidates, in order of frames.
   std::vector<Candidate> candidates;
-  std::int64_t pairs_seen = 0;     ///< pairs of frames within the budget, including those after a first match
+  std::int64_t pairs_seen = 0;     ///< number of pairs within the budget, including pairs after the first match
   std::int64_t pairs_matched = 0;  ///< number of these pairs that match
   double wait_s = 0;               ///< time from the request until the wanted clip plays
-  std::string cost_unit;           ///< unit of the candidates' `cost`, for example "cm"; empty if they have none
+  std::string cost_unit;           ///< unit of the candidates' `cost`, for example "cm"; empty without costs
   std::string why;                 ///< one sentence: why this transition was taken, or why there is none
 };
 constexpr std::size_t kMaxCandidates = 12;

@@ -15,8 +15,8 @@
 namespace etude {
 namespace {
 
-/// Returns `adult` with the relative thickness of `body`: each radius is multiplied by the ratio of `body` to
-/// `average`. All three bodies must have the same parts.
+/// Returns `adult` with the relative thickness of `body`: each radius is multiplied by the radius in `body` and divided
+/// by the radius in `average`. All three bodies must have the same parts.
 SilhouetteBody WithThicknessOf(SilhouetteBody adult, const SilhouetteBody& body, const SilhouetteBody& average) {
   assert(adult.flesh.size() == body.flesh.size() && body.flesh.size() == average.flesh.size());
   for (std::size_t i = 0; i < adult.flesh.size(); ++i) {
@@ -38,7 +38,7 @@ LimbLengths AdultLengths(double stature_m) {
 double FitStature(const SilhouetteBody& body, double stature_m, std::span<const PosedViews> moments,
                   const FitOptions& options) {
   constexpr std::array kScales = {0.94, 0.96, 0.98, 1.0, 1.02, 1.04, 1.06};
-  // Compute the cost of every scale: the sum over all moments of the take.
+  // For every scale of the stature, sum the cost over the moments (pictures of one time).
   const SilhouetteBody average = MakeSilhouetteBody(AdultLengths(stature_m));
   std::array<double, kScales.size()> costs{};
   FitWorkspace workspace;
@@ -79,7 +79,7 @@ constexpr double kUsualStature = 1.70;  // metres
 
 using Frames = std::vector<std::size_t>;
 
-/// Returns the stature that the caller states directly or by limb lengths, metres; nullopt if neither is known.
+/// Returns the person's stature, metres, if the caller states it or the limb lengths that imply it; otherwise nullopt.
 std::optional<double> KnownStature(const UnmarkedTake& take) {
   if (!take.lengths) return take.stature_m;
   const LimbLengths &own = *take.lengths, adult = AdultLengths(kUsualStature);
@@ -137,7 +137,7 @@ class Recovery {
   /// from the body are used.
   void EstimateRooms(const Frames& frames, const SilhouetteTrack& track) {
     constexpr double kMotionLag = 0.1;  // time between compared pictures, seconds
-    // Convert the lag of motion detection from seconds to sampled frames.
+    // Convert this time to a number of sampled frames.
     const double between = static_cast<double>(take_.pictures[0].size()) / (take_.rate_hz * frames.size());
     const MotionOptions motion{.lag = std::max<std::size_t>(1, std::lround(kMotionLag / between))};
     rooms_.clear();
@@ -152,8 +152,8 @@ class Recovery {
   }
 
   /// Calls `visit(x, y, distance)` for all pixels of a mask that may be within `reach` of the body; a pixel near
-  /// several body parts is visited several times. Lengths are in pixels of `matrices_`. Does nothing if the body is
-  /// unknown in that frame.
+  /// several capsules of the body is visited once for each capsule. Lengths are in pixels of `matrices_`. Does nothing
+  /// if the body is unknown in that frame.
   template <typename Visit>
   void VisitFlesh(const SilhouetteTrack& track, std::size_t frame, std::size_t camera, const glm::dvec2& size,
                   double reach, const Visit& visit) {
@@ -190,8 +190,8 @@ class Recovery {
     return 1 - static_cast<double>(both) / static_cast<double>(any);
   }
 
-  /// Adds to each pixel's activity its nearness to the body: `reach` minus the distance, in pixels. On the body, this
-  /// exceeds any activity of motion. If the body is unknown, every pixel counts as near.
+  /// Adds the nearness to the body to each pixel's activity: `reach` minus the distance, in pixels. For pixels on the
+  /// body, this sum exceeds the activity that motion can give. If the body is unknown, every pixel counts as near.
   void AddNearness(const SilhouetteTrack& track, std::size_t frame, std::size_t camera, Activity& activity) {
     const double reach = kMaskPixel * options_.body_reach_px;
     const bool is_known = track.frames[frame].has_value();
@@ -217,7 +217,7 @@ class Recovery {
         silhouettes.push_back(MakeSilhouette(masks.back(), {.mask_pixel = kMaskPixel}));
       }
     }
-    // Scale the limits of motion per frame to the rate of these frames.
+    // Convert the limits of motion per frame to the rate of the sampled frames.
     const double rate = take_.rate_hz * static_cast<double>(frames.size()) / static_cast<double>(FrameCount());
     TrackOptions track = options_.track;
     track.angle_change *= kJudgedRateHz / rate;

@@ -21,16 +21,16 @@ namespace etude {
 /// m, scaled uniformly.
 LimbLengths AdultLengths(double stature_m);
 
-/// The views of one moment of a take, and the pose found in them.
+/// The pictures that a take's cameras took at one time (a moment), and the body's pose in them.
 struct PosedViews {
   std::span<const SilhouetteView> views;
   TreeState state;
 };
 
 /// Finds the stature with the lowest cost *(ours)*, from 6 % below to 6 % above `stature_m`. At each stature the body
-/// is fitted again to every moment, starting from the moment's pose. Its thickness relative to an average adult is that
-/// of `body` at `stature_m`. Silhouettes determine the stature because calibrated cameras measure metres. `body` must
-/// be `MakeSilhouetteBody(AdultLengths(stature_m))`, with any thickness.
+/// is fitted again to every moment, starting from the moment's pose. The body's thickness relative to an average adult
+/// is kept. Silhouettes determine the stature because calibrated cameras measure metres. `body` must be
+/// `MakeSilhouetteBody(AdultLengths(stature_m))`, with any thickness.
 double FitStature(const SilhouetteBody& body, double stature_m, std::span<const PosedViews> moments,
                   const FitOptions& options);
 
@@ -43,7 +43,8 @@ std::vector<SeenJoint> SeenJointsOf(const SeenPerson& person, double sigma_px);
 struct UnmarkedTake {
   /// The longer side, in pixels, of the pictures for which the default options are tuned; the person fills half of it.
   static constexpr int kPictureSide = 480;
-  /// Pinhole cameras, at least two, each in the pixels of its pictures. Y of the world points up.
+  /// Pinhole cameras, at least two; each camera's lens is given in pixels of the camera's pictures. Y of the world
+  /// points up.
   std::span<const Camera> cameras;
   /// `pictures[camera][frame]`, taken at the same times by all cameras.
   std::span<const std::vector<ColourImage>> pictures;
@@ -63,7 +64,7 @@ struct UnmarkedTake {
 };
 
 struct UnmarkedOptions {
-  /// The options of the person finder. Minimum sizes of regions are smaller than its defaults, which are meant for
+  /// The options of the person finder. Minimum sizes of regions are smaller than the finder's own defaults, which suit
   /// pictures of 640 × 480.
   PersonOptions person = {.segmenter = Segmenter::kRatio,
                           .change = {},
@@ -71,18 +72,18 @@ struct UnmarkedOptions {
                           .min_piece_px = 60,
                           .piece_reach = 30};
   TrackOptions track;
-  /// The number of times that rooms are estimated. Each estimate after the first avoids pixels near the body, which is
-  /// tracked in front of the previous estimate. In the one film that was tried, a fourth round still improved the rooms
-  /// slightly.
+  /// The number of times that rooms are estimated. Each estimate after the first leaves out pixels near the body, which
+  /// was tracked with the previous estimate as background. In the one film that was tried, a fourth round still
+  /// improved the rooms slightly.
   int rounds = 4;
-  /// The number of pictures of a camera, evenly spaced over the film, in which the body is tracked and from which rooms
-  /// are estimated. More pictures take longer, and improve a short film little.
+  /// The number of pictures from each camera, evenly spaced over the film, in which the body is tracked and from which
+  /// rooms are estimated. More pictures take longer, and improve a short film little.
   std::size_t samples = 50;
-  /// The number of quietest pictures whose median gives a pixel of the room. Keep it small: a pixel of the room may be
-  /// visible only for a moment.
+  /// A pixel of the room is the median over this number of pictures, those with the least motion at the pixel. Keep it
+  /// small: a pixel of the room may be visible only for a moment.
   std::size_t kept = 5;
-  /// Pixels within this distance of the body, in pixels, may be the body's shadow or rim, and are avoided in estimates
-  /// of the room.
+  /// A picture's pixels at most this many pixels away from the body may show the body's shadow or rim, and are left out
+  /// of estimates of the room.
   double body_reach_px = 8;
   /// The standard deviation of the distance between a keypoint of confidence 1 and the true joint, pixels.
   double keypoint_px = 3;
@@ -93,20 +94,20 @@ struct UnmarkedMotion {
   Clip clip;          ///< the motion on the person's own skeleton, metres
   BodyMotion motion;  ///< the same motion as twenty joints
   double stature_m = 0;
-  std::size_t held = 0;  ///< number of frames in which fewer than two pictures show a person; they repeat the last pose
+  std::size_t held = 0;  ///< number of frames that repeat the last pose, because fewer than two pictures show a person
   /// The mean of `SilhouetteFit::picture_cost` over cameras and tracked frames.
   double cost = 0;
   std::vector<ColourImage> rooms;              ///< the empty room of each camera
-  std::vector<std::vector<Mask>> silhouettes;  ///< the person, per camera and frame
-  /// For each camera and frame, 1 − intersection over union of the projected body and the silhouette; nullopt if either
-  /// is empty.
+  std::vector<std::vector<Mask>> silhouettes;  ///< [camera][frame]: the mask of the person
+  /// For each camera and frame, 1 − intersection over union of the projected body and the silhouette; nullopt if body
+  /// or silhouette has no pixels.
   std::vector<std::vector<std::optional<double>>> apart;
 };
 
-/// Recovers a person's motion from silhouettes (engine/silhouettes) *(ours)*; it needs neither marks nor keypoints nor
-/// a picture of the empty room. The room is first estimated from pixels with little motion. The body tracked in front
-/// of that estimate shows where and when the room is visible, which improves the next estimate. Fails if no frame shows
-/// a person to two cameras.
+/// Recovers a person's motion from silhouettes (engine/silhouettes) *(ours)*; the method needs no marks, no keypoints
+/// and no picture of the empty room. The room is first estimated from pixels with little motion. The body tracked in
+/// front of that estimate shows where and when the room is visible, which improves the next estimate. Fails if no frame
+/// shows a person to two cameras.
 Result<UnmarkedMotion> RecoverUnmarked(const UnmarkedTake& take, const UnmarkedOptions& options = {});
 
 }  // namespace etude

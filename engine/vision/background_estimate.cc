@@ -9,8 +9,8 @@
 namespace etude {
 namespace {
 
-/// Returns, for every pixel, the share of set pixels in the square around it, clipped to the picture. Uses a
-/// summed-area table.
+/// Returns, for every pixel, the share of set pixels in the square around that pixel. The square is clipped to the
+/// picture. Uses a summed-area table.
 Activity ShareAbout(const Mask& mask, int reach) {
   const auto stride = static_cast<std::size_t>(mask.width) + 1;
   std::vector<int> sums(stride * (static_cast<std::size_t>(mask.height) + 1));
@@ -57,7 +57,7 @@ ColourImage EstimateBackground(std::span<const ColourImage> pictures, std::span<
   ColourImage background(pictures[0].width, pictures[0].height);
   std::vector<std::size_t> by_activity(pictures.size());
   std::vector<std::uint8_t> levels(kept);
-  // Select the pictures with the lowest activity at this pixel, then take the median of each channel.
+  // For each pixel: select the pictures with the lowest activity there, then take the median of each channel.
   for (std::size_t i = 0; i < background.pixels.size(); ++i) {
     for (std::size_t k = 0; k < by_activity.size(); ++k) by_activity[k] = k;
     const auto last = by_activity.begin() + static_cast<std::ptrdiff_t>(kept) - 1;

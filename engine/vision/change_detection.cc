@@ -53,8 +53,8 @@ Chroma ChromaOrRed(Rgb8 colour) {
   return chroma;
 }
 
-/// Returns true if no change of light can turn the background's colour into the pixel's colour: the pixel is too far
-/// from all multiples of the background's colour, or the factor is implausible.
+/// Returns true if no change of light explains the difference of the two colours: the pixel's colour is too far from
+/// every multiple of the background's colour, or the nearest multiple has an implausible factor.
 bool IsNoShade(Rgb8 background, Rgb8 pixel, const ChangeOptions& o) {
   const double br = background.r, bg = background.g, bb = background.b;
   const double dot = pixel.r * br + pixel.g * bg + pixel.b * bb;
@@ -73,7 +73,7 @@ class GatedComparison {
     const Tone b(background), p(pixel);
     const bool hue_b = HasHue(b), hue_p = HasHue(p);
     if (hue_b && hue_p && hues_.Differ(b.chroma, p.chroma)) return true;
-    // If only one of the two pixels has a hue, noise may be the cause, so require clearly different saturations.
+    // If only one of the two colours has a hue, noise may be the cause, so require clearly different saturations.
     if (hue_b != hue_p && std::abs(b.Saturation() - p.Saturation()) > o_.saturation_threshold) return true;
     return p.sum < o_.darkest_shadow * b.sum || p.sum > o_.brightest_light * b.sum;
   }
@@ -85,7 +85,7 @@ class GatedComparison {
 
     Chroma chroma;
     int sum;
-    int purity;  // saturation · sum
+    int purity;  // saturation · (R + G + B)
   };
 
   bool HasHue(const Tone& tone) const {

@@ -52,8 +52,8 @@ void Paint(const Run& run, std::uint8_t value, Mask& mask) {
   std::fill_n(&mask.At(run.begin, run.row), run.end - run.begin, value);
 }
 
-// Union-find in which the smallest index represents a set. The numbering of the components therefore follows the scan
-// order, whatever the order of the joins.
+// Union-find in which a set's smallest index represents the set. Components are therefore numbered in scan order,
+// whatever the order of the joins.
 class Sets {
  public:
   explicit Sets(std::size_t count) : parent_(count) { std::iota(parent_.begin(), parent_.end(), 0); }
@@ -73,8 +73,8 @@ class Sets {
   std::vector<std::size_t> parent_;
 };
 
-// Joins every run with the equal runs that it touches in the row above. `above` and `below` advance through the two
-// rows together, which visits each pair of neighbours once.
+// Joins every run with the runs of the same value that it touches in the row above. `above` and `below` advance
+// together through the runs of the two rows, so each pair of touching runs is visited once.
 void JoinRows(const RunsOfMask& found, Connectivity connectivity, Sets& sets) {
   const std::vector<Run>& runs = found.runs;
   std::size_t above = 0;
@@ -90,8 +90,8 @@ void JoinRows(const RunsOfMask& found, Connectivity connectivity, Sets& sets) {
   }
 }
 
-// Returns the index of the largest component of 1s, of equal ones the first in scan order. Returns the number of
-// components if no pixel is set.
+// Returns the index of the largest component of 1s; of equally large components, the first in scan order. Returns the
+// number of components if no pixel is set.
 std::size_t IndexOfLargest(const Components& components) {
   std::size_t largest = components.pieces.size();
   int size = 0;

@@ -22,8 +22,8 @@ using Byte = hn::Rebind<std::uint8_t, Wide>;
 
 HWY_INLINE hn::Vec<Real> ToReal(hn::Vec<Half> v) { return hn::ConvertTo(Real(), hn::PromoteTo(Whole(), v)); }
 
-/// Compares the hues of half a vector of pixels; returns 1 in each lane in which they differ. Sets the lanes of `close`
-/// in which rounding may have decided.
+/// Compares the hues of picture and background in half a vector of pixels; returns 1 in each lane in which the two hues
+/// differ. Sets the lanes of `close` in which rounding may have decided.
 HWY_INLINE hn::Vec<Half> Compare(hn::Vec<Half> x16, hn::Vec<Half> y16, hn::Vec<Half> bx16, hn::Vec<Half> by16,
                                  float cosine2, hn::Vec<Real>& close) {
   const Real real;
@@ -33,7 +33,7 @@ HWY_INLINE hn::Vec<Half> Compare(hn::Vec<Half> x16, hn::Vec<Half> y16, hn::Vec<H
   const auto own = hn::Add(hn::Mul(x, x), hn::Mul(y3, y));
   const auto other = hn::Add(hn::Mul(bx, bx), hn::Mul(by3, by));
   const auto seen = hn::Mul(dot, dot), allowed = hn::Mul(hn::Mul(hn::Set(real, cosine2), other), own);
-  // Flag the lanes in which both sides of the comparison are equal up to rounding.
+  // Mark the lanes in which the two sides of the comparison are equal up to rounding.
   constexpr float kRounding = 1e-6F;
   const auto near = hn::Le(hn::Abs(hn::Sub(seen, allowed)), hn::Mul(hn::Set(real, kRounding), allowed));
   close = hn::Or(close, hn::VecFromMask(real, near));
@@ -58,7 +58,7 @@ HueBlockResult CompareBlock(const HueBlock& block, float cosine2, std::uint8_t* 
     auto x = hn::Add(hn::Sub(r, g), hn::Sub(r, b));
     x = hn::IfThenElse(hn::Eq(hn::Or(x, y), zero), red, x);
     const auto bx = hn::LoadU(wide, block.background_x + i), by = hn::LoadU(wide, block.background_y + i);
-    // Compare both halves and store the bytes.
+    // Compare the two halves of each vector, and store the results as bytes.
     const Half half;
     const auto low = Compare(hn::LowerHalf(half, x), hn::LowerHalf(half, y), hn::LowerHalf(half, bx),
                              hn::LowerHalf(half, by), cosine2, close);

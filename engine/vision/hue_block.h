@@ -7,8 +7,8 @@
 
 namespace etude {
 
-/// Some neighbouring pixels of a picture, and the chromas (change_detection.h) of the background's pixels at the same
-/// places. Grey counts as pure red.
+/// A run of pixels in a picture, and the chromas (change_detection.h) of the background at the same pixels. Grey counts
+/// as pure red.
 struct HueBlock {
   const Rgb8* pixels = nullptr;
   const std::int16_t* background_x = nullptr;
@@ -21,9 +21,9 @@ struct HueBlockResult {
   bool is_sure = true;       ///< false if rounding may have decided a comparison
 };
 
-/// Writes to `out`, for each pixel, 1 if the hues differ by more than a threshold angle, otherwise 0. `cosine2` is the
-/// squared cosine of that angle. Uses SIMD in single precision. Dot products of chromas are integers below 2²⁴, so only
-/// their squares are rounded.
+/// Writes to `out`, for each pixel, 1 if the hues of picture and background differ by more than a threshold angle,
+/// otherwise 0. `cosine2` is the squared cosine of that angle. Uses SIMD in single precision. Dot products of chromas
+/// are integers below 2²⁴ and exact; only the squares of the products are rounded.
 HueBlockResult CompareHueBlock(const HueBlock& block, float cosine2, std::uint8_t* out);
 
 }  // namespace etude

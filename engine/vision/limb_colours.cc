@@ -18,7 +18,7 @@ constexpr std::size_t kLabels = kFirstLimb + kStrokeCount;
 
 constexpr std::uint8_t LabelOf(std::size_t stroke) { return static_cast<std::uint8_t>(kFirstLimb + stroke); }
 
-/// For two labels, the stroke that begins at their border; kNoStroke for most pairs.
+/// For each pair of labels, the stroke that begins at the border of the two regions; kNoStroke for most pairs.
 constexpr std::uint8_t kNoStroke = 255;
 constexpr auto kStrokeBetween = [] {
   std::array<std::array<std::uint8_t, kLabels>, kLabels> table{};
@@ -130,7 +130,7 @@ LimbImage Voted(const LimbImage& limbs) {
   return voted;
 }
 
-/// For each component, returns true if it contains a square with this side.
+/// Returns a flag for each component: true if the component contains a square with this side, pixels.
 std::vector<bool> HaveSquares(const Components& found, const Mask& mask, int side) {
   std::vector<bool> have(found.pieces.size());
   const auto is_square = [&](int left, int top) {
@@ -148,8 +148,8 @@ std::vector<bool> HaveSquares(const Components& found, const Mask& mask, int sid
   return have;
 }
 
-/// Returns the components of one colour that are large and thick enough to be a limb instead of the edge of another
-/// limb.
+/// Returns the region of one label. Keeps components that are large and thick enough to be a part of the limb; thin
+/// components are edges of other limbs, where colours mix.
 Region RegionOf(const LimbImage& limbs, std::uint8_t label, const PixelBox& box, const LimbColourOptions& options) {
   Region region;
   if (box.IsEmpty()) return region;
@@ -157,14 +157,14 @@ Region RegionOf(const LimbImage& limbs, std::uint8_t label, const PixelBox& box,
   for (int y = 0; y < crop.height; ++y) {
     for (int x = 0; x < crop.width; ++x) crop.At(x, y) = limbs.At(box.low.x + x, box.low.y + y) == label;
   }
-  // Keep the components that contain a square and are not much smaller than the largest component.
+  // Select the components that contain a square and are not much smaller than the largest component.
   const Components found = LabelComponents(crop);
   const std::vector<bool> is_thick = HaveSquares(found, crop, options.min_side_px);
   int largest = 0;
   for (std::size_t i = 0; i < is_thick.size(); ++i)
     largest = is_thick[i] ? std::max(largest, found.pieces[i].size) : largest;
   const double smallest = std::max<double>(options.min_piece_px, options.piece_share * largest);
-  // Convert the runs of these components to the picture's coordinates, and sum up their pixels.
+  // Convert the runs of these components to the picture's coordinates, and sum up the pixels of the runs.
   for (const Components::Run& in_crop : found.runs) {
     if (!is_thick[in_crop.piece] || found.pieces[in_crop.piece].size < smallest) continue;
     const PixelRun run{in_crop.row + box.low.y, in_crop.begin + box.low.x, in_crop.end + box.low.x};
@@ -184,8 +184,8 @@ void Paint(const Region& region, std::uint8_t label, LimbImage& limbs) {
   }
 }
 
-/// Adds the borders between neighbouring limbs: the midpoints between neighbouring pixels of two limbs, to the right
-/// and below.
+/// Adds the borders between neighbouring limbs: the midpoints between each pixel and its right or lower neighbour, if
+/// the two belong to different limbs.
 void AddBorders(const LimbImage& limbs, int border_px, LimbRegions& regions) {
   const auto look = [&](int x, int y, int step_x, int step_y) {
     const std::uint8_t label = limbs.At(x, y);

@@ -20,18 +20,19 @@ struct LimbColourOptions {
   FigureLook look;
   int margin_px = kFrayedEdgePx;
   /// The largest distance between the chromaticity of a pixel, (R, G, B) / (R + G + B), and the nearest colour of the
-  /// suit. It must exceed the shift of colours by tinted lamps, and half the distance between the nearest two of 14
-  /// hues that share two thirds of the colour circle. Colours of rooms and furniture must be at least twice as far from
-  /// a suit's.
+  /// suit. It must exceed the shift of colours by tinted lamps, and half the distance between neighbours if 14 hues are
+  /// spread over two thirds of the colour circle. Colours of rooms and furniture must differ from the suit's colours by
+  /// at least twice this distance.
   double reach = 0.1;
   int darkest = 45;  ///< if R + G + B is lower, noise determines the chromaticity
-  /// A limb that other limbs cross has several components. A component is ignored if its pixels are a smaller share of
-  /// the largest component's pixels.
+  /// A limb that other limbs cross has several components. A component is ignored if its size, as a share of the
+  /// largest component's size, is smaller than this.
   double piece_share = 0.2;
   int min_piece_px = 20;  ///< pixels; a hand four metres away has about 80 in a picture of 640 × 480
-  /// Every component must contain a square with this side, pixels: two colours mix along edges and resemble a third.
+  /// Every component must contain a square with this side, pixels: along edges two colours mix, and the mixture
+  /// resembles a third colour.
   int min_side_px = 4;
-  int border_px = 3;  ///< width of the border between two limbs in which their colours mix, pixels
+  int border_px = 3;  ///< width of the strip between two limbs in which the limbs' colours mix, pixels
 };
 
 /// Segments the person into limbs by chromaticity alone, because shading does not change it. Each pixel gets the

@@ -12,16 +12,16 @@ namespace {
 
 /// The picture feature that locates a limb's inner joint.
 enum class Landmark {
-  kBorder,     ///< the middle of the limb's border with its parent part
+  kBorder,     ///< the middle of the border between the limb and its parent part
   kBorderEnd,  ///< the border's end that is farthest along the limb: for a thigh, the crotch
   kInnerEnd,   ///< the inner end of the limb's visible part
 };
 
 /// The typical proportions of a limb *(ours)*, in units of half the limb's width.
 struct Anatomy {
-  double length;   ///< length of the bone, seen from the side
-  double joint;    ///< outward distance of the inner joint from the landmark
-  double tip = 1;  ///< inward distance of the outer end's point from the visible end
+  double length;   ///< length of the bone, for a limb seen from the side
+  double joint;    ///< distance from the landmark outwards to the inner joint
+  double tip = 1;  ///< distance from the visible outer end inwards to the joint or tip
   Landmark landmark = Landmark::kBorder;
 };
 using Body = std::array<Anatomy, kStrokeCount>;
@@ -44,15 +44,15 @@ constexpr std::size_t kMinPixels = 6;   // smaller regions are noise
 constexpr std::size_t kMinBorder = 3;   // minimum length of a border in pixel sides
 constexpr double kMinSeenShare = 0.25;  // minimum visible share of a limb of which one end was not found
 
-/// The common border of a limb and its parent part in the picture.
+/// The border between a limb and its parent part in the picture.
 struct Border {
   glm::dvec2 middle{0};
   double half_breadth = 0;
   bool limb_covers = false;  ///< the limb is in front of its parent part
 };
 
-// Measures a border's middle and breadth, and which of its two sides covers the other: the ends of the border bend
-// towards the covering side.
+// Measures the middle and the breadth of a border, and whether the limb covers its parent part: the border's ends bend
+// towards the part in front.
 Border MeasureBorder(const std::vector<glm::dvec2>& points, const glm::dvec2& limb_middle) {
   Border border;
   for (const glm::dvec2& p : points) border.middle += p / static_cast<double>(points.size());
@@ -63,7 +63,7 @@ Border MeasureBorder(const std::vector<glm::dvec2>& points, const glm::dvec2& li
   glm::dvec2 to_limb(-along.y, along.x);
   if (glm::dot(limb_middle - border.middle, to_limb) < 0) to_limb = -to_limb;
   const double mean_square = scatter.AlongAxis() / static_cast<double>(points.size());
-  // Sum up the bend: how much farther the border's end points lie on the limb's side than its middle points.
+  // Sum up the bend: how much farther the border's end points lie on the limb's side than the border's middle points.
   double bend = 0, low = 0, high = 0;
   for (const glm::dvec2& p : points) {
     const glm::dvec2 d = p - border.middle;
@@ -101,8 +101,8 @@ class EvidenceFinder {
   struct Limb {
     const Region* region;
     MiddleLine line;              ///< `along` points outwards
-    std::optional<Border> inner;  ///< border with its parent part
-    std::optional<Border> outer;  ///< border with its child part
+    std::optional<Border> inner;  ///< border between the limb and its parent part
+    std::optional<Border> outer;  ///< border between the limb and its child part
   };
 
   static bool HasOuterLimb(std::size_t i) { return i != kHeadStroke && i % 3 != 2; }
@@ -184,8 +184,8 @@ class EvidenceFinder {
   }
 
   // For an upper arm, returns its direction away from the neck; nullopt for other limbs, or if both ends are equally
-  // far from the neck. The borders of an upper arm may run along it, because it touches the flank or the folded
-  // forearm; but its shoulder is always the end nearer to the neck.
+  // far from the neck. The borders of an upper arm may run along the arm, because the arm touches the flank or the
+  // folded forearm; but the shoulder is always the end nearer to the neck.
   std::optional<glm::dvec2> AwayFromNeck(std::size_t i, const Limb& limb) const {
     const bool is_upper_arm =
         StrokeMarks()[i].from == Role::kLeftShoulder || StrokeMarks()[i].from == Role::kRightShoulder;
@@ -217,9 +217,9 @@ class EvidenceFinder {
     return line.At(std::max(0.5 * (line.low + line.high), line.high - inset));
   }
 
-  // Returns how far the limb's round end is visible beyond the joint, if the next limb is thinner, continues at an
-  // angle and covers a part of the end. The visible part is a disc with the limb's half width, without a strip of the
-  // next limb's half width.
+  // Returns how far a limb's round end is visible beyond the joint where a thinner `next` limb continues at an angle
+  // and covers a part of this end. The visible part is a disc with the limb's half width, without a strip of the next
+  // limb's half width.
   static double ReachBeyondJoint(const MiddleLine& limb, const MiddleLine& next) {
     if (!next.IsLong()) return limb.half_width;
     const double between = std::acos(std::clamp(glm::dot(limb.along, next.along), -1.0, 1.0));
@@ -263,8 +263,8 @@ class EvidenceFinder {
       case Landmark::kInnerEnd:
         return limb.line.At(limb.line.low + beyond);
       case Landmark::kBorder:
-        // A limb folded over the previous limb has its border along its side. Such a border does not show the limb's
-        // end.
+        // If a limb is folded over the previous limb, the border runs along the limb's side. Such a border does not
+        // show the limb's end.
         return RunsAlong(limb) ? limb.line.At(limb.line.low) : limb.inner->middle + beyond * limb.line.along;
     }
     return limb.inner->middle;
@@ -305,10 +305,10 @@ class EvidenceFinder {
     return seen;
   }
 
-  // Returns the limb's probable half width. It is at least that of its neighbours, because one side of the limb may be
-  // hidden along its whole length.
+  // Returns the limb's probable half width. It is at least the outer neighbour's half width, and a share of the inner
+  // neighbour's, because one side of the limb may be hidden along the whole length.
   double LikelyHalfWidth(std::size_t i) const {
-    constexpr double kMinWidthRatio = 0.55;  // a foot's width over its shank's; the largest ratio along a limb
+    constexpr double kMinWidthRatio = 0.55;  // a foot's width as a share of the shank's width
     double half_width = limbs_[i]->line.half_width;
     if (HasOuterLimb(i) && limbs_[i + 1]) half_width = std::max(half_width, limbs_[i + 1]->line.half_width);
     if (!IsAttachedToTrunk(i) && limbs_[i - 1])

@@ -14,25 +14,25 @@ namespace etude {
 /// The measurements of one limb in a picture.
 struct LimbEvidence {
   PixelSegment line;      ///< from the inner to the outer end, pixels; a hidden end is where the visible part ends
-  double seen_share = 1;  ///< visible share of the whole limb's pixels, seen from the side, in (0, 1]
-  double contrast = 0;    ///< as `Region::contrast`
+  double seen_share = 1;  ///< visible pixels divided by the pixels of the whole limb seen from the side, in (0, 1]
+  double contrast = 0;    ///< contrast to the surroundings, as `Region::contrast`, levels
   double half_width = 0;  ///< pixels
 };
 
 struct PictureEvidence {
-  /// The limbs by stroke; nullopt if too little of the limb is visible to determine its line.
+  /// The evidence of each limb, by stroke; nullopt if too little of the limb is visible to determine its line.
   std::array<std::optional<LimbEvidence>, kStrokeCount> limbs;
-  /// Estimated joint centres: where a visible limb touches its parent part, and at the tips.
+  /// Estimated pixels of joint centres where a visible limb touches its parent part, and of tips.
   std::array<std::optional<glm::dvec2>, kRoleCount> joints;
 };
 
 /// The kind of figure determines where joints lie in the visible part of a limb. Methods may know it, because an
 /// observer recognises it at first sight.
 enum class FigureKind {
-  /// The figure in paper B's studio, which consists of capsules. Where two limbs meet, the thicker one ends near the
-  /// joint. Hips, shoulders and the neck lie inside the trunk, beyond the visible part of their limb.
+  /// The figure made of capsules in paper B's studio. Where two limbs meet, the thicker limb ends near the joint. Hips,
+  /// shoulders and the neck lie inside the trunk, beyond the visible part of the limb that begins there.
   kCapsules,
-  kDressed,  ///< limbs are cut across at their joints (sim/character)
+  kDressed,  ///< a dressed person, whose limbs are cut across at the joints (sim/character)
 };
 
 /// Facts about the person's appearance that are known before the take.
@@ -45,10 +45,10 @@ struct FigureLook {
 
 /// Finds the lines of limbs and the joints in a picture that was segmented into limbs. The line of a limb is the middle
 /// line of its visible pixels (`FindMiddleLine`). Joint centres follow from general proportions of bodies:
-/// - Limbs made of capsules end round: a joint lies half a width before the end of the limb that covers the other one
-///   there. The ends of their common border bend towards the covering limb. Hips, shoulders and the neck lie inside the
-///   trunk: beyond the border, along the limb. Their distance is a share of the border's breadth that is specific to
-///   the joint.
+/// - Limbs made of capsules end round: a joint lies half a width before the end of the limb in front. The ends of the
+///   border between two limbs bend towards the limb in front. Hips, shoulders and the neck lie inside the trunk: beyond
+///   the border, along the limb. Each of these joints has its own distance from the border, as a share of the border's
+///   breadth.
 /// - Limbs of dressed people are cut across at their joints. A joint lies at the border or, for arms, near the limb's
 ///   inner end. A shoulder lies half an arm's width inside the arm, a hip above the crotch.
 /// - A tip lies about half a width inside the limb's outer end; the head's point lies at a given distance below the

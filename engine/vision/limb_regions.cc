@@ -25,7 +25,7 @@ glm::dvec2 ScatterAxis(const Region& region) {
   return scatter.Axis();
 }
 
-// A slice of a region, one pixel thick, between two lines across the region's axis.
+// A slice of a region, one pixel thick, between two lines perpendicular to the region's axis.
 struct Section {
   double low = std::numeric_limits<double>::infinity();
   double high = -std::numeric_limits<double>::infinity();
@@ -34,7 +34,7 @@ struct Section {
   double Middle() const { return 0.5 * (low + high); }
 };
 
-// Cuts the region into slices across `line`, and sets the line's ends.
+// Cuts the region into slices perpendicular to `line`, and sets the line's `low` and `high`.
 std::vector<Section> Slice(const Region& region, MiddleLine& line) {
   const glm::dvec2 across(-line.along.y, line.along.x);
   line.low = std::numeric_limits<double>::infinity();
@@ -96,7 +96,7 @@ bool MiddleLine::IsLong() const {
 
 MiddleLine FindMiddleLine(const Region& region) {
   MiddleLine line{.origin = region.middle, .along = ScatterAxis(region)};
-  constexpr int kPasses = 2;  // the second pass slices across the line found by the first
+  constexpr int kPasses = 2;  // the second pass cuts across the line that the first pass found
   for (int pass = 0; pass <= kPasses; ++pass) {
     const std::vector<Section> sections = Slice(region, line);
     line.half_width = 0.5 * UsualWidth(sections);

@@ -11,23 +11,24 @@
 namespace etude {
 namespace {
 
-// Colours are counted in cells with a side of 8 levels. A likelihood is the logarithm of a cell's share.
+// Colours are counted in cubic cells of the RGB cube, 8 levels wide. A cell's log-likelihood is the logarithm of its
+// share of the person's pixels.
 constexpr int kCells = 32, kLevels = 256 / kCells;
-constexpr double kAnyColour = 0.05;     // share of the person's pixels that have a new colour
-constexpr float kDecay = 0.98f;         // factor of the learnt colour counts per picture
+constexpr double kAnyColour = 0.05;     // share of the person's pixels that may have a colour not seen before
+constexpr float kDecay = 0.98f;         // factor on the learnt colour counts, per picture
 constexpr double kMinWornPixels = 400;  // pixels needed to learn the person's colours
 
 // Log-likelihoods of a pixel that shows the room: unchanged, in another light, or changed.
 constexpr float kAsItIs = -1, kInOtherLight = -6, kChanged = -13;
-constexpr float kNoise = 4, kTint = 6;               // standard deviations in unchanged and in other light, levels
-constexpr float kUnexplained = -10;                  // with a lower value, the room does not explain the pixel
-constexpr float kMinLight = 0.2f, kMaxLight = 1.3f;  // shares of the background's intensity
-constexpr int kSameLight = 24;                       // levels; largest change of a surface by drift of the lamp
+constexpr float kNoise = 4, kTint = 6;               // standard deviations: in unchanged light, in other light; levels
+constexpr float kUnexplained = -10;                  // below this log-likelihood, the room does not explain the pixel
+constexpr float kMinLight = 0.2f, kMaxLight = 1.3f;  // range of other light, as shares of the background's intensity
+constexpr int kSameLight = 24;                       // levels; largest change of a colour by drift of the lamp
 
-constexpr float kMaxEvidence = 6;  // limit of one pixel's evidence
-constexpr float kFarPenalty = 3;   // evidence against a person far from the last position
+constexpr float kMaxEvidence = 6;  // limit of one pixel's log-likelihood ratio
+constexpr float kFarPenalty = 3;   // subtracted from the ratio far from the person's last position
 constexpr int kReach = 20;         // pixels; a person's motion from picture to picture
-constexpr int kRim = 2;            // pixels whose colours mix with the room's
+constexpr int kRim = 2;            // width of the person's rim in which colours mix with the room's, pixels
 
 int CellOf(Rgb8 colour) { return (colour.r / kLevels * kCells + colour.g / kLevels) * kCells + colour.b / kLevels; }
 
@@ -54,7 +55,7 @@ Image<int> CountsWithin(const Mask& mask, int reach) {
   return counts;
 }
 
-/// Smooths by a binomial filter with five weights in each direction.
+/// Smooths an image by a binomial filter of 5 × 5 pixels.
 Image<float> Smoothed(const Image<float>& image) {
   constexpr std::array kWeights = {1 / 16.0f, 4 / 16.0f, 6 / 16.0f, 4 / 16.0f, 1 / 16.0f};
   Image<float> rows(image.width, image.height), out(image.width, image.height);
@@ -138,7 +139,8 @@ Mask ColourLikelihood::Detect(const ColourImage& picture) {
     room.pixels[i] = RoomAt(room_.pixels[i], picture.pixels[i]);
     strange_.pixels[i] &= room.pixels[i] <= kUnexplained;
   }
-  // Before colours are learnt, return the result by hues; afterwards use the smoothed evidence.
+  // Until the person's colours are learnt, return the pixels that differ by hue; afterwards use the smoothed
+  // log-likelihood ratio.
   if (likelihoods_.empty()) return mask;
   const Image<float> evidence = Smoothed(EvidenceOf(picture, room));
   for (std::size_t i = 0; i < mask.pixels.size(); ++i) mask.pixels[i] = evidence.pixels[i] > 0;
@@ -152,7 +154,7 @@ void ColourLikelihood::Learn(const ColourImage& picture, const Mask& person) {
   const Image<int> about = CountsWithin(person, kReach);
   for (std::size_t i = 0; i < near_.pixels.size(); ++i) near_.pixels[i] = about.pixels[i] > 0;
 
-  // Count the colours of the unexplained pixels away from the rim.
+  // Count the colours of the person's pixels that the room does not explain, without the rim.
   Mask sure = person;
   for (std::size_t i = 0; i < sure.pixels.size(); ++i) sure.pixels[i] &= strange_.pixels[i];
   const Image<int> inside = CountsWithin(sure, kRim);
@@ -275,7 +277,7 @@ void PersonFinder::Follow(const ColourImage& picture, Mask& mask) {
                                          static_cast<float>(pixel.b)};
     float *mean = &mean_[3 * i], *variance = &variance_[3 * i];
     bool is_change = false;
-    // A pixel changed if any channel is too far from its mean.
+    // A pixel has changed if any of its channels is too far from the channel's mean.
     for (std::size_t c = 0; c < 3; ++c) {
       if (is_first) mean[c] = colour[c];
       const float off = colour[c] - mean[c];

@@ -9,11 +9,11 @@
 
 namespace [[gnu::visibility("default")]] etude {
 
-/// Classifies one camera's pictures pixel by pixel *(ours)*, by the likelihood ratio of the person's colours and the
-/// room's, which may be unchanged, in shadow or in more light. The person's colours are learnt from picture to picture
-/// as a histogram with exponential forgetting; the first pictures are classified by hues alone. The log-likelihood
-/// ratio is smoothed over neighbours, and lowered far from the person's last position. Drift of the lamp is corrected
-/// first.
+/// Classifies one camera's pictures pixel by pixel *(ours)*, by the ratio of two likelihoods of the pixel's colour:
+/// given the person, and given the room, which may be unchanged, in shadow or in more light. The person's colours are
+/// learnt from picture to picture as a histogram with exponential forgetting; the first pictures are classified by hues
+/// alone. The log-likelihood ratio is smoothed over neighbours, and lowered at pixels far from the person's last
+/// position. Drift of the lamp is corrected first.
 class ColourLikelihood {
  public:
   /// @param background a picture of the empty room
@@ -33,16 +33,16 @@ class ColourLikelihood {
   const ColourImage background_;
   ColourImage room_;         ///< the background in the light of the last picture
   Mask strange_;             ///< pixels of the last picture that the room does not explain in any light
-  std::vector<float> worn_;  ///< count of each colour cell on the person
+  std::vector<float> worn_;  ///< for each colour cell: the decayed count of the person's pixels
   double worn_sum_ = 0;
   std::vector<float> likelihoods_;  ///< log-likelihood of each cell, given the person
-  Mask near_;  ///< possible positions of the person in the next picture; empty before a person was found
+  Mask near_;  ///< pixels that the person can reach in the next picture; empty before a person was found
 };
 
-/// Finds the person among the changed pixels: selects components by `options`, and fills their small holes.
+/// Finds the person among the changed pixels: selects components by `options`, and fills small holes in the result.
 Mask PersonAmong(Mask changed, const PersonOptions& options);
 
-/// Segments the person in one camera's pictures, one after the other. Results equal those of `ExtractPerson` in every
+/// Segments the person in one camera's pictures, one after the other. The masks equal those of `ExtractPerson` in every
 /// pixel, but everything that depends only on the background is computed once. This class also supports `kRunning` and
 /// `kLikelihood`, which keep a state.
 class PersonFinder {
@@ -53,7 +53,8 @@ class PersonFinder {
   /// Finds the person in the next picture, which must have the background's size.
   Mask Find(const ColourImage& picture);
 
-  /// Finds the changed pixels, before components are selected (`DetectChange`).
+  /// Finds the pixels of the next picture that differ from the background, before components are selected
+  /// (`DetectChange`).
   Mask Detect(const ColourImage& picture);
 
  private:

@@ -5,7 +5,7 @@
 
 namespace etude {
 
-/// The sums of squares and products of pixels' offsets from their mean.
+/// Sums over pixels: squares and products of the coordinates' deviations from the mean pixel.
 struct Scatter {
   double xx = 0, xy = 0, yy = 0;
 
@@ -14,12 +14,12 @@ struct Scatter {
     xy += offset.x * offset.y;
     yy += offset.y * offset.y;
   }
-  /// Returns the unit vector of the principal axis, along which the pixels vary most.
+  /// Returns the unit vector of the principal axis, the direction in which the pixels' positions vary most.
   glm::dvec2 Axis() const {
     const double angle = 0.5 * std::atan2(2 * xy, xx - yy);
     return {std::cos(angle), std::sin(angle)};
   }
-  /// Returns the sum of squares along the principal axis.
+  /// Returns the sum of squared deviations along the principal axis.
   double AlongAxis() const { return 0.5 * (xx + yy) + std::hypot(0.5 * (xx - yy), xy); }
 };
 

@@ -46,7 +46,7 @@ glm::dvec2 Mean(const Pixels& pixels) {
   return sum / static_cast<double>(pixels.size());
 }
 
-// Returns the principal axis of the pixels, along which they vary most.
+// Returns the principal axis: the direction in which the pixels' positions vary most.
 glm::dvec2 PrincipalAxis(const Pixels& pixels, const glm::dvec2& mean) {
   Scatter scatter;
   for (const glm::dvec2& p : pixels) scatter.Add(p - mean);
@@ -78,7 +78,8 @@ std::optional<glm::dvec2> ReadDisc(const Pixels& pixels) {
   constexpr double kWhole = 0.95;
   if (static_cast<double>(pixels.size()) >= kWhole * kPi * kDiscRadius * kDiscRadius) return mean;
 
-  // The mean of a partly covered disc would be biased to its visible side; instead, search for all possible centres.
+  // If a disc is partly covered, the mean of the visible pixels is not the centre. Search instead for all possible
+  // centres.
   constexpr double kGridStep = 0.25;
   constexpr double kRasterSlack = 0.25;
   const double radius = kDiscRadius + kRasterSlack;

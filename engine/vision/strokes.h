@@ -30,8 +30,8 @@ constexpr std::size_t kStrokeCount = 13;
 constexpr std::size_t kEffectorCount = 5;
 
 /// Returns the strokes of the limbs that paper B needs (section 3.2): legs and arms from the trunk outwards, and the
-/// neck. (The lines of hips and shoulders follow from the joints.) All colours of the palette are different, and none
-/// is black.
+/// neck. (The lines of hips and shoulders follow from the joints.) All colours of marks are different, and no colour is
+/// black.
 std::span<const StrokeMark, kStrokeCount> StrokeMarks();
 /// Returns the discs of left foot (the root), right foot, left hand, right hand and head.
 std::span<const EffectorMark, kEffectorCount> EffectorMarks();
@@ -41,15 +41,16 @@ std::span<const EffectorMark, kEffectorCount> EffectorMarks();
 constexpr double kStrokeWidth = 3;
 constexpr double kDiscRadius = 4;
 
-/// The marks of an annotation picture; nullopt if a mark is missing or unreadable.
+/// The marks of one annotation picture; nullopt for a mark that is missing or unreadable.
 struct Marks {
   std::array<std::optional<PixelSegment>, kStrokeCount> strokes;  ///< from `from` to `to`
   std::array<std::optional<glm::dvec2>, kEffectorCount> effectors;
 };
 
-/// Reads the marks of one picture. A stroke is the principal axis of its visible pixels, and its shades determine its
-/// direction; it is missing if one shade is completely covered. A disc is represented by its centre: the mean of all
-/// centres from which a disc of that radius covers every visible pixel. This also holds for partly covered discs.
+/// Reads the marks of one picture. A stroke is the principal axis of its visible pixels, and the stroke's two shades
+/// determine its direction. A stroke is missing if one shade is completely covered. A disc is represented by its
+/// centre: the mean of all centres for which a disc of the marks' radius contains every visible pixel. The rule also
+/// serves for partly covered discs.
 Marks ReadMarks(const ColourImage& annotation);
 
 }  // namespace etude

@@ -166,7 +166,7 @@ double CcdSweep::TurnHinge(int joint, int axis) {
   if (options_.refresh == WeightRefresh::kDof) UpdateWeightsBelow(joint);
   const int dof = tree_.joints[joint].first_dof + axis;
   double& angle = state_.angles[dof];
-  // The axis is still valid, because no joint that carries it has turned since the last forward kinematics.
+  // The axis is still valid, because no joint between it and the root has turned since the last forward kinematics.
   const glm::dvec3& axis_W = frames_.dof_axes[dof];
   const AngleRange left{ranges_[dof].lower - angle, ranges_[dof].upper - angle};
   const double turn = GainAbout(axis_W, joint).OptimumWithin(left);
@@ -216,8 +216,8 @@ double CcdSweep::TurnWhole(int joint) {
 
 namespace {
 
-// A larger half tangent belongs to an angle almost half a turn from the middle of its range, near the pole of the
-// tangent.
+// If |tan((q − middle) / 2)| is larger, the angle q is almost half a turn from the middle of its range, near the
+// tangent's pole.
 constexpr double kMaxHalfTangent = 100;
 
 bool AreFarFromPole(std::span<const double> half_tangents) {
@@ -273,7 +273,7 @@ class Accelerated {
   std::vector<double> Angles() const { return sweep_.Angles(); }
 
   /// Makes one iteration. Returns the largest turn of the sweep, radians. The caller counts one forward-kinematics
-  /// pass; a second one is counted here.
+  /// pass; a second pass is counted here.
   double Step(IkRun& run) {
     sweep_.ReadHalfTangents(now_);
     const double change = sweep_.Turn();
@@ -303,8 +303,8 @@ class Accelerated {
   std::vector<double> now_, swept_, mixed_;
 };
 
-// Skip a difference if less than this share of it is linearly independent of newer differences: so small a part is
-// mostly rounding.
+// Skip a difference if the part that is linearly independent of newer differences is shorter than this share of the
+// difference: so short a part is mostly rounding.
 constexpr double kNewPart = 1e-10;
 
 double Dot(std::span<const double> a, std::span<const double> b) {
@@ -374,7 +374,7 @@ void AndersonMixing::Extrapolate(std::span<const double> x, std::span<const doub
   }
 }
 
-// Stores the newest pair and its difference from the pair before it, in place of the oldest difference.
+// Stores the pair (x, g), and replaces the oldest stored difference by the difference from the pair before.
 void AndersonMixing::RecordPair(std::span<const double> x, std::span<const double> g) {
   if (has_last_ && memory_ > 0) {
     // Put the newest difference in the place of the oldest one.

@@ -17,11 +17,11 @@ IkSolution SolveCcd(const KinematicTree& tree, const IkProblem& problem, const I
 /// Solves like `SolveCcd`, but treats a joint of two or three degrees of freedom as a sequence of hinges. *Ours.*
 IkSolution SolveCcdHinges(const KinematicTree& tree, const IkProblem& problem, const IkOptions& options);
 
-/// The gain g(φ) = k₁(1 − cos φ) + k₂ cos φ + k₃ sin φ of a hinge that turns by φ (paper B, equations 3.10–3.13). It
-/// measures how well the end effectors beyond the hinge then match their targets; the best turn maximises it. Summing
-/// over several effectors is ours. For axes, the paper starts from minimising Σ (u_d · u_c − 1)² but then maximises
-/// Σ u_d · u_c, which is another criterion for three axes. This struct maximises Σ u_d · u_c, which minimises
-/// Σ |u_d − u_c|².
+/// The gain g(φ) = k₁(1 − cos φ) + k₂ cos φ + k₃ sin φ of a hinge that turns by φ (paper B, equations 3.10–3.13). The
+/// gain measures how well the end effectors beyond the hinge match their targets after the turn; the best turn
+/// maximises the gain. Summing over several effectors is ours. For axes, the paper starts from minimising Σ (u_d · u_c
+/// − 1)² but then maximises Σ u_d · u_c, which is another criterion for three axes. This struct maximises Σ u_d · u_c,
+/// which minimises Σ |u_d − u_c|².
 struct HingeGain {
   double k1 = 0, k2 = 0, k3 = 0;
 
@@ -41,7 +41,7 @@ struct HingeGain {
 
   /// Returns the best φ within `range`, which must contain 0, so that keeping the angle is always allowed. The optimum
   /// is taken modulo 2π. If the optimum is outside `range`, returns the end of the range with the larger g, or the
-  /// lower end if both are equal.
+  /// lower end if g is equal at the two ends.
   double OptimumWithin(const AngleRange& range) const;
 };
 
@@ -65,12 +65,13 @@ class CcdSweep {
   /// largest change of an angle, radians.
   double Sweep();
 
-  /// The two halves of `Sweep`: `Turn` computes new angles, `Measure` computes their frames and errors.
+  /// The two halves of `Sweep`: `Turn` computes new angles, `Measure` computes the frames and errors at these angles.
   double Turn();
   void Measure();
 
   /// Returns the sum that turns reduce, Σ w_p e² + Σ w_o |u_c − u_d|², at the pose measured last, with the weights of
-  /// the last turn. If weights change during a sweep, the weights at its end are used; `kWangChen` is used without ρ.
+  /// the last turn. If weights change during a sweep, the weights at the sweep's end are used; `kWangChen` is used
+  /// without ρ.
   double Merit() const;
   /// Sets every angle, clamped to its range. Does not update the errors.
   void SetAngles(std::span<const double> angles);
@@ -92,7 +93,7 @@ class CcdSweep {
   const IkOptions options_;
   const CcdJoint joint_kind_;
   const std::vector<AngleRange> ranges_;
-  std::vector<std::vector<int>> effectors_below_;  // of each joint: the effectors beyond it
+  std::vector<std::vector<int>> effectors_below_;  // for each joint: the effectors beyond it
   TreeState state_;
   TreeFrames frames_;  // during a sweep, only the frames of effectors are up to date
   std::vector<EffectorError> errors_;
@@ -142,7 +143,7 @@ class AndersonMixing {
   Vector last_f_, last_g_;       // f and g of the pair recorded last
   Vector rest_;                  // the part of f that is orthogonal to the basis
   std::vector<Vector> df_, dg_;  // the differences Δf and Δg, newest first
-  std::vector<Vector> basis_;    // orthonormal basis of the df that are linearly independent of newer ones
+  std::vector<Vector> basis_;    // orthonormal basis of the df that do not depend linearly on newer df
   std::vector<Vector> parts_;    // df_[chosen_[r]] = Σ_k parts_[r][k] · basis_[k]
   std::vector<int> chosen_;
   Vector shares_;  // γ of the chosen differences

@@ -16,7 +16,7 @@ namespace {
 
 // Maximum trust-region radius. Beyond it, JᵀJ of 29 angles and 24 residuals is too nearly singular for Cholesky.
 constexpr double kMaxRadius = 1e8;
-// The solver stops if a step lowers the sum of squares by less than this share.
+// The solver stops if a step lowers the sum of squares by less than this share of the sum.
 constexpr double kMinCostChange = 1e-9;
 // The maximum number of successive steps that raise the sum of squares. At limits the sum often rises before it falls,
 // so Ceres's default of 5 is too small.
@@ -64,7 +64,7 @@ class Residuals final : public ceres::CostFunction {
     if (has_moved) ComputeFrames(tree_, state_, frames_);
     return frames_;
   }
-  /// Returns all angles of the last evaluation.
+  /// Returns the tree's angles at which the residuals were evaluated last.
   const std::vector<double>& angles() const { return state_.angles; }
 
   bool Evaluate(double const* const* parameters, double* residuals, double** jacobians) const override {
@@ -93,7 +93,7 @@ class Residuals final : public ceres::CostFunction {
               [&](const glm::dvec3& shift, const glm::dvec3&) { return scale * shift; });
       }
       if (IsWholeFrame(target)) {
-        // Write the residuals of three axes of one weight: the rotation between E and D.
+        // Write the residuals of three axes that have the same weight: the rotation between E and D.
         const double scale = std::sqrt(2 * target.axis_weights.x);
         const glm::dquat missing = MissingTurn(X_WE.axes, target.axes);
         const glm::dvec3 v(missing.x, missing.y, missing.z);
@@ -122,7 +122,7 @@ class Residuals final : public ceres::CostFunction {
   const KinematicTree& tree_;
   const IkProblem& problem_;
   const std::vector<int> moving_;
-  mutable TreeState state_;  // the pose of the last evaluation
+  mutable TreeState state_;  // the pose at which the residuals were evaluated last
   mutable TreeFrames frames_;
   mutable TreeJacobian moves_;
 };

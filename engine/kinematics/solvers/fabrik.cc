@@ -74,8 +74,8 @@ class Follower {
   const KinematicTree& tree_;
   std::span<const AngleRange> ranges_;
   const FabrikPass& pass_;
-  std::vector<std::vector<int>> led_;  // of each joint: the limbs with tips that it moves, its own limb first
-  std::vector<LimbFrame> limbs_;       // current frames
+  std::vector<std::vector<int>> led_;  // for each joint: the limbs with tips that the joint moves, its own limb first
+  std::vector<LimbFrame> limbs_;       // the limbs' current frames
 };
 
 constexpr double kTiny = 1e-12;  // tolerance: in metres, or as a fraction of a length

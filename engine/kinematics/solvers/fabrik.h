@@ -25,13 +25,13 @@ IkSolution SolveFabrik(const KinematicTree& tree, const IkProblem& problem, cons
 /// (its joint) and tips (the joints beyond it, the effectors at its end). With one tip this is exactly the paper's
 /// rule: the tip moves to its desired position, and the base follows on the line to its old position. With several
 /// tips, the paper moves their common joint (its sub-base) to the mean of the positions to which the chains beyond it
-/// lead. It has no rule for tips that form one rigid limb, like shoulders and neck. *Ours*: such a limb is fitted to
-/// its tips by least squares:
+/// lead. It has no rule for tips that form one rigid limb, like shoulders and neck. *Ours*: such a limb turns so that
+/// it fits its tips by least squares:
 /// - backward, tips to root: the mean of the tips moves to the mean of their desired positions; the limb turns about it
-///   to fit the tips and the old position of its base, which counts like one more tip;
+///   to fit the tips and the old position of its base, which has the weight of one tip;
 /// - forward, root to tips: the base is at the end of the limb before; the limb turns about it to fit the tips.
-/// Both use the smallest rotation: a limb whose points lie on one line does not turn about that line. A limb without a
-/// target moves along with the limb before it.
+/// Both passes use the smallest rotation: a limb whose points lie on one line does not turn about that line. A limb
+/// without a target moves along with the limb before it.
 class FabrikPass {
  public:
   /// A point T of a limb that leads to a target: the base of another limb, or an effector.
@@ -43,7 +43,7 @@ class FabrikPass {
 
   FabrikPass(const KinematicTree& tree, std::span<const EffectorTarget> targets);
 
-  /// Runs both passes, starting from the limbs in `frames`.
+  /// Runs the backward and the forward pass, starting from the limbs in `frames`.
   void Run(const TreeFrames& frames);
 
   /// Returns the tips of one limb; an empty span if there is no target beyond the limb.

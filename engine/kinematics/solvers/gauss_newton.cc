@@ -43,7 +43,7 @@ class ScalarHelp final : public GaussNewtonHelp {
   bool MeetsGoals(int n, std::span<const double> angles) override { return MeetsGoalsOf(find_(n), angles); }
 
   void Sweep(int n, const GaussNewtonCourse::Next& next, GaussNewtonCourse& course, std::span<double> angles) override {
-    // Start from the given angles, or from a scattered pose, within the allowed ranges.
+    // Start within the allowed ranges: at the given angles, or at the pose of the restart.
     IkProblem problem = find_(n);
     problem.limits = AllowedRanges(problem, options_);
     std::vector<double> start = problem.start.angles;
@@ -169,7 +169,8 @@ class BatchQueue final : public GaussNewtonQueue {
   ScalarHelp& help_;
   IkBatchSolution& solution_;
   Column column_;
-  // A copy of a problem with the allowed ranges in place of its limits; empty if they are the same.
+  // The numbers of the current problem, with the allowed ranges in place of the limits; empty if ranges and limits are
+  // equal.
   std::vector<double> own_ranges_;
 };
 
@@ -199,7 +200,7 @@ GaussNewtonCourse::GaussNewtonCourse(const IkOptions& options, const GaussNewton
   Begin(Phase::kToStart, kProgress, patience_);
 }
 
-// Copies one problem into the layout of `GaussNewtonLimbs` and its solution back.
+// Copies one problem into the layout of `GaussNewtonLimbs`, and copies the solution back.
 class GaussNewtonSolver::Solver {
  public:
   explicit Solver(const KinematicTree& tree) : tree_(tree), packs_(tree), limbs_(GaussNewtonLimbs::Make(packs_)) {}

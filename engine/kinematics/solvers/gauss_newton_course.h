@@ -100,7 +100,7 @@ class GaussNewtonCourse {
     }
   }
 
-  /// Reports the largest change of an angle that a step computed, radians; 0 if there was no step.
+  /// Tells the course the largest change of an angle in the step, radians; 0 if no step was possible.
   void Stepped(double largest) { is_stuck_ = largest < stall_change_; }
 
   /// Counts a sweep. Returns false if the iterations are used up.

@@ -1,7 +1,7 @@
 // The parts of a Gauss–Newton step (gauss_newton.h) and of its forward kinematics, for a value type V: a `Lanes`
 // contains one number of each of many problems, a `Four` one number of each of four limbs. All operations are those of
-// `ComputeFrames` and of the tests' `GaussNewtonStep` in the same order, so a problem in double gets the same bits in
-// every lane on every CPU. This file is included once per instruction set, which explains the include guard.
+// `ComputeFrames` and of the tests' `GaussNewtonStep` in the same order, so in double a problem's solution has the same
+// bits in every lane on every CPU. This file is included once per instruction set, which explains the include guard.
 #if defined(ETUDE_GAUSS_NEWTON_KERNEL_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef ETUDE_GAUSS_NEWTON_KERNEL_INL_H_
 #undef ETUDE_GAUSS_NEWTON_KERNEL_INL_H_
@@ -94,7 +94,7 @@ HWY_INLINE void Copy3(const V (&from)[3], V (&to)[3]) {
 
 template <class V>
 struct FrameLanes {
-  V axes[3][3];  ///< columns
+  V axes[3][3];  ///< [axis][coordinate]
   V position[3];
 };
 
@@ -132,7 +132,7 @@ HWY_INLINE void SetScrew(const V (&axis)[3], const V (&p_RJ_W)[3], V (&screw)[6]
 template <class V>
 struct TargetLanes {
   V position[3];
-  V axes[3][3];       ///< columns
+  V axes[3][3];       ///< [axis][coordinate]
   V position_weight;  ///< weight of a squared error in units of `kPositionScale`²
   V axis_weights[3];
 };
@@ -166,7 +166,7 @@ struct ResidualLanes {
   V squared_chord;     ///< largest squared chord |u_d − u_c|² of an axis with weight
 };
 
-/// Linearises one target at an effector's frame, and adds its errors to `miss`.
+/// Linearises one target at an effector's frame, and adds the effector's errors to `miss`.
 template <class V>
 HWY_INLINE void Linearise(const TargetLanes<V>& target, const V (&R_WE)[3][3], const V (&p_WE)[3], const V (&p_WR)[3],
                           TargetQuadraticLanes<V>& asked, ResidualLanes<V>& miss) {
@@ -212,7 +212,7 @@ HWY_INLINE void Linearise(const TargetLanes<V>& target, const V (&R_WE)[3][3], c
   miss.squares = miss.squares + squares;
 }
 
-/// Expands the quadratic of one target into full matrices Λ and η. Replaces `sum` by them, or adds them to `sum`.
+/// Expands the quadratic of one target into full matrices Λ and η. Replaces `sum` by Λ and η, or adds these to `sum`.
 template <bool kIsFirst, class V>
 HWY_INLINE void Gather(const TargetQuadraticLanes<V>& asked, QuadraticLanes<V>& sum) {
   // `put` sets an entry of Λ or adds to it; float keeps only the lower triangle.
@@ -259,7 +259,7 @@ HWY_INLINE V Dot6(const V (&a)[6], const V (&b)[6]) {
   return (a[0] * b[0] + a[1] * b[1]) + (a[2] * b[2] + a[3] * b[3]) + (a[4] * b[4] + a[5] * b[5]);
 }
 
-/// Eliminates a hinge from the quadratic of its limb. `pull` is the change of its angle that leads to the preferred
+/// Eliminates a hinge from its limb's quadratic. `pull` is the change of the hinge's angle that leads to the preferred
 /// angle; `lower` and `upper` are the changes that lead to the ends of its range.
 template <class V>
 HWY_INLINE void EliminateHinge(const V& damping, const V& pull, const V& lower, const V& upper, QuadraticLanes<V>& limb,
@@ -281,8 +281,8 @@ HWY_INLINE void EliminateHinge(const V& damping, const V& pull, const V& lower, 
   const V best = scale * (damping * pull + Dot6(limb.vector, s));
   const auto is_free = AreEqual(hinge.side, nothing);
   const V change = Select(is_free, best, Select(Below(hinge.side, nothing), lower, upper));
-  // Subtract the hinge's part from Λ by adding a negative share: an addition can take either operand from memory, which
-  // saves an instruction.
+  // Subtract the hinge's part from Λ by adding the negative of it: an addition can take either operand from memory,
+  // which saves an instruction.
   const V share = OrZero(is_free, nothing - scale);
   for (int r = 0; r < 6; ++r) {
     const V row_share = share * y[r];
@@ -400,7 +400,7 @@ HWY_INLINE void EliminateHinge(const Four& damping, double to_start, double to_l
 }
 
 /// Computes the hinge's change. `movement` is first the movement of the limb before the hinge, and afterwards the
-/// movement of the limb beyond it. Returns true if the hinge has changed sides.
+/// movement of the limb beyond it. Returns true if the hinge's `side` has changed.
 HWY_INLINE bool SubstituteHinge(double to_lower, double to_upper, TrunkHinge& hinge, double& change, SixRow& movement) {
   const Four best = Four(hinge.best) - Four(hinge.scale) * DotRows(LoadRow(hinge.matrix_s), movement);
   const Four lower(to_lower), upper(to_upper);

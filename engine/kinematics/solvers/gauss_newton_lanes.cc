@@ -20,9 +20,9 @@ HWY_BEFORE_NAMESPACE();
 namespace etude::HWY_NAMESPACE {
 
 /// Solves one problem per lane in rounds: a round places all poses, passes their residuals to the lanes' courses, and
-/// steps. A lane skips the step of a round if its course requests another action, or if its step needs another
-/// active-set pass that few other lanes need. The results of a lane depend on its own problem alone; only their timing
-/// depends on the others.
+/// steps. A lane skips the step of a round if its course requests another action, or if it needs one more active-set
+/// pass and few other lanes do. The results of a lane depend on its own problem alone; only their timing depends on the
+/// others.
 template <class T>
 class GaussNewtonLanes {
  public:
@@ -63,9 +63,9 @@ class GaussNewtonLanes {
   /// Variables with one number per lane.
   enum Register {
     kDamping,
-    kToStart,    // 1 or 0, like the following flags
-    kKeepsLast,  // the present pose is stored as the last one
-    kKeepsBest,  // the present pose is stored as the best one
+    kToStart,    // 1 if the step is pulled to the start, else 0; the following are flags, too
+    kKeepsLast,  // the present pose is stored as the last pose
+    kKeepsBest,  // the present pose is stored as the best pose
     kCounts,     // the lane takes part in this active-set pass
     kHasChanged,
     kMoves,
@@ -209,11 +209,11 @@ class GaussNewtonLanes {
     }
   }
 
-  /// Gathers the quadratics from the leaves to the root and eliminates every hinge on the way.
+  /// Adds up the quadratics from the leaves to the root and eliminates every hinge on the way.
   void Eliminate() {
     for (std::size_t e = 0; e < tree_.effectors.size(); ++e) {
       const GaussNewtonTree::Effector& effector = tree_.effectors[e];
-      // Initialise the quadratics of limbs with those of their effectors.
+      // Initialise each limb's quadratic with the quadratics of the limb's effectors.
       QuadraticLanes<V>& limb = quadratics_[tree_.joints[effector.joint].quadratic];
       if (effector.is_first) {
         Gather<true>(poses_.AskedOf(e), limb);
@@ -247,8 +247,8 @@ class GaussNewtonLanes {
     }
   }
 
-  /// Computes the change of every hinge from the root to the leaves. Returns the lanes in which a hinge has changed
-  /// sides.
+  /// Computes the change of every hinge from the root to the leaves. Returns the lanes in which the `side` of a hinge
+  /// has changed.
   M Substitute() {
     const M counts = Flag(kCounts);
     M has_changed = Below(V(0.0), V(0.0));

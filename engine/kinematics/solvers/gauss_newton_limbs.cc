@@ -155,7 +155,8 @@ class LimbLanes final : public GaussNewtonLimbs {
                        sum, hinges_[slot]);
       }
     }
-    // Store by rows what the elimination has left of each limb's quadratic. EliminateTrunk adds it to the trunk's.
+    // Store by rows what each limb's quadratic is after its hinges are eliminated. EliminateTrunk adds it to the
+    // trunk's quadratic.
     QuadraticRows* rows = &limb_rows_[number * LimbPacks::kWidth];
     for (int r = 0; r < 6; ++r) PutRows(sum.matrix + 6 * r, [&](int lane) -> SixRow& { return rows[lane].matrix[r]; });
     PutRows(sum.vector, [&](int lane) -> SixRow& { return rows[lane].vector; });
@@ -186,7 +187,8 @@ class LimbLanes final : public GaussNewtonLimbs {
     }
   }
 
-  /// Computes the changes of the trunk's hinges, outwards from the root. Returns true if a hinge has changed sides.
+  /// Computes the changes of the trunk's hinges, outwards from the root. Returns true if the `side` of a hinge has
+  /// changed.
   bool SubstituteTrunk() {
     SixRow& at_rest = trunk_[0].movement;
     at_rest = {Four(0.0), Four(0.0)};
@@ -204,7 +206,7 @@ class LimbLanes final : public GaussNewtonLimbs {
     return has_changed;
   }
 
-  /// Computes the changes of four limbs' hinges. Returns true if a hinge has changed sides.
+  /// Computes the changes of four limbs' hinges. Returns true if the `side` of a hinge has changed.
   bool SubstituteLimbs(const LimbPacks::Pack& pack) {
     const SixRow* from[LimbPacks::kWidth];
     for (int lane = 0; lane < LimbPacks::kWidth; ++lane) from[lane] = &trunk_[pack.parents[lane]].movement;
@@ -233,8 +235,8 @@ class LimbLanes final : public GaussNewtonLimbs {
     return Any(has_changed);
   }
 
-  /// Adds the changes to the angles. If one is too large, all are scaled down together; if one is infinite, no angle
-  /// moves. Returns the largest change.
+  /// Adds the changes to the angles. If a change is too large, all changes are scaled down together; if a change is
+  /// infinite, no angle moves. Returns the largest change.
   double Move(double max_change) {
     RowVector largest(0.0);
     auto is_finite = AtLeast(RowVector(0.0), RowVector(0.0));

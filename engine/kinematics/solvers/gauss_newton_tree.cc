@@ -10,7 +10,7 @@ namespace {
 
 constexpr int kMaxDofs = 3;  // maximum number of degrees of freedom of a joint
 
-// Sets the axes of a joint, and finds whether every one of them is ± an axis of its parent.
+// Sets the axes of a joint, and finds whether each axis of the joint is ± an axis of its parent.
 void DescribeAxes(const glm::dmat3& R_PJ, GaussNewtonTree::Joint& joint) {
   joint.renames_axes = true;
   for (int c = 0; c < 3; ++c) {

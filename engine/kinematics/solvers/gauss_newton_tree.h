@@ -25,9 +25,9 @@ struct GaussNewtonTree {
     bool renames_axes = false;  ///< true if every axis of `R_PJ` is ± an axis of the parent
     int from[3] = {};           ///< for each axis: the index of the parent's axis along which it lies
     double sign[3] = {};        ///< for each axis: 1 if it points as the parent's axis does, −1 if opposite to it
-    double R_PJ[3][3] = {};     ///< columns
+    double R_PJ[3][3] = {};     ///< [column][row]
     double p_PJ[3] = {};
-    int quadratic = -1;  ///< index of the limb's quadratic; the parent's limb may share it
+    int quadratic = -1;  ///< index of the limb's quadratic; the parent's limb may have the same index
   };
   struct Effector {
     int joint = 0;
@@ -35,8 +35,8 @@ struct GaussNewtonTree {
     bool is_first = false;  ///< true for the first effector of its limb
   };
 
-  /// One step of elimination: a hinge, or, after all hinges of a joint, the addition of its limb's quadratic to that of
-  /// the parent.
+  /// One step of elimination: a hinge, or, after all hinges of a joint, the addition of the limb's quadratic to the
+  /// parent limb's quadratic.
   struct Step {
     int joint = 0;
     int dof = -1;  ///< −1 if the step is the addition
@@ -64,14 +64,14 @@ struct LimbPacks {
 
   /// One joint of each limb of a pack.
   struct Level {
-    alignas(kAlignment) double R_PJ[3][3][kWidth] = {};  ///< columns
+    alignas(kAlignment) double R_PJ[3][3][kWidth] = {};  ///< [column][row]
     alignas(kAlignment) double p_PJ[3][kWidth] = {};
     alignas(kAlignment) double has_hinge[3][kWidth] = {};  ///< 1 if the limb has this hinge, else 0
     bool turns_axes = false;                               ///< true if `R_PJ` of any limb is not the identity
-    int hinge_count = 0;                                   ///< number of hinges of the joint that has the most
+    int hinge_count = 0;                                   ///< largest number of hinges of a joint of the level
     /// Slot of the first hinge; slot s holds the angle indices 4 s … 4 s + 3.
     int first_slot = 0;
-    int ends = -1;  ///< index in LimbPacks::ends of this level's effectors; −1 if it has none
+    int ends = -1;  ///< index of this level's effectors in LimbPacks::ends; −1 if the level has no effectors
   };
   /// One effector of each of four limbs. For a limb without an effector, the target has weight 0.
   struct Ends {
@@ -89,7 +89,7 @@ struct LimbPacks {
   };
   struct TrunkJoint {
     int parent = -1;
-    double R_PJ[3][3] = {};  ///< columns
+    double R_PJ[3][3] = {};  ///< [column][row]
     double p_PJ[3] = {};
     int first_hinge = 0, hinge_count = 0;  ///< hinge h has the angle index first_trunk_place + h
     int first_branch = 0, branch_count = 0;
@@ -99,10 +99,10 @@ struct LimbPacks {
   std::vector<Level> levels;  ///< the levels of the first pack from the trunk outwards, then those of the next pack
   std::vector<Ends> ends;
   std::vector<TrunkJoint> trunk;  ///< parents before children, the root first
-  std::vector<Branch> branches;   ///< of the first trunk joint, then of the next, in the order in which they are added
+  std::vector<Branch> branches;   ///< the first trunk joint's branches, then the next joint's, in the order of addition
   std::vector<int> inwards;       ///< trunk joints without the root, each after all joints beyond it
   std::vector<int> places;        ///< the angle index of each degree of freedom
-  std::vector<int> end_places;    ///< of each effector: 4 times its index in `ends`, plus its lane
+  std::vector<int> end_places;    ///< for each effector: 4 times its index in `ends`, plus its lane
   int slot_count = 0;
   int trunk_hinge_count = 0;
   int first_trunk_place = 0;

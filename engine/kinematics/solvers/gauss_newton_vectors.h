@@ -19,14 +19,14 @@ enum class Precision;
 /// The options that vector code needs.
 struct GaussNewtonRules {
   /// A pose meets the goals if its largest squared distance and its largest squared chord are below `…_met`, and misses
-  /// them if one of the two is not below `…_missed`. In other cases its errors must be measured exactly.
+  /// the goals if one of these numbers is not below its `…_missed`. In other cases its errors must be measured exactly.
   double squared_distance_met = 0, squared_distance_missed = 0;
   double squared_chord_met = 0, squared_chord_missed = 0;
   int extra_passes = 0;
   double max_turn = 0;  ///< `kMaxTurn`
   bool traces = false;  ///< true: the angles after every step go to `GaussNewtonHelp::Record` (one problem only)
 
-  /// Returns true if a pose meets the goals. If the squares are too close to the goals to tell, calls `measure()`.
+  /// Returns true if a pose meets the goals. If the squares are too close to the goals to decide, returns `measure()`.
   template <class Measure>
   bool AreMet(double squared_distance, double squared_chord, const Measure& measure) const {
     // NaN fails every comparison, so a NaN residual never meets the goals.
@@ -35,7 +35,7 @@ struct GaussNewtonRules {
   }
 };
 
-/// Returns the rules that follow from these options and this precision.
+/// Returns the rules for these options and this precision.
 GaussNewtonRules RulesFor(const IkOptions& options, const GaussNewtonOptions& own, Precision precision);
 
 /// Scalar code for the rare operations of the vector solvers. `problem` is a problem's number; angles are in the tree's
@@ -48,7 +48,8 @@ class GaussNewtonHelp {
   virtual bool IsOutOfReach(int problem) = 0;
   /// Returns true if these angles meet the goals, by measuring their errors.
   virtual bool MeetsGoals(int problem, std::span<const double> angles) = 0;
-  /// Scatters and sweeps as `next` prescribes, and counts the sweeps. `angles` are read and replaced.
+  /// Goes to the pose of the restart and sweeps, as `next` prescribes; counts the sweeps in `course`. `angles` are read
+  /// and replaced.
   virtual void Sweep(int problem, const GaussNewtonCourse::Next& next, GaussNewtonCourse& course,
                      std::span<double> angles) = 0;
   /// Records the angles after a step.
@@ -92,7 +93,7 @@ class GaussNewtonLimbs {
 
 // ---- Many problems, each in a lane (gauss_newton_lanes.cc) ---------------------------------------------------------
 
-/// Hands out problems and receives solutions.
+/// The queue from which the lanes get problems, and which receives their solutions.
 class GaussNewtonQueue {
  public:
   virtual ~GaussNewtonQueue() = default;

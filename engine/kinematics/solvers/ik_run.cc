@@ -7,10 +7,10 @@
 namespace etude {
 namespace {
 
-constexpr double kScatter = 1.5;                     // maximum distance of a restart from the start, radians
+constexpr double kScatter = 1.5;                     // maximum change of an angle from start to restart
 constexpr double kGoldenShare = 0.6180339887498949;  // multiples of this number modulo 1 are evenly distributed
-// Periods of a restart's pose per radian of the start angle. A change by 0.2° covers a whole period, so nearly equal
-// starts get different poses.
+// The pose of a restart is periodic in the start angle, with this many periods per radian. A change by 0.2° covers a
+// whole period, so nearly equal starts get different poses.
 constexpr double kSpread = 300;
 
 }  // namespace

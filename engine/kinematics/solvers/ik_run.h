@@ -45,8 +45,8 @@ class IkRun {
     }
   }
 
-  /// Records an iteration by the frames of `angles`, for solvers that do not need errors themselves. Errors are
-  /// computed only for a trace, near the goals, and at the end.
+  /// Records an iteration whose pose has the frames `frames`, for solvers that do not need errors themselves. Errors
+  /// are computed only for a trace, near the goals, and at the end.
   template <class Angles>
   void RecordFrames(const TreeFrames& frames, const Angles& angles) {
     if (!Traces() && MissesByFar(frames)) {
@@ -148,9 +148,9 @@ IkSolution RunSweeps(const KinematicTree& tree, const IkProblem& problem, const 
 /// The number of restarts of a solver that is stuck.
 inline constexpr int kRestarts = 20;
 
-/// Sets `angles` to the pose of restart `number` ≥ 1: up to 1.5 rad from `start` in every angle, within `ranges`. The
-/// pose is a deterministic function of `number` and `start`; it uses no random numbers. Along a motion with few
-/// iterations per frame, every frame therefore tries new poses.
+/// Sets `angles` to the pose of restart `number` ≥ 1: every angle differs from `start` by up to 1.5 rad and lies within
+/// `ranges`. The pose is a deterministic function of `number` and `start`; it uses no random numbers. Along a motion
+/// with few iterations per frame, every frame therefore tries new poses.
 void ScatterAround(std::span<const double> start, std::span<const AngleRange> ranges, int number,
                    std::vector<double>& angles);
 

@@ -27,8 +27,8 @@ Own OwnOptions(const SolverSettings& settings, auto SolverSettings::*told, auto 
   return own;
 }
 
-/// Adapts a solver that has options of its own. The setting `told`, if it is given, sets `member` of these options. The
-/// default of `member` becomes `number.fallback`.
+/// Makes an IkSolver of a function that has options of its own. The setting `told`, if given, sets `member` of these
+/// options; `number.fallback` becomes the default of `member`.
 template <typename Own, typename Number>
 IkSolver WithSetting(IkSolver solver, SolveWithOwn<Own> solve, std::optional<Number> SolverSettings::*told,
                      Number Own::*member, NumberSetting number) {
@@ -62,7 +62,7 @@ class PreparedGaussNewton final : public PreparedIkSolver {
   const GaussNewtonSolver solver_;
 };
 
-/// Adapts a solver that needs no preparation.
+/// A PreparedIkSolver for a solver that needs no preparation.
 class Unprepared final : public PreparedIkSolver {
  public:
   Unprepared(const IkSolver& solver, const KinematicTree& tree) : solver_(solver), tree_(tree) {}

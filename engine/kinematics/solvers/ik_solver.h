@@ -27,12 +27,12 @@ struct IkSolverSetting {
   std::function<void(SolverSettings& settings, double value)> set;
 };
 
-/// A solver of IkProblems, by the name that scenario files use.
+/// A solver of IkProblems; `name` is its name in scenario files.
 struct IkSolver {
   std::string name;
   std::string description;    ///< one line, for people
   bool uses_weights = false;  ///< true if IkOptions::weights and refresh apply
-  bool uses_axes = true;      ///< true if the solver aligns the axes of effectors; false if only their positions
+  bool uses_axes = true;      ///< true if the solver aligns the effectors' axes; false if it only moves effectors
   std::string_view step;      ///< the word for iterations: "sweeps", "steps"
   std::vector<IkSolverSetting> settings = {};  ///< the settings in `IkOptions::solver_settings` that the solver reads
   std::function<IkSolution(const KinematicTree& tree, const IkProblem& problem, const IkOptions& options)> solve = {};
@@ -46,7 +46,7 @@ struct IkSolver {
       solve_batch = {};
 };
 
-/// Prepares `solver` for problems of `tree`. Both must outlive the result.
+/// Prepares `solver` for problems of `tree`. `solver` and `tree` must outlive the result.
 std::unique_ptr<PreparedIkSolver> Prepare(const IkSolver& solver, const KinematicTree& tree);
 
 /// Returns the answers of `solver.solve` to many problems of one tree.

@@ -11,7 +11,7 @@ namespace etude {
 
 /// The way in which a solver of dense linear steps keeps angles within their ranges.
 enum class Bounds {
-  kClamped,  ///< make an unlimited step (`Step`), then clamp the angles; free angles do not compensate for clamped ones
+  kClamped,  ///< make an unlimited step (`Step`), then clamp the angles; free angles do not compensate for this
   /// Solve for the best step within the ranges (`StepWithin`): angles that would leave their range are fixed at its
   /// end, and the other angles compensate.
   kActiveSet,
@@ -36,9 +36,9 @@ class DampedInverse {
   /// Kunisch 2002): solve for y with some angles fixed at an end of their range, none at first; then fix each angle
   /// whose preferred + Jᵀy leaves its range at the end where it leaves, and free the others. (Starting from the active
   /// set of the last step takes more passes.) At most four passes are made; with the damping of `levenberg-marquardt`
-  /// the mean is 1.5; nearly all sets settle, and more passes hardly help the others. The answer always lies within the
-  /// ranges. It is the optimum if the set has settled (`is_exact`): then the conditions of Karush, Kuhn and Tucker
-  /// hold. Returns false, like `Step`, if the matrix of the free angles is singular.
+  /// the mean is 1.5; nearly every active set settles, and more passes hardly help the rest. The answer always lies
+  /// within the ranges. It is the optimum if the active set has settled (`is_exact`): then the conditions of Karush,
+  /// Kuhn and Tucker hold. Returns false, like `Step`, if the matrix of the free angles is singular.
   bool StepWithin(double damping, std::span<const double> preferred, std::span<const double> angles,
                   std::span<const AngleRange> ranges, std::vector<double>& step);
 
@@ -55,13 +55,13 @@ class DampedInverse {
   std::vector<double> jacobian_, residuals_;
   std::vector<double> gram_, damped_;  ///< JJᵀ and JJᵀ + μI, rows_ × rows_; only the lower triangle is used
   std::vector<double> duals_;          ///< y of `StepWithin`
-  std::vector<signed char> sides_;     ///< of each angle: −1 if fixed at its lower end, 1 at its upper end, 0 if free
+  std::vector<signed char> sides_;     ///< for each angle: −1 if fixed at its minimum, 1 at its maximum, 0 if free
   bool is_exact_ = false;
 };
 
 struct JacobianTransposeOptions {
-  /// Multiplies the step length that is optimal to first order. With every factor between 0 and 2 the error falls, to
-  /// first order. The default 1 is the usual method. Its steps zigzag like those of steepest descent with exact line
+  /// The factor on the step length that is optimal to first order. To first order, every factor between 0 and 2 lowers
+  /// the error. The default 1 is the usual method. Its steps zigzag like those of steepest descent with exact line
   /// search; shorter steps avoid that (Raydan and Svaiter 2002). Set it to 0.5 to see the method at its best (README.md
   /// has the figures).
   double gain = 1;
@@ -91,7 +91,7 @@ struct JacobianPinvOptions {
 ///     dΘ = J⁺dX + (I − J⁺J) dZ,   J⁺ = Jᵀ(JJᵀ + μI)⁻¹,   dZ = Θ₀ − Θ
 /// *Ours*: the preferred posture is the start Θ₀, and no step turns an angle by more than 0.6 rad. As in the paper, μ
 /// is zero by default, and limits are kept by clamping the stepped angles. The error may rise near a singularity and
-/// where limits are active, because other angles do not compensate for a clamped one. If JJᵀ is singular (a stretched
+/// where limits are active, because other angles do not compensate for a clamped angle. If JJᵀ is singular (a stretched
 /// limb, figure 3.8), the formula is undefined (`DampedInverse`), and the solver stalls with its present angles.
 /// `IkOptions::weights` and `refresh` do not apply. One iteration is one step; each costs one forward-kinematics pass.
 IkSolution SolveJacobianPinv(const KinematicTree& tree, const IkProblem& problem, const IkOptions& options,

@@ -86,7 +86,7 @@ class LanePoses {
         frame.position[k] = parent.position[k] + p_PJ_W[k];
         p_RJ_W[k] = frame.position[k] - root.position[k];
       }
-      // Compute the axes before the joint turns. If they are ± the parent's axes, copy these.
+      // Compute the axes before the joint turns. If each of them is ± an axis of the parent, copy the parent's.
       if (joint.renames_axes) {
         for (int c = 0; c < 3; ++c) {
           for (int k = 0; k < 3; ++k) axes[c][k] = parent.axes[joint.from[c]][k] * V(joint.sign[c]);

@@ -111,7 +111,7 @@ class LimbPoses {
     PutFour(CrossAxes(p_RJ_W, axes[kAxis]), screw + 3);
   }
 
-  /// Computes the forward kinematics of four limbs, outwards from the trunk joints that carry them.
+  /// Computes the forward kinematics of four limbs, outwards from the trunk joints to which the limbs are attached.
   void PlaceLimbs(const LimbPacks::Pack& pack, const double (&root)[12]) {
     FrameLanes<Four> frame;
     TakeFrames(pack, frame);
@@ -141,7 +141,7 @@ class LimbPoses {
     Mix(axes, by, out);
   }
 
-  /// Sets the lanes of `frame` to the frames of the trunk joints that carry the limbs.
+  /// Sets the lanes of `frame` to the frames of the trunk joints to which the limbs are attached.
   HWY_INLINE void TakeFrames(const LimbPacks::Pack& pack, FrameLanes<Four>& frame) {
     const TrunkFrame* from[LimbPacks::kWidth];
     for (int lane = 0; lane < LimbPacks::kWidth; ++lane) from[lane] = &trunk_[pack.parents[lane]];

@@ -8,15 +8,15 @@
 
 namespace etude {
 
-/// The derivative of every end effector with respect to every angle. Each degree of freedom has one column, with six
-/// numbers per effector in the tree's order: the derivative of its position (∂p/∂q, metres per radian, world), then its
-/// rotation vector per radian (world). A vector u that is fixed to the effector changes by ω × u. The entries are 0 if
-/// the angle does not move the effector.
+/// The derivative of every end effector's pose with respect to every angle. Each degree of freedom has one column, with
+/// six numbers per effector in the tree's order: the derivative of its position (∂p/∂q, metres per radian, world), then
+/// its rotation vector per radian (world). A vector u that is fixed to the effector changes by ω × u. The entries are 0
+/// if the angle does not move the effector.
 struct TreeJacobian {
   static constexpr int kPerEffector = 6;
 
   int rows = 0;                ///< kPerEffector times the number of effectors
-  std::vector<double> values;  ///< rows × degrees of freedom, column by column
+  std::vector<double> values;  ///< entries of the matrix, rows × degrees of freedom, column by column
 
   std::span<const double> column(int dof) const {
     return {values.data() + static_cast<std::size_t>(dof) * rows, static_cast<std::size_t>(rows)};
@@ -53,7 +53,7 @@ class LinearTargets {
   double Cost(const TreeFrames& frames) const;
 
  private:
-  /// One row of J: the world vector along or about which an effector moves.
+  /// One row of J: the change of an effector's position along a world vector, or of its rotation about this vector.
   struct Row {
     int first = 0;  ///< first of three rows of the tree's Jacobian: an effector's position or rotation vector
     glm::dvec3 along{0};

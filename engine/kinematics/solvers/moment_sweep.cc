@@ -1,5 +1,5 @@
-// The data that a hinge needs about all end effectors beyond it are passed from joint to joint as one 4×4 matrix, so
-// the cost does not depend on the number of effectors. Angles are stored as (cos, sin), so the loop needs no
+// The sums that a hinge needs over all end effectors beyond the hinge are passed from joint to joint as one 4×4 matrix,
+// so the cost does not depend on the number of effectors. Angles are stored as (cos, sin), so the loop needs no
 // trigonometric functions.
 //
 // For every effector E beyond a joint and its target D, the moments are
@@ -8,11 +8,11 @@
 // angle q has the gain
 //     x cos q + y sin q,   x = M_i·ê_i + M_j·ê_j,   y = M_i·ê_j − M_j·ê_i,
 // where M_i is a row and ê = (e_W, −p_WJ·e_W) an axis of the frame before the hinge turns: M_i·ê_j sums the current
-// components along i times the desired ones along j, both relative to the joint J. So the best angle has the direction
-// (x, y) (paper B's equations 3.10–3.13 for several effectors). Turning by it mixes rows i and j. A step to the
-// parent's joint, at the offset p_PJ, adds p_PJ[r] times the last row to row r. Columns never change. The vectors ê
-// are also enough for forward kinematics: a turn mixes two of them, and a step by p_PJ subtracts p_PJ[k] from the last
-// component of ê_k.
+// components along i times the desired components along j, all relative to the joint J. So the best angle has the
+// direction (x, y) (paper B's equations 3.10–3.13 for several effectors). The turn by the best angle mixes rows i and
+// j. A step to the parent's joint, at the offset p_PJ, adds p_PJ[r] times the last row to row r. Columns never change.
+// The vectors ê are also enough for forward kinematics: a turn mixes two of them, and a step by p_PJ subtracts p_PJ[k]
+// from the last component of ê_k.
 #include "engine/kinematics/solvers/moment_sweep.h"
 
 #include <algorithm>
@@ -105,7 +105,7 @@ HWY_INLINE double TurnHinge(const Quad& from, const Quad& towards, HingeState& h
   const double old_c = hinge.c, old_s = hinge.s;
   const double c = is_flat ? old_c : is_inside ? x * scale : end_c;
   const double s = is_flat ? old_s : is_inside ? y * scale : end_s;
-  // Mix the two rows.
+  // Mix rows i and j of the moments.
   hinge.c = c;
   hinge.s = s;
   row_i = a * c - b * s;
@@ -114,7 +114,7 @@ HWY_INLINE double TurnHinge(const Quad& from, const Quad& towards, HingeState& h
   return dc * dc + ds * ds;
 }
 
-// Adds the moments of an effector to those of its limb, or sets them if it is the limb's first effector.
+// Adds an effector's moments to the moments of its limb. The limb's first effector sets the limb's moments instead.
 void AddEffector(const SweepTree::Effector& effector, const GoalState& goal, Moments& moments) {
   const Quad pull = goal.position * goal.position_pull;
   const auto add = [&](const Quad& row, Quad& sum) { sum = effector.is_first ? row : sum + row; };
@@ -284,7 +284,7 @@ void MomentSweep::State::MeasureGoals() {
   }
 }
 
-// Returns the angle, clamped to its range.
+// Returns the angle of degree of freedom `dof`, radians, clamped to its range.
 double MomentSweep::State::AngleOf(std::size_t dof) const {
   const HingeState& hinge = hinges[dof];
   const double from_middle = std::atan2(hinge.s * hinge.cos_middle - hinge.c * hinge.sin_middle,
@@ -339,7 +339,7 @@ void MomentSweep::SetHalfTangents(std::span<const double> half_tangents) {
   for (std::size_t i = 0; i < half_tangents.size(); ++i) {
     HingeState& hinge = state_->hinges[i];
     const double t = half_tangents[i], scale = 1 / (1 + t * t);
-    // Cosine and sine of the angle before limits are applied, relative to the middle.
+    // Cosine and sine of the angle before limits are applied, relative to the middle of its range.
     const double free_c = (1 - t * t) * scale, free_s = 2 * t * scale;
     const bool is_inside = free_c >= hinge.cos_half;
     const double c = is_inside ? free_c : hinge.cos_half;

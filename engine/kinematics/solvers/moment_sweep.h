@@ -30,8 +30,8 @@ class MomentSweep {
   double Turn();
   void Measure();
 
-  /// Returns the sum that turns reduce, Σ w_p e² + Σ w_o |u_c − u_d|², at the pose measured last, with the weights of
-  /// the last turn.
+  /// Returns the sum that a sweep reduces, Σ w_p e² + Σ w_o |u_c − u_d|², at the pose measured last, with the weights
+  /// of the last turn.
   double Merit() const;
   /// Writes tan((q − middle) / 2) of every angle, where `middle` is the middle of its range, or the start of a free
   /// angle.

@@ -32,7 +32,7 @@ NamedAxis NameOf(const glm::dvec3& axis) {
   return {name, axis[name]};
 }
 
-// A step, and the length of the longest chain of steps that depend on it. Steps with the longest chains come first.
+// A step, and the length of the longest chain of steps that depend on the step. Steps with longer chains come first.
 struct StepWithDepth {
   SweepTree::Step step;
   int depth = 0;
@@ -73,7 +73,7 @@ SweepTree::SweepTree(const KinematicTree& tree) : steps(StepsOf(tree)) {
 }
 
 void SweepTree::NameAxes(const KinematicTree& tree) {
-  std::vector<glm::dmat3> R_LS;  // of each limb: the axes of the sweep's frame in the tree's frame
+  std::vector<glm::dmat3> R_LS;  // for each limb: the axes of the limb's frame S in its frame L
   for (const TreeJoint& from : tree.joints) {
     Joint& joint = joints.emplace_back();
     joint.parent = from.parent;
@@ -86,7 +86,7 @@ void SweepTree::NameAxes(const KinematicTree& tree) {
       for (int c = 0; c < 3; ++c) joint.R_PJ[r][c] = R_SJ[c][r];
     }
   }
-  // Express the two axes that each hinge turns in the limb's new frame.
+  // For each hinge, express the two axes that it turns in the limb's frame S.
   for (Step& step : steps) {
     if (step.hinge < 0 || !joints[step.joint].is_aligned) continue;
     const NamedAxis i = NameOf(glm::transpose(R_LS[step.joint])[step.i]);
@@ -94,7 +94,7 @@ void SweepTree::NameAxes(const KinematicTree& tree) {
     step.i = i.sign * j.sign > 0 ? i.name : j.name;  // different signs reverse the turn, so exchange the two axes
     step.j = i.sign * j.sign > 0 ? j.name : i.name;
   }
-  // Express effectors in the new frames.
+  // Express the effectors in the frames S.
   for (const etude::Effector& from : tree.effectors) {
     Effector& effector = effectors.emplace_back();
     effector.joint = from.joint;

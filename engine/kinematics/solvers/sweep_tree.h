@@ -15,11 +15,11 @@ struct SweepTree {
   struct Joint {
     int parent = -1;
     int moments = -1;         ///< index of the moments of its limb
-    bool is_first = false;    ///< true if its moments are the first that the parent's limb receives
+    bool is_first = false;    ///< true if the parent's limb receives this limb's moments before all others
     bool is_aligned = false;  ///< true if `R_PJ` is the identity
-    int base[3] = {};         ///< indices of its axes before its hinges turn; the parent's index for an equal axis
-    int axes[3] = {};         ///< indices of its axes after all its hinges have turned
-    double R_PJ[3][3] = {};   ///< rows
+    int base[3] = {};         ///< indices of the limb's axes before its hinges turn; may equal indices of the parent's
+    int axes[3] = {};         ///< indices of the limb's axes after all hinges of the joint have turned
+    double R_PJ[3][3] = {};   ///< [row][column]
     double p_PJ[3] = {};
   };
   struct Effector {
@@ -36,13 +36,13 @@ struct SweepTree {
     int hinge = -1;             ///< −1 for the step to the parent
     int i = 0, j = 0;           ///< the hinge turns axis i towards axis j
     int from = 0, towards = 0;  ///< indices of these axes before the turn
-    int turned = 0;             ///< index of axis i after the turn; that of axis j is one more
+    int turned = 0;             ///< index of axis i after the turn; axis j has the next index
   };
 
   std::vector<Joint> joints;
   std::vector<Effector> effectors;
-  /// The steps of a joint come after those of all joints beyond it; limbs without effectors are left out. Independent
-  /// limbs alternate, so that a CPU can overlap them.
+  /// The steps of a joint come after those of all joints beyond it; limbs with no effector on or beyond them are left
+  /// out. Independent limbs alternate, so that a CPU can overlap them.
   std::vector<Step> steps;
   int axis_count = 0;
   int moments_count = 0;

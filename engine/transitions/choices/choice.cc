@@ -17,13 +17,13 @@
 namespace etude {
 namespace {
 
-/// Statistics of all pairs of bridge frames within the budget. They include the pairs after the first match, which the
-/// search itself skips.
+/// Statistics of all pairs of bridge frames within the budget. The pairs after the first match count, too, although the
+/// search itself skips them.
 struct PairSurvey {
   AllowedFrames allowed;
   std::int64_t matching = 0;
-  std::int64_t nearer = 0;          ///< matching pairs with a smaller distance than the taken pair
-  std::vector<RankedPair> nearest;  ///< for each frame that may be left, its nearest pair other than the taken pair
+  std::int64_t nearer = 0;          ///< number of matching pairs with a smaller distance than the taken pair
+  std::vector<RankedPair> nearest;  ///< by frame that may be left: the frame's nearest pair, except the taken pair
 };
 
 PairSurvey SurveyPairs(const MotionLibrary& library, const TransitionRequest& request, const MatchRules& rules,

@@ -66,7 +66,7 @@ RankedPairs RankPairs(const AllowedFrames& allowed, FuzzyGate* gate, PairRows& c
   return survey;
 }
 
-/// Takes the allowed pair with the lowest cost, the earlier one on a tie.
+/// Takes the allowed pair with the lowest cost; of equally cheap pairs, the earliest.
 TransitionRecord PlanRanked(const MotionLibrary& library, const TransitionRequest& request, const MatchRules& rules,
                             const Ranking& ranking, PairRows& costs) {
   const std::int64_t pairs = ranking.allowed.Pairs();

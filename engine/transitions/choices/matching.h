@@ -19,8 +19,9 @@ struct PointCloudOptions {
 };
 const SettingTable<PointCloudOptions>& PointCloudSettings();
 
-/// Takes the matching pair of frames (FuzzyGate) with the smallest point-cloud distance (PointCloudRows), which refines
-/// paper A's measure. Frames need not be bridge frames. If no pair matches, the plan goes through an in-between.
+/// Takes the matching pair of frames (FuzzyGate) with the smallest point-cloud distance (PointCloudRows). This distance
+/// refines paper A's measure. Frames need not be bridge frames. If no pair matches, the plan goes through an
+/// in-between.
 TransitionRecord PlanFuzzyKovar(const MotionLibrary& library, const TransitionRequest& request, const MatchRules& rules,
                                 const PointCloudOptions& options = {});
 

@@ -115,7 +115,7 @@ void PointCloudRows::Compute(int leave_frame, std::span<const int> enter_frames,
   for (std::size_t i = 0; i < enter_frames.size(); ++i) {
     const int enter = enter_frames[i];
     const Reach reach = ReachAround(leave_frame, playing_frames, enter, next_frames_, half_);
-    // Compute the sums of both clouds' coordinates and of the products of their points.
+    // Compute sums over the two clouds: of coordinates, and of products of equal points.
     const int row = leave_frame + reach.after, column = enter + reach.after;
     while (products_.NextRow() <= row) AddFrame(products_.NextRow());
     const glm::dvec3 of_pair = products_.SumEndingAt(row, column, reach.Count());

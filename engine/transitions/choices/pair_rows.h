@@ -23,9 +23,9 @@ class PairRows {
   virtual void Compute(int leave_frame, std::span<const int> enter_frames, std::span<double> costs) = 0;
 };
 
-/// Keeps running sums along the diagonals of a table. Its rows are frames of one clip, its columns are frames of
-/// another; along a diagonal, both clips advance by one frame per cell. The sum over any stretch of a diagonal takes
-/// two look-ups. Rows are added one by one. `Value` is a number or a vector of numbers.
+/// Keeps running sums along the diagonals of a table. The table's rows are frames of one clip, its columns are frames
+/// of another clip; along a diagonal, both clips advance by one frame per cell. The sum over any stretch of a diagonal
+/// takes two look-ups. Rows are added one by one. `Value` is a number or a vector of numbers.
 template <class Value>
 class DiagonalSums {
  public:
@@ -67,10 +67,10 @@ class DiagonalSums {
 
   int first_row_, next_row_, columns_;
   int depth_;                ///< a power of two, so that ring indices need no division
-  std::vector<Value> sums_;  ///< a ring of rows
+  std::vector<Value> sums_;  ///< ring buffer of rows; each entry is the sum of the diagonal up to its cell
 };
 
-/// The number of frames before and after a pair that exist in both clips, limited to half a window.
+/// The numbers of frames before a pair and after it that exist in both clips, each at most half a window.
 struct Reach {
   int before = 0, after = 0;
 
@@ -113,8 +113,9 @@ class FuzzyWindowRows : public PairRows {
 
 /// Computes the distance of two frames by Kovar, Gleicher and Pighin ("Motion graphs", 2002, section 3.1). The twenty
 /// joints of all frames in a window form a point cloud. One cloud is rotated about the vertical and shifted on the
-/// floor to fit the other best (in closed form). All points have the same weight, and the cost is the root mean square
-/// of their distances in centimetres. Windows that a clip's end shortens are therefore comparable with whole windows.
+/// floor to fit the other cloud best (in closed form). All points have the same weight. The cost is the root mean
+/// square distance, in centimetres, of a point of one cloud from the same point of the other. Windows that a clip's end
+/// shortens are therefore comparable with whole windows.
 ///
 /// In the paper one cloud begins at its frame and the other ends at its frame, because the clips are crossfaded. Here
 /// both clouds are centred on their frames, because the clips are cut there.
@@ -140,7 +141,8 @@ class PointCloudRows : public PairRows {
   glm::dvec3 playing_origin_;
   std::vector<Block> blocks_;
   std::vector<CloudSum> playing_sums_, next_sums_;
-  /// Sums over the points of two frames: Σ xx′ + zz′ (along), Σ xz′ − zx′ (across) and Σ yy′ (up).
+  /// Sums over the pairs of equal joints in two frames, (x, y, z) in one and (x′, y′, z′) in the other: Σ xx′ + zz′
+  /// (along), Σ xz′ − zx′ (across) and Σ yy′ (up).
   DiagonalSums<glm::dvec3> products_;
 };
 

@@ -199,7 +199,8 @@ Burden PairStage::Rate(std::span<const BodyPose> played, const glm::dvec3& shift
   constexpr int kReach = 3;
   std::vector<glm::dvec3> centres(shown.size());
   for (int f = std::max(before_ - kReach, 0); f <= std::min(last + kReach, end); ++f) centres[f] = MassCentre(shown[f]);
-  // Add up, for each frame, missing support, the zero-moment point's distance, and gliding.
+  // Find the longest run of frames without support. Add up, over the frames, the zero-moment point's excess distance
+  // and the gliding.
   constexpr double kFoot = 0.1;
   Burden burden;
   int run = 0;
@@ -217,14 +218,14 @@ Burden PairStage::Rate(std::span<const BodyPose> played, const glm::dvec3& shift
 }
 
 /// Returns how far the zero-moment point is from the supports in the clips themselves near a frame of the join, metres:
-/// the larger distance of both clips.
+/// the larger of the two clips' distances.
 double PairStage::OwnBeside(int frame) const {
   return std::max(LargestNear(playing_beside_, pair_.leave + frame), LargestNear(wanted_beside_, pair_.enter + frame));
 }
 
 /// Returns how far the slowest of `supports` moves from the frame before `frame` to `frame`, metres: over the floor or
-/// relative to the same joint of a clip, whichever is less. If `supports` is empty, the slowest joint of the feet is
-/// used.
+/// relative to the same joint of a clip; the smaller number counts. If `supports` is empty, the slowest joint of the
+/// feet is used.
 double PairStage::GlideAt(std::span<const BodyPose> shown, int frame, JointSet supports) const {
   if (supports.none()) {
     for (const LegRoles& leg : kLegs) supports.set(Index(leg.ankle)).set(Index(leg.foot));

@@ -16,11 +16,11 @@ namespace etude {
 constexpr std::array kWays = {JoinStyle::kDirect, JoinStyle::kFades};
 constexpr std::array kLengths_s = {0.3, 0.4, 0.5, 0.65, 0.8, 1.0, 1.2};
 
-/// The second difference of each joint in each frame of the window, metres: the larger value of both motions. It is 0
-/// for a motion that has ended.
+/// The second difference of each joint in each frame of the window, metres: the larger of the two motions' values. A
+/// motion that has ended counts as 0.
 using OwnAccelerations = std::vector<std::array<double, kRoleCount>>;
 
-/// Sums up the cost of a join. Its frames are added in order, from the transition point on.
+/// Sums up the cost of a join, whose frames are added in order from the transition point on.
 class CostMeter {
  public:
   /// `usual` is the entry of MotionLibrary::usual_accelerations for the calmer clip. All arguments must outlive this
@@ -39,15 +39,15 @@ class CostMeter {
   const PlayedRates& rates_;
   BodyPose before_, here_;
   std::size_t count_ = 0;
-  double worst_excess_ = 0;  // the largest second difference of any joint above those of the motions, metres
+  double worst_excess_ = 0;  // the largest excess of a joint's second difference over that in the two motions, metres
   double off_ = 0;           // distance from the nearer clip's pose, metres, summed over the frames
 };
 
-/// Returns how far both feet slide along the floor in a join, metres. The weight of a foot decreases with its height
-/// and is 0 from 2.5 cm on (Zhang, Starke, Komura and Saito 2018).
+/// Returns the distance that the feet slide along the floor in a join, metres. A foot's weight decreases with the
+/// foot's height and is 0 from 2.5 cm on (Zhang, Starke, Komura and Saito 2018).
 double SlideOf(std::span<const BodyPose> played);
 
-/// How much of a join the ground cannot support.
+/// Measures of how badly the floor supports the body in a join.
 struct Burden {
   int unsupported = 0;  ///< length in frames of the longest run in which FindSupport finds no support
   double beside = 0;    ///< zero-moment point's distance above 10 cm and above the clips' distances, integrated, m·s
@@ -70,8 +70,8 @@ class PairStage {
   /// Returns one frame of a join of length kLengths_s[length] (`frames` frames), without planted feet and without
   /// shift.
   const BodyPose& LimbsAt(std::size_t length, int frames, JoinStyle way, int frame);
-  /// Returns PlanSteps of a window that WindowFor returned for kLengths_s[length], with CarriedShift or without. All
-  /// of kWays have the same steps, so they are planned once.
+  /// Returns PlanSteps of a window that WindowFor returned for kLengths_s[length], with CarriedShift or without. Joins
+  /// of every style in kWays have the same steps, so the steps are planned once.
   const FootPlan& StepsIn(const JoinWindow& window, std::size_t length, bool carried);
   /// Rates a motion: the frames `played` of a join, and after them the wanted clip, moved by `shift`.
   Burden Rate(std::span<const BodyPose> played, const glm::dvec3& shift) const;

@@ -16,20 +16,20 @@
 namespace etude {
 namespace {
 
-/// An intermediate clip, which stands up or lies down. It is entered from the playing clip and later left for the
-/// wanted clip.
+/// An intermediate clip, in which the person stands up or lies down. It is entered from the playing clip and later left
+/// for the wanted clip.
 struct ThroughClip {
   int clip = 0;            ///< index in the library
-  std::vector<int> enter;  ///< its frames that may be entered, ascending; all are before those of `leave`
-  std::vector<int> leave;  ///< its frames from which the wanted clip may be entered, ascending
+  std::vector<int> enter;  ///< the clip's frames that may be entered, ascending; all come before the frames of `leave`
+  std::vector<int> leave;  ///< the clip's frames from which the wanted clip may be entered, ascending
 };
 
 constexpr double kRunUp_s = 2.5;     // a clip may be entered at most this long before it changes its stance
 constexpr double kRunOut_s = 2.5;    // a clip may be left at most this long after it has changed its stance
 constexpr double kMinShown_s = 0.3;  // minimum time that a clip is shown: the shortest join
 
-/// Finds the frames of a library clip that may be entered from the allowed frames of the playing clip, and those from
-/// which the allowed frames of the wanted clip may be entered.
+/// Decides which frames of a library clip may be entered from an allowed frame of the playing clip, and from which
+/// frames of the clip an allowed frame of the wanted clip may be entered.
 class Ends {
  public:
   Ends(const MotionLibrary& library, const TransitionRequest& request, const AllowedFrames& allowed)
@@ -67,8 +67,8 @@ class Ends {
 };
 
 /// Collects the frames of a clip around a change of stance. The clip may be entered in an unbroken run of frames that
-/// ends at `before`, and left in one that begins at `after`; every frame of a run can be joined. At most `most_s`
-/// seconds of the clip are shown.
+/// ends at `before`, and left in an unbroken run that begins at `after`; every frame of a run can be joined. At most
+/// `most_s` seconds of the clip are shown.
 ThroughClip WayAround(const MotionLibrary& library, const Ends& ends, int clip, int before, int after, double most_s) {
   const TaggedClip& tagged = library.tagged[clip];
   const auto frames = [&](double seconds) { return static_cast<int>(std::lround(seconds * tagged.rate_hz)); };
@@ -182,8 +182,8 @@ PreferredJoin PreferredOf(const PlayedJoin& way, double rate_hz) {
 
 int LastFrameOf(const MotionLibrary& library, int clip) { return library.tagged[clip].FrameCount() - 1; }
 
-/// Plans a transition through a clip that stands up or lies down, for requests in which no pair of allowed frames can
-/// be joined.
+/// Plans a transition through a clip in which the person stands up or lies down, for requests in which no pair of
+/// allowed frames can be joined.
 TransitionRecord PlanThroughClip(const MotionLibrary& library, const TransitionRequest& request,
                                  const MatchRules& rules, const PlayedOptions& options, const AllowedFrames& allowed) {
   TransitionRecord record;

@@ -16,7 +16,8 @@ struct PlayedOptions {
   /// The maximum time at the start of the wanted clip that may be skipped, seconds. At most the first third is ever
   /// skipped.
   double most_skipped_s = 1.5;
-  /// The maximum time that an intermediate clip, which stands up or lies down, may be shown, seconds.
+  /// The maximum time, seconds, for which an intermediate clip may be shown (a clip in which the person stands up or
+  /// lies down).
   double most_through_s = 4;
 };
 const SettingTable<PlayedOptions>& PlayedSettings();
@@ -44,9 +45,9 @@ const SettingTable<PlayedOptions>& PlayedSettings();
 /// - one second for each centimetre that the slowest support glides farther than a clip's own joint does there.
 ///
 /// Pairs are left out if their join would raise or lower the body without support (NeedsClip). If no other pair is
-/// allowed, the transition goes, after the wait, through an intermediate clip that stands up or lies down
-/// (FindThroughClip); without such a clip in the library the record has no segments. The last segment of the record
-/// holds the preferred join (PreferredJoin).
+/// allowed, the transition goes, after the wait, through an intermediate clip in which the person stands up or lies
+/// down (FindThroughClip); without such a clip in the library the record has no segments. The last segment of the
+/// record holds the preferred join (PreferredJoin).
 ///
 /// This choice is ours. It searches by the resulting motion instead of similarity, after Kovar, Gleicher and Pighin
 /// 2002 and Bollo 2018. Support is computed as in the evaluation of transitions, but the choice does not know the

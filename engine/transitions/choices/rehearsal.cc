@@ -15,12 +15,12 @@ namespace etude {
 namespace {
 
 constexpr double kAlwaysUsual = 0.01;  // lowest usual acceleration, metres per frame²: 9 m/s², about free fall
-constexpr double kLimbShare = 0.6;     // share of the limbs' cost that counts before the feet are planted
+constexpr double kLimbShare = 0.6;     // share of the cost of the limbs' motion that counts before the feet are planted
 constexpr double kUnplanted_s = 0.1;   // cost of a frame in which no foot carries weight (FootPlan)
 constexpr double kFloating_s = 6;      // cost of each frame beyond kHop in the longest run without support
 constexpr int kHop = 2;
 constexpr double kSlides_s = 10;   // cost of one metre that feet slide
-constexpr double kBeside_s = 60;   // cost of one metre of excess zero-moment distance during one second
+constexpr double kBeside_s = 60;   // cost of one metre by which the zero-moment point is too far off, for one second
 constexpr double kGlides_s = 100;  // cost of one metre that the slowest support glides
 constexpr int kMaxWithFeet = 60;   // maximal number of joins that are played with planted feet
 
@@ -70,7 +70,7 @@ class Rehearsal {
     for (std::size_t i = 0; i < pairs.size(); ++i) {
       for (std::size_t length = 0; length < kLengths_s.size(); ++length) {
         const int frames = FramesOf(kLengths_s[length]);
-        // Skip longer joins that the wanted clip cannot fill; keep the shortest one.
+        // Skip joins for which the wanted clip is too short, except joins of the shortest length.
         if (frames > last - pairs[i].enter && length > 0) break;
         for (JoinStyle kind : kWays) {
           for (bool carried : {false, true}) {
@@ -134,8 +134,8 @@ class Rehearsal {
     }
   }
 
-  /// Plays a join with planted feet and adds it to `ways`, unless its cost reaches the best join's cost even before the
-  /// cost of missing support is added.
+  /// Plays a join with planted feet and adds it to `ways`, unless the join's cost reaches the best join's cost even
+  /// without the cost of missing support.
   void PlayFeet(OpenWay& open, std::vector<PlayedJoin>& ways) {
     PlayedJoin& way = open.way;
     PairStage& stage = StageOf(way);

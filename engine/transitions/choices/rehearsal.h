@@ -22,7 +22,7 @@ struct PlayedJoin {
   JoinStyle way = JoinStyle::kDirect;
   bool carried = false;  ///< see PreferredJoin::carried
   double cost_s = 0;
-  int unsupported = 0;  ///< the longest run of frames without support
+  int unsupported = 0;  ///< length in frames of the longest run without support
 };
 
 /// The amounts that cost as much as one second (PlayedOptions).

@@ -27,8 +27,8 @@ class KeySearch {
   KeySearch(const MotionLibrary& library, int clip, const MatchRules& rules, TransitionRecord& record)
       : library_(library), clip_(library.tagged[clip]), rules_(rules), record_(record) {}
 
-  /// Returns the first of `frames` that matches a key, with the nearest of the keys that it matches. Without a match,
-  /// returns the nearest pair of a frame in `all` and any key.
+  /// Returns the first of `frames` that matches a key, with the nearest key. Without a match, returns the nearest pair
+  /// of a frame in `all` and any key.
   KeyPoint Find(std::span<const int> frames, std::span<const int> all) const {
     for (int frame : frames) {
       if (const KeyPoint key_point = MatchKeys(frame); key_point.matches) return key_point;
@@ -46,8 +46,8 @@ class KeySearch {
     return nearest;
   }
 
-  /// Returns the taken point and those of `frames` that are nearest to the same key, at most half of kMaxCandidates.
-  /// Each candidate's `from_frame` is the clip's frame.
+  /// Returns the taken point and the frames of `frames` that are nearest to the same key; in all at most half of
+  /// kMaxCandidates. Each candidate's `from_frame` is the clip's frame.
   std::vector<Candidate> ListCandidates(const KeyPoint& key_point, std::span<const int> frames) const {
     std::vector<Candidate> listed;
     for (int frame : frames) {

@@ -56,9 +56,9 @@ struct Ends {
 /// offset.
 glm::dvec3 InertialisedAt(const Ends& ends, double seconds, double half_life_s);
 
-/// Continues the motion forwards from the start and backwards from the end, each with a velocity that halves every
-/// `half_life_s`, and fades from the first to the second by 3s² − 2s³, where s is the elapsed share of the gap (Holden
-/// 2023, "Dead Blending"). An absent end velocity is replaced by the mean velocity across the gap.
+/// Continues the motion forwards from the start and backwards from the end, each time with a velocity that halves every
+/// `half_life_s`. Fades from the forward to the backward continuation by 3s² − 2s³, where s is the elapsed share of the
+/// gap (Holden 2023, "Dead Blending"). An absent end velocity is replaced by the mean velocity across the gap.
 glm::dvec3 DeadBlendedAt(const Ends& ends, double seconds, double half_life_s);
 
 /// Returns the movement of minimum jerk with acceleration 0 at both ends (Flash and Hogan 1985). If the end velocity is

@@ -7,11 +7,11 @@
 namespace etude {
 namespace {
 
-constexpr double kVelocity_s = 0.1;  // a velocity is weighted as the distance covered in this time
-constexpr double kReach_m = 0.3;     // a rotation is weighted as the path of a point this far from the axis
+constexpr double kVelocity_s = 0.1;  // a velocity counts as the distance covered in this time
+constexpr double kReach_m = 0.3;     // a rotation counts as the path of a point this far from the axis
 
 /// Appends the features of a pose in the root's frame: the joints' positions, the vertical direction, and the root's
-/// height. The vertical direction weighs as much as all positions together, and so does the height.
+/// height. Vertical direction and height each have the weight of all positions together.
 void AppendSeen(const JointTree& tree, const TreePose& pose, std::vector<double>& seen) {
   std::vector<glm::dvec3> points;
   std::vector<glm::dquat> turns;
@@ -30,7 +30,8 @@ glm::dquat HeadingOf(const glm::dquat& turn) {
   return length > 0 ? glm::dquat(turn.w / length, 0, turn.y / length, 0) : glm::dquat(1, 0, 0, 0);
 }
 
-/// The root's displacement (m) and rotation (times kReach_m) between two frames, in the root frame of the first.
+/// The root's displacement (m) and rotation (times kReach_m) from one frame to another, in the first frame's root
+/// frame.
 struct RootWay {
   glm::dvec3 way, turn;
   RootWay(const TreePose& from, const TreePose& to)

@@ -9,9 +9,9 @@ namespace etude {
 /// Training motions from which fillers learn; no judged motion may be among them. *(Ours, after motion matching.)*
 ///
 /// The squared distance of two gaps, m², is a mean over the joints. It compares features in the root's frame: at both
-/// ends of the gap, the joints' positions, the vertical direction and the height; at the first end also their
-/// velocities and the root's velocity, times 0.1 s; and the root's displacement and rotation between the ends. Only
-/// gaps with the same joint tree, rate and length are compared.
+/// ends of the gap, the joints' positions, the vertical direction and the root's height; at the first end also the
+/// velocities of joints and root, times 0.1 s; and the root's displacement and rotation from the first end to the
+/// second. Only gaps with the same joint tree, rate and length are compared.
 class GapLibrary {
  public:
   /// A function that fills a gap without a library.
@@ -34,9 +34,10 @@ class GapLibrary {
  private:
   struct Entry {
     TreeMotion motion;
-    std::vector<double> seen;  ///< frames × features (AppendSeen)
+    std::vector<double> seen;  ///< the features (AppendSeen) of every frame, frame by frame
   };
-  /// A gap of the library: the index of its motion, the frame before the gap, and its squared distance, m².
+  /// A gap of the library: the index of the motion, the frame before the gap, and the squared distance from the gap to
+  /// be filled, m².
   struct Near {
     const Entry* entry = nullptr;
     std::size_t frame = 0;
@@ -46,7 +47,7 @@ class GapLibrary {
   /// Calls `visit` with every gap whose squared distance is at most `limit`. `visit` may lower the limit.
   template <typename Visit>
   void ForEachNear(const Gap& gap, double& limit, const Visit& visit) const;
-  /// Adds to `filled` the errors that `fill` makes in the library's gap `near`, times `share`.
+  /// Adds to `filled`, multiplied by `share`, the errors that `fill` makes in the library's gap `near`.
   static void AddMissed(const Gap& gap, const Near& near, Fill fill, double share, std::vector<TreePose>& filled);
 
   std::vector<Entry> entries_;

@@ -57,11 +57,11 @@ struct FootView {
 
   TreeLeg leg;
   std::vector<glm::dvec3> path;    ///< filled positions of `leg.tip`, from the frame before the gap to the one after it
-  std::vector<glm::dvec3> hips;    ///< the hip joint's positions in the same frames
+  std::vector<glm::dvec3> hips;    ///< positions of the leg's hip joint in the frames of `path`
   glm::dvec3 velocity{0};          ///< velocity of `leg.tip` before the gap, metres per second
-  std::array<bool, 2> stands{};    ///< true if the foot stands before the gap (0), after the gap (1)
+  std::array<bool, 2> stands{};    ///< [0]: true if the foot stands before the gap; [1]: after the gap
   double length = 0;               ///< length of the stretched leg from hip to tip, metres
-  std::array<double, 2> raised{};  ///< height of a standing tip above the lowest tip around the gap, metres
+  std::array<double, 2> raised{};  ///< height of the tip of a raised standing foot above the floor, metres
 };
 
 constexpr double kLowest_m = 0.1, kRest_mps = 0.4, kLanded_m = 0.06, kPassing_m = 0.02, kTravels_mps = 0.5;
@@ -89,8 +89,8 @@ std::optional<std::array<FootView, 2>> ViewFeet(const Gap& gap, std::span<const 
                   glm::distance(first[leg.ankle], first[leg.tip]);
     foot.velocity = gap.rate_hz * (first[leg.tip] - before[leg.tip]);
   }
-  // Find the floor: the lowest position of both tips around the gap. A standing tip that is 2 to 12 cm above the floor
-  // belongs to a raised foot; a higher tip stands on another surface.
+  // Find the floor's height: that of the lowest tip of a foot before and after the gap. A standing tip that is 2 to 12
+  // cm above the floor belongs to a raised foot; a higher tip stands on another surface.
   double floor = std::numeric_limits<double>::infinity();
   const auto look = [&](const TreePose& pose) {
     const Globals frame(gap.tree, pose);
@@ -120,8 +120,8 @@ std::optional<std::array<FootView, 2>> ViewFeet(const Gap& gap, std::span<const 
   return feet;
 }
 
-/// Returns, for each end of the gap, the height of the foot's tip if the foot stands there; else that of the other
-/// foot's tip; else the height at the other end. Returns nullopt if no foot stands at any end.
+/// Returns the floor's height at each end of the gap: that of the foot's tip if the foot stands; else that of the other
+/// foot's tip; else that at the other end. Returns nullopt if no foot stands at any end.
 std::optional<std::array<double, 2>> Floors(const FootView& foot, const FootView& other) {
   std::array<std::optional<double>, 2> known;
   for (std::size_t end = 0; end < 2; ++end) {
@@ -258,7 +258,7 @@ class FootPlanner {
   std::vector<Footfalls> found_;
 };
 
-/// Returns the cheapest pair of footfalls.
+/// Returns the cheapest combination of the left foot's and the right foot's footfalls.
 std::array<Footfalls, 2> PlanFeet(const std::array<std::vector<Footfalls>, 2>& feet, std::size_t frames) {
   const double per_frame = 0.3 / static_cast<double>(frames);  // price of a frame in which no foot stands
   double least = std::numeric_limits<double>::infinity();

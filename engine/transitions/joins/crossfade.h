@@ -7,9 +7,9 @@
 
 namespace etude {
 
-/// A rotation vector for each limb, indexed by the role at the limb's end.
+/// A rotation vector for each limb, indexed by the role at the limb's outer end.
 using LimbTurns = std::array<LimbTurn, kRoleCount>;
-/// Returns the rotations from the limbs of `to` to the limbs of `from`.
+/// Returns, for each limb, the rotation from the limb's direction in `to` to its direction in `from`.
 LimbTurns TurnsBack(const BodyPose& from, const BodyPose& to);
 
 /// Interpolates limb by limb between two poses; `share` is 0 at `from` and 1 at `to`. The limbs have the lengths of

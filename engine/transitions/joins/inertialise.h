@@ -19,8 +19,8 @@ using DecayLaw = std::function<glm::dvec3(const Offset& offset, double seconds)>
 /// Joins by inertialisation, the usual method today (Bollo 2018): the offset of the old motion from the new one, in
 /// pose and velocity, is measured at the transition point and decays while the new motion plays.
 ///
-/// Bodies are twenty joint positions. A limb's offset is the rotation between its old and its new direction; the body's
-/// offset is a translation of the hip centre. All limbs therefore keep the new motion's lengths.
+/// Bodies are twenty joint positions. A limb's offset is the rotation from the limb's new direction to its old
+/// direction; the body's offset is a translation of the hip centre. All limbs therefore keep the new motion's lengths.
 class Inertialiser {
  public:
   Inertialiser(const JoinInput& input, DecayLaw law);

@@ -13,7 +13,7 @@
 
 namespace etude {
 
-/// Two successive frames. Their difference gives the velocity.
+/// Two successive frames of one motion; the difference of the two gives the velocity.
 struct PosePair {
   BodyPose before;
   BodyPose now;

@@ -56,7 +56,7 @@ TurnFactors FactorsOf(double squared) {
 }  // namespace
 
 glm::dvec3 Turned(const glm::dvec3& v, const LimbTurn& turn) {
-  // Rodrigues' formula.
+  // Rotate the vector by Rodrigues' formula.
   const auto [sine, versine] = FactorsOf(glm::dot(turn, turn));
   const glm::dvec3 across = glm::cross(turn, v);
   return v + sine * across + versine * glm::cross(turn, across);

@@ -6,7 +6,7 @@
 namespace etude {
 
 /// A rotation vector: axis × angle, in radians. Bodies are joint positions without local frames, so a limb's rotation
-/// is the smallest rotation between its two directions.
+/// is the smallest rotation from one direction of the limb to another.
 using LimbTurn = glm::dvec3;
 
 /// Returns the smallest rotation between the directions of two vectors; zero if either vector is zero. For opposite
@@ -38,7 +38,8 @@ constexpr double kStill = 0.005;  ///< metres; a foot that travels at most this 
 double LiftFor(double travel);
 /// Returns how far a hip must be lowered for its leg (of length `reach`) to reach the ankle, in metres; at most 10 cm.
 double HipDrop(const glm::dvec3& hip, const glm::dvec3& ankle, double reach);
-/// Returns a smooth curve above `needed`. Near both ends the curve goes down to 0, possibly below `needed`.
+/// Returns a smooth curve (one value per frame) that is at least `needed`, except near its ends, where it goes down to
+/// 0.
 std::vector<double> SmoothlyAbove(const std::vector<double>& needed);
 
 }  // namespace etude

@@ -25,7 +25,7 @@ glm::dvec3 MinimumJerkAt(const Movement& movement, double seconds, double blend_
   if (seconds >= blend_s) return glm::dvec3(0);
   const double s = seconds / blend_s, rest = 1 - s;
   // Compute the basis functions 1 − 10s³ + 15s⁴ − 6s⁵ (position) and s − 6s³ + 8s⁴ − 3s⁵ (start velocity), factored by
-  // their triple root at s = 1. The basis function of the end velocity is the mirrored second one.
+  // their triple root at s = 1. The basis function of the end velocity is the mirror image of the start velocity's.
   const double s3 = s * s * s, rest3 = rest * rest * rest;
   return rest3 * ((1 + 3 * s + 6 * s * s) * movement.start + s * (1 + 3 * s) * blend_s * movement.start_velocity) -
          s3 * rest * (1 + 3 * rest) * blend_s * movement.end_velocity;
@@ -49,8 +49,8 @@ JoinWindow WindowOf(const JoinInput& input, int frames) {
 
 namespace {
 
-/// Makes the inertialisation of a join of style kDecays: the new motion plays, and the old motion's offset from it
-/// decays.
+/// Makes the inertialisation of a join of style kDecays: the new motion plays, and the old motion's offset from the new
+/// motion decays.
 Inertialiser DecayOf(const JoinWindow& window, int frames) {
   JoinInput input{.shown = window.shown,
                   .target = {window.target_before, window.next[0]},
@@ -59,8 +59,8 @@ Inertialiser DecayOf(const JoinWindow& window, int frames) {
                   .preferred = {},
                   .rate_hz = window.rate_hz};
   double direction = 1;
-  // Use forward differences: the frames after the point replace those before, which reverses time, so velocities change
-  // their sign.
+  // Use forward differences: the frames after the point take the place of the frames before it. This reverses time, so
+  // velocities change their sign.
   if (window.old_frames > 0) {
     input.shown.before = window.old[1];
     input.target.before = window.next[1];

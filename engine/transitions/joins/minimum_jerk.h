@@ -26,8 +26,8 @@ struct Movement {
   glm::dvec3 start{0}, start_velocity{0}, end_velocity{0};
 };
 /// Returns the position in a movement, relative to its end, `seconds` after its start. The curve is the quintic of
-/// minimum jerk (Flash and Hogan 1985), with the given velocities and zero accelerations at both ends. It is zero from
-/// `blend_s` on.
+/// minimum jerk (Flash and Hogan 1985), with the given velocities and zero accelerations at both ends. The result is
+/// zero from `blend_s` on.
 glm::dvec3 MinimumJerkAt(const Movement& movement, double seconds, double blend_s);
 
 /// The frames of a join, in the frame of the spliced motion.
@@ -35,7 +35,7 @@ struct JoinWindow {
   PosePair shown;                       ///< the last two frames shown
   BodyPose target_before;               ///< the new motion's frame before the point
   std::vector<BodyPose> old, next;      ///< frames of both motions from the point on; same size, at least one
-  int old_frames = 0, next_frames = 0;  ///< number of real frames after the point; later frames repeat the last one
+  int old_frames = 0, next_frames = 0;  ///< number of real frames after the point; the last real frame is repeated
   double rate_hz = kJudgedRateHz;
 
   int Frames() const { return static_cast<int>(next.size()) - 1; }
@@ -57,12 +57,12 @@ class WindowTurns {
 };
 
 /// Computes the shown poses of a window, frame by frame. There are three kinds of join:
-/// - kDecays: the new motion plays, and limb by limb the old motion's offset from it decays with minimum jerk.
-///   Velocities are measured from the point to the next frame, so the first shown frame is the old motion's next frame,
-///   and a jump of the new motion at the point has no effect. If the old motion has ended, velocities are measured up
-///   to the point.
-/// - kFades: both motions play, and the share of the new motion grows along a minimum-jerk curve, limb by limb. This
-///   shows less of either motion's accelerations and more of the difference between them.
+/// - kDecays: the new motion plays, and limb by limb the offset of the old motion from the new motion decays with
+///   minimum jerk. Velocities are measured from the point to the next frame, so the first shown frame is the old
+///   motion's next frame, and a jump of the new motion at the point has no effect. If the old motion has ended,
+///   velocities are measured up to the point.
+/// - kFades: both motions play, and the share of the new motion grows along a minimum-jerk curve, limb by limb. The
+///   shown motion has less of the two motions' accelerations, and more of the difference between the motions.
 /// - kDirect: every limb and the hip centre move with minimum jerk from the old motion's pose to the new motion's pose
 ///   at the end of the join, with the motions' velocities at both ends. Accelerations of the motions within the join
 ///   are not shown.

@@ -11,8 +11,8 @@
 namespace etude {
 namespace {
 
-/// Fits a rotation about the vertical and a shift on the floor by weighted least squares. They align the second point
-/// of each pair with the first.
+/// Fits a rotation about the vertical and a shift on the floor by weighted least squares. Rotation and shift align the
+/// second point of each pair with the pair's first point.
 class FloorFit {
  public:
   void Add(const glm::dvec3& onto, const glm::dvec3& point, double weight) {

@@ -27,7 +27,7 @@ constexpr Frames Range(int first, int last) {
   return last < first ? 0 : (Bit(last) | (Bit(last) - 1)) & ~(Bit(std::max(first, 0)) - 1);
 }
 
-/// The contacts of one foot in both motions of a window, and how far it slides.
+/// The contacts of one foot in both motions of a window, and the distances that the foot slides.
 struct FootTracks {
   FootTracks(const JoinWindow& w, const LegRoles& l, const std::vector<bool>& old, const std::vector<bool>& next)
       : window(w), leg(l), frames(std::min(w.Frames(), kMaxFrames)) {
@@ -47,7 +47,7 @@ struct FootTracks {
   const LegRoles& leg;
   int frames = 0;  ///< number of frames in which steps are planned
   Frames old_stands = 0, next_stands = 0;
-  /// For each frame, how far the foot slid in those earlier frames in which it stood, metres.
+  /// For each frame, the distance that the foot slid in all earlier frames in which it stood, metres.
   std::array<double, kMaxFrames + 2> old_slid{}, next_slid{};
 };
 
@@ -57,7 +57,8 @@ struct StepOption {
   Frames stands = 0;  // the frames in which the foot bears weight
 };
 
-/// Returns the minimum-jerk movement of a step, in which the old toe's offset from the new one goes to zero.
+/// Returns the minimum-jerk movement of a step, which brings the offset of the old motion's toe from the new motion's
+/// toe to zero.
 Movement MovementOf(const JoinWindow& window, const LegRoles& leg, const FootStep& step) {
   const int from = std::min(step.begin, step.stays_from), to = std::max(step.begin, step.waits_until);
   const auto change = [&](const BodyPose& before, const BodyPose& after) {
@@ -135,7 +136,7 @@ int WaitsUntil(Frames stands, int frame, int last) {
 }
 
 /// Returns the possible steps of a foot, which begin and end at tenths of the window. In variants of a step, the foot
-/// keeps the position of its last stance before the step, takes the position of its next stance after the step, or
+/// keeps the position of its last stance before the step, takes the position of its next stance after the step, or does
 /// both.
 std::vector<StepOption> OptionsOf(const FootTracks& foot) {
   constexpr int kParts = 10, kMinStepFrames = 8;
@@ -171,8 +172,8 @@ struct LegPath {
 
 LegPath PathAt(const JoinWindow& window, const LegRoles& leg, const FootStep& step, int frame) {
   const BodyPose& old = window.old[std::min({frame, step.begin, step.stays_from})];
-  // Before the step, show the old motion's leg, or its stance if the foot keeps one; after the step, the new motion's
-  // leg.
+  // Before the step, show the old motion's leg, or the leg's position in a stance if the foot keeps it; after the step,
+  // the new motion's leg.
   const BodyPose& next = window.next[std::max(frame, step.waits_until)];
   const glm::dvec3 from = old[leg.foot] - old[leg.ankle], to = next[leg.foot] - next[leg.ankle];
   if (frame <= step.begin) return {old[leg.ankle], from};
@@ -182,14 +183,15 @@ LegPath PathAt(const JoinWindow& window, const LegRoles& leg, const FootStep& st
   glm::dvec3 toe = next[leg.foot] + MinimumJerkAt(MovementOf(window, leg, step), (frame - step.begin) / window.rate_hz,
                                                   (step.end - step.begin) / window.rate_hz);
   toe.y += step.lift * 64 * rest * rest * rest;
-  // Rotate the foot from its new direction back towards its old one; this keeps the new length.
+  // Rotate the foot from the new motion's direction back towards the old motion's direction; this keeps the foot's new
+  // length.
   const glm::dvec3 limb = Turned(to, (1 - Smootherstep(s)) * TurnBetween(to, from));
   return {toe - limb, limb};
 }
 
-/// Returns how far a leg may reach from hip to ankle, metres: as far as in both motions (interpolated), but at least to
-/// 97 % of its length. In the middle of the join it is 1 cm less, because the knee of an almost straight leg moves
-/// abruptly.
+/// Returns how far a leg may reach from hip to ankle, metres: as far as in the two motions (interpolated), but at least
+/// to 97 % of the leg's length. In the middle of the join the reach is 1 cm less, because the knee of an almost
+/// straight leg moves abruptly.
 double ReachAt(const JoinWindow& window, const LegRoles& leg, int frame) {
   const double s = static_cast<double>(frame) / window.Frames();
   const auto reach = [&](const BodyPose& pose) { return glm::distance(pose[leg.hip], pose[leg.ankle]); };

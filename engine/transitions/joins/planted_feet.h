@@ -20,8 +20,8 @@ constexpr std::array<LegRoles, 2> kLegs = {
     LegRoles{Role::kRightHip, Role::kRightKnee, Role::kRightAnkle, Role::kRightFoot}};
 
 /// The step that takes a foot from the old motion's path to the new motion's path. Before the step the foot follows the
-/// old motion, or keeps the position of its last stance there. After the step it follows the new motion, or already
-/// takes the position of its next stance there.
+/// old motion, or keeps the position of its last stance in that motion. After the step it follows the new motion, or
+/// already takes the position of its next stance in that motion.
 struct FootStep {
   bool keeps = false;  ///< true if the foot stands in neither motion; its path is not changed
   int begin = 0;       ///< frame of the join at which the step begins

@@ -63,7 +63,7 @@ void Carry(const PlacedSegment& old, int left, int frames, PlacedSegment& next) 
 }
 
 /// Returns the floor move for the segment `next`, which follows frame `left` of `old`. If the choice made the frames of
-/// `next` itself (is_own), only the first of them is aligned.
+/// `next` itself (is_own), the move aligns only the first of these frames.
 FloorMove Lay(const JoinKind& join, const PlacedSegment& old, int left, const PlacedSegment& next, double rate_hz) {
   if (join.align == nullptr || next.is_own) return AlignOnFloor(next.frames[next.first], old.At(left));
   const std::size_t count = static_cast<std::size_t>(rate_hz * kAlignedSeconds);
@@ -108,8 +108,8 @@ Splice SpliceSegments(std::span<const BodyMotion> clips, std::span<const Segment
     if (join.align != nullptr && preferred && preferred->carried) {
       Carry(old, left, static_cast<int>(std::lround(preferred->blend_s * rate_hz)), next);
     }
-    // Measure the gap at the point between the clips, not in the joined motion; it then depends only on the choice of
-    // frames.
+    // Measure the gap at the point between the clips, not in the joined motion; the gap then depends only on the choice
+    // of frames.
     const PlacedPoint point{.frame = static_cast<int>(shown.size()) - 1,
                             .leaving_before = old.Before(left),
                             .leaving = old.At(left),

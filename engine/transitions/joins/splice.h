@@ -20,8 +20,8 @@ struct PlacedPoint {
 struct Splice {
   BodyMotion motion;
   std::vector<PlacedPoint> points;  ///< in order
-  /// The last segment's own frames, aligned but without the join, from its first shown frame on. The first of them
-  /// corresponds to the frame of the last point.
+  /// The last segment's own frames, aligned but without the join, from its first shown frame on. The first entry
+  /// belongs to the frame of the last transition point.
   std::vector<BodyPose> wanted;
   /// The own frames, aligned but without the join, of each segment between the first and the last; an empty list for a
   /// segment whose frames a choice made.
@@ -32,7 +32,7 @@ struct Splice {
 BodyPose FrameBefore(const BodyPose& first, const BodyPose& second);
 
 /// Plays the first segment's clip from its start (not from the request) to the segment's end, then the other segments
-/// to the end of the last one. Every segment is rotated and moved on the floor (yaw, x, z) to continue where the
+/// to the end of the last segment. Every segment is rotated and moved on the floor (yaw, x, z) to continue where the
 /// previous segment ended, unless it is already in place (Segment::in_place). There must be at least two segments, each
 /// with at least one frame to play. `join_settings` are the values for JoinKind::begin.
 Splice SpliceSegments(std::span<const BodyMotion> clips, std::span<const Segment> segments, const JoinKind& join,

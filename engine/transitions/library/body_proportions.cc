@@ -63,7 +63,7 @@ double FloorHeight(std::vector<double> heights) {
   return *fifth_percentile;
 }
 
-/// Gives the body new limb lengths; its height above the floor is not corrected.
+/// Gives a moving body the limb lengths of `proportions`; does not correct the body's height above the floor.
 void Rescale(const BodyProportions& proportions, BodyMotion& motion) {
   if (motion.poses.empty()) return;
   const double own_height = StandingHipHeight(motion.poses.front());
@@ -71,7 +71,7 @@ void Rescale(const BodyProportions& proportions, BodyMotion& motion) {
   for (BodyPose& pose : motion.poses) pose = Rebuild(proportions, pose, scale);
 }
 
-/// Groups the indices of the clips by the person who performs them.
+/// Returns groups of clip indices: one group for each person who performs clips.
 std::vector<std::vector<std::size_t>> ByPerson(std::span<const BodyMotion> motions) {
   std::vector<std::vector<std::size_t>> people;
   for (std::size_t i = 0; i < motions.size(); ++i) {

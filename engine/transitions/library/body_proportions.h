@@ -28,8 +28,8 @@ BodyPose StandingPose(const BodyProportions& proportions);
 /// Every limb keeps its direction and gets its new length. Travel and hip height are scaled with the legs. Then the
 /// clips are shifted vertically until the lower foot is on or below the floor in 5 % of the frames. Clips with equal
 /// leg lengths (to 0.1 mm, in the first frame) belong to one person and are shifted together: a person who sits in one
-/// clip and sits down in another has the same height in both. If the new limb lengths put a clip's feet below the
-/// floor, this clip is shifted separately. A limb of zero length in the source takes its parent limb's direction.
+/// clip and sits down in another then sits equally high in both clips. If the new limb lengths put a clip's feet below
+/// the floor, this clip is shifted separately. A limb of zero length in the source takes its parent limb's direction.
 void PerformBy(const BodyProportions& proportions, std::span<BodyMotion> motions);
 /// Returns copies of the motions, changed by PerformBy.
 std::vector<BodyMotion> PerformedBy(const BodyProportions& proportions, std::span<const BodyMotion> motions);

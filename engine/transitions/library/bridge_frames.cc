@@ -22,7 +22,7 @@ glm::dvec3 NeckInTrunk(const BodyPose& pose) {
   return {glm::dot(neck, left), glm::dot(neck, up), glm::dot(neck, glm::cross(left, up))};
 }
 
-/// Keeps, in each class, the frames with the smallest differences, the earlier ones on a tie.
+/// Keeps, in each class, the frames with the smallest differences; of equal differences, the earlier frames.
 std::vector<int> KeepMostAlike(const std::vector<int>& frames, const TaggedClip& clip,
                                const std::vector<FrameRating>& ratings, int most_per_class) {
   std::map<Tags, std::vector<int>> classes;
@@ -81,8 +81,8 @@ std::vector<TaggedClip> TagClips(std::span<const BodyMotion> clips, double stand
 
 namespace {
 
-/// Sums over the frames of one class. From them, the mean squared distance of any frame to the class is computed in
-/// constant time.
+/// Sums over the frames of one class. These sums give the mean squared distance of any frame to the class in constant
+/// time.
 struct Sums {
   int frames = 0;
   Grades grades{}, squares{};

@@ -35,16 +35,16 @@ struct TagRules {
   Memberships memberships = PaperMemberships();
   HeadRule head;
   int min_clips = 2;  ///< minimum number of clips that contain the ten tags of a bridge frame; ours
-  /// The maximum number of bridge frames with the same ten tags in one clip. Those with the smallest differences from
-  /// the other clips are kept (RateFrames). 0 keeps all: paper A asks for "those of smallest difference", but also for
-  /// as many as possible.
+  /// The maximum number of bridge frames with the same ten tags in one clip. The frames with the smallest differences
+  /// from the other clips are kept (RateFrames). 0 keeps all frames: paper A asks for "those of smallest difference",
+  /// but also for as many as possible.
   int most_per_class = 0;
   FeatureWeights weights = PaperWeights();  ///< weights of the distance by which frames differ
 };
 
 /// Selects the bridge frames of a library: frames whose ten tags occur together in at least `min_clips` clips and whose
-/// head is quiet, at most `most_per_class` per class (0: all). `standing_hip_height` is that of the body that performs
-/// all clips, in metres.
+/// head is quiet, at most `most_per_class` per class (0: all). All clips are performed by one body, whose
+/// `standing_hip_height` is in metres.
 std::vector<TaggedClip> TagClips(std::span<const BodyMotion> clips, double standing_hip_height,
                                  const TagRules& rules = {});
 
@@ -53,8 +53,8 @@ std::vector<TaggedClip> TagClips(std::span<const BodyMotion> clips, double stand
 struct FrameRating {
   int clips = 0;   ///< number of clips, including its own, in which the frame's ten tags occur together
   int frames = 0;  ///< number of frames of the library with these tags
-  /// The root mean square of the distances (equation 1) to the frames with the same tags in other clips. It estimates
-  /// the distance of a transition within the class. 0 if no other clip has these tags.
+  /// The root mean square of this frame's distances (equation 1) from the frames with the same tags in other clips. It
+  /// estimates the distance of a transition within the class. 0 if no other clip has these tags.
   double difference = 0;
 };
 

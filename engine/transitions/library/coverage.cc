@@ -11,7 +11,7 @@ namespace etude {
 namespace {
 
 /// Returns the longest wait for the next of `frames` (in ascending order), in seconds, if the clip is played in a loop.
-/// Returns nullopt if there are no frames.
+/// Returns nullopt if `frames` is empty.
 std::optional<double> WorstWait(std::span<const int> frames, const TaggedClip& clip) {
   if (frames.empty()) return std::nullopt;
   int worst = frames.front() + clip.FrameCount() - frames.back();

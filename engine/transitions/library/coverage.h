@@ -11,7 +11,8 @@
 
 namespace etude {
 
-/// How many frames of one clip match frames of one other clip, or of any other clip of a library.
+/// The shares of one clip's frames that match a frame of another clip. `Coverage` compares either with one other clip
+/// or with all other clips of the library.
 struct ClipCoverage {
   double frame_share = 0;   ///< share of all frames that match a frame of the other clip
   double bridge_share = 0;  ///< share of the bridge frames that match a bridge frame of the other clip
@@ -44,7 +45,7 @@ class Coverage {
   const ClipCoverage& Of(int from, int to) const { return pairs_[Pair(from, to)]; }
 
   /// Returns the clips that have no bridge frame matching a bridge frame of clip `wanted`. Paper A (section 3.5)
-  /// demands that every move has such a frame for the corrective clip.
+  /// demands that every move has a matching bridge frame for the corrective clip.
   const std::vector<int>& WithoutWayInto(int wanted) const { return without_.at(wanted); }
 
  private:

@@ -48,7 +48,7 @@ double LongestTween(const TweenRules& rules) { return std::max(rules.shortest_s,
 glm::dvec3 Tween::Turn::At(double part) const { return angle > 0 ? glm::angleAxis(part * angle, axis) * start : start; }
 
 Tween::Turn Tween::MakeTurn(const glm::dvec3& from, const glm::dvec3& to) {
-  // For opposite directions the axis is undefined. Let limbs then swing sideways, about the body's forward axis.
+  // For opposite directions the axis is undefined. In that case, rotate limbs sideways, about the body's forward axis.
   const glm::dvec3 fallback = UnitOr(glm::dvec3(0, 0, 1) - from.z * from, {0, 1, 0});
   return {.start = from, .axis = UnitOr(glm::cross(from, to), fallback), .angle = AngleBetween(from, to)};
 }

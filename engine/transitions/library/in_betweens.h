@@ -16,7 +16,7 @@ struct TweenRules {
   /// The maximum angular velocity of any limb (reached half-way), radians per second, > 0.
   double turn_speed = Radians(360);
   double shortest_s = 0.3;  ///< minimum duration of a tween, seconds
-  /// If a limb rotates farther than this between two keys, radians, the keys are connected through the hub.
+  /// If a limb rotates by more than this angle (radians) between two keys, the keys are connected through the hub.
   double widest_turn = Radians(120);
 };
 
@@ -51,8 +51,8 @@ class Tween {
   std::array<double, kRoleCount> lengths_from_{}, lengths_to_{};
 };
 
-/// Returns samples of a tween, from `from` to the aligned `to`, with zero velocity and acceleration at both ends. Their
-/// number follows from the speed limits of `rules`.
+/// Returns samples of a tween, from `from` to the aligned `to`, with zero velocity and acceleration at both ends. The
+/// number of samples follows from the speed limits of `rules`.
 std::vector<BodyPose> SampleTween(const Tween& tween, double rate_hz, const TweenRules& rules);
 
 /// Appends a tween from the last of `frames` (at least one) to the aligned `to`.
@@ -65,9 +65,9 @@ struct InBetweenRules {
   TweenRules tween;
 };
 
-/// Paper A's in-between motion (補間動作, section 3.5, figures 13 and 14). It consists of bridge frames and can
-/// therefore be joined to any two clips. Ours is a star: key poses from all over the library, with tweens from any key
-/// to any other, directly or through a hub.
+/// Paper A's in-between motion (補間動作, section 3.5, figures 13 and 14). Such a motion consists of bridge frames and can
+/// therefore be joined to any two clips. Our net is a star: key poses from all over the library, with tweens from any
+/// key to any other, directly or through a hub.
 struct InBetweenNet {
   /// A bridge frame from which in-betweens are built.
   struct Key {
@@ -78,9 +78,10 @@ struct InBetweenNet {
   TweenRules tween;
 };
 
-/// Chooses the keys of a library's in-betweens. It goes through the bridge frames from the most frequent pose to the
-/// rarest, and within each pose from the most typical frame on. A frame becomes a key if no key is within the
-/// threshold. In a library without bridge frames all frames are candidates. The library must have at least one frame.
+/// Chooses the keys of a library's in-betweens. Candidates are the bridge frames, from the most frequent pose to the
+/// rarest; frames of one pose come in order from the most typical frame on. A frame becomes a key if no key is within
+/// the threshold. In a library without bridge frames all frames are candidates. The library must have at least one
+/// frame.
 InBetweenNet BuildInBetweens(std::span<const TaggedClip> tagged, const InBetweenRules& rules = {});
 
 /// Returns the longest duration of an in-between in seconds: two tweens, each rounded up to whole frames.

@@ -37,8 +37,8 @@ MotionFeatures FeaturesAt(const BodyMotion& motion, int frame) {
   return features;
 }
 
-/// Returns the standard deviation of each vector over all frames: the square root of the mean variance of its three
-/// coordinates.
+/// Returns the standard deviation of each vector over all frames: the square root of the mean variance of the vector's
+/// three coordinates.
 std::array<double, kVectorCount> Spreads(const std::vector<std::vector<MotionFeatures>>& clips) {
   MotionFeatures means{};
   double count = 0;

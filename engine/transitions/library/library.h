@@ -32,8 +32,8 @@ double UsualAcceleration(const BodyMotion& motion);
 
 /// The properties of a body's stance that decide whether two frames can be joined.
 struct Stance {
-  /// True if the body lies, sits or kneels: its centre of mass is horizontally more than 0.25 m away from its feet, and
-  /// its hips are at most 0.6 of a standing body's hip height above its lowest joint.
+  /// True if the body lies, sits or kneels: the centre of mass is horizontally more than 0.25 m away from the feet, and
+  /// the hips are at most 0.6 times the standing hip height above the lowest joint.
   bool is_down = false;
   double hips = 0;  ///< height of the hips above the lowest joint, metres
 };

@@ -34,10 +34,10 @@ MatchClip::MatchClip(std::span<const Grades> grades, std::span<const Tags> tags,
   }
 }
 
-/// Finds the frames of one clip that match frames of another.
+/// Finds the frames of one clip that match frames of another clip.
 ///
 /// The query frames are processed in time order, and motion is smooth. By the triangle inequality, the distance to a
-/// block of targets can shrink from one query to a later one by at most the summed distance between the queries. A
+/// block of targets can shrink from one query to a later query by at most the summed distance between the queries. A
 /// block is therefore compared again only when that sum has become large enough.
 class PairSearch {
  public:
@@ -64,7 +64,7 @@ class PairSearch {
   struct NearBlock {
     int block;
     double bound;  // lower bound for the distance from all sixteen query frames
-    double reach;  // distance at the last comparison plus `travelled_` at that time
+    double reach;  // distance at the last comparison plus the value of `travelled_` then
   };
 
   /// Collects the target blocks that may contain a match of a query frame in the box `asking`.

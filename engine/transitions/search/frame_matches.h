@@ -9,7 +9,7 @@
 
 namespace etude {
 
-/// A clip prepared for comparing its frames with those of other clips.
+/// A clip, prepared for a comparison of its frames with the frames of other clips.
 class MatchClip {
  public:
   /// Prepares a clip. `grades` and `tags` have one entry per frame; tags are read only if `rules.within_class`.
@@ -26,10 +26,10 @@ class MatchClip {
   std::vector<int> frames_;
   std::vector<Grades> grades_;  // one per frame of `frames_`, like the next two members
   std::vector<Tags> tags_;      // the ten tags of each frame; empty if the rules do not compare within classes
-  std::vector<double> steps_;   // distance to the frame before
+  std::vector<double> steps_;   // fuzzy distance from the frame before
   std::vector<GradeBox> boxes_;  // one per sixteen of `frames_`
   // The targets: `frames_` without the clip's last frame, in blocks of sixteen in time order. Consecutive frames are
-  // near each other, so most blocks can be rejected by their box.
+  // near each other, so most blocks can be rejected by the block's box.
   int target_count_ = 0;
   std::vector<FrameBlock> targets_;
   std::vector<BoxBlock> target_boxes_;  // target_boxes_[i]: boxes of targets_[16 i] … targets_[16 i + 15]

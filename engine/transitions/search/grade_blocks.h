@@ -55,7 +55,7 @@ struct GradeMetric {
   std::array<std::size_t, kFeatureCount + 1> first_term{};
 };
 
-/// The squares of sixteen distances, and a mask of those within the limit.
+/// The squares of sixteen distances, and a mask of the lanes whose square is within the limit.
 struct BlockResult {
   alignas(64) BlockLanes squared;  ///< valid for the lanes in `kept`; the other sums may be incomplete
   std::uint32_t kept = 0;          ///< bit i is set if d² in lane i is at most the limit
@@ -68,13 +68,13 @@ void ForEachLane(std::uint32_t bits, const Visit& visit) {
   for (; bits != 0; bits &= bits - 1) visit(std::countr_zero(bits));
 }
 
-/// Returns d² between `query` and every frame of the block. On every CPU, the values are bit-identical to those of
-/// which `ComputeDistance` returns the square root.
+/// Returns d² between `query` and every frame of the block. On every CPU, the values have the bits of the sums from
+/// which `ComputeDistance` takes the square root.
 BlockResult SquaredDistances(const GradeMetric& metric, const Grades& query, const FrameBlock& block, double limit);
 
 /// For each box (rounded outwards), returns a lower bound of d² between any frame in `query` and any frame in the box.
-/// The bound never exceeds d² as `ComputeDistance` rounds it, because both use the same operations in the same order,
-/// and rounding is monotonic.
+/// The bound never exceeds d² as `ComputeDistance` rounds it, because the two functions use the same operations in the
+/// same order, and rounding is monotonic.
 BlockResult SquaredBounds(const GradeMetric& metric, const GradeBox& query, const BoxBlock& block, double limit);
 
 /// Returns a limit for d²: a frame whose rounded distance is at most `distance` never exceeds the limit.

@@ -10,7 +10,7 @@
 namespace etude {
 namespace {
 
-/// A frame's index and its coordinate along the axis of a split.
+/// A frame's index, and the frame's coordinate along the axis of a split.
 struct Placed {
   double at;
   int frame;

@@ -21,8 +21,8 @@ struct TaggedFrame {
   int frame = 0;  ///< index in its clip, from 0
   Tags tags{};
   Grades grades{};
-  int clips = 1;          ///< number of clips of the library in which its ten tags occur together
-  double difference = 0;  ///< FrameRating::difference: the distance to frames with the same tags in other clips
+  int clips = 1;          ///< number of the library's clips in which the frame's ten tags occur together
+  double difference = 0;  ///< FrameRating::difference: the distance from frames with the same tags in other clips
 
   friend bool operator==(const TaggedFrame&, const TaggedFrame&) = default;
 };

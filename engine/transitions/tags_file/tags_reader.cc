@@ -101,8 +101,8 @@ struct XmlReader::State {
   XmlPtr<xmlTextReader, xmlFreeTextReader> reader;  // declared after the schema, and therefore destroyed before it
 
   /// The error handler of libxml2. Only the first error is kept, because it may cause the later ones. Warnings count as
-  /// errors, because no valid tags file causes a warning. This is a template because libxml2 2.12 made the handler's
-  /// error const.
+  /// errors, because no valid tags file causes a warning. The handler is a template because libxml2 2.12 made the
+  /// handler's error const.
   template <typename ErrorPointer>
   static void Complain(void* self, ErrorPointer error) {
     State& state = *static_cast<State*>(self);
@@ -182,7 +182,7 @@ class TagsReader {
  public:
   explicit TagsReader(XmlReader& xml) : xml_(xml) {}
 
-  /// Reads the current element into the tags. Returns the first error in it.
+  /// Reads the current element into the tags. Returns the element's first error.
   Result<void> ReadElement() {
     const std::string element = xml_.Element();
     if (element == "fuzzy-system") {
