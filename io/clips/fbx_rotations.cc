@@ -137,7 +137,7 @@ std::size_t LeaveOutOfBinary(std::string_view bytes, std::string& changed) {
         if (IsIgnored(property.name) && !IsZero(bytes, property)) ignored.push_back(std::move(property));
       }
       if (is_active || ignored.empty()) continue;
-      // Overwrite the numbers with zeros in a copy of the file; its size stays the same.
+      // In a copy of the file, overwrite the numbers with zeros; the size stays the same.
       if (changed.empty()) changed = bytes;
       for (const FbxProperty& property : ignored) {
         for (const FbxRange& number : property.numbers) {

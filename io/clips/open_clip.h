@@ -21,13 +21,14 @@ struct SourceClip {
   std::string source;  ///< the reference that opens the clip again: "mocap/01_01.bvh", "path.glb#Dance", "builtin:clap"
   ClipFormat format = ClipFormat::kBvh;
   Clip clip;
-  /// The file's figure, if the file has meshes. The clip uses its skeleton, and all clips of the file share the figure.
+  /// The file's figure, if the file has meshes. The clip uses the figure's skeleton, and all clips of the file share
+  /// the figure.
   std::shared_ptr<const Character> character;
-  std::optional<Ground> ground = {};  ///< the ground shared by all clips of the file; only if the file holds several
-  std::optional<MadeBody> made = {};  ///< the body, if the clip is a body already: in metres, with Y up
+  std::optional<Ground> ground = {};  ///< common ground of the file's clips; empty if the file holds only one
+  std::optional<MadeBody> made = {};  ///< how the body was made, if the clip is a body already (metres, Y up)
   /// Repairs made while reading the file; UnderstandClip appends them to the body's note.
   std::vector<std::string> remarks = {};
-  std::optional<JointMapOverrides> roles = {};     ///< roles that the file assigns; those in OpenOptions have priority
+  std::optional<JointMapOverrides> roles = {};     ///< roles that the file assigns; OpenOptions::roles has priority
   std::shared_ptr<const MarkerMotion> shown = {};  ///< this clip's entry of ClipFile::shown; null if there is none
 };
 

@@ -39,7 +39,7 @@ glm::dquat RotationOf(const glm::dmat3& axes) {
   return glm::normalize(glm::quat_cast(glm::dmat3(unit(axes[0]), unit(axes[1]), unit(axes[2]))));
 }
 
-/// Converts a clip with a skeleton; `unit` is the length of its unit in metres.
+/// Converts a clip with a skeleton; `unit` is the length of the clip's unit in metres.
 RawMotion OfSkeleton(const Clip& clip, double unit, UpAxis up) {
   // The rotation that Upright applies: X stays, Z becomes Y.
   const glm::dquat turn =
@@ -137,7 +137,7 @@ Result<RawMotion> RawMotionOf(SourceClip source, const OpenOptions& options, boo
     const JointMapOverrides* told = options.roles ? &*options.roles : nullptr;
     if (!is_body && !CarriesAsPelvis(raw, opened.map, told)) raw.roles[Index(Role::kHipCentre)] = -1;
     if (is_body && !keeps_rig) {
-      raw.rotations.clear();  // RigClip invented these rotations; the file has none
+      raw.rotations.clear();  // RigClip made up these rotations; the file has no rotations
       raw.rest_rotations.clear();
       raw.rest_positions.clear();
     } else {

@@ -122,7 +122,8 @@ std::string FileOf(const std::string& reference) {
 SplitReference Split(const std::string& reference) {
   std::error_code ignored;
   if (std::filesystem::exists(reference, ignored)) return {reference, std::nullopt};
-  // Both a file's and an animation's name may hold a '#': try each as the separator until the part before it exists.
+  // The names of files and of animations may contain '#'. Try each '#' as the separator, until the part before it is an
+  // existing file.
   for (std::size_t hash = reference.rfind('#'); hash != std::string::npos && hash > 0;
        hash = reference.rfind('#', hash - 1)) {
     std::string path = reference.substr(0, hash);

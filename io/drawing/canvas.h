@@ -46,8 +46,8 @@ class Canvas {
   void DrawPath(std::span<const glm::dvec2> points, double width, const Paint& paint);
   void DrawDot(const glm::dvec2& centre, double radius, const Paint& paint);
   void DrawRing(const glm::dvec2& centre, double radius, double width, const Paint& paint);
-  /// Draws text; `origin` is the left end of its baseline. Text wider than `room` pixels is drawn smaller, by a quarter
-  /// at most; if it is still too wide, it is cut and ends in "…".
+  /// Draws text; `origin` is the left end of the text's baseline. Text wider than `room` pixels is drawn smaller, by a
+  /// quarter at most; if it is still too wide, it is cut and ends in "…".
   void DrawText(const glm::dvec2& origin, const std::string& text, double size, const Paint& paint, double room,
                 bool bold = false);
   double TextWidth(const std::string& text, double size, bool bold = false) const;

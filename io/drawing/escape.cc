@@ -166,7 +166,7 @@ std::string EscapeLatex(std::string_view text) {
   std::string out;
   while (!text.empty()) {
     const auto [code, length] = AllowedCharacter(text);
-    if (text[0] == '-' && out.ends_with('-')) out += "{}";  // two hyphens would become a dash
+    if (text[0] == '-' && out.ends_with('-')) out += "{}";  // LaTeX would make a dash of two hyphens
     out += length == 0 ? NumberOf(0xFFFD) : LatexOf(text.substr(0, length), code);
     text.remove_prefix(length == 0 ? 1 : length);
   }

@@ -18,17 +18,18 @@
 
 namespace etude {
 
-/// Supplies data that frames need and only this process can produce: the pictures of a film that is read, or the
-/// positions of a moving crowd.
+/// Supplies the data that the frames need and that only this process can produce: the pictures of a film that is read,
+/// or the positions of a moving crowd.
 struct FrameFeed {
   std::size_t bytes = 0;  ///< bytes of every frame; 0 = frames need no data
-  /// Fills in the data of a frame. FilmWorkers calls it once for each frame, in order, before the frame is drawn.
+  /// Fills in the data of a frame. FilmWorkers calls this function once for each frame, in order, before the frame is
+  /// drawn.
   std::function<Result<void>(int frame, std::span<std::uint8_t> into)> fill = {};
 };
 
 /// Draws the frames of a film in several processes, which start as copies of this process, and returns them in order.
-/// Each process draws chunks of consecutive frames. Drawing a frame may cache data for the next frame, but no picture
-/// may depend on the cache; then the film is the same for any number of processes.
+/// Each process draws chunks of consecutive frames. The function that draws a frame may cache data for the next frame,
+/// but no picture may depend on the cache. Then the film is the same for any number of processes.
 class FilmWorkers {
  public:
   /// Draws a frame, 0 … `frames` − 1, from its data; all canvases have one size with even sides.
@@ -43,14 +44,14 @@ class FilmWorkers {
 
   int width() const { return width_; }
   int height() const { return height_; }
-  /// Returns the next frame (Canvas::ToI420), valid until the next call, and supplies data for later frames. Fails if a
-  /// process has died, and if the feed fails.
+  /// Returns the next frame (Canvas::ToI420), valid until the next call, and feeds the data of later frames to the
+  /// processes. Fails if a process has died, and if the feed fails.
   Result<std::span<const std::uint8_t>> Next();
 
  private:
   struct Worker {
     /// The socket carries single bytes. The drawing process sends a byte for "drawn"; this process sends a byte for
-    /// "data is there", or without a feed for "a slot is free".
+    /// "the next frame's data have arrived", or, without a feed, for "a slot is free".
     std::optional<ForkedCopy> copy;
     int fed = 0, taken = 0;  ///< number of this process's frames that have their data; number that were returned
   };
@@ -76,7 +77,7 @@ class FilmWorkers {
 
   int frames_, width_, height_;
   FrameFeed feed_;
-  int chunk_, slots_;  ///< frames per chunk; number of frames that a process may be ahead
+  int chunk_, slots_;  ///< frames per chunk; maximum number of frames by which a process may be ahead
   int next_ = 0, fed_ = 0;
   std::vector<Worker> workers_;
   std::unique_ptr<std::uint8_t, Unmap> memory_{nullptr, Unmap{0}};  ///< `slots_` slots for each process
@@ -115,7 +116,7 @@ struct Still {
 struct Film {
   std::string file;     ///< file name in the run's folder `video`
   std::string mp4;      ///< bytes of the file; empty if there is none
-  std::string why_not;  ///< the reason, in plain words, if the film or its poster could not be made
+  std::string why_not;  ///< the reason, in plain words, why the film or its poster could not be made
   Picture poster;       ///< the poster, with the caption of the film; its PNG is empty if no picture could be drawn
 };
 

@@ -28,7 +28,7 @@ std::string FormatP(std::optional<double> p);
 std::string Plural(long long count, std::string_view singular);
 
 /// The maximum number of list entries and table rows that a page shows, because browsers cannot scroll a page with
-/// hundreds of methods and conditions. The files beside the page hold all of them.
+/// hundreds of methods and conditions. The files beside the page hold all entries and rows.
 constexpr std::size_t kMaxListed = 40;
 constexpr std::size_t kMaxTableRows = 400;
 

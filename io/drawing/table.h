@@ -13,8 +13,8 @@ struct TableColumn {
   bool is_number = false;    ///< true: cells are numbers, aligned to the right
   bool is_row_head = false;  ///< true: the column's cells are the headings of their rows
   bool is_detail = false;    ///< true: the column is for experts, and the page shows it on request
-  bool is_sortable = false;  ///< the page sorts its cells by their numbers
-  std::string latex = {};    ///< the heading in LaTeX, if it differs from the text
+  bool is_sortable = false;  ///< the page can sort the rows by the numbers in this column's cells
+  std::string latex = {};    ///< the heading in LaTeX, if it differs from the heading on the page
   std::string over = {};     ///< a second heading above this one, shared with neighbouring columns
   std::string title = {};    ///< the tooltip of the heading on the page
   std::string sign = {};     ///< markup after the heading on the page
@@ -32,7 +32,7 @@ struct TableCell {
   TableCell(int value) : number(value) {}
 
   std::string text;              ///< plain text: each writer escapes it
-  std::optional<double> number;  ///< the number that CSV holds instead of the text, and by which the page sorts
+  std::optional<double> number;  ///< the number that CSV holds instead of the text, and by which the page sorts rows
   std::string html;              ///< markup that the page shows instead of the text, unless ""
   std::string_view latex_sign;   ///< LaTeX code that follows the text
   bool is_strong = false;        ///< true: the cell is bold in Markdown
@@ -47,7 +47,7 @@ struct TableRow {
   std::string attributes = {};  ///< HTML attributes of the row, or of the group: " class=\"taken\""
 };
 
-/// A table as a value. All four writers escape its texts.
+/// A table as a value. All four writers (page, Markdown, LaTeX, CSV) escape the table's texts.
 struct Table {
   /// The table's name for screen readers, if the page may scroll the table sideways; "" = the table does not scroll.
   std::string label = {};
@@ -62,8 +62,8 @@ std::string TableHtml(const Table& table);
 std::string TableMarkdown(const Table& table);
 /// Writes a `tabular` of the package booktabs, without a float, with the caption as a line before it.
 std::string TableLatex(const Table& table);
-/// Writes CSV (RFC 4180): the headings, then one line for each row, numbers with all their digits. Captions and group
-/// headings are left out.
+/// Writes CSV (RFC 4180): the headings, then one line for each row, in which numbers have all their digits. Captions
+/// and group headings are left out.
 std::string TableCsv(const Table& table);
 
 }  // namespace etude

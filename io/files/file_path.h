@@ -53,7 +53,7 @@ class FileSpot {
   static Result<FileSpot> Find(const FilePath& path, bool makes_folders);
 
   int folder() const;
-  /// Returns the name in that folder; for a path that the user gave, the whole path.
+  /// Returns the file's name in the open folder; for a path that the user gave, the whole path.
   const std::string& name() const { return name_; }
 
  private:
@@ -62,7 +62,8 @@ class FileSpot {
 };
 
 /// Opens a regular file with the flags of ::open (O_CLOEXEC is added); O_CREAT also creates its folders. Fails as
-/// FileSpot::Find does, on anything but a regular file (opening a pipe could block), and with the system's reason.
+/// FileSpot::Find does; on anything but a regular file (opening a pipe could block); and, with the system's reason, if
+/// the file cannot be opened.
 Result<Descriptor> OpenFile(const FilePath& path, int flags, mode_t mode = 0666);
 
 /// Returns true if a file, a folder or a link has this path. A link below an `Inside` folder counts, although OpenFile
@@ -72,8 +73,8 @@ bool Exists(const FilePath& path);
 /// Creates a folder and all missing folders above it. Fails as FileSpot::Find does.
 Result<void> MakeFolder(const FilePath& folder);
 
-/// Lists all regular files below a folder: sorted paths relative to it; empty if the folder does not exist. Fails on
-/// the first link, pipe or device.
+/// Lists the paths of all regular files below a folder, relative to this folder and sorted; empty if the folder does
+/// not exist. Fails on the first link, pipe or device.
 Result<std::vector<std::filesystem::path>> PlainFilesBelow(const FilePath& folder);
 
 /// Returns the error "is a link; links inside this folder are not followed".

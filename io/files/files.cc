@@ -74,7 +74,8 @@ bool LockNamed(int file, int folder, const std::string& name) {
   return ours.st_dev == there.st_dev && ours.st_ino == there.st_ino;
 }
 
-/// Returns true if the file has no second name (hard link); writing would also overwrite the file of that name.
+/// Returns true if the file has no second name (hard link); otherwise, writing would also change the file of the second
+/// name.
 bool HasOneName(int file) {
   struct stat status {};
   return ::fstat(file, &status) == 0 && S_ISREG(status.st_mode) && status.st_nlink == 1;
@@ -133,7 +134,7 @@ Result<void> PartialFile::CheckRoom() const {
   const off_t end = ::lseek(file_, 0, SEEK_END);
   const ssize_t count = ::pwrite(file_, more.data(), more.size(), end);
   if (count == static_cast<ssize_t>(more.size())) return {};
-  // A partial write sets no errno; a second write gives the reason.
+  // A partial write sets no errno, but a second write does.
   if (count >= 0 && ::pwrite(file_, more.data(), more.size(), end + count) >= 0) return {};
   return Failure();
 }

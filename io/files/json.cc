@@ -32,7 +32,7 @@ std::optional<std::string> FindNonFinite(const Json& json) {
 /// Returns true if a CBOR value nests at most kMaxNesting deep and has no tags or indefinite lengths. Json::from_cbor
 /// recurses for each level, so the depth is checked first. Truncated input is left to from_cbor, which detects it.
 bool IsShallowCbor(std::string_view bytes) {
-  std::vector<std::uint64_t> open = {1};  // for each open list or map: the number of values still to come
+  std::vector<std::uint64_t> open = {1};  // for each open list or map: the number of its values that are still to come
   for (std::size_t at = 0; at < bytes.size() && !open.empty();) {
     const auto first = static_cast<unsigned char>(bytes[at++]);
     const int kind = first >> 5;
@@ -55,7 +55,7 @@ bool IsShallowCbor(std::string_view bytes) {
   return true;
 }
 
-/// Replaces invisible characters (IsHidden) by escaped code points, which mean the same.
+/// Replaces invisible characters (IsHidden) by escaped code points, which give the same value when read.
 std::string WithHiddenEscaped(std::string json) {
   const auto is_ascii = [](char c) { return static_cast<unsigned char>(c) < 0x80; };
   if (std::ranges::all_of(json, is_ascii)) return json;

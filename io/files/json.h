@@ -12,7 +12,7 @@ namespace etude {
 
 using Json = nlohmann::ordered_json;
 
-/// Deletes a Json in json.cc. Headers that only pass values on therefore do not need nlohmann/json.hpp.
+/// Deletes a Json in json.cc. Headers that only pass JSON values therefore do not need nlohmann/json.hpp.
 struct DeleteJson {
   DeleteJson() = default;
   DeleteJson(std::default_delete<Json>) {}  // NOLINT: converts from std::make_unique

@@ -12,7 +12,7 @@
 
 namespace etude {
 
-/// The facts of a film that must be known before its frames are read.
+/// The facts of a film that must be known before the film's frames are read.
 struct FilmFacts {
   int width = 0;  ///< width as shown, after the rotation that a telephone may have stored
   int height = 0;

@@ -21,13 +21,14 @@ namespace etude {
 /// before Finish leaves no file.
 class Encoder {
  public:
-  /// The format of the pictures and of the film. kRgb and kI420 make an MP4 (H.264, lossy): kRgb from RGB, kI420 from
-  /// the form that the encoder needs (three planes, BT.601). kExactRgb makes a Matroska file (FFV1) that keeps every
-  /// bit of RGB pictures.
+  /// The format of the pictures and of the film. kRgb and kI420 make an MP4 (H.264, lossy): kRgb from RGB pictures,
+  /// kI420 from pictures in the form that the encoder needs (three planes, BT.601). kExactRgb makes a Matroska file
+  /// (FFV1) that keeps every bit of RGB pictures.
   enum class Form { kRgb, kI420, kExactRgb };
 
-  /// Starts ffmpeg. Pictures must have this size (even numbers, unless exact) and follow at `rate_hz`. `sound` is a WAV
-  /// file that is stored losslessly (FLAC); empty = silence. Fails with the reason if `program` cannot be started.
+  /// Starts ffmpeg. All pictures must have this size (even numbers, unless the form is kExactRgb); they are shown at
+  /// `rate_hz`. `sound` is a WAV file that is stored losslessly (FLAC); empty = silence. Fails with the reason if
+  /// `program` cannot be started.
   static Result<Encoder> Start(const FilePath& path, int width, int height, int rate_hz,
                                const std::filesystem::path& sound = {}, Form form = Form::kRgb,
                                const std::string& program = "ffmpeg");

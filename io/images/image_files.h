@@ -33,7 +33,7 @@ Result<ColourImage> DecodeColourPng(std::string_view bytes, std::size_t max_pixe
 /// A picture of one number per pixel, as segmenters write it.
 struct MaskPicture {
   Image<std::uint8_t> values;  ///< the grey of each pixel, 0 to 255, or its index into a palette
-  bool is_indexed = false;     ///< the file has a palette
+  bool is_indexed = false;     ///< true: the file has a palette, and `values` are indices into it
 };
 /// Reads a PNG of masks. Colours become grey, 16 bits become 8; transparent pixels are blended with black.
 Result<MaskPicture> LoadMaskPng(const std::string& path);

@@ -19,9 +19,9 @@ std::vector<std::string> TextsOf(const Json* list);
 /// Reads a list of triples x, y, confidence. A point with a null was not seen.
 Result<std::vector<Keypoint>> Triples(const Json* list, const Place& place);
 
-/// Makes a person from an estimator's keypoints. `layout` gives their order. If it is "", the order is that of the only
-/// layout with this number of keypoints, or, if no layout has this number, that of `names`. Fails if none of these
-/// applies.
+/// Makes a person from an estimator's keypoints. `layout` gives the keypoints' order. If `layout` is "", the only
+/// layout with this number of keypoints gives the order; if no layout has this number, `names` gives the order. Fails
+/// if none of these gives an order.
 Result<SeenPerson> ToPerson(const std::vector<Keypoint>& points, const std::string& layout,
                             const std::vector<std::string>& names, const Place& place);
 

@@ -58,10 +58,10 @@ glm::dvec2 Normal2(RandomStream& random) {
   return {u, random.Normal()};
 }
 
-constexpr double kReferenceErrorPx = 2;  // the `error_px` at which annotator.h gives its probabilities and shares
+constexpr double kReferenceErrorPx = 2;  // the `error_px` for which annotator.h states its probabilities and shares
 
-// A left and a right limb. Each limb has three consecutive strokes; `left` and `right` are the indices of the limbs'
-// first strokes.
+// A left and a right limb. Each limb has three consecutive strokes; `left` and `right` are the indices of the first
+// strokes of the left and the right limb.
 struct Pair {
   std::size_t left, right;
 };

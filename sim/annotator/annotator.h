@@ -28,9 +28,9 @@ const std::array<double, kRoleCount>& RelativeDeviations();
 
 /// A mark's error is the sum of three parts. These are the parts' shares of its variance *(ours; Bartlett, Bussey and
 /// Flyger 2006 show that different operators differ more than repeated marks of one operator, and that joints differ)*.
-constexpr double kBiasShare = 0.3;         ///< share of a constant bias: one annotator's, for one joint, over a take
-constexpr double kLastingShare = 0.4;      ///< share of the “lasting” part, which is correlated from frame to frame
-constexpr double kIndependentShare = 0.3;  ///< share of the part that is drawn anew for each frame
+constexpr double kBiasShare = 0.3;         ///< share of the variance: a bias, constant for one joint and annotator
+constexpr double kLastingShare = 0.4;      ///< share of the variance: “lasting” errors, correlated from frame to frame
+constexpr double kIndependentShare = 0.3;  ///< share of the variance: errors drawn anew for each frame
 /// The time constant of the lasting part: the number of frames at 30 Hz after which its autocorrelation is 1/e
 /// *(ours)*.
 constexpr double kLastingFrames = 10;
@@ -40,21 +40,21 @@ constexpr double kLastingFrames = 10;
 /// factor (1 + unclearness).
 double Unclearness(double contrast);
 
-/// Probabilities and sizes of mistakes with a limb at `error_px` = 2. All are *(ours)* and proportional to `error_px`.
+/// sum of 0.2 %, up to 10 % for a hardly visible limb, and up to 3 % for an unclear one
 double MissProbability(const LimbEvidence& limb);  ///< 0.2 % + up to 10 % if hardly visible + up to 3 % if unclear
 constexpr double kShortShare = 0.03;               ///< standard deviation of the share left out at each end of a stroke
 constexpr double kSwapProbability = 0.0003;        ///< probability per frame that left and right are exchanged
-constexpr double kOverlapSwapProbability = 0.002;  ///< added if both limbs overlap in the picture, as in a side view
+constexpr double kOverlapSwapProbability = 0.002;  ///< added if the two limbs overlap in the picture, as in a side view
 constexpr double kSwapFrames = 5;                  ///< mean length of an exchange, in marked frames
 
 /// The random numbers of one picture. Their number depends neither on the picture nor on the strength of the errors.
 struct PictureDice {
   std::array<glm::dvec2, kRoleCount> lasting;      ///< errors correlated over frames: standard normal in u and in v
   std::array<glm::dvec2, kRoleCount> independent;  ///< errors of this picture alone: standard normal in u and in v
-  std::array<glm::dvec2, kStrokeCount> shortness;  ///< shortening of both ends of a stroke: standard normal
+  std::array<glm::dvec2, kStrokeCount> shortness;  ///< shortening of a stroke at its two ends: standard normal
   std::array<double, kStrokeCount> miss;           ///< decides if a limb is overlooked: uniform in [0, 1)
   std::array<double, 2> swap_begins;               ///< decides if an exchange begins: uniform in [0, 1); arms, legs
-  std::array<double, 2> swap_lasts;                ///< determines an exchange's length: uniform in [0, 1); arms, legs
+  std::array<double, 2> swap_lasts;                ///< gives the length of an exchange: uniform in [0, 1); arms, legs
 };
 
 /// Draws the random numbers of one annotator for one camera, marked frame by marked frame.

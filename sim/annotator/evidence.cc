@@ -12,7 +12,7 @@ namespace {
 
 constexpr int kNoBorder = -1;
 
-// For each pair of parts, the index of the stroke that begins at their common border, or kNoBorder.
+// For each pair of parts, the index of the stroke that begins at the border between the two parts, or kNoBorder.
 using BorderTable = std::array<std::array<int, kPartCount>, kPartCount>;
 constexpr BorderTable kBorderOf = [] {
   BorderTable table{};
@@ -103,7 +103,7 @@ class RegionFinder {
 
   // Adds the contrast at the end `x` of a run. The pixel at x + `step` is outside the run.
   void AddContrast(const PixelRun& run, std::uint8_t part, int x, int step) {
-    constexpr int kApart = 2;  // distance in pixels from the end of the run; nearer pixels may mix both surfaces
+    constexpr int kApart = 2;  // distance in pixels from the end of the run; nearer pixels may mix two surfaces
     const int outside = x + kApart * step, inside = std::clamp(x - kApart * step, run.x0, run.x1 - 1);
     if (outside < 0 || outside >= labels_.width) return;
     const std::uint32_t other = labels_.At(outside, run.y);

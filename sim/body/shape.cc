@@ -13,7 +13,7 @@ using enum Role;
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
-// Radii as shares of lengths of the body. With these shares, a body of 1.70 m looks like a dressed adult.
+// The radii of the capsules, as shares of limb lengths. With these shares, a body of 1.70 m looks like a dressed adult.
 constexpr double kUpperArmPerLength = 0.155;
 constexpr double kForearmPerLength = 0.145;
 constexpr double kHandPerForearm = 0.13;  // the hand joint is not used: many files put it at the wrist
@@ -184,7 +184,7 @@ double SideEntry(const Capsule& capsule, const glm::dvec3& origin, const glm::dv
   return t < kInfinity && along >= 0 && along <= length ? t : kInfinity;
 }
 
-// Rotates a vector about the vertical from the world's axes to the box's.
+// Rotates a vector about the vertical from the world's axes to the box's axes.
 glm::dvec3 Turned(const glm::dvec3& v, double sine, double cosine) {
   return {cosine * v.x - sine * v.z, v.y, sine * v.x + cosine * v.z};
 }

@@ -58,11 +58,11 @@ struct CameraIdentity {
 /// (README.md). It is not thread-safe, because it reuses its buffers.
 class CameraModel {
  public:
-  /// Renders the rows `rows` of the picture of the ideal pinhole camera (`pinhole()`). `frame` is the time, in frames
-  /// of the reference clock. The view's height is the number of rows.
+  /// Renders some rows, `rows`, of the ideal pinhole camera's picture (`pinhole()`). `frame` is the time, in frames of
+  /// the reference clock. The view's height is the number of rows.
   using Scene = std::function<View(double frame, const RowRange& rows, Targets targets)>;
 
-  /// @param camera with its lens distortion (LensDistortion); all other effects are in `effects`
+  /// @param camera the camera, including its lens distortion (LensDistortion); `effects` has all other effects
   CameraModel(const Camera& camera, const CameraEffects& effects, double rate_hz, CameraIdentity identity);
 
   /// Returns the camera for which scenes are rendered: it has no distortion, and its picture has a margin for the

@@ -43,7 +43,7 @@ void WeighUnrolled(Rows rows, const float* weights, std::size_t count, float* __
   }
 }
 
-/// Computes the sums of WeighUnrolled for any reach in several passes, in the same order of additions.
+/// Computes the same sums as WeighUnrolled, in the same order of additions, in several passes; allows any reach.
 void WeighInPasses(Rows rows, int reach, const float* weights, std::size_t count, float* __restrict out) {
   for (std::size_t i = 0; i < count; ++i) out[i] = weights[0] * (rows[reach][i] + rows[reach][i]);
   for (int k = 1; k <= reach; ++k) {
@@ -98,7 +98,7 @@ LensWarp::LensWarp(const Camera& camera)
       high = glm::max(high, points.back());
     }
   }
-  // Enlarge the pinhole's picture to the bounding box, and by one more pixel on every side for interpolation.
+  // Enlarge the pinhole's picture to the bounding box, and by one more pixel on every side, which interpolation needs.
   const glm::dvec2 margin = glm::ceil(-low) + 1.0, beyond = glm::ceil(high - glm::dvec2(width_, height_)) + 1.0;
   pinhole_.intrinsics.width += static_cast<int>(margin.x + beyond.x);
   pinhole_.intrinsics.height += static_cast<int>(margin.y + beyond.y);
@@ -106,7 +106,8 @@ LensWarp::LensWarp(const Camera& camera)
   pinhole_.intrinsics.cy += margin.y;
   assert(pinhole_.intrinsics.width <= kMaxPictureSide && pinhole_.intrinsics.height <= kMaxPictureSide);
 
-  // Store, for every pixel, its four source pixels and its nearest source pixel, and for every row the rows it needs.
+  // Store, for every pixel, its four source pixels and its nearest source pixel, and, for every row, the rows of the
+  // pinhole's picture that it needs.
   for (int y = 0; y < height_; ++y) {
     RowRange& rows = source_of_row_.emplace_back(RowRange{pinhole_.intrinsics.height, 0});
     for (int x = 0; x < width_; ++x) {

@@ -7,8 +7,8 @@
 
 namespace etude {
 
-/// Linear light at one pixel; 1 is the brightest value that a picture can show. With four numbers, a pixel fits one
-/// vector register on the oldest supported processor.
+/// Linear light at one pixel; 1 is the brightest value that a picture can show. It has four numbers, because they fit
+/// one vector register on the oldest supported processor.
 struct alignas(16) Light {
   float r = 0, g = 0, b = 0, unused = 0;
 };

@@ -194,7 +194,7 @@ void Sensor::ReadColours(RandomStream& random, LightImage& light) const {
   const std::size_t width = static_cast<std::size_t>(light.width);
   const float* table = NormalRows::Table();
   NormalRows numbers(random);
-  std::vector<float> normals(4 * width);  // four per pixel like the light; the fourth is unused
+  std::vector<float> normals(4 * width);  // four numbers per pixel, like the light; the fourth is unused
   const float gains[] = {toning.red, toning.green, toning.blue, 1};
   for (int y = 0; y < light.height; ++y) {
     // Compute the light that reaches the sensor.

@@ -20,7 +20,7 @@ constexpr std::array<Part, kRoleCount> kPartOfRole = {
     Part::kRightHand,   Part::kRightHand,  Part::kLeftThigh,  Part::kLeftShank,     Part::kLeftFoot,
     Part::kLeftFoot,    Part::kRightThigh, Part::kRightShank, Part::kRightFoot,     Part::kRightFoot};
 
-using MaybeParts = std::vector<std::optional<Part>>;  // the part that each joint moves, if any
+using MaybeParts = std::vector<std::optional<Part>>;  // for each joint, the part that it moves, if any
 
 std::vector<Part> Inherited(const Skeleton& skeleton, const MaybeParts& known) {
   std::vector<Part> parts;
@@ -51,7 +51,8 @@ glm::dvec3 SizeOf(Role role, const BodyPose& pose) {
   for (const Role end : AllRoles()) {
     if (ParentOf(end) == role) return glm::dvec3(ratio(role, end));
   }
-  // Files put the head joint at different heights, so only the square root of its length ratio is used as the size.
+  // Files put the head joint at different heights, so the head's size is only the square root of the length ratio
+  // between neck and head joint.
   return glm::dvec3(std::sqrt(ratio(*ParentOf(role), role)));
 }
 
@@ -75,8 +76,8 @@ std::vector<Part> PartsOfJoints(const Skeleton& skeleton, const JointMap& map) {
   MaybeParts known(skeleton.joints.size());
   const auto part_of = [&known](int joint) -> std::optional<Part>& { return known[static_cast<std::size_t>(joint)]; };
   for (const Role role : AllRoles()) {
-    // If several roles share a joint, the joint moves the part of the first of these roles. Leave out the head: its
-    // joint may be a tip, so the joints of the head are found below.
+    // If several roles share a joint, the joint moves the part of the first of these roles. Leave out the head: the
+    // head joint may be a tip, so all joints that move the head are found below.
     if (role != Role::kHead && !part_of(map[role].joint)) part_of(map[role].joint) = kPartOfRole[Index(role)];
   }
   // Assign to the head the head joint and its ancestors, up to the joint that carries the shoulders.

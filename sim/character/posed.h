@@ -21,15 +21,15 @@ Figure PosedFigure(const Character& character, const LocalPose& pose, const glm:
 /// `is_closed` if all meshes are closed, like those of the bear and the mannequin (`Surface::is_closed`).
 Figure PosedFigure(const Character& character, const BodyPose& pose, bool is_closed = false);
 
-/// Computes the joints in `pose` of a character bound to BodySkeleton(StandingPose()); their axes are scaled to the
-/// body's proportions.
+/// Computes the joints in `pose` of a character bound to BodySkeleton(StandingPose()); the joints' axes are scaled to
+/// the body's proportions.
 std::vector<GlobalTransform> FilledGlobals(const Character& character, const BodyPose& pose);
 
 /// Finds the part of the body that each joint of a skeleton moves: the part of the role that the joint's name states,
 /// otherwise of the nearest ancestor with a role (an ear belongs to the head), otherwise the trunk.
 std::vector<Part> PartsOfJoints(const Skeleton& skeleton);
-/// Finds the part that each joint moves, for a file's skeleton whose roles are in `map`. Joints between neck and head
-/// belong to the head unless they carry a shoulder.
+/// Finds the part that each joint moves, for a file's skeleton with the roles of joints in `map`. Joints between neck
+/// and head belong to the head unless they carry a shoulder.
 std::vector<Part> PartsOfJoints(const Skeleton& skeleton, const JointMap& map);
 
 /// Finds the part of each triangle: the part whose joints have the largest total weight at the triangle's corners.
@@ -50,7 +50,7 @@ std::vector<GlobalTransform> GlobalsInWorld(const Skeleton& skeleton, const Loca
 class RecordedFigure {
  public:
   /// `clip` must be a clip of the character's skeleton; `map` and `body` must be the joint map and the conversion found
-  /// for it.
+  /// for this clip.
   RecordedFigure(std::shared_ptr<const Character> character, Clip clip, const JointMap& map,
                  const BodyConversion& body);
 

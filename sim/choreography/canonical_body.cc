@@ -183,7 +183,7 @@ glm::dvec3 HipOffset(const BodyDimensions& body, Side side, const glm::dmat3& pe
   return pelvis * glm::dvec3(side == Side::kLeft ? body.hip_half_width : -body.hip_half_width, 0, 0);
 }
 
-/// Returns a smooth minimum of both values. It differs from the exact minimum only if the values are within some
+/// Returns a smooth minimum of two values. The result differs from the exact minimum only if the values are within some
 /// millimetres of each other.
 double SmoothMin(double a, double b) {
   constexpr double kEase = 0.004;
@@ -201,7 +201,8 @@ glm::dvec3 PlaceHips(const Controls& controls, const BodyDimensions& body, const
   return {wanted.x, SmoothMin(wanted.y, SmoothMin(limit(Side::kLeft), limit(Side::kRight))), wanted.z};
 }
 
-/// Returns the controls with their lengths scaled to this body: by its leg length divided by the canonical body's.
+/// Returns the controls with their lengths scaled to this body: by the ratio of this body's leg length to the canonical
+/// body's leg length.
 Controls InProportion(const Controls& controls, const BodyDimensions& body) {
   constexpr std::array kMiddle = {kHipsSide, kHipsAhead, kHipsDrop, kJump};
   constexpr std::array kOfASide = {kFootSide, kFootAhead, kFootLift};

@@ -26,8 +26,8 @@ struct CanonicalBody {
   static constexpr double kHand = 0.18;
   /// The height of the hip centre above the floor, with straight legs.
   static constexpr double kHipHeight = kThigh + kShank + kAnkleHeight;
-  /// The home spots, where the feet stand in the ready stance: half the distance between them, metres, and the outward
-  /// angle of the toes, radians.
+  /// The home spots are the places of the feet in the ready stance. These constants are half the distance between the
+  /// two spots, metres, and the outward angle of the toes, radians.
   static constexpr double kHomeHalfWidth = 0.12;
   static constexpr double kHomeToeOut = 0.2;
 };

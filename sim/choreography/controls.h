@@ -81,7 +81,7 @@ std::span<const ControlName, kSideControlCount> SideControlNames();
 Controls Mirrored(const Controls& controls);
 /// Returns the sum of two sets of controls, control by control.
 Controls Sum(const Controls& a, const Controls& b);
-/// Returns (1 − share) · from + share · to.
+/// Returns (1 − share) · from + share · to, for every control.
 Controls Mix(const Controls& from, const Controls& to, double share);
 /// Returns `controls` with their distance from `centre` scaled by `factor`. kLegFree is not scaled: a smaller kick must
 /// still leave the floor.

@@ -101,7 +101,7 @@ Result<DanceMove> DanceMoveOf(const std::string& name) {
                    .slow = std::move(slow.motion)};
 }
 
-/// Returns the time of every beat, from the song's beginning to its end.
+/// Returns the time of every beat, seconds, from the song's beginning to its end.
 std::vector<double> BeatsOf(const Song& song) {
   std::vector<double> beats;
   for (int beat = 0; beat * 60 / song.tempo_bpm <= song.motion.DurationSeconds(); ++beat) {
@@ -113,12 +113,12 @@ std::vector<double> BeatsOf(const Song& song) {
 constexpr double kMinBeatSeconds = 0.2, kMaxBeatSeconds = 3;
 constexpr std::size_t kMinBeats = 8, kMaxBeats = 10000;
 
-/// Returns the number in a line's first word; nullopt if that is not a number.
+/// Returns the number in a line's first word; nullopt if the first word is not a number.
 std::optional<double> NumberAtFront(std::string_view line) {
   return ParseFinite(line.substr(0, line.find_first_of(" \t\r,;")));
 }
 
-/// Returns the time of a beat, interpolated linearly between two whole beats.
+/// Returns the time of a beat, which may be fractional, seconds, interpolated linearly between two whole beats.
 double MomentOf(double beat, const std::vector<double>& beats_s) {
   const auto before = static_cast<std::size_t>(beat);
   const double share = beat - std::floor(beat);
@@ -210,7 +210,7 @@ Result<std::vector<double>> ReadBeats(std::string_view text, const std::string& 
 double TempoOf(const std::vector<double>& beats_s) {
   std::vector<double> steps;
   for (std::size_t i = 1; i < beats_s.size(); ++i) steps.push_back(beats_s[i] - beats_s[i - 1]);
-  // Round the tempo to 0.01 bpm: rounded times in a file must not give a tempo just above a move's fastest.
+  // Round the tempo to 0.01 bpm: rounded times in a file must not give a tempo just above a move's fastest tempo.
   return std::round(6000 / UpperMedian(std::move(steps))) / 100;
 }
 

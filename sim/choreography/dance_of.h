@@ -33,7 +33,7 @@ Result<std::vector<double>> ReadBeats(std::string_view text, const std::string& 
 double TempoOf(const std::vector<double>& beats_s);
 
 /// Aligns the dance of a song with given beats: every music tag moves to the time of its beat, interpolated between
-/// beats. Fails if the dance needs more beats than there are.
+/// beats. Fails if the dance needs more beats than are given.
 Result<Dance> ToBeats(Dance dance, const std::vector<double>& beats_s);
 
 /// Returns a move in the form in which recognisers are taught: its key poses, and its motion as an example.

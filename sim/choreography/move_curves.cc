@@ -23,14 +23,14 @@ double SmallerOfSameSign(double a, double b) {
   return std::abs(a) < std::abs(b) ? a : b;
 }
 
-/// Returns true if motion with this timing starts and ends at rest.
+/// Returns true if a motion with this ease (timing) starts and ends at rest.
 bool IsBetweenRests(Ease ease) { return ease == Ease::kSnap || ease == Ease::kStep; }
 
 /// Returns the curve's parameter after a share of a segment's time. Unless the curve rests at both ends, the first two
 /// derivatives at the ends must equal those of the identity.
 double Eased(Ease ease, double share) {
-  // The bulge moves the motion away from the identity. It and its first two derivatives are zero at both ends. The sums
-  // below increase everywhere while kStrength is below 18.6.
+  // The bulge moves the motion away from the identity. The bulge and its first two derivatives are zero at both ends of
+  // a segment. The sums of share and bulge below increase everywhere while kStrength is below 18.6.
   constexpr double kStrength = 8;
   const double hump = share * (1 - share), bulge = kStrength * hump * hump * hump;
   const auto within = [share](double from, double to) { return std::clamp((share - from) / (to - from), 0.0, 1.0); };

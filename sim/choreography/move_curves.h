@@ -34,7 +34,7 @@ class PeriodicCurve {
   struct Key {
     double at;
     double value;
-    Ease ease = Ease::kSmooth;  ///< timing of the motion to this key from the one before
+    Ease ease = Ease::kSmooth;  ///< timing of the motion from the previous key to this key
     /// The derivatives at this key, if physics determines them (a flight). Otherwise they are computed from the
     /// neighbouring keys.
     struct Derivatives {
@@ -54,7 +54,7 @@ class PeriodicCurve {
     double at, value, slope, bend;
     Ease ease;
   };
-  std::vector<Knot> knots_;  // knots of the closed curve: the last knot is the first one, one period later
+  std::vector<Knot> knots_;  // knots of the closed curve: the last knot is the first knot, one period later
   double period_;
 };
 
@@ -62,7 +62,7 @@ class PeriodicCurve {
 struct PoseKey {
   double beat = 0;
   Controls controls;
-  Ease ease = Ease::kSmooth;  ///< timing of the motion to this pose from the one before
+  Ease ease = Ease::kSmooth;  ///< timing of the motion from the previous pose to this pose
 };
 
 /// Returns the keys of one control's curve through the poses of a loop of `beats` beats, each `beat_seconds` long. Two
@@ -84,7 +84,7 @@ Result<void> CheckJumps(const std::vector<PoseKey>& poses, double beats, double 
 class MoveCurves {
  public:
   struct Style {
-    /// Follow-through: the end of a limb moves this many beats later than its root.
+    /// Follow-through: the end of a limb moves this many beats later than the root of the limb.
     double overlap_beats = 0;
     /// The depth by which the hips sink on every beat, metres.
     double bounce = 0;

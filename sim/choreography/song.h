@@ -18,7 +18,7 @@ namespace etude {
 struct Turn {
   double start_beat = 0;
   double beats = 2;            ///< length; at least as long as both blends together
-  const Move* move = nullptr;  ///< the move; null: waits in the ready stance, with knees that give between beats
+  const Move* move = nullptr;  ///< the move; null: waits in the ready stance, and the knees bend on every beat
   double pace = 1;             ///< beats of the move per beat of the music
 };
 
@@ -26,11 +26,11 @@ struct Turn {
 /// after it. It begins early because dancers think ahead and a move's first key pose may come early.
 constexpr double kBlendBeatsBefore = 1, kBlendBeatsAfter = 0.5;
 
-/// Returns the body at a beat of the music. In the blend between two turns both are danced: the first turn beyond its
-/// last beat, and the second before its first beat, with growing weight. Feet are not blended: they change from the
-/// first turn to the second exactly at beat 0 of the second. In every move the feet are at home at beat 0, so a
-/// standing foot does not move. `turns` (at least one) must follow each other without gaps. The body is at rest before
-/// the first turn and after the last.
+/// Returns the body at a beat of the music. In the blend between two turns, both turns are danced: the first turn
+/// beyond its last beat, and the second turn, with growing weight, before its first beat. Feet are not blended: they
+/// change from the first turn to the second exactly at beat 0 of the second. In every move the feet are at home at beat
+/// 0, so a standing foot does not move. `turns` (at least one) must follow each other without gaps. The body is at rest
+/// before the first turn and after the last.
 Controls SequenceAt(std::span<const Turn> turns, double beat);
 
 /// One part of a song, in which one move is danced `times` times in a row.

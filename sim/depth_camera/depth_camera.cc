@@ -19,7 +19,7 @@ bool IsDepthEdge(double a, double b) {
   return std::abs(a - b) > 0.03 * (a < b ? a : b);
 }
 
-/// One row of the picture's pixels, with their columns in the projector's picture.
+/// One row of the picture's pixels, with the column of each pixel in the projector's picture.
 class Row {
  public:
   Row(const DepthImage& depth, const Camera& camera, double baseline_m, int y)
@@ -56,8 +56,8 @@ class Row {
     double ProjectorColumn() const { return camera_column - disparity; }
   };
 
-  // Computes a pixel's extent: on either side up to the middle between it and its neighbour on the same surface, or
-  // half a pixel at an edge.
+  // Computes a pixel's extent: on either side up to the middle between this pixel and its neighbour on the same
+  // surface, or half a pixel at an edge.
   void SetExtent(int x) {
     Pixel& pixel = pixels_[static_cast<std::size_t>(x)];
     const auto border = [&](int side) {

@@ -18,7 +18,7 @@ Mask ProjectorShadow(const DepthImage& depth, const Camera& camera, double basel
 
 /// The properties of a depth camera and the strengths of its faults.
 struct DepthCameraOptions {
-  DepthLaw law = DepthLaw::kStructuredLight;  ///< law of a pixel's σ_z, including the part due to rounding
+  DepthLaw law = DepthLaw::kStructuredLight;  ///< law of σ_z, a pixel's noise along the view; includes rounding
   /// The focal length of the sensor's own picture, pixels. Lateral noise and disparity steps are given in these pixels.
   /// In a picture with another focal length, noise and steps have the same size in the world.
   double focal_px = 580;
@@ -36,7 +36,7 @@ struct DepthCameraOptions {
   double lateral_noise = 1;  ///< factor on the standard deviation of edge positions, along both axes of the picture
   double steps = 1;          ///< factor on disparity_step_px; 0: depth is not rounded
   double shadows = 1;        ///< factor on the shadows' width
-  double range = 1;          ///< no depth is measured below range · near_m or above far_m / range
+  double range = 1;          ///< factor on the range: no depth is measured below range · near_m or above far_m / range
   double grazing = 1;        ///< at most 1: moves the angle limit from a right angle (0) to largest_angle (1)
 };
 
@@ -55,10 +55,10 @@ constexpr float kNotMeasured = std::numeric_limits<float>::infinity();
 double LateralDeviationPx(double angle);
 
 /// Simulates the image of a depth camera from the true depths that `camera` (lens included) sees. Both images have the
-/// camera's size and hold metres along the viewing axis, or kNotMeasured. The steps, in this order, are: remove
-/// shadowed pixels and surfaces at grazing angles; shift edges, including those of holes, by lateral noise; add axial
-/// noise and round to disparity steps; remove depths out of range. With all strengths 0 the result equals `truth` bit
-/// for bit. Every pixel uses three random numbers, whatever the options.
+/// camera's size and hold metres along the viewing axis, or kNotMeasured. The steps of the simulation, in this order,
+/// are: remove shadowed pixels and surfaces at grazing angles; shift edges, including those of holes, by lateral noise;
+/// add axial noise and round to disparity steps; remove depths out of range. With all strengths 0 the result equals
+/// `truth` bit for bit. Every pixel uses three random numbers, whatever the options.
 DepthImage MeasureDepth(const DepthImage& truth, const Camera& camera, const DepthCameraOptions& options,
                         RandomStream& random);
 

@@ -10,7 +10,7 @@ namespace etude {
 
 /// The errors of a music player's clock, relative to the dance's own clock.
 struct MusicClockOptions {
-  double drift = 0;             ///< music plays at 1 + drift times its speed
+  double drift = 0;             ///< the music plays at 1 + drift times its correct speed
   double stutters_per_min = 0;  ///< mean number of interruptions per minute
   double stutter_s = 0.2;       ///< duration of an interruption; playing continues where it stopped
 };

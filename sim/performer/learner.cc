@@ -22,10 +22,10 @@ constexpr double kDemonstration = 1;
 constexpr double kCorrection = 4;  // units per fault of the corrected performance
 constexpr double kWrongPraise = 0.5;
 
-// Guidance (Winstein and Schmidt 1990): feedback makes errors rarer in the next performances, but not permanently.
+// share of the errors that are avoided in the first performance after feedback
 constexpr double kGuided = 0.5;           // share of errors avoided in the first performance after feedback
-constexpr double kGuidedLater = 0.5;      // share of guidance that is left after each further performance
-constexpr double kFrequencyMemory = 0.7;  // weight of the past in the running mean of feedback frequency
+constexpr double kGuidedLater = 0.5;      // share of this guidance that is left after each further performance
+constexpr double kFrequencyMemory = 0.7;  // weight of the past in the running mean of the feedback frequency
 
 // Losses and gains of patience, whose maximum is 1 (ours).
 constexpr double kNeedlessCost = 0.15;
@@ -101,14 +101,14 @@ Sway DrawSway(const WorldKey& key) {
 
 struct Learner::MoveState {
   std::vector<Skill> skills;  // skills in the order of Fault
-  Proneness proneness{};      // probability of each fault without any skill
+  Proneness proneness{};      // probability of each fault for a person without any skill
   std::unique_ptr<Style> style;
   int attempts = 0;
   std::optional<std::size_t> latest;  // index of the latest performance that is over and was not cut
   bool latest_was_corrected = false;
   bool had_feedback = false;      // true after feedback, until the next performance ends
   double feedback_frequency = 0;  // running mean, in [0, 1]
-  double guided = 0;              // share of errors that guidance avoids now
+  double guided = 0;              // share of the errors that guidance avoids now
 
   double ChanceOf(Fault fault) const {
     const auto i = static_cast<std::size_t>(fault);
@@ -118,11 +118,11 @@ struct Learner::MoveState {
 
 struct Learner::Layer {
   std::optional<Rendition> rendition;  // the performance; empty: the body stands
-  double seen_s = 0;                   // time at which the person saw the action begin
+  double seen_s = 0;                   // time at which the person saw the coach's action begin
   double lag_s = 0;
   double blend_s = kBlendSeconds;
   double vigour = 1;
-  std::vector<double> beats;  // shown beats, frame by frame
+  std::vector<double> beats;  // the beat that the coach showed in each frame
   std::size_t performance = 0;
 
   double Weight(double time_s) const { return Smootherstep((time_s - seen_s) / blend_s); }
@@ -284,7 +284,7 @@ void Learner::End() {
   performance.event.end_s = time_s_ + performance.event.chance.lag_s;
   if (performance.is_cut || HasGivenUp()) return;
 
-  // Add practice, and update guidance and the feedback frequency.
+  // Add the learning from practice, and update the share of guidance and the feedback frequency.
   for (Skill& skill : known.skills) skill.Practise(kPractice);
   known.guided *= kGuidedLater;
   known.feedback_frequency =

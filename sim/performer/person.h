@@ -47,7 +47,7 @@ struct Person {
   double lag_spread_s = 0;  ///< standard deviation of the delay between performances
   double tempo = 1;         ///< factor on the move's tempo if no music sets the tempo
   double tempo_spread = 0;  ///< standard deviation of the tempo's logarithm between performances
-  double drift = 0;         ///< unevenness of the timing within a performance, as a share of its length
+  double drift = 0;         ///< unevenness of the timing within a performance, as a share of the performance's length
   double amplitude = 1;     ///< factor on every angle's distance from the ready stance
   double tiring = 0;        ///< share of the amplitude that is lost after a minute of dancing
 
@@ -56,17 +56,18 @@ struct Person {
   std::array<double, kControlCount> gains = AllGains(1);
   /// The person's posture: offsets that are added to the controls, in every move and at rest.
   Controls posture = {};
-  /// The size of the offsets in the person's Style; about 1 for an adult, 0 for a person who dances exactly as taught.
+  /// The size of the random offsets in the person's Style: about 1 for an adult, 0 for a person who dances exactly as
+  /// taught.
   double looseness = 0;
-  std::uint64_t style = 0;  ///< key of the random numbers of the person's Style of every move
+  std::uint64_t style = 0;  ///< key of the random numbers of the person's Style, for all moves
 };
 
 /// Returns the kind of person for a number `share` in [0, 1). In the mixture, toddlers come first, then school
 /// children, adults and experts.
 People KindInMixture(double share);
 
-/// Draws a person; every world draws its own. A preset changes only the sizes: with equal random numbers, a toddler and
-/// an adult deviate in the same way from the means of their kinds.
+/// Draws a person; every world draws its own. A preset changes only the means and the spreads of traits: with equal
+/// random numbers, a toddler and an adult deviate in the same way from the means of their kinds.
 Person DrawPerson(const WorldKey& key, People people);
 
 /// Returns the share of the amplitude that is left after `danced_s` seconds of dancing. It never falls below 0.6.

@@ -35,7 +35,8 @@ std::vector<std::size_t> DrawMoves(RandomStream& random, std::size_t move_count,
   return drawn;
 }
 
-/// Adds one random fault that the move can show and the event does not have, if one is found.
+/// Adds one random fault that the move can show and that the event does not have yet; adds nothing if no such fault is
+/// found.
 void AddFault(RandomStream& random, std::span<const Move> moves, const SessionOptions& options, SessionEvent& event) {
   const Move& asked = *FindByName(moves, event.move);
   std::vector<Fault> left = options.faults.empty() ? AllFaults() : options.faults;
@@ -157,7 +158,7 @@ Performance Perform(RandomStream& random, std::span<const Move> moves, const Per
     dances.emplace_back(event, Rendition(styles.at(event.move), event.chance, event.faults, instead));
   }
 
-  // Compute every frame: blend the dances at that time with standing and its sway.
+  // Compute every frame: blend the dances at the frame's time with the swaying body at rest.
   Performance performance{.person = person, .motion = {}, .events = plan.events};
   const Sway sway(random);
   const Controls rest = RestOf(person);

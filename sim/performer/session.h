@@ -30,7 +30,7 @@ struct SessionEvent {
   std::vector<GradedFault> faults = {};  ///< faults; empty if performed as meant
   std::string danced;                    ///< the move that is danced, fully or in part; empty if none
   double start_s = 0;                    ///< time of the first requested beat
-  double end_s = 0;                      ///< time of the last beat as this person means to dance it
+  double end_s = 0;                      ///< time of the last beat, as this person means to dance this beat
   Chance chance = {};                    ///< random variation of this performance
   Stray stray;                           ///< truth: deviation from what was meant
   Truth truth = Truth::kRight;           ///< the judgement that follows from `stray`

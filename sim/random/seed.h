@@ -26,8 +26,8 @@ class Seed {
   static constexpr Seed Secret(const Words256& key) { return {Kind::kSecret, key}; }
 
   bool IsPlain() const { return kind_ == Kind::kPlain; }
-  /// Returns true if random numbers can be drawn. They cannot if the seed is secret and was read from a manifest, which
-  /// contains only its digest.
+  /// Returns true if random numbers can be drawn. They cannot if the seed is secret and was read from a manifest,
+  /// because a manifest contains only the seed's digest.
   bool IsOpen() const { return kind_ != Kind::kDigest; }
   /// Returns the number of a plain seed.
   std::uint64_t number() const { return words_[0]; }

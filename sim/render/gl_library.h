@@ -7,7 +7,7 @@
 namespace etude {
 
 /// A library that makes OpenGL 3.3 core contexts without a window: OSMesa or EGL, both with Mesa's llvmpipe. All state
-/// is in `context`.
+/// of GL is in `context`.
 struct GlLibrary {
   std::string name;  ///< "OSMesa", "EGL"
   Result<void*> (*make_context)() = nullptr;

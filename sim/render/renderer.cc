@@ -111,7 +111,7 @@ struct Renderer::State {
         targets(gl),
         rooms(gl, linked.studio, linked.interior, empty_vertices) {
     gl.PixelStorei(GL_PACK_ALIGNMENT, 1);
-    gl.CullFace(GL_FRONT);  // cull front faces: the back faces of a box are visible even from inside it
+    gl.CullFace(GL_FRONT);  // cull front faces: a camera inside a box sees only the back faces
     gl.BlendEquation(GL_MIN);
   }
 
@@ -138,8 +138,8 @@ struct Renderer::State {
     gl.BindTexture(GL_TEXTURE_2D, room.room);
   }
 
-  // Draws the shadows of surfaces in the studio. Each triangle darkens separately; where shadows overlap, the darkest
-  // counts.
+  // Draws the shadows of surfaces in the studio. Each triangle darkens the room separately; where shadows overlap, the
+  // darkest counts.
   void DrawShadowsOfSurfaces(const Shot& shot) {
     const GLuint program = programs.surface_shadow;
     Use(program, shot);

@@ -10,8 +10,8 @@
 
 namespace etude {
 
-/// Draws rooms and people offscreen with Mesa's llvmpipe. Not thread-safe. One renderer per process is enough for
-/// cameras of any size.
+/// Draws rooms and people offscreen with Mesa's llvmpipe. Not thread-safe. One renderer per process is enough, because
+/// pictures of all sizes can be drawn with it.
 class Renderer {
  public:
   /// Makes a renderer. Fails, with the reason, if no GL context can be made.
@@ -21,12 +21,12 @@ class Renderer {
   /// Draws `figures` in `room`, seen by `camera`; without figures, this is the background picture. In the pinned
   /// environment the bytes are the same every time. The pixel geometry is that of `Project`, without antialiasing: a
   /// triangle covers the pixels whose centres it contains. Pictures have 1 to `kMaxPictureSide` pixels a side. The
-  /// camera must be above the floor and in front of the wall. Up to about 55° to the side, every pixel then shows
-  /// floor, wall or a figure.
+  /// camera must be above the floor and in front of the wall. Every pixel then shows floor, wall or a figure, if its
+  /// ray points at most about 55° to the side.
   View Render(const Room& room, const std::vector<Figure>& figures, const Camera& camera, Targets targets);
 
   /// Draws only some rows of the picture that Render draws, with the same bytes. The view's height is the number of
-  /// rows. A rolling shutter needs each band of rows at another time.
+  /// rows. A rolling shutter needs this, because it takes each band of rows at another time.
   View RenderRows(const Room& room, const std::vector<Figure>& figures, const Camera& camera, Targets targets,
                   const RowRange& rows);
 
@@ -41,8 +41,8 @@ class Renderer {
 };
 
 /// Returns the only renderer of this process. It is made at the first call, because compiling its shaders takes longer
-/// than drawing a hundred pictures. Like every renderer it must be used by one thread at a time. Pictures do not depend
-/// on earlier pictures.
+/// than drawing a hundred pictures. Like every renderer it must be used by one thread at a time. A picture does not
+/// depend on pictures drawn before.
 Result<Renderer*> SharedRenderer();
 
 /// Fails if the environment variable ETUDE_GL, which selects the GL library, is neither "osmesa" nor "egl".

@@ -31,7 +31,7 @@ struct Occluders {
 /// that the renderer draws (sim/body).
 HiddenJoints FindHidden(const BodyPose& pose, std::size_t frame, const Occluders& occluders, const glm::dvec3& eye);
 
-/// The sensor's guess for a joint that is not clearly seen.
+/// The sensor's guess of the position of a joint that is not clearly seen.
 struct Guess {
   bool inferred = false;
   glm::dvec3 offset{0};  ///< offset from the position that would be reported if the joint were seen, metres
@@ -48,14 +48,14 @@ class OcclusionGuesses {
 
  private:
   static constexpr std::size_t kLimbs = 4, kJointsOfLimb = 4;
-  /// The current guess for the hidden joints of one limb. It is randomly right or wrong.
+  /// The current guess for the hidden joints of one limb. The guess is right or wrong at random.
   struct Episode {
     int age = 0;
     int length = 0;  ///< length of the episode, frames; 0: no episode
     bool wrong = false;
     double size_m = 0;
     glm::dvec3 direction{0};
-    std::array<bool, kJointsOfLimb> joints{};  ///< joints that were hidden at some time in the episode
+    std::array<bool, kJointsOfLimb> joints{};  ///< true for joints that were hidden at some time in the episode
 
     bool IsRunning() const { return length > 0; }
   };
@@ -91,7 +91,7 @@ class Swaps {
   Swap Next(double turn);
 
  private:
-  double usual_chance_;  ///< probability that a swap starts in a frame
+  double usual_chance_;  ///< probability that a swap starts in a frame, for the usual rate
   bool when_facing_;
   int length_;  ///< length of a swap, frames
   RandomStream dice_;

@@ -76,8 +76,8 @@ void AddLegs(FurnitureBuilder& builder, double half_x, double z_near, double z_f
 
 // Each function below makes one piece of furniture from boxes. `place` is the point on the floor at the middle of the
 // piece's back, or at its centre if the piece stands free; `heading` is the direction of its front. Sizes, colours and
-// details are random. Colours are interpolated by `share` between the studio's (0) and those of everyday objects (1).
-// Each function draws a constant number of random numbers.
+// details are random. Colours are interpolated by `share` between the studio's colours (0) and the colours of everyday
+// objects (1). Each function draws a constant number of random numbers.
 
 std::vector<FurnitureBox> MakeCupboard(RandomStream& random, double share, const glm::dvec3& place, double heading) {
   const double half = random.Uniform(0.4, 0.65), height = random.Uniform(0.9, 2.05), deep = random.Uniform(0.36, 0.48);
@@ -194,7 +194,7 @@ std::vector<FurnitureBox> MakeCrate(RandomStream& random, double share, const gl
   return std::move(builder).Take();
 }
 
-// A piece can be in the room if `scene` is at least the value of this piece.
+// A piece can be in the room if `scene` is at least this threshold of the piece.
 constexpr double kPoster1 = 0.05, kCupboard = 0.10, kPlant = 0.15, kRug = 0.20, kShelf = 0.25, kPoster2 = 0.30;
 constexpr double kWindow = 0.35, kSofa = 0.40, kScreen = 0.45, kTable = 0.50, kPoster3 = 0.55, kChair = 0.65;
 constexpr double kPile = 0.75, kCrate = 0.85;
@@ -299,7 +299,7 @@ void HangPictures(const WorldKey& key, double scene, double share, Interior& roo
   lights.window_colour = strength * glm::dvec3(0.92, 0.98, 1.08);
 }
 
-// A place along a wall for one piece: the position of the middle of its back, and its heading.
+// A place along a wall for one piece of furniture: the middle of the piece's back, and the piece's heading.
 struct Slot {
   glm::dvec3 place{0};
   double heading = 0;
@@ -330,7 +330,7 @@ bool StandsOn(const FurnitureBox& box, const FreeFloor& free) {
 }
 
 // Returns a place for a piece of furniture, between the performer and a camera, at the edge of the free floor. A piece
-// there hides a part of the performer's legs.
+// in this place hides a part of the performer's legs.
 Slot InFrontOf(const Camera& camera, const FreeFloor& free, double aside, double turn) {
   const glm::dvec2 middle = 0.5 * (free.low + free.high), half = 0.5 * (free.high - free.low);
   glm::dvec2 towards(camera.p_WC.x - middle.x, camera.p_WC.z - middle.y);

@@ -28,7 +28,7 @@ struct FurnishedRoom {
 
 /// Furnishes the room with this seed. Each piece has its own random numbers and its own threshold of `scene`: every
 /// piece present at a low value is also present at a higher one. Colours are interpolated by `colour_share` between the
-/// studio's (0) and those of everyday objects (1).
+/// studio's colours (0) and the colours of everyday objects (1).
 FurnishedRoom Furnish(std::uint64_t seed, double scene, double colour_share, const FreeFloor& free,
                       std::span<const Camera> cameras);
 

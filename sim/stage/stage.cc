@@ -47,7 +47,7 @@ FreeFloor FloorOf(std::span<const BodyPose> poses) {
 Movers::Movers(std::uint64_t seed, double scene, double colour_share, const FurnishedRoom& room, const FreeFloor& free)
     : seed_(seed), scene_(scene), colour_share_(colour_share), places_(room.places) {
   const WorldKey key{seed, "stage", 0};
-  // Place the plant's leaves around the pot, each turned by the golden angle from the one before.
+  // Place the plant's leaves around the pot, each turned by the golden angle from the previous leaf.
   RandomStream plant(key, "leaves"), ball(key, "ball"), person(key, "bystander");
 
   leaf_colour_ = ToRgb(Mixed({150, 0.5, 0.5}, {plant.Uniform(80, 130), 0.5, plant.Uniform(0.35, 0.6)}, colour_share));
@@ -167,8 +167,8 @@ std::vector<Figure> Movers::At(double seconds) const {
 }
 
 double ColourShare(double scene) {
-  // The share of everyday colours at equally spaced values of `scene`. Segmentation by hue tolerates large shares. With
-  // these values, the IoU of segmentation falls about evenly with `scene` (README.md).
+  // The share of everyday colours at equally spaced values of `scene`. Segmentation by hue becomes difficult only at
+  // large shares. With these values, the IoU of segmentation falls about evenly with `scene` (README.md).
   constexpr std::array kSteps = {0.0, 0.85, 0.92, 0.95, 1.0};
   const double step = std::clamp(scene, 0.0, 1.0) * (kSteps.size() - 1);
   const auto below = std::min(static_cast<std::size_t>(step), kSteps.size() - 2);

@@ -65,8 +65,8 @@ struct StageOptions {
   Wardrobe wardrobe = Wardrobe::kStudio;
 };
 
-/// The room around a performer: furniture, moving objects, the performer's clothes, and the lighting. At scene 0 all of
-/// these are absent.
+/// The room around a performer: furniture, moving objects, the performer's clothes, and the lighting. At scene 0 the
+/// room has none of them.
 class StagedRoom {
  public:
   StagedRoom() = default;
@@ -87,7 +87,7 @@ class StagedRoom {
   /// time.
   double FlickerAt(double seconds) const;
 
-  /// The background picture is taken at this time: before the take, when all moving objects are elsewhere.
+  /// The background picture is taken at this time, seconds: before the take, when all moving objects are elsewhere.
   static constexpr double kBackgroundSeconds = -6.3;
 
  private:
@@ -98,7 +98,7 @@ class StagedRoom {
   double flicker_ = 0, flicker_phase_ = 0;
 };
 
-/// Returns the share of everyday colours at this value of `scene`; the rest is the studio's.
+/// Returns the share of everyday colours at this value of `scene`; the other colours are the studio's.
 double ColourShare(double scene);
 
 }  // namespace etude
