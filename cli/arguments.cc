@@ -19,7 +19,7 @@
 namespace etude {
 namespace {
 
-/// Returns example command lines by command; keys are the command's words without "etude".
+/// Returns example command lines for every command. A key is a command's words without "etude".
 const std::map<std::string_view, std::vector<std::string_view>>& ExamplesByCommand() {
   static const std::map<std::string_view, std::vector<std::string_view>> examples = {
       // Each entry holds the words of a command, then its examples.
@@ -289,7 +289,8 @@ std::function<std::string(const std::string&)> NumberWithin(double low, double h
 
 namespace {
 
-/// Puts the commands that `etude --help` lists into groups. Groups are listed in the order of their first commands.
+/// Puts the commands that `etude --help` lists into groups. The help lists groups in the order in which their first
+/// commands were defined.
 void GroupCommands(CLI::App& app) {
   struct CommandGroup {
     const char* name;

@@ -30,9 +30,10 @@ void DefineCommands(CLI::App& app, const std::string& command_line, Action& acti
 
 /// Adds --seed. If the option is not given, `seed` keeps its value, which the help shows as the default.
 CLI::Option* AddSeed(CLI::App& command, std::uint64_t& seed, const std::string& help);
-/// Adds --seed. If the option is not given, `seed` is nullopt; the scenario or the program then has its own default.
+/// Adds --seed. If the option is not given, `seed` is nullopt; the scenario's or the program's default then applies.
 CLI::Option* AddSeed(CLI::App& command, std::optional<std::uint64_t>& seed, const std::string& help);
-/// Adds --seed-file, for every command that draws the dice of worlds. The command refuses --seed together with it.
+/// Adds --seed-file, for every command that draws the random numbers of worlds. The command refuses --seed together
+/// with it.
 CLI::Option* AddSeedFile(CLI::App& command, std::string& file);
 /// Reads the key of secret worlds; nullopt if `file` is "". Warns if other users can read the file; fails if a seed is
 /// also given.
@@ -42,7 +43,7 @@ Result<std::optional<SecretKey>> TakeSecretKey(const std::string& file, bool has
 /// as long as `act`.
 Action WithSecretKey(CLI::App& command, const std::optional<std::uint64_t>* seed, std::optional<SecretKey>& key,
                      const Action& act);
-/// Adds --reuse-key, for commands with --seed-file that otherwise refuse a key that was used before.
+/// Adds --reuse-key, for commands with --seed-file, which otherwise refuse a key that was used before.
 void AddReuseKey(CLI::App& command, bool& reuse_key);
 /// Adds -j, --jobs.
 CLI::Option* AddJobs(CLI::App& command, int& jobs);
@@ -52,7 +53,7 @@ CLI::Option* AddOverwrite(CLI::App& command, bool& overwrite, const std::string&
 constexpr const char* kJointMapOption = "--joint-map,--map";
 /// Adds --seed, --trials, --clips, --joint-map, --unit, --up, --rate, --keep-floor and --marker-set, for every command
 /// that makes worlds from scenarios. The values of the last five are written to `clip_facts` as lines of a joint-map
-/// file. The third option in the result is --clips.
+/// file. The third element of the result is --clips.
 std::array<CLI::Option*, 9> AddWorldOptions(CLI::App& command, std::optional<std::uint64_t>& seed,
                                             std::optional<int>& trials, std::vector<std::string>& clips,
                                             std::string& joint_map, std::string& clip_facts);

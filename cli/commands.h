@@ -29,19 +29,20 @@ int Complain(const Error& error);
 int Finish(const Result<int>& code);
 /// Prints that Ctrl-C stopped the work, and `what_is_left` of it. Returns kInterrupted.
 int TellStopped(const Error& what_is_left = {{}, "stopped; no files are kept"});
-/// Returns `code`. If another run has replaced the folder while files of this run were written into it, complains and
-/// returns kIncompleteRun.
+/// Returns `code`. If another run has replaced the folder while this run wrote files into it, complains and returns
+/// kIncompleteRun instead.
 Result<int> UnlessReplaced(const std::string& folder, const RunData& run, int code);
 /// Warns on standard error that data were read although no valid seal confirms them. If `why` is "", the seal is valid
 /// and nothing is printed.
 void TellUnsealed(const std::string& why);
-/// Reads a baseline, and warns if no seal confirms it. Fails if its seal is invalid, unless seals are ignored.
+/// Reads a baseline, and warns if no seal confirms its content. Fails if the baseline's seal is invalid, unless seals
+/// are ignored.
 Result<Snapshot> TakeBaseline(const std::string& path, Sealing sealing);
 /// Runs scenarios with a progress bar, and reports clips that were left out, damaged lines and missing locks. If the
 /// run was stopped, reports that and returns nullopt.
 Result<std::optional<RunOutcome>> RunWithProgress(RunOptions options);
-/// Prints the tables of a finished run, and the reasons of methods without an answer. Returns kNothingWorked if a
-/// method has no answer or no cell is ok.
+/// Prints the tables of a finished run, and the reasons why methods have no answer. Returns kNothingWorked if a method
+/// has no answer or no cell is ok.
 int ShowOutcome(const RunOutcome& outcome);
 /// Returns true if standard output was closed before the program started, so that nobody reads it.
 bool OutputWasClosed();
@@ -50,8 +51,8 @@ void PrintList(const std::string& title, const std::vector<std::string>& lines);
 
 // Each command is defined in a file of its name. `command_line` is recorded in host.json.
 
-/// `etude run`: runs scenarios with a progress bar and prints the verdicts; with --dry-run, only forecasts the time and
-/// the findings.
+/// `etude run`: runs scenarios with a progress bar and prints the verdicts; with --dry-run, only forecasts the duration
+/// and the detectable differences.
 void DefineRun(CLI::App& app, const std::string& command_line, Action& action);
 /// `etude evaluate TRUTH RESULT…`: compares motions in files with their truths, and writes a run.
 void DefineEvaluate(CLI::App& app, const std::string& command_line, Action& action);
@@ -93,7 +94,7 @@ void DefineRender(CLI::App& clip, Action& action);
 /// `etude clip grades`: prints the fuzzy features, tags and poses of clips (paper A), and how similar clips are.
 void DefineGrades(CLI::App& clip, Action& action);
 /// `etude bridge`: finds bridge frames of clips and writes a tags file and a summary; or checks a tags file (exit code
-/// 2).
+/// 2 if the check fails).
 void DefineBridge(CLI::App& app, Action& action);
 /// `etude transition FROM TO --at S -o FILE`: writes a transition from one clip into another; exit code 1 if there is
 /// none.
@@ -110,7 +111,7 @@ void DefineSensor(CLI::App& app, Action& action);
 void DefineCalibrate(CLI::App& app, Action& action);
 /// `etude capture`: finds the motion of a person in films by several cameras.
 void DefineCapture(CLI::App& app, const std::string& command_line, Action& action);
-/// `etude forecast RIG`: forecasts the errors of a rig's captures.
+/// `etude forecast RIG`: forecasts the errors of captures with this rig.
 void DefineForecast(CLI::App& app, const std::string& command_line, Action& action);
 /// `etude coach`: coaches a song live from a skeleton stream.
 void DefineCoach(CLI::App& app, Action& action);

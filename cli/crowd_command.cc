@@ -30,21 +30,21 @@ namespace {
 struct CrowdCommandOptions {
   CrowdOptions crowd;
   double seconds = 2;
-  int steps = 100;  ///< maximum steps per frame; if a character misses its targets, a restart may use as many again
+  int steps = 100;  ///< maximum steps per frame; a character that misses its targets may get as many again
   bool in_float = false;
-  std::string output;  ///< a film file; "" = only the report
+  std::string output;  ///< the film to write; "" = only the report
   int jobs = 0;
   bool overwrite = false, as_json = false;
 };
 
 constexpr int kWidth = 1280, kHeight = 720;
-constexpr double kFilmRateHz = 30;  // upper limit of the film's rate; at 60 Hz every second frame is shown
+constexpr double kFilmRateHz = 30;  // upper limit of the film's frame rate, Hz; at 60 Hz every second frame is shown
 
 double ProcessorTimeMs() { return 1e3 * static_cast<double>(std::clock()) / CLOCKS_PER_SEC; }
 
 struct Timings {
   std::int64_t met = 0, steps = 0;
-  std::vector<double> times_ms;  ///< time of each frame
+  std::vector<double> times_ms;  ///< processing time of each frame
 };
 
 /// Prints the measured times, and returns them as JSON.
@@ -113,7 +113,7 @@ Result<bool> FilmCrowd(const CrowdCommandOptions& options, FollowedCrowd& follow
   static_assert(std::is_trivially_copyable_v<Character>, "characters are passed on as they are stored in memory");
   ASSIGN_OR_RETURN(auto* const renderer, SharedRenderer());
   CrowdStage stage(options.crowd.characters, kWidth, kHeight, *renderer);
-  // Show at most kFilmRateHz frames per second.
+  // Choose every n-th frame, so that the film shows at most kFilmRateHz frames per second.
   const double rate_hz = options.crowd.rate_hz;
   const int every = std::max(1, static_cast<int>(std::ceil(rate_hz / kFilmRateHz)));
   const int frames = (options.crowd.frames + every - 1) / every;

@@ -27,8 +27,8 @@ struct GateOptions {
   std::string baseline;       ///< a baseline file, "" = none
   bool update = false;        ///< write the baseline from the run, and print what moved
   bool self_test = false;     ///< measure the gate's own rates of false alarms and of detection
-  int repetitions = 40;       ///< for the self-test: number of pairs of seeds
-  std::optional<int> trials;  ///< for the self-test: worlds per condition; default: the scenario's
+  int repetitions = 40;       ///< for the self-test: number of pairs of runs with different seeds
+  std::optional<int> trials;  ///< for the self-test: worlds per condition; default: the scenario's trials
   bool as_json = false;
   Sealing sealing = Sealing::kRequired;
 };
@@ -149,7 +149,7 @@ Result<int> Update(const GateOptions& options, const FinishedRun& run) {
         silent);
     return kRegression;
   }
-  // Check that the baseline can be read back before the old one is replaced.
+  // Check that the new baseline can be read back, before the old baseline is replaced.
   const Snapshot now = TakeSnapshot(run);
   ASSIGN_OR_RETURN(const auto text, WriteBaseline(now));
   RETURN_IF_ERROR(ReadBaseline(text, options.target));
@@ -169,8 +169,8 @@ std::string RateText(const Rate& rate) {
                      rate.of == 0 ? 0.0 : 100.0 * rate.count / rate.of, 100 * rate.low, 100 * rate.high);
 }
 
-/// Returns a sentence that says whether the gate keeps its error limits. A small number of gates without an alarm does
-/// not show that.
+/// Returns a sentence that says whether the gate keeps its error limits. A small number of gates without an alarm is no
+/// evidence of this.
 const char* PromiseSentence(const SelfTestReport& report) {
   if (!report.Holds()) return "The gate exceeds its error limits.";
   if (report.false_alarms.high > kFalseAlarmLimit) {

@@ -75,8 +75,8 @@ int ComplainOfArguments(const CLI::App& app, const CLI::ParseError& error) {
     command = command->get_subcommands().front();
     words += command->get_name() + " ";
   }
-  // Report an unknown word first: it explains the failure better than the error about the missing argument, which often
-  // follows from it. Words after "--" belong to another program.
+  // Report an unknown word first: an unknown word explains the failure better than the error about a missing argument,
+  // which is often a consequence of the unknown word. Words after "--" belong to another program.
   std::vector<std::string> extras = app.remaining(true);
   extras.erase(std::ranges::find(extras, "--"), extras.end());
   std::string message = error.what();
@@ -139,8 +139,8 @@ Result<void> CheckNames(std::span<char*> arguments) {
   return {};
 }
 
-/// Opens the standard streams that the parent has closed. Otherwise the next opened file would get the number of a
-/// standard stream, and printed text would go into that file.
+/// Opens the standard streams that the parent has closed. Without this, the next opened file would get the number of a
+/// standard stream, and printed text would go into this file.
 void OpenStandardStreams() {
   output_was_closed = ::fcntl(STDOUT_FILENO, F_GETFD) < 0;
   for (int descriptor = ::open("/dev/null", O_RDWR); descriptor >= 0; descriptor = ::dup(descriptor)) {

@@ -23,7 +23,7 @@ std::string NameFor(const std::string& pattern) {
   return IsPlainName(name) ? name : "result";
 }
 
-/// Reads NAME=PATTERN; nothing if the argument has no name.
+/// Reads an argument NAME=PATTERN; returns nullopt if the argument has no name.
 std::optional<NamedResult> ReadNamed(const std::string& argument) {
   const std::size_t equals = argument.find('=');
   std::error_code none;

@@ -18,8 +18,8 @@ struct NamedResult {
 /// file. Fails if several arguments have no name, because a shell may have expanded a pattern into files.
 Result<std::vector<NamedResult>> ReadResults(std::span<const std::string> arguments);
 
-/// Reads arguments FILE or NAME=PATTERN. All arguments without a name form one method; it is named after the argument
-/// if there is only one, else "motions". Fails if some arguments have names and others have none.
+/// Reads arguments FILE or NAME=PATTERN. All arguments without a name form one method. This method is named after its
+/// argument if it has only one, else "motions". Fails if some arguments have names and others have none.
 Result<std::vector<NamedResult>> ReadMotions(std::span<const std::string> arguments);
 
 /// Writes the methods of a scenario as YAML; a method without patterns gets no key `answers`.

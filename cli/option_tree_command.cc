@@ -68,8 +68,8 @@ std::string FollowersOf(const CLI::App& command) {
   return Join(words, " ");
 }
 
-/// Returns the branches of a shell's `case`, one per command. `write` makes a branch from a command's words and the
-/// words that may follow.
+/// Returns the branches of a shell's `case`, one per command. `write` makes a branch from a command's words and from
+/// the words that may follow the command.
 std::string Cases(const CLI::App& app,
                   const std::function<std::string(const std::string&, const std::string&)>& write) {
   std::string text;
@@ -79,7 +79,7 @@ std::string Cases(const CLI::App& app,
 }
 
 /// The code for bash and zsh that finds the command's words before the cursor: words without a dash that lead to a
-/// known command. `help` is no such word, so commands are also offered after `help`.
+/// known command. `help` does not count as a command, so commands are also offered after `help`.
 constexpr std::string_view kFindCommand = R"(  local at="" word
   for word in "${before[@]}"; do
     case "${at:+$at }$word" in
@@ -125,7 +125,7 @@ std::string FishCompletion(const CLI::App& app) {
   std::string text = "# Completion of etude for fish, made by `etude completion fish`.\n";
   std::vector<std::string> helped;
   ForEachCommand(app, "", [&](const CLI::App& command, const std::string& words) {
-    // Write the condition for fish to offer the words that may follow.
+    // Write the condition under which fish offers the words that may follow the command.
     std::string when = "__fish_use_subcommand";
     if (!words.empty()) {
       when.clear();

@@ -24,7 +24,7 @@ struct ReplayCommandOptions {
   std::vector<std::string> cells;     ///< cell names; empty = all cells
   std::optional<std::size_t> sample;  ///< number of cells drawn by the run's seed; default: all
   std::string pack_file;              ///< the file into which one cell is packed instead of being replayed; "" = none
-  std::string baseline;               ///< the baseline whose values are printed beside the replayed ones; "" = none
+  std::string baseline;               ///< the baseline whose values are printed beside the replayed values; "" = none
   bool overwrite = false, as_json = false;
   int jobs = 0;
   OutsideRules outside;

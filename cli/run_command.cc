@@ -189,7 +189,7 @@ Result<std::optional<RunOutcome>> RunWithProgress(RunOptions options) {
   options.stop = interrupt->requested();
   ProgressBar bar;
   ASSIGN_OR_RETURN(auto outcome, Run(options, [&](const Progress& progress) { bar.Show(progress); }));
-  interrupt.reset();  // from here on, Ctrl-C ends the program, because everything is written
+  interrupt.reset();  // everything is written, so from here on Ctrl-C ends the program
   // Report clips that were left out, and damaged lines.
   TellUnlocked(outcome);
   TellChanges(outcome.changes);
@@ -234,8 +234,8 @@ int MergeCommand(const MergeOptions& given) {
   MergeOptions options = given;
   std::optional<Interrupt> interrupt(std::in_place);
   options.stop = interrupt->requested();
-  // During the first half, Merge only reads the shards and finds those that do not belong together. The bar of this
-  // half starts late, so that a complaint is not printed beside a bar.
+  // In the first half of its work, Merge only reads the shards and finds shards that do not belong together. The bar of
+  // this half appears late, so that complaints are not printed beside it.
   ProgressBar reading(ProgressBar::Begins::kWhenItTakesLong), writing;
   const auto outcome = Merge(options, [&](double share) { (share < 0.5 ? reading : writing).Show(share, "merged"); });
   interrupt.reset();
@@ -295,7 +295,7 @@ void DefineRun(CLI::App& app, const std::string& command_line, Action& action) {
       command->add_flag("--dry-run", *dry_run, "Only estimate the run's time, and the differences that it could show");
   dry->excludes(overwrite, resume);
   AddJson(*command, *as_json);
-  // --from repeats a run, so it excludes all options whose values the manifest gives.
+  // --from repeats a run from its manifest, so it excludes all options whose values are in the manifest.
   CLI::Option* from = command->add_option("--from", options->from, "Repeat the run that this manifest.json describes");
   for (CLI::Option* option : world_options) from->excludes(option);
   from->excludes(skip_refused, keep);

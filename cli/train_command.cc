@@ -42,8 +42,9 @@ struct TrainOptions {
   int population = 40, generations = 60;
   /// Learn the recogniser `learnt` instead of a fuzzy system, from simulated people who dance the clips.
   bool recogniser = false;
-  bool coached = false;  ///< learn the recogniser `coached` instead of a fuzzy system; `clips` are then songs
-  /// Number of simulated sessions for `recogniser` or `coached`; default: the number for the built-in model.
+  bool coached = false;  ///< learn the recogniser `coached` instead of a fuzzy system; the `clips` are then songs
+  /// Number of simulated sessions for `recogniser` or `coached`; default: the number that the built-in model was learnt
+  /// from.
   std::optional<int> sessions;
   std::string hold_out = "0.3";  ///< a share of the clips, or a pattern of their names
   bool overwrite = false, as_json = false;

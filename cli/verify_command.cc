@@ -24,8 +24,8 @@
 namespace etude {
 namespace {
 
-/// The default sample size. If 5 % of very many cells are forged, the sample misses every forged cell with probability
-/// 0.95^59, 1 in 21; with fewer cells, the probability is lower.
+/// The default sample size. If 5 % of a very large number of cells are forged, the sample misses all forged cells with
+/// probability 0.95^59, 1 in 21. With fewer cells, this probability is lower.
 constexpr const char* kDefaultSample = "59";
 constexpr const char* kWholeSample = "all";
 constexpr std::size_t kMaxSample = 10'000'000;
@@ -48,7 +48,7 @@ std::string CheckSample(const std::string& text) {
   return fmt::format("'{}' is not a sample; allowed: 0 to {}, or '{}'", text, kMaxSample, kWholeSample);
 }
 
-/// Draws an unpredictable seed of 53 bits, because JSON readers that use doubles keep such a seed exactly.
+/// Draws an unpredictable seed. It has 53 bits, because JSON readers that use doubles keep such a number exactly.
 Result<std::uint64_t> FreshDice() {
   std::uint64_t dice = 0;
   if (::getrandom(&dice, sizeof dice, 0) != sizeof dice) return FailOfMachine("did not return random numbers");
@@ -113,8 +113,8 @@ Json FactsOf(const CellChoice& choice) {
           {"missed", std::move(missed)}};
 }
 
-/// Adds the checks of the report and of the files that a gate left in its folder, if they exist. Only a report needs
-/// all rows in memory, as when it was made.
+/// Adds the checks of the report, and of the files that a gate left in the report's folder, if these exist. Only the
+/// check of a report needs all rows in memory, as making the report did.
 Result<void> AddReport(const std::string& folder, std::vector<Verified>& all, std::vector<std::string>& not_verified) {
   if (!Exists(Inside(folder) / "report") && !Exists(Inside(folder) / "video")) return {};
   ASSIGN_OR_RETURN(auto run, LoadFinishedRun(folder, Sealing::kIgnored));

@@ -26,10 +26,10 @@ struct BlindOptions {
   FilmWatch watch = {};
 };
 
-/// Makes the page from a run's recorded transitions. One film shows both methods of a pair side by side, aligned at the
-/// request. A side is empty while its motion is not recorded. The page needs no other file, and neither its text nor
-/// its films name a method, a metric or the seed. Returns nullopt if `watch` stopped the filming. Fails if no recorded
-/// world shows two of the methods, or if films cannot be encoded.
+/// Makes the page from a run's recorded transitions. One film shows the two methods of a pair side by side, aligned at
+/// the request. A side is empty while its motion is not recorded. The page needs no other file, and neither its text
+/// nor its films name a method, a metric or the seed. Returns nullopt if `watch` stopped the filming. Fails if no
+/// recorded world shows two of the methods, or if films cannot be encoded.
 Result<std::optional<BlindTrial>> MakeBlindTrial(const RunData& run, const BlindOptions& options);
 
 }  // namespace etude

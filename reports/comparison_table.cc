@@ -112,8 +112,8 @@ void ForEachComparison(const ScenarioSummary& scenario, Visit visit) {
 }
 
 /// Returns every comparison once, ordered by metric, then by kind (with the baseline, with the strongest other method),
-/// then by method and condition. If a comparison with a baseline and one with the strongest other method have the same
-/// two methods, in either order, only the former is returned.
+/// then by method and condition. If a comparison with the strongest other method has the same two methods as a
+/// comparison with a baseline, in either order, only the comparison with the baseline is returned.
 std::vector<Shown> DistinctOf(const ScenarioSummary& scenario) {
   std::vector<Shown> all;
   ForEachComparison(scenario, [&](const ConditionSummary& condition, const Comparison& c, Against against) {
@@ -135,8 +135,8 @@ std::vector<Shown> DistinctOf(const ScenarioSummary& scenario) {
   return all;
 }
 
-/// Returns comparisons as an HTML table, grouped by metric. Writes at most `left` rows, and reduces `left` by their
-/// number.
+/// Returns comparisons as an HTML table, grouped by metric. Writes at most `left` rows, and reduces `left` by the
+/// number of written rows.
 std::string ShownHtml(const ScenarioSummary& scenario, std::span<const Shown> shown, std::size_t& left) {
   const bool swept = scenario.conditions.size() > 1;
   // Add the columns. There is a condition column only if a parameter is swept.

@@ -91,7 +91,7 @@ std::string ValuesText(const TailWorld& world, const std::string& metric) {
   const std::string before = FormatValue(world.before, words), after = FormatValue(world.after, words);
   if (!world.after) return fmt::format("{}{}no value ({})", before, kTo, ended_after);
   if (before != after) return before + kTo + after;
-  return fmt::format("{}{}{}", *world.before, kTo, *world.after);  // FormatValue drops the digits that differ
+  return fmt::format("{}{}{}", *world.before, kTo, *world.after);  // FormatValue would drop differing digits
 }
 
 }  // namespace

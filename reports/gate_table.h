@@ -11,10 +11,10 @@ namespace etude {
 /// A metric's change since the baseline, in words.
 struct GateTableRow {
   std::string scenario, condition, method, metric;
-  std::string before, after;  ///< the metric's aggregate over all worlds, in the baseline and now
+  std::string before, after;  ///< the metric's aggregate over all worlds: in the baseline, and in this run
   std::string difference;     ///< the median (or mean) of the paired differences, now − baseline, with its interval
   std::string p;              ///< p-value after Holm's correction; kNoValue if nothing was tested
-  std::string worlds;         ///< differing worlds: "12 of 60", with the numbers of lost, gained and far worse ones
+  std::string worlds;         ///< number of differing worlds, "12 of 60", and of lost, gained and far worse worlds
   std::string verdict;        ///< text of MovementWords, or "worse in 5 worlds" if the tail rule decided
   bool fails = false;
 };

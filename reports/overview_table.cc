@@ -22,8 +22,8 @@ constexpr std::string_view kAllNumbers = "the CSV file in report/tables";
 
 struct OverviewCell {
   std::string value;
-  std::string interval = {};             ///< interval of the value; "" if it has none
-  std::string counted = {};              ///< number of cells with a value, "10 of 12", if some have none; else ""
+  std::string interval = {};             ///< interval of `value`; "" if the value has no interval
+  std::string counted = {};              ///< number of cells with a value, "10 of 12"; "" if every cell has a value
   std::optional<double> sorted_by = {};  ///< the median or mean in `value` as a number, by which the page sorts
   const Comparison* baseline = nullptr;  ///< comparison with the baseline; may be null
   const Comparison* rival = nullptr;     ///< comparison with the strongest other method; may be null
@@ -204,8 +204,8 @@ std::string VerdictOf(const Row& row) {
   const auto alike = ValueOf(row, "called_alike");
   if (!alike) return std::string(kNoValue);
   std::string text = *alike > 0 ? "alike" : "apart";
-  // Show the distance between the joints if the method uses it; otherwise show the fuzzy distance, which every pair of
-  // poses has.
+  // Show the distance between the joints if the method uses it; otherwise show the fuzzy distance, which exists for
+  // every pair of poses.
   if (const auto joints = ValueOf(row, "joint_distance_cm")) {
     text += fmt::format(" {} cm", FormatNumber(*joints));
   } else if (const auto d = ValueOf(row, "fuzzy_distance")) {

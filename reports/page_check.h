@@ -13,7 +13,7 @@ constexpr std::string_view kTakesBegin = "<!--takes-->", kTakesEnd = "<!--/takes
 /// The result of comparing a page with the page made from its run.
 struct PageCheck {
   bool same = false;                          ///< true if both pages have the same bytes outside the marks
-  bool has_media = false, has_takes = false;  ///< true if the page has content between these marks; it is not compared
+  bool has_media = false, has_takes = false;  ///< true if the page has content between these marks (not compared)
 };
 
 /// Compares a page with `bare`, the same run's page with nothing between its marks. Between the marks, the page may

@@ -50,7 +50,7 @@ bool NeedsLogarithm(const std::vector<double>& values) {
   return high / low > kLogarithmicFrom;
 }
 
-// Returns the name of the variant of a metric that measures the worst effector: "orientation_error_max_deg" for
+// Returns the name of a metric's variant for the worst effector: "orientation_error_max_deg" for
 // "orientation_error_deg".
 std::string WorstOf(const std::string& metric) {
   const std::size_t unit = metric.rfind('_');

@@ -22,8 +22,8 @@ struct Chart {
 /// other conditions may differ. Returns nullopt if the run kept no such curves.
 std::optional<Chart> CurveChart(const RunData& run, const ScenarioSummary& scenario);
 
-/// Returns a film with its caption as HTML: a <figure> with <video>. If there is no film, the figure has the poster, if
-/// any, and the reason why there is none. Returns "" if there is no reason either.
+/// Returns a film with its caption as HTML: a <figure> with <video>. If there is no film, the figure has the poster (if
+/// any) and the reason why there is no film. Returns "" if there is no reason either.
 std::string FilmElement(const Film& film, bool plays_at_once);
 
 /// Returns the anchor of a scenario's card. `index` is the scenario's index in the run.

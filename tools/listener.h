@@ -28,7 +28,7 @@ struct Listener {
 /// Prints a message that a file was written.
 void TellWritten(const Listener& listener, const std::string& path);
 
-/// Prints lines, and keeps them for the page and the JSON of a tool.
+/// Prints lines, and keeps these lines for the tool's page and JSON.
 struct MessageLog {
   std::function<void(const std::string& text)> print;
   std::vector<std::string> lines = {};

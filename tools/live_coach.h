@@ -22,8 +22,8 @@ Result<std::string> CoachHead(const Dance& dance);
 /// `brief`, the line has no body.
 Result<std::string> CoachLine(const CoachOutput& output, std::int64_t frame, const Dance& dance, bool brief);
 
-/// The position in the music while a coach dances. It comes from lines '#music 12.34' of the stream; without them, it
-/// is computed from the coach's own music commands.
+/// The position in the music while a coach dances. The position comes from lines '#music 12.34' of the stream; without
+/// such lines, it is computed from the coach's own music commands.
 class MusicPosition {
  public:
   /// Pauses the music, or continues it at another position.
@@ -33,7 +33,7 @@ class MusicPosition {
   /// Returns the seconds since the start of the song; nullopt while the music is silent.
   std::optional<double> Seconds() const { return now_s_; }
 
-  /// Reads a line of the stream; lines about other things change nothing. Fails on '#music' without seconds.
+  /// Reads a line of the stream; other lines change nothing. Fails on '#music' without seconds.
   Result<void> Take(std::string_view line, int number);
 
  private:
@@ -43,9 +43,9 @@ class MusicPosition {
 struct LiveCoachOptions {
   std::string policy;           ///< a name of LivePolicyNames()
   std::string filter;           ///< a name of FilterNames()
-  bool dances_at_once = false;  ///< begin to dance without waiting for a clap
-  bool plans_ahead = false;     ///< spread planning over frames; set it for live streams
-  bool brief = false;           ///< leave out bodies, and frames without a decision
+  bool dances_at_once = false;  ///< true: the coach begins to dance without waiting for a clap
+  bool plans_ahead = false;     ///< true: planning is spread over frames, as live streams need
+  bool brief = false;           ///< true: bodies are left out, and so are frames without a decision
   CoachOptions coach = {};
   /// Receives a remark at the start if the sensor's tilt was corrected or trunks are far from upright.
   std::function<void(const std::string& remark)> on_remark = {};

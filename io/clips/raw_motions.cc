@@ -77,7 +77,7 @@ bool CarriesAsPelvis(const RawMotion& raw, const JointMap& map, const JointMapOv
   std::string name = raw.joints[map[Role::kHipCentre].joint];
   std::ranges::transform(name, name.begin(), [](char c) { return c >= 'A' && c <= 'Z' ? char(c - 'A' + 'a') : c; });
   if (name.ends_with("hips") || name.ends_with("pelvis")) return true;
-  constexpr double kMaxThighs = 0.4;  // in thighs; pelvises of 4 libraries: up to 0.33; OpenNI's torso: 0.44 to 0.50
+  constexpr double kMaxThighs = 0.4;  // in thigh lengths; pelvises of 4 libraries: ≤ 0.33; OpenNI's torso: 0.44–0.50
   const auto at_rest = [&](Role role) { return raw.rest_positions[map[role].joint]; };
   const glm::dvec3 left = at_rest(Role::kLeftHip), right = at_rest(Role::kRightHip);
   const double thighs = glm::distance(left, at_rest(Role::kLeftKnee)) + glm::distance(right, at_rest(Role::kRightKnee));

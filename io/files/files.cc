@@ -92,7 +92,7 @@ Result<PartialFile> PartialFile::Claim(const FilePath& path) {
   std::error_code ignored;
   partial.made_folder_ = !folder.empty() && !std::filesystem::exists(folder, ignored);
   ASSIGN_OR_RETURN(partial.spot_, FileSpot::Find(path, /*makes_folders=*/true));
-  constexpr int kMaxTries = 1000;  // a try fails if another process writes the same file or has just renamed it
+  constexpr int kMaxTries = 1000;  // a try fails if another process is writing the file or has just renamed it
   constexpr int kFlags = O_WRONLY | O_CREAT | O_CLOEXEC | O_NOFOLLOW | O_NONBLOCK;
   for (int copy = 0; copy < kMaxTries; ++copy) {
     partial.name_ = NameOfCopy(partial.spot_.name(), copy / 2).string();

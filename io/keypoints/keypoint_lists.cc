@@ -385,7 +385,7 @@ void LayByNames(std::span<const std::string> names, const FilmOfKeypoints& of, P
     if ((number - first) % usual != 0) return;
     indices.push_back(static_cast<std::size_t>((number - first) / usual));
   }
-  if (indices.back() + 1 == names.size()) return;  // frames are missing only at the end: the film is longer, or was cut
+  if (indices.back() + 1 == names.size()) return;  // no frame is missing before the last one
   const std::size_t count = std::max(of.frames, indices.back() + 1);
   if (indices.back() >= kMaxSpread * indices.size() + of.frames) return;
   MoveFrames(indices, count, film);

@@ -58,7 +58,7 @@ class CapturePanel {
   BodyMotion truth_, recovered_;
   CaptureExtras extras_;
   StagedRoom stage_;
-  std::vector<LensWarp> lenses_;  ///< lens distortion, one per camera
+  std::vector<LensWarp> lenses_;  ///< each camera's lens distortion
   std::vector<Box> crops_;        ///< crop around the person, one per camera, pixels of its pictures
   /// Mean joint error, one per frame; empty if the run did not record errors of frames.
   std::vector<double> errors_mm_;

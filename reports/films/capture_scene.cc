@@ -206,7 +206,7 @@ Camera CameraBefore(const BodyMotion& truth, double width, double height) {
   for (const BodyPose& pose : truth.poses) {
     for (const glm::dvec3& joint : pose.joints) low = glm::min(low, joint), high = glm::max(high, joint);
   }
-  constexpr double kAway = 6, kAir = 0.35;  // distance of the camera, and margin around the motion, metres
+  constexpr double kAway = 6, kAir = 0.35;  // distance of camera and body, margin around the motion, metres
   const double heading = Heading(truth.poses.front()) + Radians(20);
   const glm::dvec3 middle = 0.5 * (low + high);
   const double across = glm::length(glm::dvec2(high.x - low.x, high.z - low.z)) + kAir;

@@ -95,7 +95,7 @@ Film NoFilm(const FilePath& path, std::string why_not) {
 }
 
 /// Makes a film that shows methods side by side in one world. If that is impossible, the returned film states why there
-/// is no film of `what`.
+/// is no film of `what` (such as "the transitions").
 template <typename SideBySide, typename Race>
 Film MakeComparingFilm(Result<Race> race, const std::string& scenario, std::string_view what, const FilePath& path,
                        const FilmWatch& watch) {
@@ -130,7 +130,8 @@ Film MakeSessionFilm(const std::optional<ShownCell>& cell, const std::string& wh
   return Shoot(scene, path, options.watch);
 }
 
-/// Makes one film of a typical session and one of the worst session, or a single film if these are the same session.
+/// Makes one film of a typical session and one of the worst session, or a single film if the typical session is also
+/// the worst session.
 void MakeSessionFilms(const RunData& run, std::size_t index, const MediaPaths& paths, const MediaOptions& options,
                       Media& media) {
   const ScenarioSummary& scenario = run.scenarios[index];

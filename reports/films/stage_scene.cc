@@ -58,7 +58,7 @@ constexpr Box kCoachBox{12, 52, 1256, 656};
 // The frame of the motion that the film shows. A short motion is repeated.
 struct Shown {
   int frame;
-  bool before;  ///< true: the film has shown the whole motion before
+  bool before;  ///< true: the film has already shown the whole motion at least once
 };
 Shown ShownAt(int film_frame, int length) {
   const int round = film_frame % (length + kRest);

@@ -65,7 +65,7 @@ class TransitionPanel {
 };
 
 /// The film of one request under two to four methods side by side. It shows when each method changes clips, how smooth
-/// the transition is, and the partial distances at its transition points.
+/// the transition is, and the partial distances at the transition points.
 class TransitionScene : public Scene {
  public:
   /// Makes the film of a race. The renderer must outlive the scene.

@@ -67,8 +67,8 @@ std::vector<Panel> PanelsOf(const CellSeriesIndex& series, const std::vector<con
   return panels;
 }
 
-/// Returns common axes for all plots of position errors (if `of_positions`) or for all plots of orientation errors, so
-/// that curves can be compared.
+/// Returns common axes for all plots of position errors (if `of_positions` is true) or of orientation errors (if it is
+/// false), so that curves can be compared.
 CurveAxes SharedAxes(const std::vector<Panel>& panels, bool of_positions) {
   std::vector<const PlotCurve*> curves;
   for (const Panel& panel : panels) {
@@ -109,7 +109,7 @@ std::string Figure(const std::vector<Panel>& panels, const ScenarioSummary& scen
   return html + "</div>";
 }
 
-// The number of tables of effector errors that fit on a page of A4; below it, the number of tables of joint angles.
+// The number of tables of effector errors, and the number of tables of joint angles, that fit on a page of A4.
 constexpr std::size_t kErrorTablesPerFloat = 6;
 constexpr std::size_t kAngleTablesPerFloat = 3;
 

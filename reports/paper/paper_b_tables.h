@@ -77,7 +77,7 @@ std::vector<PaperTable> PaperBPrintedAngles();
 struct PaperBSet {
   std::string title;               ///< the trials of the tables: "trial 0", "all 200 trials"
   std::string error_note;          ///< a sentence that explains the numbers in `errors`
-  std::string angle_note;          ///< explains the figures of `angles`; "" if there are none
+  std::string angle_note;          ///< a sentence that explains the numbers in `angles`; "" if there are no angles
   std::string replay;              ///< the command that repeats the trial; "" for all trials
   std::vector<PaperTable> errors;  ///< table "(a) before", then one table per method; a row per effector
   std::vector<PaperTable> angles;  ///< one table per method: the hidden angles of each joint
@@ -96,8 +96,8 @@ struct PaperBCondition {
 bool HasPaperBTables(const RunData& run, const ScenarioSummary& scenario);
 
 /// Returns the filled tables, one entry per condition whose cells recorded the errors of end effectors; empty if no
-/// cell did. A method whose cells recorded none has no table; its line in `outcomes` says why. In tables of one trial,
-/// position errors are signed; in tables over all trials, they are medians of absolute values.
+/// cell did. A method whose cells recorded no errors has no table; its line in `outcomes` says why. In tables of one
+/// trial, position errors are signed; in tables over all trials, they are medians of absolute values.
 std::vector<PaperBCondition> PaperBTables(const RunData& run, const ScenarioSummary& scenario);
 
 }  // namespace etude

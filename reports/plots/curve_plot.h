@@ -24,7 +24,8 @@ struct CurveAxes {
 /// Returns axes that contain all `curves`. The vertical axis covers at most eight powers of ten.
 CurveAxes AxesFor(const std::vector<const PlotCurve*>& curves);
 
-/// Draws curves over steps as an SVG element. A value below the range of the vertical axis is drawn at its lower end.
+/// Draws curves over steps as an SVG element. A value below the range of the vertical axis is drawn at the axis's lower
+/// end.
 std::string CurvePlotSvg(const std::vector<PlotCurve>& curves, CurveAxes axes, const std::string& title);
 
 /// Returns a curve as an SVG line: at most 80 of its points, including the last one.

@@ -35,11 +35,12 @@ std::string ErrorBudgetHtml(const ErrorBudget& budget, const std::string& condit
 /// never happened stay in the denominator, so a method gains nothing by giving up early.
 std::string SurvivalHtml(const RunData& run, const ScenarioSummary& scenario);
 
-/// The two values of a world in which both methods of a comparison have a value. Shares are in per cent.
+/// The values of the two methods of a comparison in one world. Each of the methods has a value there. Shares are in per
+/// cent.
 struct PairedWorld {
   int trial = 0;
   /// The index in PairedDots::units of the sampling unit to which the world belongs. If the world belongs to several
-  /// (the clip that is left and the clip that is entered), the index of the first.
+  /// units (the clip that is left and the clip that is entered), this is the index of the first unit.
   std::size_t unit = 0;
   double baseline = 0, method = 0;
   std::string baseline_cell = {}, method_cell = {};  ///< HTML attributes of the dots; "" if the cells were not recorded
@@ -55,8 +56,8 @@ struct PairedDots {
 };
 inline constexpr std::size_t kMaxPlottedWorlds = 400;
 
-/// Returns the paired worlds of a comparison. The result is empty if no world has values of both methods. It is also
-/// empty if the other method is one of two, each the strongest on one half of the worlds.
+/// Returns the paired worlds of a comparison. The result is empty if no world has values of both methods. The result is
+/// also empty if the comparison is with two other methods, each of which is the strongest on one half of the worlds.
 PairedDots PairedWorldsOf(const RunData& run, const ScenarioSummary& scenario, const Judged& judged);
 
 /// Draws one comparison as an estimation plot (Gardner & Altman 1986; paired as in Ho et al. 2019). The first panel
@@ -77,8 +78,8 @@ std::string UnitLegendHtml(const PairedDots& pairs);
 /// if every world is its own unit.
 std::string WithoutEachUnit(const Comparison& comparison, SamplingUnit unit);
 
-/// Draws the mean differences that result when each sampling unit in turn is left out, on one axis with the practical
-/// threshold. The words of WithoutEachUnit follow.
+/// Draws one mean difference for each sampling unit: the mean that results when this unit is left out, on one axis with
+/// the practical threshold. The words of WithoutEachUnit follow.
 std::string LeftOutStripHtml(const Comparison& comparison, SamplingUnit unit);
 
 }  // namespace etude

@@ -27,7 +27,7 @@ struct JudgedPerformance {
 /// The verdicts of one method on all performances under one condition.
 struct MethodVerdicts {
   std::vector<JudgedPerformance> performances;
-  std::vector<Wait> waits;  ///< time from each right performance until the method called it right
+  std::vector<Wait> waits;  ///< time from the start of each right performance until the verdict "right"
 };
 
 /// Returns each method's verdicts under one condition, in the scenario's order. Methods that judged no performance are
@@ -49,8 +49,8 @@ MoveConfusion ConfusionOf(std::span<const JudgedPerformance> performances);
 struct FaultCount {
   int all = 0, found = 0;
 };
-/// Returns two counts for each worst fault, by its name: performances in which it is slight (severity up to ½), and
-/// performances in which it is worse.
+/// Returns two counts for each worst fault, by its name: performances in which the fault is slight (severity up to ½),
+/// and performances in which it is more severe.
 std::map<std::string, std::pair<FaultCount, FaultCount>> FoundByFault(std::span<const JudgedPerformance> performances);
 
 /// A person's session and its mistakes: right performances that were not called right, and wrong performances that were

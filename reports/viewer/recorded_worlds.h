@@ -15,7 +15,7 @@ struct RecordedCell {
   const Recording* recording = nullptr;
 };
 
-/// A world with the recorded cells of all methods in it.
+/// A world with its recorded cells: one for each method that was recorded.
 struct RecordedWorld {
   std::size_t scenario = 0;  ///< index of the scenario in RunData::scenarios
   /// Path of the script file with the world's motions, relative to `report`: "motions/capture-1.js". The path needs no

@@ -58,8 +58,8 @@ TrackLook LookOf(const std::string& task, const std::string& track) {
   return found == Looks().end() ? TrackLook{task, track, track, "shown"} : *found;
 }
 
-/// Returns, for a task, the meaning of a joint's distance from its reference, and the unit of this distance (that of
-/// the headline metric).
+/// Returns, for a task, the meaning of a joint's distance from its reference, and the unit of this distance, which is
+/// the unit of the headline metric.
 std::pair<std::string_view, std::string_view> ErrorOf(const std::string& task) {
   if (task == "capture" || task == "evaluation") return {"distance from the true joint", "mm"};
   if (task == "ik") return {"distance from the true joint", "cm"};
@@ -75,8 +75,8 @@ struct TrackPoints {
   std::vector<glm::dvec3> points;
 
   std::size_t FrameCount() const { return points.size() / joints; }
-  /// Drops the last frames as long as they equal the frame before, because the viewer keeps showing the last frame by
-  /// itself.
+  /// While the last frame equals the frame before it, drops the last frame, because the viewer holds the last frame
+  /// anyway.
   void CutWhereItRests() {
     const auto frame = static_cast<std::ptrdiff_t>(joints);
     while (points.size() > joints && std::equal(points.end() - frame, points.end(), points.end() - 2 * frame)) {
@@ -164,7 +164,7 @@ class Writer {
     const TrackLook look = LookOf(task_, motion.track);
     const std::size_t frames = motion.FrameCount();
     motion.CutWhereItRests();
-    // If another method recorded exactly the same body, store it only once for both.
+    // If another method recorded exactly the same body, store the body only once for both methods.
     for (std::size_t i = 0; i < bodies_.size(); ++i) {
       const Body& body = bodies_[i];
       if (body.motion.track != motion.track || body.begin != begin || look.label.empty()) continue;
@@ -177,7 +177,7 @@ class Writer {
     std::string bytes;
     for (const std::uint16_t step : quantised.steps)
       bytes += {static_cast<char>(step & 255), static_cast<char>(step >> 8)};
-    // Find the height of the lowest joint, which serves as the floor of the ik task.
+    // Find the height of the lowest joint. In the ik task, the floor has this height.
     for (const glm::dvec3& point : motion.points) lowest_ = std::min(lowest_, point.y);
     Json body = {{"label", look.label.empty() ? cell.row->method : std::string(look.label)},
                  {"cell", cell_},

@@ -23,8 +23,8 @@ std::string ClearSentence(const Comparison& c, const std::string& other, const M
   const double difference = *c.difference;
   const bool worse = c.verdict == Verdict::kWorse;
   const std::string worlds = fmt::format("{} of {}", FormatCount(worse ? c.worse : c.better), Plural(c.pairs, "world"));
-  // The verb states the direction ("lowers by 12.3 (10.1–14.0)"), so the numbers have no sign; for a negative
-  // difference the interval is negated too.
+  // The verb states the direction ("lowers by 12.3 (10.1–14.0)"), so the numbers have no sign: if the difference is
+  // negative, the difference and its interval are negated.
   std::optional<double> low = c.ci_low, high = c.ci_high;
   if (difference < 0 && low && high) {
     low = -*c.ci_high;
@@ -143,8 +143,8 @@ std::string UnpairedWords(const std::vector<Judged>& judged) {
 
 // If one cost is at least this many times the other, the answer states the ratio of costs instead of their difference.
 constexpr double kMinTellingRatio = 2;
-// A cost below this fraction of the practical threshold counts as zero, because a ratio to such a cost would be
-// meaningless.
+// A cost below this fraction of the practical threshold counts as zero, because a ratio with such a small denominator
+// would be meaningless.
 constexpr double kMinShareOfThreshold = 0.1;
 
 std::optional<double> TypicalOf(const ConditionSummary& condition, const std::string& method, const std::string& metric,
@@ -194,8 +194,8 @@ std::string VerdictPhrase(const std::vector<Judged>& judged) {
   return "undecided against " + others;
 }
 
-/// Returns the range of the differences from the other method over all conditions: " (−0.949 mm)"; "" if there are
-/// none.
+/// Returns the range of the differences from the other method over all conditions: " (−0.949 mm)"; "" if there are no
+/// differences.
 std::string ChangeOf(const std::vector<Judged>& judged, std::string_view what) {
   if (!HaveOneMetric(judged)) return "";
   std::optional<double> low, high;

@@ -14,7 +14,7 @@ namespace etude {
 /// baseline. The line says if there is no verdict generalised to other clips or people.
 std::string HeadlineOf(const ScenarioSummary& scenario, const std::string& method, const std::string& metric);
 
-/// The cost of one method divided by the cost of another: the smallest and the largest ratio over conditions.
+/// The ratio of two methods' costs: the smallest and the largest ratio over conditions.
 struct CostRatio {
   double least = 0, most = 0;
 };

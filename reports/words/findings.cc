@@ -150,8 +150,8 @@ std::vector<std::string> OthersBeside(const ScenarioSummary& scenario, const std
   return names;
 }
 
-/// Returns the number of worlds, over all conditions, in which another method is worse than `asked` by at least the
-/// practical threshold.
+/// Returns the number of worlds, over all conditions, in which method `other` is worse than method `asked` by at least
+/// the practical threshold.
 std::string WorldsLostTo(const ScenarioSummary& scenario, const std::string& asked, const std::string& other,
                          const std::string& metric) {
   for (const Against against : {Against::kBaseline, Against::kRival}) {
@@ -163,7 +163,7 @@ std::string WorldsLostTo(const ScenarioSummary& scenario, const std::string& ask
     }
     if (pairs > 0) return fmt::format("{}/{}", FormatCount(lost), FormatCount(pairs));
   }
-  return "";  // the strongest other method is one of two, each the strongest on half of the worlds
+  return "";  // two methods are the strongest, each on half of the worlds
 }
 
 KeyFigures KeyFiguresOf(const ScenarioSummary& scenario, const std::string& asked, Times& times,

@@ -44,7 +44,7 @@ struct MethodFinding {
 struct KeyFigures {
   struct Method {
     std::string name;
-    std::vector<std::string> values;  ///< one value per label, with its unit; "" if the method has no such value
+    std::vector<std::string> values;  ///< one value per label, with a unit; "" if the method has no such value
   };
   /// Names of the key numbers that are known: headline metric, success, processor time, worlds in which a method
   /// loses to the method in question.

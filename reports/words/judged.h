@@ -18,8 +18,8 @@ struct Judged {
   /// The answer to which the comparison belongs; its verdicts replace those of the comparison. Null if there is none.
   const Answer* answer = nullptr;
 
-  /// Here: the verdict on the worlds of this run. Elsewhere: the verdict generalised to other clips, people or
-  /// libraries; nullopt if there are too few of them.
+  /// Here returns the verdict on the worlds of this run. Elsewhere returns the verdict generalised to other clips,
+  /// people or libraries; nullopt if the run has too few of these.
   Verdict Here() const { return answer == nullptr ? comparison->verdict : answer->verdict; }
   std::optional<Verdict> Elsewhere() const { return answer == nullptr ? comparison->beyond.verdict : answer->beyond; }
 };
@@ -34,7 +34,7 @@ std::vector<Judged> JudgedOf(const ScenarioSummary& scenario, const std::string&
 /// the first headline metric.
 std::vector<Judged> AnswersOf(const ScenarioSummary& scenario, const std::string& method, Against against);
 
-/// Returns true if all comparisons are by the same metric.
+/// Returns true if all these comparisons are by the same metric.
 bool HaveOneMetric(const std::vector<Judged>& judged);
 
 /// Returns the names in a comparison's baseline: two if it is "a or b" (two methods, each the strongest on half of the
@@ -86,7 +86,7 @@ struct BeyondFinding {
   bool on_these_only = true;  ///< true: no condition has a generalised verdict
   /// True: every condition has a generalised verdict that equals the verdict on the run's worlds.
   bool as_on_these = false;
-  std::optional<Verdict> verdict = {};  ///< the generalised verdict, if all conditions that have one agree
+  std::optional<Verdict> verdict = {};  ///< the generalised verdict; nullopt if conditions with such a verdict differ
   std::string words = {};               ///< "for other clips: worse", "on these clips only (4 clips, 6 are needed)"
 };
 BeyondFinding BeyondInWords(const std::vector<Judged>& judged, SamplingUnit unit);

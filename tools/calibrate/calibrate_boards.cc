@@ -102,8 +102,8 @@ Result<std::vector<TargetView>> SynchroniseFilms(const CalibrateOptions& options
   return SynchronisedViews(search.sightings(), period_s, steps.delay_s);
 }
 
-/// Prints the residual of each camera, calibrated together with the others and alone, and warns where the two differ
-/// much.
+/// Prints two residuals of each camera: calibrated together with the other cameras, and calibrated alone. Warns if the
+/// two residuals differ much.
 void TellResiduals(const RefinedRig& rig, const CalibrateOptions& options, std::span<const PictureSize> sizes,
                    std::span<const TargetView> views, const std::vector<CameraBoards>& seen) {
   const std::vector<double> rms = ResidualsOf(rig, views);
@@ -136,7 +136,7 @@ std::string NumberAtEnd(const std::string& name) {
   return name.substr(from);
 }
 
-// The value of --beside that asks for a comparison with OpenCV's calibrateCamera instead of a file.
+// With this value, --beside names no file, but asks for a comparison with OpenCV's calibrateCamera.
 constexpr const char* kOpenCv = "opencv";
 
 /// Compares with OpenCV's calibration from the same corners. OpenCV calibrates one camera at a time, so each camera is
@@ -165,7 +165,7 @@ Result<void> CompareWithOpenCv(const CalibrateOptions& options, std::span<const 
   return {};
 }
 
-/// Compares with another calibration of these cameras, on the same corners.
+/// Compares with another calibration of these cameras, at the same board corners.
 Result<void> CompareBeside(const CalibrateOptions& options, const RefinedRig& rig, std::span<const TargetView> views,
                            const std::vector<CameraBoards>& seen) {
   const std::string& file = options.beside;

@@ -25,17 +25,17 @@ struct CalibrateOptions {
   /// Every n-th frame of a film is searched; 0 = every 30th, or for OpenCV's boards about 200 frames.
   int every = 0;
   double sync_s = 0;            ///< maximum delay between films of boards; 0 = two search intervals
-  std::string picture;          ///< a PNG with the corners found and their errors, "" = none
+  std::string picture;          ///< a PNG to write with the found corners and their errors, "" = none
   std::string beside;           ///< another calibration of these cameras to be compared with, or "opencv"; "" = none
   std::string print;            ///< a PNG to write: the board itself, to be printed
   Listener listener = {};
 };
 
-/// A point pair with a wrong pixel or a wrong place.
+/// A point pair with a wrong pixel or place, judged by the calibration from all other pairs.
 struct DisagreeingPair {
-  std::size_t index = 0;  ///< index among the pairs of its camera, from 0
+  std::size_t index = 0;  ///< index among the pairs of the pair's camera, from 0
   PointPair pair;
-  double error_px = 0;        ///< distance of the pixel from the point, as calibrated by all other pairs
+  double error_px = 0;        ///< distance of the pixel from the point as that calibration projects it
   double rms_without_px = 0;  ///< reprojection error of all other pairs in that calibration
 };
 

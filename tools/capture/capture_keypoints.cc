@@ -31,7 +31,7 @@ RecoverPersonOptions RecoverOptionsOf(const CaptureFilmsOptions& options, const 
   recover.cutoff_hz = options.smooth_hz;
   recover.max_gap_s = options.max_gap_s;
   constexpr double kMinOutlierShare =
-      0.004;  // share of the picture's longer side; rounding and lenses cause errors up to this size
+      0.004;  // share of the picture's longer side; rounding and lens distortion cause errors up to this size
   recover.min_outlier_px = kMinOutlierShare * longer_side;
   if (options.outlier_px > 0) recover.triangulate.robust.outlier_px = recover.min_outlier_px = options.outlier_px;
   recover.mends = recover.match.may_be_swapped = true;
@@ -151,7 +151,7 @@ Result<std::vector<ComparedColumn>> CompareWithOutlines(const MarkerMotion& refe
   return columns;
 }
 
-/// Returns true if the markers of a reference are an estimator's landmarks; false if they are joints.
+/// Returns true if the markers of a reference are an estimator's landmarks; false if the markers are joints.
 bool HasLandmarks(const MarkerMotion& reference) {
   return std::ranges::any_of(reference.names, [](const std::string& name) { return FindLandmark(name).has_value(); });
 }
@@ -196,7 +196,7 @@ std::vector<OverlayView> OverlaysOf(const std::vector<FilmedView>& views, const 
     overlays.push_back(
         {view.camera.name, view.path, view.facts, view.camera.camera, view.fit, clocks[i].offset, {}, clocks[i].drift});
     for (auto seen : person.people[chosen].seen[i]) {
-      // Keypoints of matched persons have no lens distortion; add the distortion before drawing.
+      // Keypoints of matched persons have no lens distortion; add the distortion before the keypoints are drawn.
       for (Keypoint& keypoint : seen ? std::span<Keypoint>(seen->keypoints) : std::span<Keypoint>()) {
         const auto rig = DistortPixel(view.camera.camera, keypoint.pixel);
         keypoint = rig && keypoint.confidence > 0 ? Keypoint{view.fit.ToFilm(*rig), keypoint.confidence} : Keypoint{};
@@ -207,7 +207,7 @@ std::vector<OverlayView> OverlaysOf(const std::vector<FilmedView>& views, const 
   return overlays;
 }
 
-/// Prints where keypoints contradict the rig.
+/// Prints the cameras and frames in which keypoints contradict the rig.
 void TellDoubts(const MatchedPerson& person, const std::vector<FilmedView>& views, double min_confidence,
                 MessageLog& told) {
   std::vector<Camera> cameras;

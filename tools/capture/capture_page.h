@@ -45,8 +45,8 @@ struct CapturePage {
   std::vector<std::string> told;           ///< findings, repairs and doubts, one line each
   std::vector<CameraResiduals> residuals;  ///< one entry for keypoints, one for silhouettes, or both
   std::vector<TakeCurve> feet_cm;          ///< heights above the floor, cm
-  std::string limbs;                       ///< a sentence on the origin of the limb lengths
-  std::vector<std::pair<std::string, double>> lengths_cm;  ///< limb lengths
+  std::string limbs;                       ///< a sentence that says where the limb lengths come from
+  std::vector<std::pair<std::string, double>> lengths_cm;  ///< names and values of the limb lengths, cm
   /// For each joint: median and 95th percentile of its distance from the point to which it was fitted, mm; may be
   /// empty.
   std::vector<std::pair<std::string, std::array<double, 2>>> fit;

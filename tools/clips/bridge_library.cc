@@ -22,7 +22,7 @@ bool IsCorrective(const std::string& source) {
   return is_act || source.starts_with(slow);
 }
 
-/// Expands references into clips, each once, in the order of their first mention.
+/// Expands references into clips. Each clip is listed once, in the order of first mention.
 Result<std::vector<std::string>> ListReferences(const std::vector<std::string>& named) {
   auto all = ExpandReferences(named, kMaxLibraryClips);
   if (!all) return all;
@@ -36,7 +36,7 @@ bool Names(const std::string& reference, const std::string& source) {
   return source == reference || source.starts_with(reference + "#");
 }
 
-/// If several clips have the same name, replaces their names by their sources, which differ in the folder.
+/// If several clips have the same name, replaces these names by the clips' sources, which differ in the folder.
 void MakeUnique(std::vector<std::string>& names, const std::vector<std::string>& sources) {
   std::map<std::string, int> counts;
   for (const std::string& name : names) ++counts[name];

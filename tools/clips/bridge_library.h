@@ -21,7 +21,7 @@ struct BridgeLibraryOptions {
   FuzzySystem system;
   double threshold = 0.4;          ///< frames match if their fuzzy distance is smaller
   int min_clips = 2;               ///< minimum number of clips in which the tags of a bridge frame must occur
-  int most_per_class = 0;          ///< maximum number of bridge frames per clip and pose; 0 = all
+  int most_per_class = 0;          ///< maximum number of bridge frames per clip and pose (combination of tags); 0 = all
   bool within_class = false;       ///< compare only frames with the same ten tags
   OpenOptions reading;
   OnProgress on_progress = {};     ///< receives the number of clips that have been read
@@ -43,8 +43,8 @@ Result<BridgeLibrary> LoadBridgeLibrary(const BridgeLibraryOptions& options);
 /// Returns the tags of a library as the content of a tags file.
 BridgeTags TagsOf(const BridgeLibrary& loaded);
 
-/// Writes the tags of a library to a file. First reads its own text again, and fails without writing if the tags
-/// differ.
+/// Writes the tags of a library to a file. First reads back the text that it would write, and fails without writing if
+/// the tags differ.
 Result<void> WriteTags(const BridgeLibrary& loaded, const std::string& path);
 
 }  // namespace etude

@@ -17,8 +17,8 @@ constexpr int kMaxClipsWithPairs = 300;
 /// together. For more than 24 clips, only the JSON has the matrix.
 std::string BridgeSummaryAsText(const BridgeLibrary& loaded, const Coverage& coverage, double wait_s);
 
-/// Writes the content of BridgeSummaryAsText for programs (docs/schemas/bridge-summary.schema.json). Without pairs, the
-/// figures that need them are null, and `pairs` is missing.
+/// Writes the content of BridgeSummaryAsText for programs (docs/schemas/bridge-summary.schema.json). Without pairs,
+/// figures that need the pairs are null, and the member `pairs` is missing.
 Json BridgeSummaryAsJson(const BridgeLibrary& loaded, const Coverage& coverage, double wait_s);
 
 }  // namespace etude

@@ -9,7 +9,7 @@ namespace etude {
 namespace {
 
 constexpr double kApart = 1.6;       // distance between neighbours, metres
-constexpr double kBrightness = 1.8;  // raised, because the lamp is far from most characters
+constexpr double kBrightness = 1.8;  // the room's brightness, raised because the lamp is far from most characters
 constexpr Rgb8 kPale{250, 240, 190};
 
 // Returns a camera that sees the whole square from slightly above; the first row is nearest to it.

@@ -21,7 +21,7 @@ class CrowdStage {
     BodyPose pose;
     bool stands_out = false;
   };
-  /// Draws a crowd with a caption of two lines. It must not have more characters than the constructor was given.
+  /// Draws a crowd with a caption of two lines. The crowd must not have more characters than the constructor was told.
   Canvas Draw(std::span<const Character> crowd, const std::string& strong, const std::string& soft);
 
  private:

@@ -105,7 +105,7 @@ std::string MissingRoles(const std::array<RoleOnSheet, kRoleCount>& roles) {
 Result<std::string> DrawRoleSheet(const Clip& clip, const std::array<RoleOnSheet, kRoleCount>& roles) {
   const std::vector<glm::dvec3> positions = PositionsOf(clip);
   const auto [right, up] = ViewOf(positions, roles);
-  // Project the joints onto the picture's plane.
+  // Project the joints onto the plane of the picture.
   std::vector<SheetJoint> joints(positions.size());
   glm::dvec2 low(INFINITY), high(-INFINITY);
   for (std::size_t i = 0; i < positions.size(); ++i) {

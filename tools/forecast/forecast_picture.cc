@@ -46,7 +46,8 @@ Paint ColourOf(double share) {
   return {a.r + rest * (b.r - a.r), a.g + rest * (b.g - a.g), a.b + rest * (b.b - a.b), 1};
 }
 
-/// Draws the errors at all places of one height, seen from above like the plan: x to the right, z downwards.
+/// Draws the errors at all places of one height as a map. Like the plan, it is seen from above: x to the right, z
+/// downwards.
 void DrawHeight(Canvas& canvas, const RigForecast& forecast, const Scale& scale, int height, double left, double top) {
   const ForecastPlace* places = &forecast.places[static_cast<std::size_t>(height) * kForecastRows * kForecastColumns];
   canvas.DrawText({left, top - 7}, fmt::format("{:.2f} m high", places->place_m.y), kTextSize, kSoftInk, kPanel);

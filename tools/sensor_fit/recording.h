@@ -25,8 +25,8 @@ struct JointRecording {
   double DurationSeconds() const { return static_cast<double>(frames.size()) / rate_hz; }
 };
 
-/// The rigid body that carries a joint, measured by the second system. The joint's position in the carrier's frame is
-/// constant.
+/// The rigid body that carries a joint, measured by the second system (TwinMotion). The joint's position in the
+/// carrier's frame is constant.
 struct Carrier {
   glm::dvec3 position{0};
   glm::dquat rotation{1, 0, 0, 0};
@@ -40,14 +40,15 @@ struct TwinMotion {
   double DurationSeconds() const { return static_cast<double>(frames.size()) / rate_hz; }
 };
 
-/// Reads a Kinect v2's text (30 Hz unless `rate_hz` is given) or joint CSV (at the rate of its times unless `rate_hz`
-/// is given). The first row decides the format. A failure states the file, the line and what is allowed.
+/// Reads a Kinect v2's text (30 Hz unless `rate_hz` is given) or a joint CSV (at the rate of the file's times unless
+/// `rate_hz` is given). The first row decides the format. A failure states the file, the line and what is allowed.
 Result<JointRecording> ReadJointRecording(std::string_view text, const std::string& file,
                                           std::optional<double> rate_hz);
 
 /// Reads a file of 17 rigid targets, or a joint CSV. In a joint CSV, the trunk carries its own joints, and every other
-/// joint is carried by the bone that ends in it. The rate is `rate_hz`; if it is absent, the rate of the file's times;
-/// without times, the rate among 30, 50, 60, 100, 120, 200 and 240 Hz that makes the duration closest to `seconds`.
+/// joint is carried by the bone that ends in it. The rate is `rate_hz` if it is given, otherwise the rate of the file's
+/// times. If the file has no times, the rate is chosen among 30, 50, 60, 100, 120, 200 and 240 Hz, so that the duration
+/// is closest to `seconds`.
 Result<TwinMotion> ReadTwinMotion(std::string_view text, const std::string& file, std::optional<double> rate_hz,
                                   double seconds);
 
