@@ -123,7 +123,7 @@ py::tuple ToTuple(const Repetition& one) { return py::make_tuple(one.move, one.f
 py::tuple ToTuple(const MusicTag& tag) { return py::make_tuple(tag.frame, tag.music_s); }
 py::tuple ToTuple(const CoachAct& act) { return py::make_tuple(act.name, act.motion, act.loops); }
 
-/// Returns a function that returns a dance's parts as tuples.
+/// Makes a getter for Python: a function that returns the parts of a dance as tuples.
 template <typename Part>
 auto TuplesOf(std::vector<Part> Dance::*parts) {
   return [parts](const Dance& dance) {

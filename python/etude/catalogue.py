@@ -42,7 +42,8 @@ def own(manifest):
 
 
 def joints(program=None):
-    """Returns the twenty joints in the order of poses: each one's name and its parent's (None for the first)."""
+    """Returns the twenty joints in the order of poses: the name of each joint and the name of its parent (None for the
+    first)."""
     return _read(find_program(program))[1]
 
 

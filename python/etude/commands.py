@@ -16,17 +16,17 @@ from etude.shipping import ship, write_once
 
 def run(scenario, *, methods=(), metrics=(), trials=None, output=None, seed=None, clips=(), jobs=None, overwrite=False,
         resume=False, fenced=True, progress=True, program=None):
-    """Runs a scenario and returns its Run, as load does.
+    """Runs a scenario, and returns the Run (etude.load) of the result folder.
 
-    scenario: a file, a folder of files, the name of one that comes with etude (`"quick/ik"`), or a dict with the keys
-    of a scenario. methods: further methods, made by @etude.method or dicts with the keys of a scenario's entry; one
-    made by @etude.method is added to the scenarios of its task. metrics: further metrics of every scenario, made by
-    @etude.metric or dicts; the scenario's headline metrics stay. output: the result folder, by default out/NAME-SEED;
-    it must be new unless `overwrite` or `resume` is true. progress: True shows the progress on standard error; a
-    function is called with (cells done, cells).
+    scenario: a file, a folder of files, the name of a scenario that comes with etude (`"quick/ik"`), or a dict with the
+    keys of a scenario. methods: further methods, made by @etude.method or dicts with the keys of a scenario's entry; a
+    method made by @etude.method is added to the scenarios of its task. metrics: further metrics of every scenario, made
+    by @etude.metric or dicts; the scenario's headline metrics stay. output: the result folder, by default
+    out/NAME-SEED; this folder must be new unless `overwrite` or `resume` is true. progress: True shows the progress on
+    standard error; a function is called with (cells done, cells).
 
-    Warns if no cell is ok. Raises EtudeError; its `run` is set if the run finished but a method has no answer (exit
-    code 1).
+    Warns if no cell is ok. Raises EtudeError; the error's `run` is set if the run finished but a method has no answer
+    (exit code 1).
     """
     if isinstance(scenario, dict) or methods or metrics:
         scenario = _write_scenario(scenario, methods, metrics, program)
@@ -59,7 +59,7 @@ def _judged(found, code, printed, said):
 
 
 def _write_scenario(scenario, methods, metrics, program):
-    """Writes a scenario, or a folder of them, with the methods and metrics added, and returns its path."""
+    """Writes a scenario or a folder of scenarios, with the methods and metrics added, and returns the written path."""
     measures = [each if isinstance(each, dict) else _metric(each) for each in metrics]
     entries = [(spec_of(each).task, ship(each)) if not isinstance(each, dict) else (None, each) for each in methods]
     if isinstance(scenario, dict):
@@ -157,7 +157,7 @@ def _with_metrics(name, text, entries):
 
 
 def _keep(texts, suite=None):
-    """Writes scenario files to the cache, in a folder named by their digest, and returns their path."""
+    """Writes scenario files to the cache, in a folder named by the files' digest, and returns the path to run."""
     digest = hashlib.sha256(json.dumps(sorted(texts.items())).encode()).hexdigest()[:16]
     folder = cache_folder() / "scenarios" / digest
     if len(texts) > 1:
@@ -185,7 +185,7 @@ class Gate:
 
 
 def gate(run, baseline=None, *, update=False, program=None):
-    """Judges a run by its expectations and a baseline. Raises EtudeError if it cannot be judged (exit code 3:
+    """Judges a run by its expectations and a baseline. Raises EtudeError if the run cannot be judged (exit code 3:
     incomplete)."""
     flags = [] if baseline is None else ["--baseline", os.fspath(baseline)]
     code, printed, _ = call("gate", getattr(run, "folder", run), *flags, *["--update"] * update, program=program,
@@ -200,12 +200,12 @@ def compare(a, b, *, program=None):
 
 def score(target, predictions, output, *, name=None, alone=False, allow_missing=False, allow_exec=False, jobs=None,
           progress=True, program=None):
-    """Scores answers and returns the Run.
+    """Scores answers, and returns the Run (etude.load) of the result folder.
 
     target: a data set written by `etude export`. allow_exec: allows the data set's own programs, such as metrics, to
     run. predictions: a folder of answers, or a method made by @etude.method. Such a method is asked in this process
-    without a fence, all problems of a setting at once if it takes batches, and its answers are kept in the folder
-    `output` + ".answers".
+    without a fence, all problems of a setting at once if the method takes batches, and its answers are kept in the
+    folder `output` + ".answers".
     """
     if hasattr(predictions, "__etude__"):
         name = name or spec_of(predictions).name

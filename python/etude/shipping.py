@@ -28,8 +28,9 @@ MAX_LITERAL_LENGTH = 1_000_000  # characters of a value that is written as sourc
 
 
 def ship(method):
-    """Returns the entry (a dict) of a scenario's `methods` or `metrics` for one made by @method or @metric. Its folder,
-    below etude.program.cache_folder(), is named by its contents, so that the same method gives the same entry.
+    """Returns the entry (a dict) in a scenario's `methods` or `metrics` for a method or metric made by @method or
+    @metric. The entry's folder, below etude.program.cache_folder(), is named by its contents, so the same method gives
+    the same entry.
 
     Raises ValueError that names what cannot be sent and why.
     """
@@ -83,7 +84,8 @@ def _interpreter(granted):
 
 
 def _write(source, arrays, room):
-    """Returns a program's folder in this part of the cache: with its source, arrays and imported modules."""
+    """Writes a program's folder (its source, arrays and the modules that it imports) into the part `room` of the cache,
+    and returns the folder."""
     here = pathlib.Path(__file__).resolve().parent
     files = {"program.py": source.encode(), **{f"{name}.npy": data for name, data in arrays.items()}}
     for name in ("__init__.py", "conversation.py", "engine.py", "messages.py", "problems.py"):
@@ -114,7 +116,7 @@ class _Pieces:
         self.arrays, self.folders, self._seen, self._lines, self._imports = {}, [], {}, [], []
 
     def add(self, thing, whose):
-        """Adds a function or class of a notebook, after all that it uses."""
+        """Adds a function or class of a notebook, after adding all that it uses."""
         name = thing.__name__
         if name == "<lambda>":
             raise ValueError(f"{whose} is a lambda, which has no source of its own: write it with def")
