@@ -40,8 +40,8 @@ constexpr double kLastingFrames = 10;
 /// factor (1 + unclearness).
 double Unclearness(double contrast);
 
-/// sum of 0.2 %, up to 10 % for a hardly visible limb, and up to 3 % for an unclear one
-double MissProbability(const LimbEvidence& limb);  ///< 0.2 % + up to 10 % if hardly visible + up to 3 % if unclear
+/// Probabilities and sizes of mistakes with a limb at `error_px` = 2. All are *(ours)* and proportional to `error_px`.
+double MissProbability(const LimbEvidence& limb);  ///< 0.2 %, plus ≤ 10 % if hardly visible, plus ≤ 3 % if unclear
 constexpr double kShortShare = 0.03;               ///< standard deviation of the share left out at each end of a stroke
 constexpr double kSwapProbability = 0.0003;        ///< probability per frame that left and right are exchanged
 constexpr double kOverlapSwapProbability = 0.002;  ///< added if the two limbs overlap in the picture, as in a side view

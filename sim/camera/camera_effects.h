@@ -6,14 +6,14 @@ namespace etude {
 /// byte unchanged. The random numbers of an effect do not depend on any strength. The default is a camera with noise
 /// and no other effect. The headers named below describe the models.
 struct CameraEffects {
-  // clock offset of every camera except the first; the sign is random
-  double sync_offset_ms = 0;      ///< offset of all clocks but the first camera's; the sign is random
+  // Time: clocks and shutters (camera_model.h).
+  double sync_offset_ms = 0;      ///< clock offset of every camera except the first; the sign is random
   double clock_drift_ppm = 0;     ///< rate error of every camera's clock except the first, millionths; random sign
   double rolling_shutter_ms = 0;  ///< time between the readings of the first and the last row
   double motion_blur = 0;         ///< exposure time as a share of the time between frames
 
-  // shift of a picture's corner as a share of its distance from the axis; < 0 is a barrel
-  double radial_distortion = 0;      ///< shift of the corner as a share of its distance from the axis; < 0 is a barrel
+  // The lens (lens.h).
+  double radial_distortion = 0;      ///< shift of a picture's corner ÷ its distance from the axis; < 0 is a barrel
   double tangential_distortion = 0;  ///< shift of that corner in a random direction, as a share like radial_distortion
   double defocus_px = 0;             ///< standard deviation of the Gaussian point spread function
   /// Vignetting: light decreases by cos(θ) to the power 4 · vignette, where θ is the angle from the axis. 1 is natural

@@ -25,7 +25,7 @@ struct DepthCameraOptions {
   /// The distance from the camera to the projector on its right (+x of the camera's frame), metres. With 0 the light
   /// comes from the lens itself: there are no shadows and no depth steps.
   double baseline_m = 0.075;
-  double disparity_step_px = 1.0 / 8;  ///< step to whose multiples disparities focal_px · baseline_m / z are rounded
+  double disparity_step_px = 1.0 / 8;  ///< step: disparities focal_px · baseline_m / z are rounded to multiples
   double near_m = 0.8;
   double far_m = 4.0;
   /// The maximum angle between a surface's normal and the line of sight at which depth is measured, radians.

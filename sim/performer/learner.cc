@@ -22,8 +22,8 @@ constexpr double kDemonstration = 1;
 constexpr double kCorrection = 4;  // units per fault of the corrected performance
 constexpr double kWrongPraise = 0.5;
 
-// share of the errors that are avoided in the first performance after feedback
-constexpr double kGuided = 0.5;           // share of errors avoided in the first performance after feedback
+// Guidance (Winstein and Schmidt 1990): feedback makes errors rarer in the next performances, but not permanently.
+constexpr double kGuided = 0.5;           // share of errors that are avoided in the first performance after feedback
 constexpr double kGuidedLater = 0.5;      // share of this guidance that is left after each further performance
 constexpr double kFrequencyMemory = 0.7;  // weight of the past in the running mean of the feedback frequency
 

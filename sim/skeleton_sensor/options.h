@@ -111,8 +111,8 @@ struct SkeletonSensorOptions {
   double mode_share = 0.12;        ///< share of all poses in the second mode (ours)
   double mode_ratio = 4;           ///< size of errors in the second mode ÷ size in the first (ours)
 
-  // share of the variance of `size` that is fast
-  double fast_share = 0.2;    ///< share of the variance of `size`
+  // The fast part: noise in bursts, larger when the body moves.
+  double fast_share = 0.2;    ///< share of the variance of `size` that is fast
   double fast_time_s = 0.05;  ///< time constant of the fast noise (ours)
   double fast_quiet = 0.05;   ///< factor on fast noise at rest; grows with the square of speed to 1 at 0.5 m/s (ours)
   double fast_tail = 0.7;     ///< standard deviation of the logarithm of the bursts' strength; 0: Gaussian noise (ours)

@@ -212,7 +212,7 @@ SensedFrame SkeletonSensor::Sense(const BodyPose& pose, const FrameMotion& motio
   return frame;
 }
 
-/// Delays every frame by Lag() frames. Until then, the first frame is repeated.
+/// Returns the frame that was sensed Lag() frames earlier; at first, while there is none, the first frame.
 SensedFrame SkeletonSensor::Delayed(const SensedFrame& sensed) {
   if (frame_ == 0) std::fill(delayed_.begin(), delayed_.end(), sensed);
   delayed_[frame_ % delayed_.size()] = sensed;

@@ -151,7 +151,7 @@ class SkeletonSensor final : public LiveSensor {
   Swaps swaps_;
   Dropouts dropouts_;
   std::size_t frame_ = 0;             ///< number of frames sensed so far
-  SensedFrame last_;                  ///< the last frame, before swaps
+  SensedFrame last_;                  ///< the last frame, as it was before swaps
   std::vector<SensedFrame> delayed_;  ///< a ring of the last Lag() + 1 frames
 };
 
