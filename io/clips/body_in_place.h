@@ -12,7 +12,7 @@
 
 namespace etude {
 
-/// The body of a clip at the position and the rate that its file gives.
+/// The body of a clip, at the position and the rate that the clip's file states.
 struct BodyInPlace {
   BodyMotion motion;                    ///< the twenty joints at the file's own rate and heights, metres, Y up
   /// The time of the first frame: above 0 if a leading T-pose, or frames before the body is complete, were left out.
@@ -27,8 +27,8 @@ struct BodyInPlace {
 /// Returns the options for finding faults in this body; `floor_m` becomes FaultOptions::floor_m.
 FaultOptions FaultOptionsOf(const BodyInPlace& body, std::optional<double> floor_m = {});
 
-/// Finds the body of a clip with UnderstandClip, and moves it back to the height that it has in the file. Fails if
-/// UnderstandClip fails.
+/// Finds the body of a clip with UnderstandClip, and moves the body back to the height that it has in the file. Fails
+/// if UnderstandClip fails.
 Result<BodyInPlace> BodyInPlaceOf(SourceClip clip, const OpenOptions& options);
 
 /// Reads one clip (ReadOneClip) and finds its body.

@@ -35,7 +35,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Reads files until their total size exceeds kMaxClipFileBytes.
+/// Reads files. Fails as soon as the total size of all files read so far exceeds kMaxClipFileBytes.
 class CappedReader {
  public:
   Result<std::string> Read(const fs::path& path) {
@@ -158,7 +158,8 @@ Result<BidsFacts> ReadBidsFacts(const std::string& file, CappedReader& reader) {
 Result<ClipFile> FileOfArray(const NumberArray& array, const std::optional<std::string>& layout,
                              const std::string& path, const OpenOptions& options, const std::string& said = "") {
   std::string note;
-  // If the array was turned, its up axis is known. A search for the up axis could turn a handstand into a stance.
+  // If the array was turned, the array's up axis is known. A search for the up axis could turn a handstand into a
+  // stance.
   const auto up = said.empty() ? ToldUp(options) : std::optional(UpAxis::kY);
   ASSIGN_OR_RETURN(auto joints, JointsOfArray(array, layout, path, note, up));
   joints.remark = said.empty() ? note : note + "; " + said;

@@ -114,7 +114,7 @@ Result<Converted> ConvertOwnSkeletons(std::vector<SourceClip> sources, MotionFor
     }
     clips.push_back(std::move(*edited));
   }
-  // Report what the file's reader found, and, if the body is understood, doubts about it.
+  // Report what the file's reader found, and, if the body is understood, doubts about the body.
   const auto say = [&](const std::vector<std::string>& texts) {
     converted.changes.insert(converted.changes.end(), texts.begin(), texts.end());
   };
@@ -151,7 +151,7 @@ Result<Converted> ConvertBodies(std::vector<SourceClip> sources, MotionFormat fo
   Converted converted;
   std::vector<Clip> clips;
   BodyPose rest = StandingPose();
-  // Trim each clip, and turn it into a body motion; mirror and retarget it if the options require that.
+  // Trim each clip, and turn it into a body motion; mirror and retarget it if the options require this.
   for (SourceClip& source : sources) {
     auto part = TrimTo(source.clip, options.trim);
     if (!part) return Fail({source.source, 0, 0}, "{}", part.error().message);

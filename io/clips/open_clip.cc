@@ -24,7 +24,8 @@ Result<std::vector<SourceClip>> ReadBuiltin(const std::string& reference) {
   return std::vector<SourceClip>{{reference, reference, ClipFormat::kBuiltin, std::move(clip), nullptr}};
 }
 
-/// Finds the clip named `name`. Exporters write "Armature|Jump"; "Jump" is accepted if only one name ends with it.
+/// Finds the clip named `name`. Exporters write "Armature|Jump"; "Jump" is accepted if only one clip's name ends with
+/// "Jump".
 std::vector<Clip>::iterator FindAnimation(std::vector<Clip>& clips, const std::string& name) {
   const auto exactly = std::ranges::find(clips, name, &Clip::name);
   if (exactly != clips.end()) return exactly;
@@ -51,13 +52,14 @@ Result<void> KeepWanted(const SplitReference& wanted, const Character& figure, s
   return {};
 }
 
-/// Returns the roles that the user assigned, else those that the file assigns; null if neither does.
+/// Returns the roles that the user assigned, else the roles that the file assigns; null if neither does.
 const JointMapOverrides* TaughtBy(const OpenOptions& options, const std::optional<JointMapOverrides>& file) {
   if (options.roles && !options.roles->joints.empty()) return &*options.roles;
   return file ? &*file : nullptr;
 }
 
-/// Moves the root to the hips if the clip's file has it at the chest or head. A clip with meshes keeps its skeleton.
+/// Moves the root to the hips if the clip's file has the root at the chest or head. A clip with meshes keeps its
+/// skeleton.
 void RootAtHips(Clip& clip, bool has_meshes, std::vector<std::string>& remarks) {
   const auto has_scales = [](const LocalPose& pose) {
     return std::ranges::any_of(pose, [](const LocalTransform& local) { return local.scale != glm::dvec3(1); });
@@ -175,7 +177,7 @@ Result<OpenedClip> UnderstandBuiltin(SourceClip source, const BodyOptions& optio
   for (const LocalPose& frame : clip.frames) {
     ComputeGlobals(clip.skeleton, frame, globals);
     BodyPose pose = Evaluate(opened.map, globals);
-    // A sensor's hip centre need not lie midway between its hips, but Evaluate puts it there.
+    // Evaluate puts the hip centre midway between the hips; a sensor's hip centre may lie elsewhere.
     if (opened.source.format != ClipFormat::kBuiltin) {
       pose[Role::kHipCentre] = globals[opened.map[Role::kHipCentre].joint].position;
     }
@@ -244,7 +246,7 @@ Result<std::vector<SourceClip>> ReadClips(const std::string& reference, const Op
   RETURN_IF_ERROR(KeepWanted(wanted, file.figure, file.clips));
   const bool has_meshes = !file.figure.meshes.empty();
   const auto figure = has_meshes ? std::make_shared<const Character>(std::move(file.figure)) : nullptr;
-  // Name each clip after its file and its animation.
+  // Name each clip after the clip's file and animation.
   std::vector<SourceClip> clips;
   for (Clip& clip : file.clips) {
     const std::string animation = "#" + clip.name;

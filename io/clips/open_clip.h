@@ -14,7 +14,7 @@
 
 namespace etude {
 
-/// A clip as its file stores it.
+/// A clip as the clip's file stores it.
 struct SourceClip {
   /// The file's name without folder and extension, and the animation: "01_01", "Med_General#Dance"; or "builtin:clap".
   std::string name;
@@ -37,7 +37,8 @@ struct SourceClip {
 /// write ("Jump" for "Armature|Jump"). If the animation does not exist, the error lists the animations of the file.
 /// `options` may override the frame rate, and helps to find the ground.
 Result<std::vector<SourceClip>> ReadClips(const std::string& reference, const OpenOptions& options = {});
-/// Reads the only clip that a reference names. Fails if the reference names several clips, and lists them.
+/// Reads the only clip that a reference names. Fails if the reference names several clips, and the error lists these
+/// clips.
 Result<SourceClip> ReadOneClip(const std::string& reference, const OpenOptions& options);
 
 /// A clip, the roles of its joints, and the motion of its body.
@@ -47,8 +48,8 @@ struct OpenedClip {
   BodyConversion body;
 };
 
-/// Finds the roles and the body motion of a clip. Built-in clips are bodies already: they are in metres and keep their
-/// position.
+/// Finds the roles and the body motion of a clip. Built-in clips are bodies already: they are already in metres, and
+/// their position is not changed.
 Result<OpenedClip> UnderstandClip(SourceClip source, const OpenOptions& options);
 
 }  // namespace etude

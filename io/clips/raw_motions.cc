@@ -46,7 +46,7 @@ RawMotion OfSkeleton(const Clip& clip, double unit, UpAxis up) {
       up == UpAxis::kY ? glm::dquat(1, 0, 0, 0) : glm::quat_cast(glm::dmat3(1, 0, 0, 0, 0, -1, 0, 1, 0));
   RawMotion raw;
   raw.rate_hz = clip.rate_hz;
-  // Copy the joints, their rest pose and the frames, in the world with Y up.
+  // Copy the joints, the rest pose and the frames, in the world with Y up.
   for (const Joint& joint : clip.skeleton.joints) {
     if (joint.is_end_site) raw.added.push_back(static_cast<int>(raw.joints.size()));
     raw.joints.push_back(joint.name);
@@ -71,7 +71,7 @@ RawMotion OfSkeleton(const Clip& clip, double unit, UpAxis up) {
 }
 
 /// Returns true if the joint that carries both hips is a pelvis by its name or its position, or if the user's roles
-/// make it the hip centre.
+/// make this joint the hip centre.
 bool CarriesAsPelvis(const RawMotion& raw, const JointMap& map, const JointMapOverrides* told) {
   if (told != nullptr && told->joints.contains(Role::kHipCentre)) return true;
   std::string name = raw.joints[map[Role::kHipCentre].joint];
@@ -123,7 +123,8 @@ Result<RawMotion> RawMotionOf(SourceClip source, const OpenOptions& options, boo
   if (source.shown != nullptr) {
     raw = OfMarkers(*source.shown);
   } else {
-    // UnderstandClip finds roles, unit and up axis; its resampling and its floor are not used here.
+    // UnderstandClip finds roles, unit and up axis; the resampled motion and the floor that it computes are not used
+    // here.
     const bool is_body = source.format == ClipFormat::kBuiltin || source.made.has_value();
     OpenOptions how = options;
     how.body.drop_t_pose = false;

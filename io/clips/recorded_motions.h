@@ -14,7 +14,7 @@ struct ClipFile;
 struct OpenOptions;
 
 /// Reads motions that runs recorded. Runs belong to layers above this folder, so the caller that opens clips passes an
-/// implementation (`OpenOptions::recorded`); `bench/run/recorded_motions.h` provides it.
+/// implementation (`OpenOptions::recorded`); `bench/run/recorded_motions.h` provides this implementation.
 class RecordedMotions {
  public:
   virtual ~RecordedMotions() = default;

@@ -14,8 +14,8 @@
 namespace etude {
 namespace {
 
-/// Clips that a Debian package installs. References call them by name, so that no scenario and no result contains a
-/// path of one machine.
+/// Clips that a Debian package installs. References name these clips without their paths, so that no scenario and no
+/// result contains a path of one machine.
 struct PackagedClips {
   std::string_view prefix;   ///< the prefix of references to these clips
   std::string_view package;  ///< name of the Debian package

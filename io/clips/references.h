@@ -19,7 +19,7 @@ struct BuiltinClip {
   std::optional<Move> move;  ///< the authored move with its key poses; absent for songs and acts
 };
 
-/// Loads a built-in clip by its name without the prefix. The error lists the known names.
+/// Loads a built-in clip by the clip's name without the prefix. The error lists the known names.
 Result<BuiltinClip> LoadBuiltinClip(const std::string& name, const Place& place);
 
 /// The maximum number of clips that a reference may stand for.

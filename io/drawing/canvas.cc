@@ -75,7 +75,7 @@ std::uint32_t Between(std::uint32_t under, std::uint32_t over, double share) {
   return pixel;
 }
 
-// Removes the last character: in UTF-8 its continuation bytes and the leading byte.
+// Removes the last character, which in UTF-8 is a leading byte with its continuation bytes.
 void DropLastCharacter(std::string& text) {
   while (!text.empty() && (static_cast<unsigned char>(text.back()) & 0xC0) == 0x80) text.pop_back();
   if (!text.empty()) text.pop_back();

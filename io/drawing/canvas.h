@@ -33,7 +33,7 @@ class Canvas {
   int height() const;
 
   void FillBox(const Box& box, const Paint& paint, double radius = 0);
-  /// Fills a box with a gradient from `top` at its upper edge to `bottom` at its lower edge.
+  /// Fills a box with a gradient from `top` at the box's upper edge to `bottom` at the lower edge.
   void FillShade(const Box& box, const Paint& top, const Paint& bottom);
   void DrawImage(const ColourImage& image, const Box& box, double radius = 0);
   /// Copies a picture of pixels 0x00RRGGBB to (`left`, `top`) without scaling, with rounded corners. The picture must

@@ -32,7 +32,7 @@ std::string MotionFileOf(const std::string& cell);
 /// Writes a relative path as the target of a link: every byte that is special in a URL becomes "%XX".
 std::string UrlPath(std::string_view path);
 
-/// Writes a word of a command line; it is quoted if a shell would split or expand it.
+/// Writes a word of a command line; the word is quoted if a shell would split or expand it.
 std::string ShellWord(std::string_view text);
 
 }  // namespace etude

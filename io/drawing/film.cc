@@ -126,7 +126,7 @@ Result<std::span<const std::uint8_t>> FilmWorkers::Next() {
 
 namespace {
 
-/// A click track; its file exists while the film is encoded.
+/// The file of a click track. The file exists only while the film is encoded.
 class SoundFile {
  public:
   static Result<SoundFile> Make(const Scene& scene) {

@@ -24,10 +24,10 @@ inline constexpr std::array<PlotColour, 8> kPlotColours = {{{"#41464b", "#969ca1
                                                             {"#470014", "#b35e52"},
                                                             {"#02175b", "#a8c4d6"}}};
 
-/// Returns the CSS variables --m0 … --m7 for both colour schemes.
+/// Returns the CSS variables --m0 … --m7 for the light and the dark colour scheme.
 std::string MarksCss();
 
-/// Returns the SVG shapes that MarkUse refers to; a page needs them once.
+/// Returns the SVG shapes that MarkUse refers to; a page must contain these shapes once.
 std::string MarkDefsSvg();
 
 /// Draws a mark at (`x`, `y`) as an SVG element: the shape of method `shape` in the colour of method `colour`. `rest`

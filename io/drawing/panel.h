@@ -38,7 +38,7 @@ std::string TickText(double value);
 /// Returns the label of a power of ten: "0.01", "100k", "1M", "1e-3".
 std::string DecadeText(int decade);
 
-/// A panel is as wide as a telephone's screen, so that its text stays readable there.
+/// A panel is as wide as a telephone's screen, so that the panel's text is readable on a telephone.
 inline constexpr double kPanelWidth = 340;
 inline constexpr double kPanelLeft = 48, kPanelRight = 330;  ///< the left and right limits of the drawing area
 
@@ -47,7 +47,7 @@ inline constexpr double kPanelLeft = 48, kPanelRight = 330;  ///< the left and r
 std::string BeginPanel(double height, std::string_view words, double width = kPanelWidth,
                        std::string_view style = "plot");
 
-/// Draws the grid lines and labels of a vertical axis; lines go from `left` to `right`, labels stand left of them.
+/// Draws the grid lines and labels of a vertical axis; lines go from `left` to `right`, labels stand left of the lines.
 std::string VerticalAxisGrid(const Axis& axis, double left = kPanelLeft, double right = kPanelRight);
 /// Draws the grid lines and labels of a horizontal axis; lines go from `top` to `bottom`, labels stand below.
 std::string HorizontalAxisGrid(const Axis& axis, double top, double bottom);

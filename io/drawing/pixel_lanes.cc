@@ -51,7 +51,7 @@ Shrinker::Shrinker(int large_width, int large_height, int small_width, int small
 
 void Shrinker::Shrink(const Image<std::uint32_t>& large, const PixelRect& rect, Image<std::uint32_t>& small) const {
   if (rect.IsEmpty()) return;
-  // Find the small pixels that the rectangle touches, and the large columns that they cover.
+  // Find the small pixels that the rectangle touches, and the columns of large pixels that these small pixels cover.
   const auto from = [](const std::vector<Cover>& covers, int at, int size) {
     return static_cast<int>(static_cast<std::int64_t>(at) * static_cast<int>(covers.size()) / size);
   };

@@ -11,7 +11,7 @@ namespace etude {
 // Operations on all pixels of a picture, written as loops that compilers turn into vector instructions. Pixels are
 // 0x00RRGGBB.
 
-/// Shrinks pictures; each small pixel is the mean of the large pixels that it covers.
+/// Shrinks pictures; each pixel of the small picture is the mean of the large picture's pixels that it covers.
 class Shrinker {
  public:
   /// Makes a shrinker for pictures of the large size. The small size may be at most three times smaller.

@@ -43,7 +43,8 @@ class Studio {
   glm::dvec2 PixelOf(const Box& box, const glm::dvec3& point) const;
 
  private:
-  /// The points at which the rays of the pixels hit the floor; one number per pixel.
+  /// For each pixel, the point at which the pixel's ray hits the floor, and further numbers; each vector has one number
+  /// per pixel.
   struct Floor {
     std::vector<float> x, z;       ///< metres
     std::vector<float> fade;       ///< visibility of the floor at this point, 0…1; 0 shows only the backdrop
@@ -64,12 +65,12 @@ class Studio {
   Shrinker shrinker_;
 };
 
-/// Turns a figure about the vertical axis and moves it on the floor.
+/// Turns a figure about the vertical axis and moves the figure on the floor.
 Figure Placed(Figure figure, const FloorMove& move);
 
 /// Computes the path that the camera follows, one point per frame: the hip centre, averaged over `smoothing` frames to
-/// either side. If the whole motion stays within 45 cm of its middle, the camera stands still. Needs at least one
-/// frame.
+/// either side. If the whole motion stays within 45 cm of the motion's middle, the camera stands still. Needs at least
+/// one frame.
 std::vector<glm::dvec3> CameraPath(const BodyMotion& motion, int smoothing);
 
 }  // namespace etude

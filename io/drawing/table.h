@@ -11,7 +11,7 @@ namespace etude {
 struct TableColumn {
   std::string head = {};
   bool is_number = false;    ///< true: cells are numbers, aligned to the right
-  bool is_row_head = false;  ///< true: the column's cells are the headings of their rows
+  bool is_row_head = false;  ///< true: the column's cells are headings, each for its own row
   bool is_detail = false;    ///< true: the column is for experts, and the page shows it on request
   bool is_sortable = false;  ///< the page can sort the rows by the numbers in this column's cells
   std::string latex = {};    ///< the heading in LaTeX, if it differs from the heading on the page
@@ -40,7 +40,7 @@ struct TableCell {
 
 struct TableRow {
   std::vector<TableCell> cells = {};  ///< one cell per column; none in a row that begins a group
-  /// The heading of the rows that follow, across all columns; "" in every other row.
+  /// The heading of the rows that follow, across all columns; "" in rows with cells.
   std::string group = {};
   /// An HTML comment that the page holds instead of the row; other writers leave it out.
   std::string mark = {};
@@ -58,9 +58,10 @@ struct Table {
 };
 
 std::string TableHtml(const Table& table);
-/// Writes a table of GitHub's Markdown, with the caption as a paragraph before it. Headings of groups are left out.
+/// Writes a table of GitHub's Markdown, with the caption as a paragraph before the table. Headings of groups are left
+/// out.
 std::string TableMarkdown(const Table& table);
-/// Writes a `tabular` of the package booktabs, without a float, with the caption as a line before it.
+/// Writes a `tabular` of the package booktabs, without a float, with the caption as a line before the table.
 std::string TableLatex(const Table& table);
 /// Writes CSV (RFC 4180): the headings, then one line for each row, in which numbers have all their digits. Captions
 /// and group headings are left out.

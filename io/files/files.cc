@@ -20,7 +20,7 @@ constexpr std::size_t kBufferBytes = 1 << 16;
 
 Place InFile(const FilePath& path) { return Place{.file = path.string()}; }
 
-/// Reads the next bytes of a file; returns their number, 0 at the end.
+/// Reads the next bytes of a file; returns the number of bytes, which is 0 at the end.
 Result<std::size_t> ReadSome(const FilePath& path, int file, std::span<char> into) {
   ssize_t count = 0;
   do count = ::read(file, into.data(), into.size());
@@ -43,7 +43,8 @@ Result<void> Sync(const std::filesystem::path& path, int flags) {
   return {};
 }
 
-/// Returns temporary name number `copy`. The name keeps the extension, because encoders choose the container by it.
+/// Returns temporary name number `copy`. The name keeps the extension, because encoders choose the container by the
+/// extension.
 std::filesystem::path NameOfCopy(const std::filesystem::path& path, int copy) {
   const std::string number = copy == 0 ? "" : std::to_string(copy + 1);
   return path.parent_path() / (path.stem().string() + ".partial" + number + path.extension().string());
@@ -140,7 +141,7 @@ Result<void> PartialFile::CheckRoom() const {
 }
 
 Result<void> PartialFile::Finish(OnDisk when) {
-  // fsync reports failed writes; without it, some file systems (NFS) report them on closing a descriptor.
+  // fsync reports failed writes; without it, some file systems (NFS) report failed writes when a descriptor is closed.
   if (when == OnDisk::kAtOnce ? !Synced(file_) : ::close(::dup(file_)) != 0) return Failure();
   const int folder = spot_.folder();
   if (::renameat(folder, name_.c_str(), folder, spot_.name().c_str()) != 0) return Failure();

@@ -20,8 +20,8 @@ enum class OnDisk {
 };
 
 /// Writes a file completely or not at all: first under a temporary name beside `path`, which is then renamed. The
-/// rename replaces a link instead of following it. Creates the folder. Fails as FileSpot::Find does, and with the path
-/// and the system's reason.
+/// rename replaces a link instead of following it. Creates the folder. Fails as FileSpot::Find does; also fails, with
+/// the path and the system's reason, if the file cannot be written.
 Result<void> WriteFileAtomically(const FilePath& path, std::string_view bytes, OnDisk when = OnDisk::kAtOnce);
 
 /// Writes one JSON value and a line end with WriteFileAtomically. Also fails on NaN and infinity (WriteJson).
@@ -45,7 +45,7 @@ class PartialFile {
 
   const FilePath& path() const { return path_; }  ///< the final path
   int file() const { return file_; }              ///< descriptor, open for writing; −1 after Finish
-  /// Renames the file to its final path.
+  /// Renames the temporary file to the final path.
   Result<void> Finish(OnDisk when = OnDisk::kAtOnce);
   /// Returns the error "cannot write this file" with the reason in errno.
   tl::unexpected<Error> Failure() const;
@@ -70,7 +70,7 @@ class AtomicFile {
   Result<void> Write(std::string_view bytes);
   /// Replaces bytes that were written before, from `offset` on.
   Result<void> Overwrite(std::uint64_t offset, std::string_view bytes);
-  /// Writes the buffered bytes, and renames the file to its final path.
+  /// Writes the buffered bytes, and renames the temporary file to the final path.
   Result<void> Finish(OnDisk when = OnDisk::kAtOnce);
 
  private:
@@ -95,7 +95,7 @@ class FileLines {
   /// Fails as OpenFile does.
   static Result<FileLines> Open(const FilePath& path);
 
-  /// Reads the next line into `line`, without its line end. Returns false at the end of the file.
+  /// Reads the next line into `line`, without the line end. Returns false at the end of the file.
   Result<bool> Next(std::string& line);
   /// Returns true if the last line read had a line end; without one, the file may have been cut off.
   bool had_end() const { return had_end_; }
@@ -110,7 +110,8 @@ class FileLines {
   bool had_end_ = false;
 };
 
-/// Calls `use` with each line of a file, without line ends. Stops at the first error and returns it.
+/// Calls `use` with each line of a file, without line ends. Stops at the first error of `use` or of reading, and
+/// returns this error.
 Result<void> ForEachLine(const FilePath& path,
                          const std::function<Result<void>(std::string_view line, const Place& place)>& use);
 

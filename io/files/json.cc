@@ -30,7 +30,8 @@ std::optional<std::string> FindNonFinite(const Json& json) {
 }
 
 /// Returns true if a CBOR value nests at most kMaxNesting deep and has no tags or indefinite lengths. Json::from_cbor
-/// recurses for each level, so the depth is checked first. Truncated input is left to from_cbor, which detects it.
+/// recurses for each level, so the depth is checked first. Truncated input is left to from_cbor, which detects
+/// truncation.
 bool IsShallowCbor(std::string_view bytes) {
   std::vector<std::uint64_t> open = {1};  // for each open list or map: the number of its values that are still to come
   for (std::size_t at = 0; at < bytes.size() && !open.empty();) {

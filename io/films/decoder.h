@@ -35,7 +35,7 @@ class Decoder {
   Decoder(Decoder&& other) noexcept;
   Decoder& operator=(Decoder&&) = delete;
 
-  /// Reads the next frame; returns false after the last one. Fails with ffmpeg's message if ffmpeg has stopped early.
+  /// Reads the next frame; returns false after the last frame. Fails with ffmpeg's message if ffmpeg has stopped early.
   Result<bool> Next(ColourImage& frame);
 
  private:

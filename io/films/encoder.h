@@ -17,8 +17,8 @@
 namespace etude {
 
 /// Encodes pictures as a film by sending them to ffmpeg, which is started directly, without a shell. The same pictures
-/// give the same bytes on every CPU. The file gets its final name when it is complete; an encoder that is destroyed
-/// before Finish leaves no file.
+/// give the same bytes on every CPU. The film's file gets its final name when the film is complete; an encoder that is
+/// destroyed before Finish leaves no file.
 class Encoder {
  public:
   /// The format of the pictures and of the film. kRgb and kI420 make an MP4 (H.264, lossy): kRgb from RGB pictures,
@@ -40,7 +40,8 @@ class Encoder {
   Result<void> Add(const ColourImage& picture);
   /// Sends the bytes of a picture in the encoder's form.
   Result<void> Add(std::span<const std::uint8_t> picture);
-  /// Waits until ffmpeg ends and moves the file to its path. Fails with ffmpeg's message if ffmpeg failed.
+  /// Waits until ffmpeg ends and renames the film's file to its final path. Fails with ffmpeg's message if ffmpeg
+  /// failed.
   Result<void> Finish();
 
  private:

@@ -125,7 +125,7 @@ void WriteExr(const View& view, const NormalImage& normals, std::span<const Dept
     add(channel.name.c_str(), Imf::FLOAT, channel.depth.pixels.data(), sizeof(float));
   }
 
-  // Write all channels in one pass.
+  // Write the pixels of all channels with one call.
   Imf::OutputFile file(out, header, 0);
   file.setFrameBuffer(channels);
   file.writePixels(height);

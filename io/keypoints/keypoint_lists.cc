@@ -280,7 +280,7 @@ void LayByTimes(const std::vector<double>& times, PeopleOfFilm& film) {
   MoveFrames(indices, indices.back() + 1, film);
 }
 
-/// Returns the names in MMPose's `keypoint_id2name`, in the order of their numbers.
+/// Returns the names in MMPose's `keypoint_id2name`, in the order of the keypoints' numbers.
 std::vector<std::string> MetaNames(const Json& json) {
   const Json* meta = Member(json, "meta_info");
   const Json* names = meta == nullptr ? nullptr : Member(*meta, "keypoint_id2name");
@@ -358,8 +358,8 @@ Result<PeopleOfFilm> ReadKeypointList(const Json& json, const std::string& layou
 
 void LayByNames(std::span<const std::string> names, const FilmOfKeypoints& of, PeopleOfFilm& film) {
   if (names.size() < 2 || names.size() != film.frames.size() || of.frames == names.size()) return;
-  // Read the number at the end of each name. The text before it must be the same in all names, and the numbers must
-  // ascend.
+  // Read the number at the end of each name. The text before the number must be the same in all names, and the numbers
+  // must ascend.
   const auto text_of = [](std::string name) {
     if (const std::size_t dot = name.find_last_of('.'); dot != std::string::npos && dot > 0) name.resize(dot);
     const std::size_t end = name.find_last_of("0123456789");

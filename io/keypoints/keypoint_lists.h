@@ -46,8 +46,8 @@ bool IsKeypointList(const Json& json);
 Result<PeopleOfFilm> ReadKeypointList(const Json& json, const std::string& layout, const FilmOfKeypoints& of,
                                       const Place& place);
 
-/// Places the frames of a film, one for each name, by the number at the end of their names. It needs names that begin
-/// alike, numbers that ascend, and a film with another number of frames. A missing number becomes a frame without
+/// Places the frames of a film, one for each name, by the number at the end of each name. This requires names that
+/// begin alike, numbers that ascend, and a film with another number of frames. A missing number becomes a frame without
 /// people, and `told` says so. If only the end is missing, or if more than nine of ten frames would be empty, the
 /// frames stay as they are.
 void LayByNames(std::span<const std::string> names, const FilmOfKeypoints& of, PeopleOfFilm& film);

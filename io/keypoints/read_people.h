@@ -37,7 +37,7 @@ Result<PeopleOfFilm> ReadKeypoints(const std::filesystem::path& path, const std:
                                    const FilmOfKeypoints& film = {});
 
 /// Reads annotation pictures (`ReadMarks`): PNG files in the order of their names, one per frame, with at most one
-/// person each. Fails if their sizes differ.
+/// person each. Fails if the sizes of the pictures differ.
 Result<PeopleOfFilm> ReadMarkedPictures(const std::filesystem::path& folder);
 
 /// Finds the one entry of a folder that belongs to a film: its name is the film's name, alone or followed by a

@@ -91,7 +91,7 @@ class RegionFinder {
     if (run.y > 0) {
       for (int x = run.x0; x < run.x1; ++x) AddBorder(part, seen_.At(x, run.y - 1), {x + 0.5, run.y});
     }
-    // Measure the contrast at both ends of the run.
+    // Measure the contrast at the two ends of the run.
     AddContrast(run, part, run.x0, -1);
     AddContrast(run, part, run.x1 - 1, +1);
   }

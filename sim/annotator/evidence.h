@@ -44,8 +44,8 @@ struct Regions {
   const Region& operator[](Part part) const { return parts[static_cast<std::size_t>(part)]; }
 };
 
-/// Finds the visible parts of the performer on `person`, or at most `margin_px` outside it in u and in v. Parts that
-/// the segmenter lost are not visible to the annotator. All pictures must have the same size.
+/// Finds the visible parts of the performer on the mask `person`, or at most `margin_px` outside this mask in u and in
+/// v. Parts that the segmenter lost are not visible to the annotator. All pictures must have the same size.
 Regions FindRegions(const LabelImage& labels, const ColourImage& colours, const Mask& person, int margin_px);
 
 /// A picture as the annotator sees it. All three images have the same size.

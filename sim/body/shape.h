@@ -71,8 +71,7 @@ constexpr double kHidingClearance = 0.02;
 /// in front of the joint's skin. `body` must be `BodyCapsules(pose)`.
 bool IsHidden(const std::vector<Capsule>& body, const BodyPose& pose, Role role, const glm::dvec3& eye);
 
-/// An upright solid box, rotated about the vertical; it stands for a piece of furniture in rays and in the renderer.
-/// Metres.
+/// An upright solid box, rotated about the vertical, metres. Sensors and the renderer use such boxes as furniture.
 struct Cuboid {
   glm::dvec3 centre{0};
   glm::dvec3 half_size{0.5};  ///< half sizes along the box's own axes, each positive

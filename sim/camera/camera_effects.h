@@ -19,7 +19,7 @@ struct CameraEffects {
   /// Vignetting: light decreases by cos(θ) to the power 4 · vignette, where θ is the angle from the axis. 1 is natural
   /// (cos⁴).
   double vignette = 0;
-  double dust = 0;  ///< share of the light that a speck absorbs at its centre
+  double dust = 0;  ///< share of the light that a speck of dust absorbs at the speck's centre
 
   // Tones: exposure and colours (sensor.h).
   double exposure_ev = 0;        ///< exposure in stops: > 0 is brighter

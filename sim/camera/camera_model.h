@@ -30,8 +30,9 @@ class Shutter {
     RowRange rows;
     double time = 0;
   };
-  /// Returns the bands of a frame. A rolling shutter reads the rows from the top. It is approximated by kBands bands,
-  /// each exposed at the time of its middle row. Without a rolling shutter there is one band.
+  /// Returns the bands of a frame. A rolling shutter reads the rows from the top. Its effect is approximated by kBands
+  /// bands; all rows of a band are exposed at the time of the band's middle row. Without a rolling shutter there is one
+  /// band.
   std::vector<Band> BandsOf(std::size_t frame, int height) const;
   static constexpr int kBands = 8;
 
@@ -47,10 +48,10 @@ class Shutter {
   double open_ = 0;      ///< exposure time, frames
 };
 
-/// A camera's identity within its world. It is the key of the camera's random numbers.
+/// A camera's identity within its world. The identity is the key of the camera's random numbers.
 struct CameraIdentity {
   WorldKey world;
-  std::string name;          ///< name, such as "capture/camera-0": prefix of the purposes of its random streams
+  std::string name;          ///< such as "capture/camera-0"; prefix of the purposes of the camera's random streams
   bool is_reference = true;  ///< true if the camera's clock is the clock of the truth
 };
 
@@ -74,7 +75,7 @@ class CameraModel {
   /// exposure, without blur, noise and dust.
   View Shoot(std::size_t frame, const Scene& scene, Targets targets);
 
-  /// Takes a picture of the empty stage at time 0, with its own random numbers.
+  /// Takes a picture of the empty stage at time 0, with random numbers of its own purpose.
   ColourImage ShootBackground(const Scene& scene);
 
  private:

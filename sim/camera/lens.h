@@ -17,8 +17,8 @@ namespace etude {
 Distortion LensDistortion(const CameraEffects& effects, const Intrinsics& intrinsics, RandomStream& random);
 
 /// Warps pictures of a pinhole camera into pictures of a lens with distortion. The renderer draws straight lines only,
-/// so it draws the picture of a pinhole camera with the same scale and a margin. Every pixel of the lens is then looked
-/// up in that picture by `UndistortPixel`.
+/// so it draws the picture of a pinhole camera with the same scale and a margin. Every pixel of the lens's picture is
+/// then looked up in the pinhole's picture by `UndistortPixel`.
 class LensWarp {
  public:
   /// Every pixel of the camera must have a source in the pinhole's picture; for usual cameras this holds if the
@@ -84,7 +84,7 @@ using Transmission = Image<float>;
 /// A strength of 1 is the geometric effect of any lens; mounts and filters can make the corners darker still.
 void AddVignette(const Camera& camera, double strength, Transmission& transmission);
 
-/// A speck of dust in front of the sensor. Its shadow is soft, because light arrives from the whole lens.
+/// A speck of dust in front of the sensor. The speck's shadow is soft, because light arrives from the whole lens.
 struct Speck {
   double x = 0, y = 0;  ///< position of the centre, pixels
   double radius = 0;    ///< radius at which half of the shadow is left, pixels

@@ -18,7 +18,8 @@ using LightImage = Image<Light>;
 const std::array<float, 256>& LightOfCodes();
 
 /// Converts linear light to sRGB codes by a table of 2^14 steps. Before rounding, the error is at most 0.11 codes (in
-/// the dark, where the curve is steepest). Each value of LightOfCodes() is converted to its own code.
+/// the dark, where the curve is steepest). Each value of LightOfCodes() is converted back to exactly the code that has
+/// this value.
 class CodeTable {
  public:
   static const CodeTable& Get();

@@ -12,7 +12,7 @@
 
 namespace etude {
 
-/// The exposure of a picture and the gains of its three colours.
+/// The exposure of a picture and the gains of the picture's three colours.
 struct Toning {
   float exposure = 1;                  ///< factor on the light that falls on the sensor
   float red = 1, green = 1, blue = 1;  ///< factors on the values that the sensor reads
@@ -82,7 +82,8 @@ inline float Disturbed(const SensorNoise& noise, float light, float normal) {
 }
 
 /// Adds noise to pictures that have no other effect. For every code, a table holds the 1024 outcomes of decoding the
-/// code to light, adding noise and encoding the sum. The bytes equal those of computing each pixel, at a lower cost.
+/// code to light, adding noise and encoding the sum. The result has the same bytes as computing these steps for each
+/// pixel, at a lower cost.
 class CodeNoise {
  public:
   explicit CodeNoise(const SensorNoise& noise);

@@ -215,13 +215,13 @@ void AddArms(const Girth& girth, double sleeve_cm, const BodyPose& rest, Dressed
   AddBoth(pieces.top, MakePiece(ArmTube(Scaled(CutOff(kArmRings, std::min(sleeve_cm, 55.0)), g, loose), 1, 0.2), rest));
 }
 
-/// Makes a skirt around both legs, from the waist down. Each side follows its leg.
+/// Makes a skirt around both legs, from the waist down. Each side of the skirt follows the leg on this side.
 Piece MakeSkirt(const Girth& girth, double length_cm, const BodyPose& rest) {
   Piece skirt;
   constexpr int kAround = 28, kRings = 7;
   const double waist = 15.4 * girth.belly, hem = waist + 5 + 0.16 * length_cm;
   const glm::dvec3 centre = rest[kHipCentre];
-  // Add a vertex. It follows the hips at the waist, and a mix of both legs below.
+  // Add a vertex. At the waist, a vertex follows the hips; below, it follows a mix of the two legs.
   const auto add = [&](double down_cm, double side_cm, double front_cm, double angle) {
     const double c = std::cos(angle), s = std::sin(angle);
     Piece::Vertex vertex;

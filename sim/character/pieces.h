@@ -41,8 +41,8 @@ struct Blob {
 };
 Piece MakePiece(const Blob& blob, const BodyPose& rest);
 
-/// A tube with round ends along a chain of joints; lengths in centimetres. Every section moves with the joint at its
-/// start; around the joints between sections, the skin is blended.
+/// A tube with round ends along a chain of joints; lengths in centimetres. Every section between two joints moves with
+/// its first joint; around the joints between sections, the skin is blended.
 struct Tube {
   struct Ring {
     double along_cm;      ///< distance from the first joint; may lie before the first and behind the last joint
@@ -79,13 +79,13 @@ struct Rope {
 };
 Piece MakePiece(const Rope& rope, const BodyPose& rest);
 
-/// Combines pieces into a character bound to BodySkeleton(rest): one mesh per material. Normals are smoothed within
-/// each piece.
+/// Combines pieces into a character bound to BodySkeleton(rest): one mesh per material. Normals are smooth within a
+/// piece, but not between pieces.
 class CharacterBuilder {
  public:
   CharacterBuilder(std::string name, const BodyPose& rest);
 
-  /// Adds a material with a colour in sRGB; returns its index for `Add`.
+  /// Adds a material with a colour in sRGB; returns the material's index for `Add`.
   int AddMaterial(std::string name, Rgb8 colour);
   /// Adds a piece; `material` is an index from AddMaterial.
   void Add(int material, const Piece& piece);

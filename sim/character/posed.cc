@@ -33,7 +33,8 @@ std::vector<Part> Inherited(const Skeleton& skeleton, const MaybeParts& known) {
 }
 
 // Returns the scale of the part at a role's joint relative to the standing body: width, length, depth. Limbs keep their
-// shape. The width of hips and chest follows the distance of their joints, independently of the spine's length.
+// shape. The width of hips and chest follows the distance between the hip joints or the shoulder joints, independently
+// of the spine's length.
 glm::dvec3 SizeOf(Role role, const BodyPose& pose) {
   static const BodyPose standing = StandingPose();
   const auto ratio = [&](Role a, Role b) {
@@ -80,7 +81,7 @@ std::vector<Part> PartsOfJoints(const Skeleton& skeleton, const JointMap& map) {
     // head joint may be a tip, so all joints that move the head are found below.
     if (role != Role::kHead && !part_of(map[role].joint)) part_of(map[role].joint) = kPartOfRole[Index(role)];
   }
-  // Assign to the head the head joint and its ancestors, up to the joint that carries the shoulders.
+  // Assign to the head the head joint and those of its ancestors that carry no shoulder.
   std::vector<bool> carries_shoulder(known.size());
   for (int joint = map[Role::kLeftShoulder].joint; joint >= 0; joint = skeleton.joints[joint].parent) {
     carries_shoulder[static_cast<std::size_t>(joint)] = true;

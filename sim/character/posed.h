@@ -17,8 +17,9 @@ namespace etude {
 Figure PosedFigure(const Character& character, const LocalPose& pose, const glm::dmat4& to_world = glm::dmat4(1));
 
 /// Returns a character, which must be bound to BodySkeleton(StandingPose()), in a body's pose. The character is scaled
-/// to the body's proportions: each part to the length of its limb, hips and chest to the distances of their joints. Set
-/// `is_closed` if all meshes are closed, like those of the bear and the mannequin (`Surface::is_closed`).
+/// to the body's proportions: each part to the length of the limb, and hips and chest to the distances between hip
+/// joints and between shoulder joints. Set `is_closed` if all meshes are closed, like those of the bear and the
+/// mannequin (`Surface::is_closed`).
 Figure PosedFigure(const Character& character, const BodyPose& pose, bool is_closed = false);
 
 /// Computes the joints in `pose` of a character bound to BodySkeleton(StandingPose()); the joints' axes are scaled to
@@ -45,7 +46,7 @@ Figure FigureAt(const Character& character, const std::vector<Surface>& still,
 std::vector<GlobalTransform> GlobalsInWorld(const Skeleton& skeleton, const LocalPose& pose,
                                             const glm::dmat4& to_world);
 
-/// The figure that a file contains beside its clip: the file's meshes and textures, which move on the file's own
+/// The figure that a file contains besides a clip: the file's meshes and textures, which move on the file's own
 /// skeleton as recorded.
 class RecordedFigure {
  public:

@@ -41,7 +41,7 @@ enum class SideControl {
   kLegTwist,
   kKnee,
   kFootPoint,  ///< free leg: plantar flexion
-  kFootSide,   ///< standing foot: metres outward from its home spot
+  kFootSide,   ///< standing foot: metres outward from the foot's home spot
   kFootAhead,
   kFootLift,  ///< metres above the floor: a step lifts the foot, a slide does not
   kFootHeel,  ///< rotation that raises the heel about the toe tip
@@ -66,7 +66,7 @@ struct Controls {
   }
 };
 
-/// The name of a control in choreography files, and its unit there.
+/// The name and the unit of a control in choreography files.
 struct ControlName {
   std::string_view group;  ///< "hips", "arm", "elbow"; side controls are written "left_arm", "right_arm" or "arms"
   std::string_view key;    ///< key within the group's mapping; empty if the group itself is a number

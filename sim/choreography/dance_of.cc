@@ -30,7 +30,7 @@ constexpr double kAny = 1e9;
 /// out of the hint.
 struct Vocabulary {
   std::string_view feature;  ///< name of the feature, without the prefix R or L
-  std::string_view part;     ///< the part of the body, without its side
+  std::string_view part;     ///< the part of the body, without "left" or "right"
   std::vector<Word> words;
 };
 const std::vector<Vocabulary>& Vocabularies() {
@@ -54,7 +54,8 @@ std::optional<double> DegreesOf(const KeyPose& pose, const std::string& feature)
   return found != pose.targets.end() ? std::optional(found->degrees) : std::nullopt;
 }
 
-/// Describes both sides of one part of the body. If both sides have the same words, they are combined: "both …s".
+/// Describes both sides of one part of the body. If the two sides have the same words, the sides are combined: "both
+/// …s".
 void SayLimb(const KeyPose& pose, const Vocabulary& vocabulary, std::vector<std::string>& said) {
   const auto word_of = [&](const char* side) {
     const auto degrees = DegreesOf(pose, side + std::string(vocabulary.feature));
@@ -191,7 +192,7 @@ Result<std::vector<double>> ReadBeats(std::string_view text, const std::string& 
     const std::string_view line = Trimmed(TakeLine(text));
     ++number;
     if (line.empty() || line.front() == '#') continue;
-    // Read the line's time, and compare it with that of the previous beat.
+    // Read the line's time, and compare it with the time of the previous beat.
     const auto moment = NumberAtFront(line);
     if (!moment) return Fail({file, number, 1}, "a beat is a number of seconds, found {}", Quote(line.substr(0, 40)));
     if (*moment < 0) return Fail({file, number, 1}, "a beat at {} s; allowed: 0 or later", *moment);
@@ -226,7 +227,7 @@ Result<Dance> ToBeats(Dance dance, const std::vector<double>& beats_s) {
 }
 
 TaughtMove TaughtOf(const Move& move) {
-  constexpr double kExtraSeconds = 0.5;  // time allowed beyond one performance at the taught tempo
+  constexpr double kExtraSeconds = 0.5;  // seconds allowed beyond the duration of one performance at the taught tempo
   TaughtMove taught{.name = move.name,
                     .span_s = 60.0 * move.beats / move.tempo_bpm + kExtraSeconds,
                     .examples = {StreamOf(move.motion)}};

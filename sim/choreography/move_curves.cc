@@ -91,7 +91,8 @@ double PeriodicCurve::At(double time) const {
   const Knot& from = *(after - 1);
   const Knot& to = *after;
 
-  // Evaluate the quintic Hermite segment: the Taylor parabola at its start, plus a correction that fits its end.
+  // Evaluate the quintic Hermite segment: the Taylor parabola at the segment's start, plus a correction that fits the
+  // segment's end.
   const double h = to.at - from.at, s = Eased(to.ease, (at - from.at) / h);
   const double slope = from.slope * h, bend = from.bend * h * h;
   const double gap = to.value - from.value - slope - 0.5 * bend;
@@ -118,7 +119,7 @@ bool IsOneOf(std::size_t control, std::span<const SideControl> of) {
   });
 }
 
-/// Returns true if the foot must be lifted on its way from one pose to the next.
+/// Returns true if the foot must be lifted between one pose and the next.
 bool Steps(const Controls& from, const Controls& to, Side side) {
   if (from[MiddleControl::kJump] > 0 || to[MiddleControl::kJump] > 0) return false;
   for (SideControl off_the_floor : {SideControl::kFootLift, SideControl::kLegFree}) {

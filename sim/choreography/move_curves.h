@@ -69,8 +69,8 @@ struct PoseKey {
 /// things are computed, because authored values would not be accurate enough:
 /// - If the spot of a foot differs between two poses, the foot makes a step: it is lifted, moves, and is down again
 ///   before the second pose.
-/// - A pose with a jump is the top of a flight under gravity. Its height determines the times of take-off and landing;
-///   poses within the jump do not affect the height of the body. Before take-off and after landing the hips dip,
+/// - A pose with a jump is the top of a flight under gravity. The jump's height determines when the body takes off and
+///   lands; poses within the jump do not affect the height of the body. Before take-off and after landing the hips dip,
 ///   because the knees push off and absorb the landing.
 std::vector<PeriodicCurve::Key> KeysOf(const std::vector<PoseKey>& poses, std::size_t control, double beats,
                                        double beat_seconds);
@@ -79,8 +79,8 @@ std::vector<PeriodicCurve::Key> KeysOf(const std::vector<PoseKey>& poses, std::s
 /// jump.
 Result<void> CheckJumps(const std::vector<PoseKey>& poses, double beats, double beat_seconds, const Place& place);
 
-/// A move as smooth curves of its controls over the beats of one performance. Performers vary these curves before
-/// joints are computed.
+/// The smooth curves of a move's controls over the beats of one performance. Performers vary these curves before joints
+/// are computed.
 class MoveCurves {
  public:
   struct Style {
@@ -90,8 +90,8 @@ class MoveCurves {
     double bounce = 0;
     /// The length of a beat in seconds; it determines how many beats a flight lasts.
     double beat_seconds = 0.5;
-    /// If true, the last pose leads back to the first. If false, the body rests in the first pose before the move, and
-    /// in the last pose after it.
+    /// If true, the last pose leads back to the first pose. If false, the body rests in the first pose before the move,
+    /// and in the last pose after it.
     bool loops = true;
   };
 

@@ -22,8 +22,8 @@ struct DepthCameraOptions {
   /// The focal length of the sensor's own picture, pixels. Lateral noise and disparity steps are given in these pixels.
   /// In a picture with another focal length, noise and steps have the same size in the world.
   double focal_px = 580;
-  /// The distance from the camera to the projector on its right (+x of the camera's frame), metres. With 0 the light
-  /// comes from the lens itself: there are no shadows and no depth steps.
+  /// The distance from the camera to the projector, which is on the camera's right (+x of the camera's frame), metres.
+  /// With 0 the light comes from the lens itself: there are no shadows and no depth steps.
   double baseline_m = 0.075;
   double disparity_step_px = 1.0 / 8;  ///< step: disparities focal_px · baseline_m / z are rounded to multiples
   double near_m = 0.8;
@@ -43,11 +43,11 @@ struct DepthCameraOptions {
 /// Returns the options of a structured-light camera, Microsoft's first Kinect: 0.8–4.0 m, with `near_mode` 0.4–3.0 m.
 DepthCameraOptions KinectV1Depth(bool near_mode = false);
 /// Returns the options of a time-of-flight camera, Microsoft's second Kinect: 0.5–4.5 m, without steps and shadows. No
-/// source gives its edge noise; we assume the same number of pixels as for the first Kinect, with a focal length of 365
-/// pixels.
+/// source gives the edge noise of this camera; we assume the same number of pixels as for the first Kinect, with a
+/// focal length of 365 pixels.
 DepthCameraOptions KinectV2Depth();
 
-/// The value of a pixel without a measurement. In true depth images, it means that there is no surface.
+/// The value of a pixel without a measurement. In true depth images, this value means that there is no surface.
 constexpr float kNotMeasured = std::numeric_limits<float>::infinity();
 
 /// Returns the standard deviation σ of an edge's position in the sensor's pixels: 0.8 + 0.035 θ / (π/2 − θ) (Nguyen,

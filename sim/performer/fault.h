@@ -18,7 +18,7 @@ enum class Fault {
   kWrongMove,      ///< another move is danced
   kSkipped,        ///< the person stands still instead
   kLate,           ///< the whole move is late
-  kOffBeat,        ///< the person hurries or drags within the move, and is on time again at its end
+  kOffBeat,        ///< the person hurries or drags within the move, and is on time again at the move's end
   kLimbMissing,    ///< one limb stays at rest
   kElbowStraight,  ///< elbows that should bend stay straight
   kWrongOrder,     ///< the parts of the move are danced in another order
@@ -47,8 +47,8 @@ std::optional<Fault> FindFault(std::string_view name);
 std::string FaultNames(const std::vector<GradedFault>& faults);
 
 /// The deviation of a performance from the meant performance: how the same person would perform the requested move with
-/// the same habits and the same random variation, but without faults. The motion of other people, taught clips and
-/// recognisers are not used.
+/// the same habits and the same random variation, but without faults. This deviation does not depend on the motion of
+/// other people, on taught clips, or on recognisers.
 struct Stray {
   /// The largest error of a limb, degrees. A limb's error is the root mean square, over the performance, of the angle
   /// between the limb's danced direction and its meant direction. Poses are compared at equal shares of the

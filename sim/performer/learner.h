@@ -45,15 +45,16 @@ struct LearnerOptions {
   bool gives_up = true;  ///< if false, the learner never loses patience
 };
 
-/// One performance that a learner was asked for, and its truth. Times are in seconds from the learner's first frame.
+/// One performance that a learner was asked for, and the truth about it. Times are in seconds from the learner's first
+/// frame.
 struct LearnerPerformance {
   int repetition = -1;  ///< number of the performance within the dance
   int move = 0;
-  int attempt = 0;       ///< number of the attempt at this move, from 0; the key of its random numbers
+  int attempt = 0;       ///< number of the attempt at this move, from 0; the key of the attempt's random numbers
   bool is_over = false;  ///< true once the coach shows something else
-  bool is_cut = false;   ///< true if the coach stopped it before its last beat, so it is not judged
-  /// The event; its faults, stray and truth are known from its first frame on. `end_s` is an estimate until the
-  /// performance is over; `first_right_s` is set when the last key beat is performed.
+  bool is_cut = false;   ///< true if the coach stopped the performance before its last beat, so it is not judged
+  /// The event; faults, stray and truth are known from the first frame of the performance on. `end_s` is an estimate
+  /// until the performance is over; `first_right_s` is set when the last key beat is performed.
   SessionEvent event;
 };
 

@@ -74,7 +74,7 @@ Controls DrawPosture(RandomStream& random, double looseness) {
 bool IsOfTheArm(SideControl control) { return control <= SideControl::kWrist; }
 
 std::array<double, kControlCount> DrawGains(RandomStream& random, const Preset& preset) {
-  // Scale all controls of hips, trunk and legs by one factor, and every control by its own factor.
+  // Scale all controls of hips, trunk and legs by one factor, and multiply every control by a factor of its own.
   constexpr double kMinLower = 0.25;
   const double lower = std::max(kMinLower, preset.lower + preset.lower_spread * Bounded(random));
   constexpr double kMin = 0.65, kMax = 1.5;

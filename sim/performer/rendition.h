@@ -27,7 +27,8 @@ inline double EasedTime(double time, double length) {
   return time;
 }
 
-/// The random variation of one performance, without its faults. It differs between the performances of one person.
+/// The random variation of one performance, without its faults. The variation differs between the performances of one
+/// person.
 struct Chance {
   double lag_s = 0;        ///< delay behind the coach
   double tempo = 1;        ///< factor on the move's tempo
@@ -48,14 +49,15 @@ class Rendition {
 
   const Style& style() const { return *meant_; }
 
-  /// Return the body at a share of the performance: Meant without the faults, Danced with them.
+  /// Return the body at a share of the performance: Meant returns it without the faults, Danced with the faults.
   Controls Meant(double share, double vigour = 1) const;
   Controls Danced(double share, double vigour = 1) const;
   /// Returns the weight of the dance: 1 while the person dances, 0 while they stand still.
   double Presence(double share) const;
 
-  /// Return the share of the performance that is reached at time `due`: MeantShare without the faults, DancedShare with
-  /// them. `due` is the share that a perfectly timed performance has reached at that time. Both functions increase.
+  /// Return the share of the performance that is reached at time `due`: MeantShare returns it without the faults,
+  /// DancedShare with the faults. `due` is the share that a perfectly timed performance has reached at that time. Both
+  /// functions increase.
   double MeantShare(double due) const;
   double DancedShare(double due) const;
   /// Returns the delay of the whole performance, as a share of the performance's length.

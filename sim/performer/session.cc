@@ -57,7 +57,7 @@ void AddFault(RandomStream& random, std::span<const Move> moves, const SessionOp
   }
 }
 
-/// An event's rendition, placed at its time in the session.
+/// An event's rendition, placed at the event's time in the session.
 class Dance {
  public:
   Dance(const SessionEvent& event, Rendition rendition)
@@ -79,7 +79,7 @@ class Dance {
   Controls At(double time_s) const { return rendition_.Danced(ShareAt(time_s), vigour_); }
 
   Stray Strays() const { return rendition_.Strays(); }
-  /// Returns the time at which the performance reaches `beat` of its move.
+  /// Returns the time at which the performance reaches beat `beat` of the move.
   double TimeOf(double beat) const {
     return starts_s_ + length_s_ * rendition_.DueOf(beat / rendition_.style().move().beats);
   }
@@ -123,7 +123,7 @@ SessionPlan PlanSession(RandomStream& random, std::span<const Move> moves, const
   Shuffle(random, is_fault);
 
   constexpr double kStandsFirst = 2.0;  // time that sensors and filters need to settle
-  constexpr double kMinRest = 1.0;      // separates the blend out of one move from the blend into the next
+  constexpr double kMinRest = 1.0;      // s; keeps the blend out of one move apart from the blend into the next move
   SessionPlan plan;
   double time = kStandsFirst;
   const std::vector<std::size_t> asked = DrawMoves(random, moves.size(), count);

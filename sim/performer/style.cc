@@ -128,7 +128,7 @@ std::array<double, 7> DrawTerms(RandomStream& random) {
   return terms;
 }
 
-/// Returns a deviation limited to `room`: small deviations hardly change, and large ones approach `room`.
+/// Returns a deviation limited to `room`: small deviations hardly change, and large deviations approach `room`.
 double Saturated(double deviation, double room) {
   if (room <= 0) return 0;
   return room * (1 - std::exp(-deviation / room));
@@ -198,7 +198,7 @@ Controls RestOf(const Person& person) {
 }
 
 Controls WithinReach(const Controls& wanted, const Controls& authored) {
-  // Limit every control to its joint's range.
+  // Limit every control to the range of the joint.
   Controls within;
   for (std::size_t i = 0; i < kControlCount; ++i) {
     const double from = authored.values[i], deviation = wanted.values[i] - from;

@@ -15,8 +15,8 @@ namespace etude {
 class SmoothOffsets {
  public:
   SmoothOffsets() = default;
-  /// Draws the offsets. At `size` 1 their standard deviation is about 15 degrees in the arms, as between people in one
-  /// move (ours).
+  /// Draws the offsets. At `size` 1, the standard deviation of the arms' offsets is about 15 degrees, which is the
+  /// deviation between people who dance one move (ours).
   SmoothOffsets(RandomStream& random, double size);
 
   /// Returns the offsets at a share of the performance. The period is 1.

@@ -31,7 +31,7 @@ HWY_INLINE Product Multiply(Vec a, uint64_t constant) {
   const auto a0 = hn::BitCast(half, a), a1 = hn::BitCast(half, hn::ShiftRight<32>(a));
   const auto b0 = hn::BitCast(half, hn::Set(word, constant)), b1 = hn::BitCast(half, hn::Set(word, constant >> 32));
   const auto p00 = hn::MulEven(a0, b0), p01 = hn::MulEven(a0, b1), p10 = hn::MulEven(a1, b0), p11 = hn::MulEven(a1, b1);
-  // Sum up the products with their carries.
+  // Sum up the partial products, with carries.
   const auto middle = hn::Add(p10, hn::ShiftRight<32>(p00)), lower = hn::Add(p01, hn::And(middle, mask));
   return {hn::Add(hn::Add(p11, hn::ShiftRight<32>(middle)), hn::ShiftRight<32>(lower)),
           hn::Mul(a, hn::Set(word, constant))};

@@ -9,7 +9,7 @@
 namespace etude {
 namespace {
 
-// The distance from the body, metres, up to which its contact shadow darkens the surface below it.
+// The distance from the body, metres, up to which the body's contact shadow darkens the surface below the body.
 constexpr float kContactReach = 0.12f;
 // A margin for the rounding of pixels' positions, which are computed in single precision.
 constexpr double kFloatMargin = 1e-3;
@@ -99,7 +99,8 @@ class Caster {
     }
   }
 
-  // Raises each pixel's nearness to the capsule: 1 at the capsule's skin, 0 at kContactReach from it.
+  // Raises each pixel's nearness to the capsule: 1 at the capsule's skin, 0 at the distance kContactReach from the
+  // skin.
   void Touch(const PixelRow& row, float* nearness) const {
     const glm::vec3 a(start_), v(along_);
     const float vv = glm::dot(v, v), per_vv = vv > 0 ? 1 / vv : 0, radius = static_cast<float>(radius_);
@@ -167,7 +168,7 @@ TileShade Shade(const std::vector<Caster>& casters, bool with_contacts, const La
 
 void Paint(const KeptRoom& kept, const TileShade& shade, double brightness, const PixelRect& pixels, bool labels,
            int top_row, View& view) {
-  // In each row, darken the light, then convert it to bytes.
+  // In each row, darken the light, then convert the light to bytes.
   const std::size_t width = static_cast<std::size_t>(view.colour.width);
   std::array<float, 3 * kRoomTileSize> light;
   for (int y = pixels.top; y < pixels.bottom; ++y) {

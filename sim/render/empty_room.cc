@@ -198,9 +198,9 @@ KeptRoom KeptRooms::Draw(const Room& room, const Camera& camera) {
   }
   gl_.DrawBuffers(2, attachments);
   for (GLuint i = 0; i < 2; ++i)
-    gl_.ColorMaski(i, GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);  // the last draw may have switched them off
+    gl_.ColorMaski(i, GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);  // the last draw may have switched off some channels
 
-  // Draw one triangle over the whole picture; its shader casts a ray for every pixel.
+  // Draw one triangle over the whole picture; the triangle's shader casts a ray for every pixel.
   gl_.Viewport(0, 0, width, height);
   gl_.Disable(GL_DEPTH_TEST);
   gl_.Disable(GL_SCISSOR_TEST);

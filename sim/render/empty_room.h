@@ -23,7 +23,7 @@ struct RoomTexture {
   TilePattern wall;
 };
 
-/// Draws the random patterns of a room. They depend only on `seed`.
+/// Draws the random patterns of a room. The patterns depend only on `seed`.
 RoomTexture MakeRoomTexture(std::uint64_t seed);
 
 /// The maximum side of a tile, pixels. Smaller tiles fit shadows more closely, but every tile is tested against every

@@ -86,7 +86,8 @@ void AddTriangles(const Surface& surface, std::optional<Part> seen_as, int paint
   assert(surface.normals.size() == surface.positions.size() && surface.parts.size() == surface.triangles.size());
   assert(!surface.paint || surface.rest.size() == surface.positions.size());
   assert(surface.paint || !surface.texture || surface.on_texture.size() == surface.positions.size());
-  // A vertex has one corner for each part that meets there. The corners of a vertex form a linked list.
+  // A vertex has one corner for each part of the body that meets at the vertex. The corners of a vertex form a linked
+  // list.
   struct Made {
     Part part;
     std::uint32_t next;

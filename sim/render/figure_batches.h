@@ -48,7 +48,7 @@ struct SurfaceTriangles {
   Triangles plain;    ///< surfaces in one colour
   Triangles painted;  ///< surfaces with a paint
   Triangles textured;
-  std::vector<TexturedRun> textures;  ///< for each run of indices of `textured`, its texture
+  std::vector<TexturedRun> textures;  ///< for each run of indices of `textured`, the texture
 };
 
 /// Writes the triangles of all figures to `all`, whose memory is reused. Triangles are left out if a corner or a normal

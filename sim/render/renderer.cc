@@ -21,7 +21,7 @@ namespace {
 // Surfaces beyond this distance are not drawn, metres.
 constexpr float kMaxDepth = 200;
 
-// The number of corners of a box as one triangle strip.
+// The number of corners of the triangle strip that forms a box.
 constexpr GLsizei kStripLength = 14;
 
 struct Programs {
@@ -157,7 +157,7 @@ struct Renderer::State {
     gl.Disablei(GL_BLEND, 0);
   }
 
-  // Marks shadows on the studio's floor only. Bodies are drawn over them later.
+  // Marks shadows on the studio's floor only. Bodies are drawn over the shadows later.
   void MarkShadowsOfSurfaces(const Room& room, const Camera& camera) {
     gl.UseProgram(programs.shadow_mark);
     SetPixelGeometry(gl, programs.shadow_mark, camera, room);

@@ -30,8 +30,8 @@ class Renderer {
   View RenderRows(const Room& room, const std::vector<Figure>& figures, const Camera& camera, Targets targets,
                   const RowRange& rows);
 
-  /// Draws figures with the studio's light, without the room, and marks their shadows on the studio's floor. The memory
-  /// of an overlay of the right size is reused.
+  /// Draws figures with the studio's light, without the room, and marks the figures' shadows on the studio's floor. The
+  /// memory of an overlay of the right size is reused.
   void DrawFigures(const std::vector<Figure>& figures, const Camera& camera, Overlay& overlay);
 
  private:
@@ -48,8 +48,8 @@ Result<Renderer*> SharedRenderer();
 /// Fails if the environment variable ETUDE_GL, which selects the GL library, is neither "osmesa" nor "egl".
 Result<void> CheckRendererChoice();
 
-/// Loads the drawing library now and not at the first drawing, so that it appears among the libraries of this process.
-/// Fails, with the reason, if it cannot be loaded.
+/// Loads the drawing library now and not at the first drawing, so that the library appears among the libraries of this
+/// process. Fails, with the reason, if the library cannot be loaded.
 Result<void> LoadRenderer();
 
 /// Returns the versions of OpenGL and Mesa, on which pixels depend, and the library used, such as "4.5 (Core Profile)

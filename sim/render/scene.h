@@ -22,7 +22,7 @@ enum class Pattern {
   kStripes,    ///< vertical stripes with period `size`
   kChecks,     ///< bands and stripes
   kTwoTone,    ///< the second colour below the height `size`
-  kPlanks,     ///< boards of width `size`, each with its own tone
+  kPlanks,     ///< boards of width `size`; each board has its own tone
   kTiles,      ///< squares of side `size`, each with its own tone, separated by joints
   kSpeckle,    ///< grains of `size`: carpet, plaster, bark
   kPatchwork,  ///< blocks of `size`, each a mix of the two colours: books, pictures
@@ -74,8 +74,8 @@ struct Figure {
 /// The maximum number of painted surfaces in one picture.
 constexpr std::size_t kMaxPaints = 64;
 
-/// Returns the colours of the captured performer: clothes and skin with warm hues (from 335° through red to 45°). They
-/// differ in hue by at least 85° from everything in the room, because segmentation compares hues.
+/// Returns the colours of the captured performer: clothes and skin with warm hues (from 335° through red to 45°). These
+/// colours differ in hue by at least 85° from everything in the room, because segmentation compares hues.
 PartColours PerformerColours();
 
 /// A box that stands still in the room, rotated about the vertical like Cuboid (sim/body/shape.h). Its pixels are
@@ -136,8 +136,8 @@ constexpr double kWallZ = -2.5;
 /// The position of the studio's only lamp, metres.
 constexpr glm::dvec3 kLamp{-1.8, 2.9, 4.0};
 
-/// The room: either the studio, which has a floor at y = 0 and a wall behind it, both textured and lit by one lamp that
-/// casts shadows; or an interior.
+/// The room: either the studio, which has a floor at y = 0 and a wall behind the floor, textured and lit by one lamp
+/// that casts shadows; or an interior.
 struct Room {
   std::uint64_t texture_seed = 1;  ///< seed of the spots on wall and floor
   double brightness = 1.0;         ///< factor on the light (exposure, lamp drift), ≥ 0; does not change hues

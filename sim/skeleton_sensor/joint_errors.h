@@ -28,7 +28,7 @@ class SlowNoise {
   glm::dvec3 first_{0}, second_{0};
 };
 
-/// Fast noise in bursts, with unit variance over long times and heavy tails: its kurtosis is 3 exp(4 tail²).
+/// Fast noise in bursts, with unit variance over long times and heavy tails: the kurtosis is 3 exp(4 tail²).
 class BurstNoise {
  public:
   BurstNoise(double time_s, double tail, double rate_hz, RandomStream& dice);
@@ -48,8 +48,9 @@ struct PoseLengths {
   double far = 0.8;   ///< length for movements of the arms; used in the errors of trunk and legs
 };
 
-/// A smooth random function of the pose for one joint, with a standard normal distribution along each axis. It is a sum
-/// of random waves over the positions of the joint, of its limb and of the arms, so equal poses have equal values.
+/// A smooth random function of the pose for one joint, with a standard normal distribution along each axis. The
+/// function is a sum of random waves over the positions of the joint, its limb and the arms, so equal poses have equal
+/// values.
 class PoseField {
  public:
   PoseField(Role role, const PoseLengths& lengths, RandomStream& dice);

@@ -44,7 +44,7 @@ std::optional<MotionWindow::Known> MotionWindow::Next() {
   Known known{PoseAt(frame), {.speeds = frame_speeds_[frame % kKept], .moves = {}}};
   known.motion.moves.fill(1);
   const std::size_t last = std::min(frame + kFootReach, count_ - 1);
-  // Rate each foot by its fastest frame within kFootReach frames: 0 at rest, 1 in motion.
+  // Rate each foot by the foot's largest speed within kFootReach frames: 0 at rest, 1 in motion.
   for (const Role role : AllRoles()) {
     if (GroupOf(role) != JointGroup::kFeet) continue;
     double fastest = 0;

@@ -33,7 +33,7 @@ struct NumberKey {
 };
 const std::vector<NumberKey>& NumberKeys() {
   using Options = SkeletonSensorOptions;
-  // Each row has the key in the file, the option that it sets, and its allowed range.
+  // Each row has the key in the file, the option that this key sets, and the option's allowed range.
   static const std::vector<NumberKey> keys = {
       {"reference_distance_m", &Options::reference_distance_m, {0.5, 10}},
       {"arm_stretch", &Options::arm_stretch, {0, 5}},

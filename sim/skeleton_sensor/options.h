@@ -61,8 +61,8 @@ struct GroupErrors {
   double white = 0;        ///< the uncorrelated part of the errors
 };
 
-/// The law by which errors along the line of sight grow with the distance z from the sensor (metres along its axis).
-/// Errors across the line of sight are proportional to z, like the size of a pixel on the surface.
+/// The law by which errors along the line of sight grow with the distance z from the sensor (metres along the sensor's
+/// axis). Errors across the line of sight are proportional to z, like the size of a pixel on the surface.
 enum class DepthLaw {
   /// Structured light: σ_z = 0.0012 + 0.0019 (z − 0.4)² m (Nguyen, Izadi and Lovell 2012).
   kStructuredLight,
@@ -76,9 +76,9 @@ double DepthDeviation(DepthLaw law, double z);
 /// The errors of a Kinect-like skeleton sensor: `SensorV1()`, `SensorV2()` or a file (docs/sensor.md). Comments at the
 /// presets state the sources of the values.
 struct SkeletonSensorOptions {
-  /// Multiplies every size, probability and lag below (probabilities are limited to 1). It does not affect which
-  /// joints are hidden or out of view, nor the offsets of guesses for hidden joints. At 0, hidden joints are inferred
-  /// correctly, and all other joints are reported at their true positions.
+  /// Multiplies every size, probability and lag below (probabilities are limited to 1). The strength does not affect
+  /// which joints are hidden or out of view, nor the offsets of guesses for hidden joints. At 0, hidden joints are
+  /// inferred correctly, and all other joints are reported at their true positions.
   double strength = 1.0;
 
   Intrinsics view;  ///< intrinsics of the depth camera
@@ -86,21 +86,22 @@ struct SkeletonSensorOptions {
   double reference_distance_m = 2.75;  ///< the distance at which errors have their `size`
 
   std::array<GroupErrors, kJointGroupCount> groups;
-  /// Errors follow a linear model on the tree of the body: in units of its group's size, a joint's error is ρ times its
-  /// parent's error plus √(1 − ρ²) times its own error. ρ depends on the kind of bone and is in (−1, 1).
+  /// Errors follow a linear model on the tree of the body: in units of the size of the joint's group, a joint's error
+  /// is ρ times the parent joint's error plus √(1 − ρ²) times the joint's own error. ρ depends on the kind of bone and
+  /// is in (−1, 1).
   std::array<double, kBoneKindCount> correlation{};
   /// Factors on a joint's own error along the bones that end in the joint. With a factor below 1, the sensor keeps limb
   /// lengths nearly constant.
   double arm_stretch = 1;       ///< factor for shoulders, elbows and wrists along upper arm and forearm
   double hand_stretch = 1;      ///< factor for hands along the hand
   double shoulder_stretch = 1;  ///< factor for shoulders along the line between the shoulders
-  /// The `size` of an ankle or foot at rest on the floor, whose noise has the time constant `rest_time_s`. In motion,
-  /// the group's size applies.
+  /// The `size` of the errors of an ankle or foot at rest on the floor; the noise then has the time constant
+  /// `rest_time_s`. In motion, the size of the group applies.
   double planted_feet = 0.003;
   double rest_time_s = 0.2;  ///< time constant of the noise of resting feet (ours)
 
-  // The slow drift: its time constant, and the time constant of a second low pass. If the second is 0, there is only
-  // one low pass (an Ornstein–Uhlenbeck process).
+  // The slow drift: its time constant, and the time constant of a second low pass. If the second time constant is 0,
+  // there is only one low pass (an Ornstein–Uhlenbeck process).
   double wander_time_s = 0.4;
   double wander_smoothing_s = 0;
 

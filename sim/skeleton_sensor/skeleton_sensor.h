@@ -17,18 +17,18 @@
 
 namespace etude {
 
-/// For each joint of one frame: true if it is hidden.
+/// For each joint of one frame: true if the joint is hidden.
 using HiddenJoints = std::array<bool, kRoleCount>;
 
 /// The objects that may hide a body from a sensor, besides the body itself.
 struct Occluders {
   std::vector<Cuboid> furniture;
-  std::vector<BodyPose> bystander;  ///< a second person: one pose per frame; the last pose is repeated; empty: nobody
+  std::vector<BodyPose> bystander;  ///< a second person, one pose per frame; the last pose is repeated; empty: nobody
 };
 
 /// Finds the joints of `pose` that are hidden from `eye` in this frame: the ray to the joint hits another part of the
-/// body, furniture or the second person at least 2 cm before it reaches the joint's own skin. The body has the shape
-/// that the renderer draws (sim/body).
+/// body, furniture or the second person at least 2 cm before the ray reaches the joint's own skin. The body has the
+/// shape that the renderer draws (sim/body).
 HiddenJoints FindHidden(const BodyPose& pose, std::size_t frame, const Occluders& occluders, const glm::dvec3& eye);
 
 /// The sensor's guess of the position of a joint that is not clearly seen.
@@ -118,7 +118,7 @@ struct SensorPlacement {
   double turn = 0;         ///< radians; the performer appears turned by this angle
   double height = 1.0;     ///< metres above the floor; the sensor looks at a point one metre above the floor
 };
-/// Returns the sensor as a camera at its pose, with the intrinsics `view`.
+/// Returns the sensor as a camera at the sensor's pose, with the intrinsics `view`.
 Camera SkeletonSensorAt(const SensorPlacement& place, const Intrinsics& view);
 
 /// Simulates a skeleton sensor, frame by frame. A joint's error depends on the body's motion around the frame, so a

@@ -8,7 +8,7 @@
 
 namespace etude {
 
-/// The part of the floor that the performer needs. No piece of furniture stands on it.
+/// The part of the floor that the performer needs. No piece of furniture stands on this floor.
 struct FreeFloor {
   glm::dvec2 low{0}, high{0};  ///< corners of the free floor (x, z), metres
 };
@@ -17,7 +17,7 @@ struct FreeFloor {
 struct MoverPositions {
   glm::dvec3 plant{0};  ///< position of the top of the pot
   bool has_plant = false;
-  FurnitureBox screen;  ///< the box of the screen; its front (+Z) shows the picture
+  FurnitureBox screen;  ///< the box of the screen; the front of the box (+Z) shows the picture
   bool has_screen = false;
 };
 

@@ -19,7 +19,7 @@ namespace {
 // The values of `scene` from which on the ball and the second person are present. (The plant and the screen appear with
 // their furniture.)
 constexpr double kBall = 0.55, kBystander = 0.60;
-constexpr double kShotSeconds = 1.7;  // duration of one picture on the screen, seconds
+constexpr double kShotSeconds = 1.7;  // duration of each picture that the screen shows, seconds
 
 double Wave(double seconds, double rate_hz, double phase) { return std::sin(2 * kPi * (rate_hz * seconds + phase)); }
 
@@ -129,7 +129,7 @@ Figure Movers::ScreenAt(double seconds) const {
   }
   surface.triangles = {{0, 1, 2}, {0, 2, 3}};
   surface.parts = {Part::kClutter, Part::kClutter};
-  surface.is_closed = true;  // its back is inside the box
+  surface.is_closed = true;  // true, because the back of the surface is inside the box
   surface.paint =
       SurfacePaint{.first = ToRgb(bright), .second = ToRgb(other), .pattern = Pattern::kChecks, .size = size};
   return {.shape = {}, .surfaces = {surface}, .seen_as = Part::kClutter};

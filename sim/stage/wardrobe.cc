@@ -21,7 +21,7 @@ SurfacePaint Plain(const Hsv& colour) {
   return {.first = rgb, .second = rgb};
 }
 
-// The colour of a garment, and the second colour of its pattern.
+// The colour of a garment, and the second colour of the garment's pattern.
 struct Dye {
   Hsv first, second;
 };

@@ -22,8 +22,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-/// Returns the axis of the file that points up (0 = X, 1 = Y, 2 = Z), and the sign of its direction: −1 if the axis
-/// points down.
+/// Returns the axis of the file that points up (0 = X, 1 = Y, 2 = Z), and a sign, which is −1 if this axis points down.
 std::pair<int, int> UpOf(const aiScene& scene) {
   std::int32_t axis = 1, sign = 1;
   if (scene.mMetaData != nullptr) {
@@ -39,8 +38,9 @@ void Append(std::string& bytes, std::uint32_t number) {
   bytes.append(raw.data(), raw.size());
 }
 
-/// Writes the nodes and animations of a scene as a GLB file. assimp's own writer is not used, because it leaves out
-/// transforms within 0.01 of the identity: a joint one centimetre from its parent would move onto the parent.
+/// Writes the nodes and animations of a scene as a GLB file. assimp's own writer is not used, because that writer
+/// leaves out transforms within 0.01 of the identity: a joint one centimetre from its parent would move onto the
+/// parent.
 class MotionGlb {
  public:
   explicit MotionGlb(const aiScene& scene) {
@@ -178,7 +178,8 @@ class MotionGlb {
         for (const float number : numbers_of(keys[i].mValue)) values.push_back(number);
       }
       if (count == 0) return;
-      // Two keys are equal if their numbers (quaternion components, metres, scale factors) differ by less than this.
+      // Two keys are equal if their numbers (quaternion components, metres, scale factors) differ by less than this
+      // constant.
       constexpr float kSame = 0.01f;
       const std::size_t width = values.size() / count;
       for (std::size_t i = width; i < values.size(); ++i) {
