@@ -21,8 +21,8 @@
 namespace etude {
 namespace {
 
-// A film begins one second before the request and ends two seconds after the last transition point of either path. The
-// film is shorter if the recordings are shorter.
+// A film begins one second before the request and ends two seconds after the last transition point of the two paths.
+// The film is shorter if the recordings are shorter.
 constexpr int kBefore = kFilmRate, kAfter = 2 * kFilmRate, kLongest = 20 * kFilmRate;
 constexpr int kSide = 480, kGap = 16;
 
@@ -126,7 +126,7 @@ std::string PageOf(const RunData& run, const std::string& digest, const std::str
 }  // namespace
 
 Result<std::optional<BlindTrial>> MakeBlindTrial(const RunData& run, const BlindOptions& options) {
-  // Collect the recorded worlds and put them in a random order.
+  // Collect the recorded worlds and put these worlds in a random order.
   std::vector<std::pair<const ScenarioSummary*, RecordedRequest>> worlds;
   for (const ScenarioSummary& scenario : run.scenarios) {
     for (RecordedRequest& request : RecordedRequestsOf(run, scenario))

@@ -20,9 +20,9 @@ struct BlindTrial {
 };
 
 struct BlindOptions {
-  std::vector<std::string> methods;  ///< at least two; each world shows two of them, and the possible pairs take turns
+  std::vector<std::string> methods;  ///< at least two; each world shows two of these, and the possible pairs take turns
   int pairs = 40;                    ///< maximum number of filmed pairs; fewer if the run recorded fewer worlds
-  std::uint64_t seed = 1;            ///< seed of the random order of the worlds, and of the sides
+  std::uint64_t seed = 1;            ///< seed of the random order of the worlds, and of the methods' sides
   FilmWatch watch = {};
 };
 

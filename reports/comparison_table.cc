@@ -17,7 +17,7 @@
 namespace etude {
 namespace {
 
-// The page names the file with the omitted comparisons by these words.
+// With these words, the page refers to the file that has the omitted comparisons.
 constexpr std::string_view kAllComparisons = "the CSV file of comparisons in report/tables";
 
 /// The texts of one comparison's table cells, not yet escaped.
@@ -74,7 +74,7 @@ TableRow RowOf(const ScenarioSummary& scenario, const Shown& shown, bool swept) 
   const Comparison& c = *shown.comparison;
   const Line line = LineOf(*shown.condition, c, scenario.unit);
   const std::string place = fmt::format("{}/{}/000/", scenario.name, CompactLabel(shown.condition->condition));
-  std::string cells = place + c.method;  // identities of the compared methods' cells in trial 0, one per line
+  std::string cells = place + c.method;  // IDs of the cells of all compared methods in trial 0, one per line
   for (const std::string& baseline : BaselinesOf({&c, shown.condition})) cells += "\n" + place + baseline;
   const auto& beyond = c.beyond.verdict;
   TableRow row{.cells = {line.methods}, .attributes = fmt::format(" data-ids=\"{}\"", EscapeMarkup(cells))};
@@ -168,8 +168,8 @@ std::string ShownHtml(const ScenarioSummary& scenario, std::span<const Shown> sh
   return TableHtml(table);
 }
 
-/// Returns "holds" if all conditions have the same verdict. Otherwise returns how the verdicts differ: "better under
-/// some, worse under others" if one is better and another worse.
+/// Returns "holds" if all conditions have the same verdict. Otherwise returns how the verdicts differ: for example
+/// "better under some, worse under others".
 std::string WhatHolds(const AcrossVerdict& across) {
   if (across.Holds()) return "holds";
   std::vector<Verdict> said;
@@ -269,8 +269,8 @@ std::string ComparisonTableMarkdown(const ScenarioSummary& scenario) {
 }
 
 std::string ComparisonTableCsv(const ScenarioSummary& scenario) {
-  // Write the headings: first those of the comparison on the worlds of this run, then those of the comparison
-  // generalised to other sampling units (clips, people, …).
+  // Write the headings: first the headings for the comparison on the worlds of this run, then the headings for the
+  // comparison generalised to other sampling units (clips, people, …).
   Table table;
   for (const char* head : {"scenario",        "condition",        "metric",        "baseline",        "method",
                            "pairs",           "differing",        "only_baseline", "only_method",     "neither",

@@ -24,7 +24,7 @@ inline constexpr std::string_view kSigns =
     "Figures are medians, or means of shares and scores, with 95 % intervals.";
 
 /// Returns a table of named pairs of poses: the distance of each pair and each method's verdict. Returns "" unless the
-/// task is `pose-distance` and its worlds are single pairs.
+/// task is `pose-distance` and every world is a single pair.
 std::string PosePairsHtml(const RunData& run, const ScenarioSummary& scenario);
 std::string PosePairsMarkdown(const RunData& run, const ScenarioSummary& scenario);
 

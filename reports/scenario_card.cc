@@ -30,7 +30,7 @@
 namespace etude {
 namespace {
 
-// The maximum number of points per curve. A screen cannot show more points, and they would make the page larger.
+// The maximum number of points per curve. A screen cannot show more points, and more points would make the page larger.
 constexpr std::size_t kMaxSteps = 120;
 // If the largest value exceeds the smallest by more than this ratio, the axis is logarithmic.
 constexpr double kLogarithmicFrom = 100;
@@ -287,7 +287,7 @@ std::string AnswerHtml(const MethodFinding& finding, std::string_view begin) {
 }
 
 /// Returns the verdicts and the sentence about the comparison with the baseline. If the strongest other method is not
-/// the baseline, adds the same about the comparison with that method, folded away.
+/// the baseline, adds, folded away, the verdicts and the sentence about the comparison with that method.
 std::string AnswerBlock(const ScenarioFindings& findings) {
   const std::string html = AnswerHtml(findings.answer, VerdictBadges(findings.answer) + " ");
   if (!HasOtherRival(findings)) return html;

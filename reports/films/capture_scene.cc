@@ -162,7 +162,7 @@ std::optional<Picture> DrawPlate(const CapturePanel& capture, Renderer& renderer
       row.Add(picture, fmt::format("T = {}", frame + 1));
     }
   }
-  // Draw one row of recovered skeletons at the same frames.
+  // Draw one row of recovered skeletons at the frames of the rows above.
   PlateRow row = begin_row("The whole sequence, its skeletons");
   for (const int frame : sequence) {
     Canvas picture(kPictureWidth, kPictureHeight);
@@ -200,7 +200,7 @@ Box ColumnOf(std::size_t index, std::size_t count) {
 }
 
 /// Places a camera slightly to the side of the body's heading, with the whole true motion in view and a margin around
-/// it.
+/// this motion.
 Camera CameraBefore(const BodyMotion& truth, double width, double height) {
   glm::dvec3 low(1e9), high(-1e9);
   for (const BodyPose& pose : truth.poses) {

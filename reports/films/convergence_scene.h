@@ -32,7 +32,7 @@ class RaceClock {
   static constexpr int kOpening = kFilmRate / 2, kEnding = 3 * kFilmRate / 2;
 
   int last_;
-  int run_;  ///< number of frames between the first and the last state, which are both held
+  int run_;  ///< number of frames between the first and the last state; these two states are held
 };
 
 /// The error of one method over iterations: `values[i]` is the error at `iterations[i]`.
@@ -86,11 +86,11 @@ class ConvergenceStage {
   double lift_;  ///< height by which the figures are raised so that no body is below the floor, metres
   BodyPose truth_;
   IkTargets targets_;
-  mutable Studio studio_;  ///< mutable, because it caches its last picture
+  mutable Studio studio_;  ///< mutable, because a studio caches its last picture
   Mask ghost_, rim_;
 };
 
-/// One half of the convergence film: a method's state at a moment, as a picture and as numbers.
+/// One half of the convergence film: a method's state at one iteration, as a picture and as numbers.
 class ConvergencePanel {
  public:
   /// `path` and `stage` must outlive the panel.

@@ -17,7 +17,7 @@ namespace etude {
 inline const double kGoalCm = 100 * IkOptions{}.position_goal;
 inline const double kGoalDeg = Degrees(IkOptions{}.axis_goal);
 
-/// The poses of one method from the start to the end of its iterations. All lists have one entry per recorded
+/// The poses of one method from the first to the last of its iterations. All lists below have one entry per recorded
 /// iteration.
 struct IkPath {
   std::string method;
@@ -57,8 +57,8 @@ struct IkRace {
 };
 
 /// Finds the first two methods with recordings, in the scenario's order, and the first world that both methods
-/// recorded. The choice never depends on the results. Fails with the reason if the methods recorded no common world, or
-/// if the recordings cannot be read.
+/// recorded. The choice never depends on the results. Fails with the reason if no world was recorded for both methods,
+/// or if the recordings cannot be read.
 Result<IkRace> FindIkRace(const RunData& run, const ScenarioSummary& scenario);
 
 }  // namespace etude

@@ -46,7 +46,7 @@ void MakeStageFilm(const RunData& run, const MediaPaths& paths, const FilmWatch&
     why = "There are no pictures: " + ToString(renderer.error());
     return;
   }
-  // `shoot` renders the film, and keeps the reasons why other pictures could not be made.
+  // `shoot` renders the film, and keeps `why_not`, the reasons why other pictures could not be made.
   const auto shoot = [&](Scene&& scene) {
     Film film = Shoot(scene, paths.films / kRunFilm, watch);
     if (!film.why_not.empty()) Note(why, film.why_not);
@@ -59,7 +59,7 @@ void MakeStageFilm(const RunData& run, const MediaPaths& paths, const FilmWatch&
     if (made) return shoot(StageScene(**renderer, std::move(*made)));
     return Note(why, "The coach cannot be shown: " + ToString(made.error()));
   }
-  // Film a capture, and make its strip, stills and EXR files.
+  // Film a capture, and make the capture's strip, stills and EXR files.
   const auto typical = CapturePanel::Make(run, *capture_cell);
   auto captures = FindCaptures(run, *capture_cell);
   if (!typical || !captures) {
@@ -86,7 +86,7 @@ void MakePlates(const RunData& run, Media& media) {
   }
 }
 
-/// Returns a film without frames, which only states why it could not be made.
+/// Returns a film without frames, which only states why the film could not be made.
 Film NoFilm(const FilePath& path, std::string why_not) {
   Film film;
   film.file = path.whole().filename().string();
@@ -179,7 +179,7 @@ Media MakeMedia(const RunData& run, const MediaPaths& paths, const MediaOptions&
   Media media;
   MakeStageFilm(run, paths, options.watch, media);
   MakePlates(run, media);
-  // Make one film for each scenario of a task that has films; a coach's scenario has up to two.
+  // Make one film for each scenario of a task that has films; a coach's scenario has up to two films.
   for (std::size_t i = 0; i < run.scenarios.size() && !options.watch.IsStopped(); ++i) {
     const ScenarioSummary& scenario = run.scenarios[i];
     Film film;

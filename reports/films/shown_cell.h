@@ -20,10 +20,10 @@ struct ShownCell {
 /// value of the first headline metric: a typical cell, not the best one.
 std::optional<ShownCell> ChooseCell(const RunData& run, std::string_view task, std::string_view track);
 
-/// Chooses a cell of one scenario by the same rule.
+/// Chooses a cell of one scenario by the rule of the function above.
 std::optional<ShownCell> ChooseCell(const RunData& run, const ScenarioSummary& scenario, std::string_view track);
 
-/// Finds a curve (one value per frame or iteration) of a cell by its name; null if the cell has none.
+/// Finds a curve (one value per frame or iteration) of a cell by the curve's name; null if the cell has none.
 const Series* FindSeries(const RunData& run, const Row& row, std::string_view name);
 
 }  // namespace etude

@@ -13,8 +13,8 @@
 namespace etude {
 namespace {
 
-// Returns the frame of the request. Older recordings do not contain this frame. It is then computed as the last
-// transition point minus the wait; an unknown wait counts as 0.
+// Returns the frame of the request. Older recordings do not contain this frame. For older recordings, it is computed as
+// the last transition point minus the wait; an unknown wait counts as 0.
 int RequestOf(const TransitionFacts& facts, double rate_hz) {
   if (facts.request_frame) return *facts.request_frame;
   constexpr double kMaxWaitSeconds = 3600;

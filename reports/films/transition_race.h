@@ -15,7 +15,7 @@ struct TransitionPath {
   std::size_t method_index = 0;  ///< index of the method in the scenario, which selects the colour
   TransitionFacts facts;
   BodyMotion motion;
-  std::vector<double> jumps_cm;  ///< largest second difference of any joint's position, one per frame
+  std::vector<double> jumps_cm;  ///< for each frame, the largest second difference of any joint's position
   int request = 0;  ///< index into `motion` of the frame of the request; the index may lie outside `motion`
 
   /// Returns the index of the frame `time` frames after the request. Times before or after the recording give the
@@ -30,7 +30,7 @@ struct TransitionPath {
   int LastPoint() const { return TimeOf(facts.transition_frames.back()); }
 };
 
-/// One request, and the transitions that two to four methods made for it.
+/// One request, and the transitions that two to four methods made for this request.
 struct TransitionRace {
   std::string world;    ///< name of the world: "trial 30"
   std::string request;  ///< the clip that is left and the wanted clip: "clap → side kick"

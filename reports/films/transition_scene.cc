@@ -15,7 +15,8 @@ namespace etude {
 namespace {
 
 constexpr double kStageDetail = 1.5;
-// The camera follows the moving average of a walking body over this many frames (one second) before and after.
+// The camera follows the moving average of a walking body over this many frames (one second) before and after each
+// frame.
 constexpr int kFollowFrames = 30;
 // Poses change little from frame to frame, so every n-th frame is enough to find the space that the camera must see.
 constexpr int kLookedAtEvery = 3;
@@ -57,7 +58,7 @@ TransitionStage StageFor(const TransitionRace& race, const TransitionClock& cloc
   return {race, clock.First(), clock.Last(), static_cast<int>(body.width), static_cast<int>(body.height)};
 }
 
-// Returns the largest jump of all methods. The plots of all methods use it as their scale, so that jumps can be
+// Returns the largest jump of all methods. The plots of all methods use this jump as their scale, so that jumps can be
 // compared across columns.
 double HighestJump(const TransitionRace& race, const TransitionClock& clock) {
   double highest = 1;

@@ -30,7 +30,7 @@ class TransitionStage {
   Character bear_;
   /// The rigid motion on the floor that places a body; index: path, then frame.
   std::vector<std::vector<FloorMove>> placements_;
-  mutable Studio studio_;  ///< mutable, because it caches its last picture
+  mutable Studio studio_;  ///< mutable, because a studio caches its last picture
 };
 
 /// One method's column of the film that compares transitions: the person, the plot of jumps, and the partial distances

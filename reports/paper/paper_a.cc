@@ -51,8 +51,8 @@ class MembershipPanel {
   std::string Label(const Shape& shape, std::string_view name) const {
     const Cut top = CutOf(shape, 1);
     const double peak = 0.5 * (std::max(top.low, universe_.low) + std::min(top.high, universe_.high));
-    // If a peak is nearer to an edge of the plot than this, its name begins or ends at the peak. Centred there, the
-    // name would be cut off.
+    // If a peak is nearer to an edge of the plot than this, the term's name begins or ends at the peak. If the name
+    // were centred at the peak, it would be cut off.
     const double room = 0.15 * (universe_.high - universe_.low);
     const char* anchor = peak < universe_.low + room ? "start" : peak > universe_.high - room ? "end" : "middle";
     return PanelText(inputs_.At(peak), kPanelTop - 8, name, anchor);

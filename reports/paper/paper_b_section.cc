@@ -178,9 +178,9 @@ bool HasEffectorCurves(const RunData& run, const ScenarioSummary& scenario) {
   return scenario.task == "ik" && KeepsSeries(run, scenario, "head_position_error_cm");
 }
 
-/// Draws paper B's figure 5.2: each end effector's position error, and the angular error of each of its axes, over
-/// iterations. Each small plot shows all methods on a logarithmic axis: a thin line for the first trial, a thick line
-/// for the median of all trials. Returns one folded figure per condition; "" if no cell recorded these curves.
+/// Draws paper B's figure 5.2: each end effector's position error, and the angular error of each axis of the effector,
+/// over iterations. Each small plot shows all methods on a logarithmic axis: a thin line for the first trial, a thick
+/// line for the median of all trials. Returns one folded figure per condition; "" if no cell recorded these curves.
 std::string EffectorCurvesHtml(const RunData& run, const ScenarioSummary& scenario) {
   if (!HasEffectorCurves(run, scenario)) return "";
   const CellSeriesIndex series(run);
@@ -214,8 +214,8 @@ std::string PaperBHtml(const RunData& run, const ScenarioSummary& scenario) {
       with_angles = with_angles || !set.angles.empty();
     }
   }
-  // If no table was filled from the run, leave out the tables that the paper prints, because there is nothing to
-  // compare with them.
+  // If no table was filled from the run, leave out the tables that the paper prints, because there is nothing with
+  // which a reader could compare them.
   return open ? html : html + PrintedHtml(with_angles);
 }
 

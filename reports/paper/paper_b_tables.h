@@ -12,7 +12,7 @@
 
 namespace etude {
 
-/// Neighbouring columns under one common heading.
+/// A group of neighbouring columns under one common heading.
 struct PaperColumns {
   std::string head;  ///< heading with the unit: "position error (cm)"
   std::vector<std::string> names;
@@ -68,8 +68,8 @@ inline constexpr std::array<PaperBJoint, 14> kPaperBJoints{{{"R_shoulder", kTree
                                                             {"L_knee", kTreeLeftKnee},
                                                             {"L_ankle", kTreeLeftAnkle}}};
 
-/// Returns tables 5.1 (a)–(c) and 5.2 (b), (d), (e) as the paper prints them for its single pose. The paper's tables
-/// 5.2 (a) and (c) repeat 5.1 (a) and (c).
+/// Returns tables 5.1 (a)–(c) and 5.2 (b), (d), (e) as the paper prints these tables for its single pose. The paper's
+/// tables 5.2 (a) and (c) repeat 5.1 (a) and (c).
 std::vector<PaperTable> PaperBPrintedErrors();
 std::vector<PaperTable> PaperBPrintedAngles();
 

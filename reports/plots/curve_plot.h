@@ -15,7 +15,7 @@ struct PlotCurve {
   std::vector<double> at = {};
 };
 
-/// Axes that neighbouring panels share, so that their curves can be compared.
+/// Axes that neighbouring panels share, so that the curves of these panels can be compared.
 struct CurveAxes {
   Axis across;  ///< horizontal axis: from step 0 to the last step
   Axis up;      ///< vertical axis: logarithmic, from one power of ten to another
@@ -28,7 +28,7 @@ CurveAxes AxesFor(const std::vector<const PlotCurve*>& curves);
 /// end.
 std::string CurvePlotSvg(const std::vector<PlotCurve>& curves, CurveAxes axes, const std::string& title);
 
-/// Returns a curve as an SVG line: at most 80 of its points, including the last one.
+/// Returns a curve as an SVG line: at most 80 points of the curve, including the last point.
 std::string CurveLine(const PlotCurve& curve, const Axis& across, const Axis& up);
 
 /// Draws the short line that stands for a method in a legend.

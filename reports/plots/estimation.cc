@@ -107,7 +107,7 @@ class Plot {
     return info == nullptr ? 0 : info->practical * words_.scale;
   }
   // Returns the lower end of a logarithmic axis of costs. Costs below a hundredth of the practical threshold are drawn
-  // at this end, because the plot need not distinguish them.
+  // at this end, because the plot need not distinguish such small costs.
   double Floor() const {
     return words_.is_share || words_.direction != Direction::kLowerIsBetter ? 0 : Practical() / 100;
   }
@@ -246,7 +246,7 @@ PairedDots PairedWorldsOf(const RunData& run, const ScenarioSummary& scenario, c
   }
   std::erase_if(found, [](const auto& entry) { return !entry.second.baseline || !entry.second.method; });
 
-  // Keep every n-th world that has both values, with its sampling unit.
+  // Keep every n-th world that has both values, with the world's sampling unit.
   PairedDots pairs;
   pairs.total = found.size();
   pairs.units = UnitNames(found);

@@ -13,9 +13,9 @@ namespace etude {
 /// where the method in question differs most from its baseline. Returns "" if no cell has a value.
 std::string LeadPictureHtml(const RunData& run, const ScenarioSummary& scenario);
 
-/// Draws all further plots of a scenario, those of the method in question first: values under the other conditions,
+/// Draws all further plots of a scenario, the plots of the method in question first: values under the other conditions,
 /// comparisons as estimation plots, the effect of leaving out one sampling unit, error budgets, survival curves.
-/// Returns "" if there are none.
+/// Returns "" if there are no further plots.
 std::string PlotSectionHtml(const RunData& run, const ScenarioSummary& scenario);
 
 // The following functions draw the parts of the plot section; the parts about verdicts are in verdicts.h.
@@ -25,9 +25,9 @@ std::string PlotSectionHtml(const RunData& run, const ScenarioSummary& scenario)
 std::string StripsHtml(const RunData& run, const ScenarioSummary& scenario, const ConditionSummary& condition,
                        const std::string& metric);
 
-/// Draws the cost of each processing stage as a waterfall chart with intervals. It starts at the method's error and
-/// ends at the error that remains when the truth replaces all stages. The caption says whether the costs depend on the
-/// order in which the stages were replaced. `condition` is in words and may be empty.
+/// Draws the cost of each processing stage as a waterfall chart with intervals. The chart starts at the method's error
+/// and ends at the error that remains when the truth replaces all stages. The caption says whether the costs depend on
+/// the order in which the stages were replaced. `condition` is in words and may be empty.
 std::string ErrorBudgetHtml(const ErrorBudget& budget, const std::string& condition);
 
 /// Draws survival curves of the metrics that are censored in this scenario (steps of unsolved cells, waits that never
@@ -67,7 +67,7 @@ PairedDots PairedWorldsOf(const RunData& run, const ScenarioSummary& scenario, c
 /// its own unit. Returns "" without worlds.
 std::string EstimationHtml(const ScenarioSummary& scenario, const Judged& judged, const PairedDots& pairs);
 
-/// Returns a legend that explains the estimation plots of a metric; all plots of the metric share it.
+/// Returns a legend that explains the estimation plots of a metric; all plots of the metric share this legend.
 std::string EstimationLegend(const ScenarioSummary& scenario, const std::string& metric);
 
 /// Returns the legend of the sampling units' colours; "" if every world is its own unit.

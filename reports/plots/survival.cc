@@ -31,7 +31,8 @@ struct Censored {
 constexpr std::array<Censored, 2> kCensored = {
     {{"iterations", "solved_practical", "worlds not yet solved"}, {"wait_s", "", "requests still waiting"}}};
 
-/// Returns the time until the event happened in the cell, infinite if it never did; nullopt for a skipped cell.
+/// Returns the time until the event happened in the cell, infinite if the event never happened; nullopt for a skipped
+/// cell.
 std::optional<Wait> WaitOf(const Row& row, const Censored& rule) {
   if (row.result.status == Status::kSkipped) return std::nullopt;
   const auto took = ValueOf(row, rule.metric);

@@ -17,7 +17,7 @@ namespace {
 
 TableColumn NumberColumn(std::string head) { return {.head = std::move(head), .is_number = true}; }
 
-/// Draws a bar for one feature: its partial distance, divided by `full`, the value of a full bar.
+/// Draws a bar for one feature: the feature's partial distance, divided by `full`, the value of a full bar.
 TableCell Bar(double partial, double full, bool has_threshold) {
   const double share = full > 0 ? std::clamp(partial / full, 0.0, 1.0) : 0;
   const bool alone = has_threshold && partial >= full;

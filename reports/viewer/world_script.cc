@@ -67,8 +67,8 @@ std::pair<std::string_view, std::string_view> ErrorOf(const std::string& task) {
   return {"error of the sensor", "cm"};
 }
 
-/// A named motion of arbitrary joints; `points` has the positions of all joints in the first frame, then those in the
-/// next frame.
+/// A named motion of arbitrary joints; `points` has the positions of all joints in the first frame, then the positions
+/// in the next frame.
 struct TrackPoints {
   std::string track;
   std::size_t joints = kRoleCount;
@@ -122,7 +122,7 @@ class Writer {
              {"notes", Json::array()},  {"cells", Json::array()},
              {"bodies", Json::array()}, {"targets_m", Json::array()},
              {"steps", Json::array()},  {"marks", Json::array()}};
-    // Add each cell with its extras and tracks.
+    // Add each cell with the extras and tracks of its recording.
     for (cell_ = 0; cell_ < world_.cells.size(); ++cell_) {
       const RecordedCell& cell = world_.cells[cell_];
       json_["cells"].push_back({{"id", cell.row->Id()},
@@ -172,7 +172,7 @@ class Writer {
       json_["bodies"][i]["cell"] = -1;
       return;
     }
-    // Quantise the joints and encode them in Base64.
+    // Quantise the joints and encode the steps in Base64.
     const QuantisedMotion quantised = Quantise(motion.points);
     std::string bytes;
     for (const std::uint16_t step : quantised.steps)
@@ -194,8 +194,8 @@ class Writer {
     bodies_.push_back({std::move(motion), begin, cell_});
   }
 
-  // For each body, lists the bodies from which its error is measured: those of the same cell, and bodies that several
-  // methods share.
+  // For each body, lists the bodies from which this body's error is measured: bodies of the same cell, and bodies that
+  // several methods share.
   void FindReferences() {
     for (std::size_t i = 0; i < bodies_.size(); ++i) {
       for (const std::string_view track : LookOf(task_, bodies_[i].motion.track).against) {
@@ -282,7 +282,7 @@ class Writer {
     return begin;
   }
 
-  /// Marks a verdict: "hit" if it agrees with the truth, "miss" if it does not, "grey" if the truth itself is
+  /// Marks a verdict: "hit" if the verdict agrees with the truth, "miss" if it disagrees, "grey" if the truth itself is
   /// undecided.
   void MarkJudgement(std::string_view lane, int frame, const std::string& truth, bool called_right,
                      const std::string& text) {

@@ -25,7 +25,7 @@ struct MetricWords {
   std::string plain_label = {};
 };
 MetricWords WordsFor(const std::string& metric_id);
-/// Returns the suffix without its space, for captions: "cm", "".
+/// Returns the suffix without the space before the unit, for captions: "cm", "".
 std::string UnitOf(const MetricWords& words);
 
 /// Returns the typical value of a metric over all cells, in the metric's unit: the median or the mean, as the metric

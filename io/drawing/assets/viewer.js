@@ -8,8 +8,7 @@ const HEAD = 3, HEAD_RADIUS = .1, THIN = .022;
 // The skeleton of a body: the twenty joints, or the body's own joints, which are drawn as thin lines.
 const BODY = {joints: JOINTS, parents: PARENT};
 const treeOf = (body) => body.joints ? {joints: body.joints.map((name) => name.replaceAll('_', ' ')), parents: body.parents} : BODY;
-// The colour scale runs from blue over pale yellow to red; readers who cannot distinguish green from red can also read
-// this scale.
+// The colour scale runs from blue over pale yellow to red: readers who confuse green and red can also read this scale.
 const SCALE = [[45, 100, 180], [125, 180, 220], [248, 232, 175], [236, 140, 72], [178, 28, 40]];
 
 const island = document.getElementById('motions');
