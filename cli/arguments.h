@@ -19,16 +19,17 @@ namespace etude {
 struct OutsideRules;
 enum class Sealing;
 
-/// Runs the chosen command; returns its exit code.
+/// Runs the chosen command; returns the command's exit code.
 using Action = std::function<int()>;
 
-/// Defines every command with its options. When `app` parses a command line, it stores the chosen command in `action`.
+/// Defines every command with its options. When `app` parses a command line, the chosen command is stored in `action`.
 /// `command_line` is recorded in host.json.
 void DefineCommands(CLI::App& app, const std::string& command_line, Action& action);
 
 // The functions below add options that several commands share.
 
-/// Adds --seed. If the option is not given, `seed` keeps its value, which the help shows as the default.
+/// Adds --seed. If the option is not given, `seed` keeps the value that it had before. The help shows this value as the
+/// default.
 CLI::Option* AddSeed(CLI::App& command, std::uint64_t& seed, const std::string& help);
 /// Adds --seed. If the option is not given, `seed` is nullopt; the scenario's or the program's default then applies.
 CLI::Option* AddSeed(CLI::App& command, std::optional<std::uint64_t>& seed, const std::string& help);
@@ -62,8 +63,8 @@ void AddUnsealed(CLI::App& command, Sealing& sealing);
 /// Adds --no-fence and --allow-exec, for every command that runs external methods.
 void AddOutsideRules(CLI::App& command, OutsideRules& rules);
 
-/// Returns a function that checks an option's text: it returns "" for a number from `low` to `high`, else a complaint.
-/// (CLI::Range would accept NaN.) `kind` names the quantity in complaints: "rate in Hz".
+/// Returns a function that checks an option's text: that function returns "" for a number from `low` to `high`, else a
+/// complaint. (CLI::Range would accept NaN.) `kind` names the quantity in complaints: "rate in Hz".
 std::function<std::string(const std::string& text)> NumberWithin(double low, double high, const std::string& kind);
 
 }  // namespace etude

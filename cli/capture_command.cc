@@ -86,7 +86,7 @@ void DefineCapture(CLI::App& app, const std::string& command_line, Action& actio
   options->version = ETUDE_VERSION;
   options->listener = TerminalListener();
   CLI::App* command = app.add_subcommand("capture", "Recover the motion of a person from films by several cameras");
-  // Define the films and their rig.
+  // Define the films and the rig.
   command
       ->add_option("films", options->films, "One film per camera, all begun at the same moment (otherwise use --sync)")
       ->required();

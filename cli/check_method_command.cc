@@ -54,7 +54,7 @@ int CheckMethodCommand(OutsideOptions options, const std::string& seat, const Re
   }
   Json checks_made = Json::array();
   int checks = 0, passed = 0;
-  // Run the checks, and print each one when it ends.
+  // Run the checks, and print each check when it ends.
   const auto all_passed = CheckConformance(
       options, seat,
       [&](const ConformanceCheck& check) {

@@ -116,7 +116,7 @@ Result<int> ClipConvertCommand(const ClipConvertOptions& given) {
   }
   ASSIGN_OR_RETURN(auto clips, ReadClips(references.front(), reading));
 
-  // Convert the clip and write it.
+  // Convert the clip and write the result.
   ConvertOptions options{.trim = trim,
                          .rate_hz = std::nullopt,
                          .mirror = given.mirror,
@@ -156,7 +156,7 @@ void DefineConvert(CLI::App& clip, Action& action) {
           "The file to write: .bvh, .glb, .trc (OpenSim's markers), .mot (its angles), .csv, .c3d, .npz (NumPy); or a "
           "folder, for Motion-BIDS: data/")
       ->required();
-  // Define the part of the clip, and its changes.
+  // Define the part of the clip that is converted, and the changes to the clip.
   command->add_option("--trim", options->trim, "Only the part FROM:TO in seconds, such as 1.5:4 or 2:");
   command
       ->add_option("--rate", options->rate_hz,
@@ -328,7 +328,7 @@ Result<int> ClipMapCommand(const ClipMapOptions& options) {
     }
     return tl::unexpected(map.error());
   }
-  // If all roles are known, print the map and write it.
+  // If all roles are known, print and write the map.
   if (options.as_json) {
     RETURN_IF_ERROR(PrintFacts("clip map", {{"clip", options.clip}, {"roles", RolesAsJson(skeleton, *map)}}));
   } else {

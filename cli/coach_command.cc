@@ -145,7 +145,7 @@ void PrintLine(const std::string& line) {
 }
 
 Result<int> CoachCommand(const CoachCommandOptions& options) {
-  // Load the song, and teach the recogniser its moves.
+  // Load the song, and teach the recogniser the song's moves.
   ASSIGN_OR_RETURN(auto lesson, LoadLesson(options));
   RETURN_IF_ERROR(WriteClicks(options, lesson.dance));
   const RecogniserKind* kind = options.recogniser.empty() ? &RecommendedRecogniser(lesson.taught, /*by_a_coach=*/true)

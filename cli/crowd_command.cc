@@ -47,7 +47,7 @@ struct Timings {
   std::vector<double> times_ms;  ///< processing time of each frame
 };
 
-/// Prints the measured times, and returns them as JSON.
+/// Prints the measured times, and returns the times as JSON.
 Json Tell(const CrowdCommandOptions& options, Timings timings) {
   const double count = static_cast<double>(options.crowd.characters) * options.crowd.frames;
   fmt::print("{} characters, {} frames at {:g} Hz, gauss-newton in batches of {}\n", options.crowd.characters,
@@ -118,7 +118,7 @@ Result<bool> FilmCrowd(const CrowdCommandOptions& options, FollowedCrowd& follow
   const int every = std::max(1, static_cast<int>(std::ceil(rate_hz / kFilmRateHz)));
   const int frames = (options.crowd.frames + every - 1) / every;
   const auto count = static_cast<std::size_t>(options.crowd.characters);
-  // This process tracks the crowd; copies of it draw the frames.
+  // This process tracks the crowd; copies of this process draw the frames.
   const auto fill = [&](int frame, std::span<std::uint8_t> into) -> Result<void> {
     followed.FollowTo(frame * every);
     for (std::size_t i = 0; i < count; ++i) {
@@ -140,7 +140,7 @@ Result<bool> FilmCrowd(const CrowdCommandOptions& options, FollowedCrowd& follow
                          {count * sizeof(Character), fill}, draw, watch);
 }
 
-/// Tracks the crowd frame by frame, and reports on it. Returns null if Ctrl-C stopped it.
+/// Tracks the crowd frame by frame, and reports the result. Returns null if Ctrl-C stopped the tracking.
 Result<Json> FollowCrowd(const CrowdCommandOptions& options) {
   ASSIGN_OR_RETURN(const auto worlds, MakeCrowd(options.crowd));
   FollowedCrowd followed(options, worlds);

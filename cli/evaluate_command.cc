@@ -95,7 +95,7 @@ Result<std::string> ScenarioOf(const EvaluateOptions& options) {
   return text + fmt::format("metrics: [{}]\n", Join(quoted));
 }
 
-/// Returns, as JSON, the agreement of every angle that both files of a pair have.
+/// Returns, as JSON, the agreement of every angle that is in both files of a pair.
 Json FactsOf(const std::vector<AngleAgreement>& angles) {
   const auto number = [](const std::optional<double>& value) { return value ? Json(*value) : Json(); };
   const auto figure = [&](const AgreementFigure& one) {
@@ -208,7 +208,7 @@ void PrintTable(const ScenarioSummary& summary) {
 
 /// The notes in a run's rows on pairs of files, as lines "METHOD, PAIR: reason".
 struct PairNotes {
-  std::vector<std::string> judged;      ///< one per method and condition: what was judged, how answers were changed
+  std::vector<std::string> judged;      ///< one line per method and condition: what was judged, how answers changed
   std::vector<std::string> not_judged;  ///< one line for every pair that could not be judged
 };
 

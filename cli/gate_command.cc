@@ -23,7 +23,7 @@ namespace etude {
 namespace {
 
 struct GateOptions {
-  std::string target;         ///< a result folder; with self_test a scenario file, "" = the built-in one
+  std::string target;         ///< a result folder; with self_test a scenario file, "" = the built-in scenario
   std::string baseline;       ///< a baseline file, "" = none
   bool update = false;        ///< write the baseline from the run, and print what moved
   bool self_test = false;     ///< measure the gate's own rates of false alarms and of detection
@@ -50,7 +50,7 @@ int ExitCode(GateVerdict verdict) {
   return kIncompleteRun;
 }
 
-/// Prints each far worse world in two lines: its difference, and the command that runs it again.
+/// Prints each far worse world in two lines: the difference, and the command that runs the world again.
 void PrintWorlds(const std::string& title, const std::vector<TailLine>& lines) {
   std::vector<std::string> text;
   for (const TailLine& line : lines) {
@@ -128,7 +128,7 @@ Result<int> Judge(const GateOptions& options, const FinishedRun& run) {
   return UnlessReplaced(options.target, run.data, ExitCode(GateVerdictOf(report)));
 }
 
-/// Prints the metrics that moved between two baselines, for the worlds that both contain.
+/// Prints the metrics that moved between two baselines, for the worlds that are in both baselines.
 void PrintDifference(Snapshot before, Snapshot after, const FinishedRun& run) {
   PrintList("Made anew:", DropIncomparable(before, after));
   const SnapshotComparison comparison = CompareSnapshots(before, after, ExactScenarios(run), TailRulesOf(run));

@@ -87,8 +87,8 @@ int ComplainOfArguments(const CLI::App& app, const CLI::ParseError& error) {
   return Complain(Error{{}, fmt::format("{} (etude {}--help explains)", message, words)});
 }
 
-/// Returns true for commands whose results need not be identical on all machines: they print existing data, or draw
-/// pages, sheets and films as fast as this machine can.
+/// Returns true for commands whose results need not be identical on all machines: these commands print existing data,
+/// or draw pages, sheets and films as fast as this machine can.
 bool RunsUnpinned(const CLI::App& app) {
   if (app.got_subcommand("list") || app.got_subcommand("rows") || app.got_subcommand("cite") ||
       app.got_subcommand("completion") || app.got_subcommand("man") || app.got_subcommand("report"))
@@ -96,8 +96,8 @@ bool RunsUnpinned(const CLI::App& app) {
   return app.got_subcommand("clip") && app.get_subcommand("clip")->got_subcommand("render");
 }
 
-/// Formats help identically in every run and with every version of CLI11. CLI11 orders excluded options by their
-/// addresses, and its versions write defaults differently.
+/// Formats help identically in every run and with every version of CLI11. CLI11 orders excluded options by memory
+/// addresses, and versions of CLI11 write defaults differently.
 class OrderedHelp : public CLI::Formatter {
  public:
   std::string make_option_opts(const CLI::Option* option) const override {

@@ -8,14 +8,15 @@
 
 namespace etude {
 
-/// A method and the file patterns of its answers.
+/// A method, and the file patterns of the method's answers.
 struct NamedResult {
   std::string name;
   std::vector<std::string> patterns;
 };
 
-/// Reads arguments RESULT or NAME=PATTERN, one for each method. A method without a name is named after its folder or
-/// file. Fails if several arguments have no name, because a shell may have expanded a pattern into files.
+/// Reads arguments RESULT or NAME=PATTERN, one for each method. A method without a name is named after the folder or
+/// file of its answers. Fails if several arguments have no name, because a shell may have expanded a pattern into
+/// files.
 Result<std::vector<NamedResult>> ReadResults(std::span<const std::string> arguments);
 
 /// Reads arguments FILE or NAME=PATTERN. All arguments without a name form one method. This method is named after its

@@ -24,7 +24,7 @@ std::vector<const CLI::App*> CommandsOf(const CLI::App& app) {
   return app.get_subcommands([](const CLI::App* sub) { return !sub->get_name().empty() && !sub->get_group().empty(); });
 }
 
-/// Calls `use` for the program and for every command and subcommand, with the words that name it: "clip info".
+/// Calls `use` for the program and for every command and subcommand, with the words that name the command: "clip info".
 void ForEachCommand(const CLI::App& app, const std::string& words,
                     const std::function<void(const CLI::App& command, const std::string& words)>& use) {
   use(app, words);
@@ -33,7 +33,7 @@ void ForEachCommand(const CLI::App& app, const std::string& words,
   }
 }
 
-/// Returns the options of a command, each with its names: "-o", "--output".
+/// Returns the options of a command, and the names of each option: "-o", "--output".
 std::vector<std::pair<const CLI::Option*, std::vector<std::string>>> OptionsOf(const CLI::App& command) {
   std::vector<std::pair<const CLI::Option*, std::vector<std::string>>> options;
   for (const CLI::Option* option : command.get_options()) {
@@ -58,7 +58,7 @@ std::vector<std::string> ArgumentsOf(const CLI::App& command) {
   return names;
 }
 
-/// Returns all words that may follow a command: its subcommands, its options and the values of its arguments.
+/// Returns all words that may follow a command: the command's subcommands, options and values of arguments.
 std::string FollowersOf(const CLI::App& command) {
   std::vector<std::string> words;
   for (const CLI::App* sub : CommandsOf(command)) words.push_back(sub->get_name());

@@ -80,7 +80,7 @@ Result<std::vector<double>> ReadSettings(const RecogniserKind& kind, const std::
 }
 
 /// Returns the options for recognition, with the requested recogniser. If none is requested, takes `recommended` and
-/// prints a note about it.
+/// prints a note about this choice.
 Result<WatchOptions> OptionsOf(const RecogniseCommandOptions& options, const RecogniserKind& recommended) {
   WatchOptions watch;
   watch.recogniser.kind = options.recogniser.empty() ? &recommended : FindRecogniser(options.recogniser);
@@ -284,7 +284,7 @@ void DefineRecognise(CLI::App& app, Action& action) {
       ->add_flag("--leave-one-person-out", options->leave_one_person_out,
                  "Recognise each person with moves taught by the labels of all other people")
       ->excludes(moves);
-  // Define the recogniser and its settings.
+  // Define the recogniser and the recogniser's settings.
   command
       ->add_option(
           "--recogniser", options->recogniser,

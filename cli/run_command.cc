@@ -158,8 +158,8 @@ void TellUnlocked(const RunOutcome& outcome) {
             fmt::format("could not be locked ({}); make sure that no other run writes into it", outcome.why_unlocked)});
 }
 
-/// Prints the changes that were made to the content of the clips' files, one per line. If there are many, prints only
-/// the first ones.
+/// Prints the changes that were made to the content of the clips' files, one per line. If there are many changes,
+/// prints only the first of them.
 void TellChanges(const std::vector<LoadedChange>& changes) {
   constexpr std::size_t kShown = 40;
   for (std::size_t i = 0; i < std::min(changes.size(), kShown); ++i) {
@@ -217,7 +217,7 @@ int RunCommand(const RunOptions& options, bool as_json) {
   if (!finished) return Complain(finished.error());
   if (!*finished) return kInterrupted;
   const RunOutcome& outcome = **finished;
-  // A shard has no tables; merging the shards makes them.
+  // A shard has no tables; the merge of all shards makes the tables.
   if (!options.shard.IsWhole()) {
     fmt::print("Shard {}: {} of {} cells ok in {:.1f} s: {}\nNext, when all shards are done: etude merge DIR… -o DIR\n",
                ToString(options.shard), outcome.cells_ok, outcome.cells, outcome.seconds, outcome.folder.string());

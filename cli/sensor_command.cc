@@ -155,7 +155,8 @@ Result<Columns> PlainColumns(const SensorStatsOptions& options, Json& facts) {
   return columns;
 }
 
-/// Computes the statistics of a recording against its reference, and of the simulated sensor on the reference's motion.
+/// Computes the statistics of a recording against its reference, and the statistics of the simulated sensor for the
+/// reference's motion.
 Result<Columns> ComparedColumns(const SensorStatsOptions& options, Json& facts) {
   const std::string& file = options.files.front();
   if (options.files.size() > 1) {
@@ -226,7 +227,7 @@ struct SensorFitCommandOptions {
 
 constexpr int kCheckWorlds = 64;
 
-/// Prints a table that compares a sensor with a recording, and returns it as an entry of `checks`.
+/// Prints a table that compares a sensor with a recording, and returns the table as an entry of `checks`.
 Json PrintComparison(const char* title, const char* real_name, const RealRecording& real,
                      const SkeletonSensorOptions& sensor) {
   // Use random draws that the fit has not used.
@@ -268,7 +269,7 @@ Result<int> SensorFitCommand(const SensorFitCommandOptions& options) {
   fmt::print("{}: {}\n", options.file, DescribeRecording(real.recording));
   fmt::print("{}: {}\n", options.reading.reference, DescribeMatch(real));
 
-  // Fit the sensor, and write its file.
+  // Fit the sensor, and write the sensor file.
   const SensorFitOptions fit{.start = base, .worlds = options.worlds, .steps = options.steps, .progress = {}};
   const SkeletonSensorOptions sensor = FitSensor(real, fit);
   const std::string preset = FindSensorPreset(options.base) ? options.base : "v2";

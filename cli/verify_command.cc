@@ -81,7 +81,7 @@ std::string SampleInWords(const CellChoice& choice) {
       Join(missed), choice.dice);
 }
 
-/// Lists, by method, the rows that cannot be verified by running their cells again.
+/// Lists, by method, the rows that cannot be verified by running the rows' cells again.
 std::vector<std::string> NotVerified(const CellChoice& choice) {
   std::vector<std::string> lines;
   for (const MethodRows& method : choice.methods) {
@@ -133,7 +133,7 @@ Result<void> AddReport(const std::string& folder, std::vector<Verified>& all, st
 }
 
 Result<int> VerifyCommand(VerifyCommandOptions options) {
-  // Load the run without trusting its seal, because a broken seal is one of the findings.
+  // Load the run without trusting the run's seal, because a broken seal is one of the findings.
   const Interrupt interrupt;
   ReplayOptions& replay = options.replay;
   ASSIGN_OR_RETURN(replay.key, TakeSecretKey(options.key_file));
@@ -162,7 +162,7 @@ Result<int> VerifyCommand(VerifyCommandOptions options) {
   if (verified.choice) std::ranges::move(NotVerified(*verified.choice), std::back_inserter(not_verified));
   RETURN_IF_ERROR(AddReport(replay.folder, all, not_verified));
   if (*interrupt.requested()) return TellStopped({{}, "stopped; nothing was verified"});
-  // Print the checks that agree and those that differ.
+  // Print the checks that agree and the checks that differ.
   std::size_t agree = 0;
   Json checks = Json::array();
   for (const Verified& one : all) {

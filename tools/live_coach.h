@@ -15,7 +15,8 @@
 
 namespace etude {
 
-/// Returns the first line of `etude coach`: the song, its moves with hints and key poses, and the order of the joints.
+/// Returns the first line of `etude coach`: the song, the song's moves with hints and key poses, and the order of the
+/// joints.
 Result<std::string> CoachHead(const Dance& dance);
 
 /// Returns one frame as a line of JSON (docs/coach.md). Positions are in metres, rounded to the millimetre; with
@@ -26,7 +27,7 @@ Result<std::string> CoachLine(const CoachOutput& output, std::int64_t frame, con
 /// such lines, it is computed from the coach's own music commands.
 class MusicPosition {
  public:
-  /// Pauses the music, or continues it at another position.
+  /// Pauses the music, or continues the music at another position.
   void Follow(const MusicCommand& command);
   /// Advances the music by one frame.
   void Tick();
@@ -57,15 +58,15 @@ class LiveCoach {
  public:
   using OnLine = std::function<void(const std::string& line)>;
 
-  /// `transitions` and `recogniser` must outlive this object. `on_line` receives every line as soon as its frame is
-  /// processed.
+  /// `transitions` and `recogniser` must outlive this object. `on_line` receives every line as soon as the line's frame
+  /// is processed.
   LiveCoach(const DanceTransitions& transitions, const Recogniser& recogniser, LiveCoachOptions options,
             OnLine on_line);
 
   /// Reads a stream to its end.
   Result<void> Follow(std::istream& stream, LiveStream& live);
 
-  /// Returns the processing time of each frame in ms, from its arrival until its line was written.
+  /// Returns the processing time of each frame in ms, from the arrival of the frame until the frame's line was written.
   const std::vector<double>& times_ms() const { return times_ms_; }
 
  private:

@@ -12,7 +12,7 @@
 namespace etude::engine {
 namespace {
 
-/// The moves, each with its name and its right performances.
+/// The moves: for each move, the name and the right performances.
 using Moves = std::vector<std::pair<std::string, std::vector<BodyMotion>>>;
 
 std::vector<TaughtMove> ToTaught(const Moves& moves) {

@@ -32,12 +32,12 @@ class Metric:
 
 
 def metrics(program=None):
-    """Returns every metric by its id."""
+    """Returns a dict from the id of each metric to the metric."""
     return _read(find_program(program))[0]
 
 
 def own(manifest):
-    """Returns a run's own metrics by their ids."""
+    """Returns a dict of the metrics that only this run defines, from id to metric."""
     return {each["id"]: Metric(**each) for each in manifest.get("own_metrics", [])}
 
 

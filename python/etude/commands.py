@@ -108,7 +108,8 @@ def _value_of(key, text):
 
 
 def _with_methods(name, text, entries):
-    """Returns the text of a scenario with entries added at the end of its list of methods, otherwise unchanged."""
+    """Returns the text of a scenario in which entries are added at the end of the list of methods, otherwise
+    unchanged."""
     if re.search(r"^include:", text, re.MULTILINE):
         raise EtudeError(f"{name}: includes another file, which a copy would not find: write the methods into it")
     if not entries:
@@ -142,7 +143,8 @@ def _metric(each):
 
 
 def _with_metrics(name, text, entries):
-    """Returns the text of a scenario with entries added at the end of its list of metrics, otherwise unchanged."""
+    """Returns the text of a scenario in which entries are added at the end of the list of metrics, otherwise
+    unchanged."""
     if not entries:
         return text
     added = ", ".join(json.dumps(entry, ensure_ascii=False) for entry in entries)
@@ -176,7 +178,7 @@ def report(run, *, video=True, progress=True, program=None):
 
 @dataclass(frozen=True)
 class Gate:
-    """The verdict of a gate; true if it passed. `text` is the gate's whole output, one line per check."""
+    """The verdict of a gate; true if the run passed. `text` is the gate's whole output, one line per check."""
     passed: bool
     text: str
 
@@ -222,7 +224,8 @@ def score(target, predictions, output, *, name=None, alone=False, allow_missing=
 
 
 def _answer_all(target, method, answers, progress):
-    """Asks a method all problems of its task in a data set. Problems without an answer stay missing."""
+    """Asks a method all those problems of a data set that belong to the method's task. Problems without an answer stay
+    missing."""
     from etude.conversation import NoAnswer
     from etude.messages import plain
     player, spec, inputs = Player(method), spec_of(method), target / "inputs"

@@ -121,7 +121,8 @@ def _class_names(spec):
 
 
 def _call(function, first, **offered):
-    """Calls a function with `first`, and with those values of `offered` for which it has arguments."""
+    """Calls a function with the arguments `first`, and with those values of `offered` for which the function has
+    arguments."""
     parameters = inspect.signature(function).parameters.values()
     takes_all = any(parameter.kind is parameter.VAR_KEYWORD for parameter in parameters)
     names = [parameter.name for parameter in parameters]

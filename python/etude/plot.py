@@ -114,8 +114,8 @@ def median_curve(several):
 
 
 def error_budget(run, *, scenario=None, condition=None, method=None):
-    """Returns a waterfall of the errors that the stages cause, with the summary's intervals. It starts at a method's
-    error and ends at the error that remains when the truth replaces all stages."""
+    """Returns a waterfall of the errors that the stages cause, with the summary's intervals. The waterfall starts at a
+    method's error and ends at the error that remains when the truth replaces all stages."""
     wanted = [scenario] if scenario is not None else run.scenarios
     for each in run.summary["scenarios"]:
         for of in each["conditions"] if each["name"] in wanted else ():
@@ -190,7 +190,7 @@ def _aside(values):
 
 
 def _shown(figure):
-    """Returns the figure. A notebook shows it if it is the value of a notebook's cell."""
+    """Returns the figure. A notebook shows the figure if a notebook's cell has it as value."""
     if "IPython" in sys.modules:
         from IPython import get_ipython
         if get_ipython() is not None:

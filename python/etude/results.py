@@ -200,7 +200,8 @@ class Run:
                 for each in condition[key]]
 
     def verdicts(self, scenario=None, metric=None):
-        """Returns every comparison on the page, in its order: against baselines, then against the strongest rivals."""
+        """Returns every comparison on the page, in the page's order: against baselines, then against the strongest
+        rivals."""
         found = []
         for name, summary in self._scenarios.items():
             for condition in summary["conditions"]:
@@ -225,7 +226,7 @@ class Run:
             scenario = both[0]
         scenario = self._named(scenario)
         summary, table = self._scenarios[scenario], self[scenario]
-        # Check that both names and the condition exist.
+        # Check that the two methods and the condition exist.
         for name in (method, baseline):
             if name not in summary["methods"]:
                 raise EtudeError(f"{scenario}: no method '{name}'{nearest(name, summary['methods'])}; there are "

@@ -76,7 +76,8 @@ def _folder_of(module):
 
 
 def _interpreter(granted):
-    """Returns the Python that runs this process; adds its prefix to `granted` unless the fence shows it to all."""
+    """Returns the Python that runs this process; adds Python's prefix to `granted` unless the fence shows this folder
+    to all programs."""
     for prefix in dict.fromkeys([sys.prefix, sys.base_prefix]):
         if not f"{prefix}/".startswith(SYSTEM):
             granted.append(prefix)
@@ -100,7 +101,7 @@ def _write(source, arrays, room):
 
 
 def write_once(path, data):
-    """Writes a file, whole or not at all, unless it has these contents already."""
+    """Writes a file, whole or not at all, unless the file has these contents already."""
     if path.exists() and path.read_bytes() == data:
         return
     path.parent.mkdir(parents=True, exist_ok=True)
@@ -229,7 +230,8 @@ def _functions_of(thing):
 
 
 def _source_of(thing):
-    """Returns the source of a function or class. A notebook's class has no file, so it is found by its functions."""
+    """Returns the source of a function or class. A notebook's class has no file, so its functions are used to find the
+    source."""
     if isinstance(thing, types.FunctionType) or not _functions_of(thing):
         return textwrap.dedent(inspect.getsource(thing))
     code = _functions_of(thing)[0].__code__
@@ -262,7 +264,8 @@ def _find(thing, name, whose):
 
 
 def _name_in_module(value):
-    """Returns the name of a value in its own module, else None. Compiled functions have only a `__name__`."""
+    """Returns the name under which a value is found in its module, else None. Compiled functions have only a
+    `__name__`."""
     for told in ("__qualname__", "__name__"):
         name = getattr(value, told, None)
         if isinstance(name, str) and name.isidentifier() and \

@@ -87,13 +87,13 @@ class Table:
         return self._read[name]
 
     def reasons(self, name):
-        """Returns for each cell the reason why its value of a metric is missing; None if the value exists."""
+        """Returns for each cell the reason why the cell has no value of a metric; None if the value exists."""
         column = self[name] if name in self else [None] * len(self)
         why = self._reasons(name)
         return [None if value is not None else why(i) for i, value in enumerate(column)]
 
     def rows(self):
-        """Returns the cells as dicts, without their digests."""
+        """Returns the cells as dicts, without the digests of stages."""
         columns = [self[name] for name in self.columns]
         for values in zip(*columns) if columns else ():
             yield dict(zip(self.columns, values))
@@ -217,7 +217,7 @@ def read_npy(path):
 
 
 def table_of_columns(folder, metrics):
-    """Returns the table of a scenario with more than 100,000 cells. `folder` is its columns/SCENARIO."""
+    """Returns the table of a scenario with more than 100,000 cells. `folder` is the run's folder columns/SCENARIO."""
     index = json.loads((folder / "index.json").read_text(encoding="utf-8"))
     trials, methods, conditions = index["trials"], index["methods"], index["conditions"]
     length = trials * len(methods) * len(conditions)

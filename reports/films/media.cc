@@ -46,7 +46,7 @@ void MakeStageFilm(const RunData& run, const MediaPaths& paths, const FilmWatch&
     why = "There are no pictures: " + ToString(renderer.error());
     return;
   }
-  // `shoot` renders the film, and keeps `why_not`, the reasons why other pictures could not be made.
+  // `shoot` renders the film. The film's `why_not` then also has the reasons why other pictures could not be made.
   const auto shoot = [&](Scene&& scene) {
     Film film = Shoot(scene, paths.films / kRunFilm, watch);
     if (!film.why_not.empty()) Note(why, film.why_not);

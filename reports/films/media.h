@@ -24,7 +24,7 @@ struct ScenarioPicture {
 /// All pictures and films made from a run's recordings, and the reasons why other pictures and films could not be made.
 struct Media {
   /// The film of the whole run: a capture or, if there is none, a coach. Empty for runs of other tasks, and if a
-  /// scenario's film already shows the same cell.
+  /// scenario's film already compares coaches.
   Film film;
   /// Two frames of the capture: pictures of the first two cameras with mask and recovered skeleton (DrawStrip).
   std::vector<Picture> strip;

@@ -13,7 +13,7 @@
 namespace etude {
 
 struct CalibrateOptions {
-  /// Either one file of point pairs, or one folder of pictures or film for each camera.
+  /// Either one file of point pairs; or, for each camera, one folder of pictures or one film.
   std::vector<std::string> inputs;
   std::string output;
   std::vector<std::string> boards = {"5x7x0.034"};  ///< board: COLUMNSxROWSxSQUARE[@FIRST_CODE]
@@ -26,7 +26,7 @@ struct CalibrateOptions {
   int every = 0;
   double sync_s = 0;            ///< maximum delay between films of boards; 0 = two search intervals
   std::string picture;          ///< a PNG to write with the found corners and their errors, "" = none
-  std::string beside;           ///< another calibration of these cameras to be compared with, or "opencv"; "" = none
+  std::string beside;           ///< another calibration of these cameras for comparison, or "opencv"; "" = none
   std::string print;            ///< a PNG to write: the board itself, to be printed
   Listener listener = {};
 };
@@ -39,7 +39,7 @@ struct DisagreeingPair {
   double rms_without_px = 0;  ///< reprojection error of all other pairs in that calibration
 };
 
-/// A rig, and the numbers that are printed about it, one entry for each camera.
+/// A rig, and the numbers that are printed about the rig, with one entry for each camera.
 struct Calibrated {
   std::vector<NamedCamera> cameras;
   std::vector<double> rms_px;
@@ -49,7 +49,7 @@ struct Calibrated {
 };
 
 /// Parses "COLUMNSxROWSxSQUARE[@FIRST_CODE]". Fails, naming the option --board, on any other text and on codes beyond
-/// the last one.
+/// the last existing code.
 Result<Board> ReadCodedBoard(const std::string& text);
 RefineOptions RefineOptionsOf(const CalibrateOptions& options);
 

@@ -13,7 +13,7 @@
 
 namespace etude {
 
-/// The inputs, outputs and settings of `CaptureFilms`. A file name may be "" where its comment says so.
+/// The inputs, outputs and settings of `CaptureFilms`. A file name may be "" if the member's comment says so.
 struct CaptureFilmsOptions {
   std::vector<std::string> films;
   std::string rig;                   ///< a calibration: a file or folder that ReadRigFile or ReadRigPair can read
@@ -57,12 +57,12 @@ struct CapturedFilms {
   JsonPtr facts;          ///< the findings for programs (docs/schemas/facts.schema.json, "capture")
 };
 
-/// Opens the rig in the file `path`. If a rig consists of two files, `path` names one of them or their folder.
+/// Opens the rig in the file `path`. If a rig consists of two files, `path` names one of these files or the folder.
 Result<RigFile> OpenRig(const std::string& path);
 
 /// Captures the motion of one person from films by two or more calibrated cameras, with keypoints, marks or
-/// silhouettes, and writes it. Fails before anything is written if films, rig or options do not fit together; every
-/// complaint names the file or the option.
+/// silhouettes, and writes the motion. Fails before anything is written if films, rig or options do not fit together;
+/// every complaint names the file or the option.
 Result<CapturedFilms> CaptureFilms(const CaptureFilmsOptions& options);
 
 /// Measures the random error of the person's keypoints, in the rig's pixels. The function first applies and reports the

@@ -103,7 +103,7 @@ Json FactsOf(const RecoveredPerson& person, const std::vector<FilmedView>& views
           {"told", told}};
 }
 
-/// Reports the distances between the joints of the written motion and the points to which they were fitted.
+/// Reports the distances between the joints of the written motion and the points to which the joints were fitted.
 std::string FitText(const RecoveredPerson& person) {
   std::string text;
   const MarkerMotion skeleton = JointMarkers(person.motion);
@@ -242,7 +242,7 @@ Result<bool> CaptureKeypoints(const CaptureFilmsOptions& options, FilmedSession 
   ASSIGN_OR_RETURN(SeenFilms films, SeeFilms(options, recover, session));
   ASSIGN_OR_RETURN(RecoveredPerson located, LocatePerson(films.cameras, films.people, recover));
   // Move the rig and the points into the world: metres, Y up, with the floor that the options define.
-  for (const FilmedView& view : views) {  // these cameras contain the corrections that the recovery made
+  for (const FilmedView& view : views) {  // the cameras in `views` have the recovery's corrections
     const auto same = std::ranges::find(session.rig.cameras, view.camera.name, &NamedCamera::name);
     if (same != session.rig.cameras.end()) same->camera = view.camera.camera;
   }
@@ -274,7 +274,7 @@ Result<bool> CaptureKeypoints(const CaptureFilmsOptions& options, FilmedSession 
   TellDoubts(person.people[chosen], views, recover.triangulate.min_confidence, films.told);
   options.listener.print(ReportText(person, views) + FitText(person));
   facts["keypoints"] = FactsOf(person, views, films.told.lines);
-  // If the options require silhouettes, refine the motion with them.
+  // If the options require silhouettes, refine the motion with silhouettes.
   ReducedTake take;
   std::optional<UnmarkedMotion> both;
   if (options.silhouettes) {
@@ -297,7 +297,7 @@ Result<bool> CaptureKeypoints(const CaptureFilmsOptions& options, FilmedSession 
     RETURN_IF_ERROR(WriteFileAtomically(options.points, WriteTrc(ToMarkers(person.landmarks, recover.rate_hz), name)));
     TellWritten(options.listener, options.points);
   }
-  // If there is a reference, compare with it.
+  // If there is a reference, compare the motion with the reference.
   if (reference) {
     const std::string what =
         fmt::format("Distance of the {} to {}, median, mm.",

@@ -63,7 +63,7 @@ Result<SeenFilms> SeeFilms(const CaptureFilmsOptions& options, const RecoverPers
 void TellMends(const RecoveredPerson& person, std::size_t chosen, const std::vector<FilmedView>& views,
                MessageLog& told);
 
-/// Returns the lengths that reports show, with their names, metres.
+/// Returns the names and values, metres, of the limb lengths that reports show.
 std::vector<std::pair<std::string, double>> ShownLengths(const LimbLengths& lengths);
 
 /// Begins the page of `--report` with the parts that every capture has: title, messages, feet, limb lengths and
@@ -95,15 +95,15 @@ std::vector<OverlayView> OverlaysOf(const std::vector<FilmedView>& views, const 
 Result<bool> WriteFilm(const CaptureFilmsOptions& options, const std::vector<OverlayView>& overlays,
                        const BodyMotion& motion);
 
-/// Writes a motion to `options.output` in the format that its extension names: `clip` if the format holds a skeleton,
-/// else `motion`, the same motion as twenty joints.
+/// Writes a motion to `options.output` in the format that its extension names: writes `clip` if the format holds a
+/// skeleton, else `motion`, which is the same motion as twenty joints.
 Result<void> WriteMotion(const CaptureFilmsOptions& options, Clip clip, const BodyMotion& motion);
 
 constexpr char kLost = '!';
 
 /// A column of the comparison table: the distances between the reference and the result from some of the cameras.
 struct ComparedColumn {
-  std::string heading;  ///< the names of the cameras; `kLost` is appended if no motion was recovered from them
+  std::string heading;  ///< names of the cameras; `kLost` is appended if these cameras gave no motion
   std::vector<MarkerAgreement> markers;
   MarkerAgreement all;
 };
@@ -124,13 +124,13 @@ struct CameraPair {
   std::size_t first = 0, second = 0;
   std::string heading;
 };
-/// Returns all pairs of films; empty for two films, because their only pair is the whole take.
+/// Returns all pairs of films; empty for two films, because the only pair of two films is the whole take.
 std::vector<CameraPair> PairsOf(std::size_t films);
 
 /// The pictures of all films, reduced in size and without lens distortion, at the times of the first film's frames.
 struct ReducedTake {
   std::vector<Camera> cameras;
-  std::vector<double> reductions;  ///< for each film: pixels of its reduced picture per pixel of the rig's camera
+  std::vector<double> reductions;  ///< for each film: pixels of the reduced picture per pixel of the rig's camera
   std::vector<std::vector<ColourImage>> pictures;
   std::vector<ColourImage> rooms;
   std::vector<std::vector<Mask>> masks;  ///< masks, used instead of `pictures` if not empty

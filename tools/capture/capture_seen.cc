@@ -24,7 +24,7 @@ Result<SeenPeople> ReadPeople(const CaptureFilmsOptions& options, FilmedView& vi
   const FilmOfKeypoints of{view.facts.width, view.facts.height, static_cast<std::size_t>(view.facts.frames)};
   ASSIGN_OR_RETURN(PeopleOfFilm film, is_marks ? ReadMarkedPictures(entry) : ReadKeypoints(entry, options.layout, of));
   if (!film.told.empty()) options.listener.print(fmt::format("{}: {}\n", entry.filename().string(), film.told));
-  // Check that the file has the film's number of frames and, up to a rotation by 90°, its picture size.
+  // Check that the file has the film's number of frames and, up to a rotation by 90°, the film's picture size.
   if (film.frames.size() != static_cast<std::size_t>(view.facts.frames)) {
     return Fail({entry.string()}, "{} frames, the film {} {}", film.frames.size(), view.path.string(),
                 view.facts.frames);
@@ -56,7 +56,7 @@ void FitPeople(const RigFile& rig, std::vector<FilmedView>& views, std::vector<S
     films[i].camera = views[i].camera.camera = session.cameras[i];
     films[i].people = people[i] = std::move(session.people[i]);
   }
-  // Find each film's rotation, scale and shift, and apply them.
+  // Find each film's rotation, scale and shift, and apply these to the keypoints.
   const std::vector<PictureGuess> guesses = GuessPictures(films, min_confidence);
   for (std::size_t i = 0; i < views.size(); ++i) {
     FilmedView& view = views[i];
@@ -80,7 +80,7 @@ void FitPeople(const RigFile& rig, std::vector<FilmedView>& views, std::vector<S
 
 constexpr double kMsPerSecond = 1000;
 
-/// Estimates the films' clocks within the range of --sync, and reports them.
+/// Estimates the films' clocks within the range of --sync, and reports the clocks.
 void Synchronise(const CaptureFilmsOptions& options, const std::vector<FilmedView>& views,
                  const RecoverPersonOptions& recover, SeenFilms& films) {
   const double rate = recover.rate_hz;
@@ -155,7 +155,7 @@ void CorrectClocks(const std::vector<FilmedView>& views, const RecoverPersonOpti
                 SeenFilms& films) {
   const double rate = recover.rate_hz;
   const std::size_t frames = films.people.front().size();
-  // Search half a second around the clocks, or one frame if --sync has set them.
+  // Search half a second around the clocks, or only one frame if --sync has set the clocks.
   constexpr double kMaxSeconds = 0.5;
   const int max_frames = is_set ? 1
                           : std::clamp(static_cast<int>(std::lround(kMaxSeconds * rate)), 1,

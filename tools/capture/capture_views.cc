@@ -22,7 +22,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Reduces a name to its letters and digits in lower case, so that cam_01 and Cam01 are equal.
+/// Reduces a name to the letters and digits in it in lower case, so that cam_01 and Cam01 are equal.
 std::string Bare(std::string_view name) {
   std::string bare;
   for (const char c : name) {
@@ -50,7 +50,7 @@ Result<NamedCamera> CameraOfFilm(const CaptureFilmsOptions& options, const std::
               NamesOf(rig));
 }
 
-/// The files of a rig: one file, or two files of one folder that belong together.
+/// The files of a rig: one file, or two files that belong together, in one folder.
 struct RigPaths {
   fs::path first, second;
 };

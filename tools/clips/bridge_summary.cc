@@ -191,7 +191,7 @@ Json BridgeSummaryAsJson(const BridgeLibrary& loaded, const Coverage& coverage, 
                 {"in_between_share", of.in_between_share}};
   };
   const TaggedLibrary& library = loaded.library;
-  // Write one object for each clip, and one for each ordered pair of clips.
+  // Write one object for each clip, and one object for each ordered pair of clips.
   Json of_clips = Json::array(), pairs = Json::array(), ways = Json::array();
   for (int from = 0; from < coverage.ClipCount(); ++from) {
     const ClipSummary& clip = clips[from];

@@ -28,12 +28,12 @@ struct BodyFacts {
   std::vector<Role> composed;
   std::string unit;
   double metres_per_unit = 0;
-  UpFinding up = {};  ///< the file's up axis, and the evidence for it
+  UpFinding up = {};  ///< the file's up axis, and the evidence for this axis
   double floor = 0;   ///< height of the floor in the file, in the file's unit
   bool dropped_t_pose = false;
   std::vector<std::string> changes;  ///< the changes made to the file's body (BodyConversion::changes)
   MotionStatistics motion;
-  /// The motion's faults at the file's own rate and heights (FaultsOf); absent if they were not searched for.
+  /// The motion's faults at the file's own rate and heights (FaultsOf); absent if faults were not searched for.
   std::optional<MotionFaults> faults = {};
 };
 
@@ -58,8 +58,8 @@ struct ClipFacts {
 std::vector<ClipFacts> FactsOf(const std::string& reference, const OpenOptions& options);
 /// Collects the facts of a clip whose roles are known, without its faults.
 ClipFacts FactsOf(const OpenedClip& clip);
-/// Finds the faults of a clip's motion with FindMotionFaults, at the rate and the heights of its file. Returns nullopt
-/// if UnderstandClip fails at that rate.
+/// Finds the faults of a clip's motion with FindMotionFaults, at the rate and the heights of the clip's file. Returns
+/// nullopt if UnderstandClip fails at that rate.
 std::optional<MotionFaults> FaultsOf(const SourceClip& clip, const OpenOptions& options);
 
 /// Writes the facts as a paragraph for people. Roles are left out if they are played by the same joints as in `before`.

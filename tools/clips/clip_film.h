@@ -25,7 +25,7 @@ enum class ActorKind {
   kBody,       ///< capsules around the joints; left and right have different colours
 };
 
-/// A clip with the figure that performs it, frame by frame at the body motion's rate.
+/// A clip, and the figure that performs the clip, frame by frame at the rate of the body motion.
 class ClipActor {
  public:
   /// Makes an actor. If no kind is given, the actor is the file's own figure if the file has one, the bear for built-in
@@ -52,11 +52,11 @@ class ClipActor {
 /// front, from 40 degrees beside the front, or from the side.
 enum class Viewpoint { kFront, kThreeQuarter, kSide };
 
-/// A clip in front of the camera: its figure, and its position in every frame.
+/// A clip in front of the camera: the figure, and the figure's position in every frame.
 class Shot {
  public:
-  /// Places the clip in front of the camera. `smoothing` has the meaning that it has in CameraPath; 0 keeps a walking
-  /// body in the middle of every picture.
+  /// Places the clip in front of the camera. `smoothing` is an argument of CameraPath; 0 keeps a walking body in the
+  /// middle of every picture.
   Shot(ClipActor actor, Viewpoint from, int smoothing);
 
   const ClipActor& actor() const { return actor_; }
@@ -66,7 +66,7 @@ class Shot {
   const FloorMove& PlacementAt(int frame) const { return placements_[static_cast<std::size_t>(frame)]; }
   Figure PlacedFigure(int frame) const;
 
-  /// Widens `bounds` so that they contain the figure in each of `frames`.
+  /// Widens `bounds` so that the bounds contain the figure in each of `frames`.
   void Include(const std::vector<int>& frames, ViewBounds& bounds) const;
   /// Draws a frame, with a dot on the left hand and the left foot.
   void Draw(Canvas& canvas, const Box& box, Studio& studio, Renderer& renderer, int frame) const;

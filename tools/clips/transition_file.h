@@ -20,7 +20,7 @@ struct TransitionFileOptions {
   OpenOptions reading;
 };
 
-/// The result. Times are in seconds; times of a clip count from the first frame of its file.
+/// The result. Times are in seconds; times of a clip count from the first frame of the clip's file.
 struct TransitionFile {
   Branch branch = Branch::kNone;
   std::string why;                    ///< one sentence: why these frames were chosen, or why there is no transition

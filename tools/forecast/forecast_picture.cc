@@ -88,7 +88,7 @@ void DrawPlan(Canvas& canvas, const RigForecast& forecast, const ForecastOptions
   canvas.FillBox({kMargin, kPlanTop, kPlanSize, kPlanSize}, {0.13, 0.145, 0.16, 1}, kPanelRadius);
   const glm::dvec2 from = at(forecast.middle_m - half), size = 2.0 * scale * half;
   canvas.FillBox({from.x, from.y, size.x, size.y}, kUnseen);
-  // Draw each camera as a dot with a line along its view.
+  // Draw each camera as a dot with a line in the camera's direction.
   const auto draw_camera = [&](const glm::dvec3& place, const glm::dvec2& towards, const std::string& name,
                                const Paint& paint) {
     const glm::dvec2 spot = at({place.x, place.z});

@@ -152,8 +152,8 @@ Camera BestAddition(const std::vector<Camera>& cameras, const std::vector<Foreca
   return best;
 }
 
-/// Adds the root mean square errors of a standing body's joints. The body faces +Z and +X, and stands on every second
-/// place of the floor along x and z.
+/// Adds the root mean square errors of a standing body's joints. The body stands on every second place of the floor
+/// along x and z, and faces first +Z, then +X.
 Result<void> AddJoints(const std::vector<Camera>& cameras, const ForecastOptions& options, RigForecast& forecast) {
   std::array<JointErrors, kRoleCount> sums{};
   std::array<double, kRoleCount> noise_px{};
@@ -161,7 +161,7 @@ Result<void> AddJoints(const std::vector<Camera>& cameras, const ForecastOptions
   for (const Role role : AllRoles()) {
     noise_px[Index(role)] = forecast.measured ? forecast.measured->Of(role) : options.errors.noise_px;
   }
-  // Sum the squared errors over both headings and all places.
+  // Sum the squared errors over the two headings and all places.
   int whole = 0, all = 0;
   for (const double yaw : {0.0, kPi / 2}) {
     ASSIGN_OR_RETURN(const auto bodies, PoseErrorForecast::Of(FloorMove{.yaw = yaw}.Apply(PoseOf(ReadyStance()))));

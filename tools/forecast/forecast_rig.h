@@ -22,7 +22,8 @@ struct ForecastOptions {
   std::string rig;         ///< a calibration that OpenRig can open
   PlacementOptions place;  ///< the rig's unit, up axis and floor
   SightingErrors errors;
-  /// Films and keypoints taken with the rig; their measured noise replaces `errors.noise_px`; may be empty.
+  /// Films and keypoints taken with the rig; the measured noise of these keypoints replaces `errors.noise_px`; may be
+  /// empty.
   CaptureFilmsOptions take = {};
   glm::dvec3 size_m{3, 2, 3};  ///< the volume in which people move, metres: width (x), height from the floor, depth (z)
   /// The volume's middle on the floor (x, z); absent = below the point that is nearest to all optical axes.

@@ -33,7 +33,7 @@ std::array<std::optional<Carrier>, kRoleCount> CarriersAt(const TwinMotion& twin
   return carriers;
 }
 
-/// Returns all pairs of a recorded joint and its carrier in every `stride`-th frame.
+/// Returns, for every `stride`-th frame, all pairs of a recorded joint and the joint's carrier.
 std::vector<Pair> PairsAt(const JointRecording& recording, const TwinMotion& twin, double shift_s, std::size_t stride) {
   std::vector<Pair> pairs;
   for (std::size_t t = 0; t < recording.frames.size(); t += stride) {

@@ -17,7 +17,8 @@ struct TwinAlignment {
   double shift_s = 0;
   glm::dmat3 R_ST{1};  ///< rotates the twin's directions into the sensor's frame
   glm::dvec3 p_ST{0};  ///< the twin's origin in the sensor's frame
-  /// The position of each joint in the frame of its carrier; absent if no frame shows both the joint and the carrier.
+  /// The position of each joint in the frame of the joint's carrier; absent if no frame shows both the joint and the
+  /// carrier.
   std::array<std::optional<glm::dvec3>, kRoleCount> offsets{};
   double rms_m = 0;  ///< RMS residual over all joints, metres
 
@@ -38,7 +39,7 @@ struct TwinMatch {
 std::optional<TwinMatch> AlignTwin(const JointRecording& recording, const TwinMotion& twin);
 
 /// Aligns a recording that differs little from an aligned one: starts from `start`, and searches only shifts within
-/// `max_shift_s` of it.
+/// `max_shift_s` of the shift in `start`.
 std::optional<TwinMatch> RealignTwin(const JointRecording& recording, const TwinMotion& twin,
                                      const TwinAlignment& start, double max_shift_s);
 

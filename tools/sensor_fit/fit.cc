@@ -21,7 +21,7 @@ BodyMotion WholeMotion(const RealRecording& real) {
     const auto parent = ParentOf(role);
     for (std::size_t t = 0; t < motion.poses.size(); ++t) {
       if (real.match.truth[t][j]) last = real.match.truth[t][j];
-      // A joint that the twin never shows is not compared; put it where it cannot occlude other joints.
+      // A joint that the twin never shows is not compared; put this joint where it cannot occlude other joints.
       motion.poses[t].joints[j] = last ? *last : parent ? motion.poses[t][*parent] : glm::dvec3(0, 0, 1);
     }
   }
@@ -29,7 +29,8 @@ BodyMotion WholeMotion(const RealRecording& real) {
 }
 
 /// Low-pass filters the twin's motion at 6 Hz (−3 dB, Gaussian), as is usual in biomechanics for optical recordings.
-/// Faster components are the twin's own noise; without the filter, the simulated sensor would reproduce them as motion.
+/// Faster components are the twin's own noise; without the filter, the simulated sensor would reproduce this noise as
+/// motion.
 BodyMotion WithoutShiver(const BodyMotion& motion) {
   constexpr double kPassHz = 6;
   const double deviation_s = std::sqrt(std::log(2.0)) / (2 * kPi * kPassHz);

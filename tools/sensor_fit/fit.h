@@ -24,12 +24,12 @@ std::optional<RealRecording> MakeRealRecording(JointRecording recording, TwinMot
 SensorStatistics StatisticsOf(const RealRecording& real);
 
 /// Simulates the sensor's recording of the twin's motion, seen from the real sensor's position. If that position is
-/// unknown, the sensor stands at its usual distance in front of the body (`SensorPlacement`). A joint that the twin
-/// lacks is absent.
+/// unknown, the simulated sensor stands at the usual distance in front of the body (`SensorPlacement`). A joint that
+/// the twin lacks is absent.
 JointRecording Simulate(const RealRecording& real, const SkeletonSensorOptions& options, const WorldKey& world);
 
-/// Returns statistics over `worlds` simulated recordings; each is aligned with the twin in the same way as the real
-/// recording.
+/// Returns statistics over `worlds` simulated recordings; each simulated recording is aligned with the twin in the same
+/// way as the real recording.
 SensorStatisticsSummary SimulatedStatistics(const RealRecording& real, const SkeletonSensorOptions& options, int worlds,
                                             const WorldKey& first_world);
 

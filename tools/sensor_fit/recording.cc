@@ -39,7 +39,7 @@ TwinMotion TwinOfTargets(const std::vector<TargetFrame>& targets) {
 }
 
 /// Computes orientations for the bones of a body that is given only by joint positions. The trunk's orientation follows
-/// from its joints; a limb has the trunk's orientation, swung into the limb's direction.
+/// from the trunk's joints; a limb has the trunk's orientation, swung into the limb's direction.
 class BoneFrames {
  public:
   explicit BoneFrames(const RolePositions& places) : places_(places) {

@@ -14,12 +14,12 @@
 
 namespace etude {
 
-/// The recording of a sensor: positions of the twenty joints in metres, absent where the sensor did not see them. The
-/// frame is the recording's own; Y points up.
+/// The recording of a sensor: positions of the twenty joints in metres, absent where the sensor did not see them.
+/// Positions are in the recording's own coordinate frame, in which Y points up.
 struct JointRecording {
   double rate_hz = kJudgedRateHz;
   std::vector<RolePositions> frames;
-  /// The position of the sensor in the recording's frame: the origin for a Kinect, unknown for other files.
+  /// The position of the sensor in the recording's coordinate frame: the origin for a Kinect, unknown for other files.
   std::optional<glm::dvec3> sensor_at;
 
   double DurationSeconds() const { return static_cast<double>(frames.size()) / rate_hz; }

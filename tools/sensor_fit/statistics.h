@@ -35,11 +35,11 @@ struct SensorStatistics {
 
 /// Computes the statistics of one recording; `match` may be null. Errors of a group are pooled over its joints,
 /// correlations over both sides of the body. `quiet_white_mm` is the standard deviation of white noise whose second
-/// differences have the observed median length; it uses torso joints that move less than 5 mm in ten frames. Smooth
-/// motion and slow errors hardly change it.
+/// differences have the observed median length; only torso joints that move less than 5 mm in ten frames are used.
+/// Smooth motion and slow errors hardly change this value.
 SensorStatistics StatisticsOf(const JointRecording& recording, const TwinMatch* match);
 
-/// A summary of many recordings: the mean of each statistic and its standard deviation between recordings.
+/// A summary of many recordings: the mean and the standard deviation of each statistic over the recordings.
 struct SensorStatisticsSummary {
   SensorStatistics mean, deviation;
 };
@@ -62,7 +62,8 @@ std::vector<StatisticRow> RowsOf(const SensorStatistics& statistics);
 /// and correlations by 0.15.
 constexpr double kSizeTolerance = 0.30, kCorrelationTolerance = 0.15;
 
-/// The number of rows in which both columns have a value, and how many of these rows are within the tolerances.
+/// The number of rows in which the two compared columns have a value, and how many of these rows are within the
+/// tolerances.
 struct Agreement {
   int within = 0;
   int compared = 0;
