@@ -269,7 +269,7 @@ std::string Failures(const RunData& run, const ScenarioSummary& scenario, const 
   return Folded(title, "<div class=\"status\">" + html + "</div>");
 }
 
-/// Returns the identities of a scenario's cells that kept a recording, as JSON for the page's script.
+/// Returns the IDs of those cells of a scenario that kept a recording, as JSON for the page's script.
 std::string RecordedCells(const RunData& run, const ScenarioSummary& scenario) {
   Json cells = Json::array();
   for (const CellRecording& recorded : run.recordings) {

@@ -41,7 +41,7 @@ Result<std::vector<std::string>> ExpandReference(const std::string& reference, c
 Result<std::vector<std::string>> ExpandReferences(const std::vector<std::string>& references,
                                                   std::size_t most = kMaxClips);
 
-/// A reference such as "dance.glb#Jump", split into the file and its animation. If a file exists whose whole name is
+/// A reference such as "dance.glb#Jump", split into the file and the animation. If a file exists whose whole name is
 /// the reference, the reference is not split.
 struct SplitReference {
   std::string path;

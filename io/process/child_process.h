@@ -50,7 +50,7 @@ struct ChildOptions {
   std::string program;  ///< a path, or a name that is looked up in PATH
   std::vector<std::string> arguments = {};
   std::string error_file = {};  ///< the child's standard error is appended here; "" = the child shares ours
-  bool limited = false;         ///< an outside program: no new privileges, ProgramLimits, PWD removed
+  bool limited = false;         ///< true: gets ProgramLimits, no new privileges, and no PWD (outside program)
   /// Makes the child the first process of new user, PID and mount namespaces, if the kernel allows it. When the child
   /// ends (at the latest with this process), the kernel ends all processes in the namespaces.
   bool contained = false;

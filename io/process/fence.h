@@ -73,9 +73,9 @@ class Fence {
   /// Tries again to run bubblewrap. Does nothing without a fence; on failure, the error's cause is this machine.
   Result<void> Try() const;
 
-  /// Returns the command that runs `command` (a path and arguments) inside, with the working folder `start` ("" =
-  /// /tmp). Besides the system, the command sees `shown`, absolute paths of files and folders. Without a fence, returns
-  /// `command` unchanged.
+  /// Returns the command that runs `command` (a path and arguments) inside the fence, with the working folder `start`
+  /// ("" = /tmp). Besides the system, the command sees `shown`, absolute paths of files and folders. Without a fence,
+  /// returns `command` unchanged.
   FencedCommand Around(const std::vector<std::string>& command, const std::vector<std::filesystem::path>& shown,
                        const std::filesystem::path& start = {}) const;
 

@@ -16,7 +16,7 @@ struct ProcessUsage {
   double cpu_s = 0;           ///< includes ended child processes that the process has waited for
   std::uint64_t faults = 0;   ///< minor page faults: pages touched for the first time, or copied on write
   std::size_t processes = 0;  ///< number of processes: 1, or 0 if the process no longer exists
-  double own_cpu_s = 0;       ///< processor time without that of child processes
+  double own_cpu_s = 0;       ///< processor time without the time of child processes
 };
 
 /// Reads a file in /proc, at most `max_bytes` and up to 4 KiB more; returns "" if the process does not exist any more.

@@ -15,7 +15,7 @@ namespace etude {
 namespace {
 
 // Size and margins of the plot of one feature, in units that the page scales. The names of the terms are written above
-// the curves, and the numbers of the axis below it.
+// the curves, and the numbers of the axis below the axis.
 constexpr double kPanelWide = 240, kPanelHeight = 150, kPanelTop = 22, kBase = 118;
 constexpr double kPanelMargin = 24, kPanelRim = 10;
 constexpr Axis kGrades{.low = 0, .high = 1, .from = kBase, .to = kPanelTop};

@@ -55,8 +55,8 @@ struct CameraIdentity {
   bool is_reference = true;  ///< true if the camera's clock is the clock of the truth
 };
 
-/// A camera of a world. It takes pictures and applies the effects in the order in which they act on the light
-/// (README.md). It is not thread-safe, because it reuses its buffers.
+/// A camera of a world. The camera takes pictures and applies the effects in the order in which these act on the light
+/// (README.md). This class is not thread-safe, because it reuses buffers.
 class CameraModel {
  public:
   /// Renders some rows, `rows`, of the ideal pinhole camera's picture (`pinhole()`). `frame` is the time, in frames of

@@ -57,7 +57,7 @@ class LensWarp {
   Camera pinhole_;
   std::vector<Source> sources_;          ///< one source per pixel; empty without distortion
   std::vector<std::int32_t> nearest_;    ///< index of each pixel's nearest source pixel; empty without distortion
-  std::vector<RowRange> source_of_row_;  ///< the source rows of each row; empty without distortion
+  std::vector<RowRange> source_of_row_;  ///< for each row, the source pixels' rows; empty without distortion
 };
 
 /// Blurs with a Gaussian of standard deviation `sigma_px`, truncated at three deviations. Outside the picture the

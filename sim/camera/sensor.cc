@@ -49,7 +49,7 @@ const NormalTable& Normals() {
   return kNormals;
 }
 
-/// Copies a row and adds one mirrored pixel at either end: the pixel at −1 equals the pixel at 1.
+/// Copies a row and adds one mirrored pixel at either end: the pixel at index −1 equals the pixel at index 1.
 void Pad(const float* row, int width, float* padded) {
   padded[0] = row[1];
   for (int x = 0; x < width; ++x) padded[x + 1] = row[x];

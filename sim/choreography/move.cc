@@ -78,7 +78,7 @@ Result<void> CheckList(const Node& list, std::string_view name) {
   return {};
 }
 
-/// Reads the beat of a pose; it must be in [0, beats).
+/// Reads the beat of a pose, which must be in [0, beats).
 double ReadBeat(Fields& pose, double beats) {
   const auto beat = pose.OptionalNumber("beat", {0, beats});
   if (!beat && pose.ok()) pose.Complain(pose.node().place, "a pose needs a 'beat'");

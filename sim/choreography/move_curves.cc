@@ -71,7 +71,7 @@ PeriodicCurve::PeriodicCurve(std::vector<Key> keys, double period) : period_(per
   }
   for (std::size_t i = 0; i < count; ++i) {
     const std::size_t before = (i + count - 1) % count, after = (i + 1) % count;
-    // Compute the second derivatives at this key of the two neighbouring cubic Hermite segments.
+    // For the two cubic Hermite segments that meet at this key, compute the second derivatives at the key.
     const double ending = (2 * knots_[before].slope + 4 * knots_[i].slope - 6 * secant(before)) / width(before);
     const double starting = (6 * secant(i) - 4 * knots_[i].slope - 2 * knots_[after].slope) / width(i);
     knots_[i].bend = rests(i) ? 0 : SmallerOfSameSign(ending, starting);

@@ -35,8 +35,8 @@ class PeriodicCurve {
     double at;
     double value;
     Ease ease = Ease::kSmooth;  ///< timing of the motion from the previous key to this key
-    /// The derivatives at this key, if physics determines them (a flight). Otherwise they are computed from the
-    /// neighbouring keys.
+    /// The derivatives at this key, if physics determines them (a flight). Otherwise the derivatives are computed from
+    /// the neighbouring keys.
     struct Derivatives {
       double slope, bend;
     };

@@ -27,7 +27,8 @@ enum class Fault {
 
 /// A fault and its severity: 0 changes nothing, and 1 is the fault's worst form. Faults of execution (amplitude, late,
 /// off beat, limb missing, elbow straight) grow in magnitude. Faults of content (side, move, skipped, order, stopped)
-/// affect a growing share of the performance, from its beginning; after this share the person dances correctly.
+/// affect a share of the performance that grows with the severity, from the performance's beginning; after this share
+/// the person dances correctly.
 struct GradedFault {
   Fault fault = Fault::kAmplitude;
   double severity = 1;  ///< severity in [0, 1]
