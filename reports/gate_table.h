@@ -15,7 +15,7 @@ struct GateTableRow {
   std::string difference;     ///< median (or mean) of the paired differences, now − baseline, and its interval
   std::string p;              ///< p-value after Holm's correction; kNoValue if nothing was tested
   std::string worlds;         ///< number of differing worlds, "12 of 60", and of lost, gained and far worse worlds
-  std::string verdict;        ///< text of MovementWords, or "worse in 5 worlds" if the tail rule decided
+  std::string verdict;        ///< text of MovementWords, or "worse in 5 worlds" if the far worse worlds decided
   bool fails = false;
 };
 

@@ -20,8 +20,8 @@ struct Box {
   double x = 0, y = 0, width = 0, height = 0;
 };
 
-/// A drawing surface of fixed size, opaque black at first. Coordinates are pixels from the top left corner. This class
-/// is the one door to cairo.
+/// A drawing surface of fixed size, opaque black at first. Coordinates are pixels from the top left corner. Only this
+/// class uses cairo.
 class Canvas {
  public:
   Canvas(int width, int height);

@@ -30,7 +30,7 @@ std::vector<Shrinker::Cover> Shrinker::CoversOf(int large, int small) {
   for (int i = 0; i < small; ++i) {
     Cover& cover = covers[static_cast<std::size_t>(i)];
     const double begin = i * scale, end = begin + scale;
-    // Keep all taps (the large pixels that are read for one small pixel) within the picture, even those of weight zero.
+    // Keep all taps (the large pixels that are read for one small pixel) within the picture, even taps of weight zero.
     cover.first = std::clamp(static_cast<int>(begin + 1e-9), 0, std::max(0, large - kTaps));
     int sum = 0, widest = 0;
     for (int k = 0; k < std::min(kTaps, large); ++k) {

@@ -11,8 +11,8 @@
 
 namespace etude {
 
-// Encodes and decodes pictures: the one door to PNG and OpenEXR. Pictures with more than kMaxPictureSide pixels per
-// side are refused before memory is allocated. Errors name the file unless stated otherwise.
+// Encodes and decodes pictures. Only this folder uses the libraries for PNG and OpenEXR. Pictures with more than
+// kMaxPictureSide pixels per side are refused before memory is allocated. Errors name the file unless stated otherwise.
 
 /// Returns the bytes of a PNG file, for embedding in a page. The same picture gives the same bytes. `image` must have
 /// at least one pixel. With `pixels_per_metre` above 0, the file states the size at which the picture is printed.

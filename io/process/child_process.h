@@ -19,8 +19,8 @@ namespace etude {
 struct ProgramLimits {
   static constexpr std::uint64_t kFileBytes = std::uint64_t{256} << 20;  ///< per file; in a fence, per scratch folder
   /// The maximum number of open descriptors per process. The kernel applies the same limit to the user's descriptors in
-  /// flight between processes (SCM_RIGHTS). A program can thus hold 512 pipes in flight and 256 open ones, so that some
-  /// of the user's 1024 pipes of full size are left for other programs.
+  /// flight between processes (SCM_RIGHTS). A program can thus hold 512 pipes in flight and 256 open pipes, so that
+  /// some of the user's 1024 pipes of full size are left for other programs.
   static constexpr std::uint64_t kOpenFiles = 512;
   static constexpr std::uint64_t kPendingSignals = 1024;  ///< signals and POSIX timers
   static constexpr std::uint64_t kLockedBytes = 1 << 20;  ///< memory locked by mlock

@@ -304,7 +304,7 @@ FencedCommand Fence::Around(const std::vector<std::string>& command, const std::
     const bool is_seen = IsOfSystem(path) || IsWithin(path, "/proc");
     if (is_seen && !is_within_shown(path) && fs::exists(path, error)) is_shown.emplace(path, false);
   }
-  // Mask hidden folders with empty ones. The masks become read-only after everything below them is mounted.
+  // Mask hidden folders with empty folders. The masks become read-only after everything below them is mounted.
   std::vector<std::string> masks;
   for (const auto& [path, is_seen] : is_shown) {
     if (is_seen) {

@@ -88,8 +88,8 @@ double ProportionalMb(pid_t process, double bound_mb) {
   return (FieldOf(shares, "\nPss_Anon:") + FieldOf(shares, "\nPss_File:") + FieldOf(shares, "\nSwapPss:")) / 1024;
 }
 
-/// Counts the different pipes, named ones included, that processes hold open. If the descriptors of a process cannot be
-/// read, each descriptor of this process counts as a pipe.
+/// Counts the different pipes, including named pipes, that processes hold open. If the descriptors of a process cannot
+/// be read, each descriptor of this process counts as a pipe.
 std::size_t CountPipes(const std::vector<pid_t>& processes) {
   std::set<std::pair<dev_t, ino_t>> pipes;
   std::size_t hidden = 0;

@@ -52,7 +52,7 @@ void DrawStrokes(Canvas& canvas, const std::vector<CaptureExtras::Mark>& marks, 
   }
 }
 
-/// One row of the plate: pictures side by side under a title.
+/// One row of the plate (the picture of DrawPlate): pictures side by side under a title.
 class PlateRow {
  public:
   PlateRow(Canvas& canvas, double y, const std::string& title) : canvas_(canvas), y_(y) {

@@ -17,11 +17,11 @@ std::vector<Picture> DrawStrip(const CapturePanel& capture, Renderer& renderer);
 /// Saves the pictures of DrawStrip for other programs, as EXR files with colour, depth and labels.
 Result<void> SaveStripPictures(const CapturePanel& capture, Renderer& renderer, const FilePath& folder);
 
-/// Draws all processing stages of a capture's moments in the layout of paper B's figures 5.3 to 5.14. Each moment and
-/// camera has a row: the picture, the person cut out of the picture, the marks of the limbs, the skeleton with its bone
-/// lengths fixed, and the skeleton after inverse kinematics. The rows below show, as figure 5.15 does, the whole motion
-/// in the cameras' pictures and as skeletons. At most two cameras are shown. Returns nullopt if the recording keeps no
-/// moments.
+/// Draws all processing stages of a capture's moments (the frames whose intermediate results the recording keeps) in
+/// the layout of paper B's figures 5.3 to 5.14. Each moment and camera has a row: the picture, the person cut out of
+/// the picture, the marks of the limbs, the skeleton with its bone lengths fixed, and the skeleton after inverse
+/// kinematics. The rows below show, as figure 5.15 does, the whole motion in the cameras' pictures and as skeletons. At
+/// most two cameras are shown. Returns nullopt if the recording keeps no moments.
 std::optional<Picture> DrawPlate(const CapturePanel& capture, Renderer& renderer);
 
 /// Finds the captures that a film compares: at most three of the methods that were recorded in the world of `typical`

@@ -18,8 +18,8 @@ Figure PosedFigure(const Character& character, const LocalPose& pose, const glm:
 
 /// Returns a character, which must be bound to BodySkeleton(StandingPose()), in a body's pose. The character is scaled
 /// to the body's proportions: each part to the length of the limb, and hips and chest to the distances between hip
-/// joints and between shoulder joints. Set `is_closed` if all meshes are closed, like those of the bear and the
-/// mannequin (`Surface::is_closed`).
+/// joints and between shoulder joints. Set `is_closed` if all meshes are closed, as the meshes of the bear and the
+/// mannequin are (`Surface::is_closed`).
 Figure PosedFigure(const Character& character, const BodyPose& pose, bool is_closed = false);
 
 /// Computes the joints in `pose` of a character bound to BodySkeleton(StandingPose()); the joints' axes are scaled to

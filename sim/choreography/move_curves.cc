@@ -27,7 +27,7 @@ double SmallerOfSameSign(double a, double b) {
 bool IsBetweenRests(Ease ease) { return ease == Ease::kSnap || ease == Ease::kStep; }
 
 /// Returns the curve's parameter after a share of a segment's time. Unless the curve rests at both ends, the first two
-/// derivatives at the ends must equal those of the identity.
+/// derivatives at the ends must equal the derivatives of the identity.
 double Eased(Ease ease, double share) {
   // The bulge moves the motion away from the identity. The bulge and its first two derivatives are zero at both ends of
   // a segment. The sums of share and bulge below increase everywhere while kStrength is below 18.6.

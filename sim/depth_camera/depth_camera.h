@@ -56,7 +56,7 @@ double LateralDeviationPx(double angle);
 
 /// Simulates the image of a depth camera from the true depths that `camera` (lens included) sees. Both images have the
 /// camera's size and hold metres along the viewing axis, or kNotMeasured. The steps of the simulation, in this order,
-/// are: remove shadowed pixels and surfaces at grazing angles; shift edges, including those of holes, by lateral noise;
+/// are: remove shadowed pixels and surfaces at grazing angles; shift edges, also the edges of holes, by lateral noise;
 /// add axial noise and round to disparity steps; remove depths out of range. With all strengths 0 the result equals
 /// `truth` bit for bit. Every pixel uses three random numbers, whatever the options.
 DepthImage MeasureDepth(const DepthImage& truth, const Camera& camera, const DepthCameraOptions& options,
