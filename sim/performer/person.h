@@ -66,7 +66,7 @@ struct Person {
 /// children, adults and experts, in this order.
 People KindInMixture(double share);
 
-/// Draws a person; every world draws its own. A preset changes only the means and the spreads of traits: with equal
+/// Draws a person, a new one for every world. A preset changes only the means and the spreads of traits: with equal
 /// random numbers, a toddler and an adult deviate in the same way from the means of their kinds.
 Person DrawPerson(const WorldKey& key, People people);
 
