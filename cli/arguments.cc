@@ -19,7 +19,7 @@
 namespace etude {
 namespace {
 
-/// Returns example command lines by command; keys are the command's words without "etude".
+/// Returns example command lines for every command. A key is a command's words without "etude".
 const std::map<std::string_view, std::vector<std::string_view>>& ExamplesByCommand() {
   static const std::map<std::string_view, std::vector<std::string_view>> examples = {
       // Each entry holds the words of a command, then its examples.
@@ -162,7 +162,7 @@ void AddTo(CLI::App& command, const std::string& words, const std::string& inher
   }
 }
 
-/// Appends examples to the help of every command; `tests/cli/help_test.py` checks them against the options.
+/// Appends examples to the help of every command; `tests/cli/help_test.py` checks the examples against the options.
 void AddExamples(CLI::App& app) {
   for (CLI::App* command : app.get_subcommands([](const CLI::App* one) { return !one->get_name().empty(); })) {
     AddTo(*command, command->get_name(), app.get_footer());
@@ -243,7 +243,7 @@ std::array<CLI::Option*, 9> AddWorldOptions(CLI::App& command, std::optional<std
   const auto tell = [&clip_facts](const std::string& key) {
     return [&clip_facts, key](const std::string& value) { clip_facts += key + ": " + value + "\n"; };
   };
-  // The help of each option names its default. Scenarios and clips give these defaults.
+  // These options have defaults that come from scenarios or clips; the help of each option names the default.
   return {
       AddSeed(command, seed, "Seed of all worlds (default: the scenario's, else 1)"),
       command.add_option("--trials", trials, "Trials per condition (default: the scenario's)")
@@ -289,7 +289,8 @@ std::function<std::string(const std::string&)> NumberWithin(double low, double h
 
 namespace {
 
-/// Puts the commands that `etude --help` lists into groups. Groups are listed in the order of their first commands.
+/// Puts the commands that `etude --help` lists into groups. The help lists groups in the order in which their first
+/// commands were defined.
 void GroupCommands(CLI::App& app) {
   struct CommandGroup {
     const char* name;

@@ -19,20 +19,22 @@ namespace etude {
 struct OutsideRules;
 enum class Sealing;
 
-/// Runs the chosen command; returns its exit code.
+/// Runs the chosen command; returns the command's exit code.
 using Action = std::function<int()>;
 
-/// Defines every command with its options. When `app` parses a command line, it stores the chosen command in `action`.
+/// Defines every command with its options. When `app` parses a command line, the chosen command is stored in `action`.
 /// `command_line` is recorded in host.json.
 void DefineCommands(CLI::App& app, const std::string& command_line, Action& action);
 
 // The functions below add options that several commands share.
 
-/// Adds --seed. If the option is not given, `seed` keeps its value, which the help shows as the default.
+/// Adds --seed. If the option is not given, `seed` keeps the value that it had before. The help shows this value as the
+/// default.
 CLI::Option* AddSeed(CLI::App& command, std::uint64_t& seed, const std::string& help);
-/// Adds --seed. If the option is not given, `seed` is nullopt; the scenario or the program then has its own default.
+/// Adds --seed. If the option is not given, `seed` is nullopt; the scenario's or the program's default then applies.
 CLI::Option* AddSeed(CLI::App& command, std::optional<std::uint64_t>& seed, const std::string& help);
-/// Adds --seed-file, for every command that draws the dice of worlds. The command refuses --seed together with it.
+/// Adds --seed-file, for every command that draws the random numbers of worlds. The command refuses --seed together
+/// with it.
 CLI::Option* AddSeedFile(CLI::App& command, std::string& file);
 /// Reads the key of secret worlds; nullopt if `file` is "". Warns if other users can read the file; fails if a seed is
 /// also given.
@@ -42,7 +44,7 @@ Result<std::optional<SecretKey>> TakeSecretKey(const std::string& file, bool has
 /// as long as `act`.
 Action WithSecretKey(CLI::App& command, const std::optional<std::uint64_t>* seed, std::optional<SecretKey>& key,
                      const Action& act);
-/// Adds --reuse-key, for commands with --seed-file that otherwise refuse a key that was used before.
+/// Adds --reuse-key, for commands with --seed-file, which otherwise refuse a key that was used before.
 void AddReuseKey(CLI::App& command, bool& reuse_key);
 /// Adds -j, --jobs.
 CLI::Option* AddJobs(CLI::App& command, int& jobs);
@@ -52,7 +54,7 @@ CLI::Option* AddOverwrite(CLI::App& command, bool& overwrite, const std::string&
 constexpr const char* kJointMapOption = "--joint-map,--map";
 /// Adds --seed, --trials, --clips, --joint-map, --unit, --up, --rate, --keep-floor and --marker-set, for every command
 /// that makes worlds from scenarios. The values of the last five are written to `clip_facts` as lines of a joint-map
-/// file. The third option in the result is --clips.
+/// file. The third element of the result is --clips.
 std::array<CLI::Option*, 9> AddWorldOptions(CLI::App& command, std::optional<std::uint64_t>& seed,
                                             std::optional<int>& trials, std::vector<std::string>& clips,
                                             std::string& joint_map, std::string& clip_facts);
@@ -61,8 +63,8 @@ void AddUnsealed(CLI::App& command, Sealing& sealing);
 /// Adds --no-fence and --allow-exec, for every command that runs external methods.
 void AddOutsideRules(CLI::App& command, OutsideRules& rules);
 
-/// Returns a function that checks an option's text: it returns "" for a number from `low` to `high`, else a complaint.
-/// (CLI::Range would accept NaN.) `kind` names the quantity in complaints: "rate in Hz".
+/// Returns a function that checks an option's text: that function returns "" for a number from `low` to `high`, else a
+/// complaint. (CLI::Range would accept NaN.) `kind` names the quantity in complaints: "rate in Hz".
 std::function<std::string(const std::string& text)> NumberWithin(double low, double high, const std::string& kind);
 
 }  // namespace etude

@@ -56,7 +56,7 @@ Result<BridgeLibrary> LoadLibrary(const BridgeCommandOptions& options) {
   return LoadBridgeLibrary(bridge);
 }
 
-/// Copies the rules of a tags file into the options, so that the clips are tagged by the same rules.
+/// Copies the rules of a tags file into the options, so that the clips are tagged by the rules of the file.
 BridgeCommandOptions OptionsOf(const BridgeTags& tags, BridgeCommandOptions options) {
   options.threshold = tags.threshold;
   options.within_class = tags.within_class;

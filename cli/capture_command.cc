@@ -86,7 +86,7 @@ void DefineCapture(CLI::App& app, const std::string& command_line, Action& actio
   options->version = ETUDE_VERSION;
   options->listener = TerminalListener();
   CLI::App* command = app.add_subcommand("capture", "Recover the motion of a person from films by several cameras");
-  // Define the films and their rig.
+  // Define the films and the rig.
   command
       ->add_option("films", options->films, "One film per camera, all begun at the same moment (otherwise use --sync)")
       ->required();
@@ -108,7 +108,7 @@ void DefineCapture(CLI::App& app, const std::string& command_line, Action& actio
       ->capture_default_str();
   command->add_option("--cameras", options->cameras, "The rig's cameras in the order of the films: left,right")
       ->delimiter(',')
-      ->allow_extra_args(false);  // otherwise the option would take the film names that follow it as its values
+      ->allow_extra_args(false);  // otherwise, the option would also take the film names that follow its value
   // Define the sources of the person's position.
   auto* keypoints = command->add_option("--keypoints", options->keypoints, "A folder with keypoints for each film");
   auto* marks = command->add_option("--marks", options->marks, "A folder with annotation pictures for each film")

@@ -19,7 +19,7 @@
 namespace etude {
 namespace {
 
-/// Recordings of people, with which the check replaces simulated people.
+/// Recordings of people, which the check uses instead of simulated people.
 struct RecordedPeople {
   std::vector<std::string> streams;
   std::string labels;  ///< a file of labels; "" = each recording is one move
@@ -54,7 +54,7 @@ int CheckMethodCommand(OutsideOptions options, const std::string& seat, const Re
   }
   Json checks_made = Json::array();
   int checks = 0, passed = 0;
-  // Run the checks, and print each one when it ends.
+  // Run the checks, and print each check when it ends.
   const auto all_passed = CheckConformance(
       options, seat,
       [&](const ConformanceCheck& check) {
@@ -94,7 +94,7 @@ void DefineCheckMethod(CLI::App& app, Action& action) {
   auto options = std::make_shared<Options>();
   CLI::App* command = app.add_subcommand("check-method", "Test whether a program speaks the protocol of methods");
   command->add_option("command", options->command, "The program and its arguments, after --")->required();
-  // List the allowed tasks and seats.
+  // List the allowed tasks and seats (a seat is the program's part in a loop).
   std::vector<std::string> tasks, seats;
   for (const TaskKind& kind : AllTaskKinds()) {
     tasks.push_back(kind.name);

@@ -116,7 +116,7 @@ Result<int> ClipConvertCommand(const ClipConvertOptions& given) {
   }
   ASSIGN_OR_RETURN(auto clips, ReadClips(references.front(), reading));
 
-  // Convert the clip and write it.
+  // Convert the clip and write the result.
   ConvertOptions options{.trim = trim,
                          .rate_hz = std::nullopt,
                          .mirror = given.mirror,
@@ -156,7 +156,7 @@ void DefineConvert(CLI::App& clip, Action& action) {
           "The file to write: .bvh, .glb, .trc (OpenSim's markers), .mot (its angles), .csv, .c3d, .npz (NumPy); or a "
           "folder, for Motion-BIDS: data/")
       ->required();
-  // Define the part of the clip, and its changes.
+  // Define the part of the clip that is converted, and the changes to the clip.
   command->add_option("--trim", options->trim, "Only the part FROM:TO in seconds, such as 1.5:4 or 2:");
   command
       ->add_option("--rate", options->rate_hz,
@@ -182,7 +182,7 @@ void DefineConvert(CLI::App& clip, Action& action) {
 
 struct ClipContactsOptions {
   std::string clip;
-  std::string output;  ///< an SVG picture
+  std::string output;  ///< the SVG file to write
   bool overwrite = false;
   ClipReading reading;
 };
@@ -309,7 +309,7 @@ Result<int> ClipMapCommand(const ClipMapOptions& options) {
   const bool writes = !options.output.empty();
   RETURN_IF_ERROR(CheckMapOutputs(options));
   ASSIGN_OR_RETURN(const auto reading, ReadOptions({.joint_map = options.joint_map, .unit = "", .up = ""}));
-  // All animations of a file share one skeleton, so the first one is enough.
+  // All animations of a file share one skeleton, so the first animation is enough.
   OpenOptions as_file;
   as_file.recorded = reading.recorded;
   ASSIGN_OR_RETURN(const auto clips, ReadClips(options.clip, as_file));
@@ -319,7 +319,8 @@ Result<int> ClipMapCommand(const ClipMapOptions& options) {
   RETURN_IF_ERROR(WritePreview(options, clips.front().clip, map ? &*map : nullptr));
   // If roles are missing, write a file to fill in, and complain.
   if (!map) {
-    // Never overwrite the joint map that the user gave: it is being edited, and may be the output file.
+    // Never overwrite the joint map that the user gave: the user may still edit this file, and it may be the output
+    // file.
     if (options.joint_map.empty() && writes) {
       RETURN_IF_ERROR(WriteFileAtomically(options.output, UnfinishedMapFile(skeleton)));
       TellWritten(options.output);
@@ -327,7 +328,7 @@ Result<int> ClipMapCommand(const ClipMapOptions& options) {
     }
     return tl::unexpected(map.error());
   }
-  // If all roles are known, print the map and write it.
+  // If all roles are known, print and write the map.
   if (options.as_json) {
     RETURN_IF_ERROR(PrintFacts("clip map", {{"clip", options.clip}, {"roles", RolesAsJson(skeleton, *map)}}));
   } else {

@@ -25,7 +25,7 @@ struct ClipGradesOptions {
   ClipReading reading;
 };
 
-/// Writes one line per frame: ten features, 24 grades, ten tags, and the pose.
+/// Writes one line per frame: the ten features, their 24 membership grades and ten tags, and the name of the pose.
 std::string GradesCsv(const FuzzyMotion& motion) {
   std::string csv = "frame,time_s";
   for (Feature feature : AllFeatures()) csv += fmt::format(",{}", FeatureName(feature));
@@ -42,7 +42,8 @@ std::string GradesCsv(const FuzzyMotion& motion) {
   return csv;
 }
 
-/// Summarises the poses, the most frequent first: "at rest 62 %, arms up 20 %, no rule holds 18 %".
+/// Summarises the shares of time in each pose, the most frequent pose first: "at rest 62 %, arms up 20 %, no rule holds
+/// 18 %".
 std::string PoseShares(const FuzzyMotion& motion, const RuleBase& rules) {
   std::vector<std::pair<std::size_t, std::string>> counts;
   for (const std::string& pose : rules.poses) {

@@ -26,7 +26,7 @@ struct ClipReading {
 };
 
 /// Adds --joint-map, --unit, --up, --keep-floor and --marker-set, for every command that opens clips directly. Also
-/// adds an option named `rate` for the frame rate of files ("" = no such option).
+/// adds an option for the frame rate of files, with the name `rate` ("" = no such option).
 void AddClipReading(CLI::App& command, ClipReading& reading, const std::string& rate = "--rate");
 
 /// Converts `reading` to OpenOptions. Fails if a file or a value cannot be read.

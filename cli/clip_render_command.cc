@@ -92,7 +92,7 @@ Result<void> WriteSheet(const ClipRenderOptions& options) {
   return WriteFileAtomically(options.output, png);
 }
 
-/// Makes a film of one clip. Returns false if Ctrl-C stopped it.
+/// Makes a film of one clip. Returns false if Ctrl-C stopped the film.
 Result<bool> WriteFilm(const ClipRenderOptions& options) {
   ASSIGN_OR_RETURN(const auto size, ReadSize(options.size, {720, 720}));
   if (size.width % 2 != 0 || size.height % 2 != 0) return Fail({}, "--size: films need even numbers of pixels");

@@ -46,11 +46,11 @@ struct CoachCommandOptions {
   std::string choice = "played";
   std::string join = "planted-feet";
   std::string filter = "none";
-  bool mirror = false;   ///< players mirror the coach
-  bool reflect = false;  ///< the stream's X axis points the other way
-  bool now = false;      ///< begin dancing without waiting for a clap
-  bool brief = false;    ///< leave out frames without a decision
-  bool timing = false;   ///< print frame times at the end
+  bool mirror = false;   ///< true: players mirror the coach
+  bool reflect = false;  ///< true: the stream's X axis points the other way
+  bool now = false;      ///< true: the coach begins to dance without waiting for a clap
+  bool brief = false;    ///< true: frames without a decision are left out
+  bool timing = false;   ///< true: processing times of frames are printed at the end
   bool overwrite = false;
 };
 
@@ -70,7 +70,7 @@ constexpr const char* kCoachExamples =
     "  etude teach clap.csv jump.csv -o mine.yaml && etude coach groove --moves mine.yaml --stream -\n"
     "  etude clip convert builtin:warm_up me.csv && etude coach warm_up --now --brief --stream me.csv";
 
-/// The dance, and the moves that recognisers learn, in the order of the dance.
+/// A dance, and its moves in the form in which recognisers learn them, in the order of the dance.
 struct Lesson {
   Dance dance;
   std::vector<TaughtMove> taught;
@@ -82,8 +82,8 @@ Result<Song> LoadSong(const std::string& name, std::optional<double> tempo_bpm) 
   return ParseSong(text, name, tempo_bpm);
 }
 
-/// Replaces the built-in definitions of moves by those of a moves file. Fails if the file defines a move that the dance
-/// does not have.
+/// Replaces the built-in definitions of moves by the definitions in a moves file. Fails if the file defines a move that
+/// the dance does not have.
 Result<void> TeachMoves(const std::string& path, std::vector<TaughtMove>& taught) {
   ASSIGN_OR_RETURN(const auto text, ReadWholeFile(path));
   ASSIGN_OR_RETURN(auto moves, ReadMoves(text, path));
@@ -145,7 +145,7 @@ void PrintLine(const std::string& line) {
 }
 
 Result<int> CoachCommand(const CoachCommandOptions& options) {
-  // Load the song, and teach the recogniser its moves.
+  // Load the song, and teach the recogniser the song's moves.
   ASSIGN_OR_RETURN(auto lesson, LoadLesson(options));
   RETURN_IF_ERROR(WriteClicks(options, lesson.dance));
   const RecogniserKind* kind = options.recogniser.empty() ? &RecommendedRecogniser(lesson.taught, /*by_a_coach=*/true)

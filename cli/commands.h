@@ -27,33 +27,34 @@ constexpr int kInterrupted = 130;
 int Complain(const Error& error);
 /// Returns a command's exit code. For an error, prints it as Complain does and returns Complain's code.
 int Finish(const Result<int>& code);
-/// Prints that Ctrl-C stopped the work, and `what_is_left` of it. Returns kInterrupted.
+/// Prints that Ctrl-C stopped the work, and `what_is_left` of the output. Returns kInterrupted.
 int TellStopped(const Error& what_is_left = {{}, "stopped; no files are kept"});
-/// Returns `code`. If another run has replaced the folder while files of this run were written into it, complains and
-/// returns kIncompleteRun.
+/// Returns `code`. If another run has replaced the folder while this run wrote files into it, complains and returns
+/// kIncompleteRun instead.
 Result<int> UnlessReplaced(const std::string& folder, const RunData& run, int code);
 /// Warns on standard error that data were read although no valid seal confirms them. If `why` is "", the seal is valid
 /// and nothing is printed.
 void TellUnsealed(const std::string& why);
-/// Reads a baseline, and warns if no seal confirms it. Fails if its seal is invalid, unless seals are ignored.
+/// Reads a baseline, and warns if no seal confirms its content. Fails if the baseline's seal is invalid, unless seals
+/// are ignored.
 Result<Snapshot> TakeBaseline(const std::string& path, Sealing sealing);
 /// Runs scenarios with a progress bar, and reports clips that were left out, damaged lines and missing locks. If the
 /// run was stopped, reports that and returns nullopt.
 Result<std::optional<RunOutcome>> RunWithProgress(RunOptions options);
-/// Prints the tables of a finished run, and the reasons of methods without an answer. Returns kNothingWorked if a
-/// method has no answer or no cell is ok.
+/// Prints the tables of a finished run, and the reasons why methods have no answer. Returns kNothingWorked if a method
+/// has no answer or no cell is ok.
 int ShowOutcome(const RunOutcome& outcome);
 /// Returns true if standard output was closed before the program started, so that nobody reads it.
 bool OutputWasClosed();
 /// Prints a title and indented lines; prints nothing if there are no lines.
 void PrintList(const std::string& title, const std::vector<std::string>& lines);
 
-// Each command is defined in a file of its name. `command_line` is recorded in host.json.
+// Each command is defined in a file with the command's name. `command_line` is recorded in host.json.
 
-/// `etude run`: runs scenarios with a progress bar and prints the verdicts; with --dry-run, only forecasts the time and
-/// the findings.
+/// `etude run`: runs scenarios with a progress bar and prints the verdicts; with --dry-run, only forecasts the duration
+/// and the detectable differences.
 void DefineRun(CLI::App& app, const std::string& command_line, Action& action);
-/// `etude evaluate TRUTH RESULT…`: compares motions in files with their truths, and writes a run.
+/// `etude evaluate TRUTH RESULT…`: compares motions in files with the truth, and writes a run.
 void DefineEvaluate(CLI::App& app, const std::string& command_line, Action& action);
 /// `etude scenario copy NAME FOLDER`: copies a scenario that comes with etude.
 void DefineScenario(CLI::App& app, Action& action);
@@ -65,8 +66,8 @@ void DefineReport(CLI::App& app, Action& action);
 void DefineBlind(CLI::App& app, Action& action);
 /// `etude rows DIR`: writes the rows as lines of text.
 void DefineRows(CLI::App& app, Action& action);
-/// `etude replay DIR|FILE`: runs cells again and compares them stage by stage (exit code 1 if one differs), or packs
-/// one cell into a file.
+/// `etude replay DIR|FILE`: runs cells again and compares the results stage by stage (exit code 1 if a cell differs),
+/// or packs one cell into a file.
 void DefineReplay(CLI::App& app, Action& action);
 /// `etude cite DIR`: prints a BibTeX entry, and a sentence that identifies the run.
 void DefineCite(CLI::App& app, Action& action);
@@ -77,28 +78,29 @@ void DefineVerify(CLI::App& app, Action& action);
 void DefineGate(CLI::App& app, Action& action);
 /// `etude compare A B`: prints the differences between two runs of the same worlds.
 void DefineCompare(CLI::App& app, Action& action);
-/// `etude export`: writes problems, and separately their truth.
+/// `etude export`: writes problems, and, separately, the truth about these problems.
 void DefineExport(CLI::App& app, Action& action);
 /// `etude score`: scores a folder of answers into a result folder.
 void DefineScore(CLI::App& app, const std::string& command_line, Action& action);
 /// `etude check-method … -- CMD…`: tests whether a program implements the protocol of outside methods; exit code 1 if
-/// it does not.
+/// the program does not.
 void DefineCheckMethod(CLI::App& app, Action& action);
 /// `etude list …`: lists what a scenario can name.
 void DefineList(CLI::App& app, Action& action);
 /// `etude clip info|convert|render|contacts|map|grades`
 void DefineClip(CLI::App& app, Action& action);
-/// `etude clip render`: draws a contact sheet of any clips, or a film of one.
+/// `etude clip render`: draws a contact sheet of any clips, or a film of one clip.
 void DefineRender(CLI::App& clip, Action& action);
 /// `etude clip grades`: prints the fuzzy features, tags and poses of clips (paper A), and how similar clips are.
 void DefineGrades(CLI::App& clip, Action& action);
 /// `etude bridge`: finds bridge frames of clips and writes a tags file and a summary; or checks a tags file (exit code
-/// 2).
+/// 2 if the check fails).
 void DefineBridge(CLI::App& app, Action& action);
 /// `etude transition FROM TO --at S -o FILE`: writes a transition from one clip into another; exit code 1 if there is
-/// none.
+/// no such transition.
 void DefineTransition(CLI::App& app, Action& action);
-/// `etude train`: learns a fuzzy system or a recogniser from clips, and prints its scores on held-out clips.
+/// `etude train`: learns a fuzzy system or a recogniser from clips, and prints the scores of the result on held-out
+/// clips.
 void DefineTrain(CLI::App& app, Action& action);
 /// `etude teach`: learns moves from recordings.
 void DefineTeach(CLI::App& app, Action& action);
@@ -110,13 +112,13 @@ void DefineSensor(CLI::App& app, Action& action);
 void DefineCalibrate(CLI::App& app, Action& action);
 /// `etude capture`: finds the motion of a person in films by several cameras.
 void DefineCapture(CLI::App& app, const std::string& command_line, Action& action);
-/// `etude forecast RIG`: forecasts the errors of a rig's captures.
+/// `etude forecast RIG`: forecasts the errors of captures with this rig.
 void DefineForecast(CLI::App& app, const std::string& command_line, Action& action);
 /// `etude coach`: coaches a song live from a skeleton stream.
 void DefineCoach(CLI::App& app, Action& action);
-/// `etude completion SHELL`, and the hidden command with which packages make their manual pages.
+/// `etude completion SHELL`, and the hidden command with which the Debian package makes manual pages.
 void DefineOptionTree(CLI::App& app, Action& action);
-/// `etude crowd`: tracks a crowd's motions on one core, reports the time per frame, and makes a film of it.
+/// `etude crowd`: tracks a crowd's motions on one core, reports the time per frame, and makes a film of the crowd.
 void DefineCrowd(CLI::App& app, Action& action);
 
 }  // namespace etude

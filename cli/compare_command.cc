@@ -18,7 +18,7 @@
 namespace etude {
 namespace {
 
-/// Loads a complete run. Fails for an incomplete run, because its worlds cannot be paired.
+/// Loads a complete run. Fails for an incomplete run, because the worlds of an incomplete run cannot be paired.
 Result<FinishedRun> LoadWholeRun(const std::string& folder, Sealing sealing) {
   ASSIGN_OR_RETURN(auto run, LoadFinishedRun(folder, sealing));
   TellUnsealed(run.data.unsealed);

@@ -30,24 +30,24 @@ namespace {
 struct CrowdCommandOptions {
   CrowdOptions crowd;
   double seconds = 2;
-  int steps = 100;  ///< maximum steps per frame; if a character misses its targets, a restart may use as many again
+  int steps = 100;  ///< maximum steps per frame; a character that misses its targets may get as many again
   bool in_float = false;
-  std::string output;  ///< a film file; "" = only the report
+  std::string output;  ///< the film to write; "" = only the report
   int jobs = 0;
   bool overwrite = false, as_json = false;
 };
 
 constexpr int kWidth = 1280, kHeight = 720;
-constexpr double kFilmRateHz = 30;  // upper limit of the film's rate; at 60 Hz every second frame is shown
+constexpr double kFilmRateHz = 30;  // upper limit of the film's frame rate, Hz; at 60 Hz every second frame is shown
 
 double ProcessorTimeMs() { return 1e3 * static_cast<double>(std::clock()) / CLOCKS_PER_SEC; }
 
 struct Timings {
   std::int64_t met = 0, steps = 0;
-  std::vector<double> times_ms;  ///< time of each frame
+  std::vector<double> times_ms;  ///< processing time of each frame
 };
 
-/// Prints the measured times, and returns them as JSON.
+/// Prints the measured times, and returns the times as JSON.
 Json Tell(const CrowdCommandOptions& options, Timings timings) {
   const double count = static_cast<double>(options.crowd.characters) * options.crowd.frames;
   fmt::print("{} characters, {} frames at {:g} Hz, gauss-newton in batches of {}\n", options.crowd.characters,
@@ -113,12 +113,12 @@ Result<bool> FilmCrowd(const CrowdCommandOptions& options, FollowedCrowd& follow
   static_assert(std::is_trivially_copyable_v<Character>, "characters are passed on as they are stored in memory");
   ASSIGN_OR_RETURN(auto* const renderer, SharedRenderer());
   CrowdStage stage(options.crowd.characters, kWidth, kHeight, *renderer);
-  // Show at most kFilmRateHz frames per second.
+  // Choose every n-th frame, so that the film shows at most kFilmRateHz frames per second.
   const double rate_hz = options.crowd.rate_hz;
   const int every = std::max(1, static_cast<int>(std::ceil(rate_hz / kFilmRateHz)));
   const int frames = (options.crowd.frames + every - 1) / every;
   const auto count = static_cast<std::size_t>(options.crowd.characters);
-  // This process tracks the crowd; copies of it draw the frames.
+  // This process tracks the crowd; copies of this process draw the frames.
   const auto fill = [&](int frame, std::span<std::uint8_t> into) -> Result<void> {
     followed.FollowTo(frame * every);
     for (std::size_t i = 0; i < count; ++i) {
@@ -140,7 +140,7 @@ Result<bool> FilmCrowd(const CrowdCommandOptions& options, FollowedCrowd& follow
                          {count * sizeof(Character), fill}, draw, watch);
 }
 
-/// Tracks the crowd frame by frame, and reports on it. Returns null if Ctrl-C stopped it.
+/// Tracks the crowd frame by frame, and reports the result. Returns null if Ctrl-C stopped the tracking.
 Result<Json> FollowCrowd(const CrowdCommandOptions& options) {
   ASSIGN_OR_RETURN(const auto worlds, MakeCrowd(options.crowd));
   FollowedCrowd followed(options, worlds);

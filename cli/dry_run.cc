@@ -31,8 +31,8 @@ std::string CountOf(std::size_t count, std::string_view what) {
   return fmt::format("{} {}{}", count, what, count == 1 ? "" : "s");
 }
 
-/// Returns a difference in the unit of the scenario's metric: ", about 1.2 mm of joint position error"; "" if the
-/// metric is unknown.
+/// Returns a difference, given in standard deviations, in the unit of the scenario's metric: ", about 1.2 mm of joint
+/// position error"; "" if the metric is unknown.
 std::string InUnit(const ScenarioForecast& one, double deviations) {
   const MetricInfo* metric = FindMetric(one.metric);
   if (metric == nullptr || one.spread <= 0) return "";

@@ -15,7 +15,7 @@ namespace etude {
 struct AloneOptions {
   bool is_alone = false;
   std::optional<double> floor_m;
-  std::string limits;  ///< a file, or the name of a shipped file of limits; "" = none
+  std::string limits;  ///< a file, or the name of a shipped file of limits; "" = no limits
 };
 
 /// Writes the text of a scenario that judges motions without a truth.
@@ -24,11 +24,11 @@ Result<std::string> ScenarioOfMotions(const std::vector<std::string>& files, con
 
 /// The clips of a run of motions without a truth, sorted by outcome.
 struct Triage {
-  std::size_t clips = 0, fault_free = 0;     ///< judged clips, and those of them without a fault
-  std::map<std::string, std::size_t> kinds;  ///< number of clips that show a fault, by the word for its kind
+  std::size_t clips = 0, fault_free = 0;     ///< number of judged clips, and number of judged clips without a fault
+  std::map<std::string, std::size_t> kinds;  ///< number of clips that show a fault, by the word for this kind of fault
   bool has_limits = false;
-  // Lines have the form "METHOD, CLIP: why". A clip beyond its limits is in `beyond_limits` only; any other clip with
-  // faults is in `faulty`.
+  // Lines have the form "METHOD, CLIP: why". A clip that exceeds its limits is in `beyond_limits` only; any other clip
+  // with faults is in `faulty`.
   std::vector<std::string> faulty, beyond_limits, not_judged;
 };
 Triage TriageOf(const RunData& run);

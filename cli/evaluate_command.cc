@@ -95,7 +95,7 @@ Result<std::string> ScenarioOf(const EvaluateOptions& options) {
   return text + fmt::format("metrics: [{}]\n", Join(quoted));
 }
 
-/// Returns, as JSON, the agreement of every angle that both files of a pair have.
+/// Returns, as JSON, the agreement of every angle that is in both files of a pair.
 Json FactsOf(const std::vector<AngleAgreement>& angles) {
   const auto number = [](const std::optional<double>& value) { return value ? Json(*value) : Json(); };
   const auto figure = [&](const AgreementFigure& one) {
@@ -206,10 +206,10 @@ void PrintTable(const ScenarioSummary& summary) {
   }
 }
 
-/// The notes on pairs in a run's rows, as lines "METHOD, PAIR: reason".
+/// The notes in a run's rows on pairs of files, as lines "METHOD, PAIR: reason".
 struct PairNotes {
-  std::vector<std::string> judged;      ///< one per method and condition: what was judged, how answers were changed
-  std::vector<std::string> not_judged;  ///< one for every pair that could not be judged
+  std::vector<std::string> judged;      ///< one line per method and condition: what was judged, how answers changed
+  std::vector<std::string> not_judged;  ///< one line for every pair that could not be judged
 };
 
 /// Collects the notes, row by row.
@@ -253,7 +253,7 @@ Error AboutArguments(Error error, const std::string& text) {
       {"floor_m", "--floor"},  {"at_most", "--limits"},   {"music_beats", "--music-beats"},
       {"metrics", "--metric"}, {"methods", "the results"}};
   if (error.place.file != kScenarioFile) return error;
-  // Find the key of the line; an indented line belongs to the key above it.
+  // Find the key of the line; an indented line belongs to the key of the line above.
   std::istringstream lines(text);
   std::string line;
   std::string found;
@@ -294,7 +294,7 @@ Result<int> EvaluateCommand(const EvaluateOptions& options) {
   const bool has_silent = lacks_some || std::ranges::any_of(summary.conditions.front().methods,
                                                             [](const MethodSummary& method) { return method.ok == 0; });
   const Triage triage = options.alone.is_alone ? TriageOf(data) : Triage{};
-  // With limits, a clip that cannot be judged counts as exceeding them.
+  // If limits are given, a clip that cannot be judged counts as exceeding the limits.
   const bool exceeds = !triage.beyond_limits.empty() || (!options.alone.limits.empty() && !triage.not_judged.empty());
   const int code = has_silent || exceeds ? kNothingWorked : kSuccess;
   const std::string folder = outcome->folder.string();

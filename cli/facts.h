@@ -17,12 +17,13 @@ namespace etude {
 /// Adds --json, for every command that prints facts.
 CLI::Option* AddJson(CLI::App& command, bool& as_json);
 
-/// Prints the findings of a command as one line of JSON with the members "command", "etude" (the version) and those of
-/// `facts`, which is an object. docs/schemas/facts.schema.json holds its schema under the name `command`.
+/// Prints the findings of a command as one line of JSON with the members "command", "etude" (the version) and the
+/// members of `facts`, which is an object. docs/schemas/facts.schema.json holds the schema of this line under the name
+/// `command`.
 Result<void> PrintFacts(const std::string& command, Json facts);
 
-/// While it lives, redirects standard output to standard error, so that text for people does not mix with facts for
-/// programs.
+/// While an object of this class exists, it redirects standard output to standard error, so that text for people does
+/// not mix with facts for programs.
 class StdoutToStderr {
  public:
   /// Redirects only if `is_active`.
@@ -37,7 +38,7 @@ class StdoutToStderr {
   int output_ = -1;  ///< a copy of the original standard output; −1 = not redirected
 };
 
-/// Returns, as JSON, the metrics that moved in a comparison, and the entries that only one side has.
+/// Returns, as JSON, the metrics that moved in a comparison, and the entries that only one of the two snapshots has.
 Json FactsOf(const SnapshotComparison& comparison);
 
 }  // namespace etude

@@ -23,12 +23,12 @@ namespace etude {
 namespace {
 
 struct GateOptions {
-  std::string target;         ///< a result folder; with self_test a scenario file, "" = the built-in one
+  std::string target;         ///< a result folder; with self_test a scenario file, "" = the built-in scenario
   std::string baseline;       ///< a baseline file, "" = none
   bool update = false;        ///< write the baseline from the run, and print what moved
   bool self_test = false;     ///< measure the gate's own rates of false alarms and of detection
-  int repetitions = 40;       ///< for the self-test: number of pairs of seeds
-  std::optional<int> trials;  ///< for the self-test: worlds per condition; default: the scenario's
+  int repetitions = 40;       ///< for the self-test: number of pairs of runs with different seeds
+  std::optional<int> trials;  ///< for the self-test: worlds per condition; default: the scenario's trials
   bool as_json = false;
   Sealing sealing = Sealing::kRequired;
 };
@@ -50,7 +50,7 @@ int ExitCode(GateVerdict verdict) {
   return kIncompleteRun;
 }
 
-/// Prints each far worse world in two lines: its difference, and the command that runs it again.
+/// Prints each far worse world in two lines: the difference, and the command that runs the world again.
 void PrintWorlds(const std::string& title, const std::vector<TailLine>& lines) {
   std::vector<std::string> text;
   for (const TailLine& line : lines) {
@@ -128,7 +128,7 @@ Result<int> Judge(const GateOptions& options, const FinishedRun& run) {
   return UnlessReplaced(options.target, run.data, ExitCode(GateVerdictOf(report)));
 }
 
-/// Prints the metrics that moved between two baselines, for the worlds that both contain.
+/// Prints the metrics that moved between two baselines, for the worlds that are in both baselines.
 void PrintDifference(Snapshot before, Snapshot after, const FinishedRun& run) {
   PrintList("Made anew:", DropIncomparable(before, after));
   const SnapshotComparison comparison = CompareSnapshots(before, after, ExactScenarios(run), TailRulesOf(run));
@@ -149,7 +149,7 @@ Result<int> Update(const GateOptions& options, const FinishedRun& run) {
         silent);
     return kRegression;
   }
-  // Check that the baseline can be read back before the old one is replaced.
+  // Check that the new baseline can be read back, before the old baseline is replaced.
   const Snapshot now = TakeSnapshot(run);
   ASSIGN_OR_RETURN(const auto text, WriteBaseline(now));
   RETURN_IF_ERROR(ReadBaseline(text, options.target));
@@ -169,8 +169,8 @@ std::string RateText(const Rate& rate) {
                      rate.of == 0 ? 0.0 : 100.0 * rate.count / rate.of, 100 * rate.low, 100 * rate.high);
 }
 
-/// Returns a sentence that says whether the gate keeps its error limits. A small number of gates without an alarm does
-/// not show that.
+/// Returns a sentence that says whether the gate keeps its error limits. A small number of gates without an alarm is no
+/// evidence of this.
 const char* PromiseSentence(const SelfTestReport& report) {
   if (!report.Holds()) return "The gate exceeds its error limits.";
   if (report.false_alarms.high > kFalseAlarmLimit) {

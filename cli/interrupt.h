@@ -11,9 +11,9 @@ namespace etude {
 /// nothing before the work is complete; for other work, use Interrupt.
 void EndWhenInterrupted();
 
-/// A guard for work that can be stopped. While it lives, the first Ctrl-C (or SIGTERM) requests a stop, and the second
-/// one ends the program at once. Meanwhile, writing to a child that has ended returns an error instead of ending the
-/// program.
+/// A guard for work that can be stopped. While the guard exists, the first Ctrl-C (or SIGTERM) requests a stop, and the
+/// second Ctrl-C ends the program at once. Meanwhile, writing to a child that has ended returns an error instead of
+/// ending the program.
 class Interrupt {
  public:
   Interrupt();
@@ -31,8 +31,8 @@ class Interrupt {
 /// unfinished output. Returns the exit code of `work`. Use it for work with long single steps.
 int DoInterruptibly(const std::function<int()>& work, const std::function<void()>& clean_up);
 
-/// Returns `is_whole`, the result of writing a film, or false if Ctrl-C was pressed. Ctrl-C also ends the encoder, so
-/// `is_whole` may be the encoder's error.
+/// Returns false if Ctrl-C was pressed, otherwise `is_whole`, the result of writing a film. (Ctrl-C also ends the
+/// encoder, so `is_whole` may then be the encoder's error.)
 Result<bool> UnlessInterrupted(Result<bool> is_whole, const Interrupt& interrupt);
 
 }  // namespace etude

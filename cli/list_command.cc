@@ -282,7 +282,7 @@ void DefineList(CLI::App& app, Action& action) {
     const KeysFormat format = *as_schema ? KeysFormat::kSchema : *as_page ? KeysFormat::kMarkdown : KeysFormat::kText;
     action = [=] { return ListKeysCommand(format); };
   });
-  // Define the list of scenarios: those of the program, or of a folder.
+  // Define the list of scenarios: the scenarios of the program, or the scenarios in a folder.
   auto folder = std::make_shared<std::string>();
   CLI::App* scenarios = command->add_subcommand("scenarios", "Scenarios that come with etude, or those of a folder");
   scenarios->add_option("folder", *folder, "A folder, a file, or a name such as quick");

@@ -75,8 +75,8 @@ int ComplainOfArguments(const CLI::App& app, const CLI::ParseError& error) {
     command = command->get_subcommands().front();
     words += command->get_name() + " ";
   }
-  // Report an unknown word first: it explains the failure better than the error about the missing argument, which often
-  // follows from it. Words after "--" belong to another program.
+  // Report an unknown word first: an unknown word explains the failure better than the error about a missing argument,
+  // which is often a consequence of the unknown word. Words after "--" belong to another program.
   std::vector<std::string> extras = app.remaining(true);
   extras.erase(std::ranges::find(extras, "--"), extras.end());
   std::string message = error.what();
@@ -87,8 +87,8 @@ int ComplainOfArguments(const CLI::App& app, const CLI::ParseError& error) {
   return Complain(Error{{}, fmt::format("{} (etude {}--help explains)", message, words)});
 }
 
-/// Returns true for commands whose results need not be identical on all machines: they print existing data, or draw
-/// pages, sheets and films as fast as this machine can.
+/// Returns true for commands whose results need not be identical on all machines: these commands print existing data,
+/// or draw pages, sheets and films as fast as this machine can.
 bool RunsUnpinned(const CLI::App& app) {
   if (app.got_subcommand("list") || app.got_subcommand("rows") || app.got_subcommand("cite") ||
       app.got_subcommand("completion") || app.got_subcommand("man") || app.got_subcommand("report"))
@@ -96,8 +96,8 @@ bool RunsUnpinned(const CLI::App& app) {
   return app.got_subcommand("clip") && app.get_subcommand("clip")->got_subcommand("render");
 }
 
-/// Formats help identically in every run and with every version of CLI11. CLI11 orders excluded options by their
-/// addresses, and its versions write defaults differently.
+/// Formats help identically in every run and with every version of CLI11. CLI11 orders excluded options by memory
+/// addresses, and versions of CLI11 write defaults differently.
 class OrderedHelp : public CLI::Formatter {
  public:
   std::string make_option_opts(const CLI::Option* option) const override {
@@ -139,8 +139,8 @@ Result<void> CheckNames(std::span<char*> arguments) {
   return {};
 }
 
-/// Opens the standard streams that the parent has closed. Otherwise the next opened file would get the number of a
-/// standard stream, and printed text would go into that file.
+/// Opens the standard streams that the parent has closed. Without this, the next opened file would get the number of a
+/// standard stream, and printed text would go into this file.
 void OpenStandardStreams() {
   output_was_closed = ::fcntl(STDOUT_FILENO, F_GETFD) < 0;
   for (int descriptor = ::open("/dev/null", O_RDWR); descriptor >= 0; descriptor = ::dup(descriptor)) {

@@ -13,7 +13,8 @@
 namespace etude {
 namespace {
 
-/// Returns a plain name for a pattern: the name of its folder if the pattern has wildcards, else the name of its file.
+/// Returns a plain name for a pattern: the name of the pattern's folder if the pattern has wildcards, else the name of
+/// the file.
 std::string NameFor(const std::string& pattern) {
   const std::filesystem::path path = pattern.ends_with('/') ? pattern.substr(0, pattern.size() - 1) : pattern;
   const bool is_pattern = path.filename().string().find_first_of("*?[") != std::string::npos;
@@ -23,7 +24,7 @@ std::string NameFor(const std::string& pattern) {
   return IsPlainName(name) ? name : "result";
 }
 
-/// Reads NAME=PATTERN; nothing if the argument has no name.
+/// Reads an argument NAME=PATTERN; returns nullopt if the argument has no name.
 std::optional<NamedResult> ReadNamed(const std::string& argument) {
   const std::size_t equals = argument.find('=');
   std::error_code none;

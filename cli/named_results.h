@@ -8,18 +8,19 @@
 
 namespace etude {
 
-/// A method and the file patterns of its answers.
+/// A method, and the file patterns of the method's answers.
 struct NamedResult {
   std::string name;
   std::vector<std::string> patterns;
 };
 
-/// Reads arguments RESULT or NAME=PATTERN, one for each method. A method without a name is named after its folder or
-/// file. Fails if several arguments have no name, because a shell may have expanded a pattern into files.
+/// Reads arguments RESULT or NAME=PATTERN, one for each method. A method without a name is named after the folder or
+/// file of its answers. Fails if several arguments have no name, because a shell may have expanded a pattern into
+/// files.
 Result<std::vector<NamedResult>> ReadResults(std::span<const std::string> arguments);
 
-/// Reads arguments FILE or NAME=PATTERN. All arguments without a name form one method; it is named after the argument
-/// if there is only one, else "motions". Fails if some arguments have names and others have none.
+/// Reads arguments FILE or NAME=PATTERN. All arguments without a name form one method. This method is named after its
+/// argument if it has only one, else "motions". Fails if some arguments have names and others have none.
 Result<std::vector<NamedResult>> ReadMotions(std::span<const std::string> arguments);
 
 /// Writes the methods of a scenario as YAML; a method without patterns gets no key `answers`.

@@ -24,7 +24,7 @@ std::vector<const CLI::App*> CommandsOf(const CLI::App& app) {
   return app.get_subcommands([](const CLI::App* sub) { return !sub->get_name().empty() && !sub->get_group().empty(); });
 }
 
-/// Calls `use` for the program and for every command and subcommand, with the words that name it: "clip info".
+/// Calls `use` for the program and for every command and subcommand, with the words that name the command: "clip info".
 void ForEachCommand(const CLI::App& app, const std::string& words,
                     const std::function<void(const CLI::App& command, const std::string& words)>& use) {
   use(app, words);
@@ -33,7 +33,7 @@ void ForEachCommand(const CLI::App& app, const std::string& words,
   }
 }
 
-/// Returns the options of a command, each with its names: "-o", "--output".
+/// Returns the options of a command, and the names of each option: "-o", "--output".
 std::vector<std::pair<const CLI::Option*, std::vector<std::string>>> OptionsOf(const CLI::App& command) {
   std::vector<std::pair<const CLI::Option*, std::vector<std::string>>> options;
   for (const CLI::Option* option : command.get_options()) {
@@ -58,7 +58,7 @@ std::vector<std::string> ArgumentsOf(const CLI::App& command) {
   return names;
 }
 
-/// Returns all words that may follow a command: its subcommands, its options and the values of its arguments.
+/// Returns all words that may follow a command: the command's subcommands, options and values of arguments.
 std::string FollowersOf(const CLI::App& command) {
   std::vector<std::string> words;
   for (const CLI::App* sub : CommandsOf(command)) words.push_back(sub->get_name());
@@ -68,8 +68,8 @@ std::string FollowersOf(const CLI::App& command) {
   return Join(words, " ");
 }
 
-/// Returns the branches of a shell's `case`, one per command. `write` makes a branch from a command's words and the
-/// words that may follow.
+/// Returns the branches of a shell's `case`, one per command. `write` makes a branch from a command's words and from
+/// the words that may follow the command.
 std::string Cases(const CLI::App& app,
                   const std::function<std::string(const std::string&, const std::string&)>& write) {
   std::string text;
@@ -79,7 +79,7 @@ std::string Cases(const CLI::App& app,
 }
 
 /// The code for bash and zsh that finds the command's words before the cursor: words without a dash that lead to a
-/// known command. `help` is no such word, so commands are also offered after `help`.
+/// known command. `help` does not count as a command, so commands are also offered after `help`.
 constexpr std::string_view kFindCommand = R"(  local at="" word
   for word in "${before[@]}"; do
     case "${at:+$at }$word" in
@@ -125,7 +125,7 @@ std::string FishCompletion(const CLI::App& app) {
   std::string text = "# Completion of etude for fish, made by `etude completion fish`.\n";
   std::vector<std::string> helped;
   ForEachCommand(app, "", [&](const CLI::App& command, const std::string& words) {
-    // Write the condition for fish to offer the words that may follow.
+    // Write the condition under which fish offers the words that may follow the command.
     std::string when = "__fish_use_subcommand";
     if (!words.empty()) {
       when.clear();

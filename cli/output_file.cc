@@ -14,7 +14,7 @@ Result<void> CheckOutput(const std::string& path, bool overwrite) {
   const fs::file_status there = fs::symlink_status(path, ignored);
   if (!fs::exists(there)) return {};
   if (fs::is_directory(path, ignored)) return Fail({path, 0, 0}, "is a folder; the name of a file is needed");
-  // Refuse devices and pipes: WriteFileAtomically would replace them instead of sending data to them.
+  // Refuse devices and pipes: WriteFileAtomically would replace a device instead of sending data to it.
   if (!fs::is_regular_file(there) && !fs::is_symlink(there)) return Fail({path, 0, 0}, "exists and is not a file");
   if (overwrite) return {};
   return Fail({path, 0, 0}, "already exists; --overwrite replaces it");

@@ -17,7 +17,7 @@ std::string Remaining(double done, double left, double seconds) {
   return fmt::format(", about {:.0f} s to go", seconds / done * left);
 }
 
-/// Prints without throwing if standard error is closed. fmt::print would throw, and that would end a run.
+/// Prints without throwing if standard error is closed. fmt::print would throw, and the exception would end a run.
 void Print(const std::string& text) { std::fputs(text.c_str(), stderr); }
 
 }  // namespace

@@ -10,17 +10,18 @@
 
 namespace etude {
 
-/// Shows the progress of a run or of other work on standard error. On a terminal the bar is redrawn in place. In a log
-/// it is printed at every tenth of the work, and after 2 s, 4 s, 8 s, …, at least every minute.
+/// Shows the progress of a run or of other work on standard error. On a terminal the bar is redrawn in place. In a log,
+/// a line is printed at every tenth of the work, and after 2 s, 4 s, 8 s, …, at least every minute.
 class ProgressBar {
  public:
   enum class Begins {
     kAtOnce,
-    /// Shown soon on a terminal; in a log only if the work takes so long that somebody may look into the log.
+    /// The bar appears soon on a terminal; in a log, it appears only if the work takes so long that somebody may look
+    /// into the log.
     kWhenItTakesLong,
   };
   explicit ProgressBar(Begins begins = Begins::kAtOnce);
-  /// Shows the progress of a run: first of its cells, then of writing its results if that takes long.
+  /// Shows the progress of a run: first of the run's cells, then of writing the results, if the writing takes long.
   void Show(const Progress& progress);
   /// Shows the progress; `share` is 0…1.
   void Show(double share, const std::string& what, const std::string& remaining = "");
@@ -39,8 +40,8 @@ class ProgressBar {
   bool is_writing_ = false;  ///< true while the bar shows the writing of a run's results
 };
 
-/// Returns a callback that shows the progress of some work and the estimated remaining time, once the work takes long:
-/// "12/300 clips, about 40 s to go".
+/// Returns a callback that shows the progress of some work and the estimated remaining time, as soon as the work takes
+/// long: "12/300 clips, about 40 s to go".
 OnProgress ProgressOf(std::string what);
 
 /// Returns a watch that shows for each film the number of drawn frames and the estimated remaining time. Ctrl-C stops

@@ -53,8 +53,8 @@ constexpr const char* kRecogniseExamples =
     "  etude recognise take.txt --moves moves.yaml --labels labels.csv\n"
     "  etude recognise joints/ --labels actionLabel.txt --leave-one-person-out --recogniser dtw";
 
-/// Reads settings such as "tolerance_scale=1.2"; all others keep their defaults. Fails for unknown settings and values
-/// out of range.
+/// Reads settings such as "tolerance_scale=1.2"; all other settings keep their defaults. Fails for unknown settings and
+/// values out of range.
 Result<std::vector<double>> ReadSettings(const RecogniserKind& kind, const std::vector<std::string>& given) {
   std::vector<double> values;
   std::vector<std::string> names;
@@ -80,7 +80,7 @@ Result<std::vector<double>> ReadSettings(const RecogniserKind& kind, const std::
 }
 
 /// Returns the options for recognition, with the requested recogniser. If none is requested, takes `recommended` and
-/// prints a note about it.
+/// prints a note about this choice.
 Result<WatchOptions> OptionsOf(const RecogniseCommandOptions& options, const RecogniserKind& recommended) {
   WatchOptions watch;
   watch.recogniser.kind = options.recogniser.empty() ? &recommended : FindRecogniser(options.recogniser);
@@ -95,7 +95,7 @@ Result<WatchOptions> OptionsOf(const RecogniseCommandOptions& options, const Rec
   return watch;
 }
 
-/// The taught moves, a recogniser for them, and its options.
+/// The taught moves, a recogniser for these moves, and the recogniser's options.
 struct Taught {
   std::vector<TaughtMove> moves;
   WatchOptions watch;
@@ -118,7 +118,7 @@ void PrintSpotting(const Spotting& spotting, const Taught& taught, double rate_h
   std::fflush(stdout);
 }
 
-/// Recognises moves in standard input, line by line, until it ends.
+/// Recognises moves in the skeletons that standard input delivers line by line, until the input ends.
 Result<int> RecogniseLive(const RecogniseCommandOptions& options, const Taught& taught) {
   // Set up the reader of lines and the watcher of moves.
   const StreamOptions making = options.reading.Options();
@@ -284,7 +284,7 @@ void DefineRecognise(CLI::App& app, Action& action) {
       ->add_flag("--leave-one-person-out", options->leave_one_person_out,
                  "Recognise each person with moves taught by the labels of all other people")
       ->excludes(moves);
-  // Define the recogniser and its settings.
+  // Define the recogniser and the recogniser's settings.
   command
       ->add_option(
           "--recogniser", options->recogniser,

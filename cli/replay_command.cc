@@ -24,7 +24,7 @@ struct ReplayCommandOptions {
   std::vector<std::string> cells;     ///< cell names; empty = all cells
   std::optional<std::size_t> sample;  ///< number of cells drawn by the run's seed; default: all
   std::string pack_file;              ///< the file into which one cell is packed instead of being replayed; "" = none
-  std::string baseline;               ///< the baseline whose values are printed beside the replayed ones; "" = none
+  std::string baseline;               ///< the baseline whose values are printed beside the replayed values; "" = none
   bool overwrite = false, as_json = false;
   int jobs = 0;
   OutsideRules outside;
@@ -36,7 +36,7 @@ void PrintDifference(const CellCheck& check) {
   fmt::print("differs: {}\n  first at {}: {} then, {} now\n", check.cell, check.stage, check.then, check.now);
 }
 
-/// A metric's value in a baseline, and its present value in the same cell.
+/// A metric's value in a baseline, and the metric's present value in the same cell.
 struct BaselineValue {
   std::string metric;
   std::optional<double> baseline, now;
@@ -109,7 +109,7 @@ Result<int> Pack(const ReplayCommandOptions& options) {
 
 Result<int> ReplayCommand(const ReplayCommandOptions& options) {
   const Interrupt interrupt;
-  // If the target is a packed cell, replay it alone.
+  // If the target is a packed cell, replay this cell alone.
   ASSIGN_OR_RETURN(const auto key, TakeSecretKey(options.key_file));
   std::error_code error;
   if (!std::filesystem::is_directory(options.target, error)) {
@@ -123,7 +123,7 @@ Result<int> ReplayCommand(const ReplayCommandOptions& options) {
   std::optional<Snapshot> baseline;
   if (!options.baseline.empty()) {
     if (options.cells.empty()) return Fail({}, "--baseline needs cells: name them with --cell");
-    // Loading the run registers the metrics that its scenarios define.
+    // Loading the run registers the metrics that the run's scenarios define.
     RETURN_IF_ERROR(LoadRunOutline(options.target, options.sealing));
     ASSIGN_OR_RETURN(baseline, TakeBaseline(options.baseline, options.sealing));
   }

@@ -74,7 +74,7 @@ Result<int> BlindPageCommand(const std::string& folder, BlindOptions options, Se
   if (!trial) return Fail({folder}, "{}", trial.error().message);
   if (!*trial) return TellStopped();
   const auto& [page_html, key] = **trial;
-  // Both names are the digest of the content, so no other page's key is overwritten.
+  // The names of page and key are the digest of the page's content, so no other page's key is overwritten.
   const FilePath page = Inside(folder) / "blind" / (key.page + ".html");
   const FilePath key_file = Inside(folder) / "blind" / (key.page + ".key.json");
   RETURN_IF_ERROR(WriteFileAtomically(key_file, WriteBlindKey(key)));

@@ -158,8 +158,8 @@ void TellUnlocked(const RunOutcome& outcome) {
             fmt::format("could not be locked ({}); make sure that no other run writes into it", outcome.why_unlocked)});
 }
 
-/// Prints the changes that were made to the content of the clips' files, one per line. If there are many, prints only
-/// the first ones.
+/// Prints the changes that were made to the content of the clips' files, one per line. If there are many changes,
+/// prints only the first of them.
 void TellChanges(const std::vector<LoadedChange>& changes) {
   constexpr std::size_t kShown = 40;
   for (std::size_t i = 0; i < std::min(changes.size(), kShown); ++i) {
@@ -189,7 +189,7 @@ Result<std::optional<RunOutcome>> RunWithProgress(RunOptions options) {
   options.stop = interrupt->requested();
   ProgressBar bar;
   ASSIGN_OR_RETURN(auto outcome, Run(options, [&](const Progress& progress) { bar.Show(progress); }));
-  interrupt.reset();  // from here on, Ctrl-C ends the program, because everything is written
+  interrupt.reset();  // everything is written, so from here on Ctrl-C ends the program
   // Report clips that were left out, and damaged lines.
   TellUnlocked(outcome);
   TellChanges(outcome.changes);
@@ -217,7 +217,7 @@ int RunCommand(const RunOptions& options, bool as_json) {
   if (!finished) return Complain(finished.error());
   if (!*finished) return kInterrupted;
   const RunOutcome& outcome = **finished;
-  // A shard has no tables; merging the shards makes them.
+  // A shard has no tables; the merge of all shards makes the tables.
   if (!options.shard.IsWhole()) {
     fmt::print("Shard {}: {} of {} cells ok in {:.1f} s: {}\nNext, when all shards are done: etude merge DIR… -o DIR\n",
                ToString(options.shard), outcome.cells_ok, outcome.cells, outcome.seconds, outcome.folder.string());
@@ -234,8 +234,8 @@ int MergeCommand(const MergeOptions& given) {
   MergeOptions options = given;
   std::optional<Interrupt> interrupt(std::in_place);
   options.stop = interrupt->requested();
-  // During the first half, Merge only reads the shards and finds those that do not belong together. The bar of this
-  // half starts late, so that a complaint is not printed beside a bar.
+  // In the first half of its work, Merge only reads the shards and finds shards that do not belong together. The bar of
+  // this half appears late, so that complaints are not printed beside it.
   ProgressBar reading(ProgressBar::Begins::kWhenItTakesLong), writing;
   const auto outcome = Merge(options, [&](double share) { (share < 0.5 ? reading : writing).Show(share, "merged"); });
   interrupt.reset();
@@ -295,7 +295,7 @@ void DefineRun(CLI::App& app, const std::string& command_line, Action& action) {
       command->add_flag("--dry-run", *dry_run, "Only estimate the run's time, and the differences that it could show");
   dry->excludes(overwrite, resume);
   AddJson(*command, *as_json);
-  // --from repeats a run, so it excludes all options whose values the manifest gives.
+  // --from repeats a run from its manifest, so it excludes all options whose values are in the manifest.
   CLI::Option* from = command->add_option("--from", options->from, "Repeat the run that this manifest.json describes");
   for (CLI::Option* option : world_options) from->excludes(option);
   from->excludes(skip_refused, keep);

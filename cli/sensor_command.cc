@@ -30,7 +30,7 @@ constexpr const char* kSensorExamples =
     "  etude sensor stats kinect.txt --reference vicon.txt --simulate v2    compared with a simulated sensor\n"
     "  etude sensor fit kinect.txt --reference vicon.txt -o sensor.yaml     then `sensor: sensor.yaml` in a scenario";
 
-/// Options with facts about recordings that their files do not state.
+/// Options with facts about recordings that the recordings' files do not state.
 struct SensorReading {
   std::string reference;                 ///< a recording of the same motion by an optical system, "" = none
   std::optional<double> rate_hz;         ///< the recordings' frame rate
@@ -79,7 +79,7 @@ double MissingShare(const JointRecording& recording) {
 }
 
 /// Describes an unusual rotation or tilt of the sensor; "" if there is none. Statistics are computed along the line of
-/// sight and across it, so a rotation about that line changes none of them.
+/// sight and across it, so a rotation about the line of sight changes no statistic.
 std::string DescribeTurn(const JointRecording& recording) {
   std::vector<RecordedFrame> frames(recording.frames.size());
   for (std::size_t t = 0; t < frames.size(); ++t) frames[t].places = recording.frames[t];
@@ -142,8 +142,8 @@ std::string ShortName(const std::string& path, std::size_t longest) {
   return std::filesystem::path(path).stem().string().substr(0, longest);
 }
 
-/// Computes the statistics of recordings without a reference, one column for each, and adds facts about the recordings
-/// to `facts`.
+/// Computes the statistics of recordings without a reference, one column for each recording, and adds facts about the
+/// recordings to `facts`.
 Result<Columns> PlainColumns(const SensorStatsOptions& options, Json& facts) {
   Columns columns;
   for (const std::string& file : options.files) {
@@ -155,7 +155,8 @@ Result<Columns> PlainColumns(const SensorStatsOptions& options, Json& facts) {
   return columns;
 }
 
-/// Computes the statistics of a recording against its reference, and of the simulated sensor on the reference's motion.
+/// Computes the statistics of a recording against its reference, and the statistics of the simulated sensor for the
+/// reference's motion.
 Result<Columns> ComparedColumns(const SensorStatsOptions& options, Json& facts) {
   const std::string& file = options.files.front();
   if (options.files.size() > 1) {
@@ -226,7 +227,7 @@ struct SensorFitCommandOptions {
 
 constexpr int kCheckWorlds = 64;
 
-/// Prints a table that compares a sensor with a recording, and returns it as an entry of `checks`.
+/// Prints a table that compares a sensor with a recording, and returns the table as an entry of `checks`.
 Json PrintComparison(const char* title, const char* real_name, const RealRecording& real,
                      const SkeletonSensorOptions& sensor) {
   // Use random draws that the fit has not used.
@@ -242,7 +243,8 @@ Json PrintComparison(const char* title, const char* real_name, const RealRecordi
   return check;
 }
 
-/// Fits each half of the recording and compares the fit with the other half. If a half is too short, only prints that.
+/// Fits each half of the recording and compares the fit with the other half. If a half is too short, prints only a note
+/// about this.
 void PrintHalves(const RealRecording& real, const SensorFitOptions& options, Json& checks) {
   const std::size_t frames = real.recording.frames.size();
   const auto first = MakeRealRecording(Excerpt(real.recording, 0, frames / 2), real.twin);
@@ -267,7 +269,7 @@ Result<int> SensorFitCommand(const SensorFitCommandOptions& options) {
   fmt::print("{}: {}\n", options.file, DescribeRecording(real.recording));
   fmt::print("{}: {}\n", options.reading.reference, DescribeMatch(real));
 
-  // Fit the sensor, and write its file.
+  // Fit the sensor, and write the sensor file.
   const SensorFitOptions fit{.start = base, .worlds = options.worlds, .steps = options.steps, .progress = {}};
   const SkeletonSensorOptions sensor = FitSensor(real, fit);
   const std::string preset = FindSensorPreset(options.base) ? options.base : "v2";
@@ -275,7 +277,7 @@ Result<int> SensorFitCommand(const SensorFitCommandOptions& options) {
                                        real.recording.DurationSeconds(), real.recording.frames.size()) +
                            WriteSensorFile(sensor, preset);
   RETURN_IF_ERROR(WriteFileAtomically(options.output, text));
-  // Compare the fitted sensor with the recording, and the fits of both halves with the other half.
+  // Compare the fitted sensor with the recording, and the fit of each half with the other half.
   Json checks = Json::array();
   checks.push_back(PrintComparison(
       "Fitted to the whole recording, compared with a simulation by other random numbers:", "real", real, sensor));

@@ -42,10 +42,11 @@ struct TrainOptions {
   int population = 40, generations = 60;
   /// Learn the recogniser `learnt` instead of a fuzzy system, from simulated people who dance the clips.
   bool recogniser = false;
-  bool coached = false;  ///< learn the recogniser `coached` instead of a fuzzy system; `clips` are then songs
-  /// Number of simulated sessions for `recogniser` or `coached`; default: the number for the built-in model.
+  bool coached = false;  ///< learn the recogniser `coached` instead of a fuzzy system; the `clips` are then songs
+  /// Number of simulated sessions for `recogniser` or `coached`; default: the number that the built-in model was learnt
+  /// from.
   std::optional<int> sessions;
-  std::string hold_out = "0.3";  ///< a share of the clips, or a pattern of their names
+  std::string hold_out = "0.3";  ///< a share of the clips, or a pattern of the clips' names
   bool overwrite = false, as_json = false;
   ClipReading reading;
 };
@@ -76,7 +77,7 @@ struct Split {
   std::vector<std::vector<TrainingFrame>> learnt, held_out;
 };
 
-/// Chooses the held-out clips: those whose names match the pattern, or a randomly drawn share.
+/// Chooses the held-out clips: the clips whose names match the pattern, or a randomly drawn share.
 Result<std::vector<bool>> ChooseHeldOut(const std::vector<std::string>& names, const TrainOptions& options) {
   std::vector<bool> held_out(names.size(), false);
   const auto share = ParseNumber<double>(options.hold_out);
@@ -119,7 +120,7 @@ Result<Split> LoadSplit(const TrainOptions& options) {
   }
   ASSIGN_OR_RETURN(const auto held_out, ChooseHeldOut(names, options));
 
-  // Sample the frames of all clips on one body, and divide them.
+  // Sample the frames of all clips on one body, and divide the clips into clips for learning and clips for testing.
   const BodyPose standing = PoseOf(Controls{});
   TrainingClips all = SampleClips(names, motions, MakeBodyProportions(standing, StandingHipHeight(standing)));
   Split split;
@@ -244,7 +245,7 @@ Result<int> TrainCommand(const TrainOptions& options) {
   return kSuccess;
 }
 
-/// A learnt model, and notes on how it was learnt.
+/// A learnt model, and notes on how the model was learnt.
 struct Trained {
   LearntModel model;
   std::vector<std::string> learnt_from;

@@ -24,8 +24,8 @@
 namespace etude {
 namespace {
 
-/// The default sample size. If 5 % of very many cells are forged, the sample misses every forged cell with probability
-/// 0.95^59, 1 in 21; with fewer cells, the probability is lower.
+/// The default sample size. If 5 % of a very large number of cells are forged, the sample misses all forged cells with
+/// probability 0.95^59, 1 in 21. With fewer cells, this probability is lower.
 constexpr const char* kDefaultSample = "59";
 constexpr const char* kWholeSample = "all";
 constexpr std::size_t kMaxSample = 10'000'000;
@@ -48,7 +48,7 @@ std::string CheckSample(const std::string& text) {
   return fmt::format("'{}' is not a sample; allowed: 0 to {}, or '{}'", text, kMaxSample, kWholeSample);
 }
 
-/// Draws an unpredictable seed of 53 bits, because JSON readers that use doubles keep such a seed exactly.
+/// Draws an unpredictable seed. It has 53 bits, because JSON readers that use doubles keep such a number exactly.
 Result<std::uint64_t> FreshDice() {
   std::uint64_t dice = 0;
   if (::getrandom(&dice, sizeof dice, 0) != sizeof dice) return FailOfMachine("did not return random numbers");
@@ -81,7 +81,7 @@ std::string SampleInWords(const CellChoice& choice) {
       Join(missed), choice.dice);
 }
 
-/// Lists, by method, the rows that cannot be verified by running their cells again.
+/// Lists, by method, the rows that cannot be verified by running the rows' cells again.
 std::vector<std::string> NotVerified(const CellChoice& choice) {
   std::vector<std::string> lines;
   for (const MethodRows& method : choice.methods) {
@@ -113,8 +113,8 @@ Json FactsOf(const CellChoice& choice) {
           {"missed", std::move(missed)}};
 }
 
-/// Adds the checks of the report and of the files that a gate left in its folder, if they exist. Only a report needs
-/// all rows in memory, as when it was made.
+/// Adds the checks of the report, and of the files that a gate left in the report's folder, if these exist. Only the
+/// check of a report needs all rows in memory, as making the report did.
 Result<void> AddReport(const std::string& folder, std::vector<Verified>& all, std::vector<std::string>& not_verified) {
   if (!Exists(Inside(folder) / "report") && !Exists(Inside(folder) / "video")) return {};
   ASSIGN_OR_RETURN(auto run, LoadFinishedRun(folder, Sealing::kIgnored));
@@ -133,7 +133,7 @@ Result<void> AddReport(const std::string& folder, std::vector<Verified>& all, st
 }
 
 Result<int> VerifyCommand(VerifyCommandOptions options) {
-  // Load the run without trusting its seal, because a broken seal is one of the findings.
+  // Load the run without trusting the run's seal, because a broken seal is one of the findings.
   const Interrupt interrupt;
   ReplayOptions& replay = options.replay;
   ASSIGN_OR_RETURN(replay.key, TakeSecretKey(options.key_file));
@@ -162,7 +162,7 @@ Result<int> VerifyCommand(VerifyCommandOptions options) {
   if (verified.choice) std::ranges::move(NotVerified(*verified.choice), std::back_inserter(not_verified));
   RETURN_IF_ERROR(AddReport(replay.folder, all, not_verified));
   if (*interrupt.requested()) return TellStopped({{}, "stopped; nothing was verified"});
-  // Print the checks that agree and those that differ.
+  // Print the checks that agree and the checks that differ.
   std::size_t agree = 0;
   Json checks = Json::array();
   for (const Verified& one : all) {

@@ -22,7 +22,7 @@ std::string& BegunCharacter() {
   return begun;
 }
 
-/// Returns the number of bytes at the end of `text` that begin a character but do not complete it.
+/// Returns the number of bytes at the end of `text` that begin a character without completing it.
 std::size_t BegunAtEnd(std::string_view text) {
   for (std::size_t behind = 1; behind <= std::min<std::size_t>(3, text.size()); ++behind) {
     const auto byte = static_cast<unsigned char>(text[text.size() - behind]);

@@ -31,7 +31,7 @@ def is_class(name, definitions):
 
 
 def hint(schema):
-    """Returns the Python type of a value."""
+    """Returns the Python type of the values that a schema allows."""
     if "$ref" in schema:
         return class_name(schema["$ref"].rsplit("/", 1)[1])
     if "anyOf" in schema:
@@ -44,7 +44,8 @@ def hint(schema):
 
 
 def held(schema, definitions):
-    """Returns the class of a value, or [class] of a list's values; None if it is plain."""
+    """Returns the class of the values that a schema allows, or [class] if they are lists of a class; None for plain
+    values."""
     of = schema.get("items", schema)
     name = of.get("$ref", "").rsplit("/", 1)[-1]
     if name not in definitions or not is_class(name, definitions):

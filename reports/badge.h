@@ -15,7 +15,7 @@ std::string VerdictBadge(const std::optional<Verdict>& verdict);
 
 /// Returns a finding's two verdicts as HTML labels: the verdict on the worlds of this run, and the verdict generalised
 /// to other clips, people or libraries. If every world is its own sampling unit and the verdicts agree, returns one
-/// label for both.
+/// label for the two verdicts.
 std::string VerdictBadges(const MethodFinding& finding);
 
 /// Returns the symbol of a verdict: "▲" better, "▼" worse, "=" equivalent, "?" inconclusive, "±" if the verdict depends

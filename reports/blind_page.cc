@@ -21,12 +21,13 @@
 namespace etude {
 namespace {
 
-// A film begins one second before the request and ends two seconds after the last transition point of either path. The
-// film is shorter if the recordings are shorter.
+// A film begins one second before the request and ends two seconds after the last transition point of the two paths.
+// The film is shorter if the recordings are shorter.
 constexpr int kBefore = kFilmRate, kAfter = 2 * kFilmRate, kLongest = 20 * kFilmRate;
 constexpr int kSide = 480, kGap = 16;
 
-/// One film of the page: a world, and the transitions of two methods in it. The left side shows the first method.
+/// One film of the page: a world, and the transitions of two methods in this world. The left side shows the first
+/// method.
 struct ShownPair {
   const ScenarioSummary* scenario;
   const RecordedRequest* request;
@@ -62,8 +63,8 @@ std::vector<BlindKey::Metric> MetricsOf(const RecordedRequest& request, const Sh
   return metrics;
 }
 
-/// Returns true if two methods made a transition in this world, and both transitions end early enough for a film of at
-/// most kLongest frames.
+/// Returns true if both methods of a pair made a transition in this world, and if the transitions end early enough for
+/// a film of at most kLongest frames.
 bool CanBeCompared(const TransitionRace& race) {
   const auto is_in_time = [](const TransitionPath& path) {
     return path.LastPoint() >= 0 && path.LastPoint() <= kLongest - kAfter;
@@ -71,8 +72,8 @@ bool CanBeCompared(const TransitionRace& race) {
   return race.paths.size() == 2 && std::ranges::all_of(race.paths, is_in_time);
 }
 
-/// Films both paths side by side. While a path is not recorded, its side is empty, because a body that is shown without
-/// motion would seem to have frozen. Returns an empty text if filming was stopped.
+/// Films the paths of the two methods side by side. While a path is not recorded, its side is empty, because a body
+/// that is shown without motion would seem to have frozen. Returns an empty text if filming was stopped.
 Result<std::string> FilmPair(const TransitionRace& race, Renderer& renderer, const FilePath& path,
                              const FilmWatch& watch) {
   const auto begin_of = [](const TransitionPath& shown) { return shown.TimeOf(0); };
@@ -125,7 +126,7 @@ std::string PageOf(const RunData& run, const std::string& digest, const std::str
 }  // namespace
 
 Result<std::optional<BlindTrial>> MakeBlindTrial(const RunData& run, const BlindOptions& options) {
-  // Collect the recorded worlds and put them in a random order.
+  // Collect the recorded worlds and put these worlds in a random order.
   std::vector<std::pair<const ScenarioSummary*, RecordedRequest>> worlds;
   for (const ScenarioSummary& scenario : run.scenarios) {
     for (RecordedRequest& request : RecordedRequestsOf(run, scenario))

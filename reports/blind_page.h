@@ -20,16 +20,16 @@ struct BlindTrial {
 };
 
 struct BlindOptions {
-  std::vector<std::string> methods;  ///< at least two; each world shows two of them, and the possible pairs take turns
+  std::vector<std::string> methods;  ///< at least two; each world shows two of these, and the possible pairs take turns
   int pairs = 40;                    ///< maximum number of filmed pairs; fewer if the run recorded fewer worlds
-  std::uint64_t seed = 1;            ///< seed of the random order of the worlds, and of the sides
+  std::uint64_t seed = 1;            ///< seed of the random order of the worlds, and of the methods' sides
   FilmWatch watch = {};
 };
 
-/// Makes the page from a run's recorded transitions. One film shows both methods of a pair side by side, aligned at the
-/// request. A side is empty while its motion is not recorded. The page needs no other file, and neither its text nor
-/// its films name a method, a metric or the seed. Returns nullopt if `watch` stopped the filming. Fails if no recorded
-/// world shows two of the methods, or if films cannot be encoded.
+/// Makes the page from a run's recorded transitions. One film shows the two methods of a pair side by side, aligned at
+/// the request. A side is empty while its motion is not recorded. The page needs no other file, and neither its text
+/// nor its films name a method, a metric or the seed. Returns nullopt if `watch` stopped the filming. Fails if no
+/// recorded world shows two of the methods, or if films cannot be encoded.
 Result<std::optional<BlindTrial>> MakeBlindTrial(const RunData& run, const BlindOptions& options);
 
 }  // namespace etude

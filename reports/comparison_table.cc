@@ -17,7 +17,7 @@
 namespace etude {
 namespace {
 
-// The page names the file with the omitted comparisons by these words.
+// With these words, the page refers to the file that has the omitted comparisons.
 constexpr std::string_view kAllComparisons = "the CSV file of comparisons in report/tables";
 
 /// The texts of one comparison's table cells, not yet escaped.
@@ -74,7 +74,7 @@ TableRow RowOf(const ScenarioSummary& scenario, const Shown& shown, bool swept) 
   const Comparison& c = *shown.comparison;
   const Line line = LineOf(*shown.condition, c, scenario.unit);
   const std::string place = fmt::format("{}/{}/000/", scenario.name, CompactLabel(shown.condition->condition));
-  std::string cells = place + c.method;  // identities of the compared methods' cells in trial 0, one per line
+  std::string cells = place + c.method;  // IDs of the cells of all compared methods in trial 0, one per line
   for (const std::string& baseline : BaselinesOf({&c, shown.condition})) cells += "\n" + place + baseline;
   const auto& beyond = c.beyond.verdict;
   TableRow row{.cells = {line.methods}, .attributes = fmt::format(" data-ids=\"{}\"", EscapeMarkup(cells))};
@@ -112,8 +112,8 @@ void ForEachComparison(const ScenarioSummary& scenario, Visit visit) {
 }
 
 /// Returns every comparison once, ordered by metric, then by kind (with the baseline, with the strongest other method),
-/// then by method and condition. If a comparison with a baseline and one with the strongest other method have the same
-/// two methods, in either order, only the former is returned.
+/// then by method and condition. If a comparison with the strongest other method has the same two methods as a
+/// comparison with a baseline, in either order, only the comparison with the baseline is returned.
 std::vector<Shown> DistinctOf(const ScenarioSummary& scenario) {
   std::vector<Shown> all;
   ForEachComparison(scenario, [&](const ConditionSummary& condition, const Comparison& c, Against against) {
@@ -135,8 +135,8 @@ std::vector<Shown> DistinctOf(const ScenarioSummary& scenario) {
   return all;
 }
 
-/// Returns comparisons as an HTML table, grouped by metric. Writes at most `left` rows, and reduces `left` by their
-/// number.
+/// Returns comparisons as an HTML table, grouped by metric. Writes at most `left` rows, and reduces `left` by the
+/// number of written rows.
 std::string ShownHtml(const ScenarioSummary& scenario, std::span<const Shown> shown, std::size_t& left) {
   const bool swept = scenario.conditions.size() > 1;
   // Add the columns. There is a condition column only if a parameter is swept.
@@ -168,8 +168,8 @@ std::string ShownHtml(const ScenarioSummary& scenario, std::span<const Shown> sh
   return TableHtml(table);
 }
 
-/// Returns "holds" if all conditions have the same verdict. Otherwise returns how the verdicts differ: "better under
-/// some, worse under others" if one is better and another worse.
+/// Returns "holds" if all conditions have the same verdict. Otherwise returns how the verdicts differ: for example
+/// "better under some, worse under others".
 std::string WhatHolds(const AcrossVerdict& across) {
   if (across.Holds()) return "holds";
   std::vector<Verdict> said;
@@ -269,8 +269,8 @@ std::string ComparisonTableMarkdown(const ScenarioSummary& scenario) {
 }
 
 std::string ComparisonTableCsv(const ScenarioSummary& scenario) {
-  // Write the headings: first those of the comparison on the worlds of this run, then those of the comparison
-  // generalised to other sampling units (clips, people, …).
+  // Write the headings: first the headings for the comparison on the worlds of this run, then the headings for the
+  // comparison generalised to other sampling units (clips, people, …).
   Table table;
   for (const char* head : {"scenario",        "condition",        "metric",        "baseline",        "method",
                            "pairs",           "differing",        "only_baseline", "only_method",     "neither",

@@ -30,9 +30,10 @@ inline constexpr std::string_view kComparisonLegend =
 /// Counts the comparisons in the tables below: each pair of methods under one metric and condition counts once.
 std::size_t CountComparisons(const ScenarioSummary& scenario);
 
-/// Returns every comparison of one scenario once as an HTML table, one row each: the difference with its interval, the
-/// verdict on the worlds of this run and the generalised verdict, the number of worlds, corrected p, effect size and
-/// caveats. Comparisons by metrics other than the first are folded away. Returns "" if no methods are compared.
+/// Returns every comparison of one scenario once as an HTML table, one row per comparison: the difference with its
+/// interval, the verdict on the worlds of this run and the generalised verdict, the number of worlds, corrected p,
+/// effect size and caveats. Comparisons by metrics other than the first are folded away. Returns "" if no methods are
+/// compared.
 std::string ComparisonTableHtml(const ScenarioSummary& scenario);
 
 /// Returns the comparisons of ComparisonTableHtml as a folded Markdown table.

@@ -25,7 +25,7 @@ FaultyClips FaultyClipsOf(const RunData& run, std::size_t most) {
   FaultyClips found;
   std::vector<TableRow> beyond, others, unjudged;
   std::size_t judged = 0;
-  // Sort the clips into those that exceed their fault limits, other faulty clips, and clips that could not be judged.
+  // Sort the clips into clips that exceed their fault limits, other faulty clips, and clips that could not be judged.
   ForEachRow(run, [&](const Row& row, std::size_t) {
     if (row.task != kTask || row.result.status == Status::kSkipped) return;
     if (row.result.status != Status::kOk) {

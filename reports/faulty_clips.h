@@ -15,8 +15,8 @@ std::string FaultyClipsSection(const RunData& run);
 /// Returns the table of FaultyClipsSection as Markdown, under a heading. Returns "" for other runs.
 std::string FaultyClipsMarkdown(const RunData& run);
 
-/// Returns one JUnit case for every clip of a scenario whose motions have no ground truth. The case fails if the clip
-/// exceeds its fault limits or cannot be judged; otherwise the case lists the faults of the clip.
+/// Returns one JUnit case for every clip of a scenario whose motions have no ground truth. A case fails if its clip
+/// exceeds the fault limits or cannot be judged; otherwise the case lists the clip's faults.
 std::vector<JunitCase> ClipCases(const RunData& run, const std::string& scenario);
 
 }  // namespace etude

@@ -91,7 +91,7 @@ std::string ValuesText(const TailWorld& world, const std::string& metric) {
   const std::string before = FormatValue(world.before, words), after = FormatValue(world.after, words);
   if (!world.after) return fmt::format("{}{}no value ({})", before, kTo, ended_after);
   if (before != after) return before + kTo + after;
-  return fmt::format("{}{}{}", *world.before, kTo, *world.after);  // FormatValue drops the digits that differ
+  return fmt::format("{}{}{}", *world.before, kTo, *world.after);  // FormatValue would drop differing digits
 }
 
 }  // namespace
@@ -338,7 +338,7 @@ std::string WriteGateMarkdown(const GateReport& report) {
   text += List("**Methods without an answer:**", report.silent);
   text += List("**Not met:**", ClaimsThatAre(report, ClaimOutcome::kUnmet));
   text += List("**Answers that became worse** (a change from better to worse is a regression):", FallenLines(report));
-  // Write the changed metrics. Those that fail the gate are visible; all others are folded away.
+  // Write the changed metrics. Changes that fail the gate are visible; all other changes are folded away.
   std::vector<GateTableRow> failing, others;
   for (GateTableRow& row : MovedRows(report.comparison)) (row.fails ? failing : others).push_back(std::move(row));
   if (!failing.empty()) text += MoveTable(failing);

@@ -11,11 +11,11 @@ namespace etude {
 /// A metric's change since the baseline, in words.
 struct GateTableRow {
   std::string scenario, condition, method, metric;
-  std::string before, after;  ///< the metric's aggregate over all worlds, in the baseline and now
-  std::string difference;     ///< the median (or mean) of the paired differences, now − baseline, with its interval
+  std::string before, after;  ///< the metric's aggregate over all worlds: in the baseline, and in this run
+  std::string difference;     ///< median (or mean) of the paired differences, now − baseline, and its interval
   std::string p;              ///< p-value after Holm's correction; kNoValue if nothing was tested
-  std::string worlds;         ///< differing worlds: "12 of 60", with the numbers of lost, gained and far worse ones
-  std::string verdict;        ///< text of MovementWords, or "worse in 5 worlds" if the tail rule decided
+  std::string worlds;         ///< number of differing worlds, "12 of 60", and of lost, gained and far worse worlds
+  std::string verdict;        ///< text of MovementWords, or "worse in 5 worlds" if the far worse worlds decided
   bool fails = false;
 };
 
@@ -47,13 +47,13 @@ struct TailLine {
 };
 
 /// Returns one line for each of the first `most` far worse worlds of one method under one condition. `moves` are the
-/// changes of that method's metrics. Worlds that lost their answer come first, then the worst world of each metric. A
-/// last line counts the worlds that were left out.
+/// changes of that method's metrics. Worlds that no longer have an answer come first, then the worst world of each
+/// metric. A last line counts the worlds that were left out.
 std::vector<TailLine> TailLines(const std::vector<const MetricMove*>& moves, const GateReport& report,
                                 std::size_t most);
 
-/// Returns the lines of far worse worlds of all metrics that fail the gate (`failing` is true) or of all other metrics.
-/// Each method has at most `most_each` worlds, and there are about `most` lines in total.
+/// Returns the lines of far worse worlds: for all metrics that fail the gate if `failing` is true, for all other
+/// metrics if it is false. Each method has at most `most_each` worlds, and there are about `most` lines in total.
 std::vector<TailLine> TailLines(const GateReport& report, bool failing, std::size_t most_each, std::size_t most);
 
 /// Returns the results of a gate as a comment on a pull request: the verdict, the failures, other changes, and the

@@ -22,8 +22,8 @@ constexpr std::string_view kAllNumbers = "the CSV file in report/tables";
 
 struct OverviewCell {
   std::string value;
-  std::string interval = {};             ///< interval of the value; "" if it has none
-  std::string counted = {};              ///< number of cells with a value, "10 of 12", if some have none; else ""
+  std::string interval = {};             ///< interval of `value`; "" if the value has no interval
+  std::string counted = {};              ///< number of cells with a value, "10 of 12"; "" if every cell has a value
   std::optional<double> sorted_by = {};  ///< the median or mean in `value` as a number, by which the page sorts
   const Comparison* baseline = nullptr;  ///< comparison with the baseline; may be null
   const Comparison* rival = nullptr;     ///< comparison with the strongest other method; may be null
@@ -33,8 +33,8 @@ struct OverviewCell {
 
 struct OverviewRow {
   std::string method, condition;
-  std::string cell = {};  ///< identity of one of the row's cells as an example, if possible a recorded cell
-  std::string kept = {};  ///< HTML attribute that links the example cell to its recording; "" if it was not recorded
+  std::string cell = {};  ///< ID of one of the row's cells as an example, if possible a recorded cell
+  std::string kept = {};  ///< HTML attribute that links the example cell to its recording; "" without a recording
   std::vector<OverviewCell> cells = {};  ///< one table cell per metric
   bool is_yardstick = false;
 };
@@ -137,8 +137,8 @@ TableCell TableCellOf(const OverviewCell& cell, bool has_rivals, SamplingUnit un
   return {text, cell.sorted_by, html};
 }
 
-/// Returns a table with one row per method and condition and one column for each of `metrics`. The headline metrics
-/// come first; the other columns are marked as details.
+/// Returns a table with one row per method and condition and one column for each metric in `metrics`. The headline
+/// metrics come first; the other columns are marked as details.
 Table OverviewTable(const ScenarioSummary& scenario, std::span<const std::string> metrics,
                     std::span<const OverviewRow> rows, std::string_view method_head, std::string_view condition_head) {
   const bool swept = scenario.conditions.size() > 1;
@@ -168,7 +168,7 @@ Table OverviewTable(const ScenarioSummary& scenario, std::span<const std::string
   return table;
 }
 
-/// Returns a list of the numbers of missing values with their reasons.
+/// Returns a list that states how many values are missing, for each reason.
 std::string MissingHtml(const RunData& run, const ScenarioSummary& scenario) {
   std::map<std::string, std::vector<std::string>> metrics_of;
   for (const ConditionSummary& condition : scenario.conditions) {
@@ -204,8 +204,8 @@ std::string VerdictOf(const Row& row) {
   const auto alike = ValueOf(row, "called_alike");
   if (!alike) return std::string(kNoValue);
   std::string text = *alike > 0 ? "alike" : "apart";
-  // Show the distance between the joints if the method uses it; otherwise show the fuzzy distance, which every pair of
-  // poses has.
+  // Show the distance between the joints if the method uses it; otherwise show the fuzzy distance, which exists for
+  // every pair of poses.
   if (const auto joints = ValueOf(row, "joint_distance_cm")) {
     text += fmt::format(" {} cm", FormatNumber(*joints));
   } else if (const auto d = ValueOf(row, "fuzzy_distance")) {
@@ -215,8 +215,8 @@ std::string VerdictOf(const Row& row) {
   return is_false && *is_false > 0 ? "✗ " + text : text;
 }
 
-/// Returns a table with one row for every pair of poses, which shows each method's verdict. It has no rows if the
-/// worlds are not single pairs.
+/// Returns a table with one row for every pair of poses, which shows each method's verdict. The table has no rows if
+/// the worlds are not single pairs.
 Table PosePairs(const RunData& run, const ScenarioSummary& scenario, std::string_view poses, std::string_view apart) {
   Table table{
       .label = "Pair by pair",

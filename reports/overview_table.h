@@ -8,9 +8,9 @@
 
 namespace etude {
 
-/// Returns a table of all methods by all metrics, headline metrics first. It shows median or mean with interval, and
-/// the symbol of each verdict. A list of the missing values with their reasons follows. If a parameter is swept, each
-/// row is one method under one condition. Returns "" if no method has a value.
+/// Returns a table of all methods by all metrics, headline metrics first. A cell shows the median or mean with its
+/// interval, and the symbols of the verdicts. A list of the missing values with their reasons follows. If a parameter
+/// is swept, each row is one method under one condition. Returns "" if no method has a value.
 std::string OverviewTableHtml(const RunData& run, const ScenarioSummary& scenario);
 /// Returns the medians or means of the headline metrics as a Markdown table, without intervals; "" if there is only one
 /// headline metric.
@@ -24,7 +24,7 @@ inline constexpr std::string_view kSigns =
     "Figures are medians, or means of shares and scores, with 95 % intervals.";
 
 /// Returns a table of named pairs of poses: the distance of each pair and each method's verdict. Returns "" unless the
-/// task is `pose-distance` and its worlds are single pairs.
+/// task is `pose-distance` and every world is a single pair.
 std::string PosePairsHtml(const RunData& run, const ScenarioSummary& scenario);
 std::string PosePairsMarkdown(const RunData& run, const ScenarioSummary& scenario);
 

@@ -30,7 +30,7 @@ constexpr const char* kMetric = "mpjpe_mm";
 std::string Millimetres(std::optional<double> mm) { return mm ? FormatNumber(*mm) : std::string(kNoValue); }
 
 /// Returns the word for the number that a real take measures: "error", or "agreement" if the reference may come from
-/// the same keypoints as the answer and therefore share its errors.
+/// the same keypoints as the answer and therefore share the answer's errors.
 std::string MeasureOf(const RealTake& take) { return take.recovery == "keypoints" ? "agreement" : "error"; }
 
 void AddRealRows(const RealTake& take, Table& table) {
@@ -59,7 +59,7 @@ void AddSimulatedRows(const ScenarioSummary& scenario, std::size_t& rows, Table&
   }
 }
 
-// The Content-Security-Policy: the page may load only the motion scripts beside it. This protects readers even if
+// The Content-Security-Policy: the page may load only the motion scripts beside the page. This protects readers even if
 // escaping fails.
 constexpr std::string_view kPolicy =
     "default-src 'none'; style-src 'unsafe-inline'; script-src 'unsafe-inline' 'self' file:; img-src data:; media-src "
@@ -127,7 +127,7 @@ std::string HowToRead() {
                      kHowToRead, kSigns, kComparisonLegend);
 }
 
-/// Returns a sentence about the part of a large run that the pictures show; "" if they show the whole run.
+/// Returns a sentence about the part of a large run that the pictures show; "" if the pictures show the whole run.
 std::string LeftOutSentence(const RunData& run) {
   if (!run.source) return "";
   return fmt::format(

@@ -10,23 +10,23 @@
 namespace etude {
 
 /// Returns the HTML report of a run: first the verdicts, in plain words with pictures; tables of numbers are folded
-/// away. The page embeds everything except the recorded motions, which are scripts beside it. Its
+/// away. The page embeds everything except the recorded motions, which are scripts beside the page. The page's
 /// Content-Security-Policy forbids network access. `real` holds captures of real films, which the page shows beside the
-/// simulated ones.
+/// simulated captures.
 std::string WritePage(const RunData& run, const Media& media, std::span<const RealTake> real = {});
 
 /// Returns the verdicts of the page as a short Markdown text, for a pull request or a release note.
 std::string WriteMarkdown(const RunData& run);
 
-/// Returns one scenario as LaTeX floats for plain pdflatex with the package booktabs. For each condition, they show the
-/// value of every headline metric and method with its interval, the number of cells with a value, the paired comparison
-/// with the baseline and its verdict. Paper B's tables follow, if the cells keep their data. Figures are rounded as on
-/// the page; the CSV files hold all digits.
+/// Returns one scenario as LaTeX floats for plain pdflatex with the package booktabs. For each condition, the floats
+/// show every method's value of every headline metric, with an interval, the number of cells with a value, the paired
+/// comparison with the baseline and the verdict of this comparison. Paper B's tables follow, if the cells keep their
+/// data. Figures are rounded as on the page; the CSV files hold all digits.
 std::string ScenarioLatex(const RunData& run, const ScenarioSummary& scenario);
 
 /// Returns every summary of one scenario as CSV in full precision: median, interval, mean, the number of values, and
-/// the number of missing values with the reasons. The share of cells that ended ok comes first, with failures in its
-/// denominator. Fields of missing values are empty.
+/// the number of missing values with the reasons. The share of cells that ended ok comes first, and counts failures in
+/// the denominator. Fields of missing values are empty.
 std::string NumberTableCsv(const RunData& run, const ScenarioSummary& scenario);
 
 }  // namespace etude

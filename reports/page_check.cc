@@ -64,7 +64,7 @@ bool IsAllowedValue(std::string_view name, std::string_view value) {
 }
 
 /// Removes ' name="value"' or ' name' from the front of `tag`. Returns true if the element allows this attribute, false
-/// if it does not, and nullopt if the text is malformed.
+/// if the element does not allow it, and nullopt if the text is malformed.
 std::optional<bool> TakeAttribute(std::string_view& tag, const Element& element) {
   tag.remove_prefix(1);
   const std::size_t end = std::min(tag.find_first_of("= "), tag.size());
@@ -88,8 +88,8 @@ std::optional<bool> TakeAttribute(std::string_view& tag, const Element& element)
   });
 }
 
-/// Returns the allowed element that a tag opens; `tag` is without its brackets. Returns null if the element or one of
-/// its attributes is not allowed.
+/// Returns the allowed element that a tag opens; `tag` is the tag without brackets. Returns null if the element or one
+/// of its attributes is not allowed.
 const Element* FindOpened(std::string_view tag, Elements elements) {
   const std::string_view name = tag.substr(0, tag.find(' '));
   const auto found = std::ranges::find(elements, name, &Element::name);

@@ -30,7 +30,7 @@
 namespace etude {
 namespace {
 
-// The maximum number of points per curve. A screen cannot show more points, and they would make the page larger.
+// The maximum number of points per curve. A screen cannot show more points, and more points would make the page larger.
 constexpr std::size_t kMaxSteps = 120;
 // If the largest value exceeds the smallest by more than this ratio, the axis is logarithmic.
 constexpr double kLogarithmicFrom = 100;
@@ -50,7 +50,7 @@ bool NeedsLogarithm(const std::vector<double>& values) {
   return high / low > kLogarithmicFrom;
 }
 
-// Returns the name of the variant of a metric that measures the worst effector: "orientation_error_max_deg" for
+// Returns the name of a metric's variant for the worst effector: "orientation_error_max_deg" for
 // "orientation_error_deg".
 std::string WorstOf(const std::string& metric) {
   const std::size_t unit = metric.rfind('_');
@@ -269,7 +269,7 @@ std::string Failures(const RunData& run, const ScenarioSummary& scenario, const 
   return Folded(title, "<div class=\"status\">" + html + "</div>");
 }
 
-/// Returns the identities of a scenario's cells that kept a recording, as JSON for the page's script.
+/// Returns the IDs of those cells of a scenario that kept a recording, as JSON for the page's script.
 std::string RecordedCells(const RunData& run, const ScenarioSummary& scenario) {
   Json cells = Json::array();
   for (const CellRecording& recorded : run.recordings) {
@@ -287,7 +287,7 @@ std::string AnswerHtml(const MethodFinding& finding, std::string_view begin) {
 }
 
 /// Returns the verdicts and the sentence about the comparison with the baseline. If the strongest other method is not
-/// the baseline, adds the same about the comparison with that method, folded away.
+/// the baseline, adds, folded away, the verdicts and the sentence about the comparison with that method.
 std::string AnswerBlock(const ScenarioFindings& findings) {
   const std::string html = AnswerHtml(findings.answer, VerdictBadges(findings.answer) + " ");
   if (!HasOtherRival(findings)) return html;

@@ -60,8 +60,8 @@ std::vector<TableCell> ComparisonCells(const Comparison& c, const MetricWords& w
   return cells;
 }
 
-/// Returns a method's comparisons with baselines. Adds its comparisons with the strongest other method, unless the same
-/// two methods are already compared.
+/// Returns a method's comparisons with baselines. Adds the method's comparisons with the strongest other method, unless
+/// the same two methods are already compared.
 std::vector<const Comparison*> ComparisonsOf(const ConditionSummary& condition, const std::string& method,
                                              const std::string& metric) {
   std::vector<const Comparison*> found;
@@ -88,7 +88,7 @@ Group OfMetric(const ScenarioSummary& scenario, const ConditionSummary& conditio
     for (const Comparison* c : comparisons) {
       std::ranges::move(ComparisonCells(*c, words), std::back_inserter(cells));
       group.push_back({std::move(cells)});
-      cells = {"", "", ""};  // only the method's first row shows its own figures
+      cells = {"", "", ""};  // only the method's first row shows the method's own figures
     }
     if (!comparisons.empty()) continue;
     cells.resize(cells.size() + 5);
@@ -127,7 +127,7 @@ std::string Float(const std::string& caption, const Table& table) {
       caption, TableLatex(table));
 }
 
-/// Returns the LaTeX floats of one condition: as many as its rows need.
+/// Returns the LaTeX floats of one condition: as many floats as the condition's rows need.
 std::string ConditionFloats(const ScenarioSummary& scenario, const ConditionSummary& condition) {
   std::vector<Group> groups{EndedOk(scenario, condition)};
   for (const std::string& metric : scenario.headline_metrics) groups.push_back(OfMetric(scenario, condition, metric));

@@ -19,8 +19,8 @@ struct Listener {
   std::function<OnProgress(std::string what)> progress = [](const std::string&) {
     return [](std::size_t, std::size_t) {};
   };
-  /// Runs `write`, a function that writes one film, with a FilmWatch that shows its progress and can stop it. Returns
-  /// the result of `write`; false means that it was stopped.
+  /// Runs `write`, a function that writes one film, with a FilmWatch that shows the progress of `write` and can stop
+  /// the film. Returns the result of `write`; false means that the film was stopped.
   std::function<Result<bool>(const std::function<Result<bool>(const FilmWatch& watch)>& write)> film =
       [](const auto& write) { return write(FilmWatch{}); };
 };
@@ -28,7 +28,7 @@ struct Listener {
 /// Prints a message that a file was written.
 void TellWritten(const Listener& listener, const std::string& path);
 
-/// Prints lines, and keeps them for the page and the JSON of a tool.
+/// Prints lines, and keeps these lines for the tool's page and JSON.
 struct MessageLog {
   std::function<void(const std::string& text)> print;
   std::vector<std::string> lines = {};

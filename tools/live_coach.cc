@@ -141,7 +141,7 @@ Result<void> LiveCoach::Take(const SensedFrame& frame, const StreamRecording& me
 }
 
 void LiveCoach::Begin(const StreamRecording& meaning) {
-  // Recordings of a device have the device as their origin, so the sensor is at the origin. In Etude's own format, the
+  // In recordings of a device, the origin is the device, so the sensor is at the origin. In Etude's own format, the
   // sensor's position is unknown.
   if (!meaning.is_level) options_.coach.sensor = {0, 0, 0};
   coach_ = std::make_unique<Coach>(transitions_, options_.coach, Coach::PolicyChoice{FindPolicy(options_.policy), {}});

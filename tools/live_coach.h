@@ -15,25 +15,26 @@
 
 namespace etude {
 
-/// Returns the first line of `etude coach`: the song, its moves with hints and key poses, and the order of the joints.
+/// Returns the first line of `etude coach`: the song, the song's moves with hints and key poses, and the order of the
+/// joints.
 Result<std::string> CoachHead(const Dance& dance);
 
 /// Returns one frame as a line of JSON (docs/coach.md). Positions are in metres, rounded to the millimetre; with
 /// `brief`, the line has no body.
 Result<std::string> CoachLine(const CoachOutput& output, std::int64_t frame, const Dance& dance, bool brief);
 
-/// The position in the music while a coach dances. It comes from lines '#music 12.34' of the stream; without them, it
-/// is computed from the coach's own music commands.
+/// The position in the music while a coach dances. The position comes from lines '#music 12.34' of the stream; without
+/// such lines, it is computed from the coach's own music commands.
 class MusicPosition {
  public:
-  /// Pauses the music, or continues it at another position.
+  /// Pauses the music, or continues the music at another position.
   void Follow(const MusicCommand& command);
   /// Advances the music by one frame.
   void Tick();
   /// Returns the seconds since the start of the song; nullopt while the music is silent.
   std::optional<double> Seconds() const { return now_s_; }
 
-  /// Reads a line of the stream; lines about other things change nothing. Fails on '#music' without seconds.
+  /// Reads a line of the stream; other lines change nothing. Fails on '#music' without seconds.
   Result<void> Take(std::string_view line, int number);
 
  private:
@@ -43,9 +44,9 @@ class MusicPosition {
 struct LiveCoachOptions {
   std::string policy;           ///< a name of LivePolicyNames()
   std::string filter;           ///< a name of FilterNames()
-  bool dances_at_once = false;  ///< begin to dance without waiting for a clap
-  bool plans_ahead = false;     ///< spread planning over frames; set it for live streams
-  bool brief = false;           ///< leave out bodies, and frames without a decision
+  bool dances_at_once = false;  ///< true: the coach begins to dance without waiting for a clap
+  bool plans_ahead = false;     ///< true: planning is spread over frames, as live streams need
+  bool brief = false;           ///< true: bodies are left out, and so are frames without a decision
   CoachOptions coach = {};
   /// Receives a remark at the start if the sensor's tilt was corrected or trunks are far from upright.
   std::function<void(const std::string& remark)> on_remark = {};
@@ -57,15 +58,15 @@ class LiveCoach {
  public:
   using OnLine = std::function<void(const std::string& line)>;
 
-  /// `transitions` and `recogniser` must outlive this object. `on_line` receives every line as soon as its frame is
-  /// processed.
+  /// `transitions` and `recogniser` must outlive this object. `on_line` receives every line as soon as the line's frame
+  /// is processed.
   LiveCoach(const DanceTransitions& transitions, const Recogniser& recogniser, LiveCoachOptions options,
             OnLine on_line);
 
   /// Reads a stream to its end.
   Result<void> Follow(std::istream& stream, LiveStream& live);
 
-  /// Returns the processing time of each frame in ms, from its arrival until its line was written.
+  /// Returns the processing time of each frame in ms, from the arrival of the frame until the frame's line was written.
   const std::vector<double>& times_ms() const { return times_ms_; }
 
  private:

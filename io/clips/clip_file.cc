@@ -35,11 +35,11 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Reads files until their total size exceeds kMaxClipFileBytes.
+/// Reads files. Fails as soon as the total size of all files read so far exceeds kMaxClipFileBytes.
 class CappedReader {
  public:
   Result<std::string> Read(const fs::path& path) {
-    std::error_code not_there;  // ignored: ReadWholeFile reports a missing file better
+    std::error_code not_there;  // the error is ignored, because ReadWholeFile describes a missing file better
     const std::uintmax_t size = fs::file_size(path, not_there);
     if (!not_there && size > left_) {
       return Fail({path.string(), 0, 0}, "{} MB; allowed: clips of at most {} MB", (size + 999'999) / 1'000'000,
@@ -80,7 +80,8 @@ ClipFile FileOfOne(ClipFormat format, Clip clip) {
   return file;
 }
 
-/// Makes a clip file of a motion that is a body already. `notes` states the motion's source and every change to it.
+/// Makes a clip file of a motion that is a body already. `notes` states the source of the motion and every change to
+/// the motion.
 ClipFile FileOfBody(ClipFormat format, const BodyMotion& motion, const std::string& path,
                     std::vector<std::string> notes) {
   ClipFile file = FileOfOne(format, RigClip(motion, StandingPose(), fs::path(path).stem().string()));
@@ -152,12 +153,13 @@ Result<BidsFacts> ReadBidsFacts(const std::string& file, CappedReader& reader) {
   return Fail({file}, "SamplingFrequency: allowed: a number from {:g} to {:g} Hz", kMinRate_hz, kMaxRate_hz);
 }
 
-/// Makes a clip file from an array of joints; the array itself states no frame rate. `said` describes how the array was
+/// Makes a clip file from an array of joints; such an array states no frame rate. `said` describes how the array was
 /// turned to Y up, and becomes the end of the note.
 Result<ClipFile> FileOfArray(const NumberArray& array, const std::optional<std::string>& layout,
                              const std::string& path, const OpenOptions& options, const std::string& said = "") {
   std::string note;
-  // If the array was turned, its up axis is known. A search for the up axis could turn a handstand into a stance.
+  // If the array was turned, the array's up axis is known. A search for the up axis could turn a handstand into a
+  // stance.
   const auto up = said.empty() ? ToldUp(options) : std::optional(UpAxis::kY);
   ASSIGN_OR_RETURN(auto joints, JointsOfArray(array, layout, path, note, up));
   joints.remark = said.empty() ? note : note + "; " + said;
@@ -271,7 +273,7 @@ Result<ClipFile> ReadClipFile(const std::string& path, const std::optional<std::
     file.roles = RolesOfBones(content.bones, file.figure.skeleton);
     return file;
   }
-  // Try Acclaim and BVH; the complaint describes any other file.
+  // Try Acclaim and BVH; the complaint of the BVH reader describes any other file.
   if (IsAcclaimMotion(bytes)) {
     ASSIGN_OR_RETURN(auto clip, ReadAcclaim(bytes, path, reader, file.remarks));
     ClipFile read = FileOfOne(ClipFormat::kAcclaim, std::move(clip));

@@ -41,21 +41,20 @@ enum class ClipFormat {
 /// "NPZ", "NPY", "Motive", "MOT", "Motion-BIDS", "recording" or "built-in".
 std::string_view FormatName(ClipFormat format);
 
-/// The origin of a clip whose file already holds a body.
+/// Describes how the body of a clip was made, if the clip's file already holds a body.
 struct MadeBody {
   /// The source of the body, and every change that was made to the file's content, as sentences for users.
   std::vector<std::string> changes;
-  UpFinding up = {};                   ///< the axis of the file that became Y
-  double floor_m = 0;                  ///< the height that became 0
-  std::size_t first_frame = 0;         ///< the frame of the file that became the first
-  std::optional<double> start_s = {};  ///< the first frame's time by the file's own clock, if it states one
+  UpFinding up = {};                 ///< the axis of the file that became Y
+  double floor_m = 0;                ///< the height in the file that became 0
+  std::size_t first_frame = 0;       ///< the frame of the file that became the first frame
 };
 
 /// The content of a motion file.
 struct ClipFile {
   ClipFormat format = ClipFormat::kBvh;
-  Character figure;  ///< a skeleton, and meshes if the file has any
-  /// Clips on that skeleton; some glTF files have none, a marker file has one per person.
+  Character figure;                       ///< a skeleton, and meshes if the file has any
+  /// Clips on that skeleton; some glTF files have no clip; a marker file has one clip per person.
   std::vector<Clip> clips;
   std::vector<MadeBody> bodies = {};      ///< one entry per clip if the clips are bodies already; else empty
   std::vector<std::string> remarks = {};  ///< repairs that were made while reading

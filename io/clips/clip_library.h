@@ -22,7 +22,7 @@ struct LibraryClip {
   std::string source;  ///< the reference that opens the clip again: "builtin:clap", a path, or "path.glb#Jump"
   BodyMotion motion;
   std::optional<Move> move;  ///< the authored move, with its key poses; absent unless the clip is a built-in move
-  RestBody body = {};        ///< the performer's body at rest; it has no joints if the body was not measured
+  RestBody body = {};        ///< the performer's body at rest; without joints if the body was not measured
   std::shared_ptr<const RecordedFigure> figure = {};  ///< the file's figure; null if the file has no meshes
   std::vector<std::string> changes = {};  ///< findings about the file, and every change that was made to its content
 };
@@ -37,9 +37,9 @@ struct ClipLibrary {
 /// Returns the collection that a clip belongs to: the folder of its file, or "builtin".
 std::string CollectionOf(const LibraryClip& clip);
 
-/// Expands every reference (ExpandReference) and loads its clips, in order; every animation of a glTF file becomes a
-/// clip of its own. Fails with the name of a reference that cannot be found, read or understood. `place` is the
-/// position of the references, for complaints. `on_progress` gets the number of references done.
+/// Expands every reference (ExpandReference) and loads the reference's clips, in order; every animation of a glTF file
+/// becomes a clip of its own. Fails with the name of a reference that cannot be found, read or understood. `place` is
+/// the position of the references, for complaints. `on_progress` gets the number of references done.
 Result<ClipLibrary> LoadClips(const std::vector<std::string>& references, const Place& place,
                               const OpenOptions& options = {}, const OnProgress& on_progress = {});
 

@@ -25,7 +25,7 @@ namespace etude {
 namespace {
 
 bool ParseSeconds(std::string_view text, double& seconds) {
-  if (text.empty()) return true;  // the end is left open
+  if (text.empty()) return true;  // the text of this end is missing: the end stays open
   const auto value = ParseFinite(text);
   seconds = value.value_or(-1);
   return seconds >= 0;
@@ -70,7 +70,7 @@ Result<Clip> Edited(const Clip& clip, const ConvertOptions& options) {
 }
 
 /// Adds the user's edits to the list of changes. `from_hz` is the clip's rate if the clip is resampled here, otherwise
-/// the wanted rate.
+/// the user's wanted rate.
 void AddEdits(double from_hz, const ConvertOptions& options, std::vector<std::string>& changes) {
   if (options.trim) changes.emplace_back("trimmed");
   if (std::string said = DescribeResampling(from_hz, options.rate_hz.value_or(from_hz)); !said.empty()) {
@@ -79,7 +79,7 @@ void AddEdits(double from_hz, const ConvertOptions& options, std::vector<std::st
   if (options.mirror) changes.emplace_back("mirrored: left is right");
 }
 
-/// Finds the unit of a BVH file and its up axis. Without roles, `options` must give the unit.
+/// Finds the unit and the up axis of a BVH file. If no roles are found, `options` must give the unit.
 Result<BodyConversion> FindUnit(const SourceClip& source, const OpenOptions& options) {
   auto opened = UnderstandClip(source, options);
   if (opened) return std::move(opened->body);
@@ -114,14 +114,14 @@ Result<Converted> ConvertOwnSkeletons(std::vector<SourceClip> sources, MotionFor
     }
     clips.push_back(std::move(*edited));
   }
-  // Report what the file's reader found, and, if the body is understood, doubts about it.
+  // Report what the file's reader found, and, if the body is understood, doubts about the body.
   const auto say = [&](const std::vector<std::string>& texts) {
     converted.changes.insert(converted.changes.end(), texts.begin(), texts.end());
   };
   if (sources.front().made) say(sources.front().made->changes);
   say(sources.front().remarks);
   if (const auto opened = UnderstandClip(sources.front(), options.open)) say(opened->body.doubts);
-  // Write BVH; or write GLB, with the file's own meshes if they still fit the skeleton.
+  // Write BVH; or write GLB, with the file's own meshes if the meshes still fit the skeleton.
   AddEdits(sources.front().clip.rate_hz, options, converted.changes);
   if (format == MotionFormat::kBvh) {
     converted.bytes = WriteBvh(std::move(clips.front()));
@@ -151,7 +151,7 @@ Result<Converted> ConvertBodies(std::vector<SourceClip> sources, MotionFormat fo
   Converted converted;
   std::vector<Clip> clips;
   BodyPose rest = StandingPose();
-  // Trim each clip, and turn it into a body motion; mirror and retarget it if the options require that.
+  // Trim each clip, and turn it into a body motion; mirror and retarget it if the options require this.
   for (SourceClip& source : sources) {
     auto part = TrimTo(source.clip, options.trim);
     if (!part) return Fail({source.source, 0, 0}, "{}", part.error().message);
@@ -171,7 +171,7 @@ Result<Converted> ConvertBodies(std::vector<SourceClip> sources, MotionFormat fo
     if (format == MotionFormat::kBids) converted.files = WriteMotionBids(motion, name, options.version);
     if (format == MotionFormat::kCsv) converted.bytes = WriteJointCsv(motion);
     if (format == MotionFormat::kC3d) converted.bytes = WriteC3d(motion);
-    // The rest pose of a body with its own proportions is the canonical stance scaled to its limb lengths.
+    // The rest pose of a body with its own proportions is the canonical stance, scaled to this body's limb lengths.
     if (!is_canonical && clips.empty()) rest = Retarget({.poses = {rest}}, motion.poses.front()).poses.front();
     if (format == MotionFormat::kNpz) converted.bytes = WriteBodyNpz(motion, rest);
     if (format == MotionFormat::kMot) converted.bytes = WriteOpenSimMotion(motion, rest, name);

@@ -16,8 +16,8 @@ struct TimeSpan {
   double from_s = 0;
   double to_s = 0;
 };
-/// Parses a span such as "1.5:4"; either end may be left out (then 0 or infinity). Fails on any other text, and if the
-/// end lies before the start.
+/// Parses a span such as "1.5:4"; the start may be left out (then it is 0), and the end may be left out (then it is
+/// infinity). Fails on any other text, and if the end lies before the start.
 Result<TimeSpan> ParseTimeSpan(const std::string& text);
 
 /// Returns this part of a clip, or the whole clip without a span. An open end is the end of the clip.
@@ -33,7 +33,7 @@ enum class Performer { kFile, kNone, kBear, kMannequin };
 
 struct ConvertOptions {
   std::optional<TimeSpan> trim;
-  std::optional<double> rate_hz;  ///< frames per second; by default the clip's own rate, or 30 Hz for bodies
+  std::optional<double> rate_hz;  ///< frames per second; empty: the clip's own rate, or 30 Hz for bodies
   bool mirror = false;
   bool ground = false;    ///< write a body: twenty joints, metres, Y up, feet on the floor
   bool retarget = false;  ///< write a body with the canonical proportions
@@ -46,16 +46,16 @@ struct ConvertOptions {
 struct Converted {
   std::string bytes;
   BidsFiles files = {};  ///< the result for kBids, instead of `bytes`
-  std::string note;      ///< the kind of conversion: "own skeleton", "as a body: Plug-in Gait", …
+  std::string note;      ///< what was written: "own skeleton", "as a body: Plug-in Gait", …
   /// Every change that was made to the file's content. A change that concerns several clips is listed once.
   std::vector<std::string> changes;
 };
 
 /// Converts the clips of one file: exactly one, or any number for GLB. A clip keeps its own skeleton (and its meshes,
 /// from glTF to GLB) unless the result must be a body: with `ground`, `retarget`, a performer, or a format that holds
-/// only joints. BVH becomes GLB in metres and Y up, so its unit must be known: it is found from the roles or given in
-/// `options`. Fails if a format other than GLB is to hold several clips or a performer, and if trimming, resampling or
-/// UnderstandClip fails.
+/// only joints. A BVH file becomes GLB in metres and Y up, so the file's unit must be known: the unit is found from the
+/// roles or given in `options`. Fails if a format other than GLB is to hold several clips or a performer, and if
+/// trimming, resampling or UnderstandClip fails.
 Result<Converted> ConvertClips(std::vector<SourceClip> clips, MotionFormat format, const ConvertOptions& options);
 
 }  // namespace etude

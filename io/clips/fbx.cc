@@ -54,7 +54,8 @@ std::string NameOfReader() {
   return "assimp is part of the program";
 }
 
-/// Returns the address space that this process already uses, bytes. RLIMIT_AS counts it, so it is added to the limit.
+/// Returns the address space that this process already uses, bytes. RLIMIT_AS also counts this address space, so it is
+/// added to the limit.
 rlim_t MappedBytes() {
   rlim_t pages = 0;
   std::ifstream("/proc/self/statm") >> pages;
@@ -66,7 +67,7 @@ void Limit(int resource, rlim_t maximum) {
   ::setrlimit(resource, &limit);
 }
 
-/// Raises this process's limit of processor time to `seconds` more than it has used.
+/// Raises this process's limit of processor time to `seconds` more than the time that the process has used so far.
 void AllowProcessorTime(rlim_t seconds) {
   rlimit limit{};
   ::getrlimit(RLIMIT_CPU, &limit);
@@ -75,14 +76,14 @@ void AllowProcessorTime(rlim_t seconds) {
   ::setrlimit(RLIMIT_CPU, &limit);
 }
 
-/// Sends the length of `bytes` and then the bytes. Returns false if the other end is closed.
+/// Sends the length of `bytes` and then the bytes. Returns false if the socket's other end is closed.
 bool SendBlock(int socket, std::string_view bytes) {
   const std::uint64_t size = bytes.size();
   return SendAll(socket, {reinterpret_cast<const char*>(&size), sizeof size}) && SendAll(socket, bytes);
 }
 
-/// Receives a block of SendBlock. Returns nullopt if the other end is closed, or if the block is longer than `maximum`
-/// bytes (then `is_too_long` is set).
+/// Receives a block of SendBlock. Returns nullopt if the socket's other end is closed, or if the block is longer than
+/// `maximum` bytes (then `is_too_long` is set).
 std::optional<std::string> ReceiveBlock(int socket, std::size_t maximum, bool& is_too_long) {
   std::uint64_t size = 0;
   if (!ReceiveAll(socket, reinterpret_cast<char*>(&size), sizeof size)) return std::nullopt;
@@ -147,7 +148,7 @@ Result<FbxMotion> FbxReader::Read(std::string_view bytes, const std::string& pat
   std::optional<std::string> said;
   bool is_too_long = false;
   if (SendBlock(child_->socket(), bytes)) said = ReceiveBlock(child_->socket(), kMaxGlbBytes, is_too_long);
-  // The child answered: return the GLB file, or its complaint.
+  // The child answered: return its GLB file or its complaint.
   if (said && said->starts_with(kSaidGlb)) {
     const std::size_t name = said->find('\n'), longest = said->find('\n', name + 1);
     FbxMotion motion{.glb = said->substr(longest + 1), .reader = said->substr(1, name - 1)};
@@ -157,7 +158,7 @@ Result<FbxMotion> FbxReader::Read(std::string_view bytes, const std::string& pat
           "joints whose pre-rotations, post-rotations and orders are left out, because RotationActive is not set: {}",
           inactive));
     }
-    constexpr double kLong = 0.1;  // seconds; between keys that are closer, every curve is nearly a straight line
+    constexpr double kLong = 0.1;  // seconds; between keys less far apart, every curve is nearly a straight line
     if (const double apart = std::strtod(said->c_str() + name + 1, nullptr); apart > kLong) {
       remarks.push_back(
           fmt::format("its keys are up to {:.2f} s apart: between them joints turn along the shortest "

@@ -21,7 +21,7 @@ bool IsFbx(std::string_view bytes);
 struct FbxMotion {
   std::string glb;          ///< a GLB file with the nodes and animations of the FBX file, in metres, Y up
   std::string reader;       ///< the library that read the file, and its build ID: "libassimp.so.5 (0f3c…)"
-  std::string remark = "";  ///< what was left out or replaced; "" if nothing
+  std::string remark = "";  ///< parts of the file that were left out or replaced; "" if nothing
 };
 
 /// The beginning of the complaint about a file that crashed its reader; the number of the signal is appended.
@@ -32,7 +32,8 @@ inline constexpr std::string_view kReaderCrashed = "a damaged FBX file: its read
 /// file, the next file gets a new child.
 class FbxReader {
  public:
-  /// Fails if the module is missing, if the file is damaged or too large, or if the child dies on it.
+  /// Fails if the module is missing, if the file is damaged or too large, or if the child process dies while it reads
+  /// the file.
   Result<FbxMotion> Read(std::string_view bytes, const std::string& path);
 
  private:

@@ -32,7 +32,7 @@ Number NumberAt(std::string_view bytes, std::size_t at) {
   return number;
 }
 
-/// A node record: its name, its properties, and its children.
+/// A node record: the node's name, properties and children.
 struct FbxNode {
   std::string_view name;
   FbxRange properties, children;
@@ -59,7 +59,7 @@ std::vector<FbxNode> NodesIn(std::string_view bytes, FbxRange range) {
   return nodes;
 }
 
-/// A "P" record: its name, and the position and size of each of its numbers.
+/// A "P" record: the property's name, and the position and size of each number of the property.
 struct FbxProperty {
   std::string_view name;
   std::vector<FbxRange> numbers;
@@ -137,7 +137,7 @@ std::size_t LeaveOutOfBinary(std::string_view bytes, std::string& changed) {
         if (IsIgnored(property.name) && !IsZero(bytes, property)) ignored.push_back(std::move(property));
       }
       if (is_active || ignored.empty()) continue;
-      // Overwrite the numbers with zeros in a copy of the file; its size stays the same.
+      // In a copy of the file, overwrite the numbers with zeros; the size stays the same.
       if (changed.empty()) changed = bytes;
       for (const FbxProperty& property : ignored) {
         for (const FbxRange& number : property.numbers) {
@@ -173,7 +173,8 @@ std::size_t LeaveOutOfText(std::string_view text, std::string& changed) {
   std::vector<FbxRange> zeroed, ignored;
   std::size_t models = 0;
   bool in_model = false, in_template = false, in_table = false, active_by_template = false, is_active = false;
-  // Follow the tables of properties of models and of their template; collect the ignored numbers that are not zero.
+  // Follow the tables of properties of the models and of the model template; collect the ignored numbers that are not
+  // zero.
   for (std::size_t begin = 0; begin < text.size();) {
     const FbxRange line{begin, std::min(text.find('\n', begin), text.size())};
     begin = line.end + 1;

@@ -31,8 +31,8 @@ bool IsOfMarkers(ClipFormat format);
 Result<ClipFile> FileOfMarkers(ClipFormat format, MarkerMotion markers, const std::string& path,
                                const OpenOptions& options, UpRule rule);
 
-/// Makes a clip of the body in a motion whose joints may have any names. The positions are in metres with Y up and stay
-/// on their own floor. The options for unit and up axis are ignored here, because the reader of arrays has already
+/// Makes a clip of the body in a motion whose joints may have any names. The positions are in metres with Y up and keep
+/// the motion's own floor. The options for unit and up axis are ignored here, because the reader of arrays has already
 /// applied them. The notes of `motion` are added to the clip's changes.
 Result<ClipFile> FileOfJoints(ClipFormat format, const RawMotion& motion, const std::string& path, OpenOptions options);
 

@@ -24,7 +24,8 @@ Result<std::vector<SourceClip>> ReadBuiltin(const std::string& reference) {
   return std::vector<SourceClip>{{reference, reference, ClipFormat::kBuiltin, std::move(clip), nullptr}};
 }
 
-/// Finds the clip named `name`. Exporters write "Armature|Jump"; "Jump" is accepted if only one name ends with it.
+/// Finds the clip named `name`. Exporters write "Armature|Jump"; "Jump" is accepted if only one clip's name ends with
+/// "Jump".
 std::vector<Clip>::iterator FindAnimation(std::vector<Clip>& clips, const std::string& name) {
   const auto exactly = std::ranges::find(clips, name, &Clip::name);
   if (exactly != clips.end()) return exactly;
@@ -51,13 +52,14 @@ Result<void> KeepWanted(const SplitReference& wanted, const Character& figure, s
   return {};
 }
 
-/// Returns the roles that the user assigned, else those that the file assigns; null if neither does.
+/// Returns the roles that the user assigned, else the roles that the file assigns; null if neither does.
 const JointMapOverrides* TaughtBy(const OpenOptions& options, const std::optional<JointMapOverrides>& file) {
   if (options.roles && !options.roles->joints.empty()) return &*options.roles;
   return file ? &*file : nullptr;
 }
 
-/// Moves the root to the hips if the clip's file has it at the chest or head. A clip with meshes keeps its skeleton.
+/// Moves the root to the hips if the clip's file has the root at the chest or head. A clip with meshes keeps its
+/// skeleton.
 void RootAtHips(Clip& clip, bool has_meshes, std::vector<std::string>& remarks) {
   const auto has_scales = [](const LocalPose& pose) {
     return std::ranges::any_of(pose, [](const LocalTransform& local) { return local.scale != glm::dvec3(1); });
@@ -69,8 +71,8 @@ void RootAtHips(Clip& clip, bool has_meshes, std::vector<std::string>& remarks) 
   clip = WithRootAt(clip, root);
 }
 
-/// Finds the ground shared by the clips of a file that holds several clips. Returns nullopt if the skeleton has no
-/// roles; UnderstandClip then reports which roles are missing.
+/// Finds the common ground of a file with several clips. Returns nullopt if the skeleton has no roles; UnderstandClip
+/// then reports which roles are missing.
 std::optional<Ground> GroundOf(const ClipFile& file, const std::string& path, const OpenOptions& options) {
   if (file.clips.size() < 2) return std::nullopt;
   const auto map =
@@ -81,8 +83,8 @@ std::optional<Ground> GroundOf(const ClipFile& file, const std::string& path, co
   return map ? FindGround(file.clips, *map, told) : std::nullopt;
 }
 
-/// Removes scales that exist in the frames but not in the rest pose, and adds a remark about them. A skeleton without
-/// roles is left unchanged.
+/// Removes scales that exist in the frames but not in the rest pose, and adds a remark about these scales. A skeleton
+/// without roles is left unchanged.
 void TakeScalesOut(ClipFile& file, const std::string& path, const OpenOptions& options) {
   const auto has_scales = [](const Clip& clip) {
     return std::ranges::any_of(clip.frames, [&](const LocalPose& frame) {
@@ -103,7 +105,7 @@ void TakeScalesOut(ClipFile& file, const std::string& path, const OpenOptions& o
   }
 }
 
-/// States which body is used if the skeleton contains a second body; "" if it contains one.
+/// States which body is used, if the skeleton contains two bodies; returns "" if it contains only one body.
 std::string DescribeSecondBody(const Skeleton& skeleton, const JointMap& map) {
   // Find the deepest joint that is an ancestor of all joints with a role.
   std::vector<int> below(skeleton.joints.size());
@@ -138,7 +140,7 @@ std::string DescribeSecondBody(const Skeleton& skeleton, const JointMap& map) {
       Quote(skeleton.joints[static_cast<std::size_t>(map[Role::kLeftHip].joint)].name));
 }
 
-/// Opens a clip of our own skeleton, which has one joint for every role; the joint's name is the role's name.
+/// Opens a clip of our own skeleton. This skeleton has one joint for every role, and the joint has the role's name.
 Result<OpenedClip> UnderstandBuiltin(SourceClip source, const BodyOptions& options) {
   OpenedClip opened{.source = std::move(source), .map = {}, .body = {}};
   for (const Role role : AllRoles()) {
@@ -153,7 +155,7 @@ Result<OpenedClip> UnderstandBuiltin(SourceClip source, const BodyOptions& optio
   } else {
     opened.body.changes.emplace_back("the canonical body");
   }
-  // The user's options have already turned and scaled markers. Our own arrays and angles are turned here.
+  // Markers have already been turned and scaled as the user's options say. Our own arrays and angles are turned here.
   const bool is_turned = options.up == UpAxis::kZ && !is_ours && !IsOfMarkers(opened.source.format);
   if (is_turned) {
     opened.body.found_up = {.axis = AxisOf(UpAxis::kZ), .evidence = UpEvidence::kTold};
@@ -163,7 +165,7 @@ Result<OpenedClip> UnderstandBuiltin(SourceClip source, const BodyOptions& optio
     opened.body.changes.emplace_back(is_ours ? "the file's own unit and up axis are used, not the given ones"
                                              : "the file's own unit is used, not the given one");
   }
-  constexpr double kSameRate = 1e-6;  // relative, because a rate that was computed from times is rounded
+  constexpr double kSameRate = 1e-6;  // relative tolerance, because a rate that was computed from times is rounded
   const bool keeps_rate = std::abs(opened.source.clip.rate_hz / options.rate_hz - 1) < kSameRate;
   if (std::string said = DescribeResampling(opened.source.clip.rate_hz, options.rate_hz); !said.empty()) {
     opened.body.changes.push_back(std::move(said));
@@ -175,7 +177,7 @@ Result<OpenedClip> UnderstandBuiltin(SourceClip source, const BodyOptions& optio
   for (const LocalPose& frame : clip.frames) {
     ComputeGlobals(clip.skeleton, frame, globals);
     BodyPose pose = Evaluate(opened.map, globals);
-    // A sensor's hip centre need not lie midway between its hips, but Evaluate puts it there.
+    // Evaluate puts the hip centre midway between the hips; a sensor's hip centre may lie elsewhere.
     if (opened.source.format != ClipFormat::kBuiltin) {
       pose[Role::kHipCentre] = globals[opened.map[Role::kHipCentre].joint].position;
     }
@@ -229,7 +231,7 @@ Result<std::vector<SourceClip>> ReadClips(const std::string& reference, const Op
                   FormatName(file.format), *wanted.animation);
     }
     const std::string source = wanted.path + (wanted.animation ? "#" + *wanted.animation : "");
-    std::vector<SourceClip> only;  // filled by a move, because an initializer list would copy the frames
+    std::vector<SourceClip> only;  // filled by a move of the clip, because an initializer list would copy the frames
     only.push_back({stem, source, file.format, std::move(file.clips.front()), nullptr, std::nullopt,
                     file.bodies.empty() ? std::nullopt : std::optional(file.bodies.front()), file.remarks, file.roles,
                     shown_of(0)});
@@ -245,7 +247,7 @@ Result<std::vector<SourceClip>> ReadClips(const std::string& reference, const Op
   RETURN_IF_ERROR(KeepWanted(wanted, file.figure, file.clips));
   const bool has_meshes = !file.figure.meshes.empty();
   const auto figure = has_meshes ? std::make_shared<const Character>(std::move(file.figure)) : nullptr;
-  // Name each clip after its file and its animation.
+  // Name each clip after the clip's file and animation.
   std::vector<SourceClip> clips;
   for (Clip& clip : file.clips) {
     const std::string animation = "#" + clip.name;
@@ -277,7 +279,7 @@ Result<OpenedClip> UnderstandClip(SourceClip source, const OpenOptions& options)
   RootAtHips(source.clip, source.character != nullptr, source.remarks);
   ASSIGN_OR_RETURN(
       auto map, FindJointMap(source.clip.skeleton, source.source, TaughtBy(options, source.roles), source.clip.frames));
-  // The ground of the whole file has priority over the ground that one clip shows.
+  // The common ground of the file's clips has priority over the ground of this one clip.
   if (source.ground) {
     if (!told.up) told.found_up = source.ground->found_up;
     told.floor = source.ground->floor;

@@ -14,20 +14,21 @@
 
 namespace etude {
 
-/// A clip as its file stores it.
+/// A clip as the clip's file stores it.
 struct SourceClip {
   /// The file's name without folder and extension, and the animation: "01_01", "Med_General#Dance"; or "builtin:clap".
   std::string name;
   std::string source;  ///< the reference that opens the clip again: "mocap/01_01.bvh", "path.glb#Dance", "builtin:clap"
   ClipFormat format = ClipFormat::kBvh;
   Clip clip;
-  /// The file's figure, if the file has meshes. The clip uses its skeleton, and all clips of the file share the figure.
+  /// The file's figure, if the file has meshes. The clip uses the figure's skeleton, and all clips of the file share
+  /// the figure.
   std::shared_ptr<const Character> character;
-  std::optional<Ground> ground = {};  ///< the ground shared by all clips of the file; only if the file holds several
-  std::optional<MadeBody> made = {};  ///< the body, if the clip is a body already: in metres, with Y up
+  std::optional<Ground> ground = {};  ///< common ground of the file's clips; empty if the file holds only one
+  std::optional<MadeBody> made = {};  ///< how the body was made, if the clip is a body already (metres, Y up)
   /// Repairs made while reading the file; UnderstandClip appends them to the body's note.
   std::vector<std::string> remarks = {};
-  std::optional<JointMapOverrides> roles = {};     ///< roles that the file assigns; those in OpenOptions have priority
+  std::optional<JointMapOverrides> roles = {};     ///< roles that the file assigns; OpenOptions::roles has priority
   std::shared_ptr<const MarkerMotion> shown = {};  ///< this clip's entry of ClipFile::shown; null if there is none
 };
 
@@ -36,7 +37,8 @@ struct SourceClip {
 /// write ("Jump" for "Armature|Jump"). If the animation does not exist, the error lists the animations of the file.
 /// `options` may override the frame rate, and helps to find the ground.
 Result<std::vector<SourceClip>> ReadClips(const std::string& reference, const OpenOptions& options = {});
-/// Reads the only clip that a reference names. Fails if the reference names several clips, and lists them.
+/// Reads the only clip that a reference names. Fails if the reference names several clips, and the error lists these
+/// clips.
 Result<SourceClip> ReadOneClip(const std::string& reference, const OpenOptions& options);
 
 /// A clip, the roles of its joints, and the motion of its body.
@@ -46,8 +48,8 @@ struct OpenedClip {
   BodyConversion body;
 };
 
-/// Finds the roles and the body motion of a clip. Built-in clips are bodies already: they are in metres and keep their
-/// position.
+/// Finds the roles and the body motion of a clip. Built-in clips are bodies already: they are already in metres, and
+/// their position is not changed.
 Result<OpenedClip> UnderstandClip(SourceClip source, const OpenOptions& options);
 
 }  // namespace etude

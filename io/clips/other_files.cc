@@ -10,7 +10,7 @@ namespace {
 constexpr std::size_t kAnywhere = std::string_view::npos;
 constexpr std::size_t kHeadBytes = 4096;
 
-/// The bytes that identify a kind of file, their position, and the text about such a file.
+/// The bytes that identify a kind of file, the position of these bytes in the file, and the text about such files.
 struct Mark {
   std::string_view bytes;
   const char* told;

@@ -39,14 +39,14 @@ glm::dquat RotationOf(const glm::dmat3& axes) {
   return glm::normalize(glm::quat_cast(glm::dmat3(unit(axes[0]), unit(axes[1]), unit(axes[2]))));
 }
 
-/// Converts a clip with a skeleton; `unit` is the length of its unit in metres.
+/// Converts a clip with a skeleton; `unit` is the length of the clip's unit in metres.
 RawMotion OfSkeleton(const Clip& clip, double unit, UpAxis up) {
   // The rotation that Upright applies: X stays, Z becomes Y.
   const glm::dquat turn =
       up == UpAxis::kY ? glm::dquat(1, 0, 0, 0) : glm::quat_cast(glm::dmat3(1, 0, 0, 0, 0, -1, 0, 1, 0));
   RawMotion raw;
   raw.rate_hz = clip.rate_hz;
-  // Copy the joints, their rest pose and the frames, in the world with Y up.
+  // Copy the joints, the rest pose and the frames, in the world with Y up.
   for (const Joint& joint : clip.skeleton.joints) {
     if (joint.is_end_site) raw.added.push_back(static_cast<int>(raw.joints.size()));
     raw.joints.push_back(joint.name);
@@ -71,13 +71,13 @@ RawMotion OfSkeleton(const Clip& clip, double unit, UpAxis up) {
 }
 
 /// Returns true if the joint that carries both hips is a pelvis by its name or its position, or if the user's roles
-/// make it the hip centre.
+/// make this joint the hip centre.
 bool CarriesAsPelvis(const RawMotion& raw, const JointMap& map, const JointMapOverrides* told) {
   if (told != nullptr && told->joints.contains(Role::kHipCentre)) return true;
   std::string name = raw.joints[map[Role::kHipCentre].joint];
   std::ranges::transform(name, name.begin(), [](char c) { return c >= 'A' && c <= 'Z' ? char(c - 'A' + 'a') : c; });
   if (name.ends_with("hips") || name.ends_with("pelvis")) return true;
-  constexpr double kMaxThighs = 0.4;  // in thighs; pelvises of 4 libraries: up to 0.33; OpenNI's torso: 0.44 to 0.50
+  constexpr double kMaxThighs = 0.4;  // in thigh lengths; pelvises of 4 libraries: ≤ 0.33; OpenNI's torso: 0.44–0.50
   const auto at_rest = [&](Role role) { return raw.rest_positions[map[role].joint]; };
   const glm::dvec3 left = at_rest(Role::kLeftHip), right = at_rest(Role::kRightHip);
   const double thighs = glm::distance(left, at_rest(Role::kLeftKnee)) + glm::distance(right, at_rest(Role::kRightKnee));
@@ -123,7 +123,8 @@ Result<RawMotion> RawMotionOf(SourceClip source, const OpenOptions& options, boo
   if (source.shown != nullptr) {
     raw = OfMarkers(*source.shown);
   } else {
-    // UnderstandClip finds roles, unit and up axis; its resampling and its floor are not used here.
+    // UnderstandClip finds roles, unit and up axis; the resampled motion and the floor that it computes are not used
+    // here.
     const bool is_body = source.format == ClipFormat::kBuiltin || source.made.has_value();
     const std::optional<double> start_s = source.made ? source.made->start_s : std::nullopt;
     OpenOptions how = options;
@@ -139,7 +140,7 @@ Result<RawMotion> RawMotionOf(SourceClip source, const OpenOptions& options, boo
     const JointMapOverrides* told = options.roles ? &*options.roles : nullptr;
     if (!is_body && !CarriesAsPelvis(raw, opened.map, told)) raw.roles[Index(Role::kHipCentre)] = -1;
     if (is_body && !keeps_rig) {
-      raw.rotations.clear();  // RigClip invented these rotations; the file has none
+      raw.rotations.clear();  // RigClip made up these rotations; the file has no rotations
       raw.rest_rotations.clear();
       raw.rest_positions.clear();
     } else {

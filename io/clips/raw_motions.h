@@ -15,7 +15,7 @@ namespace etude {
 /// or if it lies within 0.4 thigh lengths of the hips' middle at rest. Otherwise, as for an OpenNI torso, the hip
 /// centre is midway between the hips (AddMidwayHips). Contacts are read from an .npz that has them (ReadFootContacts).
 /// Fails if UnderstandClip fails, because without roles the unit and the up axis are unknown. With `keeps_rig`, bodies
-/// keep the rotations that RigClip invented.
+/// keep the rotations that RigClip made up.
 Result<RawMotion> RawMotionOf(SourceClip source, const OpenOptions& options, bool keeps_rig = false);
 
 /// Returns the digest of the bytes of the file that a reference names; for a built-in clip, the digest of its name.

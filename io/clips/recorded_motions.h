@@ -14,21 +14,21 @@ struct ClipFile;
 struct OpenOptions;
 
 /// Reads motions that runs recorded. Runs belong to layers above this folder, so the caller that opens clips passes an
-/// implementation (`OpenOptions::recorded`); `bench/run/recorded_motions.h` provides it.
+/// implementation (`OpenOptions::recorded`); `bench/run/recorded_motions.h` provides this implementation.
 class RecordedMotions {
  public:
   virtual ~RecordedMotions() = default;
 
-  /// Replaces "RUN#CELL@NAME" by the file of the cell's recording and the name of the track in it. An empty track name
-  /// stands for the motion of the recorded method (`OwnTrack`). Returns any other reference unchanged. Fails if the run
-  /// did not record this cell.
+  /// Replaces "RUN#CELL@NAME" by the file of the cell's recording and the name of the track in this file. An empty
+  /// track name stands for the motion of the recorded method (`OwnTrack`). Returns any other reference unchanged. Fails
+  /// if the run did not record this cell.
   virtual Result<SplitReference> Find(const SplitReference& wanted) const = 0;
 
   /// Returns true if a file's text begins like a recording.
   virtual bool IsRecording(std::string_view text) const = 0;
 
-  /// Reads the motions of a recording; each clip has its track's name. `path` is for complaints. A motion of other
-  /// joints than the twenty is read as markers, with `options`.
+  /// Reads the motions of a recording; each clip gets the name of its track. `path` is for complaints. A motion whose
+  /// joints are not the twenty roles is read as markers, with `options`.
   virtual Result<ClipFile> Read(const std::string& text, const std::string& path, const OpenOptions& options) const = 0;
 
   /// Returns the name of the track that the recorded method made.

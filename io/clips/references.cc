@@ -14,8 +14,8 @@
 namespace etude {
 namespace {
 
-/// Clips that a Debian package installs. References call them by name, so that no scenario and no result contains a
-/// path of one machine.
+/// Clips that a Debian package installs. References name these clips without their paths, so that no scenario and no
+/// result contains a path of one machine.
 struct PackagedClips {
   std::string_view prefix;   ///< the prefix of references to these clips
   std::string_view package;  ///< name of the Debian package
@@ -55,7 +55,7 @@ std::vector<std::string> BuiltinsOf(const std::string& reference) {
 
 std::vector<std::string> FilesOf(const std::string& reference) {
   std::error_code ignored;
-  if (std::filesystem::exists(reference, ignored)) return {reference};  // the name of an existing file is no pattern
+  if (std::filesystem::exists(reference, ignored)) return {reference};  // an existing file's name is no pattern
   if (const PackagedClips* package = FindPackage(reference)) {
     std::vector<std::string> files = FilesMatching(FileOf(reference));
     for (std::string& file : files) file = std::string(package->prefix) + std::filesystem::path(file).stem().string();
@@ -122,7 +122,8 @@ std::string FileOf(const std::string& reference) {
 SplitReference Split(const std::string& reference) {
   std::error_code ignored;
   if (std::filesystem::exists(reference, ignored)) return {reference, std::nullopt};
-  // Both a file's and an animation's name may hold a '#': try each as the separator until the part before it exists.
+  // The names of files and of animations may contain '#'. Try each '#' as the separator, until the part before it is an
+  // existing file.
   for (std::size_t hash = reference.rfind('#'); hash != std::string::npos && hash > 0;
        hash = reference.rfind('#', hash - 1)) {
     std::string path = reference.substr(0, hash);

@@ -19,21 +19,21 @@ struct BuiltinClip {
   std::optional<Move> move;  ///< the authored move with its key poses; absent for songs and acts
 };
 
-/// Loads a built-in clip by its name without the prefix. The error lists the known names.
+/// Loads a built-in clip by the clip's name without the prefix. The error lists the known names.
 Result<BuiltinClip> LoadBuiltinClip(const std::string& name, const Place& place);
 
 /// The maximum number of clips that a reference may stand for.
 constexpr std::size_t kMaxClips = 1000;
-/// The same maximum where clips are read one by one: 278 hours in clips of ten seconds. It only guards against patterns
-/// that match a whole disk.
+/// The maximum for a reference whose clips are read one by one: 278 hours in clips of ten seconds. This limit only
+/// guards against patterns that match a whole disk.
 constexpr std::size_t kMaxLibraryClips = 100'000;
 
-/// Lists the clips that a reference stands for, in order; each can be opened on its own. A reference is a built-in clip
-/// ("builtin:clap"; "builtin:*" stands for all moves, "builtin:acts" for all acts, "builtin:songs" for all songs), a
-/// clip of a package ("assimp:01_01", "assimp:*"; of Debian's assimp-testmodels), or a file or pattern ("mocap/*.bvh",
-/// sorted; `~/` is the home folder), optionally with "#animation". If a file of exactly that name exists, patterns and
-/// '#' are not interpreted. Relative names start at the current folder. Fails at `place` if nothing matches, or if more
-/// than `most` clips match.
+/// Lists the clips that a reference stands for, in order. Each entry of the list is a reference to one clip. A
+/// reference is a built-in clip ("builtin:clap"; "builtin:*" stands for all moves, "builtin:acts" for all acts,
+/// "builtin:songs" for all songs), a clip of a package ("assimp:01_01", "assimp:*"; of Debian's assimp-testmodels), or
+/// a file or pattern ("mocap/*.bvh", sorted; `~/` is the home folder), optionally with "#animation". If a file of
+/// exactly that name exists, patterns and '#' are not interpreted. Relative names start at the current folder. Fails at
+/// `place` if nothing matches, or if more than `most` clips match.
 Result<std::vector<std::string>> ExpandReference(const std::string& reference, const Place& place,
                                                  std::size_t most = kMaxClips);
 
@@ -41,7 +41,7 @@ Result<std::vector<std::string>> ExpandReference(const std::string& reference, c
 Result<std::vector<std::string>> ExpandReferences(const std::vector<std::string>& references,
                                                   std::size_t most = kMaxClips);
 
-/// A reference such as "dance.glb#Jump", split into the file and its animation. If a file exists whose whole name is
+/// A reference such as "dance.glb#Jump", split into the file and the animation. If a file exists whose whole name is
 /// the reference, the reference is not split.
 struct SplitReference {
   std::string path;

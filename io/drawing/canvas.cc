@@ -31,7 +31,7 @@ void OutlineBox(cairo_t* cr, const Box& box, double radius) {
   cairo_close_path(cr);
 }
 
-// Scales and shifts user space so that an image of this size covers the box.
+// Scales and shifts the coordinates so that an image of this size covers the box.
 void StretchOver(cairo_t* cr, const Box& box, int width, int height) {
   cairo_translate(cr, box.x, box.y);
   cairo_scale(cr, box.width / width, box.height / height);
@@ -48,7 +48,7 @@ cairo_status_t AppendBytes(void* out, const unsigned char* data, unsigned length
   return CAIRO_STATUS_SUCCESS;
 }
 
-// Computes the share of each pixel that a rounded upper left corner covers.
+// Computes, for each pixel of a rounded upper left corner, the share of the pixel that lies inside.
 Image<double> CornerCover(int radius) {
   Image<double> cover(radius, radius);
   if (radius == 0) return cover;
@@ -75,7 +75,7 @@ std::uint32_t Between(std::uint32_t under, std::uint32_t over, double share) {
   return pixel;
 }
 
-// Removes the last character: in UTF-8 its continuation bytes and the leading byte.
+// Removes the last character, which in UTF-8 is a leading byte with its continuation bytes.
 void DropLastCharacter(std::string& text) {
   while (!text.empty() && (static_cast<unsigned char>(text.back()) & 0xC0) == 0x80) text.pop_back();
   if (!text.empty()) text.pop_back();

@@ -20,8 +20,8 @@ struct Box {
   double x = 0, y = 0, width = 0, height = 0;
 };
 
-/// A drawing surface of fixed size, opaque black at first. Coordinates are pixels from the top left corner. This class
-/// is the one door to cairo.
+/// A drawing surface of fixed size, opaque black at first. Coordinates are pixels from the top left corner. Only this
+/// class uses cairo.
 class Canvas {
  public:
   Canvas(int width, int height);
@@ -33,7 +33,7 @@ class Canvas {
   int height() const;
 
   void FillBox(const Box& box, const Paint& paint, double radius = 0);
-  /// Fills a box with a gradient from `top` at its upper edge to `bottom` at its lower edge.
+  /// Fills a box with a gradient from `top` at the box's upper edge to `bottom` at the lower edge.
   void FillShade(const Box& box, const Paint& top, const Paint& bottom);
   void DrawImage(const ColourImage& image, const Box& box, double radius = 0);
   /// Copies a picture of pixels 0x00RRGGBB to (`left`, `top`) without scaling, with rounded corners. The picture must
@@ -46,8 +46,8 @@ class Canvas {
   void DrawPath(std::span<const glm::dvec2> points, double width, const Paint& paint);
   void DrawDot(const glm::dvec2& centre, double radius, const Paint& paint);
   void DrawRing(const glm::dvec2& centre, double radius, double width, const Paint& paint);
-  /// Draws text; `origin` is the left end of its baseline. Text wider than `room` pixels is drawn smaller, by a quarter
-  /// at most; if it is still too wide, it is cut and ends in "…".
+  /// Draws text; `origin` is the left end of the text's baseline. Text wider than `room` pixels is drawn smaller, by a
+  /// quarter at most; if it is still too wide, it is cut and ends in "…".
   void DrawText(const glm::dvec2& origin, const std::string& text, double size, const Paint& paint, double room,
                 bool bold = false);
   double TextWidth(const std::string& text, double size, bool bold = false) const;

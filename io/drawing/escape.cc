@@ -16,7 +16,7 @@ namespace {
 
 constexpr std::string_view kReplacement = "\xEF\xBF\xBD";
 
-// Returns the character at the start of `text`; its length is 0 if XML 1.0 forbids it.
+// Returns the character at the start of `text`; the result's length is 0 if XML 1.0 forbids the character.
 Utf8Character AllowedCharacter(std::string_view text) {
   const Utf8Character character = FirstCharacter(text);
   const bool is_control =
@@ -67,7 +67,8 @@ bool IsInEveryFont(char32_t code) {
   return code >= 0xC0 && code <= 0xFF && !needs_other_fonts;
 }
 
-// Returns true for Unicode's embeddings, overrides and isolates: they are invisible and reverse the text behind them.
+// Returns true for Unicode's embeddings, overrides and isolates: these characters are invisible and reverse the text
+// after them.
 bool TurnsText(char32_t code) { return (code >= 0x202A && code <= 0x202E) || (code >= 0x2066 && code <= 0x2069); }
 
 std::string LatexOf(std::string_view bytes, char32_t code) {
@@ -131,7 +132,7 @@ std::string EscapeScriptJson(std::string_view json) {
     }
     length = std::max<std::size_t>(length, 1);
     if (code == '<' && length == 1) {
-      out += "\\u003c";  // in JSON "<" stands only inside strings, where \u003c means the same
+      out += "\\u003c";  // in JSON "<" occurs only inside strings, where \u003c has the same meaning
     } else if (TurnsText(code)) {
       out += NumberOf(code);
     } else {
@@ -166,11 +167,11 @@ std::string EscapeLatex(std::string_view text) {
   std::string out;
   while (!text.empty()) {
     const auto [code, length] = AllowedCharacter(text);
-    if (text[0] == '-' && out.ends_with('-')) out += "{}";  // two hyphens would become a dash
+    if (text[0] == '-' && out.ends_with('-')) out += "{}";  // LaTeX would make a dash of two hyphens
     out += length == 0 ? NumberOf(0xFFFD) : LatexOf(text.substr(0, length), code);
     text.remove_prefix(length == 0 ? 1 : length);
   }
-  // In the first column of a table, LaTeX would read '[' or '*' as an option of the line break before it.
+  // In the first column of a table, LaTeX would read '[' or '*' as an option of the preceding line break.
   const std::size_t first = out.find_first_not_of(' ');
   const bool is_option = first != std::string::npos && (out[first] == '[' || out[first] == '*');
   return is_option ? "{}" + out : out;

@@ -19,8 +19,8 @@
 namespace etude {
 namespace {
 
-// The number of consecutive frames that one process draws. Frames that share a picture should be drawn by one process,
-// and all processes should end at about the same time.
+// The number of consecutive frames that one process draws. A larger number lets one process draw the frames that share
+// a picture; a smaller number lets all processes end at about the same time.
 constexpr int kChunk = 8;
 
 bool SendByte(int socket) { return SendAll(socket, "."); }
@@ -126,7 +126,7 @@ Result<std::span<const std::uint8_t>> FilmWorkers::Next() {
 
 namespace {
 
-/// A click track; its file exists while the film is encoded.
+/// The file of a click track. The file exists only while the film is encoded.
 class SoundFile {
  public:
   static Result<SoundFile> Make(const Scene& scene) {

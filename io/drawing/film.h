@@ -18,20 +18,21 @@
 
 namespace etude {
 
-/// Supplies data that frames need and only this process can produce: the pictures of a film that is read, or the
-/// positions of a moving crowd.
+/// Supplies the data that the frames need and that only this process can produce: the pictures of a film that is read,
+/// or the positions of a moving crowd.
 struct FrameFeed {
   std::size_t bytes = 0;  ///< bytes of every frame; 0 = frames need no data
-  /// Fills in the data of a frame. FilmWorkers calls it once for each frame, in order, before the frame is drawn.
+  /// Fills in the data of a frame. FilmWorkers calls this function once for each frame, in order, before the frame is
+  /// drawn.
   std::function<Result<void>(int frame, std::span<std::uint8_t> into)> fill = {};
 };
 
 /// Draws the frames of a film in several processes, which start as copies of this process, and returns them in order.
-/// Each process draws chunks of consecutive frames. Drawing a frame may cache data for the next frame, but no picture
-/// may depend on the cache; then the film is the same for any number of processes.
+/// Each process draws chunks of consecutive frames. The function that draws a frame may cache data for the next frame,
+/// but no picture may depend on the cache. Then the film is the same for any number of processes.
 class FilmWorkers {
  public:
-  /// Draws a frame, 0 … `frames` − 1, from its data; all canvases have one size with even sides.
+  /// Draws the frame with number 0 … `frames` − 1 from the frame's data; all canvases have one size with even sides.
   using Draw = std::function<Canvas(int frame, std::span<const std::uint8_t> fed)>;
 
   /// Draws the first frame in this process, so that all processes get the data that the first frame computes. Then
@@ -43,16 +44,16 @@ class FilmWorkers {
 
   int width() const { return width_; }
   int height() const { return height_; }
-  /// Returns the next frame (Canvas::ToI420), valid until the next call, and supplies data for later frames. Fails if a
-  /// process has died, and if the feed fails.
+  /// Returns the next frame (Canvas::ToI420), valid until the next call, and feeds the data of later frames to the
+  /// processes. Fails if a process has died, and if the feed fails.
   Result<std::span<const std::uint8_t>> Next();
 
  private:
   struct Worker {
     /// The socket carries single bytes. The drawing process sends a byte for "drawn"; this process sends a byte for
-    /// "data is there", or without a feed for "a slot is free".
+    /// "the next frame's data have arrived", or, without a feed, for "a slot is free".
     std::optional<ForkedCopy> copy;
-    int fed = 0, taken = 0;  ///< number of this process's frames that have their data; number that were returned
+    int fed = 0, taken = 0;  ///< number of this process's frames that got their data, and number that Next returned
   };
   struct Unmap {
     std::size_t bytes;
@@ -76,7 +77,7 @@ class FilmWorkers {
 
   int frames_, width_, height_;
   FrameFeed feed_;
-  int chunk_, slots_;  ///< frames per chunk; number of frames that a process may be ahead
+  int chunk_, slots_;  ///< frames per chunk; maximum number of frames by which a process may be ahead
   int next_ = 0, fed_ = 0;
   std::vector<Worker> workers_;
   std::unique_ptr<std::uint8_t, Unmap> memory_{nullptr, Unmap{0}};  ///< `slots_` slots for each process
@@ -85,7 +86,7 @@ class FilmWorkers {
 constexpr int kFilmWidth = 1280, kFilmHeight = 720;
 constexpr int kFilmRate = 30;
 
-/// Lets a caller observe the progress of a film, and stop it.
+/// Lets a caller observe the progress of a film, and stop the film.
 struct FilmWatch {
   std::function<void(const std::string& file, std::size_t done, std::size_t frames)> progress = {};
   const std::atomic<bool>* stop = nullptr;
@@ -97,7 +98,7 @@ struct FilmWatch {
   bool IsStopped() const { return stop != nullptr && *stop; }
 };
 
-/// A picture with a caption that says what it shows.
+/// A picture, and a caption that says what the picture shows.
 struct Picture {
   std::string png;  ///< bytes of a PNG file
   int width = 0;
@@ -111,12 +112,12 @@ struct Still {
   std::string caption;
 };
 
-/// A film as the page shows it.
+/// A film, with everything that the page shows about it.
 struct Film {
   std::string file;     ///< file name in the run's folder `video`
   std::string mp4;      ///< bytes of the file; empty if there is none
-  std::string why_not;  ///< the reason, in plain words, if the film or its poster could not be made
-  Picture poster;       ///< the poster, with the caption of the film; its PNG is empty if no picture could be drawn
+  std::string why_not;  ///< the reason, in plain words, why the film or its poster could not be made
+  Picture poster;       ///< the poster, with the film's caption; `poster.png` is empty if it could not be drawn
 };
 
 /// The content of a film, drawn frame by frame.
@@ -137,7 +138,7 @@ class Scene {
 };
 
 /// Draws frames with FilmWorkers and encodes them into `path`, with a sound file unless `sound` is empty. Returns
-/// false, and leaves no file, if `watch` stopped it.
+/// false, and leaves no file, if `watch` stopped the film.
 Result<bool> EncodeFrames(const FilePath& path, int frames, int rate_hz, const std::function<Canvas(int frame)>& draw,
                           const FilmWatch& watch, const std::filesystem::path& sound = {});
 /// Works like EncodeFrames without sound, for frames that are drawn from the data of `feed`.
@@ -149,8 +150,8 @@ Canvas BeginFrame(const std::string& heading);
 
 Picture PictureOf(const Canvas& canvas, std::string caption);
 
-/// Draws the poster and encodes all frames into `path`. Without an encoder, or if `watch` stops it, the result holds
-/// only the poster and the reason.
+/// Draws the poster and encodes all frames into `path`. Without an encoder, or if `watch` stops the film, the result
+/// holds only the poster and the reason.
 Film Shoot(Scene& scene, const FilePath& path, const FilmWatch& watch = {});
 
 }  // namespace etude

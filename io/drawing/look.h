@@ -15,7 +15,8 @@ inline constexpr Paint kAccent{0.42, 0.76, 0.80, 1};
 inline constexpr Paint kWarm{0.96, 0.68, 0.33, 1};
 inline constexpr int kPanelRadius = 10;
 
-/// Returns the colour of a method, the same as on the page, by its index in the scenario (io/drawing/marks.h).
+/// Returns the colour of the method with this index in the scenario; the page uses the same colour
+/// (io/drawing/marks.h).
 Paint MethodPaint(std::size_t method);
 
 /// Draws a small label in the upper left corner that says what the panel shows. `free` pixels to the right of the label
@@ -28,8 +29,8 @@ void DrawMark(Canvas& canvas, const Box& panel, const std::string& text);
 /// Breaks words into lines no wider than `room`; a single word may be wider.
 std::vector<std::string> LinesOf(const Canvas& canvas, const std::string& words, double size, double room, bool bold);
 
-/// Draws text in the lower left corner over a soft shade, in as many lines as it needs. `strong` may be empty. `lift`
-/// raises the text from the lower edge, pixels.
+/// Draws text in the lower left corner over a soft shade, in as many lines as the text needs. `strong` may be empty.
+/// `lift` raises the text from the lower edge, pixels.
 void DrawCaption(Canvas& canvas, const Box& panel, const std::string& strong, const std::string& soft, double lift = 0);
 
 }  // namespace etude

@@ -79,7 +79,8 @@ std::vector<double> SwarmOffsets(const std::vector<double>& positions, double ma
   for (std::size_t i = 0; i < positions.size(); ++i) bins[std::lround(positions[i] / kMarkSize)].push_back(i);
   std::vector<double> offsets(positions.size(), 0);
   for (const auto& [bin, members] : bins) {
-    // The first mark stays in the middle, the others alternate between the sides; crowded bins use smaller steps.
+    // The first mark of a bin stays in the middle, and the other marks go alternately to either side; the step is
+    // smaller in a crowded bin.
     const double sides = std::max<double>(1, static_cast<double>(members.size() / 2));
     const double step = std::min(kMarkSize, max_offset / sides);
     for (std::size_t k = 0; k < members.size(); ++k) {

@@ -8,13 +8,13 @@
 
 namespace etude {
 
-/// A colour for light pages and one for dark pages, "#rrggbb". Films are dark.
+/// A colour for light pages and a colour for dark pages, "#rrggbb". Films are dark.
 struct PlotColour {
   std::string_view light, dark;
 };
 
-/// The colours of methods by their index in the scenario; they repeat after eight. They can be told apart with
-/// protanopia, deuteranopia and tritanopia, and they differ from both backgrounds (marks_test.cc).
+/// The colours of methods by the methods' index in the scenario; the colours repeat after eight methods. They can be
+/// told apart with protanopia, deuteranopia and tritanopia, and they differ from both backgrounds (marks_test.cc).
 inline constexpr std::array<PlotColour, 8> kPlotColours = {{{"#41464b", "#969ca1"},
                                                             {"#1ea194", "#9ff5d4"},
                                                             {"#9c5201", "#f97341"},
@@ -24,10 +24,10 @@ inline constexpr std::array<PlotColour, 8> kPlotColours = {{{"#41464b", "#969ca1
                                                             {"#470014", "#b35e52"},
                                                             {"#02175b", "#a8c4d6"}}};
 
-/// Returns the CSS variables --m0 … --m7 for both colour schemes.
+/// Returns the CSS variables --m0 … --m7 for the light and the dark colour scheme.
 std::string MarksCss();
 
-/// Returns the SVG shapes that MarkUse refers to; a page needs them once.
+/// Returns the SVG shapes that MarkUse refers to; a page must contain these shapes once.
 std::string MarkDefsSvg();
 
 /// Draws a mark at (`x`, `y`) as an SVG element: the shape of method `shape` in the colour of method `colour`. `rest`
@@ -52,7 +52,7 @@ std::string MarkKeySvg(std::size_t shape, std::size_t colour);
 /// same offsets.
 std::vector<double> SwarmOffsets(const std::vector<double>& positions, double max_offset);
 
-/// Returns the stride at which `count` marks are drawn, so that at most `max_shown` are drawn.
+/// Returns the stride at which `count` marks are drawn, so that at most `max_shown` marks are drawn.
 std::size_t StrideFor(std::size_t count, std::size_t max_shown);
 
 }  // namespace etude

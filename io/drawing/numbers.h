@@ -18,7 +18,7 @@ std::string ExactText(std::optional<double> value);
 std::string FormatFixed(double value, int decimals);
 /// Writes a count: "1,284".
 std::string FormatCount(long long count);
-/// Writes a share: "98 %". It is not rounded up to 100 % or down to 0 % unless the share is exactly 1 or 0.
+/// Writes a share: "98 %". "100 %" and "0 %" are written only if the share is exactly 1 or 0.
 std::string FormatShare(long long part, long long whole);
 /// Returns the number of digits behind the point that shows about three significant digits of `value`.
 int DecimalsFor(double value);
@@ -28,7 +28,7 @@ std::string FormatP(std::optional<double> p);
 std::string Plural(long long count, std::string_view singular);
 
 /// The maximum number of list entries and table rows that a page shows, because browsers cannot scroll a page with
-/// hundreds of methods and conditions. The files beside the page hold all of them.
+/// hundreds of methods and conditions. The files beside the page hold all entries and rows.
 constexpr std::size_t kMaxListed = 40;
 constexpr std::size_t kMaxTableRows = 400;
 

@@ -11,7 +11,7 @@ namespace etude {
 namespace {
 
 constexpr double kLogarithmicFrom = 100;
-constexpr double kAxisMargin = 0.04;  // share of the range added at each end, so that no mark there is cut in half
+constexpr double kAxisMargin = 0.04;  // share of the range that is added at each end, so that no mark at an end is cut
 constexpr double kMaxTicks = 6;
 
 double RoundStep(double range) {
@@ -23,7 +23,7 @@ double RoundStep(double range) {
 }
 
 Axis WithMargin(double low, double high) {
-  // A single value needs an axis of some width.
+  // For a single value, make the axis wider than zero.
   const double width = high > low ? high - low : std::max(std::abs(high), 1.0);
   return {.low = low - kAxisMargin * width, .high = high + kAxisMargin * width};
 }
@@ -82,7 +82,7 @@ Axis DecadeAxis(const std::vector<double>& values) {
   }
   int first = 0, last = 1;
   if (high > 0) {
-    // A single value needs an axis of one decade.
+    // For a single value, make the axis one decade long.
     first = static_cast<int>(std::floor(std::log10(low)));
     last = std::max(static_cast<int>(std::ceil(std::log10(high))), first + 1);
     first = std::max(first, last - kMaxDecades);

@@ -6,7 +6,8 @@
 
 namespace etude {
 
-/// A numeric axis of an SVG panel. It maps values to positions in the panel's units. Every picture of the page uses it.
+/// A numeric axis of an SVG panel. It maps values to positions in the panel's units. Every picture of the page uses
+/// such axes.
 struct Axis {
   double low = 0, high = 1;
   bool is_logarithmic = false;
@@ -21,14 +22,14 @@ struct Axis {
 };
 
 /// Makes an axis that holds all values. It is logarithmic if `floor` is above 0 and the values span more than two
-/// decades; values below `floor` are then drawn at its lower end. Without values, the axis is 0…1.
+/// decades; values below `floor` are then drawn at the axis's lower end. Without values, the axis is 0…1.
 Axis AxisOf(const std::vector<double>& values, double floor);
 
 /// Makes a linear axis that holds all values and zero.
 Axis AxisAroundZero(const std::vector<double>& values);
 
-/// Makes a logarithmic axis of one to eight whole decades. It ends above the largest value. It begins below the
-/// smallest value, or eight decades below its end. Without a value above zero, the axis is 1…10.
+/// Makes a logarithmic axis of one to eight whole decades. The axis ends above the largest value. It begins below the
+/// smallest value, or eight decades below its own end if that is higher. Without a value above zero, the axis is 1…10.
 Axis DecadeAxis(const std::vector<double>& values);
 
 /// Returns the label of a number on a linear axis: "0.01", "12", "−3", "1e-05".
@@ -37,16 +38,16 @@ std::string TickText(double value);
 /// Returns the label of a power of ten: "0.01", "100k", "1M", "1e-3".
 std::string DecadeText(int decade);
 
-/// A panel is as wide as a telephone's screen, so that its text stays readable there.
+/// A panel is as wide as a telephone's screen, so that the panel's text is readable on a telephone.
 inline constexpr double kPanelWidth = 340;
 inline constexpr double kPanelLeft = 48, kPanelRight = 330;  ///< the left and right limits of the drawing area
 
-/// Opens a panel of this height; `words` describe it to screen readers. `style` is its class on the page: "plot", or
-/// "panel" for the smaller panels of paper pages.
+/// Opens a panel of this height; `words` describe the panel to screen readers. `style` is the panel's CSS class:
+/// "plot", or "panel" for the smaller panels of paper pages.
 std::string BeginPanel(double height, std::string_view words, double width = kPanelWidth,
                        std::string_view style = "plot");
 
-/// Draws the grid lines and labels of a vertical axis; lines go from `left` to `right`, labels stand left of them.
+/// Draws the grid lines and labels of a vertical axis; lines go from `left` to `right`, labels stand left of the lines.
 std::string VerticalAxisGrid(const Axis& axis, double left = kPanelLeft, double right = kPanelRight);
 /// Draws the grid lines and labels of a horizontal axis; lines go from `top` to `bottom`, labels stand below.
 std::string HorizontalAxisGrid(const Axis& axis, double top, double bottom);

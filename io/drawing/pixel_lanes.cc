@@ -30,7 +30,7 @@ std::vector<Shrinker::Cover> Shrinker::CoversOf(int large, int small) {
   for (int i = 0; i < small; ++i) {
     Cover& cover = covers[static_cast<std::size_t>(i)];
     const double begin = i * scale, end = begin + scale;
-    // Keep all taps within the picture, including taps of weight zero.
+    // Keep all taps (the large pixels that are read for one small pixel) within the picture, even taps of weight zero.
     cover.first = std::clamp(static_cast<int>(begin + 1e-9), 0, std::max(0, large - kTaps));
     int sum = 0, widest = 0;
     for (int k = 0; k < std::min(kTaps, large); ++k) {
@@ -51,7 +51,7 @@ Shrinker::Shrinker(int large_width, int large_height, int small_width, int small
 
 void Shrinker::Shrink(const Image<std::uint32_t>& large, const PixelRect& rect, Image<std::uint32_t>& small) const {
   if (rect.IsEmpty()) return;
-  // Find the small pixels that the rectangle touches, and the large columns that they cover.
+  // Find the small pixels that the rectangle touches, and the columns of large pixels that these small pixels cover.
   const auto from = [](const std::vector<Cover>& covers, int at, int size) {
     return static_cast<int>(static_cast<std::int64_t>(at) * static_cast<int>(covers.size()) / size);
   };
@@ -63,7 +63,7 @@ void Shrinker::Shrink(const Image<std::uint32_t>& large, const PixelRect& rect, 
   const int first = columns_[static_cast<std::size_t>(left)].first;
   const int last = std::min(columns_[static_cast<std::size_t>(right) - 1].first + kTaps, large.width);
   std::vector<std::uint16_t> sums(4 * static_cast<std::size_t>(last - first + kTaps));
-  // For each small row, first sum the large rows, then the columns of that sum.
+  // For each small row, first compute the weighted sum of its large rows, then the weighted sums of that sum's columns.
   for (int y = top; y < bottom; ++y) {
     const Cover& rows = rows_[static_cast<std::size_t>(y)];
     const int bytes = 4 * (last - first);
@@ -73,7 +73,7 @@ void Shrinker::Shrink(const Image<std::uint32_t>& large, const PixelRect& rect, 
     };
     const std::uint8_t *a = row(0), *b = row(1), *c = row(2), *d = row(3);
     const std::uint16_t p = rows.weights[0], q = rows.weights[1], s = rows.weights[2], t = rows.weights[3];
-    // Sum the rows; two taps are enough if the others have weight 0.
+    // Sum the rows; two taps are enough if all others have weight 0.
     std::uint16_t* sum = sums.data();
     if (s == 0 && t == 0) {
       for (int i = 0; i < bytes; ++i) sum[i] = static_cast<std::uint16_t>(a[i] * p + b[i] * q);

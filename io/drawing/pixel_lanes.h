@@ -8,12 +8,13 @@
 
 namespace etude {
 
-// Operations on every pixel of a film, written as loops that compile to vector instructions. Pixels are 0x00RRGGBB.
+// Operations on all pixels of a picture, written as loops that compilers turn into vector instructions. Pixels are
+// 0x00RRGGBB.
 
-/// Shrinks pictures; each small pixel is the mean of the large pixels that it covers.
+/// Shrinks pictures; each pixel of the small picture is the mean of the large picture's pixels that it covers.
 class Shrinker {
  public:
-  /// Makes a shrinker from pictures of the large size to the small size; at most three times smaller.
+  /// Makes a shrinker for pictures of the large size. The small size may be at most three times smaller.
   Shrinker(int large_width, int large_height, int small_width, int small_height);
 
   /// Computes only the small pixels that the rectangle `rect` of the large picture touches.

@@ -42,8 +42,8 @@ std::uint32_t ToPixel(const glm::vec3& paint) {
   return ToLevel(paint.r) << 16 | ToLevel(paint.g) << 8 | ToLevel(paint.b);
 }
 
-/// Returns a pixel of the floor: `line` is the share of grid colour, `light` scales the brightness, `fade` mixes with
-/// the backdrop.
+/// Returns a pixel of the floor: `line` is the share of the grid's colour, `light` is a factor on the brightness, and
+/// `fade` is the share of floor against backdrop.
 std::uint32_t FloorPixel(float line, float light, float fade) {
   const auto level = [&](int i) {
     const float paint = (kFloorPaint[i] + (kGridPaint[i] - kFloorPaint[i]) * line) * light;
@@ -182,12 +182,12 @@ void Studio::Compose(const PixelRect& rect, const Mask* ghost) {
 void Studio::Draw(Canvas& canvas, const Box& box, Renderer& renderer, const Figure& placed, const FloorMove& placement,
                   const Mask* ghost) {
   assert(box.width == small_.width && box.height == small_.height);
-  // Redraw what the old and the new figure cover.
+  // Redraw the pixels that the old figure or the new figure covers.
   PixelRect changed = figures_.drawn;
   renderer.DrawFigures({placed}, camera_, figures_);
   changed = Union(changed, figures_.drawn);
   const bool is_first = !painted_;
-  // If the placement has changed, the whole visible floor must be painted again.
+  // If the figure's placement on the floor has changed, the whole visible floor must be painted again.
   if (is_first || painted_->yaw != placement.yaw || painted_->x != placement.x || painted_->z != placement.z) {
     PaintFloor(placement);
     painted_ = placement;

@@ -25,16 +25,16 @@ struct ViewBounds {
 /// move; bodies are moved to the origin instead (FloorMove), and the grid moves under a walker.
 class Studio {
  public:
-  /// Widens `bounds` so that it contains a figure that FloorMove has moved.
+  /// Widens `bounds` so that the view contains a figure that FloorMove has moved.
   static void Include(const Figure& placed, ViewBounds& bounds);
 
   /// Makes a studio for pictures of this size that show `bounds` as large as possible. Pictures are drawn `detail`
-  /// times larger and then shrunk: 2 smooths the edges, smaller values are faster.
+  /// times larger and then shrunk: A `detail` of 2 smooths the edges; smaller values are faster.
   Studio(int width, int height, double detail, const ViewBounds& bounds);
 
   /// Draws a figure that `placement` has moved; the grid moves with it. `ghost` is the Silhouette of another figure,
-  /// which stands behind and shows through (null = none). The box has the studio's size and begins at a whole pixel.
-  /// Parts that have not changed since the last picture are not drawn again.
+  /// which is drawn behind the first figure and shows through it (null = no ghost). The box has the studio's size and
+  /// begins at a whole pixel. Parts that have not changed since the last picture are not drawn again.
   void Draw(Canvas& canvas, const Box& box, Renderer& renderer, const Figure& placed, const FloorMove& placement,
             const Mask* ghost = nullptr);
   /// Returns the pixels that a moved figure covers, at the studio's internal resolution (`detail`).
@@ -43,12 +43,13 @@ class Studio {
   glm::dvec2 PixelOf(const Box& box, const glm::dvec3& point) const;
 
  private:
-  /// The points at which the rays of the pixels hit the floor; one number per pixel.
+  /// For each pixel, the point at which the pixel's ray hits the floor, and further numbers; each vector has one number
+  /// per pixel.
   struct Floor {
     std::vector<float> x, z;       ///< metres
-    std::vector<float> fade;       ///< visibility of the floor there, 0…1; 0 shows only the backdrop
-    std::vector<float> footprint;  ///< metres of floor that one pixel covers
-    PixelRect seen{};              ///< outside this rectangle only the backdrop is seen
+    std::vector<float> fade;       ///< visibility of the floor at this point, 0…1; 0 shows only the backdrop
+    std::vector<float> footprint;  ///< width of one pixel on the floor, metres
+    PixelRect seen{};              ///< rectangle outside which only the backdrop is visible
   };
 
   void PaintFloor(const FloorMove& placement);
@@ -60,16 +61,16 @@ class Studio {
   Image<std::uint32_t> lit_, shaded_;   ///< the empty studio in light and in shadow
   Overlay figures_;                     ///< the figures of the last picture
   bool has_ghost_ = false;              ///< true if the last picture showed a ghost
-  Image<std::uint32_t> large_, small_;  ///< the last picture, enlarged and shrunk
+  Image<std::uint32_t> large_, small_;  ///< the last picture, before and after shrinking
   Shrinker shrinker_;
 };
 
-/// Turns a figure about the vertical axis and moves it on the floor.
+/// Turns a figure about the vertical axis and moves the figure on the floor.
 Figure Placed(Figure figure, const FloorMove& move);
 
 /// Computes the path that the camera follows, one point per frame: the hip centre, averaged over `smoothing` frames to
-/// either side. If the whole motion stays within 45 cm of its middle, the camera stands still. Needs at least one
-/// frame.
+/// either side. If the whole motion stays within 45 cm of the motion's middle, the camera stands still. Needs at least
+/// one frame.
 std::vector<glm::dvec3> CameraPath(const BodyMotion& motion, int smoothing);
 
 }  // namespace etude

@@ -136,7 +136,7 @@ std::string TableLatex(const Table& table) {
   if (!over.empty()) text += fmt::format("{} \\\\\n{}\n", over, rules);
   text += heads + " \\\\\n";
   if (table.rows.empty() || table.rows.front().group.empty()) text += "\\midrule\n";
-  // Write the rows; each group begins with a rule and its name.
+  // Write the rows; each group begins with a rule and the group's name.
   for (const TableRow& row : table.rows) {
     if (!row.mark.empty()) continue;
     if (!row.group.empty()) {

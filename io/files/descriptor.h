@@ -6,7 +6,7 @@
 
 namespace etude {
 
-/// Owns a file descriptor and closes it in the destructor. −1 = none.
+/// Owns a file descriptor, which the destructor closes. −1 = no descriptor.
 class Descriptor {
  public:
   explicit Descriptor(int number = -1) : number_(number) {}

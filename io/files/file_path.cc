@@ -14,14 +14,15 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr mode_t kFolderMode = 0777;  // permissions before the umask is applied
+constexpr mode_t kFolderMode = 0777;  // permissions of a new folder, before the umask is applied
 
 bool IsLink(int folder, const std::string& name) {
   struct stat status {};
   return ::fstatat(folder, name.c_str(), &status, AT_SYMLINK_NOFOLLOW) == 0 && S_ISLNK(status.st_mode);
 }
 
-/// Opens the folder `name` in `folder`, but never through a link; returns −1 if it cannot be opened.
+/// Opens the folder `name` in `folder`, but never through a link. With `makes`, creates a missing folder. Returns −1 if
+/// the folder cannot be opened.
 int OpenNext(int folder, const std::string& name, bool makes) {
   constexpr int kFlags = O_PATH | O_DIRECTORY | O_NOFOLLOW | O_CLOEXEC;
   const int next = ::openat(folder, name.c_str(), kFlags);

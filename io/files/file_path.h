@@ -14,9 +14,9 @@
 
 namespace etude {
 
-/// The path of a file or folder. There are two kinds. In a path that the user gave, symbolic links are followed. A file
-/// in a folder that somebody else may have filled (a run, a shard, answers) has the path `Inside(folder) / "name"`: no
-/// link below that folder is followed, and no name may lead out of the folder.
+/// The path of a file or folder. There are two kinds. In a path that the user gave, symbolic links are followed. But a
+/// file in a folder that somebody else may have filled (a run, a shard, answers) has the path `Inside(folder) /
+/// "name"`: no link below that folder is followed, and no name may lead out of the folder.
 class FilePath {
  public:
   /// A path that the user gave.
@@ -32,7 +32,7 @@ class FilePath {
   bool is_inside() const { return is_inside_; }
   /// Returns the folder of an `Inside` path, as the user gave it; for other paths the whole path.
   const std::filesystem::path& given() const { return given_; }
-  /// Returns the part of an `Inside` path below its folder; "" for other paths.
+  /// Returns the part of an `Inside` path below the path's folder; "" for other paths.
   const std::filesystem::path& below() const { return below_; }
 
  private:
@@ -45,15 +45,16 @@ class FilePath {
 /// Marks a folder that the user gave and somebody else may have filled. The folder itself may be a link.
 FilePath Inside(const std::filesystem::path& folder);
 
-/// An open folder and a file name in it: the arguments of the system calls that end in "at" (openat, renameat).
+/// An open folder and the name of a file in this folder: the arguments of the system calls that end in "at" (openat,
+/// renameat).
 class FileSpot {
  public:
   /// Opens the folders of an `Inside` path one by one; `makes_folders` creates missing folders. Fails if a folder is a
-  /// link, if the path leads out of its folder, or with the system's reason.
+  /// link, if the path leads out of the `Inside` folder, or, with the system's reason, if a folder cannot be opened.
   static Result<FileSpot> Find(const FilePath& path, bool makes_folders);
 
   int folder() const;
-  /// Returns the name in that folder; for a path that the user gave, the whole path.
+  /// Returns the file's name in the open folder; for a path that the user gave, the whole path.
   const std::string& name() const { return name_; }
 
  private:
@@ -62,18 +63,19 @@ class FileSpot {
 };
 
 /// Opens a regular file with the flags of ::open (O_CLOEXEC is added); O_CREAT also creates its folders. Fails as
-/// FileSpot::Find does, on anything but a regular file (opening a pipe could block), and with the system's reason.
+/// FileSpot::Find does; on anything but a regular file (opening a pipe could block); and, with the system's reason, if
+/// the file cannot be opened.
 Result<Descriptor> OpenFile(const FilePath& path, int flags, mode_t mode = 0666);
 
 /// Returns true if a file, a folder or a link has this path. A link below an `Inside` folder counts, although OpenFile
-/// refuses it.
+/// refuses such a link.
 bool Exists(const FilePath& path);
 
 /// Creates a folder and all missing folders above it. Fails as FileSpot::Find does.
 Result<void> MakeFolder(const FilePath& folder);
 
-/// Lists all regular files below a folder: sorted paths relative to it; empty if the folder does not exist. Fails on
-/// the first link, pipe or device.
+/// Lists the paths of all regular files below a folder, relative to this folder and sorted; empty if the folder does
+/// not exist. Fails on the first link, pipe or device.
 Result<std::vector<std::filesystem::path>> PlainFilesBelow(const FilePath& folder);
 
 /// Returns the error "is a link; links inside this folder are not followed".

@@ -20,7 +20,7 @@ constexpr std::size_t kBufferBytes = 1 << 16;
 
 Place InFile(const FilePath& path) { return Place{.file = path.string()}; }
 
-/// Reads the next bytes of a file; returns their number, 0 at the end.
+/// Reads the next bytes of a file; returns the number of bytes, which is 0 at the end.
 Result<std::size_t> ReadSome(const FilePath& path, int file, std::span<char> into) {
   ssize_t count = 0;
   do count = ::read(file, into.data(), into.size());
@@ -43,7 +43,8 @@ Result<void> Sync(const std::filesystem::path& path, int flags) {
   return {};
 }
 
-/// Returns temporary name number `copy`. The name keeps the extension, because encoders choose the container by it.
+/// Returns temporary name number `copy`. The name keeps the extension, because encoders choose the container by the
+/// extension.
 std::filesystem::path NameOfCopy(const std::filesystem::path& path, int copy) {
   const std::string number = copy == 0 ? "" : std::to_string(copy + 1);
   return path.parent_path() / (path.stem().string() + ".partial" + number + path.extension().string());
@@ -74,7 +75,8 @@ bool LockNamed(int file, int folder, const std::string& name) {
   return ours.st_dev == there.st_dev && ours.st_ino == there.st_ino;
 }
 
-/// Returns true if the file has no second name (hard link); writing would also overwrite the file of that name.
+/// Returns true if the file has no second name (hard link); otherwise, writing would also change the file of the second
+/// name.
 bool HasOneName(int file) {
   struct stat status {};
   return ::fstat(file, &status) == 0 && S_ISREG(status.st_mode) && status.st_nlink == 1;
@@ -91,7 +93,7 @@ Result<PartialFile> PartialFile::Claim(const FilePath& path) {
   std::error_code ignored;
   partial.made_folder_ = !folder.empty() && !std::filesystem::exists(folder, ignored);
   ASSIGN_OR_RETURN(partial.spot_, FileSpot::Find(path, /*makes_folders=*/true));
-  constexpr int kMaxTries = 1000;  // a try fails if another process writes the same file or has just renamed it
+  constexpr int kMaxTries = 1000;  // a try fails if another process is writing the file or has just renamed it
   constexpr int kFlags = O_WRONLY | O_CREAT | O_CLOEXEC | O_NOFOLLOW | O_NONBLOCK;
   for (int copy = 0; copy < kMaxTries; ++copy) {
     partial.name_ = NameOfCopy(partial.spot_.name(), copy / 2).string();
@@ -133,13 +135,13 @@ Result<void> PartialFile::CheckRoom() const {
   const off_t end = ::lseek(file_, 0, SEEK_END);
   const ssize_t count = ::pwrite(file_, more.data(), more.size(), end);
   if (count == static_cast<ssize_t>(more.size())) return {};
-  // A partial write sets no errno; a second write gives the reason.
+  // A partial write sets no errno, but a second write does.
   if (count >= 0 && ::pwrite(file_, more.data(), more.size(), end + count) >= 0) return {};
   return Failure();
 }
 
 Result<void> PartialFile::Finish(OnDisk when) {
-  // fsync reports failed writes; without it, some file systems (NFS) report them on closing a descriptor.
+  // fsync reports failed writes; without it, some file systems (NFS) report failed writes when a descriptor is closed.
   if (when == OnDisk::kAtOnce ? !Synced(file_) : ::close(::dup(file_)) != 0) return Failure();
   const int folder = spot_.folder();
   if (::renameat(folder, name_.c_str(), folder, spot_.name().c_str()) != 0) return Failure();

@@ -12,28 +12,28 @@
 
 namespace etude {
 
-/// The time at which a finished file and its name are synchronised to disk (fsync). They survive a power cut only after
-/// that.
+/// The time at which a finished file and its name are synchronised to disk (fsync). Only a synchronised file survives a
+/// power cut.
 enum class OnDisk {
   kAtOnce,  ///< synchronised before the call returns
   kLater,   ///< synchronised by the caller with SyncTree, or never for temporary files
 };
 
 /// Writes a file completely or not at all: first under a temporary name beside `path`, which is then renamed. The
-/// rename replaces a link instead of following it. Creates the folder. Fails as FileSpot::Find does, and with the path
-/// and the system's reason.
+/// rename replaces a link instead of following it. Creates the folder. Fails as FileSpot::Find does; also fails, with
+/// the path and the system's reason, if the file cannot be written.
 Result<void> WriteFileAtomically(const FilePath& path, std::string_view bytes, OnDisk when = OnDisk::kAtOnce);
 
 /// Writes one JSON value and a line end with WriteFileAtomically. Also fails on NaN and infinity (WriteJson).
 Result<void> SaveJson(const FilePath& path, const Json& json, OnDisk when = OnDisk::kAtOnce);
 
-/// Returns the temporary name under which `path` is written if no other process writes the same file; otherwise a
-/// number is added to the name.
+/// Returns the temporary name under which `path` is written if no other process writes the same file; otherwise the
+/// name also contains a number.
 std::filesystem::path TemporaryName(const std::filesystem::path& path);
 
-/// A file that is written under a temporary name, beside its final path. Finish renames the file; without Finish it is
-/// deleted. The file is locked: if two processes write the same path, each has its own temporary file. The next process
-/// reuses the temporary file of a killed process.
+/// A file that is written under a temporary name, beside its final path. Finish renames the file; without Finish, the
+/// destructor deletes it. The file is locked: if two processes write the same path, each has its own temporary file.
+/// The next process reuses the temporary file of a killed process.
 class PartialFile {
  public:
   /// Creates the folder and an empty temporary file. Fails as WriteFileAtomically does.
@@ -45,12 +45,12 @@ class PartialFile {
 
   const FilePath& path() const { return path_; }  ///< the final path
   int file() const { return file_; }              ///< descriptor, open for writing; −1 after Finish
-  /// Renames the file to its final path.
+  /// Renames the temporary file to the final path.
   Result<void> Finish(OnDisk when = OnDisk::kAtOnce);
   /// Returns the error "cannot write this file" with the reason in errno.
   tl::unexpected<Error> Failure() const;
-  /// Tries to append to the file; fails with the system's reason. The error tells a caller why another program (an
-  /// encoder) could not write the file: the disk is full, for instance.
+  /// Checks by a write whether the file can grow; fails with the system's reason, for instance a full disk. A caller
+  /// uses this to learn why another program (an encoder) could not write the file.
   Result<void> CheckRoom() const;
 
  private:
@@ -70,7 +70,7 @@ class AtomicFile {
   Result<void> Write(std::string_view bytes);
   /// Replaces bytes that were written before, from `offset` on.
   Result<void> Overwrite(std::uint64_t offset, std::string_view bytes);
-  /// Writes the buffered bytes, and renames the file to its final path.
+  /// Writes the buffered bytes, and renames the temporary file to the final path.
   Result<void> Finish(OnDisk when = OnDisk::kAtOnce);
 
  private:
@@ -95,7 +95,7 @@ class FileLines {
   /// Fails as OpenFile does.
   static Result<FileLines> Open(const FilePath& path);
 
-  /// Reads the next line into `line`, without its line end. Returns false at the end of the file.
+  /// Reads the next line into `line`, without the line end. Returns false at the end of the file.
   Result<bool> Next(std::string& line);
   /// Returns true if the last line read had a line end; without one, the file may have been cut off.
   bool had_end() const { return had_end_; }
@@ -106,29 +106,30 @@ class FileLines {
   FilePath path_;
   Descriptor file_;
   std::string part_;    ///< the part of the file in memory
-  std::size_t at_ = 0;  ///< the next byte of `part_`
+  std::size_t at_ = 0;  ///< position of the next byte in `part_`
   bool had_end_ = false;
 };
 
-/// Calls `use` with each line of a file, without line ends. Stops at the first error and returns it.
+/// Calls `use` with each line of a file, without line ends. Stops at the first error of `use` or of reading, and
+/// returns this error.
 Result<void> ForEachLine(const FilePath& path,
                          const std::function<Result<void>(std::string_view line, const Place& place)>& use);
 
 /// Synchronises a file's contents to disk (fsync). Fails with the file's name.
 Result<void> SyncFile(const std::filesystem::path& path);
 
-/// Synchronises the entries of one folder. The name of a new file survives a power cut only after that.
+/// Synchronises the entries of one folder. Only then does the name of a new file survive a power cut.
 Result<void> SyncFolder(const std::filesystem::path& folder);
 
-/// Synchronises the entries of all folders above a folder, as far as they can be opened. The folder itself survives a
-/// power cut only after that.
+/// Synchronises the entries of all folders above a folder, as far as they can be opened. Only then does the folder
+/// itself survive a power cut.
 Result<void> SyncPathTo(const std::filesystem::path& folder);
 
 /// Synchronises a folder and every file and folder below it.
 Result<void> SyncTree(const std::filesystem::path& folder);
 
-/// Locks an open file or folder against other processes until it is closed. Returns false if another process has the
-/// lock, or if the file no longer has this name. Returns true on file systems without locks.
+/// Locks an open file or folder against other processes, until this process closes it. Returns false if another process
+/// has the lock, or if the file no longer has this name. Returns true on file systems without locks.
 bool LockUnlessTaken(int file, const std::filesystem::path& name);
 
 }  // namespace etude

@@ -30,9 +30,10 @@ std::optional<std::string> FindNonFinite(const Json& json) {
 }
 
 /// Returns true if a CBOR value nests at most kMaxNesting deep and has no tags or indefinite lengths. Json::from_cbor
-/// recurses for each level, so the depth is checked first. Truncated input is left to from_cbor, which detects it.
+/// recurses for each level, so the depth is checked first. Truncated input is left to from_cbor, which detects
+/// truncation.
 bool IsShallowCbor(std::string_view bytes) {
-  std::vector<std::uint64_t> open = {1};  // for each open list or map: the number of values still to come
+  std::vector<std::uint64_t> open = {1};  // for each open list or map: the number of its values that are still to come
   for (std::size_t at = 0; at < bytes.size() && !open.empty();) {
     const auto first = static_cast<unsigned char>(bytes[at++]);
     const int kind = first >> 5;
@@ -55,7 +56,7 @@ bool IsShallowCbor(std::string_view bytes) {
   return true;
 }
 
-/// Replaces invisible characters (IsHidden) by escaped code points, which mean the same.
+/// Replaces invisible characters (IsHidden) by escaped code points, which give the same value when read.
 std::string WithHiddenEscaped(std::string json) {
   const auto is_ascii = [](char c) { return static_cast<unsigned char>(c) < 0x80; };
   if (std::ranges::all_of(json, is_ascii)) return json;
@@ -89,7 +90,7 @@ std::string ShowJson(const Json& json) {
   if (json.is_array()) return fmt::format("a list of {}", json.size());
   if (json.is_object()) return "an object";
   constexpr std::size_t kMaxShownLength = 40;
-  std::string text = json.dump(-1, ' ', true, Json::error_handler_t::replace);  // ASCII, so cutting it anywhere is safe
+  std::string text = json.dump(-1, ' ', true, Json::error_handler_t::replace);  // ASCII, so any cut of it is safe
   return text.size() <= kMaxShownLength ? text : text.substr(0, kMaxShownLength) + "…";
 }
 

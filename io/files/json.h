@@ -12,7 +12,7 @@ namespace etude {
 
 using Json = nlohmann::ordered_json;
 
-/// Deletes a Json in json.cc. Headers that only pass values on therefore do not need nlohmann/json.hpp.
+/// Deletes a Json in json.cc. Headers that only pass JSON values therefore do not need nlohmann/json.hpp.
 struct DeleteJson {
   DeleteJson() = default;
   DeleteJson(std::default_delete<Json>) {}  // NOLINT: converts from std::make_unique
@@ -25,7 +25,8 @@ using JsonPtr = std::unique_ptr<Json, DeleteJson>;
 /// infinity with the path to the value; nlohmann would silently write null.
 Result<std::string> WriteJson(const Json& json);
 
-/// Describes a value for a complaint: its JSON, cut after 40 characters, or "an object", or the length of a list.
+/// Describes a value for a complaint: by the value's JSON, cut after 40 characters; by "an object"; or by the length of
+/// the list.
 std::string ShowJson(const Json& json);
 
 /// Returns the depth to which brackets nest. The text need not be valid JSON.

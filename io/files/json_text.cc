@@ -46,8 +46,8 @@ class Builder : public nlohmann::json_sax<Json> {
   }
 
  private:
-  // Pointers to open lists and objects stay valid, because each of these is the last entry of its parent until it is
-  // closed.
+  // Pointers to open lists and objects stay valid, because each open list or object is the last entry of its parent
+  // until it is closed.
   Json& Place(Json value) {
     if (open_.empty()) return built_.value = std::move(value);
     Json& parent = *open_.back();

@@ -11,7 +11,7 @@ namespace etude {
 
 struct JsonFault {
   std::size_t byte = 0;          ///< position at which the parser stopped, counted from 1
-  bool is_large_number = false;  ///< the text is JSON, but contains a number beyond the range of a double
+  bool is_large_number = false;  ///< true: the text is JSON, but contains a number beyond the range of a double
 };
 
 /// A parsed text, which may come from another program.
@@ -22,7 +22,7 @@ struct JsonText {
 };
 
 /// Parses a text in time n log n for any input. nlohmann's own parser takes quadratic time: it compares each key of an
-/// object with all earlier ones, and with a callback it passes over a list again for each object in it.
+/// object with all earlier keys, and, with a callback, it reads a whole list again for each object in the list.
 JsonText ParseJsonText(std::string_view text);
 
 }  // namespace etude

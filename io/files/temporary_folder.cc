@@ -32,8 +32,8 @@ int Lock(const fs::path& folder) {
   return -1;
 }
 
-/// Makes a folder; returns its path and its lock. The folder gets its final name only when it is locked; otherwise
-/// another process could delete it as abandoned.
+/// Makes a folder; returns the folder's path and lock. The folder gets its final name only after it is locked;
+/// otherwise another process could delete it as abandoned.
 Result<std::pair<fs::path, int>> MakeLocked(const fs::path& parent, const std::string& start) {
   std::string name = (parent / ("." + start + "-XXXXXX")).string();
   const bool made = ::mkdtemp(name.data()) != nullptr;

@@ -35,7 +35,7 @@ class TemporaryFolder {
   TemporaryFolder(std::filesystem::path path, int lock) : path_(std::move(path)), lock_(lock) {}
 
   std::filesystem::path path_;
-  int lock_ = -1;  ///< descriptor of the locked folder: the lock shows other processes that it is in use
+  int lock_ = -1;  ///< descriptor of the locked folder; the lock tells other processes that the folder is in use
 };
 
 }  // namespace etude

@@ -48,7 +48,7 @@ Result<Child> StartReading(const Words& words, const Place& place) {
   return child;
 }
 
-/// Reads lines "key=value". If a key occurs several times, its first value counts.
+/// Reads lines "key=value". If a key occurs several times, the first value counts.
 std::map<std::string, std::string> ReadKeys(std::FILE* file) {
   std::map<std::string, std::string> keys;
   std::array<char, 256> line;

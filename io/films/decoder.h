@@ -12,7 +12,7 @@
 
 namespace etude {
 
-/// The facts of a film that must be known before its frames are read.
+/// The facts of a film that must be known before the film's frames are read.
 struct FilmFacts {
   int width = 0;  ///< width as shown, after the rotation that a telephone may have stored
   int height = 0;
@@ -35,7 +35,7 @@ class Decoder {
   Decoder(Decoder&& other) noexcept;
   Decoder& operator=(Decoder&&) = delete;
 
-  /// Reads the next frame; returns false after the last one. Fails with ffmpeg's message if ffmpeg has stopped early.
+  /// Reads the next frame; returns false after the last frame. Fails with ffmpeg's message if ffmpeg has stopped early.
   Result<bool> Next(ColourImage& frame);
 
  private:

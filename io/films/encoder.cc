@@ -39,8 +39,8 @@ std::vector<std::string> Arguments(const std::string& program, int width, int he
     add({"-x264-params", "cpu-independent=1", "-pix_fmt", "yuv420p"});
   }
   add({"-threads", "1", "-fflags", "+bitexact", "-flags:v", "+bitexact"});
-  // ffmpeg writes to its standard output, the open file. A path is not used, because somebody may have put a link
-  // there. ffmpeg opens the file again through /proc, because MP4 needs an output that can seek.
+  // ffmpeg writes to its standard output, the open file. A path is not used, because somebody may have put a link at
+  // that path. ffmpeg opens the file again through /proc, because MP4 needs an output that can seek.
   add({"-map_metadata", "-1", "-f", is_exact ? "matroska" : "mp4", "/proc/self/fd/1"});
   return all;
 }

@@ -19,7 +19,7 @@ namespace {
 
 // The size of an uncompressed picture with kMaxPictureSide pixels per side, rounded up.
 constexpr std::uintmax_t kMaxPictureFileBytes = std::uintmax_t{1} << 28;
-// The maximum side of pictures that no camera took; GL and JPEG have the same limit.
+// The maximum side, pixels, of pictures that no camera took; GL and JPEG have the same limit.
 constexpr std::uint32_t kMaxSide = 16'384;
 constexpr int kRunLengthOnly = 3;  // the value of zlib's Z_RLE
 
@@ -68,7 +68,7 @@ constexpr const char* kDepthChannel = "Z";
 constexpr const char* kLabelChannel = "label";
 constexpr const char* kNormalChannels[] = {"N.X", "N.Y", "N.Z"};
 
-// Collects the bytes of a file that OpenEXR writes.
+// Collects in memory the bytes that OpenEXR writes.
 class ByteStream : public Imf::OStream {
  public:
   ByteStream() : Imf::OStream("a picture in memory") {}
@@ -114,7 +114,7 @@ void WriteExr(const View& view, const NormalImage& normals, std::span<const Dept
   }
   // Add depth, labels, normals, and further depth images.
   if (!view.depth.pixels.empty()) add(kDepthChannel, Imf::FLOAT, view.depth.pixels.data(), sizeof(float));
-  // Labels are floats, because readers in browsers (three.js, parse-exr) misread files with integer channels.
+  // Labels are floats, because readers in browsers (three.js, parse-exr) misread integer channels.
   const std::vector<float> labels(view.labels.pixels.begin(), view.labels.pixels.end());
   if (!labels.empty()) add(kLabelChannel, Imf::FLOAT, labels.data(), sizeof(float));
 
@@ -125,7 +125,7 @@ void WriteExr(const View& view, const NormalImage& normals, std::span<const Dept
     add(channel.name.c_str(), Imf::FLOAT, channel.depth.pixels.data(), sizeof(float));
   }
 
-  // Write all channels in one pass.
+  // Write the pixels of all channels with one call.
   Imf::OutputFile file(out, header, 0);
   file.setFrameBuffer(channels);
   file.writePixels(height);

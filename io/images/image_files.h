@@ -11,17 +11,17 @@
 
 namespace etude {
 
-// Encodes and decodes pictures: the one door to PNG and OpenEXR. Pictures with more than kMaxPictureSide pixels per
-// side are refused before memory is allocated. Errors name the file unless stated otherwise.
+// Encodes and decodes pictures. Only this folder uses the libraries for PNG and OpenEXR. Pictures with more than
+// kMaxPictureSide pixels per side are refused before memory is allocated. Errors name the file unless stated otherwise.
 
 /// Returns the bytes of a PNG file, for embedding in a page. The same picture gives the same bytes. `image` must have
-/// at least one pixel. With `pixels_per_metre` above 0, the file states its size in print.
+/// at least one pixel. With `pixels_per_metre` above 0, the file states the size at which the picture is printed.
 std::string EncodePng(const ColourImage& image, double pixels_per_metre = 0);
 /// Returns a mask as the bytes of a grey PNG: 0 becomes black, any other value white.
 std::string EncodePng(const Mask& mask);
 
-/// Returns the bytes of a binary PPM file (P6). Every picture library reads this format, and it needs no compression
-/// time.
+/// Returns the bytes of a binary PPM file (P6). Every picture library reads this format, and writing it takes no time
+/// for compression.
 std::string EncodePpm(const ColourImage& image);
 
 /// Reads any PNG as 8-bit RGB; transparent pixels are blended with black.
@@ -32,8 +32,8 @@ Result<ColourImage> DecodeColourPng(std::string_view bytes, std::size_t max_pixe
 
 /// A picture of one number per pixel, as segmenters write it.
 struct MaskPicture {
-  Image<std::uint8_t> values;  ///< the grey of each pixel, 0 to 255, or its index into a palette
-  bool is_indexed = false;     ///< the file has a palette
+  Image<std::uint8_t> values;  ///< each pixel's grey value, 0 to 255, or its index into a palette
+  bool is_indexed = false;     ///< true: the file has a palette, and `values` are indices into it
 };
 /// Reads a PNG of masks. Colours become grey, 16 bits become 8; transparent pixels are blended with black.
 Result<MaskPicture> LoadMaskPng(const std::string& path);

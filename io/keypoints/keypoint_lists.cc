@@ -80,7 +80,7 @@ Result<SeenPerson> ToPerson(const std::vector<Keypoint>& points, const std::stri
   if (found) {
     order = (*found)->landmarks;
   } else {
-    // If no layout has this count, use the names, provided that enough of them are known.
+    // If no layout has this number of keypoints, use the keypoints' names, provided that enough names are known.
     std::size_t known = 0;
     for (const std::string& name : names) {
       order.push_back(LandmarkOfName(name));
@@ -217,7 +217,7 @@ Result<PeopleOfFilm> Ordered(std::map<long, std::vector<SeenPerson>> numbered, c
   if (lowest < 0 || highest > kMaxFrames)
     return Fail(place, "frames {} to {}; allowed: 0 to {}", lowest, highest, kMaxFrames);
   const auto frames = static_cast<long>(of.frames);
-  // Without a known film length, the frame numbers give the length.
+  // If the film's length is not known, the frame numbers give it.
   const long first = frames > 0 ? (lowest > 0 && highest == frames ? 1 : 0) : std::min(lowest, 1L);
   const long count = frames > 0 ? std::max(frames, highest - first + 1) : highest - first + 1;
   film.frames.resize(static_cast<std::size_t>(count));
@@ -243,9 +243,9 @@ void MoveFrames(std::span<const std::size_t> indices, std::size_t count, PeopleO
   film.frames = std::move(frames);
 }
 
-constexpr std::size_t kMaxSpread = 10;  // maximum number of frames per entry
+constexpr std::size_t kMaxSpread = 10;  // maximum number of frames per entry of a list
 
-/// Returns the time of a frame, in the file's unit.
+/// Returns the time of a frame, in the unit that the file uses.
 std::optional<double> TimeOf(const Json& frame) {
   constexpr const char* kNames[] = {"timestamp", "timestamp_ms", "timestamp_us", "timestamp_ns", "timestamp_s",
                                     "time",      "time_s",       "time_ms",      "timestampMs",  "t"};
@@ -256,7 +256,7 @@ std::optional<double> TimeOf(const Json& frame) {
   return std::nullopt;
 }
 
-/// Places frames by their times; only the ratios of times matter. Does nothing if the times do not ascend.
+/// Places frames by their times; the unit of the times does not matter. Does nothing if the times do not ascend.
 void LayByTimes(const std::vector<double>& times, PeopleOfFilm& film) {
   std::vector<double> steps;
   for (std::size_t i = 1; i < times.size(); ++i) {
@@ -273,14 +273,14 @@ void LayByTimes(const std::vector<double>& times, PeopleOfFilm& film) {
   std::vector<std::size_t> indices;
   for (const double time : scaled) {
     const double index = std::round(time * (*grid)->rate_hz);
-    // The times are too uneven: two frames would get one index.
+    // The times are too uneven if two frames would get the same index.
     if (!indices.empty() && static_cast<std::size_t>(index) <= indices.back()) return;
     indices.push_back(static_cast<std::size_t>(index));
   }
   MoveFrames(indices, indices.back() + 1, film);
 }
 
-/// Returns the names in MMPose's `keypoint_id2name`, in the order of their numbers.
+/// Returns the names in MMPose's `keypoint_id2name`, in the order of the keypoints' numbers.
 std::vector<std::string> MetaNames(const Json& json) {
   const Json* meta = Member(json, "meta_info");
   const Json* names = meta == nullptr ? nullptr : Member(*meta, "keypoint_id2name");
@@ -358,8 +358,8 @@ Result<PeopleOfFilm> ReadKeypointList(const Json& json, const std::string& layou
 
 void LayByNames(std::span<const std::string> names, const FilmOfKeypoints& of, PeopleOfFilm& film) {
   if (names.size() < 2 || names.size() != film.frames.size() || of.frames == names.size()) return;
-  // Read the number at the end of each name. The text before it must be the same in all names, and the numbers must
-  // ascend.
+  // Read the number at the end of each name. The text before the number must be the same in all names, and the numbers
+  // must ascend.
   const auto text_of = [](std::string name) {
     if (const std::size_t dot = name.find_last_of('.'); dot != std::string::npos && dot > 0) name.resize(dot);
     const std::size_t end = name.find_last_of("0123456789");
@@ -385,7 +385,7 @@ void LayByNames(std::span<const std::string> names, const FilmOfKeypoints& of, P
     if ((number - first) % usual != 0) return;
     indices.push_back(static_cast<std::size_t>((number - first) / usual));
   }
-  if (indices.back() + 1 == names.size()) return;  // frames are missing only at the end: the film is longer, or was cut
+  if (indices.back() + 1 == names.size()) return;  // no frame is missing before the last one
   const std::size_t count = std::max(of.frames, indices.back() + 1);
   if (indices.back() >= kMaxSpread * indices.size() + of.frames) return;
   MoveFrames(indices, count, film);

@@ -19,9 +19,9 @@ std::vector<std::string> TextsOf(const Json* list);
 /// Reads a list of triples x, y, confidence. A point with a null was not seen.
 Result<std::vector<Keypoint>> Triples(const Json* list, const Place& place);
 
-/// Makes a person from an estimator's keypoints. `layout` gives their order. If it is "", the order is that of the only
-/// layout with this number of keypoints, or, if no layout has this number, that of `names`. Fails if none of these
-/// applies.
+/// Makes a person from an estimator's keypoints. `layout` gives the keypoints' order. If `layout` is "", the only
+/// layout with this number of keypoints gives the order; if no layout has this number, `names` gives the order. Fails
+/// if none of these gives an order.
 Result<SeenPerson> ToPerson(const std::vector<Keypoint>& points, const std::string& layout,
                             const std::vector<std::string>& names, const Place& place);
 
@@ -46,8 +46,8 @@ bool IsKeypointList(const Json& json);
 Result<PeopleOfFilm> ReadKeypointList(const Json& json, const std::string& layout, const FilmOfKeypoints& of,
                                       const Place& place);
 
-/// Places the frames of a film, one for each name, by the number at the end of their names. It needs names that begin
-/// alike, numbers that ascend, and a film with another number of frames. A missing number becomes a frame without
+/// Places the frames of a film, one for each name, by the number at the end of each name. This requires names that
+/// begin alike, numbers that ascend, and a film with another number of frames. A missing number becomes a frame without
 /// people, and `told` says so. If only the end is missing, or if more than nine of ten frames would be empty, the
 /// frames stay as they are.
 void LayByNames(std::span<const std::string> names, const FilmOfKeypoints& of, PeopleOfFilm& film);

@@ -47,7 +47,8 @@ bool NaturallyBefore(const fs::path& a, const fs::path& b) {
       ++j;
     }
   }
-  // Equal up to leading zeros: the shorter remainder comes first, then plain order.
+  // The numbers are equal up to leading zeros. The name with the shorter remainder comes first; then the plain order
+  // decides.
   return x.size() - i != y.size() - j ? x.size() - i < y.size() - j : x < y;
 }
 
@@ -110,8 +111,8 @@ Result<std::vector<SeenPerson>> ReadFrame(const fs::path& file, const std::strin
 }
 
 /// Counts the people of a file with 25 keypoints: in `between` if the ninth keypoint lies midway between the tenth and
-/// the thirteenth, otherwise in `elsewhere`. In `body_25` these three are the mid-hip and the hips; in `body_25b` the
-/// right elbow, the left wrist and the right hip.
+/// the thirteenth, otherwise in `elsewhere`. In `body_25` these three are the mid-hip and the hips; in `body_25b` they
+/// are the right elbow, the left wrist and the right hip.
 void CountMidHips(const Json& json, const Place& place, int& between, int& elsewhere) {
   constexpr std::size_t kCount = 25, kMidHip = 8, kRightHip = 9, kLeftHip = 12;
   constexpr double kMaxShare = 0.03;  // tolerance as a share of the person's height
@@ -177,7 +178,7 @@ std::vector<std::string> NamesOf(const Json& json) {
 
 struct CocoPerson {
   std::size_t frame;
-  std::vector<Keypoint> points;  ///< the confidence holds COCO's v
+  std::vector<Keypoint> points;  ///< the points; `confidence` holds COCO's visibility flag v
 };
 
 Result<std::map<double, std::size_t>> FramesOf(const Json& images, PeopleOfFilm& film, std::vector<std::string>& names,

@@ -23,8 +23,8 @@ struct FilmOfKeypoints {
 };
 
 /// Reads keypoints from a folder of OpenPose's or MMPose's JSON (`*.json`, one file per frame, ordered by name with
-/// numbers compared by value) or from one file: COCO's, a list of COCO results, AlphaPose, MMPose, or landmarks of
-/// MediaPipe (`keypoint_lists.h`). In these files pixel centres are whole numbers; in the result they end in .5. COCO's
+/// numbers compared by value) or from one file of COCO annotations, COCO results, AlphaPose, MMPose, or MediaPipe's
+/// landmarks (`keypoint_lists.h`). In these files pixel centres are whole numbers; in the result they end in .5. COCO's
 /// v is 2 for a visible and 1 for a hidden keypoint (confidence 1 and 0.5), or a score within 0…1. If all keypoints lie
 /// within 0…1 (with a tolerance of 0.1) and the film is known to be larger, they are shares of its width and height,
 /// and `told` says so. The number of keypoints, or the names in the file, give their order. 25 keypoints of a folder
@@ -37,12 +37,12 @@ Result<PeopleOfFilm> ReadKeypoints(const std::filesystem::path& path, const std:
                                    const FilmOfKeypoints& film = {});
 
 /// Reads annotation pictures (`ReadMarks`): PNG files in the order of their names, one per frame, with at most one
-/// person each. Fails if their sizes differ.
+/// person each. Fails if the sizes of the pictures differ.
 Result<PeopleOfFilm> ReadMarkedPictures(const std::filesystem::path& folder);
 
 /// Finds the one entry of a folder that belongs to a film: its name is the film's name, alone or followed by a
-/// character that is neither letter nor digit ("cam01", "cam01_json", "cam01.json"). Fails if there is none or more
-/// than one.
+/// character that is neither letter nor digit ("cam01", "cam01_json", "cam01.json"). Fails if the folder has no such
+/// entry, or more than one.
 Result<std::filesystem::path> EntryOfFilm(const std::filesystem::path& folder, const std::string& film);
 
 }  // namespace etude

@@ -84,7 +84,7 @@ struct ExecPlan {
   bool limited, contained;
   std::string user_map, group_map;
   std::vector<Descriptor> texts;
-  /// Files in /proc, and the texts to be written to them.
+  /// Files in /proc, and the text that is written to each file.
   std::vector<std::pair<const char*, std::string>> user_limits;
 };
 
@@ -139,8 +139,8 @@ bool SetUpNamespaces(const ExecPlan& child) {
   ::close_range(STDERR_FILENO + 1, ~0U, CLOSE_RANGE_CLOEXEC);
   for (std::size_t i = 0; i < child.texts.size(); ++i) {
     const int wanted = STDERR_FILENO + 1 + static_cast<int>(i);
-    // The texts were opened after three pipes, so each text has a higher descriptor than its target, and no target
-    // overwrites a text that is still to be copied.
+    // The texts were opened after three pipes, so each text has a higher descriptor than the target descriptor to which
+    // it is copied, and no target overwrites a text that is still to be copied.
     if (::dup2(child.texts[i].number(), wanted) < 0 || ::lseek(wanted, 0, SEEK_SET) != 0) GiveUp(child, errno);
   }
   ::execve(child.path, child.argv, child.envp);
@@ -386,7 +386,7 @@ bool ChildProcess::HasEnded() const {
 
 std::string ChildProcess::Finish(int patience_ms) {
   if (pid_ < 0) return "not running";
-  HeldTree tree(pid_);  // kill the tree before the child ends: later, its descendants cannot be found
+  HeldTree tree(pid_);  // kill the tree before the child ends: later, the child's descendants cannot be found
   ::close(input_);
   for (int i = 0; i < patience_ms && !HasEnded(); ++i) ::usleep(1000);
   ::close(output_);

@@ -15,12 +15,12 @@
 
 namespace etude {
 
-/// The limits of an outside program, besides the time and memory that its scenario allows.
+/// The limits of an outside program, besides the time and memory that the scenario allows.
 struct ProgramLimits {
   static constexpr std::uint64_t kFileBytes = std::uint64_t{256} << 20;  ///< per file; in a fence, per scratch folder
   /// The maximum number of open descriptors per process. The kernel applies the same limit to the user's descriptors in
-  /// flight between processes (SCM_RIGHTS). A program can thus hold 512 pipes in flight and 256 open ones, which leaves
-  /// other programs some of the user's 1024 pipes of full size.
+  /// flight between processes (SCM_RIGHTS). A program can thus hold 512 pipes in flight and 256 open pipes, so that
+  /// some of the user's 1024 pipes of full size are left for other programs.
   static constexpr std::uint64_t kOpenFiles = 512;
   static constexpr std::uint64_t kPendingSignals = 1024;  ///< signals and POSIX timers
   static constexpr std::uint64_t kLockedBytes = 1 << 20;  ///< memory locked by mlock
@@ -50,15 +50,15 @@ struct ChildOptions {
   std::string program;  ///< a path, or a name that is looked up in PATH
   std::vector<std::string> arguments = {};
   std::string error_file = {};  ///< the child's standard error is appended here; "" = the child shares ours
-  bool limited = false;         ///< an outside program: no new privileges, ProgramLimits, PWD removed
+  bool limited = false;         ///< true: gets ProgramLimits, no new privileges, and no PWD (outside program)
   /// Makes the child the first process of new user, PID and mount namespaces, if the kernel allows it. When the child
   /// ends (at the latest with this process), the kernel ends all processes in the namespaces.
   bool contained = false;
   int programs = 1;  ///< number of outside programs that run at the same time
   /// ControlGroup::folder of the group to start the child in; only if contained.
   int control_group = -1;
-  std::vector<std::string> inherited_texts = {};  ///< texts that the child can read from its descriptors 3, 4, …
-  /// Changes to ClosedEnvironment: NAME=VALUE sets a variable, NAME removes one.
+  std::vector<std::string> inherited_texts = {};  ///< texts that the child can read from the descriptors 3, 4, …
+  /// Changes to ClosedEnvironment: NAME=VALUE sets a variable, NAME removes a variable.
   std::vector<std::string> environment = {};
 };
 
@@ -69,7 +69,7 @@ void AdoptOrphans();
 /// A child process with pipes for its standard input and output, which carry lines. It runs in the closed environment
 /// (ClosedEnvironment), leads a process group of its own (so a terminal's Ctrl-C does not reach it), inherits only the
 /// descriptors of the options, and is killed when this process dies. The destructor kills and reaps the child and its
-/// descendants. Start makes this process ignore SIGPIPE, because sending to a dead child would raise it.
+/// descendants. Start makes this process ignore SIGPIPE, because sending to a dead child would raise this signal.
 class ChildProcess {
  public:
   /// Fails if the program cannot be found or executed, or if `error_file` cannot be written. If no process can be
@@ -107,8 +107,8 @@ class ChildProcess {
   /// Returns the errno of a failed read or write of the pipes; 0 = none. The cause is then this machine.
   int broken_by() const { return broken_by_; }
   /// Closes the child's input, waits up to `patience_ms` for the child to end, then kills it and all its descendants.
-  /// Returns how it ended: "exit code 2", "signal 11 (Segmentation fault)". Exit code 128 + n is reported as signal n,
-  /// because shells and bubblewrap report a signal in this way.
+  /// Returns how the child ended: "exit code 2", "signal 11 (Segmentation fault)". Exit code 128 + n is reported as
+  /// signal n, because shells and bubblewrap report a signal in this way.
   std::string Finish(int patience_ms = 50);
   /// Returns the exit code after Finish; 128 + n if signal n ended it; −1 before Finish.
   int exit_code() const { return exit_code_; }

@@ -42,8 +42,8 @@ bool IsPlace(const fs::path& folder) {
          ::access(folder.c_str(), W_OK) == 0 && ::access((folder / "cgroup.procs").c_str(), W_OK) == 0;
 }
 
-/// Makes this process's own group usable (IsPlace), if no other process is in it. Moves this process into a child
-/// group, because a group that passes controllers on may not contain processes.
+/// Makes this process's own group usable (IsPlace), if no other process is in this group. Moves this process into a
+/// child group, because a group that passes controllers on may not contain processes.
 bool MakePlaceOf(const fs::path& own) {
   const fs::path below = own / fmt::format("{}{}", kPrefix, ::getpid());
   std::error_code error;

@@ -13,18 +13,20 @@ struct OwnGroup {
   static OwnGroup Read(const std::string& groups, const std::string& mounts);
 };
 
-/// Returns the memory of a group, MB, from the contents of its files memory.stat and memory.swap.current: anonymous and
-/// shared pages, sockets, kernel memory and swap. The page cache of files and reclaimable kernel memory do not count.
+/// Returns the memory of a group, MB, from the contents of the group's files memory.stat and memory.swap.current:
+/// anonymous and shared pages, sockets, kernel memory and swap. The page cache of files and reclaimable kernel memory
+/// do not count.
 double HeldMbIn(const std::string& memory_stat, const std::string& swapped);
 
-/// A control group (cgroup v2) for one program and its descendants. The kernel counts all their memory, and kills them
-/// if the memory far exceeds the limit. The destructor removes the group when it has no more processes.
+/// A control group (cgroup v2) for one program and its descendants. The kernel counts the memory of all these
+/// processes, and kills them if this memory far exceeds the limit. The destructor removes the group as soon as no
+/// process is in it.
 class ControlGroup {
  public:
   /// Finds the folder in which groups can be made; "" if there is none. Groups can be made only with cgroup v2 and its
   /// memory controller, and only if the group of this process, or a group above it, belongs to this user. If this
-  /// process is alone in its group, it moves into a new child group, because only a group without processes can limit
-  /// its child groups. Also removes groups that killed runs have left.
+  /// process is alone in its group, the function moves it into a new child group, because only a group without
+  /// processes can limit its child groups. Also removes groups that killed runs have left.
   static std::string FindPlace();
   static std::string FindPlace(const OwnGroup& of_process);
 

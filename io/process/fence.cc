@@ -34,9 +34,9 @@ constexpr double kNameBytes = 700, kInodeBytes = 900;
 
 /// Folders that every program sees: the system's programs and libraries.
 constexpr std::array kSystem = {"/usr", "/bin", "/sbin", "/lib", "/lib32", "/lib64", "/libx32", "/opt", "/nix"};
-/// The system's settings that every program sees: those of loaders, interpreters and libraries. All other settings stay
-/// hidden, so that secrets, lists of users and the machine's identity are hidden even if they are added later. "*" at
-/// the end matches any rest of the name.
+/// The system's settings that every program sees: the settings of loaders, interpreters and libraries. All other
+/// settings stay hidden, so that secrets, lists of users and the machine's identity are hidden even if they are added
+/// later. "*" at the end matches any rest of the name.
 constexpr const char* kSettings = "/etc";
 constexpr std::array kShownSettings = {
     "ld.so.*",       "alternatives",   "localtime",     "timezone",  "locale.alias",
@@ -120,7 +120,7 @@ std::vector<fs::path> KeptFromUsers() {
     fs::recursive_directory_iterator at(root, fs::directory_options::skip_permission_denied, error), end;
     for (; !error && at != end; at.increment(error)) {
       const fs::path& path = at->path();
-      // Skip processes and network settings, because a fence has its own.
+      // Skip processes and network settings, because a fence has processes and network settings of its own.
       const std::string name = path.filename().string();
       const bool is_process = name.find_first_not_of("0123456789") == std::string::npos || name.ends_with("self");
       if (is_proc && ((at.depth() == 0 && is_process) || path == "/proc/sys/net")) {
@@ -214,7 +214,7 @@ ScratchUse Fence::MeasureScratch(pid_t inside) const {
   ScratchUse use;
   if (!IsUp()) return use;
   constexpr double kMb = 1 << 20;
-  std::set<dev_t> seen;  // file systems already counted: several folders may be one, or not be mounted yet
+  std::set<dev_t> seen;  // file systems already counted: several folders may be on one, or may not be mounted yet
   if (struct stat ours{}; ::stat(kScratch[0], &ours) == 0) seen.insert(ours.st_dev);
   for (const char* folder : kScratch) {
     const std::string path = fmt::format("/proc/{}/root{}", inside, folder);
@@ -304,7 +304,7 @@ FencedCommand Fence::Around(const std::vector<std::string>& command, const std::
     const bool is_seen = IsOfSystem(path) || IsWithin(path, "/proc");
     if (is_seen && !is_within_shown(path) && fs::exists(path, error)) is_shown.emplace(path, false);
   }
-  // Mask hidden folders with empty ones. The masks become read-only after everything below them is mounted.
+  // Mask hidden folders with empty folders. The masks become read-only after everything below them is mounted.
   std::vector<std::string> masks;
   for (const auto& [path, is_seen] : is_shown) {
     if (is_seen) {

@@ -11,7 +11,7 @@
 namespace etude {
 
 /// The command that runs a program in a fence. Bubblewrap reads its own arguments from a descriptor: programs inside
-/// can read its command line, which must not contain the names of our folders.
+/// the fence can read Bubblewrap's command line, which must not contain the names of our folders.
 struct FencedCommand {
   std::vector<std::string> words;                 ///< a path and arguments
   std::vector<std::string> inherited_texts = {};  ///< texts for ChildOptions::inherited_texts
@@ -36,7 +36,7 @@ class Fence {
   Fence() = default;
   /// Tries once to run bubblewrap, and returns the fence. If that fails, returns no fence, and `description` says why.
   static Fence Find();
-  /// Makes the fence that another process has found, from its `program`, `kept` and `groups`.
+  /// Makes the fence that another process has found, from that fence's `program`, `kept` and `groups`.
   static Fence Of(const std::string& program, std::vector<std::filesystem::path> kept = {}, std::string groups = "");
   /// Returns true if a path belongs to the part of the system that every program sees.
   static bool IsOfSystem(const std::filesystem::path& path);
@@ -73,9 +73,9 @@ class Fence {
   /// Tries again to run bubblewrap. Does nothing without a fence; on failure, the error's cause is this machine.
   Result<void> Try() const;
 
-  /// Returns the command that runs `command` (a path and arguments) inside, with the working folder `start` ("" =
-  /// /tmp). Besides the system, the command sees `shown`, absolute paths of files and folders. Without a fence, returns
-  /// `command` unchanged.
+  /// Returns the command that runs `command` (a path and arguments) inside the fence, with the working folder `start`
+  /// ("" = /tmp). Besides the system, the command sees `shown`, absolute paths of files and folders. Without a fence,
+  /// returns `command` unchanged.
   FencedCommand Around(const std::vector<std::string>& command, const std::vector<std::filesystem::path>& shown,
                        const std::filesystem::path& start = {}) const;
 

@@ -11,9 +11,9 @@
 
 namespace etude {
 
-/// A forked copy of this process that does one piece of work and ends. Each side has one end of a pair of sockets. The
-/// kernel kills the copy if this process dies; the destructor kills and reaps it. At the fork, other threads of this
-/// process must not hold locks that `work` needs.
+/// A forked copy of this process that does one piece of work and ends. This process and the copy each have one end of a
+/// pair of sockets. The kernel kills the copy if this process dies; the destructor kills and reaps it. At the fork,
+/// other threads of this process must not hold locks that `work` needs.
 class ForkedCopy {
  public:
   /// Starts a copy that runs `work` with the copy's end of the sockets. The return value of `work` becomes the copy's
@@ -45,10 +45,10 @@ class ForkedCopy {
   int status_ = 0;
 };
 
-/// Writes all bytes to a socket. Returns false if the other end is closed.
+/// Writes all bytes to a socket. Returns false if the socket's other end is closed.
 bool SendAll(int socket, std::string_view bytes);
 
-/// Reads exactly `size` bytes from a socket. Returns false if the other end is closed earlier.
+/// Reads exactly `size` bytes from a socket. Returns false if the socket's other end is closed earlier.
 bool ReceiveAll(int socket, char* bytes, std::size_t size);
 
 }  // namespace etude

@@ -30,7 +30,7 @@ bool Holds(const Texts& texts, std::string_view text) {
   return std::ranges::find(texts, text) != texts.end();
 }
 
-/// Returns true if the environment equals ClosedEnvironment; it may also contain the key of secret worlds.
+/// Returns true if the environment equals ClosedEnvironment; the environment may also contain the key of secret worlds.
 bool IsClosed() {
   std::size_t pinned = 0;
   for (char** entry = environ; *entry != nullptr; ++entry) {

@@ -8,11 +8,12 @@
 
 namespace etude {
 
-/// Returns the settings (NAME=VALUE) with which one build gives the same bytes on every machine. They must be set
-/// before the process starts, so commands that compute restart themselves (cli/main.cc).
+/// Returns the settings (NAME=VALUE) with which one build gives the same bytes on every machine. The settings must
+/// exist before the process starts, so commands that compute restart themselves (cli/main.cc).
 const std::vector<std::string>& PinnedEnvironment();
 
-/// The variable with the key of secret worlds (bench/run/secret_key.h). It is never passed to child processes.
+/// The variable with the key of secret worlds (bench/run/secret_key.h). The variable is never passed to child
+/// processes.
 inline constexpr const char* kKeyVariable = "ETUDE_SEED_KEY";
 
 /// Returns the names of the variables that are passed on unchanged: folders, the user, the terminal, GL and sanitizers.

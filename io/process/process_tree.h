@@ -16,7 +16,7 @@ struct ProcessUsage {
   double cpu_s = 0;           ///< includes ended child processes that the process has waited for
   std::uint64_t faults = 0;   ///< minor page faults: pages touched for the first time, or copied on write
   std::size_t processes = 0;  ///< number of processes: 1, or 0 if the process no longer exists
-  double own_cpu_s = 0;       ///< processor time without that of child processes
+  double own_cpu_s = 0;       ///< processor time without the time of child processes
 };
 
 /// Reads a file in /proc, at most `max_bytes` and up to 4 KiB more; returns "" if the process does not exist any more.
@@ -26,17 +26,17 @@ std::string ReadProcFile(const std::string& path, std::size_t max_bytes = std::s
 /// end during the search, so the list is not an exact snapshot.
 std::vector<pid_t> ProcessTree(pid_t root);
 
-/// Returns the living children of `parent`, adopted ones included.
+/// Returns the living children of `parent`, including adopted children.
 std::vector<pid_t> ChildrenOf(pid_t parent);
 
-/// Measures one process without its living descendants; zeros if it does not exist any more.
+/// Measures one process without its living descendants; returns zeros if the process does not exist any more.
 ProcessUsage MeasureProcess(pid_t process);
 
 /// Gives all threads of a process, and all that they start from now on, the lowest priority.
 void LowerPriority(pid_t process);
 
-/// A process and its descendants, held by pidfds. If another process gets the ID of one that has ended, Kill does not
-/// hit it.
+/// A process and its descendants, held by pidfds. If a process of the tree has ended and another process gets its ID,
+/// Kill does not hit that other process.
 class HeldTree {
  public:
   explicit HeldTree(pid_t root);
@@ -49,7 +49,7 @@ class HeldTree {
     pid_t number;
     Descriptor handle;  ///< a pidfd of the process
   };
-  /// Adds descendants that were started since the last call; returns true if there were any.
+  /// Adds descendants that were started since the last call; returns true if it added any.
   bool Grow();
   void AddTree(pid_t root);
   void SignalAll(int signal) const;

@@ -58,7 +58,7 @@ constexpr auto kRefused = std::to_array<Refusal>({
     // clone.
     {SYS_unshare, EPERM},
     {SYS_clone3, ENOSYS},
-    // Refuse io_uring, because it performs the operations above without system calls.
+    // Refuse io_uring, because with io_uring a program could do the operations above without system calls.
     {SYS_io_uring_setup, ENOSYS},
     // Refuse the user's keys, and information about other processes.
     {SYS_add_key, ENOSYS},
@@ -122,7 +122,7 @@ std::string SystemCallFilter() {
            Refuse(EINVAL), kAllow});
   AddCall(filter, SYS_close_range,
           {LoadArgument(2), SkipUnless(BPF_JSET, CLOSE_RANGE_UNSHARE, 1), Refuse(EINVAL), kAllow});
-  // Allow descriptor tables that the threads of one process share; refuse those shared between processes.
+  // Allow descriptor tables that the threads of one process share; refuse descriptor tables that processes share.
   AddCall(filter, SYS_clone,
           {LoadArgument(0), BPF_STMT(BPF_ALU | BPF_AND | BPF_K, CLONE_THREAD | CLONE_FILES),
            SkipUnless(BPF_JEQ, CLONE_THREAD, 1), Refuse(EINVAL), SkipUnless(BPF_JEQ, CLONE_FILES, 1), Refuse(EINVAL),

@@ -88,8 +88,8 @@ double ProportionalMb(pid_t process, double bound_mb) {
   return (FieldOf(shares, "\nPss_Anon:") + FieldOf(shares, "\nPss_File:") + FieldOf(shares, "\nSwapPss:")) / 1024;
 }
 
-/// Counts the different pipes, named ones included, that processes hold open. If the descriptors of a process cannot be
-/// read, each of its descriptors counts as a pipe.
+/// Counts the different pipes, including named pipes, that processes hold open. If the descriptors of a process cannot
+/// be read, each descriptor of this process counts as a pipe.
 std::size_t CountPipes(const std::vector<pid_t>& processes) {
   std::set<std::pair<dev_t, ino_t>> pipes;
   std::size_t hidden = 0;
@@ -112,8 +112,8 @@ std::size_t CountPipes(const std::vector<pid_t>& processes) {
   return pipes.size() + hidden;
 }
 
-/// Counts the file locks of processes, up to kEnoughLocks. The kernel's time to produce its list of locks grows with
-/// the square of the length read, so reading stops as soon as the count is high enough.
+/// Counts the file locks of processes, up to kEnoughLocks. The time that the kernel needs for its list of locks grows
+/// with the square of the length read, so reading stops as soon as the count is high enough.
 std::size_t CountLocks(const std::vector<pid_t>& processes) {
   const std::set<pid_t> ours(processes.begin(), processes.end());
   const int file = ::open("/proc/locks", O_RDONLY | O_CLOEXEC);

@@ -13,9 +13,9 @@
 
 namespace etude {
 
-/// The resources that a program and its descendants hold, and the processor time that they have used.
+/// The resources that a program and its descendants hold, and the processor time that these processes have used.
 struct TreeLoad {
-  double cpu_s = 0;  ///< includes ended processes that they have waited for
+  double cpu_s = 0;  ///< includes the time of ended processes that these processes have waited for
   std::size_t processes = 0, threads = 0;
   std::size_t descriptors = 0;  ///< open files of all processes
   std::size_t pipes = 0;        ///< pipes, which are counted only if there are more than 256 descriptors
@@ -30,16 +30,16 @@ struct ElapsedTime {
   double wall_s = 0;
 };
 
-/// Returns true if a tree of processes starves the process that measures it: a long measurement has spent most of its
-/// time waiting, while the tree used more than half of all cores.
+/// Returns true if a tree of processes starves the process that measures it: a long measurement has mostly waited for
+/// the processor, while the tree used more than half of all cores.
 bool Starves(const ElapsedTime& measuring, double cores_of_tree, double cores);
 
 /// Measures the resources of a tree of processes by repeated sampling, for machines without control groups: it counts
 /// each page once, however many processes share it, and adds the kernel's memory for the processes.
 ///
-/// A sample reads two small files per process, about 30 µs. They give an upper bound on memory, which usually suffices.
-/// Expensive files are read less often, or only if the bound is near the limit. A tree that starves us gets the lowest
-/// priority for good.
+/// A sample reads two small files per process, about 30 µs. These files give an upper bound on memory, which usually
+/// suffices. Expensive files are read less often, or only if the bound is near the limit. A tree that starves us gets
+/// the lowest priority from then on.
 class TreeMeter {
  public:
   /// `limit_mb` is the memory that the tree may hold.
@@ -70,12 +70,12 @@ class TreeMeter {
     Clock::time_point next_{};
   };
 
-  /// One anonymous shared mapping (shmem). It exists while any process maps a part of it, and keeps the pages of parts
-  /// that no process maps any more.
+  /// One anonymous shared mapping (shmem). The mapping exists while any process maps a part of it, and it keeps the
+  /// pages of parts that no process maps any more.
   struct SharedMemory {
     std::map<std::uint64_t, std::uint64_t> parts;  ///< all byte ranges ever seen mapped: begin → end
     double hidden_mb = 0;                          ///< bound on parts that were unmapped before the first sample
-    int samples_unseen = 0;                        ///< consecutive samples in which no process mapped it
+    int samples_unseen = 0;                        ///< consecutive samples in which no process mapped this mapping
     bool is_new = true;                            ///< first seen in the current sample
 
     double Mb() const;
@@ -85,12 +85,12 @@ class TreeMeter {
   void SampleMappings();
   /// Gives the tree the lowest priority if it starves this process; called repeatedly during a measurement.
   void ClaimTime();
-  /// Returns true if a process shares its whole memory with an earlier one in the list, as a child of vfork does.
+  /// Returns true if a process shares its whole memory with an earlier process in the list, as a child of vfork does.
   bool SharesMemoryBefore(std::size_t at) const;
 
   const pid_t root_;
   const double limit_mb_;
-  ElapsedTime started_;  ///< the start of this measurement, or the time of its last check for starvation
+  ElapsedTime started_;  ///< the start of this measurement, or the time of its latest check for starvation
   ElapsedTime of_tree_;  ///< the tree's processor time at the last Count, and the time of that Count
   Pace mappings_pace_{std::chrono::milliseconds(0)}, kernel_pace_{std::chrono::milliseconds(100)};
   Pace pipes_pace_{std::chrono::milliseconds(0)};
@@ -98,8 +98,8 @@ class TreeMeter {
   std::vector<double> bounds_mb_;  ///< the private memory of each process, shared pages included
   TreeLoad load_;
   double page_tables_mb_ = 0, tcp_mb_ = 0;
-  /// The shared pages of the process that maps the most of them, MB: now, and the minimum and maximum since
-  /// SampleMappings.
+  /// The shared pages of the process that maps more shared pages than any other process, MB: now, and the minimum and
+  /// maximum since SampleMappings.
   double max_shared_mb_ = 0, min_since_mb_ = 0, max_since_mb_ = 0;
   std::size_t mappings_ = 0;                      ///< number of mappings that were read
   std::map<std::uint64_t, SharedMemory> shared_;  ///< all shared mappings, by inode

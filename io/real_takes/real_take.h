@@ -9,7 +9,8 @@
 
 namespace etude {
 
-/// The distance between the capture of some cameras and a reference, over all its markers or joints and all frames.
+/// The distance between the capture of some cameras and a reference, over all markers or joints of the reference and
+/// all frames.
 struct RealDistance {
   std::string cameras;                                ///< the cameras used: "all", or numbers such as "1+4"
   std::optional<double> median_mm = {}, p95_mm = {};  ///< millimetres; absent if these cameras gave no motion

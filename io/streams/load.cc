@@ -138,7 +138,7 @@ Result<LoadedStreams> LoadStreams(const std::vector<std::string>& references, co
                                   const StreamOptions& options, const OpenOptions& clips) {
   LoadedStreams loaded;
   for (const std::string& reference : references) {
-    // Load each reference: a folder, or the files that it expands to.
+    // Load each reference: a folder, or the files to which a pattern expands.
     std::error_code ignored;
     if (fs::is_directory(reference, ignored)) {
       RETURN_IF_ERROR(AddFolder(reference, reading, options, clips, loaded));

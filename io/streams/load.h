@@ -20,7 +20,8 @@ Result<std::vector<NamedStream>> LoadStream(const std::string& reference, const 
 /// Converts clips to the recordings of an error-free sensor.
 std::vector<NamedStream> StreamsOf(const ClipLibrary& library);
 
-/// The recordings of files, patterns and folders; folders include their subfolders, sorted by path.
+/// The recordings of files, patterns and folders; a folder's recordings include the recordings of its subfolders and
+/// are sorted by path.
 struct LoadedStreams {
   std::vector<NamedStream> streams;
   /// Files of folders and patterns that could not be read; a file that is named directly makes the load fail.
@@ -32,7 +33,8 @@ struct LoadedStreams {
 Result<LoadedStreams> LoadStreams(const std::vector<std::string>& references, const StreamReading& reading,
                                   const StreamOptions& options, const OpenOptions& clips = {});
 
-/// Returns the files of labels at a path: the path itself or, if it is a folder, all MSRC-12 tag streams in it.
+/// Returns the files of labels at a path: the path itself or, if the path names a folder, all MSRC-12 tag streams in
+/// this folder.
 Result<std::vector<std::string>> LabelFiles(const std::string& path);
 /// Loads the labels of all files that LabelFiles returns.
 Result<std::vector<Label>> LoadLabels(const std::string& path);

@@ -65,7 +65,7 @@ inline void ExpectFinite(const char* name, const Array& array) {
   }
 }
 
-/// The shape of one value of type T in an array. Its numbers are stored row by row.
+/// The shape of one value of type T in an array. The numbers of the value are stored row by row.
 template <typename T>
 const std::vector<py::ssize_t> kShape{};
 template <>
@@ -128,7 +128,7 @@ Array ToArrays(const std::vector<T>& values) {
   return array;
 }
 
-/// Returns a function that returns a class's member as an array.
+/// Makes a getter for Python: a function that returns a member of an object as an array.
 template <typename Class, typename Value>
 auto ArrayOf(Value Class::*member) {
   return [member](const Class& of) { return ToArray(of.*member); };

@@ -12,7 +12,7 @@ namespace {
 constexpr int kPositionNumbers = 3, kMatrixNumbers = 9;
 constexpr double kZeros[3] = {}, kOnes[3] = {1, 1, 1}, kIdentity[9] = {1, 0, 0, 0, 1, 0, 0, 0, 1};
 
-/// A tree and the options of its problems.
+/// A tree, and the options of the problems that are solved for this tree.
 struct Body {
   KinematicTree tree;
   IkOptions options;
@@ -52,8 +52,8 @@ struct Numbers {
   }
 };
 
-/// Returns the positions or axes of the roots of `count` poses. `given` holds one for all poses or one for each pose;
-/// without `given`, the roots have the world's origin and axes.
+/// Returns the positions or axes of the roots of `count` poses. `given` holds one position (or one set of axes) for all
+/// poses, or one for each pose; without `given`, the roots have the world's origin and axes.
 Numbers RootsOf(const char* name, const std::optional<Array>& given, std::vector<py::ssize_t> shape, py::ssize_t count,
                 const double* world) {
   if (!given) return {world};

@@ -12,7 +12,7 @@
 namespace etude::engine {
 namespace {
 
-/// The moves, each with its name and its right performances.
+/// The moves: for each move, the name and the right performances.
 using Moves = std::vector<std::pair<std::string, std::vector<BodyMotion>>>;
 
 std::vector<TaughtMove> ToTaught(const Moves& moves) {
@@ -123,7 +123,7 @@ py::tuple ToTuple(const Repetition& one) { return py::make_tuple(one.move, one.f
 py::tuple ToTuple(const MusicTag& tag) { return py::make_tuple(tag.frame, tag.music_s); }
 py::tuple ToTuple(const CoachAct& act) { return py::make_tuple(act.name, act.motion, act.loops); }
 
-/// Returns a function that returns a dance's parts as tuples.
+/// Makes a getter for Python: a function that returns the parts of a dance as tuples.
 template <typename Part>
 auto TuplesOf(std::vector<Part> Dance::*parts) {
   return [parts](const Dance& dance) {

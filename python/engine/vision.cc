@@ -35,7 +35,7 @@ ColourImage ToPicture(const char* name, const Bytes& picture, py::ssize_t height
   return image;
 }
 
-/// A PersonFinder and the size of its masks.
+/// A PersonFinder, and the size of the masks that it finds.
 struct Finder {
   PersonFinder finder;
   int height, width;

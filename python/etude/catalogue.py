@@ -32,17 +32,18 @@ class Metric:
 
 
 def metrics(program=None):
-    """Returns every metric by its id."""
+    """Returns a dict from the id of each metric to the metric."""
     return _read(find_program(program))[0]
 
 
 def own(manifest):
-    """Returns a run's own metrics by their ids."""
+    """Returns a dict of the metrics that only this run defines, from id to metric."""
     return {each["id"]: Metric(**each) for each in manifest.get("own_metrics", [])}
 
 
 def joints(program=None):
-    """Returns the twenty joints in the order of poses: each one's name and its parent's (None for the first)."""
+    """Returns the twenty joints in the order of poses: the name of each joint and the name of its parent (None for the
+    first)."""
     return _read(find_program(program))[1]
 
 

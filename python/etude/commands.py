@@ -16,17 +16,17 @@ from etude.shipping import ship, write_once
 
 def run(scenario, *, methods=(), metrics=(), trials=None, output=None, seed=None, clips=(), jobs=None, overwrite=False,
         resume=False, fenced=True, progress=True, program=None):
-    """Runs a scenario and returns its Run, as load does.
+    """Runs a scenario, and returns the Run (etude.load) of the result folder.
 
-    scenario: a file, a folder of files, the name of one that comes with etude (`"quick/ik"`), or a dict with the keys
-    of a scenario. methods: further methods, made by @etude.method or dicts with the keys of a scenario's entry; one
-    made by @etude.method is added to the scenarios of its task. metrics: further metrics of every scenario, made by
-    @etude.metric or dicts; the scenario's headline metrics stay. output: the result folder, by default out/NAME-SEED;
-    it must be new unless `overwrite` or `resume` is true. progress: True shows the progress on standard error; a
-    function is called with (cells done, cells).
+    scenario: a file, a folder of files, the name of a scenario that comes with etude (`"quick/ik"`), or a dict with the
+    keys of a scenario. methods: further methods, made by @etude.method or dicts with the keys of a scenario's entry; a
+    method made by @etude.method is added to the scenarios of its task. metrics: further metrics of every scenario, made
+    by @etude.metric or dicts; the scenario's headline metrics stay. output: the result folder, by default
+    out/NAME-SEED; this folder must be new unless `overwrite` or `resume` is true. progress: True shows the progress on
+    standard error; a function is called with (cells done, cells).
 
-    Warns if no cell is ok. Raises EtudeError; its `run` is set if the run finished but a method has no answer (exit
-    code 1).
+    Warns if no cell is ok. Raises EtudeError; the error's `run` is set if the run finished but a method has no answer
+    (exit code 1).
     """
     if isinstance(scenario, dict) or methods or metrics:
         scenario = _write_scenario(scenario, methods, metrics, program)
@@ -59,7 +59,7 @@ def _judged(found, code, printed, said):
 
 
 def _write_scenario(scenario, methods, metrics, program):
-    """Writes a scenario, or a folder of them, with the methods and metrics added, and returns its path."""
+    """Writes a scenario or a folder of scenarios, with the methods and metrics added, and returns the written path."""
     measures = [each if isinstance(each, dict) else _metric(each) for each in metrics]
     entries = [(spec_of(each).task, ship(each)) if not isinstance(each, dict) else (None, each) for each in methods]
     if isinstance(scenario, dict):
@@ -108,7 +108,8 @@ def _value_of(key, text):
 
 
 def _with_methods(name, text, entries):
-    """Returns the text of a scenario with entries added at the end of its list of methods, otherwise unchanged."""
+    """Returns the text of a scenario in which entries are added at the end of the list of methods, otherwise
+    unchanged."""
     if re.search(r"^include:", text, re.MULTILINE):
         raise EtudeError(f"{name}: includes another file, which a copy would not find: write the methods into it")
     if not entries:
@@ -142,7 +143,8 @@ def _metric(each):
 
 
 def _with_metrics(name, text, entries):
-    """Returns the text of a scenario with entries added at the end of its list of metrics, otherwise unchanged."""
+    """Returns the text of a scenario in which entries are added at the end of the list of metrics, otherwise
+    unchanged."""
     if not entries:
         return text
     added = ", ".join(json.dumps(entry, ensure_ascii=False) for entry in entries)
@@ -157,7 +159,7 @@ def _with_metrics(name, text, entries):
 
 
 def _keep(texts, suite=None):
-    """Writes scenario files to the cache, in a folder named by their digest, and returns their path."""
+    """Writes scenario files to the cache, in a folder named by the files' digest, and returns the path to run."""
     digest = hashlib.sha256(json.dumps(sorted(texts.items())).encode()).hexdigest()[:16]
     folder = cache_folder() / "scenarios" / digest
     if len(texts) > 1:
@@ -176,7 +178,7 @@ def report(run, *, video=True, progress=True, program=None):
 
 @dataclass(frozen=True)
 class Gate:
-    """The verdict of a gate; true if it passed. `text` is the gate's whole output, one line per check."""
+    """The verdict of a gate; true if the run passed. `text` is the gate's whole output, one line per check."""
     passed: bool
     text: str
 
@@ -185,7 +187,7 @@ class Gate:
 
 
 def gate(run, baseline=None, *, update=False, program=None):
-    """Judges a run by its expectations and a baseline. Raises EtudeError if it cannot be judged (exit code 3:
+    """Judges a run by its expectations and a baseline. Raises EtudeError if the run cannot be judged (exit code 3:
     incomplete)."""
     flags = [] if baseline is None else ["--baseline", os.fspath(baseline)]
     code, printed, _ = call("gate", getattr(run, "folder", run), *flags, *["--update"] * update, program=program,
@@ -200,12 +202,12 @@ def compare(a, b, *, program=None):
 
 def score(target, predictions, output, *, name=None, alone=False, allow_missing=False, allow_exec=False, jobs=None,
           progress=True, program=None):
-    """Scores answers and returns the Run.
+    """Scores answers, and returns the Run (etude.load) of the result folder.
 
     target: a data set written by `etude export`. allow_exec: allows the data set's own programs, such as metrics, to
     run. predictions: a folder of answers, or a method made by @etude.method. Such a method is asked in this process
-    without a fence, all problems of a setting at once if it takes batches, and its answers are kept in the folder
-    `output` + ".answers".
+    without a fence, all problems of a setting at once if the method takes batches, and its answers are kept in the
+    folder `output` + ".answers".
     """
     if hasattr(predictions, "__etude__"):
         name = name or spec_of(predictions).name
@@ -222,7 +224,8 @@ def score(target, predictions, output, *, name=None, alone=False, allow_missing=
 
 
 def _answer_all(target, method, answers, progress):
-    """Asks a method all problems of its task in a data set. Problems without an answer stay missing."""
+    """Asks a method all those problems of a data set that belong to the method's task. Problems without an answer stay
+    missing."""
     from etude.conversation import NoAnswer
     from etude.messages import plain
     player, spec, inputs = Player(method), spec_of(method), target / "inputs"

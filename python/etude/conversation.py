@@ -27,18 +27,18 @@ def method(task, seat="", *, name=None, version="1", options=None, time_s=None, 
     """Makes a method of a function or a class, which stays unchanged and can still be called.
 
     A function takes a problem and returns its answer. If it has arguments named `setting`, `options` (of the scenario,
-    a dict) or `files` (the folder of attachments), it gets them too. With `batch` it takes a list of problems and
-    returns a list of answers: a run passes one problem at a time, etude.score all problems of a setting.
+    a dict) or `files` (the folder of attachments), it gets these too. With `batch`, the function takes a list of
+    problems and returns a list of answers: a run passes one problem at a time, etude.score all problems of a setting.
 
     A class is constructed for every setting by `__init__(self, …)` with any of `setting`, `options`, `files`, and has
     `answer(self, problem)`. In a `seat` of a loop it has `step(self, seen)` and optionally `begin(self, session)`: what
-    it remembers of one session must not affect another.
+    the class remembers of one session must not affect another session.
 
     Settings, problems and steps are dataclasses of etude.problems. An answer is such a dataclass, a dict, or, if it has
-    one field only, that field's value: a list of angles, an array. Raise NoAnswer(why) if there is none.
+    one field only, that field's value: a list of angles, an array. Raise NoAnswer(why) if there is no answer.
 
-    task, seat: as in a scenario. name, version: what the program calls itself. options, time_s, files: the keys of its
-    entry in a scenario, for etude.run. Raises ValueError for an unknown task or seat.
+    task, seat: as in a scenario. name, version: of the method, as results state them. options, time_s, files: keys of
+    the method's entry in a scenario, for etude.run. Raises ValueError for an unknown task or seat.
     """
     if task not in TASKS:
         raise ValueError(f"no task {task!r}; there are {', '.join(TASKS)}")
@@ -60,7 +60,8 @@ def method(task, seat="", *, name=None, version="1", options=None, time_s=None, 
 
 
 class MetricSpec(Spec):
-    """The arguments of @metric. facts: the keys of its entry in a scenario, besides those of a program's entry."""
+    """The arguments of @metric. facts: the keys of the metric's entry in a scenario, without the keys that describe its
+    program."""
 
     def __init__(self, name, version, options, time_s, files, facts):
         super().__init__("metric", "", name, version, options, time_s, files, False)
@@ -73,15 +74,16 @@ def metric(id, unit="", direction="lower", version=1, vectors=(), *, practical=N
 
     The function takes a finished cell, an etude.MetricProblem: `cell.motion("truth")` and the like are positions in
     metres, `cell.extras` is what the task records besides motions (docs/reference/recordings.md). If it has arguments
-    named `setting` (an etude.MetricSetting: joints, task) or `options`, it gets them too. It returns a number, or
-    raises NoAnswer(why) if there is none. The result must depend on the cell alone.
+    named `setting` (an etude.MetricSetting: joints, task) or `options`, it gets these too. It returns a number, or
+    raises NoAnswer(why) if the cell has no value. The result must depend on the cell alone.
 
-    id: its name in rows and tables, of lower-case letters, digits and '_'. direction: whether "lower", "higher" or
-    "neither" is better. version: raise it with every change of what the metric measures. vectors: cells with known
-    values, checked before a run's first cell: (cell, value), or dicts with the keys cell, expected, tolerance, title;
-    the value None means that there is none. A track of such a cell has `poses`, or `frames` and `joints_m` by joint
-    name; other joints are at the origin. practical: the smallest difference that matters. aggregate, reads, label,
-    definition, options, time_s, files: the keys of its entry in a scenario. Raises ValueError for an unknown direction.
+    id: the metric's name in rows and tables, of lower-case letters, digits and '_'. direction: whether "lower",
+    "higher" or "neither" is better. version: a number to raise whenever the metric measures something else. vectors:
+    cells with known values, checked before a run's first cell: (cell, value), or dicts with the keys cell, expected,
+    tolerance, title; the value None means that the cell has no value. A track of such a cell has `poses`, or `frames`
+    and `joints_m` by joint name; other joints are at the origin. practical: the smallest difference that matters.
+    aggregate, reads, label, definition, options, time_s, files: keys of the metric's entry in a scenario. Raises
+    ValueError for an unknown direction.
     """
     if direction not in ("lower", "higher", "neither"):
         raise ValueError(f"no direction {direction!r}; there are lower, higher, neither")
@@ -119,7 +121,8 @@ def _class_names(spec):
 
 
 def _call(function, first, **offered):
-    """Calls a function with `first`, and with those values of `offered` for which it has arguments."""
+    """Calls a function with the arguments `first`, and with those values of `offered` for which the function has
+    arguments."""
     parameters = inspect.signature(function).parameters.values()
     takes_all = any(parameter.kind is parameter.VAR_KEYWORD for parameter in parameters)
     names = [parameter.name for parameter in parameters]
@@ -135,7 +138,8 @@ class Player:
         self._offered, self._instance = {}, None
 
     def set(self, setting, options, files=None):
-        """Sets the setting for all problems that follow. `files` is the folder of its attachments, or None."""
+        """Sets the setting for all problems that follow. `files` is the folder of the setting's attachments, or
+        None."""
         self._offered = {"setting": self._setting_class.of(setting), "options": dict(options), "files": files}
         if inspect.isclass(self.what):
             self._instance = _call(self.what, (), **self._offered)
@@ -151,7 +155,8 @@ class Player:
         return self.answers([problem], [files])[0]
 
     def answers(self, problems, files):
-        """Returns the answers to several problems with the folders of their attachments; NoAnswer if it has none."""
+        """Returns the answers to several problems. files: the folder of each problem's attachments. Raises NoAnswer if
+        the method has no answer."""
         asked = [self._asked_class.of(problem) for problem in problems]
         if self.spec.batch:
             answers = list(_call(self._function(), (asked,), **{**self._offered, "files": files}))

@@ -16,7 +16,8 @@ from etude.results import load
 def evaluate(truth=None, *, names=None, rate_hz=None, pairs=None, joints=None, people=None, lag=None, statistics=None,
              music_beats=None, metrics=(), alone=False, floor=None, limits=None, output=None, overwrite=False, jobs=None,
              progress=True, program=None, unit=None, up=None, **answers):
-    """Judges answers by their truth, or without one (`alone`), and returns the Run, as load does.
+    """Judges answers by their truth, or without a truth (`alone`), and returns the Run (etude.load) of the result
+    folder.
 
     truth, and each answer by its method's name: a motion file, a folder or a pattern; or an array of positions, frames
     × joints × 3 in metres with Y up, NaN where a joint was not seen. Arrays need `names` of their joints and `rate_hz`;
@@ -24,11 +25,11 @@ def evaluate(truth=None, *, names=None, rate_hz=None, pairs=None, joints=None, p
     does not point up. Arrays are kept as .npz files in the folder `output` + ".motions". pairs: a CSV file of pairs,
     given instead of truth and answers. joints, people, lag, statistics, music_beats, metrics: as the options of `etude
     evaluate`. alone: there is no truth; floor and limits are then the options of `etude evaluate --alone`, and the
-    metric within_limits says which clips keep the limits. output: the result folder; by default the first free one of
-    out/evaluate-1, out/evaluate-2, …
+    metric within_limits says which clips keep the limits. output: the result folder; by default the first free folder
+    of out/evaluate-1, out/evaluate-2, …
 
-    Raises EtudeError, also if a method has no answer that can be judged; its `run` is then set. Warns of pairs that are
-    not judged.
+    Raises EtudeError, also if a method has no answer that can be judged; the error's `run` is then set. Warns of pairs
+    that are not judged.
     """
     output = _free_folder(overwrite) if output is None else pathlib.Path(output)
     if alone and (truth is not None or pairs is not None or not answers):
@@ -78,8 +79,8 @@ def evaluate(truth=None, *, names=None, rate_hz=None, pairs=None, joints=None, p
 
 
 def _free_folder(overwrite):
-    """Returns the first of out/evaluate-1, … that holds no run and no arrays of a call that failed; with overwrite, the
-    first."""
+    """Returns the first of the folders out/evaluate-1, … that holds no run and no arrays of a failed call; with
+    overwrite, out/evaluate-1."""
     for number in itertools.count(1):
         folder = pathlib.Path(f"out/evaluate-{number}")
         if overwrite or not (folder.exists() or pathlib.Path(f"{folder}.motions").exists()):

@@ -12,7 +12,7 @@ class Message:
 
     @classmethod
     def of(cls, told):
-        """Makes a message from a dict. Unknown keys (of later versions) are left out; missing ones become None."""
+        """Makes a message from a dict. Unknown keys (of later versions) are left out; missing keys become None."""
         found = {}
         for name in (field.name for field in dataclasses.fields(cls)):
             key = _key(name)

@@ -1,5 +1,6 @@
-"""The page's pictures as matplotlib figures. They are returned, not shown on a screen. Values have their metric's unit;
-shares and scores are in per cent, as on the page. Intervals, estimates and budgets come from the summary."""
+"""The page's pictures as matplotlib figures. The functions return figures and do not show them. Values have their
+metric's unit; shares and scores are in per cent, as on the page. Intervals, estimates and budgets come from the
+summary."""
 import statistics
 import sys
 
@@ -16,9 +17,9 @@ SWARM = 0.18
 
 
 def estimation(pairs, **named):
-    """Returns the estimation plot of two methods (Gardner & Altman 1986). The left side joins both methods' values in
-    each world. The right side has the paired differences with the summary's intervals over worlds and over clips, and a
-    band for differences that do not matter.
+    """Returns the estimation plot of two methods (Gardner & Altman 1986). The left side joins the values of the two
+    methods in each world. The right side has the paired differences with the summary's intervals over worlds and over
+    clips, and a band for differences that do not matter.
 
     pairs: from Run.pairs; or a Run, followed by the arguments of Run.pairs: estimation(run, method="a", baseline="b").
     A pair that the summary does not compare has no interval.
@@ -29,7 +30,7 @@ def estimation(pairs, **named):
         raise EtudeError(f"no world in which both '{pairs.method_name}' and '{pairs.baseline_name}' have a value")
     figure = Figure(figsize=(8, 3.6), layout="constrained")
     values, differences = figure.subplots(1, 2)
-    # Dots are coloured by unit, or by method if worlds are units.
+    # Dots are coloured by sampling unit, or by method if every world is its own unit.
     names = sorted({unit for unit in pairs.units if unit is not None})
     colours = [_colour(names.index(unit)) if unit is not None else None for unit in pairs.units]
     baseline, method = (_shown_values(of, pairs.metric) for of in (pairs.baseline, pairs.method))
@@ -41,7 +42,7 @@ def estimation(pairs, **named):
     values.set_xlim(-0.5, 1.5)
     values.set_ylabel(_label(pairs.metric))
     _differences(differences, pairs, names, colours)
-    # The title gives the condition, if there is one, and both verdicts.
+    # The title gives the condition, if there is one, and the verdicts on these worlds and on other worlds.
     condition = pairs.condition[0] if len(set(pairs.condition)) == 1 and pairs.condition[0] != "-" else ""
     says = f": {pairs.verdict.verdict} on these worlds" if pairs.verdict else ""
     beyond = f", {pairs.verdict.beyond} for others" if pairs.verdict and pairs.verdict.beyond else ""
@@ -79,8 +80,8 @@ def _differences(axes, pairs, names, colours):
 
 
 def curves(run, name, *, scenario=None, condition=None):
-    """Returns a curve per method over its steps: the median of all cells. A cell that has ended keeps its last value,
-    as on the page. name: the name of a series, such as "position_error_max_cm"."""
+    """Returns one curve per method: at each step, the median over the method's cells. A cell that has ended keeps its
+    last value, as on the page. name: the name of a series, such as "position_error_max_cm"."""
     scenario = run._named(scenario)
     found, axis, unit = {}, "", ""
     for each in run.series(name, scenario=scenario, condition=condition):
@@ -113,8 +114,8 @@ def median_curve(several):
 
 
 def error_budget(run, *, scenario=None, condition=None, method=None):
-    """Returns a waterfall of the errors that the stages cause, with the summary's intervals. It starts at a method's
-    error and ends at the error that remains when the truth replaces all stages."""
+    """Returns a waterfall of the errors that the stages cause, with the summary's intervals. The waterfall starts at a
+    method's error and ends at the error that remains when the truth replaces all stages."""
     wanted = [scenario] if scenario is not None else run.scenarios
     for each in run.summary["scenarios"]:
         for of in each["conditions"] if each["name"] in wanted else ():
@@ -189,7 +190,7 @@ def _aside(values):
 
 
 def _shown(figure):
-    """Returns the figure. A notebook shows it if it is the value of a notebook's cell."""
+    """Returns the figure. A notebook shows the figure if a notebook's cell has it as value."""
     if "IPython" in sys.modules:
         from IPython import get_ipython
         if get_ipython() is not None:

@@ -18,9 +18,9 @@ _TENTH = re.compile(r" *(\d+) %  (\d+)/(\d+) ")
 class EtudeError(Exception):
     """An error that the program reported, or something that a run does not have.
 
-    text: the error. place: its `file:line:column`, else "". exit_code: the program's (1: a method has no answer; 2: bad
-    input, nothing was written; 3: this machine prevented it), None if the program did not run. said: its whole output
-    on standard error. run: the run if there is one nevertheless, else None.
+    text: the error. place: the error's `file:line:column`, else "". exit_code: the program's exit code (1: a method has
+    no answer; 2: bad input, nothing was written; 3: this machine prevented it), None if the program did not run. said:
+    the program's whole output on standard error. run: the Run if the program wrote one nevertheless, else None.
     """
 
     def __init__(self, text, exit_code=None, said="", run=None):
@@ -32,10 +32,10 @@ class EtudeError(Exception):
 
 
 def find_program(program=None):
-    """Returns the path of the program: the argument, else the environment's ETUDE, else the one in PATH, else one
-    beside this package: `bin/etude` of the prefix that it is installed in, or a build of the clone that it lies in.
+    """Returns the path of the program: the argument, else the environment's ETUDE, else `etude` in PATH, else a program
+    beside this package: `bin/etude` of the package's prefix, or a build of the package's clone.
 
-    Raises EtudeError if there is none.
+    Raises EtudeError if no program is found.
     """
     for origin, given in (("argument", program), ("ETUDE", os.environ.get("ETUDE"))):
         if given:

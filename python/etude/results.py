@@ -114,7 +114,7 @@ class Pairs:
 @dataclass(frozen=True)
 class Motion:
     """A recorded motion. positions_m: frames × joints × 3 in metres, Y up; an array if numpy is installed, else lists.
-    joints: their names. parents: the joint above each (None for the first)."""
+    joints: names. parents: for each joint, the name of the joint above it (None for the first)."""
     cell: str
     name: str
     rate_hz: float
@@ -129,7 +129,8 @@ class Motion:
 
 @dataclass(frozen=True)
 class Series:
-    """A curve of one cell: `values` along `axis` ("frame", "iteration", …). names: what whole numbers stand for."""
+    """A curve of one cell: `values` along `axis` ("frame", "iteration", …). names: if set, `values` are indices into
+    this list of names."""
     cell: str
     condition: str
     trial: int
@@ -145,7 +146,8 @@ class Series:
 
 
 class Run:
-    """A finished run. run["ik-weights"] is the Table of a scenario. summary and manifest are these files as read."""
+    """A finished run. run["ik-weights"] is the Table of a scenario. summary, manifest: the contents of the run's
+    summary.json and manifest.json."""
 
     def __init__(self, folder, metrics, joints):
         self.folder = pathlib.Path(folder)
@@ -186,7 +188,8 @@ class Run:
         return list(self._scenarios[self._named(scenario)]["methods"])
 
     def answers(self, scenario=None):
-        """Returns every answer: of each method against its baseline, then against its strongest rival."""
+        """Returns every answer: first for each method against its baseline, then for each method against its strongest
+        rival."""
         if scenario is not None:
             self._named(scenario)
         return [Answer(name, condition_text(condition["condition"]), each["baseline"], each["method"], against,
@@ -197,7 +200,8 @@ class Run:
                 for each in condition[key]]
 
     def verdicts(self, scenario=None, metric=None):
-        """Returns every comparison on the page, in its order: against baselines, then against the strongest rivals."""
+        """Returns every comparison on the page, in the page's order: against baselines, then against the strongest
+        rivals."""
         found = []
         for name, summary in self._scenarios.items():
             for condition in summary["conditions"]:
@@ -209,8 +213,9 @@ class Run:
         return [each for each in found if scenario in (None, each.scenario) and metric in (None, each.metric)]
 
     def pairs(self, method, baseline, metric=None, *, scenario=None, condition=None):
-        """Returns the Pairs of two methods. metric: the scenario's first by default. scenario: may be left out if only
-        one has both methods. condition: as in rows ("joint_noise_deg=15"); all by default."""
+        """Returns the Pairs of two methods. metric: by default the scenario's first metric. scenario: may be left out
+        if only one scenario has both methods. condition: as in rows ("joint_noise_deg=15"); by default all
+        conditions."""
         if scenario is None:
             both = [name for name, each in self._scenarios.items() if {method, baseline} <= set(each["methods"])]
             if len(both) != 1:
@@ -221,7 +226,7 @@ class Run:
             scenario = both[0]
         scenario = self._named(scenario)
         summary, table = self._scenarios[scenario], self[scenario]
-        # Check that both names and the condition exist.
+        # Check that the two methods and the condition exist.
         for name in (method, baseline):
             if name not in summary["methods"]:
                 raise EtudeError(f"{scenario}: no method '{name}'{nearest(name, summary['methods'])}; there are "
@@ -230,7 +235,7 @@ class Run:
         if condition is not None and condition not in conditions:
             raise EtudeError(f"{scenario}: no condition '{condition}'; there are {', '.join(conditions)}")
         metric = metric or summary["headline_metrics"][0]
-        # Collect both methods' values by world.
+        # Collect, for each world, the values of the two methods.
         values, methods = list(table[metric]), list(table["method"])
         clips, units = (list(table[name]) if name in table else [None] * len(table) for name in ("clip", "units"))
         worlds = {}
@@ -259,8 +264,8 @@ class Run:
     def motion(self, cell, name="truth"):
         """Returns a motion from a cell's recording.
 
-        cell: a row, or its cell as text. name: "truth", another of its tracks ("sensed", "solution", …), or a method,
-        for that method's motion in the same world. Raises EtudeError that lists what there is.
+        cell: a row, or the name of a cell. name: "truth", another track of the recording ("sensed", "solution", …), or
+        a method, for this method's motion in the same world. Raises EtudeError that lists the existing names.
         """
         cell = cell["cell"] if isinstance(cell, dict) else cell
         recorded = self.recorded()
@@ -285,7 +290,7 @@ class Run:
         return _motion(cell, tracks[name], [(joint, dict(self._joints)[joint]) for joint in told["joints"]])
 
     def series(self, name=None, *, scenario=None, method=None, condition=None, trial=None):
-        """Yields the curves of cells that have this name, or all curves if it is None."""
+        """Yields the cells' curves with this name; all curves if `name` is None."""
         wanted = [self._named(scenario)] if scenario is not None else self.scenarios
         known = set()
         for each in wanted:

@@ -28,8 +28,9 @@ MAX_LITERAL_LENGTH = 1_000_000  # characters of a value that is written as sourc
 
 
 def ship(method):
-    """Returns the entry (a dict) of a scenario's `methods` or `metrics` for one made by @method or @metric. Its folder,
-    below etude.program.cache_folder(), is named by its contents, so that the same method gives the same entry.
+    """Returns the entry (a dict) in a scenario's `methods` or `metrics` for a method or metric made by @method or
+    @metric. The entry's folder, below etude.program.cache_folder(), is named by its contents, so the same method gives
+    the same entry.
 
     Raises ValueError that names what cannot be sent and why.
     """
@@ -75,7 +76,8 @@ def _folder_of(module):
 
 
 def _interpreter(granted):
-    """Returns the Python that runs this process; adds its prefix to `granted` unless the fence shows it to all."""
+    """Returns the Python that runs this process; adds Python's prefix to `granted` unless the fence shows this folder
+    to all programs."""
     for prefix in dict.fromkeys([sys.prefix, sys.base_prefix]):
         if not f"{prefix}/".startswith(SYSTEM):
             granted.append(prefix)
@@ -83,7 +85,8 @@ def _interpreter(granted):
 
 
 def _write(source, arrays, room):
-    """Returns a program's folder in this part of the cache: with its source, arrays and imported modules."""
+    """Writes a program's folder (its source, arrays and the modules that it imports) into the part `room` of the cache,
+    and returns the folder."""
     here = pathlib.Path(__file__).resolve().parent
     files = {"program.py": source.encode(), **{f"{name}.npy": data for name, data in arrays.items()}}
     for name in ("__init__.py", "conversation.py", "engine.py", "messages.py", "problems.py"):
@@ -98,7 +101,7 @@ def _write(source, arrays, room):
 
 
 def write_once(path, data):
-    """Writes a file, whole or not at all, unless it has these contents already."""
+    """Writes a file, whole or not at all, unless the file has these contents already."""
     if path.exists() and path.read_bytes() == data:
         return
     path.parent.mkdir(parents=True, exist_ok=True)
@@ -114,7 +117,7 @@ class _Pieces:
         self.arrays, self.folders, self._seen, self._lines, self._imports = {}, [], {}, [], []
 
     def add(self, thing, whose):
-        """Adds a function or class of a notebook, after all that it uses."""
+        """Adds a function or class of a notebook, after adding all that it uses."""
         name = thing.__name__
         if name == "<lambda>":
             raise ValueError(f"{whose} is a lambda, which has no source of its own: write it with def")
@@ -227,7 +230,8 @@ def _functions_of(thing):
 
 
 def _source_of(thing):
-    """Returns the source of a function or class. A notebook's class has no file, so it is found by its functions."""
+    """Returns the source of a function or class. A notebook's class has no file, so its functions are used to find the
+    source."""
     if isinstance(thing, types.FunctionType) or not _functions_of(thing):
         return textwrap.dedent(inspect.getsource(thing))
     code = _functions_of(thing)[0].__code__
@@ -260,7 +264,8 @@ def _find(thing, name, whose):
 
 
 def _name_in_module(value):
-    """Returns the name of a value in its own module, else None. Compiled functions have only a `__name__`."""
+    """Returns the name under which a value is found in its module, else None. Compiled functions have only a
+    `__name__`."""
     for told in ("__qualname__", "__name__"):
         name = getattr(value, told, None)
         if isinstance(name, str) and name.isidentifier() and \

@@ -22,10 +22,10 @@ def numpy_or_none():
 
 
 class Column(collections.abc.Sequence):
-    """The values of one column, one per row. A missing value is None; NaN in `values` and in an array.
+    """The values of one column, one per row. As an item, a missing value is None; in `values` and in arrays, it is NaN.
 
-    values: a numpy array if numpy is installed, else an array of the standard library or a list. metric: its
-    etude.catalogue.Metric, or None if the column is no metric. unit, definition: the metric's, else "".
+    values: a numpy array if numpy is installed, else an array of the standard library or a list. metric: the column's
+    etude.catalogue.Metric, or None if the column is no metric. unit, definition: of the metric, else "".
     """
 
     def __init__(self, name, values, metric=None):
@@ -58,7 +58,7 @@ class Column(collections.abc.Sequence):
 
 class Table:
     """The cells of one scenario, all of one task. Columns without any value are left out; `null_columns` gives the
-    reasons by name.
+    reasons, by the column's name.
 
     columns: the names, settings first. table["iterations"] is a Column; so are the digests of stages, `digest_…`,
     although `columns` leaves them out.
@@ -87,13 +87,13 @@ class Table:
         return self._read[name]
 
     def reasons(self, name):
-        """Returns for each cell the reason why its value of a metric is missing; None if the value exists."""
+        """Returns for each cell the reason why the cell has no value of a metric; None if the value exists."""
         column = self[name] if name in self else [None] * len(self)
         why = self._reasons(name)
         return [None if value is not None else why(i) for i, value in enumerate(column)]
 
     def rows(self):
-        """Returns the cells as dicts, without their digests."""
+        """Returns the cells as dicts, without the digests of stages."""
         columns = [self[name] for name in self.columns]
         for values in zip(*columns) if columns else ():
             yield dict(zip(self.columns, values))
@@ -118,9 +118,9 @@ class Table:
         return frame
 
     def to_xarray(self):
-        """Returns a Dataset over condition × trial × method, in their order. Settings are coordinates of the condition;
-        every metric has `units`, `long_name` and `definition` in its `attrs`. A cell that does not exist is NaN, or
-        None for texts. `sel` has an argument named `method`, so write `data.sel({"method": "fixed"})`."""
+        """Returns a Dataset over condition × trial × method, in the order of the rows. Settings are coordinates of the
+        condition; every metric has `units`, `long_name` and `definition` in its `attrs`. A cell that does not exist is
+        NaN, or None for texts. `sel` has an argument named `method`, so write `data.sel({"method": "fixed"})`."""
         needed("xarray")
         frame, axes = self.to_pandas(), ["condition", "trial", "method"]
         settings = [name for name in self.columns if name not in IDENTITY and name not in self._metrics]
@@ -217,7 +217,7 @@ def read_npy(path):
 
 
 def table_of_columns(folder, metrics):
-    """Returns the table of a scenario with more than 100,000 cells. `folder` is its columns/SCENARIO."""
+    """Returns the table of a scenario with more than 100,000 cells. `folder` is the run's folder columns/SCENARIO."""
     index = json.loads((folder / "index.json").read_text(encoding="utf-8"))
     trials, methods, conditions = index["trials"], index["methods"], index["conditions"]
     length = trials * len(methods) * len(conditions)

@@ -30,7 +30,8 @@ ProjectedJoints ProjectAll(const BodyPose& pose, const Camera& camera, const Box
   ProjectedJoints projected;
   for (const Role role : AllRoles()) {
     const auto pixel = Project(camera, pose[role]);
-    // Skip far points: they are invisible, and cairo's fixed-point coordinates would overflow.
+    // Skip points far outside the picture: such points are invisible, and cairo's fixed-point coordinates would
+    // overflow.
     if (!pixel || glm::length(*pixel) > 1e4) continue;
     projected.points[Index(role)] = glm::dvec2{panel.x, panel.y} + *pixel * scale;
   }
@@ -121,7 +122,8 @@ Mask OutlineOf(const Mask& mask) {
 }
 
 Result<CapturePanel> CapturePanel::Make(const RunData& run, const ShownCell& cell) {
-  // Read the true and the recovered motion and the extras of the recording, and check that their lengths match.
+  // Read the true and the recovered motion and the extras of the recording, and check that the lengths of these three
+  // match.
   const Place place{.file = "recording " + cell.row->Id()};
   const BodyMotion* truth = FindTrack(*cell.recording, "truth");
   const BodyMotion* recovered = FindTrack(*cell.recording, "recovered");

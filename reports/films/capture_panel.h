@@ -17,7 +17,7 @@ namespace etude {
 /// One method's capture: the cameras' views, with the segmented person tinted and outlined, and the recovered skeleton.
 class CapturePanel {
  public:
-  /// Fails if the recording's extras cannot be read, or do not match the lengths of its motions.
+  /// Fails if the recording's extras cannot be read, or do not match the lengths of the recording's motions.
   static Result<CapturePanel> Make(const RunData& run, const ShownCell& cell);
 
   int Frames() const { return static_cast<int>(truth_.poses.size()); }
@@ -30,7 +30,7 @@ class CapturePanel {
   /// Returns the title, the method and the clip: "adaptive on clap".
   std::string Title() const;
   const std::string& Method() const { return method_; }
-  /// Returns the name of the performed clip: "clap"; empty if the recording does not state it.
+  /// Returns the name of the performed clip: "clap"; empty if the recording does not state the clip.
   const std::string& Clip() const { return clip_; }
   /// Returns the mean joint error in words: "43 mm now, 51 mm on average"; empty if the run did not measure this error.
   std::string ErrorWords(int frame) const;
@@ -51,15 +51,15 @@ class CapturePanel {
 
   /// Draws the crop around the person in one camera's picture, with mask and skeleton over it and without text. The
   /// crop fills the canvas. Calls with the same canvas size, camera and frame draw the same picture, so callers may
-  /// cache it.
+  /// cache the picture.
   void Draw(Canvas& canvas, Renderer& renderer, std::size_t camera, int frame) const;
 
  private:
   BodyMotion truth_, recovered_;
   CaptureExtras extras_;
   StagedRoom stage_;
-  std::vector<LensWarp> lenses_;  ///< lens distortion, one per camera
-  std::vector<Box> crops_;        ///< crop around the person, one per camera, pixels of its pictures
+  std::vector<LensWarp> lenses_;  ///< each camera's lens distortion
+  std::vector<Box> crops_;        ///< crop around the person, one per camera, in pixels of the camera's pictures
   /// Mean joint error, one per frame; empty if the run did not record errors of frames.
   std::vector<double> errors_mm_;
   std::optional<double> error_mm_;
@@ -70,7 +70,7 @@ class CapturePanel {
 /// picture would cover.
 void DrawSkeleton(Canvas& canvas, const BodyPose& pose, const Camera& camera, const Box& panel);
 
-/// Returns the outline of a mask: its pixels that touch a pixel outside the mask.
+/// Returns the outline of a mask: those pixels of the mask that touch a pixel outside the mask.
 Mask OutlineOf(const Mask& mask);
 
 }  // namespace etude

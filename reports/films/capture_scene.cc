@@ -52,7 +52,7 @@ void DrawStrokes(Canvas& canvas, const std::vector<CaptureExtras::Mark>& marks, 
   }
 }
 
-/// One row of the plate: pictures side by side under a title.
+/// One row of the plate (the picture of DrawPlate): pictures side by side under a title.
 class PlateRow {
  public:
   PlateRow(Canvas& canvas, double y, const std::string& title) : canvas_(canvas), y_(y) {
@@ -162,7 +162,7 @@ std::optional<Picture> DrawPlate(const CapturePanel& capture, Renderer& renderer
       row.Add(picture, fmt::format("T = {}", frame + 1));
     }
   }
-  // Draw one row of recovered skeletons at the same frames.
+  // Draw one row of recovered skeletons at the frames of the rows above.
   PlateRow row = begin_row("The whole sequence, its skeletons");
   for (const int frame : sequence) {
     Canvas picture(kPictureWidth, kPictureHeight);
@@ -200,13 +200,13 @@ Box ColumnOf(std::size_t index, std::size_t count) {
 }
 
 /// Places a camera slightly to the side of the body's heading, with the whole true motion in view and a margin around
-/// it.
+/// this motion.
 Camera CameraBefore(const BodyMotion& truth, double width, double height) {
   glm::dvec3 low(1e9), high(-1e9);
   for (const BodyPose& pose : truth.poses) {
     for (const glm::dvec3& joint : pose.joints) low = glm::min(low, joint), high = glm::max(high, joint);
   }
-  constexpr double kAway = 6, kAir = 0.35;  // distance of the camera, and margin around the motion, metres
+  constexpr double kAway = 6, kAir = 0.35;  // distance of camera and body, margin around the motion, metres
   const double heading = Heading(truth.poses.front()) + Radians(20);
   const glm::dvec3 middle = 0.5 * (low + high);
   const double across = glm::length(glm::dvec2(high.x - low.x, high.z - low.z)) + kAir;

@@ -10,17 +10,18 @@
 
 namespace etude {
 
-/// Draws two frames of a capture as its first two cameras saw them, with the segmentation mask and the recovered
-/// skeleton over each picture.
+/// Draws two frames of a capture as the first two cameras saw these frames, with the segmentation mask and the
+/// recovered skeleton over each picture.
 std::vector<Picture> DrawStrip(const CapturePanel& capture, Renderer& renderer);
 
 /// Saves the pictures of DrawStrip for other programs, as EXR files with colour, depth and labels.
 Result<void> SaveStripPictures(const CapturePanel& capture, Renderer& renderer, const FilePath& folder);
 
-/// Draws all processing stages of a capture's moments in the layout of paper B's figures 5.3 to 5.14. Each moment and
-/// camera has a row: the picture, the person cut out of it, the marks of the limbs, the skeleton with its bone lengths
-/// fixed, and the skeleton after inverse kinematics. The rows below show the whole motion as the cameras saw it, and
-/// its skeletons, as in figure 5.15. At most two cameras are shown. Returns nullopt if the recording keeps no moments.
+/// Draws all processing stages of a capture's moments (the frames whose intermediate results the recording keeps) in
+/// the layout of paper B's figures 5.3 to 5.14. Each moment and camera has a row: the picture, the person cut out of
+/// the picture, the marks of the limbs, the skeleton with its bone lengths fixed, and the skeleton after inverse
+/// kinematics. The rows below show, as figure 5.15 does, the whole motion in the cameras' pictures and as skeletons. At
+/// most two cameras are shown. Returns nullopt if the recording keeps no moments.
 std::optional<Picture> DrawPlate(const CapturePanel& capture, Renderer& renderer);
 
 /// Finds the captures that a film compares: at most three of the methods that were recorded in the world of `typical`
@@ -28,8 +29,8 @@ std::optional<Picture> DrawPlate(const CapturePanel& capture, Renderer& renderer
 /// cannot be read.
 Result<std::vector<CapturePanel>> FindCaptures(const RunData& run, const ShownCell& typical);
 
-/// The film of a capture: the views of two cameras and, for each method, a column with the true skeleton and the
-/// recovered skeleton over it. The colour of a recovered bone shows the error of its joints.
+/// The film of a capture: the views of two cameras and, for each method, a column with the true skeleton and, over it,
+/// the recovered skeleton. The colour of a recovered bone shows the error of the bone's joints.
 class CaptureScene : public Scene {
  public:
   /// The maximum numbers of compared methods and of frames.
@@ -51,7 +52,7 @@ class CaptureScene : public Scene {
 
   Renderer& renderer_;
   const std::vector<CapturePanel> captures_;
-  Camera camera_;  ///< the camera in front of the skeletons; its pictures have the size of one column
+  Camera camera_;  ///< the camera in front of the skeletons; the camera's pictures are as large as a column
 };
 
 }  // namespace etude

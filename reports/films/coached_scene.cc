@@ -74,7 +74,7 @@ namespace {
 constexpr Rgb8 kSky{176, 212, 232}, kHills{122, 160, 138}, kGrass{126, 168, 92}, kTrunk{112, 84, 60};
 constexpr std::array<Rgb8, 3> kCrowns = {{{66, 118, 72}, {82, 136, 78}, {52, 100, 68}}};
 
-/// Returns a flat polygon whose visible side is towards +Z or up. `corners` are in order along its boundary.
+/// Returns a flat polygon whose visible side is towards +Z or up. `corners` are in order along the polygon's boundary.
 Surface Sheet(const std::vector<glm::dvec3>& corners, const glm::dvec3& normal, Rgb8 colour) {
   Surface sheet;
   sheet.positions = corners;
@@ -181,7 +181,7 @@ Figure ForestFigure() {
   }
   forest.surfaces.push_back(Sheet(
       {{-kFar, 0.004, kNear}, {kFar, 0.004, kNear}, {kFar, 0.004, kBack}, {-kFar, 0.004, kBack}}, {0, 1, 0}, kGrass));
-  // The trees were placed by hand. They leave the middle free for the dancers.
+  // The trees were placed by hand. The middle is free for the dancers.
   constexpr std::array<glm::dvec3, 12> kTrees = {{{-5.6, 3.0, -2.1},
                                                   {-4.7, 2.3, -1.8},
                                                   {-3.9, 2.9, -2.2},
@@ -261,10 +261,11 @@ void CoachedScene::DrawStage(Canvas& canvas, int frame) {
   // Show the reason for the coach's latest decision, if the decision was made within the last two seconds.
   std::string why;
   for (const auto& decision : facts_.decisions) {
-    // Leave out decisions about music, clips and rules of correction: they are too detailed for viewers.
+    // Leave out decisions about music, clips and rules of correction: such decisions are too detailed for viewers.
     const bool is_said = decision.event != "tag" && decision.event != "transition" && decision.event != "corrects";
     if (is_said && decision.frame <= frame && frame < decision.frame + 2 * kFilmRate && !decision.why.empty()) {
-      // For the verdict "wrong", show the fault without the evidence after it; for "right", show only the verdict.
+      // For the verdict "wrong", show the fault, but not the evidence that follows in the text; for "right", show only
+      // the verdict.
       const std::string_view event = decision.event;
       why = event == "wrong"   ? "wrong: " + decision.why.substr(0, decision.why.find(':'))
             : event == "right" ? "judged right"

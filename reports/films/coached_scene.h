@@ -15,10 +15,10 @@
 
 namespace etude {
 
-/// A recorded session of a coach, prepared for a film. It contains the motions of the recording and its extras, with
+/// A recorded session of a coach, prepared for a film. It contains the motions and the extras of the recording, with
 /// every frame number clamped to the session.
 struct CoachedSessionFacts : CoachExtras {
-  /// Motions of coach and learner, and the learner's motion as the sensor saw it; of equal length.
+  /// Motions of coach and learner, and the learner's motion as the sensor saw it; the three motions have equal lengths.
   BodyMotion coach, learner, sensed;
 
   int Frames() const { return static_cast<int>(coach.poses.size()); }
@@ -28,7 +28,7 @@ struct CoachedSessionFacts : CoachExtras {
 /// recording and the faulty key.
 Result<CoachedSessionFacts> ReadCoachedSession(const ShownCell& cell);
 
-/// Chooses the worst of a scenario's recorded sessions: the one with the most unneeded and missed corrections per
+/// Chooses the worst of a scenario's recorded sessions: the session with the most unneeded and missed corrections per
 /// minute. Returns nullopt if no session was recorded.
 std::optional<ShownCell> ChooseWorstSession(const RunData& run, const ScenarioSummary& scenario);
 
@@ -40,7 +40,7 @@ Figure ForestFigure();
 /// rendered without shadows.
 Surface SpotBelow(const BodyPose& pose);
 
-/// The film of a coached session. It shows the bear, which is the coach, in its forest beside the learner; the
+/// The film of a coached session. It shows the bear, which is the coach, beside the learner in the forest; the
 /// learner's skeleton as the sensor saw it; the hint with the picture of its key pose; and a timeline of truth,
 /// verdicts and transitions. A click sounds on every beat.
 class CoachedScene : public Scene {

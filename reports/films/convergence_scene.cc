@@ -112,7 +112,7 @@ void ErrorPlot::DrawValueAxis(Canvas& canvas, const Frame& frame) const {
 }
 
 void ErrorPlot::DrawIterationAxis(Canvas& canvas, const Frame& frame) const {
-  double free_from = 0;  // smallest x at which the next label does not overlap the last one
+  double free_from = 0;  // smallest x at which the next label does not overlap the previous label
   const auto tick = [&](int at) {
     const std::string label = FormatCount(at);
     const double width = canvas.TextWidth(label, kTickSize), x = frame.X(at), left = x - width / 2;
@@ -144,7 +144,7 @@ namespace {
 
 // The bodies are rendered larger by this factor and then shrunk, which smooths the edges (supersampling).
 constexpr double kDetail = 1.5;
-// The share of the panel's width, at its left, that is reserved for text.
+// The share of the panel's width that is reserved for text, at the left of the panel.
 constexpr double kWordsShare = 0.34;
 // The bodies are turned by this angle from the frontal view, so that near and far limbs can be distinguished.
 constexpr double kTurn = Radians(25);
@@ -298,12 +298,12 @@ void ConvergencePanel::Draw(Canvas& canvas, const Box& panel, Renderer& renderer
     figure(y, label, ShortNumber(now) + suffix, now < goal ? kGood : kInk);
   };
   canvas.DrawText({x, panel.y + 36}, path_.method, 25, colour_, panel.width - 36, true);
-  // Show the iteration of the clock that both methods share, because recordings leave out iterations.
+  // Show the iteration of the film's clock, which both methods share, because recordings leave out some iterations.
   const int reached = std::min(static_cast<int>(iteration), path_.iterations.back());
   figure(84, "iteration", FormatCount(reached), kInk);
   error(164, "worst position error", path_.position_cm, kGoalCm, " cm");
   error(244, "worst orientation error", path_.orientation_deg, kGoalDeg, "°");
-  // After the method has ended, show how it ended. Its last pose stays until the other method ends.
+  // After the method has ended, show how it ended. The method's last pose stays until the other method ends.
   if (entry + 1 == path_.poses.size()) {
     const Paint& paint = path_.solved_at ? kGood : kWarn;
     canvas.DrawText({x, panel.y + 342}, path_.ending, 25, paint, panel.width - 36, true);

@@ -22,8 +22,8 @@ class RaceClock {
 
   int LastIteration() const { return last_; }
   int Frames() const { return kOpening + run_ + kEnding; }
-  /// Returns the iteration at a frame, 0 … the last iteration; it never decreases. The fraction is the progress within
-  /// an iteration.
+  /// Returns the iteration at a frame, 0 … the last iteration; it never decreases. The fraction of the result is the
+  /// progress within an iteration.
   double IterationAt(int frame) const;
   /// Returns the position of an iteration, 0…1, on an axis along which the film advances at constant speed.
   double ShareOf(double iteration) const;
@@ -32,7 +32,7 @@ class RaceClock {
   static constexpr int kOpening = kFilmRate / 2, kEnding = 3 * kFilmRate / 2;
 
   int last_;
-  int run_;  ///< number of frames between the first and the last state, which are both held
+  int run_;  ///< number of frames between the first and the last state; these two states are held
 };
 
 /// The error of one method over iterations: `values[i]` is the error at `iterations[i]`.
@@ -49,7 +49,7 @@ class ErrorPlot {
   /// must have a value; without curves, only the title is drawn.
   ErrorPlot(std::string title, std::string suffix, double goal, std::vector<ErrorCurve> curves, const RaceClock& clock);
 
-  /// Draws the curves up to `iteration` into `panel`.
+  /// Draws, in `panel`, the curves up to `iteration`.
   void Draw(Canvas& canvas, const Box& panel, double iteration) const;
 
  private:
@@ -65,15 +65,15 @@ class ErrorPlot {
   int lowest_ = 0, highest_ = 0;  ///< exponents of ten at the lower and the upper end of the error axis
 };
 
-/// Renders the bodies of both methods for the film. One camera, which sees every pose of both methods, renders all
+/// Renders the bodies of the two methods in the film. One camera, which sees every pose of both methods, renders all
 /// pictures. The true pose appears as a ghost, and the left side is free for text.
 class ConvergenceStage {
  public:
   /// Prepares pictures of `width` × `height` pixels.
   ConvergenceStage(const IkRace& race, Renderer& renderer, int width, int height);
 
-  /// Draws a body in `colour` over the ghost of the true pose. Rings mark the targets of its end effectors, dots mark
-  /// the end effectors.
+  /// Draws a body in `colour` over the ghost of the true pose. Rings mark the targets of the body's end effectors, and
+  /// dots mark the end effectors.
   Image<std::uint32_t> Picture(Renderer& renderer, const BodyPose& pose, const Paint& colour) const;
 
  private:
@@ -86,11 +86,11 @@ class ConvergenceStage {
   double lift_;  ///< height by which the figures are raised so that no body is below the floor, metres
   BodyPose truth_;
   IkTargets targets_;
-  mutable Studio studio_;  ///< mutable, because it caches its last picture
+  mutable Studio studio_;  ///< mutable, because a studio caches its last picture
   Mask ghost_, rim_;
 };
 
-/// One half of the convergence film: a method's state at a moment, as a picture and as numbers.
+/// One half of the convergence film: a method's state at one iteration, as a picture and as numbers.
 class ConvergencePanel {
  public:
   /// `path` and `stage` must outlive the panel.
@@ -108,14 +108,14 @@ class ConvergencePanel {
   const IkPath& path_;
   const ConvergenceStage& stage_;
   Paint colour_;
-  /// For each entry of the path, the index of the entry whose picture is shown: the latest pose that visibly differs
-  /// from the previous picture.
+  /// For each entry of the path, the index of the entry whose picture is shown: the entry of the latest pose that
+  /// visibly differs from the pose in the previous picture.
   std::vector<std::size_t> seen_;
   std::optional<Drawn> drawn_;  ///< the latest picture, cached because several frames may show it
 };
 
-/// A film of paper B's figures 5.1 and 5.2: a body whose pose converges under two methods side by side, and the curves
-/// of their errors below.
+/// A film of paper B's figures 5.1 and 5.2: a body whose pose converges under two methods side by side, and, below
+/// them, the curves of the methods' errors.
 class ConvergenceScene : public Scene {
  public:
   /// Makes the film of a race. The renderer must outlive the scene.

@@ -17,7 +17,7 @@
 namespace etude {
 namespace {
 
-/// A recorded cell: its row and its recording.
+/// A recorded cell: the cell's row and recording.
 struct RecordedCell {
   const Row* row;
   const Recording* recording;
@@ -109,7 +109,7 @@ Result<IkRace> MakeRace(const std::array<RecordedCell, 2>& cells) {
     return Fail({.file = "recording " + cells[0].row->Id()}, "it lacks the track truth");
   }
   race.truth = truth->poses.front();
-  // The positions of the targets. Both methods solve the same world, so they have the same targets.
+  // The positions of the targets. Both methods solve the same world, so the targets are the same for both.
   std::vector<std::optional<glm::dvec3>> targets;
   for (std::size_t i = 0; i < 2; ++i) {
     ASSIGN_OR_RETURN(auto extras, ExtrasOf(*cells[i].row, *cells[i].recording));
@@ -154,7 +154,8 @@ Result<IkRace> FindIkRace(const RunData& run, const ScenarioSummary& scenario) {
   if (methods.size() == 1) {
     return Fail(nowhere, "this run kept recordings of only one method; two in the same world are needed");
   }
-  // Find the first world that both methods recorded, and note the earlier worlds that only one of them recorded.
+  // Find the first world that both methods recorded, and note the earlier worlds that only one of the two methods
+  // recorded.
   std::vector<std::string> passed_over;
   for (const RecordedCell& cell : cells) {
     const bool is_first = cell.row->method == methods[0];

@@ -12,12 +12,12 @@
 
 namespace etude {
 
-/// A pose counts as solved if the position error of the worst effector (cm) and the error of the worst axis (degrees)
-/// are below these limits.
+/// The limits for a solved pose: the position error of the worst effector, cm, and the angular error of the worst axis,
+/// degrees, must be smaller.
 inline const double kGoalCm = 100 * IkOptions{}.position_goal;
 inline const double kGoalDeg = Degrees(IkOptions{}.axis_goal);
 
-/// The poses of one method from the start to the end of its iterations. All lists have one entry per recorded
+/// The poses of one method from the first to the last of its iterations. All lists below have one entry per recorded
 /// iteration.
 struct IkPath {
   std::string method;
@@ -26,17 +26,18 @@ struct IkPath {
   std::vector<int> iterations;          ///< numbers of the recorded iterations, ascending; the first is 0, the start
   std::vector<double> position_cm;      ///< position error of the worst end effector
   std::vector<double> orientation_deg;  ///< orientation error of the worst axis of any end effector
-  /// The iteration from which on both errors stay below the goal; nullopt if there is none.
+  /// The iteration from which on the position error and the orientation error stay below the goal; nullopt if there is
+  /// no such iteration.
   std::optional<int> solved_at;
   std::string ending;  ///< the outcome: "solved", "not solved", or the status
-  std::string reason;  ///< why the method did not solve the pose; empty if it did
+  std::string reason;  ///< why the method did not solve the pose; "" if the pose is solved
 
   /// Returns the index of the entry to show at `iteration`: the last recorded iteration that is not later.
   std::size_t EntryAt(double iteration) const;
 };
 
-/// Returns true if any error is above zero. If all errors are zero, the world has no targets of this kind (positions or
-/// orientations), so the film leaves their plot out.
+/// Returns true if any of these errors is above zero. If all position errors (or all orientation errors) are zero, the
+/// world has no such targets, so the film leaves out the plot of these errors.
 bool IsAskedFor(const std::vector<double>& errors);
 
 /// The joints that have targets, in the order of the effectors in the tree.
@@ -56,8 +57,8 @@ struct IkRace {
 };
 
 /// Finds the first two methods with recordings, in the scenario's order, and the first world that both methods
-/// recorded. The choice never depends on the results. Fails with the reason if the methods recorded no common world, or
-/// if the recordings cannot be read.
+/// recorded. The choice never depends on the results. Fails with the reason if no world was recorded for both methods,
+/// or if the recordings cannot be read.
 Result<IkRace> FindIkRace(const RunData& run, const ScenarioSummary& scenario);
 
 }  // namespace etude

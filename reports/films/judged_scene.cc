@@ -71,7 +71,7 @@ std::vector<Facts::Performance> PerformancesIn(const DetectionExtras& extras, co
     performance.begin_frame = std::clamp(event.begin_frame, 0, frames);
     performance.end_frame = std::clamp(event.end_frame, performance.begin_frame, frames);
     if (const auto known = poses.find(performance.move); known != poses.end()) performance.poses = known->second;
-    // For each key pose, find the frame of the session at which the performer reached it.
+    // For each key pose, find the frame of the session at which the performer reached this pose.
     const auto window = std::span(seen.frames)
                             .subspan(static_cast<std::size_t>(performance.begin_frame),
                                      static_cast<std::size_t>(performance.end_frame - performance.begin_frame));
@@ -132,7 +132,7 @@ Result<JudgedSessionFacts> ReadJudgedSession(const RunData& run, const ShownCell
   facts.judges.push_back(JudgeIn(extras, cell.row->method));
   RETURN_IF_ERROR(AddOtherJudges(run, cell, facts));
   if (facts.performances.empty()) return Fail(place, "nothing was asked for");
-  // Use the evidence curve (a score per frame) only if it has one value for every frame.
+  // Use the evidence curve (a score per frame) only if the curve has one value for every frame.
   const Series* score = FindSeries(run, *cell.row, "score");
   if (score != nullptr && score->values.size() == sensed->poses.size()) facts.evidence = score->values;
   return facts;

@@ -28,16 +28,17 @@ struct JudgedSessionFacts {
   };
   struct Judge {
     std::string method;
-    /// For each performance, the frame at which the method gave the verdict "right"; nullopt if it did not.
+    /// For each performance, the frame at which the method gave the verdict "right"; nullopt if the method did not give
+    /// this verdict.
     std::vector<std::optional<int>> called_right;
     std::vector<DetectionExtras::Alarm> alarms;  ///< the method's false alarms
   };
 
   std::vector<Performance> performances;  ///< performances in order of time
-  std::vector<Judge> judges;  ///< the methods; the film shows the sensed skeleton and the evidence of the first one
+  std::vector<Judge> judges;  ///< the methods; the film shows the sensed skeleton and evidence of the first method
   BodyMotion truth;
   SeenStream seen;
-  std::vector<double> evidence;     ///< the first method's score, one per frame; empty if the method has none
+  std::vector<double> evidence;     ///< the first method's score, one per frame; empty if the first method has no score
   std::optional<double> threshold;  ///< the threshold on the evidence for the verdict "right"
 
   int Frames() const { return static_cast<int>(seen.filtered.frames.size()); }
@@ -64,8 +65,8 @@ class JudgedScene : public Scene {
  private:
   using Performance = JudgedSessionFacts::Performance;
 
-  /// Returns the index of the performance that is expected at a frame. If none is expected, returns the last one before
-  /// the frame; before all performances, the first one.
+  /// Returns the index of the performance that is expected at a frame. If no performance is expected, returns the last
+  /// performance before the frame, or, before all performances, the first.
   std::size_t CurrentAt(int frame) const;
   /// Returns the verdict of a judge on a performance, "right" or "wrong"; "" if the verdict comes after `frame`.
   std::string CalledAt(std::size_t judge, std::size_t performance, int frame) const;

@@ -46,7 +46,7 @@ void MakeStageFilm(const RunData& run, const MediaPaths& paths, const FilmWatch&
     why = "There are no pictures: " + ToString(renderer.error());
     return;
   }
-  // `shoot` renders the film, and keeps the reasons why other pictures could not be made.
+  // `shoot` renders the film. The film's `why_not` then also has the reasons why other pictures could not be made.
   const auto shoot = [&](Scene&& scene) {
     Film film = Shoot(scene, paths.films / kRunFilm, watch);
     if (!film.why_not.empty()) Note(why, film.why_not);
@@ -59,7 +59,7 @@ void MakeStageFilm(const RunData& run, const MediaPaths& paths, const FilmWatch&
     if (made) return shoot(StageScene(**renderer, std::move(*made)));
     return Note(why, "The coach cannot be shown: " + ToString(made.error()));
   }
-  // Film a capture, and make its strip, stills and EXR files.
+  // Film a capture, and make the capture's strip, stills and EXR files.
   const auto typical = CapturePanel::Make(run, *capture_cell);
   auto captures = FindCaptures(run, *capture_cell);
   if (!typical || !captures) {
@@ -86,7 +86,7 @@ void MakePlates(const RunData& run, Media& media) {
   }
 }
 
-/// Returns a film without frames, which only states why it could not be made.
+/// Returns a film without frames, which only states why the film could not be made.
 Film NoFilm(const FilePath& path, std::string why_not) {
   Film film;
   film.file = path.whole().filename().string();
@@ -95,7 +95,7 @@ Film NoFilm(const FilePath& path, std::string why_not) {
 }
 
 /// Makes a film that shows methods side by side in one world. If that is impossible, the returned film states why there
-/// is no film of `what`.
+/// is no film of `what` (such as "the transitions").
 template <typename SideBySide, typename Race>
 Film MakeComparingFilm(Result<Race> race, const std::string& scenario, std::string_view what, const FilePath& path,
                        const FilmWatch& watch) {
@@ -130,7 +130,8 @@ Film MakeSessionFilm(const std::optional<ShownCell>& cell, const std::string& wh
   return Shoot(scene, path, options.watch);
 }
 
-/// Makes one film of a typical session and one of the worst session, or a single film if these are the same session.
+/// Makes one film of a typical session and one of the worst session, or a single film if the typical session is also
+/// the worst session.
 void MakeSessionFilms(const RunData& run, std::size_t index, const MediaPaths& paths, const MediaOptions& options,
                       Media& media) {
   const ScenarioSummary& scenario = run.scenarios[index];
@@ -178,7 +179,7 @@ Media MakeMedia(const RunData& run, const MediaPaths& paths, const MediaOptions&
   Media media;
   MakeStageFilm(run, paths, options.watch, media);
   MakePlates(run, media);
-  // Make one film for each scenario of a task that has films; a coach's scenario has up to two.
+  // Make one film for each scenario of a task that has films; a coach's scenario has up to two films.
   for (std::size_t i = 0; i < run.scenarios.size() && !options.watch.IsStopped(); ++i) {
     const ScenarioSummary& scenario = run.scenarios[i];
     Film film;

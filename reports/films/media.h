@@ -21,12 +21,12 @@ struct ScenarioPicture {
   Picture picture;
 };
 
-/// All pictures and films made from a run's recordings, and the reasons why others could not be made.
+/// All pictures and films made from a run's recordings, and the reasons why other pictures and films could not be made.
 struct Media {
-  /// The film of the whole run: a capture or, if there is none, a coach. Empty for runs of other tasks, and if
-  /// the film of a scenario shows the same.
+  /// The film of the whole run: a capture or, if there is none, a coach. Empty for runs of other tasks, and if a
+  /// scenario's film already compares coaches.
   Film film;
-  /// Two frames of the capture: pictures of both cameras with mask and recovered skeleton (DrawStrip).
+  /// Two frames of the capture: pictures of the first two cameras with mask and recovered skeleton (DrawStrip).
   std::vector<Picture> strip;
   std::vector<Still> stills;                 ///< the middle frame of the capture as each camera took it
   std::string strip_scenario;                ///< the scenario whose card shows the strip and the stills
@@ -50,7 +50,7 @@ struct MediaOptions {
 std::set<std::string> FilmNames(const RunData& run);
 
 /// Draws the recordings of a run: the films, their posters, the strip, and the EXR files of the strip's frames. A part
-/// that cannot be made is left out, and `why_not` gives the reason; the report does not fail because of it.
+/// that cannot be made is left out, and `why_not` gives the reason; a missing part does not make the report fail.
 Media MakeMedia(const RunData& run, const MediaPaths& paths, const MediaOptions& options = {});
 
 }  // namespace etude

@@ -9,7 +9,8 @@
 
 namespace etude {
 
-/// Draws the body from the front as lines. The box shows a height of `tall` metres; the feet are near its lower edge.
+/// Draws the body from the front as lines. The box shows a height of `tall` metres; the feet are near the box's lower
+/// edge.
 void DrawStickFigure(Canvas& canvas, const BodyPose& pose, const Box& box, double tall, const Paint& paint);
 
 /// Returns the pixel of the canvas at which DrawStickFigure draws a joint.
@@ -44,7 +45,7 @@ class SessionTimeline {
   void Label(int row, const std::string& text);
   /// Draws a bar over frames [begin, end) of the session, clipped to the visible frames.
   void Bar(int row, int begin, int end, const Paint& paint);
-  /// Writes a text over frames [begin, end) of a row, if the text fits between them.
+  /// Writes a text over frames [begin, end) of a row, if the text fits between these frames.
   void Text(int row, int begin, int end, const std::string& text);
   /// Draws a vertical line at a frame through rows `first_row` … `last_row`.
   void Tick(int frame, int first_row, int last_row, const Paint& paint);

@@ -15,15 +15,15 @@ struct ShownCell {
   const Recording* recording;
 };
 
-/// Chooses the cell that a film of a task shows. Candidates are recorded cells with status ok and the track `track`,
-/// preferably cells of the method that the scenario's question is about. Returns the candidate with the median value of
-/// the first headline metric: a typical cell, not the best one.
+/// Chooses the cell that a film of the task `task` shows. Candidates are recorded cells with status ok and the track
+/// `track`, preferably cells of the method that the scenario's question is about. Returns the candidate with the median
+/// value of the first headline metric: a typical cell, not the best one.
 std::optional<ShownCell> ChooseCell(const RunData& run, std::string_view task, std::string_view track);
 
-/// Chooses a cell of one scenario by the same rule.
+/// Chooses a cell of one scenario by the rule of the function above.
 std::optional<ShownCell> ChooseCell(const RunData& run, const ScenarioSummary& scenario, std::string_view track);
 
-/// Finds a curve (one value per frame or iteration) of a cell by its name; null if the cell has none.
+/// Finds a curve (one value per frame or iteration) of a cell by the curve's name; null if the cell has none.
 const Series* FindSeries(const RunData& run, const Row& row, std::string_view name);
 
 }  // namespace etude

@@ -13,7 +13,7 @@
 namespace etude {
 namespace {
 
-// The visible height in metres. It is enough for a person with raised arms, and some floor.
+// The visible height in metres. This height is enough for a person with raised arms, and for some floor.
 constexpr double kSeenHeight = 2.65;
 constexpr double kDistance = 4.2;
 constexpr double kEyeHeight = 1.45;
@@ -26,11 +26,11 @@ constexpr double kCoachDetail = 1.5;
 constexpr int kCoachFollowFrames = 30;
 // The smallest distance of the hips from the room's wall, metres.
 constexpr double kMinWallDistance = 1.0;
-// The film marks the change of moves for kCoachMarkFrames after the transition point. It shows the partial distances
-// from kBarsBefore frames before the point to kBarsAfter frames after it.
+// The film marks the change of moves for kCoachMarkFrames after the transition point. The film shows the partial
+// distances from kBarsBefore frames before the point to kBarsAfter frames after the point.
 constexpr int kCoachMarkFrames = 15;
 constexpr int kBarsBefore = 15, kBarsAfter = 60;
-// Width of the distance bars beside the feet, and their height above the timeline, pixels.
+// The width of the distance bars, which are beside the feet, and the height of the bars above the timeline, pixels.
 constexpr double kBarsWidth = 320, kBarsLift = 34;
 
 // Moves the motion to the middle of the room. At the transition point, the person faces the camera. The whole motion is
@@ -50,7 +50,7 @@ Paint Faded(const Paint& paint) { return {paint.r, paint.g, paint.b, 0.55}; }
 
 // The minimum number of frames of the film, enough to watch one change of moves; kLongest is the maximum.
 constexpr int kMinFrames = 5 * kFilmRate;
-// The number of frames for which a repeated motion rests on its last frame before it starts again.
+// The number of frames for which a repeated motion shows its last frame before the motion starts again.
 constexpr int kRest = kFilmRate / 2;
 
 constexpr Box kCoachBox{12, 52, 1256, 656};
@@ -58,7 +58,7 @@ constexpr Box kCoachBox{12, 52, 1256, 656};
 // The frame of the motion that the film shows. A short motion is repeated.
 struct Shown {
   int frame;
-  bool before;  ///< true: the film has shown the whole motion before
+  bool before;  ///< true: the film has already shown the whole motion at least once
 };
 Shown ShownAt(int film_frame, int length) {
   const int round = film_frame % (length + kRest);

@@ -40,7 +40,7 @@ class CoachPanel {
 
   Character bear_;
   BodyMotion motion_;
-  std::vector<glm::dvec3> followed_;  ///< the point that the camera follows, one per frame
+  std::vector<glm::dvec3> followed_;  ///< the point that the camera follows, one point per frame
   /// Extras of the recording, with frame numbers of the cut motion; at least one transition point.
   TransitionFacts facts_;
   std::string method_;

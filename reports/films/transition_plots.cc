@@ -57,7 +57,7 @@ void DrawBar(Canvas& canvas, const Box& row, Feature feature, std::optional<doub
   if (!partial) return;
   const double share = full > 0 ? std::clamp(*partial / full, 0.0, 1.0) : 0;
   const bool beyond = has_threshold && *partial >= full;
-  // Bars have rounded ends, so a bar is at least as wide as both ends.
+  // Bars have rounded ends, so a bar is at least as wide as its two ends.
   const double width = std::max(track.width * share, kBarHeight);
   if (share > 0.005) canvas.FillBox({track.x, track.y, width, kBarHeight}, beyond ? kBeyond : kWarm, kBarHeight / 2);
   canvas.DrawText({track.x + track.width + 6, baseline}, FormatFixed(*partial, 3), kValueSize, kSoftInk, kValueWidth);

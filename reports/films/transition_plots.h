@@ -6,9 +6,9 @@
 
 namespace etude {
 
-/// A plot of a path's jumps over time: the largest second difference of any joint (cm), and the limit of natural motion
-/// where it is known. Below the curve are the names of the clips that play: the clip that is left, an in-between clip,
-/// or the wanted clip. Time is in frames after the request.
+/// A plot of a path's jumps over time (the largest second difference of any joint's position, cm) and, where it is
+/// known, of the jump's limit in natural motion. Below the curve are the names of the clips that play: the clip that is
+/// left, an in-between clip, or the wanted clip. Time is in frames after the request.
 class JumpStrip {
  public:
   /// Shows the times `first` … `last`, in frames after the request. The vertical axis ends at `highest_cm` > 0.
@@ -25,18 +25,18 @@ class JumpStrip {
   double highest_cm_;
 };
 
-/// Returns the colour of the clip that plays after `points_before` transition points of a path: the clip that is left,
-/// an in-between clip, or the wanted clip.
+/// Returns the colour of the clip that plays after the first `points_before` transition points of a path: the clip that
+/// is left, an in-between clip, or the wanted clip.
 const Paint& PaintOfSegment(const TransitionFacts& facts, std::size_t points_before);
 
 /// The height of the distance bars with their heading, pixels.
 constexpr double kDistanceBarsHeight = 120;
 
-/// Draws a transition point's ten partial distances as bars with the features' names. They are the terms of the
-/// distance d between the two frames that the transition joins. The line above the bars gives d, the threshold and the
-/// kind of transition. A full bar means that this partial distance alone reaches the threshold. `point` is the index of
-/// the transition point. The bars are empty if `point` is nullopt, or if the recording has no partial distances. The
-/// box is kDistanceBarsHeight high.
+/// Draws a transition point's ten partial distances as bars with the features' names. Partial distances are the terms
+/// of the distance d between the two frames that the transition joins. The line above the bars gives d, the threshold
+/// and the kind of transition. A full bar means that this partial distance alone reaches the threshold. `point` is the
+/// index of the transition point. The bars are empty if `point` is nullopt, or if the recording has no partial
+/// distances. The box is kDistanceBarsHeight high.
 void DrawDistanceBars(Canvas& canvas, const Box& box, const TransitionFacts& facts, std::optional<std::size_t> point);
 
 /// Describes a transition point: "distance 0.384 < 0.4 · front half"; if the path has two points, "1 of 2 · distance

@@ -13,8 +13,8 @@
 namespace etude {
 namespace {
 
-// Returns the frame of the request. Older recordings do not contain this frame. It is then computed as the last
-// transition point minus the wait; an unknown wait counts as 0.
+// Returns the frame of the request. Older recordings do not contain this frame. For older recordings, it is computed as
+// the last transition point minus the wait; an unknown wait counts as 0.
 int RequestOf(const TransitionFacts& facts, double rate_hz) {
   if (facts.request_frame) return *facts.request_frame;
   constexpr double kMaxWaitSeconds = 3600;
@@ -37,8 +37,8 @@ std::vector<const RecordedTransition*> ShownOf(const RecordedRequest& world, con
 }
 
 constexpr int kBefore = kFilmRate, kAfter = 3 * kFilmRate / 2;
-// The latest transition for which the film is extended, in frames after the request. A later transition is not shown:
-// the film ends while the method still waits.
+// The time, in frames after the request, of the latest transition for which the film is made longer. A later transition
+// is not shown: the film ends while the method still waits.
 constexpr int kLatest = 4 * kFilmRate;
 // The numbers of frames before and after a transition point that are repeated in slow motion.
 constexpr int kSlowBefore = kFilmRate / 3, kSlowAfter = 2 * kFilmRate / 3;

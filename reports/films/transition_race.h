@@ -15,11 +15,11 @@ struct TransitionPath {
   std::size_t method_index = 0;  ///< index of the method in the scenario, which selects the colour
   TransitionFacts facts;
   BodyMotion motion;
-  std::vector<double> jumps_cm;  ///< largest second difference of any joint's position, one per frame
+  std::vector<double> jumps_cm;  ///< for each frame, the largest second difference of any joint's position
   int request = 0;  ///< index into `motion` of the frame of the request; the index may lie outside `motion`
 
-  /// Returns the index of the frame `time` frames after the request. Times before or after the recording give its first
-  /// or last frame.
+  /// Returns the index of the frame `time` frames after the request. Times before or after the recording give the
+  /// recording's first or last frame.
   int FrameAt(int time) const;
   bool IsRecordedAt(int time) const;
   /// Returns the time of a frame of the motion, in frames after the request.
@@ -30,7 +30,7 @@ struct TransitionPath {
   int LastPoint() const { return TimeOf(facts.transition_frames.back()); }
 };
 
-/// One request, and the transitions that two to four methods made for it.
+/// One request, and the transitions that two to four methods made for this request.
 struct TransitionRace {
   std::string world;    ///< name of the world: "trial 30"
   std::string request;  ///< the clip that is left and the wanted clip: "clap → side kick"
@@ -48,8 +48,8 @@ TransitionRace RaceIn(const RecordedRequest& world, const ScenarioSummary& scena
 /// methods, in the scenario's order. Fails with the reason if no world has recordings of two methods.
 Result<TransitionRace> FindTransitionRace(const RunData& run, const ScenarioSummary& scenario);
 
-/// Maps the film's frames to times after the request; the map is the same for every method. The film shows the time
-/// from one second before the request until after the last transition. Slow motion then repeats the transitions.
+/// Maps the film's frames to times after the request; the map is the same for every method. The film runs from one
+/// second before the request until after the last transition; then it repeats the transitions in slow motion.
 class TransitionClock {
  public:
   static constexpr int kSlowness = 4;

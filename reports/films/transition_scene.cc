@@ -15,7 +15,8 @@ namespace etude {
 namespace {
 
 constexpr double kStageDetail = 1.5;
-// The camera follows the moving average of a walking body over this many frames (one second) before and after.
+// The camera follows the moving average of a walking body over this many frames (one second) before and after each
+// frame.
 constexpr int kFollowFrames = 30;
 // Poses change little from frame to frame, so every n-th frame is enough to find the space that the camera must see.
 constexpr int kLookedAtEvery = 3;
@@ -37,8 +38,8 @@ std::vector<std::vector<FloorMove>> AllPlacements(const TransitionRace& race) {
   return placements;
 }
 
-// The numbers of frames after a transition for which the film marks it, and for which it shows the last pose of the
-// clip that was left as a ghost.
+// After a transition, the film marks the transition for kMarkFrames frames, and shows the last pose of the left clip as
+// a ghost for kGhostFrames frames.
 constexpr int kMarkFrames = kFilmRate / 2, kGhostFrames = kFilmRate;
 constexpr double kPanelMargin = 12;
 constexpr Paint kPlate{0.13, 0.15, 0.17, 1};
@@ -57,7 +58,7 @@ TransitionStage StageFor(const TransitionRace& race, const TransitionClock& cloc
   return {race, clock.First(), clock.Last(), static_cast<int>(body.width), static_cast<int>(body.height)};
 }
 
-// Returns the largest jump of all methods. The plots of all methods use it as their scale, so that jumps can be
+// Returns the largest jump of all methods. The plots of all methods use this jump as their scale, so that jumps can be
 // compared across columns.
 double HighestJump(const TransitionRace& race, const TransitionClock& clock) {
   double highest = 1;
@@ -134,7 +135,7 @@ void TransitionPanel::Draw(Canvas& canvas, const Box& column, Renderer& renderer
 void TransitionPanel::DrawBody(Canvas& canvas, const Box& box, Renderer& renderer, int time) {
   const int frame = path_.FrameAt(time);
   const std::size_t points = path_.PointsBefore(time);
-  // For one second after a transition, show the last pose of the clip that was left as a ghost.
+  // For one second after a transition, show, as a ghost, the last pose of the clip that was left.
   std::optional<int> left;
   if (points > 0) left = path_.facts.transition_frames[points - 1];
   const int since = left ? time - path_.TimeOf(*left) : 0;

@@ -30,7 +30,7 @@ class TransitionStage {
   Character bear_;
   /// The rigid motion on the floor that places a body; index: path, then frame.
   std::vector<std::vector<FloorMove>> placements_;
-  mutable Studio studio_;  ///< mutable, because it caches its last picture
+  mutable Studio studio_;  ///< mutable, because a studio caches its last picture
 };
 
 /// One method's column of the film that compares transitions: the person, the plot of jumps, and the partial distances
@@ -65,7 +65,7 @@ class TransitionPanel {
 };
 
 /// The film of one request under two to four methods side by side. It shows when each method changes clips, how smooth
-/// the transition is, and the partial distances at its transition points.
+/// the transition is, and the partial distances at the transition points.
 class TransitionScene : public Scene {
  public:
   /// Makes the film of a race. The renderer must outlive the scene.

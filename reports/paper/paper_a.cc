@@ -14,8 +14,8 @@
 namespace etude {
 namespace {
 
-// Size and margins of the plot of one feature, in units that the page scales. The terms are written above the curves,
-// the numbers below the axis.
+// Size and margins of the plot of one feature, in units that the page scales. The names of the terms are written above
+// the curves, and the numbers of the axis below the axis.
 constexpr double kPanelWide = 240, kPanelHeight = 150, kPanelTop = 22, kBase = 118;
 constexpr double kPanelMargin = 24, kPanelRim = 10;
 constexpr Axis kGrades{.low = 0, .high = 1, .from = kBase, .to = kPanelTop};
@@ -51,14 +51,15 @@ class MembershipPanel {
   std::string Label(const Shape& shape, std::string_view name) const {
     const Cut top = CutOf(shape, 1);
     const double peak = 0.5 * (std::max(top.low, universe_.low) + std::min(top.high, universe_.high));
-    // If a peak is nearer to an edge of the plot than this, its name begins or ends at the peak. Centred there, the
-    // name would be cut off.
+    // If a peak is nearer to an edge of the plot than this, the term's name begins or ends at the peak. If the name
+    // were centred at the peak, it would be cut off.
     const double room = 0.15 * (universe_.high - universe_.low);
     const char* anchor = peak < universe_.low + room ? "start" : peak > universe_.high - room ? "end" : "middle";
     return PanelText(inputs_.At(peak), kPanelTop - 8, name, anchor);
   }
 
-  /// Returns the numbers below the axis as SVG. A number that is too close to the last one is written in a second row.
+  /// Returns the numbers below the axis as SVG. A number that is too close to the previous number is written in a
+  /// second row.
   std::string Numbers(std::vector<double> marks) const {
     marks.insert(marks.end(), {universe_.low, universe_.high});
     std::ranges::sort(marks);
@@ -69,7 +70,7 @@ class MembershipPanel {
     for (double mark : marks) {
       const double x = inputs_.At(mark);
       const std::size_t row = x - last[0] < kMinGap ? 1 : 0;
-      if (x - last[row] < kMinGap) continue;  // neither row has space for the number
+      if (x - last[row] < kMinGap) continue;  // neither row has space for the number: leave it out
       last[row] = x;
       svg += fmt::format("<path d=\"M{:.1f} {}v4\"/>", x, kBase) +
              PanelText(x, kBase + 14 + 13 * static_cast<double>(row), TickText(mark), "middle");
@@ -81,7 +82,7 @@ class MembershipPanel {
   std::vector<double> Bends(const Shape& shape) const {
     std::vector<double> bends;
     for (double grade : {1.0, 0.0}) {
-      if (grade == 0 && std::holds_alternative<Gaussian>(shape)) continue;  // a Gaussian never reaches 0
+      if (grade == 0 && std::holds_alternative<Gaussian>(shape)) continue;  // a Gaussian has no bend at 0
       const Cut cut = CutOf(shape, grade);
       bends.insert(bends.end(), {cut.low, cut.high});
     }

@@ -21,11 +21,11 @@ struct PaperAFigure {
 const std::vector<PaperAFigure>& PaperAFigures();
 
 /// Returns the round-trip error of fuzzification and defuzzification: the mean absolute difference between an input and
-/// the value defuzzified from its grades, over inputs spread evenly over the universe.
+/// the value that defuzzification recovers from the input's grades, over inputs spread evenly over the universe.
 double MeanRoundTripError(Feature feature, const Memberships& memberships, Defuzzification method);
 
-/// Draws the membership functions of one feature over its universe as an SVG element. Each term is named at its peak.
-/// The axis has a mark wherever the slope of a piecewise linear function changes.
+/// Draws the membership functions of one feature over its universe as an SVG element. The name of each term stands at
+/// the term's peak. The axis has a mark wherever the slope of a piecewise linear function changes.
 std::string MembershipPlotSvg(Feature feature, const Memberships& memberships, const std::string& title);
 
 /// Returns true if the card of the scenario shows paper A's figures: for paper A's own scenario (task transition, named

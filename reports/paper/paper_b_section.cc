@@ -67,8 +67,8 @@ std::vector<Panel> PanelsOf(const CellSeriesIndex& series, const std::vector<con
   return panels;
 }
 
-/// Returns common axes for all plots of position errors (if `of_positions`) or for all plots of orientation errors, so
-/// that curves can be compared.
+/// Returns common axes for all plots of position errors (if `of_positions` is true) or of orientation errors (if it is
+/// false), so that curves can be compared.
 CurveAxes SharedAxes(const std::vector<Panel>& panels, bool of_positions) {
   std::vector<const PlotCurve*> curves;
   for (const Panel& panel : panels) {
@@ -109,7 +109,7 @@ std::string Figure(const std::vector<Panel>& panels, const ScenarioSummary& scen
   return html + "</div>";
 }
 
-// The number of tables of effector errors that fit on a page of A4; below it, the number of tables of joint angles.
+// The number of tables of effector errors, and the number of tables of joint angles, that fit on a page of A4.
 constexpr std::size_t kErrorTablesPerFloat = 6;
 constexpr std::size_t kAngleTablesPerFloat = 3;
 
@@ -178,9 +178,9 @@ bool HasEffectorCurves(const RunData& run, const ScenarioSummary& scenario) {
   return scenario.task == "ik" && KeepsSeries(run, scenario, "head_position_error_cm");
 }
 
-/// Draws paper B's figure 5.2: each end effector's position error, and the angular error of each of its axes, over
-/// iterations. Each small plot shows all methods on a logarithmic axis: a thin line for the first trial, a thick line
-/// for the median of all trials. Returns one folded figure per condition; "" if no cell recorded these curves.
+/// Draws paper B's figure 5.2: each end effector's position error, and the angular error of each axis of the effector,
+/// over iterations. Each small plot shows all methods on a logarithmic axis: a thin line for the first trial, a thick
+/// line for the median of all trials. Returns one folded figure per condition; "" if no cell recorded these curves.
 std::string EffectorCurvesHtml(const RunData& run, const ScenarioSummary& scenario) {
   if (!HasEffectorCurves(run, scenario)) return "";
   const CellSeriesIndex series(run);
@@ -214,8 +214,8 @@ std::string PaperBHtml(const RunData& run, const ScenarioSummary& scenario) {
       with_angles = with_angles || !set.angles.empty();
     }
   }
-  // If no table was filled from the run, leave out the tables that the paper prints, because there is nothing to
-  // compare with them.
+  // If no table was filled from the run, leave out the tables that the paper prints, because there is nothing with
+  // which a reader could compare them.
   return open ? html : html + PrintedHtml(with_angles);
 }
 

@@ -10,8 +10,8 @@ namespace etude {
 /// end effectors (key `record` of the task ik).
 bool ShowsPaperB(const RunData& run, const ScenarioSummary& scenario);
 
-/// Returns the errors of single end effectors and the angles of joints in the form of paper B: the curves of its figure
-/// 5.2, its tables 5.1 and 5.2 filled from the run, and beside them the tables that the paper prints. Returns "" if no
+/// Returns the errors of single end effectors and the angles of joints in the form of paper B: the curves of figure
+/// 5.2, tables 5.1 and 5.2 filled from the run, and, beside these, the tables that the paper prints. Returns "" if no
 /// cell recorded these data.
 std::string PaperBHtml(const RunData& run, const ScenarioSummary& scenario);
 /// Returns the tables of PaperBHtml as folded Markdown, without the curves.

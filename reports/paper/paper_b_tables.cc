@@ -125,7 +125,7 @@ PaperTable AngleTable(const char* caption, const AngleFigures& figures) {
   return table;
 }
 
-// If a cell has this series, it recorded the errors of its end effectors. Such a cell has the series of all errors.
+// A cell that has this series recorded the errors of its end effectors, so it also has the series of all other errors.
 constexpr std::string_view kErrorSeries = "position_error_x_cm";
 
 constexpr std::string_view kNoAxis = "a dash means that the joint has no such axis.";
@@ -147,7 +147,8 @@ double RootMeanSquare(const std::vector<double>& values) {
   return std::sqrt(sum / static_cast<double>(values.size()));
 }
 
-/// Aggregates one entry of the tables over the rows that have a value for it; nullopt if no row has one.
+/// Aggregates one entry of the tables over the rows that have a value for this entry; returns nullopt if no row has a
+/// value.
 std::optional<double> Figure(const CellSeriesIndex& series, std::span<const Row* const> rows, const std::string& name,
                              std::size_t index, const Aggregator& aggregate) {
   std::vector<double> values;

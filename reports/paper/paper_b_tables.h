@@ -12,7 +12,7 @@
 
 namespace etude {
 
-/// Neighbouring columns under one common heading.
+/// A group of neighbouring columns under one common heading.
 struct PaperColumns {
   std::string head;  ///< heading with the unit: "position error (cm)"
   std::vector<std::string> names;
@@ -68,8 +68,8 @@ inline constexpr std::array<PaperBJoint, 14> kPaperBJoints{{{"R_shoulder", kTree
                                                             {"L_knee", kTreeLeftKnee},
                                                             {"L_ankle", kTreeLeftAnkle}}};
 
-/// Returns tables 5.1 (a)–(c) and 5.2 (b), (d), (e) as the paper prints them for its single pose. The paper's tables
-/// 5.2 (a) and (c) repeat 5.1 (a) and (c).
+/// Returns tables 5.1 (a)–(c) and 5.2 (b), (d), (e) as the paper prints these tables for its single pose. The paper's
+/// tables 5.2 (a) and (c) repeat 5.1 (a) and (c).
 std::vector<PaperTable> PaperBPrintedErrors();
 std::vector<PaperTable> PaperBPrintedAngles();
 
@@ -77,7 +77,7 @@ std::vector<PaperTable> PaperBPrintedAngles();
 struct PaperBSet {
   std::string title;               ///< the trials of the tables: "trial 0", "all 200 trials"
   std::string error_note;          ///< a sentence that explains the numbers in `errors`
-  std::string angle_note;          ///< explains the figures of `angles`; "" if there are none
+  std::string angle_note;          ///< a sentence that explains the numbers in `angles`; "" if there are no angles
   std::string replay;              ///< the command that repeats the trial; "" for all trials
   std::vector<PaperTable> errors;  ///< table "(a) before", then one table per method; a row per effector
   std::vector<PaperTable> angles;  ///< one table per method: the hidden angles of each joint
@@ -96,8 +96,8 @@ struct PaperBCondition {
 bool HasPaperBTables(const RunData& run, const ScenarioSummary& scenario);
 
 /// Returns the filled tables, one entry per condition whose cells recorded the errors of end effectors; empty if no
-/// cell did. A method whose cells recorded none has no table; its line in `outcomes` says why. In tables of one trial,
-/// position errors are signed; in tables over all trials, they are medians of absolute values.
+/// cell did. A method whose cells recorded no errors has no table; its line in `outcomes` says why. In tables of one
+/// trial, position errors are signed; in tables over all trials, they are medians of absolute values.
 std::vector<PaperBCondition> PaperBTables(const RunData& run, const ScenarioSummary& scenario);
 
 }  // namespace etude

@@ -15,7 +15,7 @@ struct PlotCurve {
   std::vector<double> at = {};
 };
 
-/// Axes that neighbouring panels share, so that their curves can be compared.
+/// Axes that neighbouring panels share, so that the curves of these panels can be compared.
 struct CurveAxes {
   Axis across;  ///< horizontal axis: from step 0 to the last step
   Axis up;      ///< vertical axis: logarithmic, from one power of ten to another
@@ -24,10 +24,11 @@ struct CurveAxes {
 /// Returns axes that contain all `curves`. The vertical axis covers at most eight powers of ten.
 CurveAxes AxesFor(const std::vector<const PlotCurve*>& curves);
 
-/// Draws curves over steps as an SVG element. A value below the range of the vertical axis is drawn at its lower end.
+/// Draws curves over steps as an SVG element. A value below the range of the vertical axis is drawn at the axis's lower
+/// end.
 std::string CurvePlotSvg(const std::vector<PlotCurve>& curves, CurveAxes axes, const std::string& title);
 
-/// Returns a curve as an SVG line: at most 80 of its points, including the last one.
+/// Returns a curve as an SVG line: at most 80 points of the curve, including the last point.
 std::string CurveLine(const PlotCurve& curve, const Axis& across, const Axis& up);
 
 /// Draws the short line that stands for a method in a legend.

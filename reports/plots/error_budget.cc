@@ -13,8 +13,8 @@ namespace {
 
 constexpr double kBarStep = 24, kBarHeight = 12, kStageNames = 120;
 
-/// One bar of the waterfall chart. It runs from the error before a stage is replaced by the truth to the error
-/// afterwards.
+/// One bar of the waterfall chart. It runs from the error before the truth replaces a stage to the error after this
+/// replacement.
 struct Bar {
   std::string name;
   double from = 0, to = 0;
@@ -67,7 +67,7 @@ std::string BarSvg(const Bar& bar, double y, const Axis& axis, double scale) {
 std::string ErrorBudgetHtml(const ErrorBudget& budget, const std::string& condition) {
   const MetricWords words = WordsFor(budget.metric);
   const std::vector<Bar> bars = BarsOf(budget, words.scale);
-  // Make an axis that contains every bar and its interval.
+  // Make an axis that contains every bar and every bar's interval.
   std::vector<double> values{0};
   for (const Bar& bar : bars) {
     values.push_back(bar.to);

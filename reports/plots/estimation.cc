@@ -34,7 +34,7 @@ constexpr double kHeight = 250, kTop = 8, kBottom = 212;
 constexpr double kSwarm = 26;  // maximum sideways offset of overlapping dots, in units of the plot
 constexpr std::size_t kMaxNamed = 16;
 
-/// The indices of both methods in the scenario. They select the methods' colours and marks.
+/// The indices, in the scenario, of the two methods of a comparison. They select the methods' colours and marks.
 struct MethodIndices {
   std::size_t baseline = 0, method = 0;
 };
@@ -107,7 +107,7 @@ class Plot {
     return info == nullptr ? 0 : info->practical * words_.scale;
   }
   // Returns the lower end of a logarithmic axis of costs. Costs below a hundredth of the practical threshold are drawn
-  // at this end, because the plot need not distinguish them.
+  // at this end, because the plot need not distinguish such small costs.
   double Floor() const {
     return words_.is_share || words_.direction != Direction::kLowerIsBetter ? 0 : Practical() / 100;
   }
@@ -231,7 +231,7 @@ double PracticalOf(const Comparison& c) {
 PairedDots PairedWorldsOf(const RunData& run, const ScenarioSummary& scenario, const Judged& judged) {
   const Comparison& c = *judged.comparison;
   const double scale = WordsFor(c.metric).scale;
-  // Collect both methods' values of the metric in every world.
+  // Collect, for every world, the values of the metric under the two methods.
   std::map<int, Found> found;
   const KeptCells kept(run);
   for (const Row* row : RowsUnder(run, scenario.name, judged.condition->condition)) {
@@ -246,7 +246,7 @@ PairedDots PairedWorldsOf(const RunData& run, const ScenarioSummary& scenario, c
   }
   std::erase_if(found, [](const auto& entry) { return !entry.second.baseline || !entry.second.method; });
 
-  // Keep every n-th world that has both values, with its sampling unit.
+  // Keep every n-th world that has both values, with the world's sampling unit.
   PairedDots pairs;
   pairs.total = found.size();
   pairs.units = UnitNames(found);

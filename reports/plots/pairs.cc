@@ -117,7 +117,7 @@ std::string FrameSvg(const RawMotion& truth, const RawMotion& answer, std::size_
   return svg + "</svg>";
 }
 
-/// Returns pictures of the worst frames of a recorded cell, each with a button that shows it in the viewer.
+/// Returns pictures of the worst frames of a recorded cell, each with a button that shows the frame in the viewer.
 std::string WorstFramesHtml(const Row& cell, const std::vector<double>* errors, const Recording* recording,
                             std::size_t style) {
   if (recording == nullptr || errors == nullptr) return "";

@@ -97,7 +97,7 @@ std::string OtherStrips(const RunData& run, const ScenarioSummary& scenario, con
   return html.empty() ? "" : "<div class=\"panels\">" + html + "</div>";
 }
 
-// Draws the error budgets; if there are several conditions, each budget is labelled with its condition.
+// Draws the error budgets; if there are several conditions, the label of each budget states the condition.
 std::string Budgets(const ScenarioSummary& scenario) {
   std::string html;
   std::size_t count = 0;

@@ -13,9 +13,9 @@ namespace etude {
 /// where the method in question differs most from its baseline. Returns "" if no cell has a value.
 std::string LeadPictureHtml(const RunData& run, const ScenarioSummary& scenario);
 
-/// Draws all further plots of a scenario, those of the method in question first: values under the other conditions,
+/// Draws all further plots of a scenario, the plots of the method in question first: values under the other conditions,
 /// comparisons as estimation plots, the effect of leaving out one sampling unit, error budgets, survival curves.
-/// Returns "" if there are none.
+/// Returns "" if there are no further plots.
 std::string PlotSectionHtml(const RunData& run, const ScenarioSummary& scenario);
 
 // The following functions draw the parts of the plot section; the parts about verdicts are in verdicts.h.
@@ -25,9 +25,9 @@ std::string PlotSectionHtml(const RunData& run, const ScenarioSummary& scenario)
 std::string StripsHtml(const RunData& run, const ScenarioSummary& scenario, const ConditionSummary& condition,
                        const std::string& metric);
 
-/// Draws the cost of each processing stage as a waterfall chart with intervals. It starts at the method's error and
-/// ends at the error that remains when the truth replaces all stages. The caption says whether the costs depend on the
-/// order in which the stages were replaced. `condition` is in words and may be empty.
+/// Draws the cost of each processing stage as a waterfall chart with intervals. The chart starts at the method's error
+/// and ends at the error that remains when the truth replaces all stages. The caption says whether the costs depend on
+/// the order in which the stages were replaced. `condition` is in words and may be empty.
 std::string ErrorBudgetHtml(const ErrorBudget& budget, const std::string& condition);
 
 /// Draws survival curves of the metrics that are censored in this scenario (steps of unsolved cells, waits that never
@@ -35,11 +35,12 @@ std::string ErrorBudgetHtml(const ErrorBudget& budget, const std::string& condit
 /// never happened stay in the denominator, so a method gains nothing by giving up early.
 std::string SurvivalHtml(const RunData& run, const ScenarioSummary& scenario);
 
-/// The two values of a world in which both methods of a comparison have a value. Shares are in per cent.
+/// The values of the two methods of a comparison in one world. Each of the methods has a value there. Shares are in per
+/// cent.
 struct PairedWorld {
   int trial = 0;
   /// The index in PairedDots::units of the sampling unit to which the world belongs. If the world belongs to several
-  /// (the clip that is left and the clip that is entered), the index of the first.
+  /// units (the clip that is left and the clip that is entered), this is the index of the first unit.
   std::size_t unit = 0;
   double baseline = 0, method = 0;
   std::string baseline_cell = {}, method_cell = {};  ///< HTML attributes of the dots; "" if the cells were not recorded
@@ -55,8 +56,8 @@ struct PairedDots {
 };
 inline constexpr std::size_t kMaxPlottedWorlds = 400;
 
-/// Returns the paired worlds of a comparison. The result is empty if no world has values of both methods. It is also
-/// empty if the other method is one of two, each the strongest on one half of the worlds.
+/// Returns the paired worlds of a comparison. The result is empty if no world has values of both methods. The result is
+/// also empty if the comparison is with two other methods, each of which is the strongest on one half of the worlds.
 PairedDots PairedWorldsOf(const RunData& run, const ScenarioSummary& scenario, const Judged& judged);
 
 /// Draws one comparison as an estimation plot (Gardner & Altman 1986; paired as in Ho et al. 2019). The first panel
@@ -66,7 +67,7 @@ PairedDots PairedWorldsOf(const RunData& run, const ScenarioSummary& scenario, c
 /// its own unit. Returns "" without worlds.
 std::string EstimationHtml(const ScenarioSummary& scenario, const Judged& judged, const PairedDots& pairs);
 
-/// Returns a legend that explains the estimation plots of a metric; all plots of the metric share it.
+/// Returns a legend that explains the estimation plots of a metric; all plots of the metric share this legend.
 std::string EstimationLegend(const ScenarioSummary& scenario, const std::string& metric);
 
 /// Returns the legend of the sampling units' colours; "" if every world is its own unit.
@@ -77,8 +78,8 @@ std::string UnitLegendHtml(const PairedDots& pairs);
 /// if every world is its own unit.
 std::string WithoutEachUnit(const Comparison& comparison, SamplingUnit unit);
 
-/// Draws the mean differences that result when each sampling unit in turn is left out, on one axis with the practical
-/// threshold. The words of WithoutEachUnit follow.
+/// Draws one mean difference for each sampling unit: the mean that results when this unit is left out, on one axis with
+/// the practical threshold. The words of WithoutEachUnit follow.
 std::string LeftOutStripHtml(const Comparison& comparison, SamplingUnit unit);
 
 }  // namespace etude

@@ -25,7 +25,7 @@ struct Dot {
   std::string cell = {};  ///< HTML attribute that links the dot to its cell, if the cell was recorded
 };
 
-/// A row with the dots of one method, and the quartiles and the median or mean of all its values.
+/// A row with the dots of one method, and the quartiles and the median or mean of all values of this method.
 struct StripRow {
   std::size_t method = 0;  ///< index of the method in the scenario
   std::vector<Dot> dots = {};

@@ -26,12 +26,13 @@ constexpr std::size_t kMaxLines = 16;
 struct Censored {
   std::string_view metric;
   std::string_view done;   ///< a metric that is 1 if the event happened; "" if every value means that it happened
-  std::string_view share;  ///< label of the axis: a share of the cells that the curve counts
+  std::string_view share;  ///< label of the vertical axis, which shows a share of the cells
 };
 constexpr std::array<Censored, 2> kCensored = {
     {{"iterations", "solved_practical", "worlds not yet solved"}, {"wait_s", "", "requests still waiting"}}};
 
-/// Returns the time until the event happened in the cell, infinite if it never did; nullopt for a skipped cell.
+/// Returns the time until the event happened in the cell, infinite if the event never happened; nullopt for a skipped
+/// cell.
 std::optional<Wait> WaitOf(const Row& row, const Censored& rule) {
   if (row.result.status == Status::kSkipped) return std::nullopt;
   const auto took = ValueOf(row, rule.metric);

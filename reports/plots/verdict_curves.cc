@@ -53,8 +53,8 @@ std::string SharePanel(const std::string& caption, const std::string& words,
   return Figure(caption, words, drawn);
 }
 
-/// An axis that shows shares from 1 to 99 % on the scale of normal deviates. If the scores of both classes are normal,
-/// the curve is a straight line (Martin et al. 1997).
+/// An axis that shows shares from 1 to 99 % on the scale of normal deviates. If the scores of right and of wrong
+/// performances are normally distributed, a DET curve is a straight line (Martin et al. 1997).
 struct DeviateAxis {
   static constexpr double kLow = 0.01, kHigh = 0.99;
   double from = 0, to = 1;
@@ -127,7 +127,8 @@ struct Curves {
   std::string words, found_words, wait_words, keys;
 };
 
-/// All performances that are truly right or wrong (not grey), pooled, with the performer of each.
+/// All performances that are truly right or wrong (not grey), pooled over trials, with the performer of each
+/// performance.
 struct PooledEvents {
   std::vector<JudgedEvent> events;
   std::vector<int> people;

@@ -8,7 +8,7 @@
 namespace etude {
 namespace {
 
-/// Finds the series of a cell by name. A series whose length differs from that of the first series counts as missing
+/// Finds the series of a cell by name. A series that is longer or shorter than the first series counts as missing
 /// (null).
 class Columns {
  public:

@@ -20,14 +20,14 @@ struct JudgedPerformance {
   double severity = 0;      ///< severity of the performance's worst fault, 0…1; 0 without faults
   std::string fault = {};   ///< name of the worst fault; "" if there is none
   std::string danced = {};  ///< the move that was performed
-  /// The move that the method recognised; "" if it recognised none. Unset if the method never names moves.
+  /// The move that the method recognised; "" if the method recognised no move; nullopt if the method never names moves.
   std::optional<std::string> named = {};
 };
 
 /// The verdicts of one method on all performances under one condition.
 struct MethodVerdicts {
   std::vector<JudgedPerformance> performances;
-  std::vector<Wait> waits;  ///< time from each right performance until the method called it right
+  std::vector<Wait> waits;  ///< time from the start of each right performance until the verdict "right"
 };
 
 /// Returns each method's verdicts under one condition, in the scenario's order. Methods that judged no performance are
@@ -49,12 +49,12 @@ MoveConfusion ConfusionOf(std::span<const JudgedPerformance> performances);
 struct FaultCount {
   int all = 0, found = 0;
 };
-/// Returns two counts for each worst fault, by its name: performances in which it is slight (severity up to ½), and
-/// performances in which it is worse.
+/// Returns two counts for each worst fault, by its name: performances in which the fault is slight (severity up to ½),
+/// and performances in which it is more severe.
 std::map<std::string, std::pair<FaultCount, FaultCount>> FoundByFault(std::span<const JudgedPerformance> performances);
 
-/// A person's session and its mistakes: right performances that were not called right, and wrong performances that were
-/// called right.
+/// The number of mistakes in a person's session: right performances that were not called right, and wrong performances
+/// that were called right.
 struct SessionMistakes {
   int person = 0, right = 0, missed = 0, wrong = 0, praised = 0;
 
@@ -71,8 +71,8 @@ std::string VerdictTablesHtml(const RunData& run, const ScenarioSummary& scenari
 /// range, as (centre of the fifth, share). Fifths without performances are left out.
 std::vector<std::pair<double, double>> FoundBySeverity(std::span<const JudgedPerformance> performances);
 
-/// Returns the severity at which the share of found faults first reaches ½, by linear interpolation; nullopt if it
-/// never does.
+/// Returns the severity at which the share of found faults first reaches ½, by linear interpolation; nullopt if the
+/// share never reaches ½.
 std::optional<double> HalfFoundAt(std::span<const std::pair<double, double>> curve);
 
 /// Returns plots of the methods' verdicts, per condition: every method's ROC curve with the area under it, its

@@ -17,7 +17,7 @@ namespace {
 
 TableColumn NumberColumn(std::string head) { return {.head = std::move(head), .is_number = true}; }
 
-/// Draws a bar for one feature: its partial distance, divided by `full`, the value of a full bar.
+/// Draws a bar for one feature: the feature's partial distance, divided by `full`, the value of a full bar.
 TableCell Bar(double partial, double full, bool has_threshold) {
   const double share = full > 0 ? std::clamp(partial / full, 0.0, 1.0) : 0;
   const bool alone = has_threshold && partial >= full;
@@ -58,7 +58,8 @@ std::string WayOf(const TransitionFacts& facts) {
   return text.empty() ? std::string(kNoValue) : text;
 }
 
-/// Returns the largest distance of the transition points. The transition is below the threshold if this distance is.
+/// Returns the largest distance of the transition points. If this distance is below the threshold, so is the
+/// transition.
 std::optional<double> WorstDistance(const TransitionFacts& facts) {
   std::optional<double> worst;
   for (const PointFacts& point : facts.points) {
@@ -108,13 +109,13 @@ std::string Distances(const RecordedRequest& world) {
   return table.Html();
 }
 
-/// Returns a frame with the name of its clip, "clap 28"; only the frame if the name is unknown.
+/// Returns the name of a frame's clip and the frame's number, "clap 28"; only the number if the name is unknown.
 std::string FrameIn(const std::string& clip, int frame) {
   return clip.empty() ? std::to_string(frame) : fmt::format("{} {}", clip, frame);
 }
 
-/// Returns the transition point for which a candidate pair of frames was considered. A transition through an in-between
-/// clip has two points. The result has no clips if the point is unknown.
+/// Returns the transition point for which a candidate pair of frames was considered. (A transition through an
+/// in-between clip has two points.) If the point is unknown, the result has no clips.
 PointFacts PointOf(const CandidateFacts& candidate, const TransitionFacts& facts) {
   const int point = candidate.point.value_or(facts.points.size() == 1 ? 0 : -1);
   const bool is_told = point >= 0 && point < static_cast<int>(facts.points.size());

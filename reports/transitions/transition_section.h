@@ -38,18 +38,18 @@ class DistanceTable {
     std::optional<double> threshold;
   };
 
-  /// Names of the methods that share feature weights, and these weights.
+  /// Names of the methods that share feature weights, and the weights that they share.
   std::vector<std::pair<std::string, FeatureWeights>> weights_;
   std::vector<Point> points_;
 };
 
 /// Explains each recorded transition, with the methods of one request side by side: the frames at which one clip is
-/// left and the other entered, the ten partial distances of each transition point, and the candidate pairs of frames. A
-/// note says if the list of candidates was shortened. Returns "" without worlds.
+/// left and the other clip is entered, the ten partial distances of each transition point, and the candidate pairs of
+/// frames. A note says if the list of candidates was shortened. Returns "" without worlds.
 std::string TransitionsHtml(const std::vector<RecordedRequest>& worlds);
 
-/// Returns a short form as Markdown: the frames at which one clip is left and the other entered, and the largest
-/// partial distances.
+/// Returns a short form as Markdown: the frames at which one clip is left and the other clip is entered, and the
+/// largest partial distances.
 std::string TransitionsMarkdown(const std::vector<RecordedRequest>& worlds);
 
 /// Names the features with the largest partial distances, at most three: "LF 0.051, RF 0.036, LHE 0.035"; "all alike"

@@ -15,7 +15,7 @@ struct RecordedCell {
   const Recording* recording = nullptr;
 };
 
-/// A world with the recorded cells of all methods in it.
+/// A world with its recorded cells: one for each method that was recorded.
 struct RecordedWorld {
   std::size_t scenario = 0;  ///< index of the scenario in RunData::scenarios
   /// Path of the script file with the world's motions, relative to `report`: "motions/capture-1.js". The path needs no
@@ -27,7 +27,7 @@ struct RecordedWorld {
   std::string Name() const;
 };
 
-/// Returns true for tasks whose worlds are motion files; such worlds are named after their files.
+/// Returns true for tasks whose worlds are motion files; such worlds have the names of the files.
 inline bool JudgesFiles(std::string_view task) { return task == "evaluation" || task == "plausibility"; }
 
 /// Lists the worlds whose motions a run recorded, in the order of the run's rows. The run must outlive the result.
@@ -38,7 +38,7 @@ std::vector<RecordedWorld> RecordedWorlds(const RunData& run);
 std::string ViewerIndexHtml(const RunData& run);
 
 /// Returns buttons that open the recorded worlds of a scenario in the viewer. The buttons are hidden until the page's
-/// script shows them, because they do not work without scripts.
+/// script shows them, because the buttons do not work without scripts.
 std::string WatchHtml(const RunData& run, std::size_t scenario);
 
 }  // namespace etude

@@ -58,8 +58,8 @@ TrackLook LookOf(const std::string& task, const std::string& track) {
   return found == Looks().end() ? TrackLook{task, track, track, "shown"} : *found;
 }
 
-/// Returns, for a task, the meaning of a joint's distance from its reference, and the unit of this distance (that of
-/// the headline metric).
+/// Returns, for a task, the meaning of a joint's distance from its reference, and the unit of this distance, which is
+/// the unit of the headline metric.
 std::pair<std::string_view, std::string_view> ErrorOf(const std::string& task) {
   if (task == "capture" || task == "evaluation") return {"distance from the true joint", "mm"};
   if (task == "ik") return {"distance from the true joint", "cm"};
@@ -67,16 +67,16 @@ std::pair<std::string_view, std::string_view> ErrorOf(const std::string& task) {
   return {"error of the sensor", "cm"};
 }
 
-/// A named motion of arbitrary joints; `points` has the positions of all joints in the first frame, then those in the
-/// next frame.
+/// A named motion of arbitrary joints; `points` has the positions of all joints in the first frame, then the positions
+/// in the next frame.
 struct TrackPoints {
   std::string track;
   std::size_t joints = kRoleCount;
   std::vector<glm::dvec3> points;
 
   std::size_t FrameCount() const { return points.size() / joints; }
-  /// Drops the last frames as long as they equal the frame before, because the viewer keeps showing the last frame by
-  /// itself.
+  /// While the last frame equals the frame before it, drops the last frame, because the viewer holds the last frame
+  /// anyway.
   void CutWhereItRests() {
     const auto frame = static_cast<std::ptrdiff_t>(joints);
     while (points.size() > joints && std::equal(points.end() - frame, points.end(), points.end() - 2 * frame)) {
@@ -122,7 +122,7 @@ class Writer {
              {"notes", Json::array()},  {"cells", Json::array()},
              {"bodies", Json::array()}, {"targets_m", Json::array()},
              {"steps", Json::array()},  {"marks", Json::array()}};
-    // Add each cell with its extras and tracks.
+    // Add each cell with the extras and tracks of its recording.
     for (cell_ = 0; cell_ < world_.cells.size(); ++cell_) {
       const RecordedCell& cell = world_.cells[cell_];
       json_["cells"].push_back({{"id", cell.row->Id()},
@@ -164,7 +164,7 @@ class Writer {
     const TrackLook look = LookOf(task_, motion.track);
     const std::size_t frames = motion.FrameCount();
     motion.CutWhereItRests();
-    // If another method recorded exactly the same body, store it only once for both.
+    // If another method recorded exactly the same body, store the body only once for both methods.
     for (std::size_t i = 0; i < bodies_.size(); ++i) {
       const Body& body = bodies_[i];
       if (body.motion.track != motion.track || body.begin != begin || look.label.empty()) continue;
@@ -172,12 +172,12 @@ class Writer {
       json_["bodies"][i]["cell"] = -1;
       return;
     }
-    // Quantise the joints and encode them in Base64.
+    // Quantise the joints and encode the steps in Base64.
     const QuantisedMotion quantised = Quantise(motion.points);
     std::string bytes;
     for (const std::uint16_t step : quantised.steps)
       bytes += {static_cast<char>(step & 255), static_cast<char>(step >> 8)};
-    // Find the height of the lowest joint, which serves as the floor of the ik task.
+    // Find the height of the lowest joint. In the ik task, the floor has this height.
     for (const glm::dvec3& point : motion.points) lowest_ = std::min(lowest_, point.y);
     Json body = {{"label", look.label.empty() ? cell.row->method : std::string(look.label)},
                  {"cell", cell_},
@@ -194,8 +194,8 @@ class Writer {
     bodies_.push_back({std::move(motion), begin, cell_});
   }
 
-  // For each body, lists the bodies from which its error is measured: those of the same cell, and bodies that several
-  // methods share.
+  // For each body, lists the bodies from which this body's error is measured: bodies of the same cell, and bodies that
+  // several methods share.
   void FindReferences() {
     for (std::size_t i = 0; i < bodies_.size(); ++i) {
       for (const std::string_view track : LookOf(task_, bodies_[i].motion.track).against) {
@@ -282,7 +282,7 @@ class Writer {
     return begin;
   }
 
-  /// Marks a verdict: "hit" if it agrees with the truth, "miss" if it does not, "grey" if the truth itself is
+  /// Marks a verdict: "hit" if the verdict agrees with the truth, "miss" if it disagrees, "grey" if the truth itself is
   /// undecided.
   void MarkJudgement(std::string_view lane, int frame, const std::string& truth, bool called_right,
                      const std::string& text) {

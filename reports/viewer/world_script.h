@@ -12,8 +12,8 @@
 namespace etude {
 
 /// A motion in 16-bit steps: coordinate `axis` of point i is low + step · steps[3 i + axis], metres. The points of all
-/// joints in the first frame come first, then those of the next frame. A missing point has the steps kNoStep, which no
-/// other point has.
+/// joints in the first frame come first, then the points in the next frame. The steps of a missing point are kNoStep;
+/// no other point has this value.
 struct QuantisedMotion {
   static constexpr std::uint16_t kNoStep = 65535;
 

@@ -23,8 +23,8 @@ std::string ClearSentence(const Comparison& c, const std::string& other, const M
   const double difference = *c.difference;
   const bool worse = c.verdict == Verdict::kWorse;
   const std::string worlds = fmt::format("{} of {}", FormatCount(worse ? c.worse : c.better), Plural(c.pairs, "world"));
-  // The verb states the direction ("lowers by 12.3 (10.1–14.0)"), so the numbers have no sign; for a negative
-  // difference the interval is negated too.
+  // The verb states the direction ("lowers by 12.3 (10.1–14.0)"), so the numbers have no sign: if the difference is
+  // negative, the difference and its interval are negated.
   std::optional<double> low = c.ci_low, high = c.ci_high;
   if (difference < 0 && low && high) {
     low = -*c.ci_high;
@@ -35,13 +35,14 @@ std::string ClearSentence(const Comparison& c, const std::string& other, const M
                      FormatInterval(low, high, words), other, worlds);
 }
 
-/// Returns true if the mean difference lies outside the interval of the median difference. The sentence then states the
-/// mean, too.
+/// Returns true if the mean difference lies outside the interval of the median difference. The sentence then also
+/// states the mean.
 bool MeanTellsMore(const Comparison& c) {
   return c.mean && c.ci_low && c.ci_high && (*c.mean < *c.ci_low || *c.mean > *c.ci_high);
 }
 
-/// Returns the sentence about the comparison under one condition, without its sampling units and without the full stop.
+/// Returns the sentence about the comparison under one condition, without the part on sampling units and without the
+/// full stop.
 std::string SentenceFor(const Comparison& c, const std::string& other, const MetricWords& words) {
   if (c.pairs == 0 || !c.difference) {
     return fmt::format("“{}” could not be compared with {} by {}: no world has both values", c.method, other,
@@ -51,7 +52,7 @@ std::string SentenceFor(const Comparison& c, const std::string& other, const Met
     return fmt::format("“{}” and {} both have a value in {} only: too few to judge the {}", c.method, other,
                        Plural(c.pairs, "world"), words.label);
   }
-  // Write the difference, and the mean difference if it lies outside the interval.
+  // Write the difference, and the mean difference if the mean lies outside the interval.
   std::string figures =
       fmt::format("{} (95 % CI {})", Amount(*c.difference, words), FormatInterval(c.ci_low, c.ci_high, words));
   if (c.verdict == Verdict::kInconclusive && MeanTellsMore(c)) {
@@ -141,10 +142,11 @@ std::string UnpairedWords(const std::vector<Judged>& judged) {
              : fmt::format(" Not included in this difference, because one of the two has no value there: {}.", text);
 }
 
-// If one cost is at least this many times the other, the answer states the ratio of costs instead of their difference.
+// If one cost is at least this many times the other cost, the answer states the ratio of the costs instead of the
+// difference.
 constexpr double kMinTellingRatio = 2;
-// A cost below this fraction of the practical threshold counts as zero, because a ratio to such a cost would be
-// meaningless.
+// A cost below this fraction of the practical threshold counts as zero, because a ratio with such a small denominator
+// would be meaningless.
 constexpr double kMinShareOfThreshold = 0.1;
 
 std::optional<double> TypicalOf(const ConditionSummary& condition, const std::string& method, const std::string& metric,
@@ -194,8 +196,8 @@ std::string VerdictPhrase(const std::vector<Judged>& judged) {
   return "undecided against " + others;
 }
 
-/// Returns the range of the differences from the other method over all conditions: " (−0.949 mm)"; "" if there are
-/// none.
+/// Returns the range of the differences from the other method over all conditions: " (−0.949 mm)"; "" if there are no
+/// differences.
 std::string ChangeOf(const std::vector<Judged>& judged, std::string_view what) {
   if (!HaveOneMetric(judged)) return "";
   std::optional<double> low, high;
@@ -222,8 +224,8 @@ std::string PhraseOf(const std::vector<Judged>& judged, std::string_view what = 
                : VerdictPhrase(judged) + ChangeOf(judged, what);
 }
 
-/// Considers the headline metrics other than `metric` in which `rival`, the strongest other method, is better. Returns
-/// the largest ratio of costs among them in words; "" if there is none.
+/// Considers the headline metrics other than `metric` in which `rival`, the strongest other method, is better. Returns,
+/// in words, the largest ratio of costs among these metrics; "" if there is none.
 std::string CostElsewhere(const ScenarioSummary& scenario, const std::string& method, const std::string& metric,
                           const std::string& rival) {
   std::string phrase;
@@ -261,9 +263,9 @@ std::string AgainstRival(const ScenarioSummary& scenario, const std::string& met
   return "; " + (elsewhere.empty() ? phrase : is_led ? phrase + " and " + elsewhere : phrase + ", but " + elsewhere);
 }
 
-/// Returns the typical (pseudo-median) difference over sampling units, with its interval, from which the generalised
-/// verdict follows: " Pseudo-median of 8 clips: 2.39 cm (−6.3 to 11.0).". Returns "" if every world is its own unit, or
-/// if the difference or its interval is missing.
+/// Returns the numbers from which the generalised verdict follows: the typical (pseudo-median) difference over sampling
+/// units, and the interval of this difference: " Pseudo-median of 8 clips: 2.39 cm (−6.3 to 11.0).". Returns "" if
+/// every world is its own unit, or if the difference or its interval is missing.
 std::string MiddleOfUnits(const Comparison& c, const MetricWords& words, SamplingUnit unit) {
   if (WorldsAreUnits(unit) || !c.beyond.low || !c.beyond.difference) return "";
   return fmt::format(" Pseudo-median of {}: {} ({}).", CountUnits(c.beyond.units, unit),
@@ -271,7 +273,7 @@ std::string MiddleOfUnits(const Comparison& c, const MetricWords& words, Samplin
 }
 
 /// Returns further facts behind an answer: the difference in the worlds where both methods succeeded and, if the far
-/// better and far worse worlds (the tail) decide the answer, their numbers.
+/// better and far worse worlds (the tail) decide the answer, the numbers of these worlds.
 std::string FurtherSteps(const Judged& judged) {
   const Answer* answer = judged.answer;
   if (answer == nullptr) return "";

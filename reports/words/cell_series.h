@@ -27,7 +27,7 @@ class KeptCells {
  public:
   explicit KeptCells(const RunData& run);
 
-  /// Returns the recording of a cell; null if it has none.
+  /// Returns the recording of a cell; null if the cell has no recording.
   const Recording* Find(const std::string& cell) const;
   /// Returns the HTML attribute by which the page's scripts find a recorded cell, ` data-cell="ID"`; "" if the cell has
   /// no recording.
@@ -48,8 +48,8 @@ std::vector<const Row*> RowsUnder(const RunData& run, const std::string& scenari
 /// Returns each recording together with the row of its cell, in the run's order. Recordings without a row are left out.
 std::vector<std::pair<const Row*, const CellRecording*>> RecordedRows(const RunData& run);
 
-/// Returns the median curve of several curves: at each step, the median of their values. A curve that has ended keeps
-/// its last value, because a solver that has stopped keeps its answer.
+/// Returns the median curve of several curves: at each step, the median of the curves' values. A curve that has ended
+/// keeps its last value, because a solver that has stopped keeps its answer.
 std::vector<double> MedianCurve(const std::vector<const std::vector<double>*>& curves);
 
 }  // namespace etude

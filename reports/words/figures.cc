@@ -66,8 +66,8 @@ std::string FormatInterval(std::optional<double> low, std::optional<double> high
   const double size = std::max(std::abs(from), std::abs(to));
   const std::string_view dash = from < 0 || to < 0 ? " to " : "–";
   if (size != 0 && size < 0.001) return FormatNumber(from) + std::string(dash) + FormatNumber(to);
-  // If an end of the interval would be rounded to 0, write it with more digits, because its sign says whether the
-  // interval contains 0.
+  // If an end of the interval would be rounded to 0, write it with more digits, because the sign of this end says
+  // whether the interval contains 0.
   const auto end = [decimals = DecimalsFor(size)](double value) {
     std::string text = FormatFixed(value, decimals);
     const std::string own = FormatNumber(value);

@@ -9,8 +9,8 @@
 
 namespace etude {
 
-/// The name and the units of a metric from the catalogue of metrics; the metric's id if the catalogue does not list it.
-/// Shares and scores are shown in per cent, their differences in percentage points.
+/// The name and the units of a metric, from the catalogue of metrics. The name is the metric's id if the catalogue does
+/// not list the metric. Shares and scores are shown in per cent, their differences in percentage points.
 struct MetricWords {
   std::string label;   ///< name of the metric: "orientation error", "share “solved”", "mean F1"
   std::string suffix;  ///< follows a value: "°", " cm", " %", ""
@@ -20,11 +20,12 @@ struct MetricWords {
   bool is_share = false;  ///< true: the metric is a share, 0…1, shown in per cent
   bool by_mean = false;   ///< true: a metric's typical value is the mean over cells; false: the median
   Direction direction = Direction::kNeither;
-  /// The label without “mean” or “share”, for texts that state these themselves: "orientation error", "solved", "F1".
+  /// The label without “mean” or “share”, for texts that contain these words themselves: "orientation error", "solved",
+  /// "F1".
   std::string plain_label = {};
 };
 MetricWords WordsFor(const std::string& metric_id);
-/// Returns the suffix without its space, for captions: "cm", "".
+/// Returns the suffix without the space before the unit, for captions: "cm", "".
 std::string UnitOf(const MetricWords& words);
 
 /// Returns the typical value of a metric over all cells, in the metric's unit: the median or the mean, as the metric
@@ -34,6 +35,6 @@ std::optional<double> TypicalValue(const MetricSummary& summary, const MetricWor
 std::string FormatValue(std::optional<double> value, const MetricWords& words);
 
 /// Returns an interval as text: "10.1–14.0" or "−1.2 to 0.4". Both ends have equally many digits, except that an end
-/// that would be shown as 0 keeps more: "−0.0031 to 30.4". Returns kNoValue if there is no interval.
+/// that would be shown as 0 has more digits: "−0.0031 to 30.4". Returns kNoValue if there is no interval.
 std::string FormatInterval(std::optional<double> low, std::optional<double> high, const MetricWords& words);
 }  // namespace etude

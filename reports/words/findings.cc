@@ -12,7 +12,7 @@
 namespace etude {
 namespace {
 
-// If there are more methods than this, a sentence on success names only the least and the most successful one.
+// If there are more methods than this, a sentence on success names only the least and the most successful method.
 constexpr std::size_t kMaxSuccesses = 12;
 
 std::string ExpectationsSentence(const RunFindings& f) {
@@ -29,7 +29,7 @@ std::string ExpectationsSentence(const RunFindings& f) {
   return text + ".";
 }
 
-/// Returns a sentence that says how many cells were measured. (SuccessSentence says how many cells reached their goal.)
+/// Returns a sentence that says how many cells were measured. (SuccessSentence says how many cells reached the goal.)
 std::string MeasuredSentence(const RunFindings& f) {
   if (f.cells == 0) return " No cell ran.";
   const int measured = f.ok + f.unsolved;
@@ -133,8 +133,8 @@ std::string SuccessOf(const ScenarioFindings& findings, const ScenarioSummary& s
   return FormatShare(ok, attempted);
 }
 
-/// Returns the methods with which method `asked` is compared, each once: first the baselines, then the strongest other
-/// methods.
+/// Returns the methods with which method `asked` is compared, each method once: first the baselines, then the strongest
+/// other methods.
 std::vector<std::string> OthersBeside(const ScenarioSummary& scenario, const std::string& asked,
                                       const std::string& metric) {
   std::vector<std::string> names;
@@ -150,8 +150,8 @@ std::vector<std::string> OthersBeside(const ScenarioSummary& scenario, const std
   return names;
 }
 
-/// Returns the number of worlds, over all conditions, in which another method is worse than `asked` by at least the
-/// practical threshold.
+/// Returns the number of worlds, over all conditions, in which method `other` is worse than method `asked` by at least
+/// the practical threshold.
 std::string WorldsLostTo(const ScenarioSummary& scenario, const std::string& asked, const std::string& other,
                          const std::string& metric) {
   for (const Against against : {Against::kBaseline, Against::kRival}) {
@@ -163,7 +163,7 @@ std::string WorldsLostTo(const ScenarioSummary& scenario, const std::string& ask
     }
     if (pairs > 0) return fmt::format("{}/{}", FormatCount(lost), FormatCount(pairs));
   }
-  return "";  // the strongest other method is one of two, each the strongest on half of the worlds
+  return "";  // two methods are the strongest, each on half of the worlds
 }
 
 KeyFigures KeyFiguresOf(const ScenarioSummary& scenario, const std::string& asked, Times& times,
@@ -220,8 +220,8 @@ ScenarioFindings FindingsOf(const RunData& run, const ScenarioSummary& scenario)
     findings.answer = CompareInWords(scenario, asked, findings.metric, Against::kBaseline);
     findings.rival = CompareInWords(scenario, asked, findings.metric, Against::kRival);
   }
-  // List all methods that are compared with others, and the yardsticks (methods compared with none, such as natural
-  // motion).
+  // List all methods that are compared with others, and the yardsticks (methods that are compared with no method, such
+  // as natural motion).
   for (std::size_t i = 1; i < scenario.methods.size(); ++i) {
     if (IsYardstick(scenario, scenario.methods[i])) {
       findings.yardsticks.push_back(scenario.methods[i]);

@@ -23,8 +23,8 @@ inline std::string_view VerdictWords(const std::optional<Verdict>& verdict) {
 /// The comparison of `method` with another method by one metric, over all conditions.
 struct MethodFinding {
   std::string method;
-  /// The other method of the comparison. If the strongest other method differs between conditions, that of the first
-  /// condition.
+  /// The other method of the comparison. If the strongest other method differs between conditions, this is the
+  /// strongest other method of the first condition.
   std::string baseline;
   SamplingUnit unit = SamplingUnit::kWorld;
   bool is_compared = false;             ///< false if the method was not compared by this metric
@@ -44,7 +44,7 @@ struct MethodFinding {
 struct KeyFigures {
   struct Method {
     std::string name;
-    std::vector<std::string> values;  ///< one value per label, with its unit; "" if the method has no such value
+    std::vector<std::string> values;  ///< one value per label, with a unit; "" if the method has no such value
   };
   /// Names of the key numbers that are known: headline metric, success, processor time, worlds in which a method
   /// loses to the method in question.
@@ -52,7 +52,7 @@ struct KeyFigures {
   std::vector<Method> methods;  ///< the method in question first; empty if nothing is compared
 };
 
-/// Returns the key numbers as a table. Its columns are aligned as numbers if `has_number_columns`.
+/// Returns the key numbers as a table. The table's columns are aligned as numbers if `has_number_columns`.
 Table FiguresTable(const KeyFigures& figures, bool has_number_columns);
 
 /// Counts the cells of one method that ended in one status for the same kind of reason.
@@ -76,11 +76,11 @@ struct ScenarioFindings {
   /// method.
   std::string headline;
   MethodFinding answer;  ///< comparison of the method in question with its baseline
-  /// Comparison of the method in question with the strongest other method. It is marked as not compared if there is no
-  /// other method, and for runs of old versions.
+  /// Comparison of the method in question with the strongest other method. If there is no other method, and for runs of
+  /// old versions, `rival.is_compared` is false.
   MethodFinding rival;
   KeyFigures figures;
-  /// One finding for every method that is compared with another, in the scenario's order.
+  /// One finding for every method that is compared with another method, in the scenario's order.
   std::vector<MethodFinding> methods;
   std::vector<std::string> yardsticks;
   int cells = 0;
@@ -88,16 +88,16 @@ struct ScenarioFindings {
   std::vector<SuccessFinding> successes;         ///< one finding per success metric (MetricInfo::is_success)
   std::vector<ReasonCount> reasons;              ///< reasons of all cells that are not ok, the most frequent first
 };
-/// Returns true if the strongest other method is not the baseline. Otherwise the comparison with it adds no
-/// information.
+/// Returns true if the strongest other method is not the baseline. Otherwise, a comparison with the strongest other
+/// method adds no information.
 bool HasOtherRival(const ScenarioFindings& findings);
 
 ScenarioFindings FindingsOf(const RunData& run, const ScenarioSummary& scenario);
 
-/// A sentence about the whole run, and the numbers of cells in it.
+/// A sentence about the whole run, and the numbers of cells that the sentence states.
 struct RunFindings {
   int cells = 0;
-  int ok = 0;        ///< cells that were measured; their status does not say whether they reached a goal
+  int ok = 0;        ///< measured cells; their status does not say whether they reached a goal
   int unsolved = 0;  ///< cells that were measured, but ended before they reached the goal
   int skipped = 0;   ///< cells that were not run, because their world lacked something for the task
   int broken = 0;    ///< cells that failed, crashed, timed out or gave an invalid answer
@@ -107,7 +107,7 @@ struct RunFindings {
 RunFindings FindingsOf(const RunData& run);
 
 /// Returns a sentence about success: "Reached (share “as smooth as nature”): fuzzy 0 %, natural 98.3 %." If there are
-/// many methods, names only those with the smallest and the largest share.
+/// many methods, names only the methods with the smallest and the largest share.
 std::string SuccessSentence(const SuccessFinding& finding);
 
 /// Returns how many cells ended in each status: "480 cells: 470 ok, 8 unsolved, 2 failed".

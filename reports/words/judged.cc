@@ -10,7 +10,8 @@
 namespace etude {
 namespace {
 
-/// Names of the sampling units, in the order of SamplingUnit: those of this run, and those that were not run.
+/// Names of the sampling units, in the order of SamplingUnit: names for the units of this run, and for units that were
+/// not run.
 constexpr std::array<std::array<std::string_view, 2>, kSamplingUnits.size()> kUnitWords = {
     {{"these worlds", "other worlds"},
      {"these people", "other people"},
@@ -19,7 +20,7 @@ constexpr std::array<std::array<std::string_view, 2>, kSamplingUnits.size()> kUn
      {"these libraries", "other libraries"}}};
 
 /// Returns the numbers behind a generalised verdict, which are the typical (pseudo-median) difference over sampling
-/// units and its interval: "pseudo-median of 12 clips: −4.50 mm, 95 % CI −6.00 to −3.00".
+/// units and the interval of this difference: "pseudo-median of 12 clips: −4.50 mm, 95 % CI −6.00 to −3.00".
 std::string FiguresOf(const Beyond& beyond, const MetricWords& words, SamplingUnit unit) {
   if (!beyond.difference) return CountUnits(beyond.units, unit);
   std::string text = fmt::format("pseudo-median of {}: {}{}", CountUnits(beyond.units, unit),
@@ -156,7 +157,7 @@ bool IsComparedWithNone(const ScenarioSummary& scenario, const std::string& meth
   // Without metrics, no methods are compared, and no method counts as a yardstick.
   if (scenario.methods.empty() || method == scenario.methods.front()) return false;
   if (scenario.headline_metrics.empty() || scenario.conditions.empty()) return false;
-  // A compared method is compared under every condition, so it suffices to look at the first one.
+  // A compared method is compared under every condition, so it suffices to look at the first condition.
   const std::vector<Comparison>& comparisons = scenario.conditions.front().comparisons;
   return std::ranges::find(comparisons, method, &Comparison::method) == comparisons.end();
 }

@@ -15,11 +15,12 @@ enum class Against { kBaseline, kRival };
 struct Judged {
   const Comparison* comparison;
   const ConditionSummary* condition;
-  /// The answer to which the comparison belongs; its verdicts replace those of the comparison. Null if there is none.
+  /// The answer to which the comparison belongs; the answer's verdicts replace the comparison's verdicts. Null if there
+  /// is no answer.
   const Answer* answer = nullptr;
 
-  /// Here: the verdict on the worlds of this run. Elsewhere: the verdict generalised to other clips, people or
-  /// libraries; nullopt if there are too few of them.
+  /// Here returns the verdict on the worlds of this run. Elsewhere returns the verdict generalised to other clips,
+  /// people or libraries; nullopt if the run has too few of these.
   Verdict Here() const { return answer == nullptr ? comparison->verdict : answer->verdict; }
   std::optional<Verdict> Elsewhere() const { return answer == nullptr ? comparison->beyond.verdict : answer->beyond; }
 };
@@ -30,15 +31,15 @@ std::vector<Judged> JudgedOf(const ScenarioSummary& scenario, const std::string&
                              Against against);
 
 /// Returns the answers about a method, one per condition. Each answer comes with the comparison that decides it: the
-/// comparison of success, or else that of the value metric. If the summary has no answers, returns the comparisons by
-/// the first headline metric.
+/// comparison of success, or else the comparison of the value metric. If the summary has no answers, returns the
+/// comparisons by the first headline metric.
 std::vector<Judged> AnswersOf(const ScenarioSummary& scenario, const std::string& method, Against against);
 
-/// Returns true if all comparisons are by the same metric.
+/// Returns true if all these comparisons are by the same metric.
 bool HaveOneMetric(const std::vector<Judged>& judged);
 
-/// Returns the names in a comparison's baseline: two if it is "a or b" (two methods, each the strongest on half of the
-/// worlds; see bench/statistics/scenario_table.h), else one.
+/// Returns the names in a comparison's baseline: two names if the baseline is "a or b" (two methods, each the strongest
+/// on half of the worlds; see bench/statistics/scenario_table.h), else one name.
 std::vector<std::string> BaselinesOf(const Judged& judged);
 
 /// Names the methods with which a method is compared: "“a”", or "“a” or “b”" if the strongest other method differs
@@ -60,15 +61,15 @@ std::string CountVerdicts(const std::vector<Verdict>& verdicts, std::size_t cond
 std::vector<Verdict> VerdictsOf(const std::vector<Judged>& judged);
 
 /// Returns true if a method is compared with no other method (its `against` names itself). Returns false for the first
-/// method, because other methods are compared with it.
+/// method, because other methods are compared with the first method.
 bool IsComparedWithNone(const ScenarioSummary& scenario, const std::string& method);
 
 /// Returns true for a yardstick, such as natural motion: a method that is compared with no other method, and no other
 /// method is compared with it.
 bool IsYardstick(const ScenarioSummary& scenario, const std::string& method);
 
-/// Returns the method's index in the scenario, which selects its colour and mark; the number of methods if it is not
-/// found.
+/// Returns the method's index in the scenario, which selects its colour and mark; the number of methods if the method
+/// is not found.
 std::size_t IndexOf(const ScenarioSummary& scenario, const std::string& method);
 
 /// Returns the name of a method, with a mark if it is a yardstick: "natural (yardstick)".
@@ -86,7 +87,7 @@ struct BeyondFinding {
   bool on_these_only = true;  ///< true: no condition has a generalised verdict
   /// True: every condition has a generalised verdict that equals the verdict on the run's worlds.
   bool as_on_these = false;
-  std::optional<Verdict> verdict = {};  ///< the generalised verdict, if all conditions that have one agree
+  std::optional<Verdict> verdict = {};  ///< the generalised verdict; nullopt if conditions with such a verdict differ
   std::string words = {};               ///< "for other clips: worse", "on these clips only (4 clips, 6 are needed)"
 };
 BeyondFinding BeyondInWords(const std::vector<Judged>& judged, SamplingUnit unit);

@@ -58,10 +58,10 @@ glm::dvec2 Normal2(RandomStream& random) {
   return {u, random.Normal()};
 }
 
-constexpr double kReferenceErrorPx = 2;  // the `error_px` at which annotator.h gives its probabilities and shares
+constexpr double kReferenceErrorPx = 2;  // the `error_px` for which annotator.h states its probabilities and shares
 
-// A left and a right limb. Each limb has three consecutive strokes; `left` and `right` are the indices of the limbs'
-// first strokes.
+// A left and a right limb. Each limb has three consecutive strokes; `left` and `right` are the indices of the first
+// strokes of the left and the right limb.
 struct Pair {
   std::size_t left, right;
 };
@@ -142,8 +142,8 @@ class PictureErrors {
   double Strength() const { return errors_.error_px / kReferenceErrorPx; }
 
   // Computes each joint's unclearness and the direction of its bias. A joint between two limbs gets the larger
-  // unclearness of the two. Its bias is along the limb that ends at the joint if that limb is visible, otherwise along
-  // the limb that begins there.
+  // unclearness of these limbs. The bias is along the limb that ends at the joint if that limb is visible, otherwise
+  // along the limb that begins there.
   void MeasureLimbs() {
     along_.fill({0, 1});
     for (std::size_t i = kStrokeCount; i-- > 0;) {
@@ -228,7 +228,7 @@ void Annotator::SwapSides(const PictureDice& dice, PictureEvidence& seen) {
 
 Marks Annotator::Mark(int frame, const AnnotatedPicture& picture) {
   const PictureDice& dice = dice_.DrawNumbers(frame);
-  // Measure the visible limbs, then exchange left and right while an exchange lasts.
+  // Measure the visible limbs, then exchange left and right if an exchange lasts in this frame.
   PictureEvidence seen = SeePicture(picture, eye_);
   SwapSides(dice, seen);
   const PictureErrors errors(errors_, dice_.bias(), dice, seen);

@@ -26,13 +26,14 @@ struct PersonErrors {
 /// fingers .026. The absolute size is not used, because it describes crowd workers on pictures of all kinds.
 const std::array<double, kRoleCount>& RelativeDeviations();
 
-/// A mark's error is the sum of three parts. These are the parts' shares of its variance *(ours; Bartlett, Bussey and
-/// Flyger 2006 show that different operators differ more than repeated marks of one operator, and that joints differ)*.
-constexpr double kBiasShare = 0.3;         ///< share of a constant bias: one annotator's, for one joint, over a take
-constexpr double kLastingShare = 0.4;      ///< share of the “lasting” part, which is correlated from frame to frame
-constexpr double kIndependentShare = 0.3;  ///< share of the part that is drawn anew for each frame
-/// The time constant of the lasting part: the number of frames at 30 Hz after which its autocorrelation is 1/e
-/// *(ours)*.
+/// A mark's error is the sum of three parts. These are the parts' shares of the error's variance *(ours; Bartlett,
+/// Bussey and Flyger 2006 show that different operators differ more than repeated marks of one operator, and that
+/// joints differ)*.
+constexpr double kBiasShare = 0.3;         ///< share of the variance: a bias, constant for one joint and annotator
+constexpr double kLastingShare = 0.4;      ///< share of the variance: “lasting” errors, correlated from frame to frame
+constexpr double kIndependentShare = 0.3;  ///< share of the variance: errors drawn anew for each frame
+/// The time constant of the lasting part: the number of frames at 30 Hz after which the autocorrelation of this part is
+/// 1/e *(ours)*.
 constexpr double kLastingFrames = 10;
 
 /// Returns how unclear a limb with this contrast (`LimbEvidence::contrast`, levels) is, in (0, 1]. The value is 1/2 at
@@ -41,29 +42,30 @@ constexpr double kLastingFrames = 10;
 double Unclearness(double contrast);
 
 /// Probabilities and sizes of mistakes with a limb at `error_px` = 2. All are *(ours)* and proportional to `error_px`.
-double MissProbability(const LimbEvidence& limb);  ///< 0.2 % + up to 10 % if hardly visible + up to 3 % if unclear
+double MissProbability(const LimbEvidence& limb);  ///< 0.2 %, plus ≤ 10 % if hardly visible, plus ≤ 3 % if unclear
 constexpr double kShortShare = 0.03;               ///< standard deviation of the share left out at each end of a stroke
 constexpr double kSwapProbability = 0.0003;        ///< probability per frame that left and right are exchanged
-constexpr double kOverlapSwapProbability = 0.002;  ///< added if both limbs overlap in the picture, as in a side view
+constexpr double kOverlapSwapProbability = 0.002;  ///< added if the two limbs overlap in the picture, as in a side view
 constexpr double kSwapFrames = 5;                  ///< mean length of an exchange, in marked frames
 
-/// The random numbers of one picture. Their number depends neither on the picture nor on the strength of the errors.
+/// The random numbers of one picture. How many numbers are drawn depends neither on the picture nor on the strength of
+/// the errors.
 struct PictureDice {
   std::array<glm::dvec2, kRoleCount> lasting;      ///< errors correlated over frames: standard normal in u and in v
   std::array<glm::dvec2, kRoleCount> independent;  ///< errors of this picture alone: standard normal in u and in v
-  std::array<glm::dvec2, kStrokeCount> shortness;  ///< shortening of both ends of a stroke: standard normal
+  std::array<glm::dvec2, kStrokeCount> shortness;  ///< shortening of a stroke at its two ends: standard normal
   std::array<double, kStrokeCount> miss;           ///< decides if a limb is overlooked: uniform in [0, 1)
   std::array<double, 2> swap_begins;               ///< decides if an exchange begins: uniform in [0, 1); arms, legs
-  std::array<double, 2> swap_lasts;                ///< determines an exchange's length: uniform in [0, 1); arms, legs
+  std::array<double, 2> swap_lasts;                ///< gives the length of an exchange: uniform in [0, 1); arms, legs
 };
 
-/// Draws the random numbers of one annotator for one camera, marked frame by marked frame.
+/// Draws the random numbers of one annotator for one camera, frame by frame (marked frames only).
 class AnnotatorDice {
  public:
   AnnotatorDice(const WorldKey& key, int annotator, int camera);
 
-  /// Returns this person's bias at each joint centre, with unit variance: along a limb at the joint, and across it. The
-  /// bias is the same for all cameras.
+  /// Returns this person's bias at each joint centre, with unit variance: along a limb at the joint, and across this
+  /// limb. The bias is the same for all cameras.
   const std::array<glm::dvec2, kRoleCount>& bias() const { return bias_; }
   /// Draws the numbers of a frame. Call it with ascending frames.
   const PictureDice& DrawNumbers(int frame);
@@ -83,8 +85,8 @@ class Annotator {
  public:
   Annotator(const PersonErrors& errors, const EvidenceOptions& eye, const WorldKey& key, int annotator, int camera);
 
-  /// Returns the marks for this picture. A mark is empty if its limb is not visible or is overlooked. A joint's error
-  /// is drawn once: the joint's limbs and its disc are marked at the same pixel. Call it with ascending frames.
+  /// Returns the marks for this picture. A mark is empty if the marked limb is not visible or is overlooked. A joint's
+  /// error is drawn once: the joint's limbs and its disc are marked at the same pixel. Call it with ascending frames.
   Marks Mark(int frame, const AnnotatedPicture& picture);
 
  private:

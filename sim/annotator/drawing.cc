@@ -6,7 +6,7 @@
 namespace etude {
 namespace {
 
-// The pixels of `picture` that are at most `reach` pixels outside the bounding box of a and b.
+// The pixels of `picture` that are at most `reach` pixels outside the bounding box of the points a and b.
 struct Box {
   int x0, x1, y0, y1;  // half-open ranges of columns and rows
 };

@@ -12,7 +12,7 @@ namespace {
 
 constexpr int kNoBorder = -1;
 
-// For each pair of parts, the index of the stroke that begins at their common border, or kNoBorder.
+// For each pair of parts, the index of the stroke that begins at the border between the two parts, or kNoBorder.
 using BorderTable = std::array<std::array<int, kPartCount>, kPartCount>;
 constexpr BorderTable kBorderOf = [] {
   BorderTable table{};
@@ -91,7 +91,7 @@ class RegionFinder {
     if (run.y > 0) {
       for (int x = run.x0; x < run.x1; ++x) AddBorder(part, seen_.At(x, run.y - 1), {x + 0.5, run.y});
     }
-    // Measure the contrast at both ends of the run.
+    // Measure the contrast at the two ends of the run.
     AddContrast(run, part, run.x0, -1);
     AddContrast(run, part, run.x1 - 1, +1);
   }
@@ -103,7 +103,7 @@ class RegionFinder {
 
   // Adds the contrast at the end `x` of a run. The pixel at x + `step` is outside the run.
   void AddContrast(const PixelRun& run, std::uint8_t part, int x, int step) {
-    constexpr int kApart = 2;  // distance in pixels from the end of the run; nearer pixels may mix both surfaces
+    constexpr int kApart = 2;  // distance in pixels from the end of the run; nearer pixels may mix two surfaces
     const int outside = x + kApart * step, inside = std::clamp(x - kApart * step, run.x0, run.x1 - 1);
     if (outside < 0 || outside >= labels_.width) return;
     const std::uint32_t other = labels_.At(outside, run.y);

@@ -11,8 +11,8 @@
 
 namespace etude {
 
-/// The part of the body along which a stroke runs, and the part to which this part is attached. Their common joint is
-/// the stroke's `from`. The table is in the order of `StrokeMarks`.
+/// The part of the body along which a stroke runs, and the part to which this part is attached. The joint between the
+/// two parts is the stroke's `from`. The table is in the order of `StrokeMarks`.
 struct LimbParts {
   Part limb;
   Part inner;
@@ -38,21 +38,21 @@ struct Regions {
   int width = 0, height = 0;
   std::array<Region, kPartCount> parts;
   /// For each stroke, the border between the limb and the part to which it is attached: the midpoints of all pixel
-  /// edges between them.
+  /// edges on this border.
   std::array<std::vector<glm::dvec2>, kStrokeCount> borders;
 
   const Region& operator[](Part part) const { return parts[static_cast<std::size_t>(part)]; }
 };
 
-/// Finds the visible parts of the performer on `person`, or at most `margin_px` outside it in u and in v. Parts that
-/// the segmenter lost are not visible to the annotator. All pictures must have the same size.
+/// Finds the visible parts of the performer on the mask `person`, or at most `margin_px` outside this mask in u and in
+/// v. Parts that the segmenter lost are not visible to the annotator. All pictures must have the same size.
 Regions FindRegions(const LabelImage& labels, const ColourImage& colours, const Mask& person, int margin_px);
 
 /// A picture as the annotator sees it. All three images have the same size.
 struct AnnotatedPicture {
   const LabelImage& labels;    ///< the part that each pixel shows, because annotators can distinguish limbs
   const ColourImage& colours;  ///< the picture's colours, used only for the contrast of limbs
-  const Mask& person;          ///< the segmented person; the annotator does not see the rest
+  const Mask& person;          ///< the segmented person; the annotator does not see the rest of the picture
 };
 
 /// The options of the annotator's view of a picture.

@@ -13,10 +13,10 @@ using enum Role;
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
-// Radii as shares of lengths of the body. With these shares, a body of 1.70 m looks like a dressed adult.
+// The radii of the capsules, as shares of limb lengths. With these shares, a body of 1.70 m looks like a dressed adult.
 constexpr double kUpperArmPerLength = 0.155;
 constexpr double kForearmPerLength = 0.145;
-constexpr double kHandPerForearm = 0.13;  // the hand joint is not used: many files put it at the wrist
+constexpr double kHandPerForearm = 0.13;  // the hand joint is not used: many files put this joint at the wrist
 constexpr double kThighPerLength = 0.165;
 constexpr double kShankPerLength = 0.12;
 constexpr double kFootPerShank = 0.068;
@@ -108,7 +108,8 @@ double TrunkLength(const BodyPose& pose) {
 
 void AddTrunk(const BodyPose& pose, std::vector<Capsule>& body) {
   const double length = TrunkLength(pose);
-  // Place the widest point of the ribs at this share of the way from the middle of the back to each shoulder.
+  // Place the widest point of the ribs at this share of the way from the middle of the back to the shoulder, on each
+  // side.
   constexpr double kRibs = 0.45;
   const glm::dvec3 middle = 0.5 * (pose[kSpine] + pose[kShoulderCentre]);
   const glm::dvec3 left_rib = glm::mix(middle, pose[kLeftShoulder], kRibs);
@@ -184,7 +185,7 @@ double SideEntry(const Capsule& capsule, const glm::dvec3& origin, const glm::dv
   return t < kInfinity && along >= 0 && along <= length ? t : kInfinity;
 }
 
-// Rotates a vector about the vertical from the world's axes to the box's.
+// Rotates a vector about the vertical from the world's axes to the box's axes.
 glm::dvec3 Turned(const glm::dvec3& v, double sine, double cosine) {
   return {cosine * v.x - sine * v.z, v.y, sine * v.x + cosine * v.z};
 }

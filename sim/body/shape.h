@@ -57,7 +57,7 @@ double HitDistance(const Capsule& capsule, const glm::dvec3& origin, const glm::
 
 /// The distances from an eye at which the ray to a joint hits the body; infinity without a hit.
 struct JointSight {
-  double skin;   ///< distance to the skin of the parts that end in the joint; at most the joint's own distance
+  double skin;   ///< distance to the skin of the parts that end in the joint; at most the distance to the joint
   double other;  ///< distance to the nearest part that does not end in the joint
 };
 /// Computes the distances along the ray from `eye` to the joint of `role`. `body` must be `BodyCapsules(pose)`.
@@ -71,12 +71,11 @@ constexpr double kHidingClearance = 0.02;
 /// in front of the joint's skin. `body` must be `BodyCapsules(pose)`.
 bool IsHidden(const std::vector<Capsule>& body, const BodyPose& pose, Role role, const glm::dvec3& eye);
 
-/// An upright solid box, rotated about the vertical; it stands for a piece of furniture in rays and in the renderer.
-/// Metres.
+/// An upright solid box, rotated about the vertical, metres. Sensors and the renderer use such boxes as furniture.
 struct Cuboid {
   glm::dvec3 centre{0};
   glm::dvec3 half_size{0.5};  ///< half sizes along the box's own axes, each positive
-  double heading = 0;         ///< radians: its own +Z points to (sin heading, 0, cos heading)
+  double heading = 0;         ///< radians: the box's +Z axis points to (sin heading, 0, cos heading)
 };
 
 /// Returns the distance along the ray to the box's surface, or infinity if the ray misses the box. `direction` must be

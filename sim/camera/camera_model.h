@@ -30,8 +30,9 @@ class Shutter {
     RowRange rows;
     double time = 0;
   };
-  /// Returns the bands of a frame. A rolling shutter reads the rows from the top. It is approximated by kBands bands,
-  /// each exposed at the time of its middle row. Without a rolling shutter there is one band.
+  /// Returns the bands of a frame. A rolling shutter reads the rows from the top. Its effect is approximated by kBands
+  /// bands; all rows of a band are exposed at the time of the band's middle row. Without a rolling shutter there is one
+  /// band.
   std::vector<Band> BandsOf(std::size_t frame, int height) const;
   static constexpr int kBands = 8;
 
@@ -47,22 +48,22 @@ class Shutter {
   double open_ = 0;      ///< exposure time, frames
 };
 
-/// A camera's identity within its world. It is the key of the camera's random numbers.
+/// A camera's identity within its world. The identity is the key of the camera's random numbers.
 struct CameraIdentity {
   WorldKey world;
-  std::string name;          ///< name, such as "capture/camera-0": prefix of the purposes of its random streams
+  std::string name;          ///< such as "capture/camera-0"; prefix of the purposes of the camera's random streams
   bool is_reference = true;  ///< true if the camera's clock is the clock of the truth
 };
 
-/// A camera of a world. It takes pictures and applies the effects in the order in which they act on the light
-/// (README.md). It is not thread-safe, because it reuses its buffers.
+/// A camera of a world. The camera takes pictures and applies the effects in the order in which these act on the light
+/// (README.md). This class is not thread-safe, because it reuses buffers.
 class CameraModel {
  public:
-  /// Renders the rows `rows` of the picture of the ideal pinhole camera (`pinhole()`). `frame` is the time, in frames
-  /// of the reference clock. The view's height is the number of rows.
+  /// Renders some rows, `rows`, of the ideal pinhole camera's picture (`pinhole()`). `frame` is the time, in frames of
+  /// the reference clock. The view's height is the number of rows.
   using Scene = std::function<View(double frame, const RowRange& rows, Targets targets)>;
 
-  /// @param camera with its lens distortion (LensDistortion); all other effects are in `effects`
+  /// @param camera the camera, including its lens distortion (LensDistortion); `effects` has all other effects
   CameraModel(const Camera& camera, const CameraEffects& effects, double rate_hz, CameraIdentity identity);
 
   /// Returns the camera for which scenes are rendered: it has no distortion, and its picture has a margin for the
@@ -74,7 +75,7 @@ class CameraModel {
   /// exposure, without blur, noise and dust.
   View Shoot(std::size_t frame, const Scene& scene, Targets targets);
 
-  /// Takes a picture of the empty stage at time 0, with its own random numbers.
+  /// Takes a picture of the empty stage at time 0, with random numbers of its own purpose.
   ColourImage ShootBackground(const Scene& scene);
 
  private:

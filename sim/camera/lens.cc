@@ -25,7 +25,7 @@ void StoreLanes(const Lanes& colours, Light* light) {
 
 constexpr int kMaxUnrolled = 6;
 
-/// Rows of floats around a centre row: rows[reach + i] is i rows below it.
+/// Rows of floats around a centre row: rows[reach + i] is i rows below the centre row.
 using Rows = const float* const*;
 
 /// Computes out[i] = Σ weights[k] · (row −k [i] + row k [i]) over k = 0 … kReach in one pass.
@@ -43,7 +43,7 @@ void WeighUnrolled(Rows rows, const float* weights, std::size_t count, float* __
   }
 }
 
-/// Computes the sums of WeighUnrolled for any reach in several passes, in the same order of additions.
+/// Computes the same sums as WeighUnrolled, in the same order of additions, in several passes; allows any reach.
 void WeighInPasses(Rows rows, int reach, const float* weights, std::size_t count, float* __restrict out) {
   for (std::size_t i = 0; i < count; ++i) out[i] = weights[0] * (rows[reach][i] + rows[reach][i]);
   for (int k = 1; k <= reach; ++k) {
@@ -98,7 +98,7 @@ LensWarp::LensWarp(const Camera& camera)
       high = glm::max(high, points.back());
     }
   }
-  // Enlarge the pinhole's picture to the bounding box, and by one more pixel on every side for interpolation.
+  // Enlarge the pinhole's picture to the bounding box, and by one more pixel on every side, which interpolation needs.
   const glm::dvec2 margin = glm::ceil(-low) + 1.0, beyond = glm::ceil(high - glm::dvec2(width_, height_)) + 1.0;
   pinhole_.intrinsics.width += static_cast<int>(margin.x + beyond.x);
   pinhole_.intrinsics.height += static_cast<int>(margin.y + beyond.y);
@@ -106,7 +106,8 @@ LensWarp::LensWarp(const Camera& camera)
   pinhole_.intrinsics.cy += margin.y;
   assert(pinhole_.intrinsics.width <= kMaxPictureSide && pinhole_.intrinsics.height <= kMaxPictureSide);
 
-  // Store, for every pixel, its four source pixels and its nearest source pixel, and for every row the rows it needs.
+  // Store, for every pixel, its four source pixels and its nearest source pixel, and, for every row, the rows of the
+  // pinhole's picture that it needs.
   for (int y = 0; y < height_; ++y) {
     RowRange& rows = source_of_row_.emplace_back(RowRange{pinhole_.intrinsics.height, 0});
     for (int x = 0; x < width_; ++x) {
@@ -180,7 +181,8 @@ View LensWarp::Warp(const View& pinhole) const {
     std::copy_n(&picture.At(0, rows.first), part.pixels.size(), part.pixels.begin());
     return part;
   };
-  // Convert colour to light, warp it, and convert it back. Labels and depth are looked up directly.
+  // Convert colour to light, warp the light, and convert the light back to colour. Labels and depth are looked up
+  // directly.
   View view;
   if (!pinhole.colour.pixels.empty()) {
     const ColourImage colour = rows_of(pinhole.colour);
@@ -228,7 +230,7 @@ void Defocus::BlurAcross(const Light* row, std::size_t width, Light* out) {
 void Defocus::Apply(LightImage& light) {
   const int reach = static_cast<int>(weights_.size()) - 1, height = light.height, kept = 2 * reach + 1;
   const std::size_t width = static_cast<std::size_t>(light.width);
-  // Keep a ring buffer of horizontally blurred rows: as many as the blur of one output row needs.
+  // Keep a ring buffer of horizontally blurred rows: as many rows as the blur of one output row needs.
   across_.resize(static_cast<std::size_t>(kept) * width);
   const auto across = [&](int y) { return across_.data() + static_cast<std::size_t>(y % kept) * width; };
   int done = 0;
@@ -263,7 +265,7 @@ std::vector<Speck> DrawSpecks(int width, int height, RandomStream& random) {
 }
 
 void AddDust(const std::vector<Speck>& specks, double strength, Transmission& transmission) {
-  constexpr double kReach = 6;  // in radii of a speck; farther away its shadow is below a thousandth
+  constexpr double kReach = 6;  // in radii of a speck; at larger distances, the speck's shadow is below a thousandth
   for (const Speck& speck : specks) {
     const int left = std::max(0, static_cast<int>(speck.x - kReach * speck.radius));
     const int top = std::max(0, static_cast<int>(speck.y - kReach * speck.radius));

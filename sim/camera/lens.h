@@ -17,16 +17,16 @@ namespace etude {
 Distortion LensDistortion(const CameraEffects& effects, const Intrinsics& intrinsics, RandomStream& random);
 
 /// Warps pictures of a pinhole camera into pictures of a lens with distortion. The renderer draws straight lines only,
-/// so it draws the picture of a pinhole camera with the same scale and a margin. Every pixel of the lens is then looked
-/// up in that picture by `UndistortPixel`.
+/// so it draws the picture of a pinhole camera with the same scale and a margin. Every pixel of the lens's picture is
+/// then looked up in the pinhole's picture by `UndistortPixel`.
 class LensWarp {
  public:
-  /// Every pixel of the camera must have a source in the pinhole's picture; for usual cameras, |radial| of a barrel
-  /// must be below 0.14.
+  /// Every pixel of the camera must have a source in the pinhole's picture; for usual cameras this holds if the
+  /// `radial` of a barrel distortion is above −0.14.
   explicit LensWarp(const Camera& camera);
 
   /// Returns the pinhole camera for which scenes are rendered. Its picture is enlarged so that every pixel of the lens
-  /// has a source in it. If the lens has no distortion, this is the camera itself.
+  /// has a source pixel in the enlarged picture. If the lens has no distortion, this is the camera itself.
   const Camera& pinhole() const { return pinhole_; }
   bool is_none() const { return sources_.empty(); }
 
@@ -57,7 +57,7 @@ class LensWarp {
   Camera pinhole_;
   std::vector<Source> sources_;          ///< one source per pixel; empty without distortion
   std::vector<std::int32_t> nearest_;    ///< index of each pixel's nearest source pixel; empty without distortion
-  std::vector<RowRange> source_of_row_;  ///< the source rows of each row; empty without distortion
+  std::vector<RowRange> source_of_row_;  ///< for each row, the source pixels' rows; empty without distortion
 };
 
 /// Blurs with a Gaussian of standard deviation `sigma_px`, truncated at three deviations. Outside the picture the
@@ -72,7 +72,7 @@ class Defocus {
  private:
   void BlurAcross(const Light* row, std::size_t width, Light* out);
 
-  std::vector<float> weights_;  ///< weight of the centre, and of distances 1, 2, …
+  std::vector<float> weights_;  ///< weights of the centre pixel and of pixels at distances 1, 2, …
   std::vector<Light> padded_row_, across_;
   std::vector<const float*> rows_;
 };
@@ -81,10 +81,10 @@ class Defocus {
 using Transmission = Image<float>;
 
 /// Darkens the corners by cos(θ) to the power 4 · strength, where θ is the angle between the pixel's ray and the axis.
-/// A strength of 1 is the geometric effect of any lens; mounts and filters can increase it.
+/// A strength of 1 is the geometric effect of any lens; mounts and filters can make the corners darker still.
 void AddVignette(const Camera& camera, double strength, Transmission& transmission);
 
-/// A speck of dust in front of the sensor. Its shadow is soft, because light arrives from the whole lens.
+/// A speck of dust in front of the sensor. The speck's shadow is soft, because light arrives from the whole lens.
 struct Speck {
   double x = 0, y = 0;  ///< position of the centre, pixels
   double radius = 0;    ///< radius at which half of the shadow is left, pixels
@@ -93,8 +93,8 @@ struct Speck {
 /// Draws ten specks with radii of 2 to 6 pixels, uniformly over a picture of this size.
 std::vector<Speck> DrawSpecks(int width, int height, RandomStream& random);
 
-/// Darkens `transmission` by dust: at distance d from its centre, a speck absorbs the share strength / (1 + (d /
-/// radius)⁴) of the light. Where shadows overlap, their transmissions are multiplied.
+/// Darkens `transmission` by dust: a speck absorbs, at distance d from the speck's centre, the share strength / (1 + (d
+/// / radius)⁴) of the light. Where shadows overlap, their transmissions are multiplied.
 void AddDust(const std::vector<Speck>& specks, double strength, Transmission& transmission);
 
 }  // namespace etude

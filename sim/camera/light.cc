@@ -44,7 +44,7 @@ void AddDecodedRow(const Rgb8* codes, int pixels, float share, Light* out) {
 
 void EncodeRow(const Light* light, int pixels, Rgb8* out) {
   const CodeTable& codes = CodeTable::Get();
-  // Convert block by block: first compute all indices with vector instructions, then look them up.
+  // Convert block by block: first compute all indices with vector instructions, then look up the values.
   constexpr int kBlock = 64;
   std::array<std::int32_t, 4 * kBlock> steps;
   for (int first = 0; first < pixels; first += kBlock) {

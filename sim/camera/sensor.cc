@@ -49,7 +49,7 @@ const NormalTable& Normals() {
   return kNormals;
 }
 
-/// Copies a row and adds one mirrored pixel at either end: the pixel at −1 equals the pixel at 1.
+/// Copies a row and adds one mirrored pixel at either end: the pixel at index −1 equals the pixel at index 1.
 void Pad(const float* row, int width, float* padded) {
   padded[0] = row[1];
   for (int x = 0; x < width; ++x) padded[x + 1] = row[x];
@@ -194,7 +194,7 @@ void Sensor::ReadColours(RandomStream& random, LightImage& light) const {
   const std::size_t width = static_cast<std::size_t>(light.width);
   const float* table = NormalRows::Table();
   NormalRows numbers(random);
-  std::vector<float> normals(4 * width);  // four per pixel like the light; the fourth is unused
+  std::vector<float> normals(4 * width);  // four numbers per pixel, like the light; the fourth is unused
   const float gains[] = {toning.red, toning.green, toning.blue, 1};
   for (int y = 0; y < light.height; ++y) {
     // Compute the light that reaches the sensor.

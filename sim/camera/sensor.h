@@ -12,19 +12,20 @@
 
 namespace etude {
 
-/// The exposure of a picture and the gains of its three colours.
+/// The exposure of a picture and the gains of the picture's three colours.
 struct Toning {
   float exposure = 1;                  ///< factor on the light that falls on the sensor
   float red = 1, green = 1, blue = 1;  ///< factors on the values that the sensor reads
   friend bool operator==(const Toning&, const Toning&) = default;
 };
 
-/// An automatic exposure and an automatic white balance with errors. Each oscillates slowly about its setting, with its
-/// own period of 4 to 10 seconds.
+/// An automatic exposure and an automatic white balance with errors. Exposure and white balance oscillate slowly about
+/// their settings, with different periods of 4 to 10 seconds.
 class AutomaticToning {
  public:
   AutomaticToning(const CameraEffects& effects, RandomStream& exposure, RandomStream& white_balance);
-  /// Returns the toning at a time: exposure = 2^(ev + drift · sin); red / blue = 2^(balance + drift · sin); green is 1.
+  /// Returns the toning at a time, where each sine is one of the slow oscillations: exposure = 2^(ev + drift · sin);
+  /// red / blue = 2^(balance + drift · sin); green is 1.
   Toning At(double seconds) const;
 
  private:
@@ -81,7 +82,8 @@ inline float Disturbed(const SensorNoise& noise, float light, float normal) {
 }
 
 /// Adds noise to pictures that have no other effect. For every code, a table holds the 1024 outcomes of decoding the
-/// code to light, adding noise and encoding the sum. The bytes equal those of computing each pixel, at a lower cost.
+/// code to light, adding noise and encoding the sum. The result has the same bytes as computing these steps for each
+/// pixel, at a lower cost.
 class CodeNoise {
  public:
   explicit CodeNoise(const SensorNoise& noise);
@@ -99,13 +101,13 @@ using Mosaic = Image<float>;
 /// Returns the colour (0, 1, 2 for r, g, b) that a pixel of the mosaic holds.
 constexpr int BayerColour(int x, int y) { return (x & 1) + (y & 1); }
 
-/// Interpolates the two missing colours of each pixel as the mean of the nearest two or four pixels that have them.
-/// This bilinear demosaicing is the usual baseline. The mosaic must have at least 2 × 2 pixels; it is mirrored at its
-/// edges.
+/// Interpolates the two missing colours of each pixel as means: over the two or four nearest pixels that sense the
+/// missing colour. This bilinear demosaicing is the usual baseline. The mosaic must have at least 2 × 2 pixels; it is
+/// mirrored at its edges.
 /// @param out must have the mosaic's size
 void Demosaic(const Mosaic& mosaic, LightImage& out);
 
-/// A model of the sensor: light behind the lens × transmission × exposure, plus noise, times the gains of the white
+/// A model of the sensor. Its values are (light behind the lens × transmission × exposure + noise) × gains of the white
 /// balance.
 struct Sensor {
   const Transmission* transmission = nullptr;  ///< must have the light's size; null: all light passes

@@ -15,7 +15,7 @@ namespace {
 
 using enum Role;
 
-/// The pieces of a dressed person for the body at rest, grouped by their paint.
+/// The pieces of a dressed person for the body at rest, grouped by paint.
 struct DressedPieces {
   std::vector<Piece> skin, hair, eyes, top, bottom, shoes;
 };
@@ -52,7 +52,7 @@ Rings Scaled(Rings rings, double by, double margin_cm = 0) {
   return rings;
 }
 
-// Returns the rings up to `end_cm`; the last ring is interpolated at `end_cm`.
+// Returns the rings of a tube that is cut off at `end_cm`, where the last ring is interpolated.
 Rings CutOff(const Rings& rings, double end_cm) {
   Rings cut;
   for (std::size_t i = 0; i < rings.size(); ++i) {
@@ -215,13 +215,13 @@ void AddArms(const Girth& girth, double sleeve_cm, const BodyPose& rest, Dressed
   AddBoth(pieces.top, MakePiece(ArmTube(Scaled(CutOff(kArmRings, std::min(sleeve_cm, 55.0)), g, loose), 1, 0.2), rest));
 }
 
-/// Makes a skirt around both legs, from the waist down. Each side follows its leg.
+/// Makes a skirt around both legs, from the waist down. Each side of the skirt follows the leg on this side.
 Piece MakeSkirt(const Girth& girth, double length_cm, const BodyPose& rest) {
   Piece skirt;
   constexpr int kAround = 28, kRings = 7;
   const double waist = 15.4 * girth.belly, hem = waist + 5 + 0.16 * length_cm;
   const glm::dvec3 centre = rest[kHipCentre];
-  // Add a vertex. It follows the hips at the waist, and a mix of both legs below.
+  // Add a vertex. At the waist, a vertex follows the hips; below, it follows a mix of the two legs.
   const auto add = [&](double down_cm, double side_cm, double front_cm, double angle) {
     const double c = std::cos(angle), s = std::sin(angle);
     Piece::Vertex vertex;
@@ -279,7 +279,7 @@ void AddLegs(const Outfit& outfit, const Girth& girth, const BodyPose& rest, Dre
                                        .sole_cm = 0,
                                        .around = 12},
                                   rest));
-  // Make a skirt or trousers, and the skin that they leave bare.
+  // Make a skirt or trousers, and the skin of the bare part of the leg.
   const double leg_cm = outfit.is_skirt ? 0 : std::min(outfit.leg_cm, 83.0);
   if (leg_cm < 70) AddBoth(pieces.skin, MakePiece(LegTube(Scaled(kLegRings, g), 2, 1), rest));
   if (outfit.is_skirt) {
@@ -299,7 +299,7 @@ void AddLegs(const Outfit& outfit, const Girth& girth, const BodyPose& rest, Dre
   }
 }
 
-/// Makes all pieces. Sleeves and trousers are separate tubes over arms and legs, which end at the hems.
+/// Makes all pieces. Sleeves and trousers are separate tubes over arms and legs. These tubes end at the hems.
 DressedPieces MakeDressedPieces(const Outfit& outfit, const BodyPose& rest) {
   const Girth girth = GirthOf(outfit.build);
   DressedPieces pieces;

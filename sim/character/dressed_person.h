@@ -25,14 +25,14 @@ struct Outfit {
   std::optional<PartColours> suit = {};
 };
 
-/// A dressed person who can be drawn in any pose. Skin and clothes follow the joints. Their patterns are defined on the
+/// A dressed person who can be drawn in any pose. Skin and clothes follow the joints. Patterns are defined on the
 /// standing body, and therefore move with the skin and the clothes.
 class DressedPerson {
  public:
   explicit DressedPerson(const Outfit& outfit);
 
-  /// Returns the figure in a pose, scaled to the body's proportions (see PosedFigure). Its shadow is cast by its
-  /// capsules.
+  /// Returns the figure in a pose, scaled to the body's proportions (see PosedFigure). The figure's capsules cast its
+  /// shadow.
   Figure At(const BodyPose& pose) const;
 
  private:

@@ -66,7 +66,8 @@ const Tube kBand{.name = "headband",
                  .around = 16};
 
 /// The limbs, made as if turned on a lathe: each is rigid, moves with the joint at its start, and is thick in the
-/// middle and thin at its ends. Only the collar is blended at its end, because shoulders rise with the arms.
+/// middle and thin at its ends. Only the collar is not rigid: its skin is blended at the shoulder, because shoulders
+/// rise with the arms.
 const std::array kLimbs = {
     Tube{.name = "collar",
          .chain = {kShoulderCentre, kLeftShoulder},

@@ -57,8 +57,8 @@ class TubeShape {
             std::lerp(a.front_cm, b.front_cm, t), std::lerp(a.ahead_cm, b.ahead_cm, t)};
   }
 
-  /// Returns the vertex of a ring at `angle` (0 = left, π/2 = front), `lift` metres above the skin, with its joint
-  /// weights.
+  /// Returns the vertex of a ring at `angle` (0 = left, π/2 = front), `lift` metres above the skin, with the vertex's
+  /// joint weights.
   Piece::Vertex VertexAt(const Tube::Ring& ring, double angle, double lift = 0) const {
     const double along = ring.along_cm * kMetresPerCm;
     const auto [centre, direction] = PathAt(along);
@@ -122,7 +122,7 @@ void TurnInsideOut(Piece& piece) {
   for (auto& triangle : piece.triangles) std::swap(triangle[1], triangle[2]);
 }
 
-/// Computes the normal of each vertex as the area-weighted mean of its triangles' normals.
+/// Computes the normal of each vertex as the area-weighted mean of the normals of the triangles at this vertex.
 std::vector<glm::dvec3> Normals(const Piece& piece) {
   std::vector<glm::dvec3> normals(piece.vertices.size(), glm::dvec3(0));
   for (const auto& [a, b, c] : piece.triangles) {

@@ -20,7 +20,7 @@ constexpr std::array<Part, kRoleCount> kPartOfRole = {
     Part::kRightHand,   Part::kRightHand,  Part::kLeftThigh,  Part::kLeftShank,     Part::kLeftFoot,
     Part::kLeftFoot,    Part::kRightThigh, Part::kRightShank, Part::kRightFoot,     Part::kRightFoot};
 
-using MaybeParts = std::vector<std::optional<Part>>;  // the part that each joint moves, if any
+using MaybeParts = std::vector<std::optional<Part>>;  // for each joint, the part that it moves, if any
 
 std::vector<Part> Inherited(const Skeleton& skeleton, const MaybeParts& known) {
   std::vector<Part> parts;
@@ -33,7 +33,8 @@ std::vector<Part> Inherited(const Skeleton& skeleton, const MaybeParts& known) {
 }
 
 // Returns the scale of the part at a role's joint relative to the standing body: width, length, depth. Limbs keep their
-// shape. The width of hips and chest follows the distance of their joints, independently of the spine's length.
+// shape. The width of hips and chest follows the distance between the hip joints or the shoulder joints, independently
+// of the spine's length.
 glm::dvec3 SizeOf(Role role, const BodyPose& pose) {
   static const BodyPose standing = StandingPose();
   const auto ratio = [&](Role a, Role b) {
@@ -51,7 +52,8 @@ glm::dvec3 SizeOf(Role role, const BodyPose& pose) {
   for (const Role end : AllRoles()) {
     if (ParentOf(end) == role) return glm::dvec3(ratio(role, end));
   }
-  // Files put the head joint at different heights, so only the square root of its length ratio is used as the size.
+  // Files put the head joint at different heights, so the head's size is only the square root of the length ratio
+  // between neck and head joint.
   return glm::dvec3(std::sqrt(ratio(*ParentOf(role), role)));
 }
 
@@ -75,11 +77,11 @@ std::vector<Part> PartsOfJoints(const Skeleton& skeleton, const JointMap& map) {
   MaybeParts known(skeleton.joints.size());
   const auto part_of = [&known](int joint) -> std::optional<Part>& { return known[static_cast<std::size_t>(joint)]; };
   for (const Role role : AllRoles()) {
-    // If several roles share a joint, the joint moves the part of the first of these roles. Leave out the head: its
-    // joint may be a tip, so the joints of the head are found below.
+    // If several roles share a joint, the joint moves the part of the first of these roles. Leave out the head: the
+    // head joint may be a tip, so all joints that move the head are found below.
     if (role != Role::kHead && !part_of(map[role].joint)) part_of(map[role].joint) = kPartOfRole[Index(role)];
   }
-  // Assign to the head the head joint and its ancestors, up to the joint that carries the shoulders.
+  // Assign to the head the head joint and those of its ancestors that carry no shoulder.
   std::vector<bool> carries_shoulder(known.size());
   for (int joint = map[Role::kLeftShoulder].joint; joint >= 0; joint = skeleton.joints[joint].parent) {
     carries_shoulder[static_cast<std::size_t>(joint)] = true;

@@ -17,19 +17,20 @@ namespace etude {
 Figure PosedFigure(const Character& character, const LocalPose& pose, const glm::dmat4& to_world = glm::dmat4(1));
 
 /// Returns a character, which must be bound to BodySkeleton(StandingPose()), in a body's pose. The character is scaled
-/// to the body's proportions: each part to the length of its limb, hips and chest to the distances of their joints. Set
-/// `is_closed` if all meshes are closed, like those of the bear and the mannequin (`Surface::is_closed`).
+/// to the body's proportions: each part to the length of the limb, and hips and chest to the distances between hip
+/// joints and between shoulder joints. Set `is_closed` if all meshes are closed, as the meshes of the bear and the
+/// mannequin are (`Surface::is_closed`).
 Figure PosedFigure(const Character& character, const BodyPose& pose, bool is_closed = false);
 
-/// Computes the joints in `pose` of a character bound to BodySkeleton(StandingPose()); their axes are scaled to the
-/// body's proportions.
+/// Computes the joints in `pose` of a character bound to BodySkeleton(StandingPose()); the joints' axes are scaled to
+/// the body's proportions.
 std::vector<GlobalTransform> FilledGlobals(const Character& character, const BodyPose& pose);
 
 /// Finds the part of the body that each joint of a skeleton moves: the part of the role that the joint's name states,
 /// otherwise of the nearest ancestor with a role (an ear belongs to the head), otherwise the trunk.
 std::vector<Part> PartsOfJoints(const Skeleton& skeleton);
-/// Finds the part that each joint moves, for a file's skeleton whose roles are in `map`. Joints between neck and head
-/// belong to the head unless they carry a shoulder.
+/// Finds the part that each joint moves, for a file's skeleton with the roles of joints in `map`. Joints between neck
+/// and head belong to the head unless they carry a shoulder.
 std::vector<Part> PartsOfJoints(const Skeleton& skeleton, const JointMap& map);
 
 /// Finds the part of each triangle: the part whose joints have the largest total weight at the triangle's corners.
@@ -45,12 +46,12 @@ Figure FigureAt(const Character& character, const std::vector<Surface>& still,
 std::vector<GlobalTransform> GlobalsInWorld(const Skeleton& skeleton, const LocalPose& pose,
                                             const glm::dmat4& to_world);
 
-/// The figure that a file contains beside its clip: the file's meshes and textures, which move on the file's own
+/// The figure that a file contains besides a clip: the file's meshes and textures, which move on the file's own
 /// skeleton as recorded.
 class RecordedFigure {
  public:
   /// `clip` must be a clip of the character's skeleton; `map` and `body` must be the joint map and the conversion found
-  /// for it.
+  /// for this clip.
   RecordedFigure(std::shared_ptr<const Character> character, Clip clip, const JointMap& map,
                  const BodyConversion& body);
 

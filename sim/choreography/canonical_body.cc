@@ -21,13 +21,13 @@ struct LegJoints {
   glm::dvec3 hip, knee, ankle, toe;
 };
 
-/// The largest distance from hip to ankle, as a share of the leg's length. It is below 1, so knees neither lock nor
-/// snap.
+/// The largest distance from hip to ankle, as a share of the leg's length. A share below 1 prevents fully straight
+/// knees, which would snap.
 constexpr double kReach = 0.998;
 
 double LegLength(const BodyDimensions& body) { return body.thigh + body.shank; }
 
-/// The target position of a foot, and the direction in which its knee points.
+/// The target position of a foot, and the direction in which the knee of the same leg points.
 struct FootGoal {
   glm::dvec3 ankle;
   glm::dvec3 to_toe;        // vector from the ankle to the toe
@@ -94,7 +94,7 @@ LegJoints PlaceLeg(const Controls& controls, const BodyDimensions& body, Side si
                    const glm::dvec3& hip) {
   const double free = Freedom(controls, side);
   const FootGoal standing = StandingGoal(controls, body, side), swinging = FreeGoal(controls, body, side, pelvis, hip);
-  // Let the foot rise before it moves sideways; it must not brush along the floor.
+  // Let the foot rise before it moves sideways; the foot must not brush along the floor.
   const double travelled = free * free;
   glm::dvec3 ankle = glm::mix(standing.ankle, swinging.ankle, glm::dvec3(travelled, free, travelled));
   glm::dvec3 to_toe = glm::mix(standing.to_toe, swinging.to_toe, travelled);
@@ -107,8 +107,8 @@ LegJoints PlaceLeg(const Controls& controls, const BodyDimensions& body, Side si
   return {hip, knee, ankle, ankle + to_toe};
 }
 
-/// Returns the greatest hip height at which the foot of the nearly straight leg still reaches its spot on the floor.
-/// Only x and z of `hip` are used.
+/// Returns the greatest hip height at which the foot of the nearly straight leg still reaches the foot's spot on the
+/// floor. Only x and z of `hip` are used.
 double HighestHip(const Controls& controls, const BodyDimensions& body, Side side, const glm::dvec3& hip) {
   const glm::dvec3 ankle = StandingGoal(controls, body, side).ankle;
   const double sideways = std::hypot(hip.x - ankle.x, hip.z - ankle.z);
@@ -183,7 +183,7 @@ glm::dvec3 HipOffset(const BodyDimensions& body, Side side, const glm::dmat3& pe
   return pelvis * glm::dvec3(side == Side::kLeft ? body.hip_half_width : -body.hip_half_width, 0, 0);
 }
 
-/// Returns a smooth minimum of both values. It differs from the exact minimum only if the values are within some
+/// Returns a smooth minimum of two values. The result differs from the exact minimum only if the values are within some
 /// millimetres of each other.
 double SmoothMin(double a, double b) {
   constexpr double kEase = 0.004;
@@ -201,7 +201,8 @@ glm::dvec3 PlaceHips(const Controls& controls, const BodyDimensions& body, const
   return {wanted.x, SmoothMin(wanted.y, SmoothMin(limit(Side::kLeft), limit(Side::kRight))), wanted.z};
 }
 
-/// Returns the controls with their lengths scaled to this body: by its leg length divided by the canonical body's.
+/// Returns the controls with their lengths scaled to this body: by the ratio of this body's leg length to the canonical
+/// body's leg length.
 Controls InProportion(const Controls& controls, const BodyDimensions& body) {
   constexpr std::array kMiddle = {kHipsSide, kHipsAhead, kHipsDrop, kJump};
   constexpr std::array kOfASide = {kFootSide, kFootAhead, kFootLift};

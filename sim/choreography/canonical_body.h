@@ -26,8 +26,8 @@ struct CanonicalBody {
   static constexpr double kHand = 0.18;
   /// The height of the hip centre above the floor, with straight legs.
   static constexpr double kHipHeight = kThigh + kShank + kAnkleHeight;
-  /// The home spots, where the feet stand in the ready stance: half the distance between them, metres, and the outward
-  /// angle of the toes, radians.
+  /// The home spots are the places of the feet in the ready stance. These constants are half the distance between the
+  /// two spots, metres, and the outward angle of the toes, radians.
   static constexpr double kHomeHalfWidth = 0.12;
   static constexpr double kHomeToeOut = 0.2;
 };
@@ -56,8 +56,8 @@ struct BodyDimensions {
 
 /// Computes the twenty joints of a body that faces +Z on a floor at y = 0. The home spots of the feet are left and
 /// right of the origin. Legs that are not free reach for their spots by two-bone inverse kinematics, so a standing foot
-/// cannot slide; the hips sink until the standing legs reach their spots. The limb lengths are those of `body` in every
-/// pose. Angles in `controls` are used unchanged. Lengths (of hips, feet and jumps) are scaled with the legs: a child
+/// cannot slide; the hips sink until the standing legs reach their spots. In every pose, the limbs have the lengths in
+/// `body`. Angles in `controls` are used unchanged. Lengths (of hips, feet and jumps) are scaled with the legs: a child
 /// takes a child's steps.
 BodyPose PoseOf(const Controls& controls, const BodyDimensions& body = {});
 

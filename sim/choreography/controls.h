@@ -41,7 +41,7 @@ enum class SideControl {
   kLegTwist,
   kKnee,
   kFootPoint,  ///< free leg: plantar flexion
-  kFootSide,   ///< standing foot: metres outward from its home spot
+  kFootSide,   ///< standing foot: metres outward from the foot's home spot
   kFootAhead,
   kFootLift,  ///< metres above the floor: a step lifts the foot, a slide does not
   kFootHeel,  ///< rotation that raises the heel about the toe tip
@@ -66,7 +66,7 @@ struct Controls {
   }
 };
 
-/// The name of a control in choreography files, and its unit there.
+/// The name and the unit of a control in choreography files.
 struct ControlName {
   std::string_view group;  ///< "hips", "arm", "elbow"; side controls are written "left_arm", "right_arm" or "arms"
   std::string_view key;    ///< key within the group's mapping; empty if the group itself is a number
@@ -81,7 +81,7 @@ std::span<const ControlName, kSideControlCount> SideControlNames();
 Controls Mirrored(const Controls& controls);
 /// Returns the sum of two sets of controls, control by control.
 Controls Sum(const Controls& a, const Controls& b);
-/// Returns (1 − share) · from + share · to.
+/// Returns (1 − share) · from + share · to, for every control.
 Controls Mix(const Controls& from, const Controls& to, double share);
 /// Returns `controls` with their distance from `centre` scaled by `factor`. kLegFree is not scaled: a smaller kick must
 /// still leave the floor.

@@ -30,7 +30,7 @@ constexpr double kAny = 1e9;
 /// out of the hint.
 struct Vocabulary {
   std::string_view feature;  ///< name of the feature, without the prefix R or L
-  std::string_view part;     ///< the part of the body, without its side
+  std::string_view part;     ///< the part of the body, without "left" or "right"
   std::vector<Word> words;
 };
 const std::vector<Vocabulary>& Vocabularies() {
@@ -54,7 +54,8 @@ std::optional<double> DegreesOf(const KeyPose& pose, const std::string& feature)
   return found != pose.targets.end() ? std::optional(found->degrees) : std::nullopt;
 }
 
-/// Describes both sides of one part of the body. If both sides have the same words, they are combined: "both …s".
+/// Describes both sides of one part of the body. If the two sides have the same words, the sides are combined: "both
+/// …s".
 void SayLimb(const KeyPose& pose, const Vocabulary& vocabulary, std::vector<std::string>& said) {
   const auto word_of = [&](const char* side) {
     const auto degrees = DegreesOf(pose, side + std::string(vocabulary.feature));
@@ -101,7 +102,7 @@ Result<DanceMove> DanceMoveOf(const std::string& name) {
                    .slow = std::move(slow.motion)};
 }
 
-/// Returns the time of every beat, from the song's beginning to its end.
+/// Returns the time of every beat, seconds, from the song's beginning to its end.
 std::vector<double> BeatsOf(const Song& song) {
   std::vector<double> beats;
   for (int beat = 0; beat * 60 / song.tempo_bpm <= song.motion.DurationSeconds(); ++beat) {
@@ -113,12 +114,12 @@ std::vector<double> BeatsOf(const Song& song) {
 constexpr double kMinBeatSeconds = 0.2, kMaxBeatSeconds = 3;
 constexpr std::size_t kMinBeats = 8, kMaxBeats = 10000;
 
-/// Returns the number in a line's first word; nullopt if that is not a number.
+/// Returns the number in a line's first word; nullopt if the first word is not a number.
 std::optional<double> NumberAtFront(std::string_view line) {
   return ParseFinite(line.substr(0, line.find_first_of(" \t\r,;")));
 }
 
-/// Returns the time of a beat, interpolated linearly between two whole beats.
+/// Returns the time of a beat, which may be fractional, seconds, interpolated linearly between two whole beats.
 double MomentOf(double beat, const std::vector<double>& beats_s) {
   const auto before = static_cast<std::size_t>(beat);
   const double share = beat - std::floor(beat);
@@ -191,7 +192,7 @@ Result<std::vector<double>> ReadBeats(std::string_view text, const std::string& 
     const std::string_view line = Trimmed(TakeLine(text));
     ++number;
     if (line.empty() || line.front() == '#') continue;
-    // Read the line's time, and compare it with that of the previous beat.
+    // Read the line's time, and compare it with the time of the previous beat.
     const auto moment = NumberAtFront(line);
     if (!moment) return Fail({file, number, 1}, "a beat is a number of seconds, found {}", Quote(line.substr(0, 40)));
     if (*moment < 0) return Fail({file, number, 1}, "a beat at {} s; allowed: 0 or later", *moment);
@@ -210,7 +211,7 @@ Result<std::vector<double>> ReadBeats(std::string_view text, const std::string& 
 double TempoOf(const std::vector<double>& beats_s) {
   std::vector<double> steps;
   for (std::size_t i = 1; i < beats_s.size(); ++i) steps.push_back(beats_s[i] - beats_s[i - 1]);
-  // Round the tempo to 0.01 bpm: rounded times in a file must not give a tempo just above a move's fastest.
+  // Round the tempo to 0.01 bpm: rounded times in a file must not give a tempo just above a move's fastest tempo.
   return std::round(6000 / UpperMedian(std::move(steps))) / 100;
 }
 
@@ -226,7 +227,7 @@ Result<Dance> ToBeats(Dance dance, const std::vector<double>& beats_s) {
 }
 
 TaughtMove TaughtOf(const Move& move) {
-  constexpr double kExtraSeconds = 0.5;  // time allowed beyond one performance at the taught tempo
+  constexpr double kExtraSeconds = 0.5;  // seconds allowed beyond the duration of one performance at the taught tempo
   TaughtMove taught{.name = move.name,
                     .span_s = 60.0 * move.beats / move.tempo_bpm + kExtraSeconds,
                     .examples = {StreamOf(move.motion)}};

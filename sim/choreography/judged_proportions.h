@@ -4,8 +4,8 @@
 
 namespace etude {
 
-/// Returns the proportions of the body that performs all clips in the evaluation of transitions. Its hip height is 0.90
-/// m (docs/reference/metrics.md).
+/// Returns the proportions of the body that performs all clips in the evaluation of transitions. The body's hip height
+/// is 0.90 m (docs/reference/metrics.md).
 BodyProportions JudgedProportions();
 
 }  // namespace etude

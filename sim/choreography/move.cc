@@ -78,7 +78,7 @@ Result<void> CheckList(const Node& list, std::string_view name) {
   return {};
 }
 
-/// Reads the beat of a pose; it must be in [0, beats).
+/// Reads the beat of a pose, which must be in [0, beats).
 double ReadBeat(Fields& pose, double beats) {
   const auto beat = pose.OptionalNumber("beat", {0, beats});
   if (!beat && pose.ok()) pose.Complain(pose.node().place, "a pose needs a 'beat'");
@@ -133,7 +133,7 @@ Result<std::vector<PoseKey>> ReadPoses(const Node& poses, double beats) {
     }
     if (beat + hold >= beats) pose.Complain(item.place, fmt::format("the pose is held beyond beat {}", beats));
     RETURN_IF_ERROR(pose.Finish());
-    // Write two keys for a held pose: at the start and at the end of its hold.
+    // Write two keys for a held pose: at the start and at the end of the hold.
     keys.push_back({beat, controls, ease});
     if (hold > 0) keys.push_back({beat + hold, controls});
   }
@@ -162,7 +162,7 @@ Result<std::vector<KeyPose>> ReadKeyPoses(const Node& key_poses, double beats) {
 
 constexpr Range kTempoRange = {40, 240};
 
-/// Appends the mirror image of the first half of the move as its second half.
+/// Appends the second half of the move, which is the mirror image of the first half.
 void AppendMirrorImage(std::vector<PoseKey>& keys, double half) {
   const std::size_t count = keys.size();
   for (std::size_t i = 0; i < count; ++i) {
@@ -183,7 +183,7 @@ void ReadTempoRange(Fields& fields, Move& move) {
   }
 }
 
-/// Computes the curves of a move from its poses at its tempo.
+/// Computes the curves of a move from the move's poses and tempo.
 Result<Move> WithCurves(Move move, MoveCurves::Style style, const Place& place) {
   style.beat_seconds = 60 / move.tempo_bpm;
   RETURN_IF_ERROR(CheckJumps(move.poses, move.beats, style.beat_seconds, place));

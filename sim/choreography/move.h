@@ -10,7 +10,8 @@
 
 namespace etude {
 
-/// A pose for which a recogniser searches. It is reached when all of its angles are within tolerance at once.
+/// A pose for which a recogniser searches. The pose is reached when all of its angles are within their tolerances at
+/// the same time.
 struct KeyPose {
   struct Target {
     std::string feature;  ///< one of paper A's ten features: "RH", "LHE", … (engine/fuzzy)
@@ -25,7 +26,7 @@ struct KeyPose {
 struct Move {
   std::string name;  ///< the move's name: "clap"
   double tempo_bpm = 120;
-  double slowest_bpm = 120;  ///< range of song tempos that suit the move (`tempo_range_bpm`); default: its own tempo
+  double slowest_bpm = 120;  ///< range of song tempos that suit the move (`tempo_range_bpm`); default: the move's tempo
   double fastest_bpm = 120;
   double beats = 8;   ///< length of one performance
   bool loops = true;  ///< true if the last frame leads back to the first, as in all moves and in acts that can repeat
@@ -45,9 +46,8 @@ Result<Move> LoadBuiltinMove(const std::string& name);
 /// Loads the move or act with this name without its `motion`, which is the slowest part to compute. Names of slow
 /// demonstrations are not allowed.
 Result<Move> LoadBuiltinCurves(const std::string& name);
-/// Returns the move at another tempo. The beats of its poses stay the same. Flights keep their duration in seconds,
-/// because gravity determines it. Fails at `place` if a flight no longer fits between the beats. `move` must have
-/// poses.
+/// Returns the move at another tempo. The poses stay at the same beats. Flights keep their duration in seconds, because
+/// gravity determines it. Fails at `place` if a flight no longer fits between the beats. `move` must have poses.
 Result<Move> AtTempo(const Move& move, double tempo_bpm, const Place& place);
 /// Returns the move at another tempo without its `motion`.
 Result<Move> CurvesAtTempo(const Move& move, double tempo_bpm, const Place& place);

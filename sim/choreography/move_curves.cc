@@ -23,14 +23,14 @@ double SmallerOfSameSign(double a, double b) {
   return std::abs(a) < std::abs(b) ? a : b;
 }
 
-/// Returns true if motion with this timing starts and ends at rest.
+/// Returns true if a motion with this ease (timing) starts and ends at rest.
 bool IsBetweenRests(Ease ease) { return ease == Ease::kSnap || ease == Ease::kStep; }
 
 /// Returns the curve's parameter after a share of a segment's time. Unless the curve rests at both ends, the first two
-/// derivatives at the ends must equal those of the identity.
+/// derivatives at the ends must equal the derivatives of the identity.
 double Eased(Ease ease, double share) {
-  // The bulge moves the motion away from the identity. It and its first two derivatives are zero at both ends. The sums
-  // below increase everywhere while kStrength is below 18.6.
+  // The bulge moves the motion away from the identity. The bulge and its first two derivatives are zero at both ends of
+  // a segment. The sums of share and bulge below increase everywhere while kStrength is below 18.6.
   constexpr double kStrength = 8;
   const double hump = share * (1 - share), bulge = kStrength * hump * hump * hump;
   const auto within = [share](double from, double to) { return std::clamp((share - from) / (to - from), 0.0, 1.0); };
@@ -71,7 +71,7 @@ PeriodicCurve::PeriodicCurve(std::vector<Key> keys, double period) : period_(per
   }
   for (std::size_t i = 0; i < count; ++i) {
     const std::size_t before = (i + count - 1) % count, after = (i + 1) % count;
-    // Compute the second derivatives at this key of the two neighbouring cubic Hermite segments.
+    // For the two cubic Hermite segments that meet at this key, compute the second derivatives at the key.
     const double ending = (2 * knots_[before].slope + 4 * knots_[i].slope - 6 * secant(before)) / width(before);
     const double starting = (6 * secant(i) - 4 * knots_[i].slope - 2 * knots_[after].slope) / width(i);
     knots_[i].bend = rests(i) ? 0 : SmallerOfSameSign(ending, starting);
@@ -91,7 +91,8 @@ double PeriodicCurve::At(double time) const {
   const Knot& from = *(after - 1);
   const Knot& to = *after;
 
-  // Evaluate the quintic Hermite segment: the Taylor parabola at its start, plus a correction that fits its end.
+  // Evaluate the quintic Hermite segment: the Taylor parabola at the segment's start, plus a correction that fits the
+  // segment's end.
   const double h = to.at - from.at, s = Eased(to.ease, (at - from.at) / h);
   const double slope = from.slope * h, bend = from.bend * h * h;
   const double gap = to.value - from.value - slope - 0.5 * bend;
@@ -118,7 +119,7 @@ bool IsOneOf(std::size_t control, std::span<const SideControl> of) {
   });
 }
 
-/// Returns true if the foot must be lifted on its way from one pose to the next.
+/// Returns true if the foot must be lifted between one pose and the next.
 bool Steps(const Controls& from, const Controls& to, Side side) {
   if (from[MiddleControl::kJump] > 0 || to[MiddleControl::kJump] > 0) return false;
   for (SideControl off_the_floor : {SideControl::kFootLift, SideControl::kLegFree}) {

@@ -27,16 +27,16 @@ enum class Ease {
 /// both derivatives at the keys. Keys before and after a snap or a step are at rest.
 ///
 /// The segments are quintic Hermite polynomials. Slopes are the weighted harmonic means of Fritsch and Butland (1984).
-/// At a key, the second derivatives of the two neighbouring cubics are compared: the one with the smaller magnitude is
-/// taken, or 0 if they differ in sign (ours).
+/// At a key, the second derivatives of the two neighbouring cubics are compared: the derivative with the smaller
+/// magnitude is taken, or 0 if the signs differ (ours).
 class PeriodicCurve {
  public:
   struct Key {
     double at;
     double value;
-    Ease ease = Ease::kSmooth;  ///< timing of the motion to this key from the one before
-    /// The derivatives at this key, if physics determines them (a flight). Otherwise they are computed from the
-    /// neighbouring keys.
+    Ease ease = Ease::kSmooth;  ///< timing of the motion from the previous key to this key
+    /// The derivatives at this key, if physics determines them (a flight). Otherwise the derivatives are computed from
+    /// the neighbouring keys.
     struct Derivatives {
       double slope, bend;
     };
@@ -54,7 +54,7 @@ class PeriodicCurve {
     double at, value, slope, bend;
     Ease ease;
   };
-  std::vector<Knot> knots_;  // knots of the closed curve: the last knot is the first one, one period later
+  std::vector<Knot> knots_;  // knots of the closed curve: the last knot is the first knot, one period later
   double period_;
 };
 
@@ -62,15 +62,15 @@ class PeriodicCurve {
 struct PoseKey {
   double beat = 0;
   Controls controls;
-  Ease ease = Ease::kSmooth;  ///< timing of the motion to this pose from the one before
+  Ease ease = Ease::kSmooth;  ///< timing of the motion from the previous pose to this pose
 };
 
 /// Returns the keys of one control's curve through the poses of a loop of `beats` beats, each `beat_seconds` long. Two
 /// things are computed, because authored values would not be accurate enough:
 /// - If the spot of a foot differs between two poses, the foot makes a step: it is lifted, moves, and is down again
 ///   before the second pose.
-/// - A pose with a jump is the top of a flight under gravity. Its height determines the times of take-off and landing;
-///   poses within the jump do not affect the height of the body. Before take-off and after landing the hips dip,
+/// - A pose with a jump is the top of a flight under gravity. The jump's height determines when the body takes off and
+///   lands; poses within the jump do not affect the height of the body. Before take-off and after landing the hips dip,
 ///   because the knees push off and absorb the landing.
 std::vector<PeriodicCurve::Key> KeysOf(const std::vector<PoseKey>& poses, std::size_t control, double beats,
                                        double beat_seconds);
@@ -79,19 +79,19 @@ std::vector<PeriodicCurve::Key> KeysOf(const std::vector<PoseKey>& poses, std::s
 /// jump.
 Result<void> CheckJumps(const std::vector<PoseKey>& poses, double beats, double beat_seconds, const Place& place);
 
-/// A move as smooth curves of its controls over the beats of one performance. Performers vary these curves before
-/// joints are computed.
+/// The smooth curves of a move's controls over the beats of one performance. Performers vary these curves before joints
+/// are computed.
 class MoveCurves {
  public:
   struct Style {
-    /// Follow-through: the end of a limb moves this many beats later than its root.
+    /// Follow-through: the end of a limb moves this many beats later than the root of the limb.
     double overlap_beats = 0;
     /// The depth by which the hips sink on every beat, metres.
     double bounce = 0;
     /// The length of a beat in seconds; it determines how many beats a flight lasts.
     double beat_seconds = 0.5;
-    /// If true, the last pose leads back to the first. If false, the body rests in the first pose before the move, and
-    /// in the last pose after it.
+    /// If true, the last pose leads back to the first pose. If false, the body rests in the first pose before the move,
+    /// and in the last pose after it.
     bool loops = true;
   };
 

@@ -19,8 +19,8 @@ inline glm::dmat3 RotationZ(double angle) {
   return {{c, s, 0}, {-s, c, 0}, {0, 0, 1}};
 }
 
-/// Returns the rotation of an upright part of the body: the part turns to its left, then bends to its left side, then
-/// forward; the bends are in the turned frame.
+/// Returns the rotation of an upright part of the body: the part turns left, then bends to the left side, then forward;
+/// the bends are in the turned frame.
 inline glm::dmat3 TurnSideBend(double turn, double side, double bend) {
   return RotationY(turn) * RotationZ(-side) * RotationX(bend);
 }

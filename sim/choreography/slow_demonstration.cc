@@ -11,7 +11,8 @@ namespace {
 
 constexpr double kHoldBeats = 1;
 
-/// The timing of a demonstration: a map from its beats to beats of the move, with a stop at each key pose.
+/// The timing of a demonstration: a map from beats of the demonstration to beats of the move, with a stop at each key
+/// pose.
 class Pauses {
  public:
   /// `stops` must ascend strictly within (0, beats).
@@ -47,8 +48,8 @@ class Pauses {
   }
 
  private:
-  /// Returns the distance covered in `time` by a motion that starts at rest: its speed rises to 1 along a smoothstep of
-  /// length `ramp_`.
+  /// Returns the distance covered in `time` by a motion that starts at rest: within the time `ramp_`, the speed rises
+  /// to 1 along a smoothstep.
   double Gathering(double time) const {
     if (time >= ramp_) return time - 0.5 * ramp_;
     const double t = time / ramp_;

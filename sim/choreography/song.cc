@@ -31,7 +31,7 @@ double StartingClock(double time, double lead) {
 }
 
 /// Returns a turn's own time, beats. The time runs with the music within the turn, accelerates in the blend before it,
-/// and stops in the blend after it. Therefore no gesture is cut off.
+/// and stops in the blend after it. Therefore blends cut off no gesture.
 double ClockOf(const Turn& turn, double beat) {
   const double since = beat - turn.start_beat;
   if (since > turn.beats) return turn.beats - StartingClock(turn.beats - since, kBlendBeatsAfter);

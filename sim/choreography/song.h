@@ -17,20 +17,20 @@ namespace etude {
 /// A section of the music in which one dancer repeats one move or waits.
 struct Turn {
   double start_beat = 0;
-  double beats = 2;            ///< length; at least as long as both blends together
-  const Move* move = nullptr;  ///< the move; null: waits in the ready stance, with knees that give between beats
+  double beats = 2;            ///< length in beats of the music; at least as long as the two blends together
+  const Move* move = nullptr;  ///< the move; null: waits in the ready stance, and the knees bend on every beat
   double pace = 1;             ///< beats of the move per beat of the music
 };
 
 /// The blend between two turns begins `kBlendBeatsBefore` beats before the change and ends `kBlendBeatsAfter` beats
-/// after it. It begins early because dancers think ahead and a move's first key pose may come early.
+/// after it. The blend begins early because dancers think ahead and a move's first key pose may come early.
 constexpr double kBlendBeatsBefore = 1, kBlendBeatsAfter = 0.5;
 
-/// Returns the body at a beat of the music. In the blend between two turns both are danced: the first turn beyond its
-/// last beat, and the second before its first beat, with growing weight. Feet are not blended: they change from the
-/// first turn to the second exactly at beat 0 of the second. In every move the feet are at home at beat 0, so a
-/// standing foot does not move. `turns` (at least one) must follow each other without gaps. The body is at rest before
-/// the first turn and after the last.
+/// Returns the body at a beat of the music. In the blend between two turns, both turns are danced: the first turn
+/// beyond its last beat, and the second turn, with growing weight, before its first beat. Feet are not blended: they
+/// change from the first turn to the second exactly at beat 0 of the second. In every move the feet are at home at beat
+/// 0, so a standing foot does not move. `turns` (at least one) must follow each other without gaps. The body is at rest
+/// before the first turn and after the last.
 Controls SequenceAt(std::span<const Turn> turns, double beat);
 
 /// One part of a song, in which one move is danced `times` times in a row.
@@ -44,7 +44,7 @@ struct SongPart {
 
 /// A choreography for a piece of music: 8 to 12 different moves, each at least twice in a row (paper A, 3.4), written
 /// in scenarios/choreography/songs/*.yaml. Every move must suit the tempo: agile moves are for fast songs, warm-up
-/// moves for slow songs or for fast ones in half time.
+/// moves are for slow songs, or for fast songs in half time.
 struct Song {
   std::string name;
   double tempo_bpm = 120;
@@ -52,7 +52,7 @@ struct Song {
   std::vector<MusicTag> tags;  ///< the frame nearest to the start of every repetition, in order
   BodyMotion motion;           ///< the whole dance at 30 Hz, from ready stance to ready stance
 
-  /// Returns the number of frames of `motion`. It is known even if `motion` has not been computed.
+  /// Returns the number of frames of `motion`. The number is known even if `motion` has not been computed.
   std::size_t CountFrames() const;
 };
 

@@ -12,14 +12,14 @@
 namespace etude {
 namespace {
 
-/// Returns true if the depths of two neighbouring pixels (metres) belong to different surfaces: they differ by more
-/// than 3 % of the nearer depth, or exactly one of them is missing (infinite).
+/// Returns true if the depths of two neighbouring pixels (metres) belong to different surfaces: the depths differ by
+/// more than 3 % of the smaller depth, or exactly one depth is missing (infinite).
 bool IsDepthEdge(double a, double b) {
   if (std::isinf(a) || std::isinf(b)) return std::isinf(a) != std::isinf(b);
   return std::abs(a - b) > 0.03 * (a < b ? a : b);
 }
 
-/// One row of the picture's pixels, with their columns in the projector's picture.
+/// One row of the picture's pixels, with the column of each pixel in the projector's picture.
 class Row {
  public:
   Row(const DepthImage& depth, const Camera& camera, double baseline_m, int y)
@@ -36,7 +36,7 @@ class Row {
   }
 
   /// Returns true if the surface of a nearer pixel blocks the projector's light on its way to the centre of pixel x. A
-  /// blocking pixel is to the right of x, by the difference of their disparities.
+  /// blocking pixel is to the right of x, by the difference of the disparities of the two pixels.
   bool IsUnlit(int x) const {
     const Pixel& here = pixels_[static_cast<std::size_t>(x)];
     const double column = here.ProjectorColumn();
@@ -56,8 +56,8 @@ class Row {
     double ProjectorColumn() const { return camera_column - disparity; }
   };
 
-  // Computes a pixel's extent: on either side up to the middle between it and its neighbour on the same surface, or
-  // half a pixel at an edge.
+  // Computes a pixel's extent: on either side up to the middle between this pixel and its neighbour on the same
+  // surface, or half a pixel at an edge.
   void SetExtent(int x) {
     Pixel& pixel = pixels_[static_cast<std::size_t>(x)];
     const auto border = [&](int side) {
@@ -83,8 +83,8 @@ constexpr double kRightAngle = std::numbers::pi / 2;
 // The largest angle to which LateralDeviationPx is applied: the limit of the published measurements.
 constexpr double kMeasuredAngle = 80 * std::numbers::pi / 180;
 
-/// Computes for each pixel the angle between the normal of its surface and its line of sight, radians; 0 if the
-/// pixel has no normal.
+/// Computes for each pixel the angle between the normal of the pixel's surface and the pixel's line of sight, radians;
+/// 0 if the pixel has no normal.
 Image<double> AnglesOfSight(const DepthImage& depth, const Camera& camera) {
   const NormalImage normals = NormalsOf(depth, camera);
   const Intrinsics& in = camera.intrinsics;
@@ -140,7 +140,7 @@ class Exposure {
   }
 
   // Adds axial noise to a depth. A disparity step s is a depth step of s z² / (f b); rounding to it adds the variance
-  // step² / 12. The published law includes this variance, so it is subtracted here.
+  // step² / 12. The published law includes this variance, so this variance is subtracted here.
   double WithNoise(double z, double normal) const {
     if (std::isinf(z)) return z;
     const double step = HasSteps() ? Step() * z * z / Focus() : 0;

@@ -27,9 +27,9 @@ class Points {
     return points_.At(x, y);
   }
 
-  /// Returns a step along the surface in the direction (right, down): the vector to the next pixel's point or from the
-  /// previous pixel's point, whichever changes the depth less. Returns nullopt if this pixel or both neighbours have no
-  /// point.
+  /// Returns a step along the surface in the direction (right, down): the vector to the next pixel's point or the
+  /// vector from the previous pixel's point, whichever changes the depth less. Returns nullopt if this pixel or both
+  /// neighbours have no point.
   std::optional<glm::dvec3> StepAt(int x, int y, int right, int down) const {
     const auto here = At(x, y), next = At(x + right, y + down), before = At(x - right, y - down);
     if (!here || (!next && !before)) return std::nullopt;

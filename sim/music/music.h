@@ -10,14 +10,14 @@ namespace etude {
 
 /// The errors of a music player's clock, relative to the dance's own clock.
 struct MusicClockOptions {
-  double drift = 0;             ///< music plays at 1 + drift times its speed
+  double drift = 0;             ///< the music plays at 1 + drift times its correct speed
   double stutters_per_min = 0;  ///< mean number of interruptions per minute
-  double stutter_s = 0.2;       ///< duration of an interruption; playing continues where it stopped
+  double stutter_s = 0.2;       ///< duration of an interruption; the music then continues where it stopped
 };
 
-/// A simulated music player at 30 Hz: it gives the position in the song at every frame of a session. It draws one
-/// number per frame, also while it is paused. Its stutters are therefore on the same frames of the session for every
-/// coach.
+/// A simulated music player at 30 Hz: it gives the position in the song at every frame of a session. The player draws
+/// one random number per frame, also while it is paused. Therefore the stutters are on the same frames of the session
+/// for every coach.
 class MusicClock {
  public:
   MusicClock(const MusicClockOptions& options, const WorldKey& world);

@@ -27,7 +27,7 @@ using enum Role;
 /// The number of compared limb directions: trunk, shoulder line, upper arms, forearms, thighs and shanks.
 constexpr std::size_t kStrayLimbs = 10;
 
-/// Returns the centre of the i-th of `count` equal parts of [0, 1].
+/// Returns the centre of part i, if [0, 1] is divided into `count` equal parts.
 double MiddleOf(int i, int count) { return (i + 0.5) / count; }
 
 /// Returns the unit directions of the compared limbs in the frame of `pose`, which faces +Z if the person faces the

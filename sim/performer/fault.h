@@ -18,17 +18,17 @@ enum class Fault {
   kWrongMove,      ///< another move is danced
   kSkipped,        ///< the person stands still instead
   kLate,           ///< the whole move is late
-  kOffBeat,        ///< the person hurries or drags within the move, and is on time again at its end
+  kOffBeat,        ///< the person hurries or drags within the move, and is on time again at the move's end
   kLimbMissing,    ///< one limb stays at rest
   kElbowStraight,  ///< elbows that should bend stay straight
   kWrongOrder,     ///< the parts of the move are danced in another order
   kStopped,        ///< the person stops before the end
 };
 
-/// A fault and its severity: 0 changes nothing, and 1 is the worst form of this fault. Faults of execution (amplitude,
-/// late, off beat, limb missing, elbow straight) grow in magnitude. Faults of content (side, move, skipped, order,
-/// stopped) affect a growing share of the performance, from its beginning; after this share the person dances
-/// correctly.
+/// A fault and its severity: 0 changes nothing, and 1 is the fault's worst form. Faults of execution (amplitude, late,
+/// off beat, limb missing, elbow straight) grow in magnitude. Faults of content (side, move, skipped, order, stopped)
+/// affect a share of the performance that grows with the severity, from the performance's beginning; after this share
+/// the person dances correctly.
 struct GradedFault {
   Fault fault = Fault::kAmplitude;
   double severity = 1;  ///< severity in [0, 1]
@@ -48,12 +48,12 @@ std::optional<Fault> FindFault(std::string_view name);
 std::string FaultNames(const std::vector<GradedFault>& faults);
 
 /// The deviation of a performance from the meant performance: how the same person would perform the requested move with
-/// the same habits and the same random variation, but without faults. The motion of other people, taught clips and
-/// recognisers are not used.
+/// the same habits and the same random variation, but without faults. This deviation does not depend on the motion of
+/// other people, on taught clips, or on recognisers.
 struct Stray {
   /// The largest error of a limb, degrees. A limb's error is the root mean square, over the performance, of the angle
-  /// between its danced and its meant direction. Poses are compared at equal shares of the performance, independently
-  /// of timing.
+  /// between the limb's danced direction and its meant direction. Poses are compared at equal shares of the
+  /// performance, independently of timing.
   double limb_deg = 0;
   /// The difference between the danced and the meant timing: root mean square over the performance, beats.
   double timing_beats = 0;
@@ -74,15 +74,16 @@ struct StrayLimits {
   Stray wrong{.limb_deg = 25, .timing_beats = 0.5};
 };
 
-/// Returns right if both measures are within the limits of right, wrong if at least one exceeds its limit of wrong, and
-/// grey otherwise.
+/// Returns kRight if both measures of the stray are within `limits.right`, kWrong if at least one exceeds its value in
+/// `limits.wrong`, and kGrey otherwise.
 Truth TruthOf(const Stray& stray, const StrayLimits& limits = {});
 
 /// Computes `limb_deg` by comparing the meant and the danced pose at 32 shares of the performance.
 double LimbStrayDeg(const std::function<BodyPose(double share)>& meant,
                     const std::function<BodyPose(double share)>& danced);
-/// Computes `timing_beats` of a performance of `beats` beats. Each function maps the time due, in [0, 1], to the share
-/// of the performance reached at that time, clamped to [0, 1]. Both functions are sampled at 64 times.
+/// Computes `timing_beats` of a performance of `beats` beats. Each function maps a time, in [0, 1] of the performance's
+/// length, to the share of the performance that is reached at that time, clamped to [0, 1]. Both functions are sampled
+/// at 64 times.
 double TimingStrayBeats(const std::function<double(double due)>& meant, const std::function<double(double due)>& danced,
                         double beats);
 

@@ -23,9 +23,9 @@ constexpr double kCorrection = 4;  // units per fault of the corrected performan
 constexpr double kWrongPraise = 0.5;
 
 // Guidance (Winstein and Schmidt 1990): feedback makes errors rarer in the next performances, but not permanently.
-constexpr double kGuided = 0.5;           // share of errors avoided in the first performance after feedback
-constexpr double kGuidedLater = 0.5;      // share of guidance that is left after each further performance
-constexpr double kFrequencyMemory = 0.7;  // weight of the past in the running mean of feedback frequency
+constexpr double kGuided = 0.5;           // share of errors that are avoided in the first performance after feedback
+constexpr double kGuidedLater = 0.5;      // share of this guidance that is left after each further performance
+constexpr double kFrequencyMemory = 0.7;  // weight of the past in the running mean of the feedback frequency
 
 // Losses and gains of patience, whose maximum is 1 (ours).
 constexpr double kNeedlessCost = 0.15;
@@ -42,7 +42,7 @@ constexpr std::array<double, 10> kFaultChances = {0.25, 0.10, 0.10, 0.12, 0.15, 
 using Proneness = std::array<double, 10>;
 
 /// Draws the probability of each fault in one move for a person without skill. Each person has typical mistakes: in
-/// every move two faults are frequent and the others rare (ours).
+/// every move two faults are frequent and the other faults are rare (ours).
 Proneness DrawProneness(RandomStream& dice, std::span<const GradedFault> showable) {
   constexpr std::array<double, 2> kTypical = {0.45, 0.25};
   constexpr double kSeldom = 0.3;
@@ -50,7 +50,7 @@ Proneness DrawProneness(RandomStream& dice, std::span<const GradedFault> showabl
   for (const GradedFault& fault : showable)
     usual[static_cast<std::size_t>(fault.fault)] = kFaultChances[static_cast<std::size_t>(fault.fault)];
   for (std::size_t i = 0; i < usual.size(); ++i) proneness[i] = kSeldom * usual[i];
-  // Draw two typical faults, with probability proportional to their usual frequency.
+  // Draw two typical faults, with probabilities proportional to the usual frequencies of the faults.
   for (double typical : kTypical) {
     const double all = std::accumulate(usual.begin(), usual.end(), 0.0);
     double left = dice.Uniform() * all;
@@ -101,14 +101,14 @@ Sway DrawSway(const WorldKey& key) {
 
 struct Learner::MoveState {
   std::vector<Skill> skills;  // skills in the order of Fault
-  Proneness proneness{};      // probability of each fault without any skill
+  Proneness proneness{};      // probability of each fault for a person without any skill
   std::unique_ptr<Style> style;
   int attempts = 0;
   std::optional<std::size_t> latest;  // index of the latest performance that is over and was not cut
   bool latest_was_corrected = false;
   bool had_feedback = false;      // true after feedback, until the next performance ends
   double feedback_frequency = 0;  // running mean, in [0, 1]
-  double guided = 0;              // share of errors that guidance avoids now
+  double guided = 0;              // share of the errors that guidance avoids now
 
   double ChanceOf(Fault fault) const {
     const auto i = static_cast<std::size_t>(fault);
@@ -118,18 +118,18 @@ struct Learner::MoveState {
 
 struct Learner::Layer {
   std::optional<Rendition> rendition;  // the performance; empty: the body stands
-  double seen_s = 0;                   // time at which the person saw the action begin
+  double seen_s = 0;                   // time at which the person saw the coach's action begin
   double lag_s = 0;
   double blend_s = kBlendSeconds;
   double vigour = 1;
-  std::vector<double> beats;  // shown beats, frame by frame
+  std::vector<double> beats;  // the beat that the coach showed in each frame
   std::size_t performance = 0;
 
   double Weight(double time_s) const { return Smootherstep((time_s - seen_s) / blend_s); }
 
   /// Returns the share of the performance at which a perfectly timed performance would be: the beat that the person saw
-  /// one lag ago. Before the first beat, this time accelerates from rest; after the last shown beat, it continues at
-  /// the move's tempo.
+  /// one lag ago. Before the first beat, the share accelerates from rest; after the last shown beat, it grows at the
+  /// move's tempo.
   double DueAt(double time_s) const {
     const Move& move = rendition->style().move();
     const double beats_per_s = move.tempo_bpm / 60, length_s = move.beats / beats_per_s;
@@ -188,7 +188,7 @@ const BodyPose& Learner::Step(const Shown& shown) {
 void Learner::Notice(const Shown& shown) {
   using enum Shown::Act;
   const bool goes_on = shown.act == before_.act && shown.move == before_.move && shown.repetition == before_.repetition;
-  // If the coach still shows the same performance, record its beat.
+  // If the coach still shows the same performance, record the shown beat.
   if (goes_on) {
     if (shown.act == kDance && layers_.back().rendition) layers_.back().beats.push_back(shown.beat);
   } else {
@@ -259,7 +259,7 @@ void Learner::Begin(const Shown& shown) {
     event.danced = moves_[instead].name;
   }
 
-  // Put the performance as a new layer over the body's present action, and compute its truth.
+  // Put the performance as a new layer over the body's present action, and compute the truth about this performance.
   Layer layer;
   layer.rendition.emplace(StyleOf(index), chance, std::move(faults), &StyleOf(instead));
   layer.seen_s = time_s_;
@@ -284,7 +284,7 @@ void Learner::End() {
   performance.event.end_s = time_s_ + performance.event.chance.lag_s;
   if (performance.is_cut || HasGivenUp()) return;
 
-  // Add practice, and update guidance and the feedback frequency.
+  // Add the learning from practice, and update the share of guidance and the feedback frequency.
   for (Skill& skill : known.skills) skill.Practise(kPractice);
   known.guided *= kGuidedLater;
   known.feedback_frequency =
@@ -302,7 +302,7 @@ void Learner::NoteFeedback(std::size_t move) {
 void Learner::Correct(std::size_t move) {
   MoveState& known = known_[move];
   if (HasGivenUp()) return;
-  // A correction without a mistake before it only costs patience.
+  // A correction without a mistake before it has no effect except that it costs patience.
   const bool follows_mistake =
       known.latest && !known.latest_was_corrected && performances_[*known.latest].event.truth != Truth::kRight;
   if (!follows_mistake) {

@@ -45,15 +45,16 @@ struct LearnerOptions {
   bool gives_up = true;  ///< if false, the learner never loses patience
 };
 
-/// One performance that a learner was asked for, and its truth. Times are in seconds from the learner's first frame.
+/// One performance that a learner was asked for, and the truth about it. Times are in seconds from the learner's first
+/// frame.
 struct LearnerPerformance {
   int repetition = -1;  ///< number of the performance within the dance
   int move = 0;
-  int attempt = 0;       ///< number of the attempt at this move, from 0; the key of its random numbers
+  int attempt = 0;       ///< number of the attempt at this move, from 0; the key of the attempt's random numbers
   bool is_over = false;  ///< true once the coach shows something else
-  bool is_cut = false;   ///< true if the coach stopped it before its last beat, so it is not judged
-  /// The event; its faults, stray and truth are known from its first frame on. `end_s` is an estimate until the
-  /// performance is over; `first_right_s` is set when the last key beat is performed.
+  bool is_cut = false;   ///< true if the coach stopped the performance before its last beat, so it is not judged
+  /// The event; faults, stray and truth are known from the first frame of the performance on. `end_s` is an estimate
+  /// until the performance is over; `first_right_s` is set when the last key beat is performed.
   SessionEvent event;
 };
 
@@ -87,14 +88,14 @@ class Learner {
   bool HasGivenUp() const { return patience_ <= 0; }
   /// Returns the probability that the next performance of this move has no fault.
   double ChanceOfRight(std::size_t move) const;
-  /// Returns ChanceOfRight after the time of `performances_later` performances without a coach: the effect of guidance
-  /// has ended, and part of the learning has been forgotten. For a learner who has given up, this is the probability
-  /// that would hold if they danced again.
+  /// Returns ChanceOfRight for a later time, after a pause without a coach as long as `performances_later`
+  /// performances: the effect of guidance has ended, and part of the learning has been forgotten. For a learner who has
+  /// given up, this is the probability that would hold if they danced again.
   double RetainedChanceOfRight(std::size_t move, int performances_later) const;
 
  private:
   struct Layer;      // one action of the body, blended over the one before
-  struct MoveState;  // the skills of one move and the history of its performances
+  struct MoveState;  // the skills of one move and the history of the move's performances
 
   void Notice(const Shown& shown);
   void Begin(const Shown& shown);
@@ -124,7 +125,7 @@ class Learner {
   std::vector<LearnerPerformance> performances_;
   std::optional<std::size_t> latest_;  // index of the latest performance that is over and was not cut
   std::vector<MoveState> known_;       // skills and history of each move
-  std::vector<Layer> layers_;          // later layers are blended over earlier ones
+  std::vector<Layer> layers_;          // actions of the body; later layers are blended over earlier ones
   BodyPose pose_;
 };
 

@@ -49,7 +49,8 @@ void Skill::Practise(double units) {
 
 void Skill::Learn(double units) {
   units_ += units;
-  // Apply the units one at a time, each to the error that remains: learning must not remove more error than is left.
+  // Apply the units one at a time, each to the error that remains: otherwise learning could remove more error than is
+  // left.
   for (double rest = units; rest > 0; rest -= 1) {
     const double share = std::min(rest, 1.0), error = 1 - fast_ - slow_;
     fast_ += share * rates_.fast_learnt * error;

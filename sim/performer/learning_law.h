@@ -11,7 +11,7 @@ namespace etude {
 enum class LearningLaw {
   kExponential,  ///< Heathcote, Brown and Mewhort (2000): practice of one person
   kPower,        ///< Newell and Rosenbloom (1981): fast at first, with a long tail
-  kTwoRate,      ///< Smith, Ghazizadeh and Shadmehr (2006): one process learns and forgets fast, another slowly
+  kTwoRate,      ///< Smith, Ghazizadeh and Shadmehr (2006): a fast and a slow process, which both learn and forget
 };
 /// Returns the names "exponential", "power", "two-rate", in the order of the enum.
 const std::vector<std::string>& LearningLawNames();
@@ -20,19 +20,19 @@ LearningLaw FindLearningLaw(std::string_view name);
 
 /// The constants of the laws.
 struct LearningRates {
-  /// The initial relative decrease of the error per unit of learning under the exponential law. The power law starts
-  /// with the same slope (ours).
+  /// The relative decrease of the error per unit of learning under the exponential law. The power law begins with the
+  /// same decrease (ours).
   double rate = 0.15;
   /// The exponent of the power law: after n units, the error is multiplied by (1 + n·rate/exponent)^−exponent (Newell
   /// and Rosenbloom report exponents of 0.2–0.6).
   double exponent = 0.5;
-  // For each of the two states: the share that is kept from one performance to the next, and the learnt share of an
-  // error (Smith et al., table 1).
+  // For each of the two states: the share of the state that is kept from one performance to the next, and the share of
+  // an error that is learnt (Smith et al., table 1).
   double fast_kept = 0.59, fast_learnt = 0.21;
   double slow_kept = 0.992, slow_learnt = 0.02;
 };
 
-/// A skill: the probability of one fault of one move, as a function of the learning so far.
+/// A skill: the probability of one fault of one move, which decreases with the learning so far.
 class Skill {
  public:
   /// The error starts at `error`, in [0, 1], and never falls below `floor`, in [0, error].

@@ -9,17 +9,18 @@
 namespace etude {
 namespace {
 
-/// The sizes of one preset. Fields named `spread` are standard deviations. The sizes are ours, except for the statures
-/// of school children, which come from growth charts for six to fourteen years.
+/// The numbers of one preset, by which a person's traits are drawn. Fields named `spread` are standard deviations. The
+/// numbers are ours, except for the statures of school children, which come from growth charts for six to fourteen
+/// years.
 struct Preset {
   double min_m, max_m;         // range of the stature, which is drawn uniformly
-  double lag_s, lag_spread_s;  // mean over people; spread between the performances of one person
-  double tempo, tempo_spread;  // typical value; spread of its logarithm between people
+  double lag_s, lag_spread_s;  // mean delay over people; its spread between the performances of one person
+  double tempo, tempo_spread;  // typical value of the tempo; spread of its logarithm between people
   double own_tempo_spread, drift;
   double amplitude, amplitude_spread;
-  double lower, lower_spread;  // gain of hips, trunk and legs relative to the arms
-  double gain_spread;          // spread of each gain's logarithm
-  double asymmetry;            // spread of the logarithm of the ratio left / right
+  double lower, lower_spread;  // gain of hips, trunk and legs relative to the arms' gain
+  double gain_spread;          // spread of the logarithm of each gain
+  double asymmetry;            // spread of the logarithm of the ratio of left to right
   double looseness;
   double tiring;
 };
@@ -42,8 +43,8 @@ double ChildhoodOf(People kind, double stature_m) {
 /// Draws a standard normal number, clamped to ±2.5.
 double Bounded(RandomStream& random) { return std::clamp(random.Normal(), -2.5, 2.5); }
 
-/// Draws a person's posture as differences from the ready stance. The standard deviations below are for looseness 1, in
-/// radians and metres.
+/// Draws a person's posture as differences from the ready stance. The standard deviations below belong to looseness 1,
+/// in radians and metres.
 Controls DrawPosture(RandomStream& random, double looseness) {
   Controls posture;
   const auto middle = [&](MiddleControl control, double size) {
@@ -73,14 +74,14 @@ Controls DrawPosture(RandomStream& random, double looseness) {
 bool IsOfTheArm(SideControl control) { return control <= SideControl::kWrist; }
 
 std::array<double, kControlCount> DrawGains(RandomStream& random, const Preset& preset) {
-  // Scale all controls of hips, trunk and legs by one factor, and every control by its own factor.
+  // Scale all controls of hips, trunk and legs by one factor, and multiply every control by a factor of its own.
   constexpr double kMinLower = 0.25;
   const double lower = std::max(kMinLower, preset.lower + preset.lower_spread * Bounded(random));
   constexpr double kMin = 0.65, kMax = 1.5;
   const auto own = [&] { return std::clamp(std::exp(preset.gain_spread * Bounded(random)), kMin, kMax); };
   std::array<double, kControlCount> gains{};
   for (std::size_t i = 0; i < kMiddleControlCount; ++i) gains[i] = lower * own();
-  // One side is stronger than the other: all controls have the same ratio of left to right.
+  // Make one side stronger than the other: the ratio of left to right is the same in all controls.
   const double strong_left = std::exp(0.5 * preset.asymmetry * Bounded(random));
   for (std::size_t i = 0; i < kSideControlCount; ++i) {
     const auto control = static_cast<SideControl>(i);
@@ -123,7 +124,7 @@ Person DrawPerson(const WorldKey& key, People people) {
   person.tempo = preset.tempo * std::exp(preset.tempo_spread * Bounded(random));
   person.tempo_spread = preset.own_tempo_spread;
   person.drift = preset.drift;
-  constexpr double kMinAmplitude = 0.55;  // lower limit for a person who takes part
+  constexpr double kMinAmplitude = 0.55;  // lower limit of the amplitude for a person who takes part
   person.amplitude = std::max(kMinAmplitude, preset.amplitude + preset.amplitude_spread * Bounded(random));
   person.tiring = preset.tiring * std::exp(0.4 * Bounded(random));
   person.looseness = preset.looseness;

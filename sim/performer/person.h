@@ -35,8 +35,8 @@ constexpr std::array<double, kControlCount> AllGains(double gain) {
   return gains;
 }
 
-/// The traits of a person that stay the same from move to move. The defaults are those of the canonical body that
-/// dances exactly as taught.
+/// The traits of a person that stay the same from move to move. By default, a person has the canonical body and dances
+/// exactly as taught.
 struct Person {
   People kind = People::kExpert;  ///< the kind of person, never kMixed
   double stature_m = 1.7;
@@ -47,35 +47,37 @@ struct Person {
   double lag_spread_s = 0;  ///< standard deviation of the delay between performances
   double tempo = 1;         ///< factor on the move's tempo if no music sets the tempo
   double tempo_spread = 0;  ///< standard deviation of the tempo's logarithm between performances
-  double drift = 0;         ///< unevenness of the timing within a performance, as a share of its length
+  double drift = 0;         ///< unevenness of the timing within a performance, as a share of the performance's length
   double amplitude = 1;     ///< factor on every angle's distance from the ready stance
   double tiring = 0;        ///< share of the amplitude that is lost after a minute of dancing
 
-  /// The gain of each control: the factor on its distance from the ready stance. Gains determine which movements the
-  /// person exaggerates or reduces, and which side is stronger.
+  /// The gain of each control: the factor on the control's distance from the ready stance. Gains determine which
+  /// movements the person exaggerates or reduces, and which side is stronger.
   std::array<double, kControlCount> gains = AllGains(1);
   /// The person's posture: offsets that are added to the controls, in every move and at rest.
   Controls posture = {};
-  /// The size of the offsets in the person's Style; about 1 for an adult, 0 for a person who dances exactly as taught.
+  /// The size of the random offsets in the person's Style: about 1 for an adult, 0 for a person who dances exactly as
+  /// taught.
   double looseness = 0;
-  std::uint64_t style = 0;  ///< key of the random numbers of the person's Style of every move
+  std::uint64_t style = 0;  ///< key of the random numbers of the person's Style, for all moves
 };
 
-/// Returns the kind of person for a number `share` in [0, 1). In the mixture, toddlers come first, then school
-/// children, adults and experts.
+/// Returns the kind of person for a number `share` in [0, 1). The mixture divides [0, 1) among toddlers, school
+/// children, adults and experts, in this order.
 People KindInMixture(double share);
 
-/// Draws a person; every world draws its own. A preset changes only the sizes: with equal random numbers, a toddler and
-/// an adult deviate in the same way from the means of their kinds.
+/// Draws a person, a new one for every world. A preset changes only the means and the spreads of traits: with equal
+/// random numbers, a toddler and an adult deviate in the same way from the means of their kinds.
 Person DrawPerson(const WorldKey& key, People people);
 
-/// Returns the share of the amplitude that is left after `danced_s` seconds of dancing. It never falls below 0.6.
+/// Returns the share of the amplitude that is left after `danced_s` seconds of dancing. This share never falls below
+/// 0.6.
 double VigourAfter(const Person& person, double danced_s);
 
-/// Returns the sizes of a body with this stature, metres. `childhood` is 0 for an adult's proportions and 1 for those
-/// of a four-year-old child: shorter legs, a longer trunk, a larger head. The shares of stature come from Drillis and
-/// Contini (1966) for adults, as for the canonical body, and, rounded, from Snyder et al., "Anthropometry of infants,
-/// children and youths to age 18" (1977) for children.
+/// Returns the sizes of a body with this stature, metres. `childhood` is 0 for an adult's proportions and 1 for the
+/// proportions of a four-year-old child: shorter legs, a longer trunk, a larger head. The shares of stature come from
+/// Drillis and Contini (1966) for adults, as for the canonical body, and, rounded, from Snyder et al., "Anthropometry
+/// of infants, children and youths to age 18" (1977) for children.
 BodyDimensions DimensionsOf(double stature_m, double childhood);
 
 }  // namespace etude

@@ -18,11 +18,11 @@ constexpr double kChange = 0.25;
 // The effects of faults at severity 1 (ours).
 constexpr double kLostAmplitude = 0.8;
 constexpr double kLateBeats = 1;
-constexpr double kOffBeats = 1;  // delay at the largest deviation; kMaxOffBeat limits it, so the timing never goes back
+constexpr double kOffBeats = 1;  // largest delay, beats; kMaxOffBeat limits the delay, so the timing never goes back
 constexpr double kMaxOffBeat = 0.7 / kPi;
 constexpr double kUnstopped = 0.35;  // share of the move that is danced before the person stops
 
-/// Returns 1 while `share` is below `severity`, and 0 above, with a smooth change between.
+/// Returns 1 while `share` is below `severity` and 0 while it is above, with a smooth change around `severity`.
 double First(double share, double severity) {
   return 1 - Smootherstep((share - severity * (1 + kChange)) / kChange + 1);
 }
@@ -57,7 +57,7 @@ void LeaveOut(Controls& controls, const Controls& rest, const LimbName& limb, do
 }
 
 SmoothOffsets DrawWays(const Person& person, std::uint64_t key) {
-  constexpr double kOfStyle = 0.25;  // standard deviation between performances ÷ between people (ours)
+  constexpr double kOfStyle = 0.25;  // standard deviation between one person's performances ÷ between people (ours)
   RandomStream random(WorldKey{.suite_seed = key, .scenario = "rendition"}, "ways");
   return {random, kOfStyle * person.looseness};
 }
@@ -96,7 +96,8 @@ Controls Rendition::Reordered(double share, double vigour) const {
   static constexpr std::array<int, 4> kOrder = {0, 2, 1, 3};
   static constexpr double kQuarter = 0.25, kBorderBlend = 0.22;
   const auto moved = [](std::size_t quarter) { return kQuarter * (kOrder[quarter] - static_cast<int>(quarter)); };
-  // Near a border between two quarters, both quarters are danced on, and the earlier one is blended into the later one.
+  // Near a border between two quarters, the dance continues both quarters and blends the earlier quarter into the later
+  // quarter.
   const double border = std::clamp(std::round(share / kQuarter), 1.0, 3.0);
   const auto after = static_cast<std::size_t>(border), before = after - 1;
   const double over = Smootherstep((share - kQuarter * border) / kBorderBlend + 0.5);
@@ -189,7 +190,7 @@ bool CanShow(const GradedFault& fault, const Move& move, const Move* instead) {
   GradedFault worst = fault;
   worst.severity = 1;
   const Rendition rendition(style, {}, {worst}, &other);
-  // If a move equals its own mirror image half a performance later, it has no wrong side.
+  // If a move equals its own mirror image half a performance later, the move has no wrong side.
   if (fault.fault == Fault::kWrongSide) {
     const auto shifted = [&](double share) { return PoseOf(rendition.Meant(share + 0.5)); };
     const auto mirrored = [&](double share) { return PoseOf(rendition.Danced(share)); };

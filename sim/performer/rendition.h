@@ -15,8 +15,9 @@ namespace etude {
 /// The duration of the blend from standing into a move, and of the blend from the move back to standing, seconds.
 constexpr double kBlendSeconds = 0.45;
 
-/// Returns the time within a performance, seconds. It equals `time` between 0 and `length`. It accelerates from rest in
-/// the blend before and decelerates to rest in the blend after, so motions neither start nor stop abruptly.
+/// Returns the performance's own time, seconds, at a time of the session. It equals `time` between 0 and `length`. It
+/// accelerates from rest in the blend before and decelerates to rest in the blend after, so motions neither start nor
+/// stop abruptly.
 inline double EasedTime(double time, double length) {
   if (time < 0) {
     const double t = std::max(time, -kBlendSeconds) + kBlendSeconds;
@@ -26,7 +27,8 @@ inline double EasedTime(double time, double length) {
   return time;
 }
 
-/// The random variation of one performance, without its faults. It differs between the performances of one person.
+/// The random variation of one performance, without its faults. The variation differs between the performances of one
+/// person.
 struct Chance {
   double lag_s = 0;        ///< delay behind the coach
   double tempo = 1;        ///< factor on the move's tempo
@@ -38,8 +40,8 @@ struct Chance {
 Chance DrawChance(RandomStream& random, const Person& person);
 
 /// One performance of a move: the body at each share of the performance, and the share that is reached at each time.
-/// Both exist with the performance's faults (danced) and without them (meant). Shares and times run from 0 at the first
-/// beat to 1 at the last, and continue smoothly beyond.
+/// The body and the share are available with the performance's faults (danced) and without these faults (meant). Shares
+/// and times run from 0 at the first beat to 1 at the last, and continue smoothly beyond.
 class Rendition {
  public:
   /// `meant` and `instead` must outlive this object. With the fault kWrongMove, `instead` is danced.
@@ -47,22 +49,23 @@ class Rendition {
 
   const Style& style() const { return *meant_; }
 
-  /// Return the body at a share of the performance: Meant without the faults, Danced with them.
+  /// Return the body at a share of the performance: Meant returns it without the faults, Danced with the faults.
   Controls Meant(double share, double vigour = 1) const;
   Controls Danced(double share, double vigour = 1) const;
   /// Returns the weight of the dance: 1 while the person dances, 0 while they stand still.
   double Presence(double share) const;
 
-  /// Return the share of the performance that is reached at time `due`: MeantShare without the faults, DancedShare with
-  /// them. `due` is the share that a perfectly timed performance has reached at that time. Both functions increase.
+  /// Return the share of the performance that is reached at time `due`: MeantShare returns it without the faults,
+  /// DancedShare with the faults. `due` is the share that a perfectly timed performance has reached at that time. Both
+  /// functions increase.
   double MeantShare(double due) const;
   double DancedShare(double due) const;
-  /// Returns the delay of the whole performance, as a share of its length.
+  /// Returns the delay of the whole performance, as a share of the performance's length.
   double Lateness() const;
   /// Returns the time at which `share` is danced: the inverse of DancedShare.
   double DueOf(double share) const;
 
-  /// Computes the deviation from the meant performance. It is zero without faults.
+  /// Computes the deviation from the meant performance. The deviation is zero without faults.
   Stray Strays() const;
 
  private:
@@ -76,13 +79,13 @@ class Rendition {
   std::vector<GradedFault> faults_;
 };
 
-/// Returns true if this fault alone, at its worst, makes a performance of `move` truly wrong by a person who otherwise
+/// Returns true if this fault alone, at its worst, makes a performance of `move` truly wrong; the person otherwise
 /// dances as taught. If a move equals its own mirror image half a performance later, it has no wrong side. `choice` has
 /// the meaning of GradedFault::choice; `instead` is used for kWrongMove.
 bool CanShow(const GradedFault& fault, const Move& move, const Move* instead);
 
-/// For each move, the faults that it can show. They are the same for every person. The search takes some milliseconds
-/// per move.
+/// For each move, the faults that the move can show, which are the same for every person. The search takes some
+/// milliseconds per move.
 class ShowableFaults {
  public:
   explicit ShowableFaults(std::span<const Move> moves);

@@ -35,7 +35,8 @@ std::vector<std::size_t> DrawMoves(RandomStream& random, std::size_t move_count,
   return drawn;
 }
 
-/// Adds one random fault that the move can show and the event does not have, if one is found.
+/// Adds one random fault that the move can show and that the event does not have yet; adds nothing if no such fault is
+/// found.
 void AddFault(RandomStream& random, std::span<const Move> moves, const SessionOptions& options, SessionEvent& event) {
   const Move& asked = *FindByName(moves, event.move);
   std::vector<Fault> left = options.faults.empty() ? AllFaults() : options.faults;
@@ -56,7 +57,7 @@ void AddFault(RandomStream& random, std::span<const Move> moves, const SessionOp
   }
 }
 
-/// An event's rendition, placed at its time in the session.
+/// An event's rendition, placed at the event's time in the session.
 class Dance {
  public:
   Dance(const SessionEvent& event, Rendition rendition)
@@ -78,7 +79,7 @@ class Dance {
   Controls At(double time_s) const { return rendition_.Danced(ShareAt(time_s), vigour_); }
 
   Stray Strays() const { return rendition_.Strays(); }
-  /// Returns the time at which the performance reaches `beat` of its move.
+  /// Returns the time at which the performance reaches beat `beat` of the move.
   double TimeOf(double beat) const {
     return starts_s_ + length_s_ * rendition_.DueOf(beat / rendition_.style().move().beats);
   }
@@ -122,7 +123,7 @@ SessionPlan PlanSession(RandomStream& random, std::span<const Move> moves, const
   Shuffle(random, is_fault);
 
   constexpr double kStandsFirst = 2.0;  // time that sensors and filters need to settle
-  constexpr double kMinRest = 1.0;      // separates the blend out of one move from the blend into the next
+  constexpr double kMinRest = 1.0;      // s; keeps the blend out of one move apart from the blend into the next move
   SessionPlan plan;
   double time = kStandsFirst;
   const std::vector<std::size_t> asked = DrawMoves(random, moves.size(), count);
@@ -157,7 +158,7 @@ Performance Perform(RandomStream& random, std::span<const Move> moves, const Per
     dances.emplace_back(event, Rendition(styles.at(event.move), event.chance, event.faults, instead));
   }
 
-  // Compute every frame: blend the dances at that time with standing and its sway.
+  // Compute every frame: blend the dances at the frame's time with the swaying body at rest.
   Performance performance{.person = person, .motion = {}, .events = plan.events};
   const Sway sway(random);
   const Controls rest = RestOf(person);

@@ -18,7 +18,7 @@ struct SessionOptions {
   People people = People::kMixed;
   int events = 10;
   double fault_share = 0.5;             ///< share of events with a fault, rounded to whole events
-  double two_faults = 0.25;             ///< probability that an event with a fault has a second one
+  double two_faults = 0.25;             ///< probability that an event with a fault has a second fault
   std::optional<double> severity = {};  ///< severity of every fault, in [0, 1]; if empty, drawn for each fault
   std::vector<Fault> faults = {};       ///< faults that may occur; if empty, all
   double rest_s = 1.5;                  ///< minimum pause from an event's window to the next first beat; at least 1
@@ -30,12 +30,12 @@ struct SessionEvent {
   std::vector<GradedFault> faults = {};  ///< faults; empty if performed as meant
   std::string danced;                    ///< the move that is danced, fully or in part; empty if none
   double start_s = 0;                    ///< time of the first requested beat
-  double end_s = 0;                      ///< time of the last beat as this person means to dance it
+  double end_s = 0;                      ///< time of the last beat, as this person means to dance this beat
   Chance chance = {};                    ///< random variation of this performance
   Stray stray;                           ///< truth: deviation from what was meant
   Truth truth = Truth::kRight;           ///< the judgement that follows from `stray`
-  /// For right events only: the time at which the move's last key beat was performed. It is computed from the timing of
-  /// choreography and person, not from poses.
+  /// For right events only: the time at which the move's last key beat was performed. This time is computed from the
+  /// timing of the choreography and of the person, not from poses.
   std::optional<double> first_right_s = {};
 
   bool IsRight() const { return truth == Truth::kRight; }
@@ -45,7 +45,7 @@ struct SessionEvent {
 };
 
 struct SessionPlan {
-  std::vector<SessionEvent> events;  ///< events in order of time; their windows never overlap
+  std::vector<SessionEvent> events;  ///< events in order of time; the windows in which they are judged never overlap
   double duration_s = 0;
 };
 
@@ -57,8 +57,8 @@ struct Performance {
 };
 
 /// Draws a script for this person: moves, faults and times. `moves` (at least one) are the moves that may be requested,
-/// for example all built-in ones. If a move cannot show a drawn fault (for example the wrong side of a symmetric move),
-/// another fault that it can show replaces it.
+/// for example all built-in moves. If a move cannot show a drawn fault (for example the wrong side of a symmetric
+/// move), another fault that it can show replaces it.
 SessionPlan PlanSession(RandomStream& random, std::span<const Move> moves, const Person& person,
                         const SessionOptions& options);
 

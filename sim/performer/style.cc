@@ -13,8 +13,8 @@ namespace {
 using enum MiddleControl;
 using enum SideControl;
 
-/// The standard deviation of a control's offsets at size 1, and the control's range. Ranges are an adult's (paper B,
-/// table 3.1); they are reduced where a limb would touch the trunk.
+/// The standard deviation of a control's offsets (for offsets of size 1), and the control's range. Ranges are an
+/// adult's (paper B, table 3.1); they are reduced where a limb would touch the trunk.
 struct ControlSpan {
   double spread, lower, upper;
 };
@@ -121,14 +121,14 @@ bool IsSwitch(std::size_t control) {
 /// .978, so the constant has nearly half of the variance.
 constexpr std::array<double, 7> kTermShares = {0.66, 0.38, 0.38, 0.28, 0.28, 0.22, 0.22};
 
-/// Draws a standard normal number, clamped to ±2.5, for each term, times the term's share.
+/// For each term, draws a standard normal number, clamped to ±2.5, and multiplies it by the term's weight.
 std::array<double, 7> DrawTerms(RandomStream& random) {
   std::array<double, 7> terms{};
   for (std::size_t i = 0; i < terms.size(); ++i) terms[i] = kTermShares[i] * std::clamp(random.Normal(), -2.5, 2.5);
   return terms;
 }
 
-/// Returns a deviation limited to `room`: small deviations hardly change, and large ones approach `room`.
+/// Returns a deviation limited to `room`: small deviations hardly change, and large deviations approach `room`.
 double Saturated(double deviation, double room) {
   if (room <= 0) return 0;
   return room * (1 - std::exp(-deviation / room));
@@ -141,8 +141,8 @@ SmoothOffsets::SmoothOffsets(RandomStream& random, double size) {
     terms_[i] = DrawTerms(random);
     for (double& term : terms_[i]) term *= size * Spans()[i].spread;
   }
-  // The weights of two parts of a control's offset: one that both sides share, and one for each side. The squares of
-  // the weights sum to one.
+  // The offset of a control is the sum of two parts: one is the same for both sides, and the other is drawn for each
+  // side. These are the weights of the parts. The squares of the weights sum to one.
   constexpr double kCommon = 0.8, kAlone = 0.6;
   for (std::size_t i = 0; i < kSideControlCount; ++i) {
     const auto control = static_cast<SideControl>(i);
@@ -175,7 +175,7 @@ Style::Style(const Person& person, const Move& move) : person_(person), move_(mo
   for (double& share : rhythm_) share = 0.02 * person.looseness * std::clamp(random.Normal(), -2.0, 2.0);
 }
 
-// Sample the choreography at the person's own rhythm.
+// Sample the choreography at the beat that the person's own rhythm has reached.
 Controls Style::At(double beat, double vigour, const SmoothOffsets& chance) const {
   const double share = beat / move_.beats, angle = 2 * kPi * share;
   const double own_beat = beat + move_.beats * (rhythm_[0] * std::sin(angle) + 0.5 * rhythm_[1] * std::sin(2 * angle));
@@ -198,7 +198,7 @@ Controls RestOf(const Person& person) {
 }
 
 Controls WithinReach(const Controls& wanted, const Controls& authored) {
-  // Limit every control to its joint's range.
+  // Limit every control to the range of the joint.
   Controls within;
   for (std::size_t i = 0; i < kControlCount; ++i) {
     const double from = authored.values[i], deviation = wanted.values[i] - from;

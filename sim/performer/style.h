@@ -9,14 +9,14 @@
 
 namespace etude {
 
-/// Offsets of every control that vary smoothly over one performance and have its length as their period: a constant and
-/// three harmonics per control. The offsets of left and right are correlated. The spot of a standing foot gets only a
-/// constant offset, because the foot must not slide.
+/// Offsets of every control that vary smoothly over one performance with the performance's length as their period: for
+/// each control, a constant and three harmonics. The offsets of left and right are correlated. The spot of a standing
+/// foot gets only a constant offset, because the foot must not slide.
 class SmoothOffsets {
  public:
   SmoothOffsets() = default;
-  /// Draws the offsets. At `size` 1 their standard deviation is about 15 degrees in the arms, as between people in one
-  /// move (ours).
+  /// Draws the offsets. At `size` 1, the standard deviation of the arms' offsets is about 15 degrees, which is the
+  /// deviation between people who dance one move (ours).
   SmoothOffsets(RandomStream& random, double size);
 
   /// Returns the offsets at a share of the performance. The period is 1.
@@ -28,7 +28,8 @@ class SmoothOffsets {
 };
 
 /// One person's way of dancing one move, the same in all of the person's performances: the choreography with the
-/// person's gains and posture, with individual offsets and an individual rhythm. Every joint is kept within its range.
+/// person's gains and posture, with individual offsets and an individual rhythm. Every joint is kept within the joint's
+/// range.
 class Style {
  public:
   /// `person` and `move` must outlive this object.
@@ -45,18 +46,18 @@ class Style {
   const Person& person_;
   const Move& move_;
   SmoothOffsets offsets_;
-  std::array<double, 2> rhythm_{};  // amplitudes of the first two harmonics, as shares of a performance
+  std::array<double, 2> rhythm_{};  // amplitudes of the rhythm's first two harmonics, as shares of a performance
 };
 
 /// Returns the person's posture at rest.
 Controls RestOf(const Person& person);
 
 /// Returns `wanted` with every control kept within its joint's range. A control whose value in `authored` is outside
-/// the range may keep this value but goes no further. Near the end of the range the difference from `authored`
+/// the range may keep this value but must not go beyond it. Near the end of the range the difference from `authored`
 /// saturates smoothly.
 Controls WithinReach(const Controls& wanted, const Controls& authored);
 
-/// The sway of a standing body: the weight shifts from foot to foot, the chest breathes, and the head turns.
+/// The sway of a body at rest: the weight shifts from foot to foot, the chest breathes, and the head turns.
 class Sway {
  public:
   explicit Sway(RandomStream& random);

@@ -31,7 +31,7 @@ HWY_INLINE Product Multiply(Vec a, uint64_t constant) {
   const auto a0 = hn::BitCast(half, a), a1 = hn::BitCast(half, hn::ShiftRight<32>(a));
   const auto b0 = hn::BitCast(half, hn::Set(word, constant)), b1 = hn::BitCast(half, hn::Set(word, constant >> 32));
   const auto p00 = hn::MulEven(a0, b0), p01 = hn::MulEven(a0, b1), p10 = hn::MulEven(a1, b0), p11 = hn::MulEven(a1, b1);
-  // Sum up the products with their carries.
+  // Sum up the partial products, with carries.
   const auto middle = hn::Add(p10, hn::ShiftRight<32>(p00)), lower = hn::Add(p01, hn::And(middle, mask));
   return {hn::Add(hn::Add(p11, hn::ShiftRight<32>(middle)), hn::ShiftRight<32>(lower)),
           hn::Mul(a, hn::Set(word, constant))};
@@ -59,8 +59,8 @@ size_t FillBlocks(uint64_t first, uint64_t key0, uint64_t key1, size_t count, ui
   const Word word;
   const auto zero = hn::Zero(word);
   if (hn::Lanes(word) < kLanes) return 0;
-  // Process two vectors at a time: each round waits for the result of the previous round, so two independent chains
-  // hide the latency.
+  // Process two vectors at a time: each round of the cipher waits for the result of the previous round, so two
+  // independent vectors hide the latency.
   size_t done = 0;
   for (; done + 2 * kLanes <= count; done += 2 * kLanes) {
     Blocks a{hn::Iota(word, first + done), zero, zero, zero};
@@ -83,10 +83,10 @@ HalvesWithin FindWithin(const uint64_t* words, size_t count, uint32_t low, uint3
   const hn::Repartition<uint32_t, decltype(word)> half;
   const auto from = hn::Set(half, low), width = hn::Set(half, last - low);
   HalvesWithin found;
-  size_t done = 0;  // number of numbers already compared
+  size_t done = 0;  // count of random numbers that are already compared
   for (; done + hn::Lanes(half) <= count; done += hn::Lanes(half)) {
     const auto numbers = hn::BitCast(half, hn::LoadU(word, words + done / 2));
-    const auto is_within = hn::Not(hn::Lt(width, hn::Sub(numbers, from)));  // a number below `low` wraps around
+    const auto is_within = hn::Not(hn::Lt(width, hn::Sub(numbers, from)));  // numbers − from wraps around below `low`
     found.below += hn::CountTrue(half, hn::Lt(numbers, from));
     hn::StoreU(hn::Compress(numbers, is_within), half, within + found.within);
     found.within += hn::CountTrue(half, is_within);

@@ -17,8 +17,8 @@ using Words256 = std::array<std::uint64_t, 4>;
 /// distinguish the output from noise.
 Words256 Encrypt(const Words256& key, const Words256& block);
 
-/// The seed of a run: either a plain number that anybody may know, or a secret key of 256 bits that is identified by
-/// its digest.
+/// The seed of a run: either a plain number that anybody may know, or a secret key of 256 bits that a digest
+/// identifies.
 class Seed {
  public:
   /// Makes a plain seed. The conversion is implicit, so a number can be passed as a seed.
@@ -26,8 +26,8 @@ class Seed {
   static constexpr Seed Secret(const Words256& key) { return {Kind::kSecret, key}; }
 
   bool IsPlain() const { return kind_ == Kind::kPlain; }
-  /// Returns true if random numbers can be drawn. They cannot if the seed is secret and was read from a manifest, which
-  /// contains only its digest.
+  /// Returns true if random numbers can be drawn. They cannot if the seed is secret and was read from a manifest,
+  /// because a manifest contains only the seed's digest.
   bool IsOpen() const { return kind_ != Kind::kDigest; }
   /// Returns the number of a plain seed.
   std::uint64_t number() const { return words_[0]; }
@@ -39,7 +39,7 @@ class Seed {
   /// Returns a seed for random numbers outside of worlds (such as samples of statistics): the plain number, or a number
   /// derived from the digest.
   std::uint64_t Public() const;
-  /// Returns the seed without its key: a plain seed is unchanged, and a secret one keeps only its digest.
+  /// Returns the seed without its key: a plain seed is unchanged, and a secret seed keeps only its digest.
   Seed WithoutKey() const;
 
   friend auto operator<=>(const Seed&, const Seed&) = default;
@@ -56,8 +56,8 @@ class Seed {
 
 /// Writes the seed for people and manifests: "7", or "secret" and the digest.
 std::string ToString(const Seed& seed);
-/// Reads the output of ToString. A secret seed read in this way has only its digest and is not open (IsOpen). Fails for
-/// any other text.
+/// Reads the output of ToString. If the text states a secret seed, the result has only the digest and is not open
+/// (IsOpen). Fails for any other text.
 Result<Seed> ParseSeed(std::string_view text);
 /// Reads 64 hexadecimal digits. Fails for any other text.
 Result<Words256> ParseWords256(std::string_view digits);

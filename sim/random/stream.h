@@ -10,8 +10,8 @@
 
 namespace etude {
 
-/// The key of a world's random numbers. It excludes the method, so that every method gets the same world. It also
-/// excludes the values of swept parameters, so that a sweep changes strengths but not random numbers. Only with a
+/// The key of a world's random numbers. The key excludes the method, so that every method gets the same world. The key
+/// also excludes the values of swept parameters, so that a sweep changes strengths but not random numbers. Only with a
 /// secret seed does every condition have its own numbers; `scenario` then includes the condition.
 struct WorldKey {
   Seed suite_seed = 1;
@@ -22,11 +22,12 @@ struct WorldKey {
 /// A stream of random numbers that depends only on its key and is the same on every machine (counter-based: Philox
 /// 4×64-10 of Random123, Salmon et al. 2011). With a secret seed, the stream is Threefish-256 in counter mode; its key
 /// is derived with the cipher from the secret and from all names of the stream. The numbers of all other streams then
-/// reveal nothing about this one. The distributions are our own, because those of standard libraries differ.
+/// reveal nothing about this one. The distributions are our own, because the distributions of standard libraries
+/// differ.
 class RandomStream {
  public:
-  /// Makes the stream of one purpose, such as "joint-noise" or "camera-0/pixel-noise". It is independent of all other
-  /// streams. The seed must be open.
+  /// Makes the stream of one purpose, such as "joint-noise" or "camera-0/pixel-noise". The stream is independent of all
+  /// other streams. The seed must be open.
   RandomStream(const WorldKey& world, std::string_view purpose);
 
   std::uint64_t Bits();

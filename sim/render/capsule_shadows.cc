@@ -9,7 +9,7 @@
 namespace etude {
 namespace {
 
-// The distance from the body, metres, up to which its contact shadow darkens the surface below it.
+// The distance from the body, metres, up to which the body's contact shadow darkens the surface below the body.
 constexpr float kContactReach = 0.12f;
 // A margin for the rounding of pixels' positions, which are computed in single precision.
 constexpr double kFloatMargin = 1e-3;
@@ -52,7 +52,8 @@ class Caster {
     const double both = tile.spread + spread_ + kFloatMargin;
     if (glm::dot(apart, apart) > both * both) return false;
     // Compute the distance of the capsule's axis from the line through the lamp in the tile's middle direction. A ray
-    // whose direction differs by up to `spread` passes a point at distance d at most d · `spread` closer.
+    // whose direction differs from the middle direction by up to `spread` passes a point at distance d at most d ·
+    // `spread` closer.
     const auto across = [&](const glm::dvec3& v) { return v - glm::dot(v, tile.middle) * tile.middle; };
     const glm::dvec3 from = across(start_), direction = across(along_);
     const double square = glm::dot(direction, direction);
@@ -72,22 +73,23 @@ class Caster {
     return gap <= tile.radius + radius_ + kContactReach + kFloatMargin;
   }
 
-  // Raises each pixel's darkness to the darkness of this capsule's shadow: 0 outside, 1 deep inside. The line from the
-  // lamp to the pixel's point w is one segment, and the capsule's axis another; their distance is computed as in
-  // Ericson 2005, section 5.1.9.
+  // Raises the darkness of each pixel at least to the darkness of this capsule's shadow: 0 outside, 1 deep inside. The
+  // line from the lamp to the pixel's point w is one segment, and the capsule's axis another; their distance is
+  // computed as in Ericson 2005, section 5.1.9.
   void Darken(const PixelRow& row, float* darkness) const {
     const glm::vec3 a(start_), v(along_);
     const float aa = glm::dot(a, a), va = glm::dot(v, a), vv = glm::dot(v, v);
     const float per_vv = vv > 0 ? 1 / vv : 0, per_radius = static_cast<float>(1 / radius_);
     for (int i = 0; i < row.count; ++i) {
-      // Compute the closest points of both segments.
+      // Compute the closest points of the two segments.
       const float x = row.x[i], y = row.y[i], z = row.z[i];
       const float ww = x * x + y * y + z * z, wa = x * a.x + y * a.y + z * a.z, wv = x * v.x + y * v.y + z * v.z;
       const float determinant = std::max(ww * vv - wv * wv, 1e-12f);
       const float at_first = Clamp01((wa * vv - wv * va) / determinant);
       const float t = Clamp01((wv * at_first - va) * per_vv);
       const float s = Clamp01((wv * t + wa) / ww);
-      // Compute the depth inside the capsule, and the softness from the distance between capsule and pixel.
+      // Compute how deep the line runs inside the capsule, and the shadow's softness from the distance between capsule
+      // and pixel.
       const float gx = s * x - a.x - t * v.x, gy = s * y - a.y - t * v.y, gz = s * z - a.z - t * v.z;
       const float inside = 1 - std::sqrt(gx * gx + gy * gy + gz * gz) * per_radius;
       const float away = std::sqrt(std::max(ww - 2 * wa + aa, 0.0f));
@@ -97,7 +99,8 @@ class Caster {
     }
   }
 
-  // Raises each pixel's nearness to the capsule: 1 at the capsule's skin, 0 at kContactReach from it.
+  // Raises each pixel's nearness to the capsule: 1 at the capsule's skin, 0 at the distance kContactReach from the
+  // skin.
   void Touch(const PixelRow& row, float* nearness) const {
     const glm::vec3 a(start_), v(along_);
     const float vv = glm::dot(v, v), per_vv = vv > 0 ? 1 / vv : 0, radius = static_cast<float>(radius_);
@@ -114,7 +117,7 @@ class Caster {
   glm::dvec3 start_, along_;
   double radius_;
   glm::dvec3 middle_;  // unit axis of a cone at the lamp that contains the capsule
-  double spread_;      // largest deviation from `middle_`, in the measure of RoomTile::spread
+  double spread_;      // largest deviation of a direction in the cone from `middle_`, measured like RoomTile::spread
   double nearest_, farthest_;
   bool is_near_floor_;
 };
@@ -165,7 +168,7 @@ TileShade Shade(const std::vector<Caster>& casters, bool with_contacts, const La
 
 void Paint(const KeptRoom& kept, const TileShade& shade, double brightness, const PixelRect& pixels, bool labels,
            int top_row, View& view) {
-  // In each row, darken the light, then convert it to bytes.
+  // In each row, darken the light, then convert the light to bytes.
   const std::size_t width = static_cast<std::size_t>(view.colour.width);
   std::array<float, 3 * kRoomTileSize> light;
   for (int y = pixels.top; y < pixels.bottom; ++y) {

@@ -43,13 +43,13 @@ RoomTile MakeTile(const PixelRect& pixels, const LampView& view, int width) {
       sum += directions.back();
     }
   }
-  // Compute the bounding cone of the directions.
+  // Compute the bounding cone of the tile's directions.
   const double length = glm::length(sum);
   tile.middle = length > 0 ? sum / length : glm::dvec3(0, 1, 0);
   for (const glm::dvec3& direction : directions) {
     tile.spread = std::max(tile.spread, glm::distance(direction, tile.middle));
   }
-  // Compute the bounding ball of the points.
+  // Compute the bounding ball of the tile's points.
   tile.centre = 0.5 * (low + high);
   for (const glm::dvec3& point : points) tile.radius = std::max(tile.radius, glm::distance(point, tile.centre));
   return tile;
@@ -172,7 +172,7 @@ const KeptRoom& KeptRooms::FindOrDraw(const Room& room, const Camera& camera) {
     std::rotate(kept_.begin(), found, found + 1);
     return kept_.front().picture;
   }
-  // Otherwise drop the least recently used picture and draw a new one.
+  // Otherwise drop the least recently used picture and draw a new picture.
   if (kept_.size() == kMaxKept) {
     Drop(kept_.back());
     kept_.pop_back();
@@ -198,9 +198,9 @@ KeptRoom KeptRooms::Draw(const Room& room, const Camera& camera) {
   }
   gl_.DrawBuffers(2, attachments);
   for (GLuint i = 0; i < 2; ++i)
-    gl_.ColorMaski(i, GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);  // the last draw may have switched them off
+    gl_.ColorMaski(i, GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);  // the last draw may have switched off some channels
 
-  // Draw one triangle over the whole picture; its shader casts a ray for every pixel.
+  // Draw one triangle over the whole picture; the triangle's shader casts a ray for every pixel.
   gl_.Viewport(0, 0, width, height);
   gl_.Disable(GL_DEPTH_TEST);
   gl_.Disable(GL_SCISSOR_TEST);

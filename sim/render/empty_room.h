@@ -23,28 +23,28 @@ struct RoomTexture {
   TilePattern wall;
 };
 
-/// Draws the random patterns of a room. They depend only on `seed`.
+/// Draws the random patterns of a room. The patterns depend only on `seed`.
 RoomTexture MakeRoomTexture(std::uint64_t seed);
 
 /// The maximum side of a tile, pixels. Smaller tiles fit shadows more closely, but every tile is tested against every
 /// body.
 constexpr int kRoomTileSize = 16;
 
-/// A tile of the picture. Its directions are the unit vectors from the lamp to the points of the empty room that the
+/// A tile of the picture. Its directions are the unit vectors from the lamp to those points of the empty room that the
 /// tile shows.
 struct RoomTile {
   PixelRect pixels;
   glm::dvec3 middle{0};  ///< mean direction, unit
-  double spread = 0;     ///< maximum distance between the end points of `middle` and of a direction
-  double farthest = 0;   ///< maximum distance from the lamp, metres
-  glm::dvec3 centre{0};  ///< centre of a ball around the points, metres from the lamp
-  double radius = 0;     ///< radius of that ball
+  double spread = 0;     ///< maximum distance between the end points of `middle` and of one of the directions
+  double farthest = 0;   ///< maximum distance of a point from the lamp, metres
+  glm::dvec3 centre{0};  ///< centre of a ball around the points, relative to the lamp, metres
+  double radius = 0;     ///< radius of that ball, metres
 };
 
 /// The points of the empty room that a picture shows, relative to the lamp: one value per pixel, row by row.
 struct LampView {
   glm::dvec3 lamp{0};           ///< position of the lamp in the world, metres
-  std::vector<float> x, y, z;   ///< relative to the lamp, world axes, metres; next to the lamp if no room is seen
+  std::vector<float> x, y, z;   ///< points relative to the lamp, world axes, metres; near the lamp if no room is seen
   std::vector<RoomTile> tiles;  ///< the tiles in which the room is visible
 };
 
@@ -54,7 +54,7 @@ struct KeptRoom {
   GLuint room = 0;                   ///< texture: RGB = colour, A = depth
   GLuint extra = 0;                  ///< texture: RGB = the lamp's share of the light, A = label
   std::vector<float> colours;        ///< RGB, three numbers per pixel
-  std::vector<float> lamp_shares;    ///< three per pixel: share of the lamp in the light
+  std::vector<float> lamp_shares;    ///< three numbers per pixel: the lamp's share of the light's red, green and blue
   std::vector<float> depths;         ///< metres
   std::vector<std::uint8_t> labels;  ///< one label per pixel
   LampView lamp;
@@ -95,8 +95,8 @@ class KeptRooms {
   std::deque<Kept> kept_;  // pictures, the most recently used first
 };
 
-/// Fills `view` with `rows` of the empty room at `brightness`, `width` pixels each. The bytes are exactly those that GL
-/// would draw (round to nearest even). Pictures in `view` are reallocated if their size differs.
+/// Fills `view` with `rows` of the empty room at `brightness`; each row has `width` pixels. The bytes are exactly those
+/// that GL would draw (round to nearest even). Pictures in `view` are reallocated if their size differs.
 void FillBackdrop(const KeptRoom& room, int width, double brightness, Targets targets, const RowRange& rows,
                   View& view);
 

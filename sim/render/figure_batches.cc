@@ -64,8 +64,8 @@ void AddInstances(const Figure& figure, const glm::dvec3& eye, std::vector<Capsu
   }
 }
 
-// The largest coordinate that is drawn, metres. Below it, products of floats do not overflow. NaN fails the comparison,
-// too.
+// The largest coordinate that is drawn, metres. Products of smaller floats do not overflow. NaN also fails the
+// comparison.
 constexpr float kMaxCoordinate = 1e6f;
 
 bool IsWithin(const glm::vec3& v, float limit) {
@@ -86,7 +86,8 @@ void AddTriangles(const Surface& surface, std::optional<Part> seen_as, int paint
   assert(surface.normals.size() == surface.positions.size() && surface.parts.size() == surface.triangles.size());
   assert(!surface.paint || surface.rest.size() == surface.positions.size());
   assert(surface.paint || !surface.texture || surface.on_texture.size() == surface.positions.size());
-  // A vertex has one corner for each part that meets there. The corners of a vertex form a linked list.
+  // A vertex has one corner for each part of the body that meets at the vertex. The corners of a vertex form a linked
+  // list.
   struct Made {
     Part part;
     std::uint32_t next;
@@ -95,7 +96,7 @@ void AddTriangles(const Surface& surface, std::optional<Part> seen_as, int paint
   std::vector<std::uint32_t> first(surface.positions.size(), kNone);
   std::vector<Made> made;
   const std::size_t before = all.corners.size();
-  // Finds or adds the corner of a vertex for a part.
+  // Finds a vertex's corner for a part, or adds this corner.
   const auto corner_of = [&](std::uint32_t vertex, Part part) {
     std::uint32_t* at = &first[vertex];
     while (*at != kNone && made[*at].part != part) at = &made[*at].next;

@@ -12,7 +12,7 @@ namespace etude {
 /// the camera's centre.
 struct CapsuleInstance {
   glm::vec4 start_and_radius;  ///< start of the axis in E, and radius; for a face, the start is at the chin
-  glm::vec4 end_and_label;     ///< end of the axis in E, and the label
+  glm::vec4 end_and_label;     ///< end of the axis in E, and the capsule's label
   glm::vec4 paint;             ///< RGB 0…1; A = 1 for a head that gets a face
   glm::vec3 front;             ///< unit direction in which the face looks
 };
@@ -30,8 +30,8 @@ struct SurfaceCorner {
       rest_and_paint;  ///< position on the body at rest, or RG = position on the texture; A = the paint's index or −1
 };
 
-/// Triangles as three indices of corners each. If triangles of one part share a vertex, they share its corner, and GL
-/// shades this corner only once.
+/// Triangles. Each triangle is three indices of corners. If triangles of one part share a vertex, they share its
+/// corner, and GL shades this corner only once.
 struct Triangles {
   std::vector<SurfaceCorner> corners;
   std::vector<std::uint32_t> indices;
@@ -48,11 +48,11 @@ struct SurfaceTriangles {
   Triangles plain;    ///< surfaces in one colour
   Triangles painted;  ///< surfaces with a paint
   Triangles textured;
-  std::vector<TexturedRun> textures;  ///< for each run of indices of `textured`, its texture
+  std::vector<TexturedRun> textures;  ///< for each run of indices of `textured`, the texture
 };
 
-/// Collects all triangles of all figures in `all`, whose memory is reused. Triangles are left out if a corner or a
-/// normal is not finite, or if a corner is far outside any scene. Paints have indices in the order of PaintsOf.
+/// Writes the triangles of all figures to `all`, whose memory is reused. Triangles are left out if a corner or a normal
+/// is not finite, or if a corner is far outside any scene. Paints have indices in the order of PaintsOf.
 void MakeTriangles(const std::vector<Figure>& figures, const glm::dvec3& eye, SurfaceTriangles& all);
 
 /// Returns the paints of all surfaces in the order of their indices.

@@ -1,6 +1,6 @@
 #pragma once
 
-// No other header includes GL; only this folder's .cc files include this one.
+// No other header includes GL; only this folder's .cc files include this header.
 #include <GL/glcorearb.h>
 
 #include <memory>
@@ -92,8 +92,8 @@ struct GlFunctions {
 /// An offscreen context of OpenGL 3.3 core. Everything is drawn into our own framebuffer objects.
 class GlContext {
  public:
-  /// Fails if no library can be loaded, if the loaded library cannot make such a context, or if it lacks a function.
-  /// The error states the cause.
+  /// Fails if no library can be loaded, if the loaded library cannot make such a context, or if the library lacks a
+  /// function. The error states the cause.
   static Result<std::unique_ptr<GlContext>> Create();
   ~GlContext();
   GlContext(const GlContext&) = delete;

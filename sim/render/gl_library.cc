@@ -20,8 +20,8 @@ std::string_view Choice() {
 
 Result<GlLibrary> Load() {
   RETURN_IF_ERROR(CheckGlChoice());
-  // Parallel work is done by processes that may be forked from this one. Therefore GL must not start threads, not even
-  // for its cache.
+  // Parallel work is done by processes that may be forked from this process. Therefore GL must not start threads, not
+  // even for its cache.
   ::setenv("LP_NUM_THREADS", "0", 0);
   ::setenv("MESA_SHADER_CACHE_DISABLE", "true", 0);
   if (Choice() == "osmesa") return LoadOsMesa();

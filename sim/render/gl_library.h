@@ -7,7 +7,7 @@
 namespace etude {
 
 /// A library that makes OpenGL 3.3 core contexts without a window: OSMesa or EGL, both with Mesa's llvmpipe. All state
-/// is in `context`.
+/// of GL is in `context`.
 struct GlLibrary {
   std::string name;  ///< "OSMesa", "EGL"
   Result<void*> (*make_context)() = nullptr;
@@ -30,9 +30,9 @@ Result<GlLibrary> LoadEgl();
 /// Fails if the environment variable ETUDE_GL has a value other than "osmesa" or "egl".
 Result<void> CheckGlChoice();
 
-/// Returns the library with which this process draws: the one that ETUDE_GL names; otherwise OSMesa if it is present,
-/// otherwise EGL. The library is loaded at the first call and not at program start: it includes a compiler (LLVM), so
-/// loading it takes longer than loading most other libraries together.
+/// Returns the library with which this process draws: the library that ETUDE_GL names; without ETUDE_GL, OSMesa if it
+/// is present, otherwise EGL. The library is loaded at the first call and not at program start: it includes a compiler
+/// (LLVM), so loading it takes longer than loading most other libraries together.
 const Result<GlLibrary>& LoadedGlLibrary();
 
 }  // namespace etude

@@ -35,7 +35,8 @@ VertexStream::VertexStream(const GlFunctions& gl, std::size_t element_bytes, GLs
   GLuint location = 0;
   for (const Attribute& attribute : attributes) {
     gl.EnableVertexAttribArray(location);
-    // NOLINTNEXTLINE(performance-no-int-to-ptr): what GL calls a pointer is an offset into the buffer
+    // NOLINTNEXTLINE(performance-no-int-to-ptr): this argument is a pointer in GL's interface, but its value is an
+    // offset into the buffer
     const void* pointer = reinterpret_cast<const void*>(attribute.offset);
     gl.VertexAttribPointer(location, attribute.size, GL_FLOAT, GL_FALSE, static_cast<GLsizei>(element_bytes), pointer);
     gl.VertexAttribDivisor(location, strip_length > 0 ? 1 : 0);

@@ -51,8 +51,8 @@ class VertexStream {
   GLuint buffer_ = 0, indices_ = 0;
 };
 
-/// The textures that were uploaded to GL. A figure's textures are kept from picture to picture. The GL context must
-/// outlive this object.
+/// Holds the textures that were uploaded to GL. A figure's textures are kept from picture to picture. The GL context
+/// must outlive this object.
 class TextureStore {
  public:
   /// The texture unit to which Bind binds; unit 0 holds the room's texture.
@@ -76,10 +76,10 @@ class TextureStore {
   std::vector<Uploaded> uploaded_;
 };
 
-/// The framebuffer for pictures: colour, labels, linear depth, and a depth buffer for hidden surfaces. It grows to the
-/// size of the largest picture; smaller pictures use its corner. It holds only pixels drawn over the empty room. Bodies
-/// are drawn with an alpha of 0 and shadows with 0.5; where shadows overlap, the darkest counts. Pixels that were not
-/// drawn are not read.
+/// The framebuffer into which pictures are drawn: colour, labels, linear depth, and a depth buffer for hidden surfaces.
+/// It grows to the size of the largest picture; smaller pictures use its corner. It holds only pixels drawn over the
+/// empty room. Bodies are drawn with an alpha of 0 and shadows with 0.5; where shadows overlap, the darkest counts.
+/// Pixels that were not drawn are not read.
 class FrameTargets {
  public:
   explicit FrameTargets(const GlFunctions& gl) : gl_(gl) {}
@@ -96,8 +96,8 @@ class FrameTargets {
   /// Selects the attachments that the next draw calls write. This uses colour and depth masks, because a change of
   /// attachments would make Mesa finish all pending drawing.
   void WriteOnly(bool colour, bool labels, bool depth);
-  /// Copies the drawn pixels of a rectangle from GL to the pictures of `view`, which must have their size already.
-  /// Their first row is row `top_row`.
+  /// Copies the drawn pixels of a rectangle from GL to the pictures of `view`, which must have their size already. The
+  /// first row of `view` is row `top_row` of the picture.
   void Read(const PixelRect& rect, int top_row, Targets targets, View& view);
   /// Copies the drawn pixels of a rectangle from GL to an overlay, unchanged.
   void Read(const PixelRect& rect, Overlay& overlay);
@@ -110,7 +110,7 @@ class FrameTargets {
   GLuint framebuffer_ = 0;
   GLuint buffers_[4] = {};  // colour, labels, depth, hidden surfaces
   int capacity_width_ = 0, capacity_height_ = 0;
-  Targets drawn_ = Targets::kAll;    ///< the attachments in use
+  Targets drawn_ = Targets::kAll;    ///< the attachments that Begin selected
   std::vector<std::uint8_t> bytes_;  // memory reused from picture to picture
   std::vector<float> depths_;
 };

@@ -21,7 +21,7 @@ namespace {
 // Surfaces beyond this distance are not drawn, metres.
 constexpr float kMaxDepth = 200;
 
-// The number of corners of a box as one triangle strip.
+// The number of corners of the triangle strip that forms a box.
 constexpr GLsizei kStripLength = 14;
 
 struct Programs {
@@ -111,7 +111,7 @@ struct Renderer::State {
         targets(gl),
         rooms(gl, linked.studio, linked.interior, empty_vertices) {
     gl.PixelStorei(GL_PACK_ALIGNMENT, 1);
-    gl.CullFace(GL_FRONT);  // cull front faces: the back faces of a box are visible even from inside it
+    gl.CullFace(GL_FRONT);  // cull front faces: a camera inside a box sees only the back faces
     gl.BlendEquation(GL_MIN);
   }
 
@@ -138,8 +138,8 @@ struct Renderer::State {
     gl.BindTexture(GL_TEXTURE_2D, room.room);
   }
 
-  // Draws the shadows of surfaces in the studio. Each triangle darkens separately; where shadows overlap, the darkest
-  // counts.
+  // Draws the shadows of surfaces in the studio. Each triangle darkens the room separately; where shadows overlap, the
+  // darkest counts.
   void DrawShadowsOfSurfaces(const Shot& shot) {
     const GLuint program = programs.surface_shadow;
     Use(program, shot);
@@ -157,7 +157,7 @@ struct Renderer::State {
     gl.Disablei(GL_BLEND, 0);
   }
 
-  // Marks shadows on the studio's floor only. Bodies are drawn over them later.
+  // Marks shadows on the studio's floor only. Bodies are drawn over the shadows later.
   void MarkShadowsOfSurfaces(const Room& room, const Camera& camera) {
     gl.UseProgram(programs.shadow_mark);
     SetPixelGeometry(gl, programs.shadow_mark, camera, room);

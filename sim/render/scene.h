@@ -13,17 +13,17 @@
 
 namespace etude {
 
-/// The pattern of two colours on a surface. Patterns from kPlanks on are for rooms only; figures show the first colour
-/// instead. Positions are in metres in the surface's own space: the body at rest for clothes, whose patterns therefore
-/// move with the body; the plane of a wall or floor; the box of a piece of furniture.
+/// The pattern in which two colours cover a surface. Patterns from kPlanks on are for rooms only; figures show the
+/// first colour instead. Positions are in metres in the surface's own space: the body at rest for clothes, whose
+/// patterns therefore move with the body; the plane of a wall or floor; the box of a piece of furniture.
 enum class Pattern {
   kPlain,      ///< the first colour
   kBands,      ///< horizontal bands with period `size`
   kStripes,    ///< vertical stripes with period `size`
   kChecks,     ///< bands and stripes
   kTwoTone,    ///< the second colour below the height `size`
-  kPlanks,     ///< boards of width `size`, each with its own tone
-  kTiles,      ///< squares of side `size`, each with its own tone, with joints between
+  kPlanks,     ///< boards of width `size`; each board has its own tone
+  kTiles,      ///< squares of side `size`, each with its own tone, separated by joints
   kSpeckle,    ///< grains of `size`: carpet, plaster, bark
   kPatchwork,  ///< blocks of `size`, each a mix of the two colours: books, pictures
 };
@@ -33,9 +33,9 @@ struct SurfacePaint {
   Rgb8 first{};
   Rgb8 second{};
   Pattern pattern = Pattern::kPlain;
-  double size = 0.1;         ///< period, width or side, as the pattern defines, metres
-  glm::dvec2 patch{0};       ///< x and y of the centre of a patch of the second colour, in front (z > 0)
-  glm::dvec2 patch_half{0};  ///< half its width and height; 0: no patch
+  double size = 0.1;         ///< period, width or side of the pattern's parts, metres
+  glm::dvec2 patch{0};       ///< x and y of the centre of a patch of the second colour, on the front (z > 0), metres
+  glm::dvec2 patch_half{0};  ///< half the patch's width and height, metres; 0: no patch
   bool is_cloth = false;     ///< true: drawn with seams and creases
   friend bool operator==(const SurfacePaint&, const SurfacePaint&) = default;
 };
@@ -49,7 +49,7 @@ struct Surface {
   std::vector<glm::dvec3> positions;                    ///< metres
   std::vector<glm::dvec3> normals;                      ///< unit vectors, one per position
   std::vector<std::array<std::uint32_t, 3>> triangles;  ///< three positions each, counter-clockwise seen from outside
-  std::vector<Part> parts;                              ///< one part per triangle: its label
+  std::vector<Part> parts;                              ///< one part per triangle: the label of the triangle's pixels
   Rgb8 colour;
   std::optional<PartColours> by_part{};  ///< colours of the parts, which replace `colour`
   std::optional<SurfacePaint> paint{};   ///< the paint, which replaces `colour`
@@ -74,16 +74,16 @@ struct Figure {
 /// The maximum number of painted surfaces in one picture.
 constexpr std::size_t kMaxPaints = 64;
 
-/// Returns the colours of the captured performer: clothes and skin with warm hues (from 335° through red to 45°). They
-/// differ in hue by at least 85° from everything in the room, because segmentation compares hues.
+/// Returns the colours of the captured performer: clothes and skin with warm hues (from 335° through red to 45°). These
+/// colours differ in hue by at least 85° from everything in the room, because segmentation compares hues.
 PartColours PerformerColours();
 
-/// A fixed box in the room, rotated about the vertical like Cuboid (sim/body/shape.h). Its pixels are labelled
-/// kFurniture.
+/// A box that stands still in the room, rotated about the vertical like Cuboid (sim/body/shape.h). Its pixels are
+/// labelled kFurniture.
 struct FurnitureBox {
   glm::dvec3 centre{0};     ///< metres
   glm::dvec3 half_size{0};  ///< half sizes along the box's own axes
-  double heading = 0;       ///< radians: its own +Z points to (sin heading, 0, cos heading)
+  double heading = 0;       ///< radians: the box's +Z axis points to (sin heading, 0, cos heading)
   SurfacePaint paint;
 };
 
@@ -95,7 +95,7 @@ struct WallPicture {
   glm::dvec2 half_size{0};  ///< metres, including the frame
   SurfacePaint paint;
   Rgb8 frame{};
-  double glow = 0;  ///< emitted light; 1 = a window at noon, whose paint does not depend on lamps
+  double glow = 0;  ///< emitted light; 1: a window at noon, which looks the same under all lamps
 };
 
 /// The lights of an interior in linear RGB, relative to the studio's lamp and ambient light.
@@ -120,8 +120,8 @@ struct Interior {
   glm::dvec3 high{4, 3.3, 5};
   SurfacePaint floor, wall, ceiling;
   Rgb8 skirting{};
-  double studio = 0;  ///< share of the studio's paint on walls and floor; 1 = only the studio's
-  glm::dvec4 rug{0};  ///< x, z of the centre, half sizes along x and z; 0: none
+  double studio = 0;  ///< share of the studio's paint on walls and floor; 1: only the studio's paint
+  glm::dvec4 rug{0};  ///< x, z of the rug's centre, half sizes along x and z, metres; all 0: no rug
   SurfacePaint rug_paint;
   Lights lights;
   std::vector<FurnitureBox> furniture;
@@ -131,13 +131,13 @@ struct Interior {
 bool operator==(const Lights&, const Lights&);
 bool operator==(const Interior&, const Interior&);
 
-/// The studio's wall is the infinite plane z = kWallZ, which is visible only from its front. The floor is y = 0.
+/// The studio's wall is the infinite plane z = kWallZ, which is visible only from the front. The floor is y = 0.
 constexpr double kWallZ = -2.5;
 /// The position of the studio's only lamp, metres.
 constexpr glm::dvec3 kLamp{-1.8, 2.9, 4.0};
 
-/// The room: either the studio, which has a floor at y = 0 and a wall behind it, both textured and lit by one lamp that
-/// casts shadows; or an interior.
+/// The room: either the studio, which has a floor at y = 0 and a wall behind the floor, textured and lit by one lamp
+/// that casts shadows; or an interior.
 struct Room {
   std::uint64_t texture_seed = 1;  ///< seed of the spots on wall and floor
   double brightness = 1.0;         ///< factor on the light (exposure, lamp drift), ≥ 0; does not change hues
@@ -162,14 +162,14 @@ struct PixelRect {
 /// Returns the smallest rectangle that contains both rectangles. An empty rectangle contains no pixels.
 PixelRect Union(const PixelRect& a, const PixelRect& b);
 
-/// The pixels of figures alone, to be put over another background.
+/// The pixels of figures alone, which can be drawn over another background.
 struct Overlay {
-  /// The kind of a pixel, stored as its fourth byte.
+  /// What a pixel shows, stored as the pixel's fourth byte.
   enum Seen : std::uint8_t { kBody = 0, kShadow = 128, kNothing = 255 };
 
   int width = 0, height = 0;
   std::vector<std::uint8_t> bytes;  ///< four bytes per pixel: red, green and blue of a body, then Seen
-  PixelRect drawn{};                ///< every pixel outside is kNothing
+  PixelRect drawn{};                ///< rectangle around the drawn pixels; every pixel outside is kNothing
 };
 
 /// The rows `first` to `end` − 1 of a picture.

@@ -12,13 +12,13 @@ namespace etude {
 
 /// Draws one triangle that covers the whole picture.
 std::string FullScreenVertexShader();
-/// Paints the empty studio: RGB = colour at brightness 1, A = depth. The result is kept per camera.
+/// Paints the empty studio: RGB = colour at brightness 1, A = depth. The picture is kept for each camera.
 std::string RoomFragmentShader();
 /// Paints a furnished room: RGB = colour at brightness 1, A = depth. Like RoomFragmentShader, it also writes RGB = the
 /// lamp's share of the light, A = the label.
 std::string InteriorFragmentShader();
 
-/// Draws a box around each capsule. The box selects the pixels to compute.
+/// Draws a box around each capsule. The fragment shader then computes only the pixels of this box.
 std::string CapsuleVertexShader();
 /// Paints the surface of capsules. With `with_face`, the head has hair, eyes and a smile, which is slower.
 std::string CapsuleFragmentShader(bool with_face);
@@ -45,8 +45,8 @@ extern const char* const kBodyLight;
 /// Defines `bool IsBehindRoom(depth)`, which is true if the empty room hides a point at that depth in the pixel.
 /// Declares the uniform `farthest`.
 extern const char* const kRoomInFront;
-/// Defines `vec4 RoomInShadow(hit, point, inside, softness)`, a pixel of the room in a body's shadow. It must follow
-/// kRoomGeometry.
+/// Defines `vec4 RoomInShadow(hit, point, inside, softness)`, the colour of a pixel of the room in a body's shadow. It
+/// must follow kRoomGeometry.
 extern const char* const kShadowLight;
 
 /// For vertex shaders: defines `vec3 BoxCorner()`, one of the 14 corners of the strip that forms a box around a
@@ -54,8 +54,8 @@ extern const char* const kShadowLight;
 extern const char* const kCapsuleBox;
 /// Defines `vec3 StudioPaint(place, is_wall, blur)`, the tiles and spots of the studio.
 extern const char* const kStudioPaint;
-/// These four texts define `vec3 Painted(index, place, blur)`, the patterns of SurfacePaint: code that all patterns
-/// share; the patterns of rooms or an empty replacement; and the function itself.
+/// These four texts define `vec3 Painted(index, place, blur)`, the patterns of SurfacePaint: code for all patterns;
+/// then either the patterns of rooms or an empty replacement; then the function itself.
 extern const char* const kPaintPatterns;
 extern const char* const kRoomPatterns;
 extern const char* const kNoRoomPatterns;

@@ -71,13 +71,13 @@ class SeenRect {
   glm::dvec2 low_{kInfinity}, high_{-kInfinity};
 };
 
-// Returns the shadow of an extent on one plane of the room, clipped to the plane's limits.
+// Returns the shadow of an extent on one plane of the room, clipped to the room.
 Extent ShadowOn(const Extent& extent, const glm::dvec3& lamp, int axis, double plane, const Extent& room) {
   Extent shadow;
   const double reach = std::abs(lamp[axis] - plane), side = lamp[axis] > plane ? 1 : -1;
   for (const glm::dvec3& corner : extent.Corners()) {
     const glm::dvec3 from_lamp = corner - lamp;
-    const double fall = std::max(-side * from_lamp[axis], 0.05);  // at least 5 cm, as in the shaders
+    const double fall = std::max(-side * from_lamp[axis], 0.05);  // from the lamp to the plane; ≥ 5 cm as in shaders
     glm::dvec3 point = lamp + from_lamp * (reach / fall);
     point[axis] = plane;
     shadow.Add(point);
@@ -116,7 +116,7 @@ std::vector<Extent> ExtentsOf(const std::vector<Surface>& surfaces) {
 
 int Area(const PixelRect& rect) { return rect.Width() * rect.Height(); }
 
-// Merges pairs of rectangles whose union has at most 10 % more pixels than both together.
+// Merges pairs of rectangles whose union has at most 10 % more pixels than the two rectangles together.
 void Merge(std::vector<PixelRect>& rects) {
   std::erase_if(rects, [](const PixelRect& rect) { return rect.IsEmpty(); });
   for (std::size_t i = 0; i < rects.size(); ++i) {

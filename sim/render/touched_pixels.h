@@ -8,8 +8,8 @@
 namespace etude {
 
 /// Returns the rectangles of the picture in which GL draws: around every figure and, in the studio, around the shadows
-/// of its surfaces on the floor and, if `with_wall`, on the wall. They may overlap; all lie within `rows` of the
-/// picture.
+/// that the figure's surfaces cast on the floor and, if `with_wall`, on the wall. The rectangles may overlap; all lie
+/// within `rows` of the picture.
 std::vector<PixelRect> TouchedPixels(const Room& room, const std::vector<Figure>& figures, const Camera& camera,
                                      const RowRange& rows, bool with_wall = true);
 

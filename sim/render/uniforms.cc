@@ -65,7 +65,7 @@ void SetPictures(const GlFunctions& gl, GLuint program, const std::vector<WallPi
   for (std::size_t i = 0; i < count; ++i) {
     const WallPicture& picture = pictures[i];
     positions.emplace_back(glm::vec2(picture.centre), glm::vec2(picture.half_size));
-    // Pack the glow, in sixteen steps, and the wall into one number.
+    // Pack the wall and the glow (in sixteen steps) into one number.
     const int glow = static_cast<int>(std::lround(16 * std::clamp(picture.glow, 0.0, 1.0)));
     frames.emplace_back(ToShares(picture.frame), static_cast<float>(WallNumber(picture.wall) + 8 * glow));
     paints.push_back(picture.paint);

@@ -23,7 +23,8 @@ void AddRectangle(const PlacedBoard& placed, const glm::dvec2& low, const glm::d
   }
 }
 
-// Adds a board as rectangles of one colour: a black square is one rectangle, a white square one rectangle per module.
+// Adds a board as rectangles of one colour: a black square is one rectangle, a white square is one rectangle per
+// module.
 void AddBoard(const PlacedBoard& placed, Surface& black, Surface& white) {
   const Board& board = placed.board;
   const double module = board.square / kModules;

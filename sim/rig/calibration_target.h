@@ -10,7 +10,7 @@
 
 namespace etude {
 
-/// The pose of a board in the world W: its top left corner and its axes, as seen from its front.
+/// The pose of a board in the world W: the board's top left corner and axes, as seen from the board's front.
 struct PlacedBoard {
   Board board;
   glm::dvec3 p_WO{0};           ///< the top left corner
@@ -28,7 +28,7 @@ std::vector<PlacedBoard> CalibrationTarget(const glm::dvec3& middle);
 /// Returns these boards as surfaces for the renderer.
 std::vector<Surface> SurfacesOf(std::span<const PlacedBoard> boards);
 
-/// Returns for each seen corner its pixel and its position in the world.
+/// Returns the pixel and the position in the world of each seen corner.
 std::vector<PointPair> PairsOf(std::span<const PlacedBoard> boards, std::span<const SeenCorner> seen);
 
 }  // namespace etude

@@ -14,8 +14,8 @@ namespace {
 constexpr double kAimHeight = 0.95;      // height of the centre of a standing body, metres
 constexpr double kFlesh = 0.15;          // metres of flesh around a joint that must also be in the picture
 constexpr double kWallDistance = 0.3;    // minimum distance from the wall, metres
-constexpr double kMinFocalShare = 0.5;   // minimum focal length as a share of the usual one
-constexpr double kPositionError = 0.05;  // standard deviations, as all errors below: position on the floor, metres
+constexpr double kMinFocalShare = 0.5;   // minimum focal length as a share of the usual focal length
+constexpr double kPositionError = 0.05;  // standard deviations from here on: position on the floor, metres
 constexpr double kHeightError = 0.03;    // metres
 constexpr double kAngleError = 2;        // degrees
 constexpr double kAimError = 0.02;       // metres
@@ -61,8 +61,8 @@ double DistanceWithin(const glm::dvec3& middle, const glm::dvec3& outwards, doub
   return std::min(wanted, std::max(to_wall, kWallDistance));
 }
 
-// Returns the largest focal length, as a share of the usual one, with which `point` and the flesh around it stay in the
-// picture.
+// Returns the largest focal length, as a share of the usual focal length, with which `point` and the flesh around it
+// stay in the picture.
 double LensFor(const Camera& camera, const glm::dvec3& point) {
   const glm::dvec3 p_C = camera.R_CW * (point - camera.p_WC);
   if (p_C.z <= kFlesh) return 0;
@@ -96,7 +96,7 @@ Camera SetUp(const Stand& stand, const glm::dvec3& middle, double distance, Rand
 // some metres in front of the cameras.
 glm::dvec3 CommonMiddle(std::span<const Camera> cameras) {
   constexpr double kAhead = 3;          // metres in front of the cameras
-  constexpr double kHintWeight = 1e-3;  // small, so the hint matters only if the axes are nearly parallel
+  constexpr double kHintWeight = 1e-3;  // small: the point ahead matters only if the axes are nearly parallel
   glm::dmat3 normal(0);
   glm::dvec3 right(0);
   for (const Camera& camera : cameras) {

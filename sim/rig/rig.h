@@ -13,7 +13,7 @@ namespace etude {
 enum class RigShape {
   kAngles,   ///< "angles": at given angles and heights
   kStereo,   ///< "stereo": a pair side by side in front, with parallel axes
-  kRing,     ///< "ring": at equal angles around the performer, the first one in front
+  kRing,     ///< "ring": at equal angles around the performer, the first camera in front
   kCorners,  ///< "corners": four cameras in the corners of a square around the performer
   kFile,     ///< "file": a calibrated rig of the user's own
 };
@@ -25,7 +25,8 @@ struct RigOptions {
   std::vector<double> angles_deg = {-40, 40};
   /// The heights of the cameras, metres: one per angle for kAngles; for other shapes, the list is repeated over the
   /// cameras. The defaults differ, because two cameras at the same height cannot determine the direction of a limb that
-  /// is parallel to the line between them: hips, shoulders and stretched arms of a performer who faces both cameras.
+  /// is parallel to the line between the cameras: hips, shoulders and stretched arms of a performer who faces both
+  /// cameras.
   std::vector<double> heights_m = {1.0, 2.2};
   double distance_m = 3.8;       ///< distance from the middle of the performer's motion; less if the room is too small
   double baseline_m = 0.6;       ///< kStereo: distance between the two cameras
@@ -40,7 +41,7 @@ constexpr std::size_t kMaxCameras = 8;
 /// would cut off the performer gets a wider lens, up to 94° (half of the usual focal length); joints that still leave
 /// the picture are out of view. Positions and angles have random errors, because nobody places a tripod to the
 /// centimetre; every camera has its own random numbers. A user's own rig is only moved along the floor as a whole: the
-/// point nearest to its optical axes moves to the middle of the motion.
+/// point nearest to the rig's optical axes moves to the middle of the motion.
 /// @param motion at least one pose, metres, Y up
 std::vector<Camera> SetUpCameras(const RigOptions& options, std::span<const BodyPose> motion, const WorldKey& key);
 

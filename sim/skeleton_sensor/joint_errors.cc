@@ -13,7 +13,7 @@ namespace {
 /// Returns the factor by which the state of a first-order low pass decays in one frame; 0 for a time constant of 0.
 double MemoryOf(double time_s, double rate_hz) { return time_s > 0 ? std::exp(-1.0 / (rate_hz * time_s)) : 0.0; }
 
-constexpr double kLoudnessTime = 0.7;  // approximate duration of a burst, seconds (ours)
+constexpr double kLoudnessTime = 0.7;  // approximate duration of a burst of fast noise, seconds (ours)
 
 using enum Role;
 
@@ -33,7 +33,7 @@ PoseLengths LengthsOf(const SkeletonSensorOptions& options) {
   return {.own = options.pose_length_m, .far = options.far_pose_length_m};
 }
 
-constexpr double kFullSpeed = 0.5;  // m/s; at this speed the fast part has its full size
+constexpr double kFullSpeed = 0.5;  // m/s; at this speed of a joint the fast part has its full size
 constexpr double kSpeedCap = 1.3;   // as a multiple of kFullSpeed; above this speed the fast part does not grow
 
 double FastGain(const JointSpeeds& speeds, std::size_t joint, const SkeletonSensorOptions& options) {
@@ -44,8 +44,8 @@ double FastGain(const JointSpeeds& speeds, std::size_t joint, const SkeletonSens
   return options.fast_quiet + (1 - options.fast_quiet) * activity * activity;
 }
 
-/// The line of sight to a joint, two axes across it, and the growth of errors: their size at the joint's distance
-/// divided by their size at the reference distance.
+/// The line of sight to a joint, two axes across it, and the growth of errors, which is the size of errors at the
+/// joint's distance divided by their size at the reference distance.
 struct Sight {
   glm::dmat3 axes;  ///< columns: two axes across the line of sight, then the line of sight
   double across_growth, along_growth;
@@ -60,7 +60,7 @@ Sight SightOf(const Camera& sensor, const glm::dvec3& joint, const SkeletonSenso
   const glm::dvec3 off = right - glm::dot(right, along) * along;
   const double length = glm::length(off);
   const glm::dvec3 across = length > 1e-9 ? off / length : glm::dvec3(sensor.R_CW[0][1], sensor.R_CW[1][1], 0);
-  const double z = std::max(0.5, glm::dot(forward, from));  // a Kinect sees no body nearer than this
+  const double z = std::max(0.5, glm::dot(forward, from));  // ≥ 0.5 m: a Kinect sees no nearer body
   const double z0 = options.reference_distance_m;
   return {.axes = {across, glm::cross(along, across), along},
           .across_growth = z / z0,
@@ -74,7 +74,8 @@ glm::dvec3 InWorld(const Sight& sight, const glm::dvec3& unit, double size, doub
          (across * unit * glm::dvec3(sight.across_growth, sight.across_growth, depth_ratio * sight.along_growth));
 }
 
-/// A bone at a joint: its other end, and the factor on the joint's own error along the bone.
+/// A bone at a joint: the bone's other end, and the factor on that part of the joint's own error which is along the
+/// bone.
 struct StiffBone {
   std::optional<Role> other;
   double stretch = 1;
@@ -97,7 +98,7 @@ std::array<StiffBone, 2> StiffBonesOf(Role role, const SkeletonSensorOptions& op
 }
 
 /// Multiplies a joint's own error (in the axes of `sight`) along its bones by their stretch factors, then scales it so
-/// that the mean square stays the same. The mean square is exact with one bone or perpendicular bones.
+/// that the mean square stays the same. This is exact with one bone or with perpendicular bones.
 glm::dvec3 Stiffened(glm::dvec3 own, Role role, const BodyPose& pose, const Sight& sight,
                      const SkeletonSensorOptions& options) {
   double mean_square = 3;
@@ -118,8 +119,8 @@ SlowNoise::SlowNoise(double time_s, double smoothing_s, double rate_hz, RandomSt
   // − s m)).
   const double s = smoothing_, m = memory_;
   scale_ = std::sqrt((1 + s) * (1 - s * m) / ((1 - s) * (1 + s * m)));
-  // Draw from the stationary joint distribution of both processes: variances 1 and 1/scale², covariance (1 − s) / (1 −
-  // s m).
+  // Draw from the stationary joint distribution of the two processes (low pass and second low pass): variances 1 and
+  // 1/scale², covariance (1 − s) / (1 − s m).
   const glm::dvec3 a = dice.Normal3(), b = dice.Normal3();
   const double covariance = (1 - s) / (1 - s * m);
   const double rest = std::max(0.0, 1 / (scale_ * scale_) - covariance * covariance);
@@ -144,7 +145,7 @@ glm::dvec3 BurstNoise::Next(RandomStream& dice) {
 }
 
 PoseField::PoseField(Role role, const PoseLengths& lengths, RandomStream& dice) {
-  // Choose the joint positions on which the function depends.
+  // Choose the joint positions on which the random function depends.
   const auto depend_on = [&](Role joint, bool from_shoulders, double length) {
     points_[point_count_++] = {joint, from_shoulders, length};
   };
@@ -248,7 +249,7 @@ FrameErrors ContinuousErrors::Next(const BodyPose& pose, const FrameMotion& moti
     const glm::dvec3 white = group.white * wander_dice_.Normal3();
     const bool is_foot = GroupOf(role) == JointGroup::kFeet;
     const double size = is_foot ? glm::mix(options_.planted_feet, group.size, moves) : group.size;
-    const double rest_axis = std::sqrt(3.0);  // `still` and `white` are per axis; InWorld expects sizes over three axes
+    const double rest_axis = std::sqrt(3.0);  // `still` and `white` are sizes per axis; InWorld expects all axes
     errors[j] = options_.strength * (InWorld(sight, unit[j], size, group.depth_ratio) +
                                      InWorld(sight, wander + white, rest_axis, group.depth_ratio));
   }

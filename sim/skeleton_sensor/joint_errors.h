@@ -28,7 +28,7 @@ class SlowNoise {
   glm::dvec3 first_{0}, second_{0};
 };
 
-/// Fast noise in bursts, with unit variance over long times and heavy tails: its kurtosis is 3 exp(4 tail²).
+/// Fast noise in bursts, with unit variance over long times and heavy tails: the kurtosis is 3 exp(4 tail²).
 class BurstNoise {
  public:
   BurstNoise(double time_s, double tail, double rate_hz, RandomStream& dice);
@@ -41,15 +41,16 @@ class BurstNoise {
   SlowNoise noise_, loudness_;
 };
 
-/// The correlation lengths of a joint's error: the distances, metres, that joints must move until the error has
-/// changed.
+/// The correlation lengths of a joint's error: the distances, metres, by which joints must move before the error is
+/// different.
 struct PoseLengths {
-  double own = 0.25;  ///< length for movement of the joint itself or of the next joint of its limb
-  double far = 0.8;   ///< length for movement of the arms, in errors of trunk and legs
+  double own = 0.25;  ///< length for movements of the joint itself or of the next joint of its limb
+  double far = 0.8;   ///< length for movements of the arms; used in the errors of trunk and legs
 };
 
-/// A smooth random function of the pose for one joint, with a standard normal distribution along each axis. It is a sum
-/// of random waves over the positions of the joint, of its limb and of the arms, so equal poses have equal values.
+/// A smooth random function of the pose for one joint, with a standard normal distribution along each axis. The
+/// function is a sum of random waves over the positions of the joint, its limb and the arms, so equal poses have equal
+/// values.
 class PoseField {
  public:
   PoseField(Role role, const PoseLengths& lengths, RandomStream& dice);
@@ -92,8 +93,8 @@ using FrameErrors = std::array<glm::dvec3, kRoleCount>;
 
 /// The continuous errors of clearly seen joints, frame by frame. A joint's error is ρ times its parent's error plus √(1
 /// − ρ²) times its own error; errors are in units of the size of the joint's group, along and across the line of sight.
-/// The own error depends on the pose; a share of it is fast and comes in bursts. The slow drift of a body at rest is
-/// added joint by joint.
+/// A joint's own error depends on the pose; a share of its variance is fast and comes in bursts. The slow drift of a
+/// body at rest is added joint by joint.
 class ContinuousErrors {
  public:
   /// `rate_hz` must be positive.

@@ -10,8 +10,8 @@
 namespace etude {
 namespace {
 
-constexpr std::size_t kSpeedReach = 2;           // frames before and after a frame over which a speed is measured
-constexpr std::size_t kFootReach = 5;            // frames before and after a frame over which a foot's motion is judged
+constexpr std::size_t kSpeedReach = 2;           // frames on either side of a frame over which a speed is measured
+constexpr std::size_t kFootReach = 5;            // frames on either side of a frame over which a foot's motion is rated
 constexpr double kResting = 0.1, kMoving = 0.6;  // m/s; a foot is at rest below kResting and in motion above kMoving
 static_assert(kSpeedReach + kFootReach == MotionWindow::kAhead);
 
@@ -44,7 +44,7 @@ std::optional<MotionWindow::Known> MotionWindow::Next() {
   Known known{PoseAt(frame), {.speeds = frame_speeds_[frame % kKept], .moves = {}}};
   known.motion.moves.fill(1);
   const std::size_t last = std::min(frame + kFootReach, count_ - 1);
-  // Rate each foot by its fastest frame within kFootReach frames: 0 at rest, 1 in motion.
+  // Rate each foot by the foot's largest speed within kFootReach frames: 0 at rest, 1 in motion.
   for (const Role role : AllRoles()) {
     if (GroupOf(role) != JointGroup::kFeet) continue;
     double fastest = 0;

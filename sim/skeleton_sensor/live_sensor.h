@@ -15,7 +15,7 @@ using JointSpeeds = std::array<double, kRoleCount>;
 /// The motion of a body in one frame.
 struct FrameMotion {
   JointSpeeds speeds{};                    ///< central differences over two frames before and after
-  std::array<double, kRoleCount> moves{};  ///< 0 for a foot at rest on the floor, 1 in motion and for all other joints
+  std::array<double, kRoleCount> moves{};  ///< 0 for a foot at rest on the floor; 1 for a moving foot and other joints
 };
 
 /// Computes the motion around each frame of a stream. A foot counts as moving from shortly before it leaves the floor
@@ -29,15 +29,15 @@ class MotionWindow {
 
   /// Adds the next frame of the stream.
   void Push(const BodyPose& pose);
-  /// Ends the stream: the motion of the last frames is computed from the frames that exist.
+  /// Ends the stream: the motion of the last frames is then computed without frames after them.
   void End() { ended_ = true; }
   /// A pose with its motion.
   struct Known {
     const BodyPose& pose;  ///< valid until the next Push
     FrameMotion motion;
   };
-  /// Returns the next frame whose motion is known, and moves on to the frame after it; nullopt if more poses are needed
-  /// first.
+  /// Returns the next frame whose motion is known, and advances to the frame after it; returns nullopt if more poses
+  /// must be pushed first.
   std::optional<Known> Next();
 
  private:
@@ -59,8 +59,9 @@ class MotionWindow {
 /// A sensor that observes a body while it moves, for closed loops such as a coach and a learner.
 class LiveSensor {
  public:
-  /// The number of frames by which the body must plan ahead. A skeleton sensor's errors depend on the body's coming
-  /// motion, and cameras expose between frames. A frame's report never depends on later pictures or reports.
+  /// The number of frames by which the body must plan ahead. A skeleton sensor's errors depend on the body's motion
+  /// shortly after the frame, and cameras expose between frames. A frame's report never depends on later pictures or
+  /// reports.
   static constexpr std::size_t kAhead = MotionWindow::kAhead;
 
   virtual ~LiveSensor() = default;

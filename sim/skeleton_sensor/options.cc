@@ -33,7 +33,7 @@ struct NumberKey {
 };
 const std::vector<NumberKey>& NumberKeys() {
   using Options = SkeletonSensorOptions;
-  // Each row has the key in the file, the option that it sets, and its allowed range.
+  // Each row has the key in the file, the option that this key sets, and the option's allowed range.
   static const std::vector<NumberKey> keys = {
       {"reference_distance_m", &Options::reference_distance_m, {0.5, 10}},
       {"arm_stretch", &Options::arm_stretch, {0, 5}},
@@ -200,13 +200,13 @@ SkeletonSensorOptions SensorV1() {
   v1.view = {.width = 640, .height = 480, .fx = 580, .fy = 580, .cx = 320, .cy = 240, .skew = 0};  // view 57° × 43°
   v1.depth_law = DepthLaw::kStructuredLight;
   // The sizes of torso and head, hands and feet reproduce the published errors in a dance. The sizes of elbows and
-  // knees lie between them (ours). Errors are larger in depth than across the line of sight; for a v2, published ratios
-  // are 1.2–1.8 at knees and feet, and all groups use such ratios.
+  // knees lie between them (ours). Errors are larger in depth than across the line of sight; published ratios for a v2
+  // are 1.2–1.8 at knees and feet, and the ratios of all groups are in this range.
   constexpr GroupErrors kTrunk{.size = 0.025, .depth_ratio = 1.4, .still = 0.0014, .white = 0.0002};
   constexpr GroupErrors kMiddle{.size = 0.038, .depth_ratio = 1.4, .still = 0.0020, .white = 0.0006};
   constexpr GroupErrors kEnds{.size = 0.066, .depth_ratio = 1.4, .still = 0.0030, .white = 0.0010};
   v1.groups = {kTrunk, kTrunk, kMiddle, kEnds, kEnds, kTrunk, kMiddle, kEnds};
-  // The correlations come from the v2's recordings, because no source gives the v1's.
+  // The correlations come from the v2's recordings, because no source states correlations for the v1.
   v1.correlation = SensorV2().correlation;
   v1.lag_frames = 3;  // Livingston et al. 2012: 106 ms at best
   return v1;

@@ -55,52 +55,53 @@ std::span<const BoneKind, kBoneKindCount> AllBoneKinds();
 /// The sizes of a group's errors, metres. `size` is a root mean square distance in three dimensions; `still` and
 /// `white` are standard deviations per axis.
 struct GroupErrors {
-  double size = 0;         ///< the pose-dependent and the fast part together, in motion, at the reference distance
+  double size = 0;         ///< root mean square of the pose-dependent and the fast part together, in motion
   double depth_ratio = 1;  ///< ratio of errors along the line of sight to errors along each axis across it
-  double still = 0;        ///< the slow drift of a body that stands still
+  double still = 0;        ///< the slow drift of the joints of a body that stands still
   double white = 0;        ///< the uncorrelated part of the errors
 };
 
-/// The law by which errors along the line of sight grow with the distance z from the sensor (metres along its axis).
-/// Errors across the line of sight are proportional to z, like the size of a pixel on the surface.
+/// The law by which errors along the line of sight grow with the distance z from the sensor (metres along the sensor's
+/// axis). Errors across the line of sight are proportional to z, like the size of a pixel on the surface.
 enum class DepthLaw {
   /// Structured light: σ_z = 0.0012 + 0.0019 (z − 0.4)² m (Nguyen, Izadi and Lovell 2012).
   kStructuredLight,
   /// Time of flight: σ_z = 1.5 − 0.5 z + 0.3 z² mm (Fankhauser et al. 2015, for surfaces that face the sensor).
   kTimeOfFlight,
 };
-/// Returns σ_z of a single depth pixel, metres. Joints use only its relative growth, because a joint is estimated from
-/// many pixels.
+/// Returns σ_z of a single depth pixel, metres. Errors of joints use only the relative growth of σ_z, because a joint
+/// is estimated from many pixels.
 double DepthDeviation(DepthLaw law, double z);
 
 /// The errors of a Kinect-like skeleton sensor: `SensorV1()`, `SensorV2()` or a file (docs/sensor.md). Comments at the
 /// presets state the sources of the values.
 struct SkeletonSensorOptions {
-  /// Multiplies every size, probability and lag below (probabilities are limited to 1). It does not affect which
-  /// joints are hidden or out of view, nor the offsets of guesses for hidden joints. At 0, hidden joints are inferred
-  /// correctly, and all other joints are reported at their true positions.
+  /// Multiplies every size, probability and lag below (probabilities are limited to 1). The strength does not affect
+  /// which joints are hidden or out of view, nor the offsets of guesses for hidden joints. At 0, hidden joints are
+  /// inferred correctly, and all other joints are reported at their true positions.
   double strength = 1.0;
 
   Intrinsics view;  ///< intrinsics of the depth camera
   DepthLaw depth_law = DepthLaw::kTimeOfFlight;
-  double reference_distance_m = 2.75;  ///< the distance for which the sizes are given
+  double reference_distance_m = 2.75;  ///< the distance at which errors have their `size`
 
   std::array<GroupErrors, kJointGroupCount> groups;
-  /// Errors follow a linear model on the tree of the body: in units of its group's size, a joint's error is ρ times its
-  /// parent's error plus √(1 − ρ²) times its own error. ρ depends on the kind of bone and is in (−1, 1).
+  /// Errors follow a linear model on the tree of the body: in units of the size of the joint's group, a joint's error
+  /// is ρ times the parent joint's error plus √(1 − ρ²) times the joint's own error. ρ depends on the kind of bone and
+  /// is in (−1, 1).
   std::array<double, kBoneKindCount> correlation{};
   /// Factors on a joint's own error along the bones that end in the joint. With a factor below 1, the sensor keeps limb
   /// lengths nearly constant.
   double arm_stretch = 1;       ///< factor for shoulders, elbows and wrists along upper arm and forearm
   double hand_stretch = 1;      ///< factor for hands along the hand
-  double shoulder_stretch = 1;  ///< factor for shoulders along the line between them
-  /// The `size` of an ankle or foot at rest on the floor, whose noise has the time constant `rest_time_s`. In motion,
-  /// the group's size applies.
+  double shoulder_stretch = 1;  ///< factor for shoulders along the line between the shoulders
+  /// The `size` of the errors of an ankle or foot at rest on the floor; the noise then has the time constant
+  /// `rest_time_s`. In motion, the size of the group applies.
   double planted_feet = 0.003;
   double rest_time_s = 0.2;  ///< time constant of the noise of resting feet (ours)
 
-  // The slow drift: its time constant, and the time constant of a second low pass. If the second is 0, there is only
-  // one low pass (an Ornstein–Uhlenbeck process).
+  // The slow drift: its time constant, and the time constant of a second low pass. If the second time constant is 0,
+  // there is only one low pass (an Ornstein–Uhlenbeck process).
   double wander_time_s = 0.4;
   double wander_smoothing_s = 0;
 
@@ -112,15 +113,15 @@ struct SkeletonSensorOptions {
   double mode_ratio = 4;           ///< size of errors in the second mode ÷ size in the first (ours)
 
   // The fast part: noise in bursts, larger when the body moves.
-  double fast_share = 0.2;    ///< share of the variance of `size`
-  double fast_time_s = 0.05;  ///< time constant of the noise (ours)
-  double fast_quiet = 0.05;   ///< factor on this noise at rest; rises with the square of speed to 1 at 0.5 m/s (ours)
+  double fast_share = 0.2;    ///< share of the variance of `size` that is fast
+  double fast_time_s = 0.05;  ///< time constant of the fast noise (ours)
+  double fast_quiet = 0.05;   ///< factor on fast noise at rest; grows with the square of speed to 1 at 0.5 m/s (ours)
   double fast_tail = 0.7;     ///< standard deviation of the logarithm of the bursts' strength; 0: Gaussian noise (ours)
 
   int lag_frames = 0;  ///< delay of the report, frames
 
-  // Occlusion: the guess for hidden joints is kept for an episode. An episode lasts for a number of frames in this
-  // range. After the shortest duration, it also ends when the limb is seen again.
+  // Occlusion: the guess for hidden joints is kept for an episode. The length of an episode is a number of frames in
+  // this range. After the shortest length, an episode also ends when the limb is seen again.
   int shortest_episode = 3;
   int longest_episode = 40;
   double nearest_guess_m = 0.2;  ///< smallest and largest error of a wrong guess for a hand or foot
@@ -129,7 +130,7 @@ struct SkeletonSensorOptions {
 
   double dropout_share = 0.02;    ///< share of all frames in which the whole body is lost
   double swaps_per_minute = 1.0;  ///< exchanges of left and right arms or legs in profile, 1/3 s each (ours)
-  bool swaps_when_facing = true;  ///< false: the rate is proportional to 1 − cos of the turn from the sensor (ours)
+  bool swaps_when_facing = true;  ///< false: rate proportional to 1 − cos(the body's turn from the sensor) (ours)
   double outlier_chance = 0.001;  ///< probability per joint and frame (ours; Gaussian + uniform: arXiv 1512.04134)
   double outlier_size_m = 0.15;   ///< largest error of an outlier on each axis, drawn uniformly (ours)
 

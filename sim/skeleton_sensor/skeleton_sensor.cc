@@ -24,7 +24,7 @@ double NearestOccluder(const std::vector<Cuboid>& furniture, const std::vector<C
 
 using enum Role;
 
-/// A limb's joints from its root outwards, in the order in which the errors of a guess increase.
+/// A limb's joints from its root outwards, which is also the order of increasing errors of a guess.
 struct Limb {
   std::array<Role, 4> joints;
 };
@@ -91,7 +91,7 @@ FrameGuesses OcclusionGuesses::Next(const BodyPose& pose, const HiddenJoints& hi
     const glm::dvec3 inwards = pose[limb.joints.front()] - pose[limb.joints.back()];
     const glm::dvec3 lean = glm::normalize(inwards + glm::dvec3(0, 1e-6, 0)) + episode.direction;
     const glm::dvec3 offset = episode.wrong ? episode.size_m * glm::normalize(lean) : glm::dvec3(0);
-    // Offset every joint that was hidden at some time in the episode; the offset grows towards the limb's end.
+    // Offset every joint that was hidden at some time in the episode; the offset increases towards the limb's end.
     for (std::size_t k = 1; k < limb.joints.size(); ++k) {
       const std::size_t joint = Index(limb.joints[k]);
       episode.joints[k] |= hidden[joint];
@@ -212,7 +212,7 @@ SensedFrame SkeletonSensor::Sense(const BodyPose& pose, const FrameMotion& motio
   return frame;
 }
 
-/// Delays every frame by Lag() frames. Until the first delayed frame, the first frame is repeated.
+/// Returns the frame that was sensed Lag() frames earlier; at first, while there is none, the first frame.
 SensedFrame SkeletonSensor::Delayed(const SensedFrame& sensed) {
   if (frame_ == 0) std::fill(delayed_.begin(), delayed_.end(), sensed);
   delayed_[frame_ % delayed_.size()] = sensed;

@@ -17,21 +17,21 @@
 
 namespace etude {
 
-/// For each joint of one frame: true if it is hidden.
+/// For each joint of one frame: true if the joint is hidden.
 using HiddenJoints = std::array<bool, kRoleCount>;
 
 /// The objects that may hide a body from a sensor, besides the body itself.
 struct Occluders {
   std::vector<Cuboid> furniture;
-  std::vector<BodyPose> bystander;  ///< a second person: one pose per frame; the last pose is repeated; empty: nobody
+  std::vector<BodyPose> bystander;  ///< a second person, one pose per frame; the last pose is repeated; empty: nobody
 };
 
 /// Finds the joints of `pose` that are hidden from `eye` in this frame: the ray to the joint hits another part of the
-/// body, furniture or the second person at least 2 cm before it reaches the joint's own skin. The body has the shape
-/// that the renderer draws (sim/body).
+/// body, furniture or the second person at least 2 cm before the ray reaches the joint's own skin. The body has the
+/// shape that the renderer draws (sim/body).
 HiddenJoints FindHidden(const BodyPose& pose, std::size_t frame, const Occluders& occluders, const glm::dvec3& eye);
 
-/// The sensor's guess for a joint that is not clearly seen.
+/// The sensor's guess of the position of a joint that is not clearly seen.
 struct Guess {
   bool inferred = false;
   glm::dvec3 offset{0};  ///< offset from the position that would be reported if the joint were seen, metres
@@ -48,14 +48,14 @@ class OcclusionGuesses {
 
  private:
   static constexpr std::size_t kLimbs = 4, kJointsOfLimb = 4;
-  /// The current guess for the hidden joints of one limb. It is randomly right or wrong.
+  /// The current guess for the hidden joints of one limb. The guess is right or wrong at random.
   struct Episode {
     int age = 0;
     int length = 0;  ///< length of the episode, frames; 0: no episode
     bool wrong = false;
     double size_m = 0;
     glm::dvec3 direction{0};
-    std::array<bool, kJointsOfLimb> joints{};  ///< joints that were hidden at some time in the episode
+    std::array<bool, kJointsOfLimb> joints{};  ///< true for joints that were hidden at some time in the episode
 
     bool IsRunning() const { return length > 0; }
   };
@@ -91,7 +91,7 @@ class Swaps {
   Swap Next(double turn);
 
  private:
-  double usual_chance_;  ///< probability that a swap starts in a frame
+  double usual_chance_;  ///< probability that a swap starts in a frame, for the usual rate
   bool when_facing_;
   int length_;  ///< length of a swap, frames
   RandomStream dice_;
@@ -118,7 +118,7 @@ struct SensorPlacement {
   double turn = 0;         ///< radians; the performer appears turned by this angle
   double height = 1.0;     ///< metres above the floor; the sensor looks at a point one metre above the floor
 };
-/// Returns the sensor as a camera at its pose, with the intrinsics `view`.
+/// Returns the sensor as a camera at the sensor's pose, with the intrinsics `view`.
 Camera SkeletonSensorAt(const SensorPlacement& place, const Intrinsics& view);
 
 /// Simulates a skeleton sensor, frame by frame. A joint's error depends on the body's motion around the frame, so a
@@ -151,7 +151,7 @@ class SkeletonSensor final : public LiveSensor {
   Swaps swaps_;
   Dropouts dropouts_;
   std::size_t frame_ = 0;             ///< number of frames sensed so far
-  SensedFrame last_;                  ///< the last frame, before swaps
+  SensedFrame last_;                  ///< the last frame, as it was before swaps
   std::vector<SensedFrame> delayed_;  ///< a ring of the last Lag() + 1 frames
 };
 

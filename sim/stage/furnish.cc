@@ -13,8 +13,8 @@
 namespace etude {
 namespace {
 
-// Collects the boxes of a piece of furniture in the piece's own frame: x to its left, y up, z away from the wall.
-// Metres.
+// Collects the boxes of a piece of furniture in the piece's own frame: x to the left, y up, z away from the wall;
+// metres.
 class FurnitureBuilder {
  public:
   FurnitureBuilder(const glm::dvec3& place, double heading) : place_(place), heading_(heading) {}
@@ -76,8 +76,8 @@ void AddLegs(FurnitureBuilder& builder, double half_x, double z_near, double z_f
 
 // Each function below makes one piece of furniture from boxes. `place` is the point on the floor at the middle of the
 // piece's back, or at its centre if the piece stands free; `heading` is the direction of its front. Sizes, colours and
-// details are random. Colours are interpolated by `share` between the studio's (0) and those of everyday objects (1).
-// Each function draws a constant number of random numbers.
+// details are random. Colours are interpolated by `share` between the studio's colours (0) and the colours of everyday
+// objects (1). Each function draws a constant number of random numbers.
 
 std::vector<FurnitureBox> MakeCupboard(RandomStream& random, double share, const glm::dvec3& place, double heading) {
   const double half = random.Uniform(0.4, 0.65), height = random.Uniform(0.9, 2.05), deep = random.Uniform(0.36, 0.48);
@@ -135,7 +135,7 @@ std::vector<FurnitureBox> MakeTable(RandomStream& random, double share, const gl
   return std::move(builder).Take();
 }
 
-// Makes a low cabinet with a screen on it. The screen is the last box.
+// Makes a low cabinet with a screen on top. The screen is the last box in the result.
 std::vector<FurnitureBox> MakeScreen(RandomStream& random, double share, const glm::dvec3& place, double heading) {
   const double half = random.Uniform(0.5, 0.7), low = random.Uniform(0.42, 0.55), wide = random.Uniform(0.42, 0.58);
   const SurfacePaint wood = DrawWood(random, share);
@@ -147,7 +147,7 @@ std::vector<FurnitureBox> MakeScreen(RandomStream& random, double share, const g
   return std::move(builder).Take();
 }
 
-// Makes a plant's pot as one box. The plant's leaves move, so they belong to Movers.
+// Makes a plant's pot as one box. The plant's leaves move; class Movers draws them.
 std::vector<FurnitureBox> MakePlantPot(RandomStream& random, double share, const glm::dvec3& place, double heading) {
   const double half = random.Uniform(0.13, 0.2), height = random.Uniform(0.25, 0.42), out = random.Uniform(0.35, 0.5);
   const SurfacePaint pot = WithGrain(DrawMixed(random, share), Pattern::kPlain, 0.1);
@@ -194,7 +194,7 @@ std::vector<FurnitureBox> MakeCrate(RandomStream& random, double share, const gl
   return std::move(builder).Take();
 }
 
-// A piece can be in the room if `scene` is at least the value of this piece.
+// A piece can be in the room if `scene` is at least this threshold of the piece.
 constexpr double kPoster1 = 0.05, kCupboard = 0.10, kPlant = 0.15, kRug = 0.20, kShelf = 0.25, kPoster2 = 0.30;
 constexpr double kWindow = 0.35, kSofa = 0.40, kScreen = 0.45, kTable = 0.50, kPoster3 = 0.55, kChair = 0.65;
 constexpr double kPile = 0.75, kCrate = 0.85;
@@ -287,7 +287,7 @@ void HangPictures(const WorldKey& key, double scene, double share, Interior& roo
                   .size = random.Uniform(-0.4, 0.1)};
   window.frame = {225, 222, 214};
   window.glow = daylight;
-  // Hang the window on the wall, and let its light into the room.
+  // Hang the window on the wall, and let light through it into the room.
   if (scene < kWindow) return;
   room.pictures.push_back(window);
   Lights& lights = room.lights;
@@ -299,7 +299,7 @@ void HangPictures(const WorldKey& key, double scene, double share, Interior& roo
   lights.window_colour = strength * glm::dvec3(0.92, 0.98, 1.08);
 }
 
-// A place along a wall for one piece: the position of the middle of its back, and its heading.
+// A place along a wall for one piece of furniture: the middle of the piece's back, and the piece's heading.
 struct Slot {
   glm::dvec3 place{0};
   double heading = 0;
@@ -330,13 +330,13 @@ bool StandsOn(const FurnitureBox& box, const FreeFloor& free) {
 }
 
 // Returns a place for a piece of furniture, between the performer and a camera, at the edge of the free floor. A piece
-// there hides a part of the performer's legs.
+// in this place hides a part of the performer's legs.
 Slot InFrontOf(const Camera& camera, const FreeFloor& free, double aside, double turn) {
   const glm::dvec2 middle = 0.5 * (free.low + free.high), half = 0.5 * (free.high - free.low);
   glm::dvec2 towards(camera.p_WC.x - middle.x, camera.p_WC.z - middle.y);
   const double away = glm::length(towards);
   towards = away > 0 ? towards / away : glm::dvec2(0, 1);
-  // Go from the centre of the free floor to its border, and 45 cm farther.
+  // Go from the centre of the free floor to the border of this floor, and 45 cm farther.
   const double to_border = std::min(std::abs(towards.x) > 1e-6 ? half.x / std::abs(towards.x) : 1e9,
                                     std::abs(towards.y) > 1e-6 ? half.y / std::abs(towards.y) : 1e9);
   const double distance = std::min(to_border + 0.45, 0.62 * away);
@@ -386,7 +386,7 @@ FurnishedRoom Furnish(std::uint64_t seed, double scene, double colour_share, con
   add_piece("table", kTable, MakeTable, slots[5]);
   add_piece("pile", kPile, MakePile, slots[6]);
 
-  // Put the last two pieces where they hide a part of the performer from a camera.
+  // Put the last two pieces of furniture where they hide a part of the performer from a camera.
   const double chair_aside = front.Uniform(-0.35, 0.35), chair_turn = front.Uniform(-kPi, kPi);
   const double crate_aside = front.Uniform(-0.35, 0.35), crate_turn = front.Uniform(-kPi, kPi);
   const std::size_t first = front.IndexBelow(2);

@@ -23,7 +23,8 @@ Hsv Mixed(const Hsv& a, const Hsv& b, double share);
 /// sometimes any hue. The number of random numbers is constant.
 Hsv DrawColour(RandomStream& random);
 
-/// Draws a colour of the studio's objects, with a hue of 150–230°. Performers in the studio have no such hue.
+/// Draws a colour of the studio's objects, with a hue of 150–230°. The performer's clothes in the studio have no such
+/// hue.
 Hsv DrawStudioColour(RandomStream& random);
 
 }  // namespace etude

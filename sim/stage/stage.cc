@@ -19,7 +19,7 @@ namespace {
 // The values of `scene` from which on the ball and the second person are present. (The plant and the screen appear with
 // their furniture.)
 constexpr double kBall = 0.55, kBystander = 0.60;
-constexpr double kShotSeconds = 1.7;  // duration of one picture on the screen, seconds
+constexpr double kShotSeconds = 1.7;  // duration of each picture that the screen shows, seconds
 
 double Wave(double seconds, double rate_hz, double phase) { return std::sin(2 * kPi * (rate_hz * seconds + phase)); }
 
@@ -47,7 +47,7 @@ FreeFloor FloorOf(std::span<const BodyPose> poses) {
 Movers::Movers(std::uint64_t seed, double scene, double colour_share, const FurnishedRoom& room, const FreeFloor& free)
     : seed_(seed), scene_(scene), colour_share_(colour_share), places_(room.places) {
   const WorldKey key{seed, "stage", 0};
-  // Place the plant's leaves around the pot, each turned by the golden angle from the one before.
+  // Place the plant's leaves around the pot, each turned by the golden angle from the previous leaf.
   RandomStream plant(key, "leaves"), ball(key, "ball"), person(key, "bystander");
 
   leaf_colour_ = ToRgb(Mixed({150, 0.5, 0.5}, {plant.Uniform(80, 130), 0.5, plant.Uniform(0.35, 0.6)}, colour_share));
@@ -129,7 +129,7 @@ Figure Movers::ScreenAt(double seconds) const {
   }
   surface.triangles = {{0, 1, 2}, {0, 2, 3}};
   surface.parts = {Part::kClutter, Part::kClutter};
-  surface.is_closed = true;  // its back is inside the box
+  surface.is_closed = true;  // true, because the back of the surface is inside the box
   surface.paint =
       SurfacePaint{.first = ToRgb(bright), .second = ToRgb(other), .pattern = Pattern::kChecks, .size = size};
   return {.shape = {}, .surfaces = {surface}, .seen_as = Part::kClutter};
@@ -167,8 +167,8 @@ std::vector<Figure> Movers::At(double seconds) const {
 }
 
 double ColourShare(double scene) {
-  // The share of everyday colours at equally spaced values of `scene`. Segmentation by hue tolerates large shares. With
-  // these values, the IoU of segmentation falls about evenly with `scene` (README.md).
+  // The share of everyday colours at equally spaced values of `scene`. Segmentation by hue becomes difficult only at
+  // large shares. With these values, the IoU of segmentation falls about evenly with `scene` (README.md).
   constexpr std::array kSteps = {0.0, 0.85, 0.92, 0.95, 1.0};
   const double step = std::clamp(scene, 0.0, 1.0) * (kSteps.size() - 1);
   const auto below = std::min(static_cast<std::size_t>(step), kSteps.size() - 2);

@@ -20,7 +20,7 @@ class Movers {
  public:
   Movers(std::uint64_t seed, double scene, double colour_share, const FurnishedRoom& room, const FreeFloor& free);
 
-  /// Returns the figures at a time, which may be before the take. They are labelled kClutter and kBystander.
+  /// Returns the figures at a time, which may be before the take. The figures are labelled kClutter and kBystander.
   std::vector<Figure> At(double seconds) const;
 
   /// Returns the second person's joints at a time; nullopt if the room has no second person.
@@ -58,15 +58,15 @@ class Movers {
 
 /// The options of a stage.
 struct StageOptions {
-  std::uint64_t seed = 1;  ///< seed of all random numbers; they do not depend on `scene`
+  std::uint64_t seed = 1;  ///< seed of all random numbers; `scene` does not change these numbers
   /// 0 = the studio: an empty, bluish room and a performer of capsules in warm colours. 1 = a furnished room with
   /// moving people and objects, whose colours the performer's clothes share (README.md has the table).
   double scene = 0;
   Wardrobe wardrobe = Wardrobe::kStudio;
 };
 
-/// The room around a performer: furniture, moving objects, the performer's clothes, and the lighting. At scene 0 all of
-/// these are absent.
+/// The room around a performer: furniture, moving objects, the performer's clothes, and the lighting. At scene 0 the
+/// room has none of them.
 class StagedRoom {
  public:
   StagedRoom() = default;
@@ -79,7 +79,7 @@ class StagedRoom {
   bool IsPerformerDressed() const { return performer_.has_value(); }
   /// Returns the performer: dressed, or, at scene 0, as capsules in the `studio` colours.
   Figure PerformerAt(const BodyPose& pose, const PartColours& studio) const;
-  /// Returns the moving objects at `seconds` after the take's start; a negative time is before it.
+  /// Returns the moving objects at `seconds` after the take's start; negative times are before the start.
   std::vector<Figure> MoversAt(double seconds) const;
   /// Returns the second person's joints; nullopt if the room has no second person.
   std::optional<BodyPose> BystanderAt(double seconds) const;
@@ -87,7 +87,7 @@ class StagedRoom {
   /// time.
   double FlickerAt(double seconds) const;
 
-  /// The background picture is taken at this time: before the take, when all moving objects are elsewhere.
+  /// The background picture is taken at this time, seconds: before the take, when all moving objects are elsewhere.
   static constexpr double kBackgroundSeconds = -6.3;
 
  private:
@@ -98,7 +98,7 @@ class StagedRoom {
   double flicker_ = 0, flicker_phase_ = 0;
 };
 
-/// Returns the share of everyday colours at this value of `scene`; the rest is the studio's.
+/// Returns the share of everyday colours at this value of `scene`; the other colours are the studio's.
 double ColourShare(double scene);
 
 }  // namespace etude

@@ -21,7 +21,7 @@ SurfacePaint Plain(const Hsv& colour) {
   return {.first = rgb, .second = rgb};
 }
 
-// The colour of a garment, and the second colour of its pattern.
+// The colour of a garment, and the second colour of the garment's pattern.
 struct Dye {
   Hsv first, second;
 };
@@ -96,7 +96,7 @@ PartColours CodedSuit() {
                                  kLeftForearm, kLeftHand,      kHead,         kRightThigh, kRightShank,
                                  kRightFoot,   kRightUpperArm, kRightForearm, kRightHand};
   constexpr double kFirstHue = 250, kHues = 240;  // degrees: hues from 250 over 360 to 130
-  constexpr std::size_t kStep = 5;                // hues between consecutive limbs of kOrder
+  constexpr std::size_t kStep = 5;                // number of hues between consecutive limbs of kOrder
   PartColours suit{};
   for (std::size_t i = 0; i < kOrder.size(); ++i) {
     const auto hue = static_cast<double>(kStep * i % kOrder.size());

@@ -10,19 +10,20 @@ namespace etude {
 
 /// The clothes of the people on stage.
 enum class Wardrobe {
-  kStudio,    ///< the captured performer's warm colours, which change to everyday ones as `scene` grows
+  kStudio,    ///< the captured performer's warm colours, which become everyday colours as `scene` grows
   kEveryday,  ///< a grey shirt and dark blue trousers for every `scene`
   kCoded,     ///< a tight suit with a different colour for every limb (`CodedSuit`), for every `scene`
 };
 
-/// Returns the coded suit. Its colours are plain and saturated, and as bright as possible without clipping under the
-/// drifting lamp. Their hues are 18.5° apart, in the 240° of the circle that are at least 20° away from the hues of the
-/// studio's wall and floor (150–230°). Adjacent limbs differ by 92° or more, and the two limbs of a pair by 120°.
-/// Furnished rooms have objects of any hue, but paler ones (palette.h).
+/// Returns the coded suit. The suit's colours are plain and saturated, and as bright as possible without clipping under
+/// the drifting lamp. The hues are 18.5° apart, in the 240° of the circle that are at least 20° away from the hues of
+/// the studio's wall and floor (150–230°). The hues of adjacent limbs differ by 92° or more, and the hues of the two
+/// limbs of a pair by 120°. Furnished rooms have objects of any hue, but with paler colours (palette.h).
 PartColours CodedSuit();
 
 /// Draws the clothes of the person `who` on the stage with this seed. Builds, cuts and patterns depend only on the seed
-/// and `who`; colours are interpolated by `colour_share` between the studio's (0) and those of everyday objects (1).
+/// and `who`; colours are interpolated by `colour_share` between the studio's colours (0) and the colours of everyday
+/// objects (1).
 Outfit MakeOutfit(std::uint64_t seed, const std::string& who, Wardrobe wardrobe, double colour_share);
 
 }  // namespace etude

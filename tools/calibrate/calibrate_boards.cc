@@ -27,8 +27,8 @@ std::vector<double> ResidualsOf(const RefinedRig& rig, std::span<const TargetVie
   return rms;
 }
 
-/// Calibrates twice: the second time without the pictures whose residual exceeds three times the median, because they
-/// are blurred or the board moved.
+/// Calibrates twice: the second time without the pictures whose residual exceeds three times the median, because in
+/// such pictures the board is blurred or has moved.
 Result<RefinedRig> CalibrateWithoutOutliers(const BoardViews& search, const CalibrateOptions& options,
                                            std::vector<TargetView>& views) {
   std::erase_if(views, [](const TargetView& view) { return !HomographyOf(view.pairs); });
@@ -66,7 +66,7 @@ std::vector<TargetView> ViewsOf(std::size_t camera, std::span<const TargetView> 
   return own;
 }
 
-/// Finds the films' delays, reports them, and returns the views matched by time.
+/// Finds the films' delays, reports them, and returns the views, matched by these delays.
 Result<std::vector<TargetView>> SynchroniseFilms(const CalibrateOptions& options, const BoardViews& search,
                                           const std::vector<CameraBoards>& seen) {
   const bool are_films = std::ranges::all_of(seen, [](const CameraBoards& s) { return s.period_s > 0; });
@@ -102,8 +102,8 @@ Result<std::vector<TargetView>> SynchroniseFilms(const CalibrateOptions& options
   return SynchronisedViews(search.sightings(), period_s, steps.delay_s);
 }
 
-/// Prints the residual of each camera, calibrated together with the others and alone, and warns where the two differ
-/// much.
+/// Prints two residuals of each camera: calibrated together with the other cameras, and calibrated alone. Warns if the
+/// two residuals differ much.
 void TellResiduals(const RefinedRig& rig, const CalibrateOptions& options, std::span<const PictureSize> sizes,
                    std::span<const TargetView> views, const std::vector<CameraBoards>& seen) {
   const std::vector<double> rms = ResidualsOf(rig, views);
@@ -136,11 +136,11 @@ std::string NumberAtEnd(const std::string& name) {
   return name.substr(from);
 }
 
-// The value of --beside that asks for a comparison with OpenCV's calibrateCamera instead of a file.
+// With this value, --beside names no file, but asks for a comparison with OpenCV's calibrateCamera.
 constexpr const char* kOpenCv = "opencv";
 
 /// Compares with OpenCV's calibration from the same corners. OpenCV calibrates one camera at a time, so each camera is
-/// compared alone.
+/// calibrated and compared alone.
 Result<void> CompareWithOpenCv(const CalibrateOptions& options, std::span<const PictureSize> sizes,
                                std::span<const TargetView> views, const std::vector<CameraBoards>& seen) {
   options.listener.print(
@@ -165,7 +165,7 @@ Result<void> CompareWithOpenCv(const CalibrateOptions& options, std::span<const 
   return {};
 }
 
-/// Compares with another calibration of these cameras, on the same corners.
+/// Compares with another calibration of these cameras, at the same board corners.
 Result<void> CompareBeside(const CalibrateOptions& options, const RefinedRig& rig, std::span<const TargetView> views,
                            const std::vector<CameraBoards>& seen) {
   const std::string& file = options.beside;
@@ -200,8 +200,8 @@ Result<void> CompareBeside(const CalibrateOptions& options, const RefinedRig& ri
   return {};
 }
 
-/// Draws each camera's best picture with the corners of all its pictures, coloured by error: yellow below 0.5 px,
-/// orange below 1 px, else red.
+/// Draws each camera's best picture with the corners from all pictures of this camera, coloured by error: yellow below
+/// 0.5 px, orange below 1 px, else red.
 std::string PictureOfBoards(const RefinedRig& rig, std::span<const TargetView> views, std::vector<CameraBoards> seen) {
   // Lay out one panel for each camera, one below the other.
   constexpr int kWidth = 640, kGap = 8;
@@ -216,7 +216,7 @@ std::string PictureOfBoards(const RefinedRig& rig, std::span<const TargetView> v
     const Box panel{kGap, top, kWidth, scale * s.best.height};
     canvas.DrawImage(s.best, panel);
     canvas.FillBox(panel, {0, 0, 0, 0.35});
-    // Draw each corner with its error, enlarged 20 times.
+    // Draw each corner, and the corner's error as a line, enlarged 20 times.
     for (const TargetView& view : views) {
       for (const PointPair& pair : view.pairs) {
         const CalibrationTargetPose& place = rig.targets[view.target];
@@ -272,7 +272,7 @@ Result<Calibrated> CalibrateFromPictures(const CalibrateOptions& options) {
     RETURN_IF_ERROR(WriteFileAtomically(options.picture, PictureOfBoards(refined, views, seen)));
     TellWritten(options.listener, options.picture);
   }
-  // Set the world frame to the first board, and name the cameras after their inputs.
+  // Set the world frame to the first board, and name the cameras after the inputs.
   AlignToBoard(options.world == "floor" ? BoardPlacement::kOnFloor : BoardPlacement::kOnWall, refined.cameras);
   Calibrated rig;
   rig.rms_px = refined.camera_rms_px;

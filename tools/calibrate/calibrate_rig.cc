@@ -99,9 +99,10 @@ Result<void> CheckPixels(const CameraPairs& of, const std::string& file) {
   return {};
 }
 
-/// Finds the pair that disagrees with the others. Calibrating without it lowers the squared error by more than chance
-/// would in one of 100 calibrations (F test for one pair, Bonferroni over all), and the calibration by the others
-/// places it a pixel or more away. Only the 20 pairs with the largest residuals are tried.
+/// Finds a point pair that disagrees with the other pairs. Two conditions must hold. Without this pair, the squared
+/// error is lower by more than chance explains in one of 100 calibrations (F test for one pair, Bonferroni over all
+/// pairs). And the calibration from the other pairs projects its point a pixel or more away from its pixel. Only the 20
+/// pairs with the largest residuals are tried.
 std::optional<DisagreeingPair> FindDisagreeing(const CameraPairs& of, const RefinedRig& all,
                                                const RefineOptions& options) {
   constexpr std::size_t kMaxTried = 20;
@@ -125,7 +126,7 @@ std::optional<DisagreeingPair> FindDisagreeing(const CameraPairs& of, const Refi
     if (!refined) continue;  // the calibration needs this pair
     const double share = refined->rms_px * refined->rms_px * static_cast<double>(count - 1) /
                          (all.rms_px * all.rms_px * static_cast<double>(count));
-    // Compute the tail probability of the F distribution with 2 and `freedom` degrees of freedom.
+    // Compute the tail probability of the F distribution (2 and `freedom` degrees of freedom).
     const double chance = std::pow(share, freedom / 2), error = error_of(refined->cameras.front(), i);
     if (!(chance < least) || error < kMinError_px) continue;
     least = chance;

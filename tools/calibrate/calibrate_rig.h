@@ -13,7 +13,7 @@
 namespace etude {
 
 struct CalibrateOptions {
-  /// Either one file of point pairs, or one folder of pictures or film for each camera.
+  /// Either one file of point pairs; or, for each camera, one folder of pictures or one film.
   std::vector<std::string> inputs;
   std::string output;
   std::vector<std::string> boards = {"5x7x0.034"};  ///< board: COLUMNSxROWSxSQUARE[@FIRST_CODE]
@@ -25,21 +25,21 @@ struct CalibrateOptions {
   /// Every n-th frame of a film is searched; 0 = every 30th, or for OpenCV's boards about 200 frames.
   int every = 0;
   double sync_s = 0;            ///< maximum delay between films of boards; 0 = two search intervals
-  std::string picture;          ///< a PNG with the corners found and their errors, "" = none
-  std::string beside;           ///< another calibration of these cameras to be compared with, or "opencv"; "" = none
+  std::string picture;          ///< a PNG to write with the found corners and their errors, "" = none
+  std::string beside;           ///< another calibration of these cameras for comparison, or "opencv"; "" = none
   std::string print;            ///< a PNG to write: the board itself, to be printed
   Listener listener = {};
 };
 
-/// A point pair with a wrong pixel or a wrong place.
+/// A point pair with a wrong pixel or place, judged by the calibration from all other pairs.
 struct DisagreeingPair {
-  std::size_t index = 0;  ///< index among the pairs of its camera, from 0
+  std::size_t index = 0;  ///< index among the pairs of the pair's camera, from 0
   PointPair pair;
-  double error_px = 0;        ///< distance of the pixel from the point, as calibrated by all other pairs
+  double error_px = 0;        ///< distance of the pixel from the point as that calibration projects it
   double rms_without_px = 0;  ///< reprojection error of all other pairs in that calibration
 };
 
-/// A rig, and the numbers that are printed about it, one entry for each camera.
+/// A rig, and the numbers that are printed about the rig, with one entry for each camera.
 struct Calibrated {
   std::vector<NamedCamera> cameras;
   std::vector<double> rms_px;
@@ -49,7 +49,7 @@ struct Calibrated {
 };
 
 /// Parses "COLUMNSxROWSxSQUARE[@FIRST_CODE]". Fails, naming the option --board, on any other text and on codes beyond
-/// the last one.
+/// the last existing code.
 Result<Board> ReadCodedBoard(const std::string& text);
 RefineOptions RefineOptionsOf(const CalibrateOptions& options);
 

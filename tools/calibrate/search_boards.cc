@@ -82,7 +82,8 @@ Result<void> AddFolder(std::size_t camera, const fs::path& folder, const Calibra
   return {};
 }
 
-/// Searches every n-th frame of a film. The frame's number is the moment of its view.
+/// Searches every n-th frame of a film. The frame's number becomes the view's moment (views of one moment show the same
+/// board position).
 Result<void> AddFilm(std::size_t camera, const fs::path& film, const CalibrateOptions& options, BoardViews& views,
                      CameraBoards& seen) {
   ASSIGN_OR_RETURN(const FilmFacts facts, ProbeFilm(film));

@@ -22,7 +22,7 @@ struct CameraBoards {
 /// boards.
 Result<BoardViews> SearchFor(const CalibrateOptions& options);
 
-/// Searches the pictures of camera `camera`, a folder or a film, for boards and adds their views.
+/// Searches the pictures of camera `camera`, a folder or a film, for boards, and adds the boards' views.
 Result<CameraBoards> SearchInput(std::size_t camera, const CalibrateOptions& options, BoardViews& views);
 
 }  // namespace etude

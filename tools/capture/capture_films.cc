@@ -48,7 +48,7 @@ Result<CapturedFilms> CaptureFilms(const CaptureFilmsOptions& options) {
     return Fail({}, "--stature: the keypoints already determine how tall the person is");
   }
   RETURN_IF_ERROR(CheckPlace(options.place));
-  // Open the films, and resample the reference to their frame rate.
+  // Open the films, and resample the reference to the films' frame rate.
   ASSIGN_OR_RETURN(FilmedSession session, OpenFilms(options));
   const FilmFacts facts = session.views.front().facts;
   options.listener.print(fmt::format("{} films, {} frames at {:g} Hz\n", session.views.size(), facts.frames, facts.rate_hz));

@@ -13,7 +13,7 @@
 
 namespace etude {
 
-/// The inputs, outputs and settings of `CaptureFilms`. A file name may be "" where its comment says so.
+/// The inputs, outputs and settings of `CaptureFilms`. A file name may be "" if the member's comment says so.
 struct CaptureFilmsOptions {
   std::vector<std::string> films;
   std::string rig;                   ///< a calibration: a file or folder that ReadRigFile or ReadRigPair can read
@@ -25,7 +25,7 @@ struct CaptureFilmsOptions {
   bool accepts_doubtful = false;     ///< for silhouettes: write the motion even if `CapturedFilms::doubt` is not empty
   /// For silhouettes: a folder with masks of each film, "" = the masks are computed from the films.
   std::string masks;
-  std::optional<int> mask_id;        ///< the value of the person's pixels; absent = every value but the background's
+  std::optional<int> mask_id;        ///< the value of the person's pixels; absent = all but the background's value
   double stature_m = 0;              ///< for silhouettes: the person's height, metres; 0 = estimated
   std::string output;                ///< BVH, GLB, TRC or CSV, chosen by the extension
   std::string points;                ///< a TRC of the triangulated keypoints, "" = none
@@ -34,7 +34,7 @@ struct CaptureFilmsOptions {
   std::string reference;             ///< a TRC with which the triangulated keypoints are compared, "" = none
   std::string distances;             ///< a file for the distances from `reference`, "" = none
   std::string layout;                ///< a name of KeypointLayouts(), "" = chosen by the number of keypoints
-  std::string fit = "none";          ///< change from the rig's to the film's pictures: none, letterbox, stretch or crop
+  std::string fit = "none";          ///< how the film's pictures differ from the rig's: none, letterbox, stretch, crop
   std::vector<std::string> cameras;  ///< the rig's camera for each film; empty = matched by the films' names
   int person = 1;
   std::string poses = "frames";  ///< for keypoints: "frames" fits each frame alone, "bundle" fits all frames at once
@@ -57,17 +57,17 @@ struct CapturedFilms {
   JsonPtr facts;          ///< the findings for programs (docs/schemas/facts.schema.json, "capture")
 };
 
-/// Opens the rig in the file `path`. If a rig consists of two files, `path` names one of them or their folder.
+/// Opens the rig in the file `path`. If a rig consists of two files, `path` names one of these files or the folder.
 Result<RigFile> OpenRig(const std::string& path);
 
 /// Captures the motion of one person from films by two or more calibrated cameras, with keypoints, marks or
-/// silhouettes, and writes it. Fails before anything is written if films, rig or options do not fit together; every
-/// complaint names the file or the option.
+/// silhouettes, and writes the motion. Fails before anything is written if films, rig or options do not fit together;
+/// every complaint names the file or the option.
 Result<CapturedFilms> CaptureFilms(const CaptureFilmsOptions& options);
 
-/// Measures the random error of the person's keypoints, in the rig's pixels. It first applies and reports the same
-/// corrections as `CaptureFilms`. It uses the options for films, rig, keypoints, cameras, fit, layout, person and
-/// `sync_s`. Fails in the same cases as `CaptureFilms`.
+/// Measures the random error of the person's keypoints, in the rig's pixels. The function first applies and reports the
+/// same corrections as `CaptureFilms`. It uses only the options for films, rig, keypoints, cameras, fit, layout, person
+/// and `sync_s`. Fails in the same cases as `CaptureFilms`.
 Result<KeypointNoise> MeasureFilmedNoise(const CaptureFilmsOptions& options);
 
 }  // namespace etude

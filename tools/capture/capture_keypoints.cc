@@ -33,7 +33,7 @@ RecoverPersonOptions RecoverOptionsOf(const CaptureFilmsOptions& options, const 
   recover.cutoff_hz = options.smooth_hz;
   recover.max_gap_s = options.max_gap_s;
   constexpr double kMinOutlierShare =
-      0.004;  // share of the picture's longer side; rounding and lenses cause errors up to this size
+      0.004;  // share of the picture's longer side; rounding and lens distortion cause errors up to this size
   recover.min_outlier_px = kMinOutlierShare * longer_side;
   if (options.outlier_px > 0) recover.triangulate.robust.outlier_px = recover.min_outlier_px = options.outlier_px;
   recover.mends = recover.match.may_be_swapped = true;
@@ -105,7 +105,7 @@ Json FactsOf(const RecoveredPerson& person, const std::vector<FilmedView>& views
           {"told", told}};
 }
 
-/// Reports the distances between the joints of the written motion and the points to which they were fitted.
+/// Reports the distances between the joints of the written motion and the points to which the joints were fitted.
 std::string FitText(const RecoveredPerson& person) {
   std::string text;
   const MarkerMotion skeleton = JointMarkers(person.motion);
@@ -153,7 +153,7 @@ Result<std::vector<ComparedColumn>> CompareWithOutlines(const MarkerMotion& refe
   return columns;
 }
 
-/// Returns true if the markers of a reference are an estimator's landmarks; false if they are joints.
+/// Returns true if the markers of a reference are an estimator's landmarks; false if the markers are joints.
 bool HasLandmarks(const MarkerMotion& reference) {
   return std::ranges::any_of(reference.names, [](const std::string& name) { return FindLandmark(name).has_value(); });
 }
@@ -198,7 +198,7 @@ std::vector<OverlayView> OverlaysOf(const std::vector<FilmedView>& views, const 
     overlays.push_back(
         {view.camera.name, view.path, view.facts, view.camera.camera, view.fit, clocks[i].offset, {}, clocks[i].drift});
     for (auto seen : person.people[chosen].seen[i]) {
-      // Keypoints of matched persons have no lens distortion; add the distortion before drawing.
+      // Keypoints of matched persons have no lens distortion; add the distortion before the keypoints are drawn.
       for (Keypoint& keypoint : seen ? std::span<Keypoint>(seen->keypoints) : std::span<Keypoint>()) {
         const auto rig = DistortPixel(view.camera.camera, keypoint.pixel);
         keypoint = rig && keypoint.confidence > 0 ? Keypoint{view.fit.ToFilm(*rig), keypoint.confidence} : Keypoint{};
@@ -209,7 +209,7 @@ std::vector<OverlayView> OverlaysOf(const std::vector<FilmedView>& views, const 
   return overlays;
 }
 
-/// Prints where keypoints contradict the rig.
+/// Prints the cameras and frames in which keypoints contradict the rig.
 void TellDoubts(const MatchedPerson& person, const std::vector<FilmedView>& views, double min_confidence,
                 MessageLog& told) {
   std::vector<Camera> cameras;
@@ -244,7 +244,7 @@ Result<bool> CaptureKeypoints(const CaptureFilmsOptions& options, FilmedSession 
   ASSIGN_OR_RETURN(SeenFilms films, SeeFilms(options, recover, session));
   ASSIGN_OR_RETURN(RecoveredPerson located, LocatePerson(films.cameras, films.people, recover));
   // Move the rig and the points into the world: metres, Y up, with the floor that the options define.
-  for (const FilmedView& view : views) {  // these cameras contain the corrections that the recovery made
+  for (const FilmedView& view : views) {  // the cameras in `views` have the recovery's corrections
     const auto same = std::ranges::find(session.rig.cameras, view.camera.name, &NamedCamera::name);
     if (same != session.rig.cameras.end()) same->camera = view.camera.camera;
   }
@@ -280,7 +280,7 @@ Result<bool> CaptureKeypoints(const CaptureFilmsOptions& options, FilmedSession 
   if (!exchanged.empty()) films.told.Tell("doubtful: " + exchanged);
   options.listener.print(ReportText(person, views) + FitText(person));
   facts["keypoints"] = FactsOf(person, views, films.told.lines);
-  // If the options require silhouettes, refine the motion with them.
+  // If the options require silhouettes, refine the motion with silhouettes.
   ReducedTake take;
   std::optional<UnmarkedMotion> both;
   if (options.silhouettes) {
@@ -303,7 +303,7 @@ Result<bool> CaptureKeypoints(const CaptureFilmsOptions& options, FilmedSession 
     RETURN_IF_ERROR(WriteFileAtomically(options.points, WriteTrc(ToMarkers(person.landmarks, recover.rate_hz), name)));
     TellWritten(options.listener, options.points);
   }
-  // If there is a reference, compare with it.
+  // If there is a reference, compare the motion with the reference.
   if (reference) {
     const std::string what =
         fmt::format("Distance of the {} to {}, median, mm.",

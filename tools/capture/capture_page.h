@@ -22,7 +22,7 @@ std::vector<double> KnownOf(const std::vector<std::optional<double>>& values);
 /// One camera of a captured take.
 struct CapturedCamera {
   std::string name;
-  TakeCurve residual;  ///< the measure of `CameraResiduals`, frame by frame, in its unit
+  TakeCurve residual;  ///< the measure of `CameraResiduals`, frame by frame
   /// Share of the camera's keypoints that disagreed with other cameras; absent if there are no keypoints.
   std::optional<double> left_out;
 };
@@ -45,10 +45,10 @@ struct CapturePage {
   std::vector<std::string> told;           ///< findings, repairs and doubts, one line each
   std::vector<CameraResiduals> residuals;  ///< one entry for keypoints, one for silhouettes, or both
   std::vector<TakeCurve> feet_cm;          ///< heights above the floor, cm
-  std::string limbs;                       ///< a sentence on the origin of the limb lengths
-  std::vector<std::pair<std::string, double>> lengths_cm;  ///< limb lengths
-  /// For each joint: median and 95th percentile of its distance from the point to which it was fitted, mm; may be
-  /// empty.
+  std::string limbs;                       ///< a sentence that says where the limb lengths come from
+  std::vector<std::pair<std::string, double>> lengths_cm;  ///< names and values of the limb lengths, cm
+  /// For each joint: median and 95th percentile, mm, of the distance between the joint and the point to which the joint
+  /// was fitted; may be empty.
   std::vector<std::pair<std::string, std::array<double, 2>>> fit;
   std::string version, command;
 };

@@ -29,7 +29,7 @@ struct FilmedView {
   std::filesystem::path path;
   FilmFacts facts;
   NamedCamera camera;
-  PixelFit fit;           ///< maps the rig's pixels to the film's
+  PixelFit fit;           ///< maps the rig's pixels to the film's pixels
   bool is_sized = false;  ///< true if the keypoint file states the size of the film's pictures
 };
 
@@ -53,17 +53,17 @@ struct SeenFilms {
   MessageLog told;
 };
 
-/// Reads the keypoints or marks of all films, maps them to the rig's pictures and to a common time, and reports how.
-/// Sets in `session` the rotation of each film's pictures and the camera that really took each film.
+/// Reads the keypoints or marks of all films, maps them to the rig's pictures and to a common time, and reports how it
+/// did so. Sets in `session` the rotation of each film's pictures and the camera that really took each film.
 Result<SeenFilms> SeeFilms(const CaptureFilmsOptions& options, const RecoverPersonOptions& recover,
                            FilmedSession& session);
 
 /// Reports repairs of a person's keypoints and remaining doubts, one line each.
-/// @param chosen index into the person's `people`
+/// @param chosen index, into the person's `people`, of the captured person
 void TellMends(const RecoveredPerson& person, std::size_t chosen, const std::vector<FilmedView>& views,
                MessageLog& told);
 
-/// Returns the lengths that reports show, with their names, metres.
+/// Returns the names and values, metres, of the limb lengths that reports show.
 std::vector<std::pair<std::string, double>> ShownLengths(const LimbLengths& lengths);
 
 /// Begins the page of `--report` with the parts that every capture has: title, messages, feet, limb lengths and
@@ -80,14 +80,14 @@ CameraResiduals ResidualsOfOutlines(const std::vector<FilmedView>& views, const 
 /// Returns the median over cameras and frames; 100 if there is no value.
 double MedianOf(const CameraResiduals& residuals);
 /// Writes the page of a capture from keypoints or marks.
-/// @param views their cameras are in world coordinates
+/// @param views the films, with cameras in world coordinates
 /// @param chosen index into the person's `people`
 /// @param both the motion from silhouettes, or null if silhouettes were not used
 Result<bool> WriteReport(const CaptureFilmsOptions& options, const std::vector<FilmedView>& views,
                          const RecoveredPerson& person, std::size_t chosen, const SeenFilms& films,
                          const UnmarkedMotion* both);
 
-/// Returns the films with the keypoints that the overlay film draws.
+/// Returns, for the overlay film, the films and the keypoints that are drawn over them.
 std::vector<OverlayView> OverlaysOf(const std::vector<FilmedView>& views, const RecoveredPerson& person,
                                     std::size_t chosen, const std::vector<FilmClock>& clocks);
 
@@ -95,23 +95,23 @@ std::vector<OverlayView> OverlaysOf(const std::vector<FilmedView>& views, const 
 Result<bool> WriteFilm(const CaptureFilmsOptions& options, const std::vector<OverlayView>& overlays,
                        const BodyMotion& motion);
 
-/// Writes a motion to `options.output` in the format that its extension names: `clip` if the format holds a skeleton,
-/// else `motion`, the same motion as twenty joints.
+/// Writes a motion to `options.output` in the format that its extension names: writes `clip` if the format holds a
+/// skeleton, else `motion`, which is the same motion as twenty joints.
 Result<void> WriteMotion(const CaptureFilmsOptions& options, Clip clip, const BodyMotion& motion);
 
 constexpr char kLost = '!';
 
-/// A column of the comparison table: the distances of some cameras' result from the reference.
+/// A column of the comparison table: the distances between the reference and the result from some of the cameras.
 struct ComparedColumn {
-  std::string heading;  ///< the names of the cameras; `kLost` is appended if no motion was recovered from them
+  std::string heading;  ///< names of the cameras; `kLost` is appended if these cameras gave no motion
   std::vector<MarkerAgreement> markers;
   MarkerAgreement all;
 };
 ComparedColumn CompareColumn(std::string heading, const MarkerMotion& markers, const MarkerMotion& reference);
 
 /// Synchronises a reference with a motion. Frames of the same number are taken as simultaneous. If the frame rates
-/// differ, the drift between both is measured and reported, and removed if that halves the share of large distances.
-/// Different lengths are also reported.
+/// differ, the drift between the two clocks is measured and reported, and removed if its removal halves the share of
+/// large distances. Different lengths are also reported.
 MarkerMotion SynchroniseWith(const MarkerMotion& motion, MarkerMotion reference, MessageLog& told);
 
 /// Prints a table under the heading `words`: the medians (one row for each marker of the first column, and one row for
@@ -124,13 +124,13 @@ struct CameraPair {
   std::size_t first = 0, second = 0;
   std::string heading;
 };
-/// Returns all pairs of films; empty for two films, because their only pair is the whole take.
+/// Returns all pairs of films; empty for two films, because the only pair of two films is the whole take.
 std::vector<CameraPair> PairsOf(std::size_t films);
 
 /// The pictures of all films, reduced in size and without lens distortion, at the times of the first film's frames.
 struct ReducedTake {
   std::vector<Camera> cameras;
-  std::vector<double> reductions;  ///< for each film: pixels of its reduced picture per pixel of the rig's camera
+  std::vector<double> reductions;  ///< for each film: pixels of the reduced picture per pixel of the rig's camera
   std::vector<std::vector<ColourImage>> pictures;
   std::vector<ColourImage> rooms;
   std::vector<std::vector<Mask>> masks;  ///< masks, used instead of `pictures` if not empty
@@ -140,7 +140,7 @@ Result<ReducedTake> ReadTake(const CaptureFilmsOptions& options, const std::vect
 ReducedTake PairOf(const ReducedTake& take, const CameraPair& pair);
 
 /// Findings from keypoints that support silhouettes: the person's keypoints, in the take's cameras, and the limb
-/// lengths. Either may be absent.
+/// lengths. The keypoints or the lengths may be absent.
 struct KeypointSupport {
   const MatchedPerson* person = nullptr;
   std::optional<LimbLengths> lengths = {};
@@ -148,15 +148,15 @@ struct KeypointSupport {
 Result<UnmarkedMotion> RecoverByOutlines(const ReducedTake& take, const CaptureFilmsOptions& options, double rate_hz,
                                          const KeypointSupport& beside = {});
 
-/// Returns the joints of a reference: those that it names, or those computed from an estimator's landmarks. Joints that
-/// landmarks determine only by rules of thumb are left out.
+/// Returns the joints of a reference: the joints that the reference names, or joints computed from an estimator's
+/// landmarks. Joints that landmarks determine only by rules of thumb are left out.
 MarkerMotion JointsOfReference(const MarkerMotion& reference);
 
 /// `CaptureKeypoints` captures from keypoints or marks. `CaptureUnmarked` captures the only moving person of the films
-/// from silhouettes alone. With `options.silhouettes`, keypoints support the silhouettes. Both compare with
-/// `reference`, if there is one, and add their findings to `facts`. They return false if they were interrupted. If a
-/// motion from silhouettes alone is probably wrong, `facts["doubt"]` says why, and it is written only if the options
-/// accept doubtful motions.
+/// from silhouettes alone. With `options.silhouettes`, keypoints support the silhouettes. Both functions compare the
+/// motion with `reference`, if there is one, and add the findings to `facts`. They return false if they were
+/// interrupted. If a motion from silhouettes alone is probably wrong, `facts["doubt"]` says why, and the motion is
+/// written only if the options accept doubtful motions.
 Result<bool> CaptureKeypoints(const CaptureFilmsOptions& options, FilmedSession session,
                               const std::optional<MarkerMotion>& reference, Json& facts);
 Result<bool> CaptureUnmarked(const CaptureFilmsOptions& options, const FilmedSession& session,

@@ -14,8 +14,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Returns the median distance in pixels between a frame's keypoints and the projected points of all cameras; nullopt
-/// if no keypoint has a triangulated point.
+/// Returns the median distance, pixels, between the keypoints of one camera's frame and the projections of the points
+/// triangulated from all cameras; nullopt if no keypoint has a triangulated point.
 std::optional<double> ResidualOf(const ProjectionMatrix& camera, const SeenPerson& seen, const LandmarkPositions& places) {
   std::vector<double> distances;
   for (std::size_t i = 0; i < kLandmarkCount; ++i) {

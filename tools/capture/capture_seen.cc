@@ -24,7 +24,7 @@ Result<SeenPeople> ReadPeople(const CaptureFilmsOptions& options, FilmedView& vi
   const FilmOfKeypoints of{view.facts.width, view.facts.height, static_cast<std::size_t>(view.facts.frames)};
   ASSIGN_OR_RETURN(PeopleOfFilm film, is_marks ? ReadMarkedPictures(entry) : ReadKeypoints(entry, options.layout, of));
   if (!film.told.empty()) options.listener.print(fmt::format("{}: {}\n", entry.filename().string(), film.told));
-  // Check that the file has the film's number of frames and, up to a rotation by 90°, its picture size.
+  // Check that the file has the film's number of frames and, up to a rotation by 90°, the film's picture size.
   if (film.frames.size() != static_cast<std::size_t>(view.facts.frames)) {
     return Fail({entry.string()}, "{} frames, the film {} {}", film.frames.size(), view.path.string(),
                 view.facts.frames);
@@ -38,7 +38,7 @@ Result<SeenPeople> ReadPeople(const CaptureFilmsOptions& options, FilmedView& vi
   return std::move(film.frames);
 }
 
-/// Maps all keypoints to the rig's pictures, and reports how.
+/// Maps all keypoints to the rig's pictures, and reports how it did so.
 void FitPeople(const RigFile& rig, std::vector<FilmedView>& views, std::vector<SeenPeople>& people,
                double min_confidence, MessageLog& told_lines) {
   std::vector<PictureOfFilm> films;
@@ -56,7 +56,7 @@ void FitPeople(const RigFile& rig, std::vector<FilmedView>& views, std::vector<S
     films[i].camera = views[i].camera.camera = session.cameras[i];
     films[i].people = people[i] = std::move(session.people[i]);
   }
-  // Find each film's rotation, scale and shift, and apply them.
+  // Find each film's rotation, scale and shift, and apply these to the keypoints.
   const std::vector<PictureGuess> guesses = GuessPictures(films, min_confidence);
   for (std::size_t i = 0; i < views.size(); ++i) {
     FilmedView& view = views[i];
@@ -80,13 +80,13 @@ void FitPeople(const RigFile& rig, std::vector<FilmedView>& views, std::vector<S
 
 constexpr double kMsPerSecond = 1000;
 
-/// Estimates the films' clocks within the range of --sync, and reports them.
+/// Estimates the films' clocks within the range of --sync, and reports the clocks.
 void Synchronise(const CaptureFilmsOptions& options, const std::vector<FilmedView>& views,
                  const RecoverPersonOptions& recover, SeenFilms& films) {
   const double rate = recover.rate_hz;
   std::size_t shortest = films.people.front().size();
   for (const SeenPeople& people : films.people) shortest = std::min(shortest, people.size());
-  // Limit the search to half a film: beyond that, the films share too few frames.
+  // Limit the search to half the length of a film, because at larger delays the films share too few frames.
   const int max_frames =
       std::clamp(static_cast<int>(std::lround(options.sync_s * rate)), 1, std::max(1, static_cast<int>(shortest / 2)));
   const SyncOptions clocks{.max_frames = max_frames, .max_px = recover.triangulate.robust.outlier_px};
@@ -137,8 +137,8 @@ void WarnOfDelays(const std::vector<FilmedView>& views, const RecoverPersonOptio
   }
 }
 
-/// Reports the drift that a film's keypoints show, if its rate was assumed to equal the first film's rate although the
-/// two files state different rates.
+/// Reports the clock drift that a film's keypoints show, if the film's rate was assumed to equal the first film's rate
+/// although the two files state different rates.
 void TellDrift(const std::vector<FilmedView>& views, std::size_t film, const FilmClock& taken, const FilmClock& nearest,
                std::size_t frames, SeenFilms& films) {
   const double rate = views.front().facts.rate_hz, own = views[film].facts.rate_hz;
@@ -155,7 +155,7 @@ void CorrectClocks(const std::vector<FilmedView>& views, const RecoverPersonOpti
                 SeenFilms& films) {
   const double rate = recover.rate_hz;
   const std::size_t frames = films.people.front().size();
-  // Search half a second around the clocks, or one frame if --sync has set them.
+  // Search half a second around the clocks, or only one frame if --sync has set the clocks.
   constexpr double kMaxSeconds = 0.5;
   const int max_frames = is_set ? 1
                           : std::clamp(static_cast<int>(std::lround(kMaxSeconds * rate)), 1,
@@ -164,7 +164,7 @@ void CorrectClocks(const std::vector<FilmedView>& views, const RecoverPersonOpti
   const bool has_own_rates = std::ranges::any_of(films.clocks, [](const FilmClock& clock) { return clock.drift != 0; });
   const bool is_any_mended = std::ranges::any_of(found, &FoundClock::is_mended);
   if (!is_set && !is_any_mended && !has_own_rates) WarnOfDelays(views, recover, max_frames, films);
-  // Report the delay in the middle of the film, and the drift over it.
+  // Report the delay in the middle of the film, and the drift over the film's length.
   for (std::size_t i = 0; i < views.size(); ++i) {
     if (!found[i].is_mended) TellDrift(views, i, films.clocks[i], found[i].nearest, frames, films);
     if (!found[i].is_mended) continue;

@@ -194,8 +194,8 @@ std::vector<OverlayView> OverlaysOf(const std::vector<FilmedView>& views, const 
 constexpr double kPercent = 100;
 
 /// Reports the findings and the doubts, one line each. Returns the reason why the motion is probably wrong: body and
-/// outline overlap by less than half in most frames of a camera, or most frames repeat the last pose. Returns "" if
-/// neither is the case.
+/// outline overlap by less than half in most frames of a camera, or most frames repeat the last pose. Returns "" if the
+/// motion seems right.
 std::string TellUnmarked(const CaptureFilmsOptions& options, const std::vector<FilmedView>& views,
                          const UnmarkedMotion& person, MessageLog& told) {
   // Report the stature and the frames without a pose of their own.

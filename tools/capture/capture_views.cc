@@ -22,7 +22,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Reduces a name to its letters and digits in lower case, so that cam_01 and Cam01 are equal.
+/// Reduces a name to the letters and digits in it in lower case, so that cam_01 and Cam01 are equal.
 std::string Bare(std::string_view name) {
   std::string bare;
   for (const char c : name) {
@@ -50,7 +50,7 @@ Result<NamedCamera> CameraOfFilm(const CaptureFilmsOptions& options, const std::
               NamesOf(rig));
 }
 
-/// The files of a rig: one file, or two files of one folder that belong together.
+/// The files of a rig: one file, or two files that belong together, in one folder.
 struct RigPaths {
   fs::path first, second;
 };
@@ -78,11 +78,11 @@ Result<RigPaths> RigPathsOf(const fs::path& path) {
 
 /// Estimates the picture size of a camera for which the rig file gives none. Candidates are the film's size, the film's
 /// size turned by 90°, and scaled versions of both. The best candidate is the one whose middle is nearest to the
-/// principal point. Intrinsics of a scaled size are converted to the film's scale.
+/// principal point. If a scaled size is the best, the intrinsics are converted to the film's scale.
 void FindSize(FilmedView& view, std::vector<std::string>& told) {
   Intrinsics& in = view.camera.camera.intrinsics;
   const glm::dvec2 film(view.facts.width, view.facts.height), middle(in.cx, in.cy);
-  // Returns the deviation of the principal point from the middle, as the logarithm of a ratio.
+  // Returns how far the principal point is from the middle of a picture of this size, as the logarithm of a ratio.
   const auto off = [&](const glm::dvec2& size) {
     return std::max(std::abs(std::log(2 * middle.x / size.x)), std::abs(std::log(2 * middle.y / size.y)));
   };
@@ -186,7 +186,7 @@ Result<FilmedSession> OpenFilms(const CaptureFilmsOptions& options) {
   }
   std::vector<FilmedView> views;
   std::vector<std::string> told;
-  // Assign a camera to each film, and a fit from the camera's pictures to the film's.
+  // Assign a camera to each film, and a fit that maps the camera's pictures to the film's pictures.
   for (std::size_t i = 0; i < options.films.size(); ++i) {
     FilmedView view{.path = options.films[i], .facts = {}, .camera = {}, .fit = {}};
     ASSIGN_OR_RETURN(view.camera, CameraOfFilm(options, rig, i));
@@ -195,7 +195,7 @@ Result<FilmedSession> OpenFilms(const CaptureFilmsOptions& options) {
       if (other.camera.name == view.camera.name) {
         return Fail({view.path.string()}, "camera {} has {} already", view.camera.name, other.path.string());
       }
-    // Fit the camera's pictures to the film's.
+    // Fit the camera's pictures to the film's pictures.
     }
     Intrinsics& in = view.camera.camera.intrinsics;
     if (in.width == 0) FindSize(view, told);
@@ -236,7 +236,8 @@ MarkerMotion SynchroniseWith(const MarkerMotion& motion, MarkerMotion reference,
   }
   const double own_rate = reference.rate_hz;
   constexpr double kWritten = 1e-5;  // relative tolerance: a file rounds 30000/1001 to 29.97
-  // If the rates differ, measure the drift, and undo it if that halves the share of large distances.
+  // If the rates differ, measure the drift of the reference's clock, and undo the drift if this halves the share of
+  // large distances.
   if (std::abs(own_rate - motion.rate_hz) > kWritten * own_rate) {
     const auto clock = MeasureClock(motion, reference);
     const bool is_mended = clock && clock->after < 0.5 * clock->before;

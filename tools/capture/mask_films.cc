@@ -19,7 +19,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr int kMaxNumber = 16;  // if no grey exceeds this, greys are region numbers, not shades
+constexpr int kMaxNumber = 16;  // if no grey value exceeds this number, the values are region numbers, not shades
 
 /// Calls `visit` with each mask of a film in order, and with the file's name for complaints.
 using MaskVisit = std::function<Result<void>(const MaskPicture& mask, const std::string& file)>;
@@ -56,7 +56,8 @@ Result<void> VisitFilm(const fs::path& path, const MaskVisit& visit) {
   }
 }
 
-/// Returns a reduced mask: a pixel is set if at least half of its patch of the film shows the person.
+/// Returns a reduced mask, in which a pixel is set if the person covers at least half of the film's pixels that it
+/// stands for.
 template <typename IsPerson>
 Mask Reduced(const Image<std::uint8_t>& values, const Image<FilmPatch>& patches, const IsPerson& is_person) {
   Mask mask(patches.width, patches.height);

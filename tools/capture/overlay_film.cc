@@ -63,7 +63,7 @@ class ViewPainter {
   glm::dvec2 OnCanvas(const glm::dvec2& film) const {
     return {box_.x + film.x * box_.width / view_.facts.width, box_.y + film.y * box_.height / view_.facts.height};
   }
-  /// Returns the pixel at which the camera shows a point; nullopt if it lies outside the film.
+  /// Returns the pixel at which the camera shows a point; nullopt if the pixel lies outside the film.
   std::optional<glm::dvec2> PixelOf(const glm::dvec3& place) const {
     const auto rig = Project(view_.camera, place);
     if (!rig || !IsInside(view_.fit.ToFilm(*rig))) return std::nullopt;

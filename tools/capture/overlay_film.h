@@ -21,18 +21,18 @@ struct OverlayView {
   std::filesystem::path film;
   FilmFacts facts;
   Camera camera;
-  PixelFit fit;  ///< maps the rig's pixels to the film's
+  PixelFit fit;  ///< maps the rig's pixels to the film's pixels
   /// Frame k of the film was taken at k + offset frames of the motion.
   double offset = 0;
   /// The person's keypoints in each frame of the motion, in the film's pixels; nullopt if nobody was seen.
   std::vector<std::optional<SeenPerson>> keypoints;
-  /// Frame k was taken at (1 + drift) k + offset if the rates differ.
+  /// If the rates differ, frame k of the film was taken at (1 + drift) k + offset frames of the motion.
   double drift = 0;
 };
 
 /// Writes the films side by side. Over each film it draws the skeleton as the camera would show it (lines) and the
 /// keypoints (dots). The result has as many frames as `motion`. Fails if a film cannot be read or ffmpeg cannot be
-/// started. Returns false if it was stopped; then there is no file.
+/// started. Returns false, and leaves no file, if the writing was stopped.
 /// @param middle if not null, receives the middle frame
 Result<bool> WriteOverlayFilm(const std::filesystem::path& path, std::span<const OverlayView> views,
                               const BodyMotion& motion, const FilmWatch& watch, Picture* middle = nullptr);

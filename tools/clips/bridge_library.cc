@@ -22,7 +22,7 @@ bool IsCorrective(const std::string& source) {
   return is_act || source.starts_with(slow);
 }
 
-/// Expands references into clips, each once, in the order of their first mention.
+/// Expands references into clips. Each clip is listed once, in the order of first mention.
 Result<std::vector<std::string>> ListReferences(const std::vector<std::string>& named) {
   auto all = ExpandReferences(named, kMaxLibraryClips);
   if (!all) return all;
@@ -31,12 +31,12 @@ Result<std::vector<std::string>> ListReferences(const std::vector<std::string>& 
   return all;
 }
 
-/// Returns true if `reference` names the clip `source`; a reference to a glTF file names all its animations.
+/// Returns true if `reference` names the clip `source`; a reference to a glTF file names all animations of the file.
 bool Names(const std::string& reference, const std::string& source) {
   return source == reference || source.starts_with(reference + "#");
 }
 
-/// If several clips have the same name, replaces their names by their sources, which differ in the folder.
+/// If several clips have the same name, replaces these names by the clips' sources, which differ in the folder.
 void MakeUnique(std::vector<std::string>& names, const std::vector<std::string>& sources) {
   std::map<std::string, int> counts;
   for (const std::string& name : names) ++counts[name];
@@ -54,7 +54,7 @@ Result<BridgeLibrary> LoadBridgeLibrary(const BridgeLibraryOptions& options) {
   std::vector<std::string> named = options.clips;
   named.insert(named.end(), wanted.begin(), wanted.end());
   ASSIGN_OR_RETURN(const auto references, ListReferences(named));
-  // Read the clips one by one, and keep only their motions.
+  // Read the clips one by one, and keep only the clips' motions.
   TaggedLibrary& library = loaded.library;
   std::vector<BodyMotion> motions;
   std::size_t done = 0;
@@ -73,7 +73,7 @@ Result<BridgeLibrary> LoadBridgeLibrary(const BridgeLibraryOptions& options) {
   }
   if (options.on_progress) options.on_progress(done, references.size());
   MakeUnique(library.names, loaded.sources);
-  // Retarget all clips to one body, tag them, and build the in-betweens.
+  // Retarget all clips to one body, tag the clips, and build the in-betweens.
   loaded.tag_rules.memberships = loaded.system.memberships;
   loaded.tag_rules.weights = loaded.system.weights;
   loaded.tag_rules.min_clips = options.min_clips;

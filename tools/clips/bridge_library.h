@@ -13,15 +13,15 @@
 
 namespace etude {
 
-/// The clips of a library, and the rules by which their frames are tagged and matched.
+/// The clips of a library, and the rules by which the clips' frames are tagged and matched.
 struct BridgeLibraryOptions {
   std::vector<std::string> clips;  ///< references; each clip counts once
   /// The corrective clips, which are added to the library; empty = the coach's own clips among `clips`.
   std::vector<std::string> to;
   FuzzySystem system;
-  double threshold = 0.4;          ///< frames match if their fuzzy distance is smaller
+  double threshold = 0.4;          ///< two frames match if their fuzzy distance is smaller
   int min_clips = 2;               ///< minimum number of clips in which the tags of a bridge frame must occur
-  int most_per_class = 0;          ///< maximum number of bridge frames per clip and pose; 0 = all
+  int most_per_class = 0;          ///< maximum number of bridge frames per clip and pose (combination of tags); 0 = all
   bool within_class = false;       ///< compare only frames with the same ten tags
   OpenOptions reading;
   OnProgress on_progress = {};     ///< receives the number of clips that have been read
@@ -37,14 +37,15 @@ struct BridgeLibrary {
   std::vector<int> corrective;       ///< indices of the clips into which every other clip must lead
 };
 
-/// Loads the clips, retargets them to one body, tags them, and finds their bridge frames. Fails as `LoadClips` does.
+/// Loads the clips, retargets all clips to one body, tags the clips, and finds the bridge frames. Fails as `LoadClips`
+/// does.
 Result<BridgeLibrary> LoadBridgeLibrary(const BridgeLibraryOptions& options);
 
 /// Returns the tags of a library as the content of a tags file.
 BridgeTags TagsOf(const BridgeLibrary& loaded);
 
-/// Writes the tags of a library to a file. First reads its own text again, and fails without writing if the tags
-/// differ.
+/// Writes the tags of a library to a file. First reads back the text that it would write, and fails without writing if
+/// the tags differ.
 Result<void> WriteTags(const BridgeLibrary& loaded, const std::string& path);
 
 }  // namespace etude

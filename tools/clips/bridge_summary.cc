@@ -16,15 +16,15 @@ namespace {
 /// The widest matrix that fits a terminal; the output of --json has no such limit.
 constexpr int kMaxMatrixClips = 24;
 
-/// One clip's row of the table. With pairs, its coverage is measured for each other clip separately; without pairs, for
-/// all other clips together.
+/// One clip's row of the table. Coverage is measured for each other clip separately if the table of pairs is made,
+/// otherwise for all other clips together.
 struct ClipSummary {
   int frames = 0, bridge_frames = 0;
-  int poses = 0;           ///< number of different tag combinations among its bridge frames
-  int reached = 0;         ///< number of other clips that it leads into; only with pairs
-  double frame_share = 0;  ///< with pairs, this and the next member are means over the other clips
+  int poses = 0;           ///< number of different tag combinations among the clip's bridge frames
+  int reached = 0;         ///< number of other clips that this clip leads into; only if pairs are made
+  double frame_share = 0;  ///< this and the next member: with pairs, means over the other clips
   double in_between_share = 0;
-  std::optional<double> worst_wait_s;  ///< the longest wait; with pairs, over the clips that it leads into
+  std::optional<double> worst_wait_s;  ///< the longest wait; with pairs, over the clips that this clip leads into
 };
 
 ClipSummary Summarize(const TaggedClip& clip, const Coverage& coverage, int from) {
@@ -191,7 +191,7 @@ Json BridgeSummaryAsJson(const BridgeLibrary& loaded, const Coverage& coverage, 
                 {"in_between_share", of.in_between_share}};
   };
   const TaggedLibrary& library = loaded.library;
-  // Write one object for each clip, and one for each ordered pair of clips.
+  // Write one object for each clip, and one object for each ordered pair of clips.
   Json of_clips = Json::array(), pairs = Json::array(), ways = Json::array();
   for (int from = 0; from < coverage.ClipCount(); ++from) {
     const ClipSummary& clip = clips[from];

@@ -162,7 +162,7 @@ constexpr std::size_t kLineWidth = 110;
 
 std::string Line(const std::string& title, const std::string& text) { return fmt::format("  {:<8} {}\n", title, text); }
 
-/// Writes items one after the other, in as many lines as they need.
+/// Writes items one after the other, in as many lines as the items need.
 std::string WrappedLine(const std::string& title, const std::vector<std::string>& items) {
   std::string lines, line;
   for (const std::string& item : items) {
@@ -214,7 +214,7 @@ std::string BodyLines(const BodyFacts& body) {
   }
   std::string remarks;
   for (const std::string& remark : RemarksOf(body)) remarks += Line("remark", remark);
-  // The unit or the marker set is printed beside the stature; every other change gets its own line.
+  // The unit or the marker set is printed beside the stature; every other change gets a line of its own.
   std::string changes;
   for (std::size_t i = 1; i < body.changes.size(); ++i) changes += Line("changed", body.changes[i]);
   return Line("body", fmt::format("{:.2f} m tall along its joints; {}; {} up ({})", motion.stature_m,
@@ -240,7 +240,7 @@ std::vector<std::string> RoleItems(const BodyFacts& body) {
 }  // namespace
 
 std::vector<ClipFacts> FactsOf(const std::string& reference, const OpenOptions& options) {
-  OpenOptions with_gaps = options;  // the file's gaps, so that no faults are found in joints that it does not show
+  OpenOptions with_gaps = options;  // keep gaps, so that joints that the file does not show have no faults
   with_gaps.keeps_shown = true;
   auto clips = ReadClips(reference, with_gaps);
   if (!clips) return {FactsWithoutClip(reference, options, clips.error())};

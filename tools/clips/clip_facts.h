@@ -24,16 +24,16 @@ struct FigureFacts {
 /// The facts about a clip's body motion.
 struct BodyFacts {
   std::array<std::string, kRoleCount> joints;  ///< by Index(role): the name of the file's joint that plays the role
-  /// Roles without a joint of their own; they are rigidly attached to the joint listed for them.
+  /// Roles without a joint of their own; such a role is rigidly attached to the joint that `joints` lists for it.
   std::vector<Role> composed;
   std::string unit;
   double metres_per_unit = 0;
-  UpFinding up = {};  ///< the file's up axis, and the evidence for it
-  double floor = 0;   ///< height in the file's unit
+  UpFinding up = {};  ///< the file's up axis, and the evidence for this axis
+  double floor = 0;   ///< height of the floor in the file, in the file's unit
   bool dropped_t_pose = false;
   std::vector<std::string> changes;  ///< the changes made to the file's body (BodyConversion::changes)
   MotionStatistics motion;
-  /// The motion's faults at the file's own rate and heights (FaultsOf); absent if they were not searched for.
+  /// The motion's faults at the file's own rate and heights (FaultsOf); absent if faults were not searched for.
   std::optional<MotionFaults> faults = {};
 };
 
@@ -58,11 +58,11 @@ struct ClipFacts {
 std::vector<ClipFacts> FactsOf(const std::string& reference, const OpenOptions& options);
 /// Collects the facts of a clip whose roles are known, without its faults.
 ClipFacts FactsOf(const OpenedClip& clip);
-/// Finds the faults of a clip's motion with FindMotionFaults, at the rate and the heights of its file. Returns nullopt
-/// if UnderstandClip fails at that rate.
+/// Finds the faults of a clip's motion with FindMotionFaults, at the rate and the heights of the clip's file. Returns
+/// nullopt if UnderstandClip fails at that rate.
 std::optional<MotionFaults> FaultsOf(const SourceClip& clip, const OpenOptions& options);
 
-/// Writes the facts as a paragraph for people. Roles that are the same as those of `before` are not repeated.
+/// Writes the facts as a paragraph for people. Roles are left out if they are played by the same joints as in `before`.
 std::string FactsAsText(const ClipFacts& facts, const ClipFacts* before = nullptr);
 /// Writes the facts as a caption: "BVH · 22.9 s at 120 Hz · 31 joints · 1.59 m tall · feet slide 0.6 cm/s · 1 unit =
 /// 5.644 cm (CMU)".

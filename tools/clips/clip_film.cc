@@ -32,7 +32,7 @@ PartColours SidedColours() {
   return colours;
 }
 
-constexpr double kDot = 0.012;  // radius as a share of the picture's height
+constexpr double kDot = 0.012;  // radius of the dots on hand and foot, as a share of the picture's height
 
 double TurnFor(Viewpoint from) {
   switch (from) {
@@ -50,7 +50,7 @@ double TurnFor(Viewpoint from) {
 constexpr double kDetail = 1.5;
 // The camera path is averaged over this many frames (half a second) to either side.
 constexpr int kSmoothing = 15;
-// The number of frames from which the visible bounds are computed.
+// The maximum number of frames from which the bounds of the view are computed.
 constexpr int kLookedAt = 200;
 
 }  // namespace

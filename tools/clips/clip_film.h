@@ -25,16 +25,16 @@ enum class ActorKind {
   kBody,       ///< capsules around the joints; left and right have different colours
 };
 
-/// A clip with the figure that performs it, frame by frame at the body motion's rate.
+/// A clip, and the figure that performs the clip, frame by frame at the rate of the body motion.
 class ClipActor {
  public:
-  /// Makes an actor. Without a kind, the actor is the file's own figure if there is one; for built-in clips the bear;
-  /// else the mannequin. Fails if `kOwn` is requested for a file without meshes.
+  /// Makes an actor. If no kind is given, the actor is the file's own figure if the file has one, the bear for built-in
+  /// clips, and the mannequin for all other clips. Fails if `kOwn` is requested for a file without meshes.
   static Result<ClipActor> Make(OpenedClip clip, std::optional<ActorKind> kind);
 
   const OpenedClip& clip() const { return clip_; }
-  /// Returns the motion of the visible figure. Only the bear's differs from the clip's body motion, because its joints
-  /// have other positions.
+  /// Returns the motion of the visible figure. Only the bear's motion differs from the clip's body motion, because the
+  /// bear's joints have other positions.
   const BodyMotion& motion() const { return motion_; }
   Figure FigureAt(std::size_t frame) const;
 
@@ -48,15 +48,15 @@ class ClipActor {
   std::shared_ptr<const Character> character_;  // the drawn figure, for kMannequin and kBear
 };
 
-/// The direction from which the camera sees the body, relative to the heading in the first frame: from the front,
-/// turned by 40 degrees, or from the side.
+/// The direction from which the camera sees the body, relative to the body's heading in the first frame: from the
+/// front, from 40 degrees beside the front, or from the side.
 enum class Viewpoint { kFront, kThreeQuarter, kSide };
 
-/// A clip in front of the camera: its figure, and its position in every frame.
+/// A clip in front of the camera: the figure, and the figure's position in every frame.
 class Shot {
  public:
-  /// Places the clip in front of the camera. `smoothing` has the meaning that it has in CameraPath; 0 keeps a walking
-  /// body in the middle of every picture.
+  /// Places the clip in front of the camera. `smoothing` is an argument of CameraPath; 0 keeps a walking body in the
+  /// middle of every picture.
   Shot(ClipActor actor, Viewpoint from, int smoothing);
 
   const ClipActor& actor() const { return actor_; }
@@ -66,7 +66,7 @@ class Shot {
   const FloorMove& PlacementAt(int frame) const { return placements_[static_cast<std::size_t>(frame)]; }
   Figure PlacedFigure(int frame) const;
 
-  /// Widens `bounds` so that they contain the figure in each of `frames`.
+  /// Widens `bounds` so that the bounds contain the figure in each of `frames`.
   void Include(const std::vector<int>& frames, ViewBounds& bounds) const;
   /// Draws a frame, with a dot on the left hand and the left foot.
   void Draw(Canvas& canvas, const Box& box, Studio& studio, Renderer& renderer, int frame) const;
@@ -87,10 +87,10 @@ struct FilmOptions {
   Viewpoint from = Viewpoint::kThreeQuarter;
   int width = 720;  ///< pixels; width and height must be even
   int height = 720;
-  FilmWatch watch = {};  ///< if it stops the film, no file remains
+  FilmWatch watch = {};  ///< if the watch stops the film, no file remains
 };
 
-/// Writes an MP4 of a whole clip; the camera follows the body. Returns false if it was stopped.
+/// Writes an MP4 of a whole clip; the camera follows the body. Returns false if the film was stopped.
 Result<bool> FilmClip(ClipActor actor, const FilmOptions& options, const std::filesystem::path& path,
                       Renderer& renderer);
 

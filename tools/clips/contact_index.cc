@@ -19,7 +19,7 @@ constexpr double kPictureWidth = 960, kLabelWidth = 70, kRightEdge = 20, kPanelH
 constexpr double kCm = 100;
 constexpr std::array kSides = {std::pair("left foot", Role::kLeftFoot), std::pair("right foot", Role::kRightFoot)};
 
-/// A curve over the clip, with the limit below which a foot is in contact with the ground.
+/// A curve over the clip, with the limit that the curve must not exceed while the foot is in contact with the ground.
 struct CurvePanel {
   std::string label, unit;
   std::vector<double> values;

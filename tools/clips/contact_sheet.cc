@@ -13,7 +13,7 @@ namespace {
 constexpr double kSheetDetail = 2;
 constexpr int kMargin = 16;
 constexpr int kGap = 6;
-constexpr int kTitle = 46;       // space for a clip's name and facts above its pictures
+constexpr int kTitle = 46;       // space for a clip's name and facts above the clip's pictures
 constexpr double kLegend = 190;  // space reserved for the legend beside the first clip's name
 constexpr int kMinSheetWidth = 640;  // minimum width of a sheet, so that titles fit
 constexpr double kNameSize = 16, kFactsSize = 12.5, kTimeSize = 12;

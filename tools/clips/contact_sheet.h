@@ -20,8 +20,8 @@ struct SheetOptions {
 /// The maximum width and height of a sheet, pixels; a larger sheet is refused.
 constexpr int kMaxSheetSide = 16'000;
 
-/// Draws each clip as a block of pictures, evenly spread over its time. The blocks are placed one below the other, all
-/// at one scale. Returns the bytes of a PNG file. Fails if the sheet is too large.
+/// Draws each clip as a block of pictures, evenly spread over the clip's time. The blocks are placed one below the
+/// other, all at one scale. Returns the bytes of a PNG file. Fails if the sheet is too large.
 Result<std::string> DrawContactSheet(std::vector<ClipActor> actors, const SheetOptions& options, Renderer& renderer);
 
 }  // namespace etude

@@ -9,10 +9,10 @@ namespace etude {
 namespace {
 
 constexpr double kApart = 1.6;       // distance between neighbours, metres
-constexpr double kBrightness = 1.8;  // raised, because the lamp is far from most characters
+constexpr double kBrightness = 1.8;  // the room's brightness, raised because the lamp is far from most characters
 constexpr Rgb8 kPale{250, 240, 190};
 
-// Returns a camera that sees the whole square from slightly above; the first row is nearest to it.
+// Returns a camera that sees the whole square from slightly above; the first row of bodies is nearest to the camera.
 Camera CameraOver(std::size_t side, int width, int height) {
   const double depth = kApart * static_cast<double>(side - 1);
   const Intrinsics seen{

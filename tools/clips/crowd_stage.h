@@ -10,18 +10,19 @@
 
 namespace etude {
 
-/// Draws a crowd with one camera. The bodies stand in rows on a square, each around its own grid point.
+/// Draws a crowd with one camera. The bodies stand in rows on a square, each body around its own point of a grid.
 class CrowdStage {
  public:
   /// Prepares pictures of `width` × `height` pixels; `renderer` must outlive this object.
   CrowdStage(int characters, int width, int height, Renderer& renderer);
 
-  /// A character: its pose relative to its grid point. If `stands_out` is true, the whole body has one pale colour.
+  /// A character: a pose relative to the character's grid point. If `stands_out` is true, the whole body has one pale
+  /// colour.
   struct Character {
     BodyPose pose;
     bool stands_out = false;
   };
-  /// Draws a crowd with a caption of two lines. It must not have more characters than the constructor was given.
+  /// Draws a crowd with a caption of two lines. The crowd must not have more characters than the constructor was told.
   Canvas Draw(std::span<const Character> crowd, const std::string& strong, const std::string& soft);
 
  private:

@@ -72,8 +72,8 @@ void Label(const std::array<RoleOnSheet, kRoleCount>& roles, std::vector<SheetJo
   }
 }
 
-/// Draws the labels of one side below each other. Each label is placed as near to the height of its joint as the other
-/// labels allow.
+/// Draws the labels of one side below each other. Each label is placed as near to the height of the labelled joint as
+/// the other labels allow.
 void DrawColumn(Canvas& canvas, std::vector<const SheetJoint*> joints, bool is_left) {
   std::ranges::stable_sort(joints, {}, [](const SheetJoint* joint) { return joint->at.y; });
   const double bottom = canvas.height() - kFoot;
@@ -105,7 +105,7 @@ std::string MissingRoles(const std::array<RoleOnSheet, kRoleCount>& roles) {
 Result<std::string> DrawRoleSheet(const Clip& clip, const std::array<RoleOnSheet, kRoleCount>& roles) {
   const std::vector<glm::dvec3> positions = PositionsOf(clip);
   const auto [right, up] = ViewOf(positions, roles);
-  // Project the joints onto the picture's plane.
+  // Project the joints onto the plane of the picture.
   std::vector<SheetJoint> joints(positions.size());
   glm::dvec2 low(INFINITY), high(-INFINITY);
   for (std::size_t i = 0; i < positions.size(); ++i) {
@@ -115,7 +115,7 @@ Result<std::string> DrawRoleSheet(const Clip& clip, const std::array<RoleOnSheet
   }
   const double size = std::max(high.x - low.x, high.y - low.y);
   if (!std::isfinite(size) || size <= 0) return Fail({}, "the skeleton has no size, so it cannot be drawn");
-  // Label the joints with names and roles, and put each label on the side of its joint.
+  // Label the joints with names and roles, and put each label on the joint's side of the picture.
   Label(roles, joints);
 
   const auto is_labelled = [&](std::size_t i) { return joints[i].plays || !clip.skeleton.joints[i].is_end_site; };

@@ -18,7 +18,7 @@
 namespace etude {
 namespace {
 
-/// A clip as a body at 30 Hz, and the time of its first frame in its file, seconds.
+/// A clip as a body at 30 Hz, and the time in the file, seconds, of the body's first frame.
 struct TimedBody {
   std::string name;
   BodyMotion motion;

@@ -20,21 +20,21 @@ struct TransitionFileOptions {
   OpenOptions reading;
 };
 
-/// The result. Times are in seconds; times of a clip count from the first frame of its file.
+/// The result. Times are in seconds; times of a clip count from the first frame of the clip's file.
 struct TransitionFile {
   Branch branch = Branch::kNone;
-  std::string why;                    ///< one sentence: why this way was taken, or why there is no way
+  std::string why;                    ///< one sentence: why these frames were chosen, or why there is no transition
   double left_s = 0, entered_s = 0;   ///< times at which `from` is left and `to` is entered
   double wait_s = 0;                  ///< time from the request until `to` plays
-  std::string through = {};           ///< name of the clip in between, "" = none
+  std::string through = {};           ///< name of the clip through which the transition leads, "" = none
   std::vector<double> points_s = {};  ///< times of the transition points in the written file
   double duration_s = 0;              ///< length of the written motion
 };
 
 /// Plays `from` from its start, changes into `to` by a choice of frames and a join, plays `to` to its end, and writes
-/// the whole motion: twenty joints with the proportions of `from`'s body, 30 Hz, metres, Y up. If there is no way
-/// (`branch` is kNone), nothing is written. Fails if a clip cannot be opened or has fewer than two frames, and if the
-/// time lies outside `from`.
+/// the whole motion: twenty joints with the proportions of `from`'s body, 30 Hz, metres, Y up. If no transition is
+/// possible (`branch` is kNone), nothing is written. Fails if a clip cannot be opened or has fewer than two frames, and
+/// if the time lies outside `from`.
 Result<TransitionFile> WriteTransition(const TransitionFileOptions& options);
 
 }  // namespace etude

@@ -46,7 +46,8 @@ Paint ColourOf(double share) {
   return {a.r + rest * (b.r - a.r), a.g + rest * (b.g - a.g), a.b + rest * (b.b - a.b), 1};
 }
 
-/// Draws the errors at all places of one height, seen from above like the plan: x to the right, z downwards.
+/// Draws the errors at all places of one height as a map. Like the plan, it is seen from above: x to the right, z
+/// downwards.
 void DrawHeight(Canvas& canvas, const RigForecast& forecast, const Scale& scale, int height, double left, double top) {
   const ForecastPlace* places = &forecast.places[static_cast<std::size_t>(height) * kForecastRows * kForecastColumns];
   canvas.DrawText({left, top - 7}, fmt::format("{:.2f} m high", places->place_m.y), kTextSize, kSoftInk, kPanel);
@@ -87,7 +88,7 @@ void DrawPlan(Canvas& canvas, const RigForecast& forecast, const ForecastOptions
   canvas.FillBox({kMargin, kPlanTop, kPlanSize, kPlanSize}, {0.13, 0.145, 0.16, 1}, kPanelRadius);
   const glm::dvec2 from = at(forecast.middle_m - half), size = 2.0 * scale * half;
   canvas.FillBox({from.x, from.y, size.x, size.y}, kUnseen);
-  // Draw each camera as a dot with a line along its view.
+  // Draw each camera as a dot with a line in the camera's direction.
   const auto draw_camera = [&](const glm::dvec3& place, const glm::dvec2& towards, const std::string& name,
                                const Paint& paint) {
     const glm::dvec2 spot = at({place.x, place.z});

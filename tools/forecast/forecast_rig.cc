@@ -50,7 +50,7 @@ Result<std::vector<NamedCamera>> PlacedCameras(const ForecastOptions& options) {
   return cameras;
 }
 
-/// Returns the point of the floor below the point that is nearest to all optical axes.
+/// Returns the point (x, z) on the floor that lies below the point nearest to all optical axes.
 Result<glm::dvec2> MiddleOf(const std::vector<NamedCamera>& cameras, const std::string& file) {
   glm::dmat3 normal(0);
   glm::dvec3 right(0);
@@ -60,7 +60,7 @@ Result<glm::dvec2> MiddleOf(const std::vector<NamedCamera>& cameras, const std::
     normal += across;
     right += across * camera.p_WC;
   }
-  // Minimum of determinant / cameras³; below it, all axes are within about 2° of each other.
+  // The minimum of determinant / (number of cameras)³. Below it, all optical axes are within about 2° of each other.
   constexpr double kParallel = 1e-3;
   if (!(glm::determinant(normal) > kParallel * std::pow(static_cast<double>(cameras.size()), 3))) {
     return Fail({file}, "its cameras are parallel, so they have no common middle; give it by --middle X,Z in m");
@@ -95,7 +95,7 @@ double ShareSeen(const std::vector<ForecastPlace>& places) {
   return static_cast<double>(seen) / static_cast<double>(places.size());
 }
 
-/// Returns the errors of `places`, mm, at those places that also have an error in `own`.
+/// Returns the errors in `places`, mm, of those places that also have an error in `own`.
 std::vector<double> ErrorsWhere(const std::vector<ForecastPlace>& own, const std::vector<ForecastPlace>& places) {
   std::vector<double> errors;
   for (std::size_t i = 0; i < own.size(); ++i) {
@@ -104,9 +104,10 @@ std::vector<double> ErrorsWhere(const std::vector<ForecastPlace>& own, const std
   return errors;
 }
 
-/// Finds the best place for one more camera. It has the lens of the first camera and looks at the middle of the volume.
-/// Tries 36 directions, three heights and three distances (0.75, 1 and 1.25 times the rig's median distance). The best
-/// has the largest sum of 1 / error over a coarse grid of places; a place that fewer than two cameras see counts 0.
+/// Finds the best place for one more camera. The new camera has the lens of the first camera and looks at the middle of
+/// the volume. Tries 36 directions, three heights and three distances (0.75, 1 and 1.25 times the median distance of
+/// the rig's cameras). The best place has the largest sum of 1 / error over a coarse grid of places in the volume; a
+/// place that fewer than two cameras see counts 0.
 Camera BestAddition(const std::vector<Camera>& cameras, const std::vector<ForecastPlace>& places,
                     const glm::dvec2& middle, const ForecastOptions& options) {
   // Choose a coarse grid, and compute the rig's median distance from the middle.
@@ -151,16 +152,16 @@ Camera BestAddition(const std::vector<Camera>& cameras, const std::vector<Foreca
   return best;
 }
 
-/// Adds the root mean square errors of a standing body's joints. The body faces +Z and +X, and stands on every second
-/// place of the floor along x and z.
+/// Adds the root mean square errors of a standing body's joints. The body stands on every second place of the floor
+/// along x and z, and faces first +Z, then +X.
 Result<void> AddJoints(const std::vector<Camera>& cameras, const ForecastOptions& options, RigForecast& forecast) {
   std::array<JointErrors, kRoleCount> sums{};
   std::array<double, kRoleCount> noise_px{};
-  // The noise of each joint's keypoint is the measured one if there is one, else the assumed one.
+  // For the keypoint of each joint, take the measured noise if it exists, otherwise the assumed noise.
   for (const Role role : AllRoles()) {
     noise_px[Index(role)] = forecast.measured ? forecast.measured->Of(role) : options.errors.noise_px;
   }
-  // Sum the squared errors over both headings and all places.
+  // Sum the squared errors over the two headings and all places.
   int whole = 0, all = 0;
   for (const double yaw : {0.0, kPi / 2}) {
     ASSIGN_OR_RETURN(const auto bodies, PoseErrorForecast::Of(FloorMove{.yaw = yaw}.Apply(PoseOf(ReadyStance()))));
@@ -193,8 +194,8 @@ Result<void> AddJoints(const std::vector<Camera>& cameras, const ForecastOptions
   return {};
 }
 
-/// Adds the errors of the unchanged rig, and its errors after one change each: more exact pixels, a better calibration,
-/// one more camera.
+/// Adds the errors of the unchanged rig, and the errors of the rig after each of these changes alone: more exact
+/// pixels, a better calibration, one more camera.
 void AddWorths(const std::vector<Camera>& cameras, const ForecastOptions& options, RigForecast& forecast) {
   const auto add = [&](const std::string& change, const std::vector<Camera>& changed, const SightingErrors& errors,
                        std::optional<glm::dvec3> added = {}) {

@@ -22,7 +22,8 @@ struct ForecastOptions {
   std::string rig;         ///< a calibration that OpenRig can open
   PlacementOptions place;  ///< the rig's unit, up axis and floor
   SightingErrors errors;
-  /// Films and keypoints taken with the rig; their measured noise replaces `errors.noise_px`; may be empty.
+  /// Films and keypoints taken with the rig; the measured noise of these keypoints replaces `errors.noise_px`; may be
+  /// empty.
   CaptureFilmsOptions take = {};
   glm::dvec3 size_m{3, 2, 3};  ///< the volume in which people move, metres: width (x), height from the floor, depth (z)
   /// The volume's middle on the floor (x, z); absent = below the point that is nearest to all optical axes.
@@ -41,7 +42,7 @@ inline constexpr int kForecastColumns = 20, kForecastHeights = 10, kForecastRows
 /// The expected error at one place.
 struct ForecastPlace {
   glm::dvec3 place_m{0};
-  int cameras = 0;                      ///< number of cameras whose pictures contain the place
+  int cameras = 0;                      ///< number of cameras whose pictures contain this place
   double lost = 1;                      ///< probability that a point in this place cannot be triangulated
   std::optional<double> error_mm = {};  ///< root mean square distance, mm; absent if two cameras never see the place
 };
@@ -59,7 +60,7 @@ struct ForecastJoint {
   Role role = Role::kHipCentre;
   /// Standard deviation of the joint's keypoints, pixels; absent if the joint is not triangulated.
   std::optional<double> noise_px;
-  double point_mm = 0, body_mm = 0;  ///< RMS error of the triangulated joint, and of the joint in the fitted body
+  double point_mm = 0, body_mm = 0;  ///< RMS errors: of the triangulated joint, and of the joint in the fitted body
   /// RMS errors of the direction of the limb that ends at the joint, from triangulation and from the fitted body; 0 for
   /// the hip centre.
   double point_deg = 0, body_deg = 0;
@@ -72,16 +73,16 @@ struct RigForecast {
   std::vector<ForecastPlace> places;  ///< places sorted by height, then z, then x
   double seen = 0;                    ///< share of places in the pictures of at least two cameras
   double median_mm = 0, p95_mm = 0;   ///< median and 95th percentile of the error over the places that are seen
-  ForecastPlace worst;                ///< the place with the largest error
+  ForecastPlace worst;                ///< the place with the largest error among the seen places
   double bodies = 0;  ///< share of places on the floor at which two cameras see each joint of a standing body
-  /// One per role, averaged over the places that `bodies` counts; empty if there are none.
+  /// One entry per role, averaged over the places that `bodies` counts; empty if it counts no place.
   std::vector<ForecastJoint> joints;
-  std::vector<RigWorth> worths;       ///< the rig itself, then each change
+  std::vector<RigWorth> worths;       ///< the unchanged rig, then the rig with each change
 };
 
 /// Computes the expected errors of a rig, prints them, and writes the files that `options` name. Fails before anything
 /// is written if the rig has fewer than two or too many cameras, if `middle_m` is absent and all optical axes are
-/// parallel, or if no place of the volume is seen by two cameras.
+/// parallel, or if two cameras see no place of the volume.
 Result<RigForecast> ForecastRig(const ForecastOptions& options);
 
 /// Draws a heat map for each height and a plan of the cameras. Returns the bytes of a PNG file.

@@ -19,7 +19,8 @@ std::optional<Carrier> Between(const std::optional<Carrier>& a, const std::optio
   return Carrier{glm::mix(a->position, b->position, share), glm::slerp(a->rotation, b->rotation, share)};
 }
 
-/// Returns the twin's carriers at a time on the twin's clock; all are absent before its start and after its end.
+/// Returns the twin's carriers (Carrier in recording.h) at a time on the twin's clock; all are absent before the twin's
+/// start and after its end.
 std::array<std::optional<Carrier>, kRoleCount> CarriersAt(const TwinMotion& twin, double time_s) {
   const double frame = time_s * twin.rate_hz;
   if (frame < 0 || frame > static_cast<double>(twin.frames.size()) - 1) return {};
@@ -32,7 +33,7 @@ std::array<std::optional<Carrier>, kRoleCount> CarriersAt(const TwinMotion& twin
   return carriers;
 }
 
-/// Returns all pairs of a recorded joint and its carrier in every `stride`-th frame.
+/// Returns, for every `stride`-th frame, all pairs of a recorded joint and the joint's carrier.
 std::vector<Pair> PairsAt(const JointRecording& recording, const TwinMotion& twin, double shift_s, std::size_t stride) {
   std::vector<Pair> pairs;
   for (std::size_t t = 0; t < recording.frames.size(); t += stride) {
@@ -69,7 +70,8 @@ void FitRigid(const std::vector<glm::dvec3>& from, const std::vector<glm::dvec3>
   alignment.p_ST = mean_to - alignment.R_ST * mean_from;
 }
 
-/// Sets the offset of each joint: its mean position in the frame of the rigid body that carries it (Carrier).
+/// Sets the offset of each joint: the joint's mean position in the frame of the rigid body that carries the joint
+/// (Carrier).
 void FitOffsets(const std::vector<Pair>& pairs, TwinAlignment& alignment) {
   std::array<glm::dvec3, kRoleCount> sums{};
   std::array<double, kRoleCount> counts{};
@@ -96,7 +98,7 @@ double RootMeanSquare(const std::vector<Pair>& pairs, const TwinAlignment& align
 /// Fits the rigid motion and the offsets alternately until the residual converges. `alignment` holds the initial
 /// values.
 void FitAlternately(const std::vector<Pair>& pairs, int max_iterations, TwinAlignment& alignment) {
-  constexpr double kSettled = 1e-6;  // metres
+  constexpr double kSettled = 1e-6;  // metres; smaller changes of the residual end the iteration
   std::vector<glm::dvec3> from(pairs.size()), to(pairs.size());
   alignment.rms_m = 1e300;
   for (int iteration = 0; iteration < max_iterations; ++iteration) {
@@ -188,7 +190,7 @@ bool IsEnough(const std::vector<Pair>& pairs, const JointRecording& recording, s
 
 constexpr int kSearchIterations = 8, kFinalIterations = 200;
 
-/// Returns the best alignment for shifts from `start.shift_s − reach_s` to `start.shift_s + reach_s`.
+/// Returns the best alignment for time shifts from `start.shift_s − reach_s` to `start.shift_s + reach_s`.
 std::optional<TwinAlignment> BestShift(const JointRecording& recording, const TwinMotion& twin,
                                        const TwinAlignment& start, double reach_s, double step_s) {
   constexpr std::size_t kSearchFrames = 150;

@@ -10,17 +10,19 @@
 namespace etude {
 
 /// The alignment of a recording with its twin, which is the optical recording of the same motion. The alignment
-/// explains the part of their difference that is no error of the sensor, as far as one recording can show it.
+/// explains that part of the difference between recording and twin which is no error of the sensor, as far as one
+/// recording can show this.
 struct TwinAlignment {
   /// The twin's time at the recording's time 0: the difference of the clocks plus the sensor's lag.
   double shift_s = 0;
   glm::dmat3 R_ST{1};  ///< rotates the twin's directions into the sensor's frame
   glm::dvec3 p_ST{0};  ///< the twin's origin in the sensor's frame
-  /// The position of each joint in the frame of its carrier; absent if no frame shows both the joint and the carrier.
+  /// The position of each joint in the frame of the joint's carrier; absent if no frame shows both the joint and the
+  /// carrier.
   std::array<std::optional<glm::dvec3>, kRoleCount> offsets{};
   double rms_m = 0;  ///< RMS residual over all joints, metres
 
-  /// Returns the position of the carried joint in the sensor's frame; nullopt if it has no carrier or no offset.
+  /// Returns the position of the carried joint in the sensor's frame; nullopt if the joint has no carrier or no offset.
   std::optional<glm::dvec3> JointAt(const std::optional<Carrier>& carrier, Role role) const;
 };
 
@@ -31,13 +33,13 @@ struct TwinMatch {
 };
 
 /// Finds time shift, rotation, translation and offsets by least squares over all joints. The shift is first found by
-/// correlating the speeds of both systems, and then refined to a tenth of a frame. For each shift, rigid motion and
-/// offsets are fitted alternately until they converge. Returns nullopt if the overlap is shorter than a second or has
-/// fewer than three joints.
+/// correlating the joints' speeds in the recording and in the twin, and then refined to a tenth of a frame. For each
+/// shift, rigid motion and offsets are fitted alternately until they converge. Returns nullopt if the overlap is
+/// shorter than a second or has fewer than three joints.
 std::optional<TwinMatch> AlignTwin(const JointRecording& recording, const TwinMotion& twin);
 
 /// Aligns a recording that differs little from an aligned one: starts from `start`, and searches only shifts within
-/// `max_shift_s` of it.
+/// `max_shift_s` of the shift in `start`.
 std::optional<TwinMatch> RealignTwin(const JointRecording& recording, const TwinMotion& twin,
                                      const TwinAlignment& start, double max_shift_s);
 

@@ -10,8 +10,8 @@
 namespace etude {
 namespace {
 
-/// Returns a position for every joint in every frame. In a frame in which the twin does not show the joint, the joint
-/// keeps its last position. Before its first position, it has the first position.
+/// Returns a position for every joint in every frame. In frames in which the twin does not show a joint, the joint
+/// keeps its last position. Before the joint's first position, it has the first position.
 BodyMotion WholeMotion(const RealRecording& real) {
   BodyMotion motion{.rate_hz = real.recording.rate_hz, .poses = std::vector<BodyPose>(real.match.truth.size())};
   for (const Role role : AllRoles()) {
@@ -21,7 +21,7 @@ BodyMotion WholeMotion(const RealRecording& real) {
     const auto parent = ParentOf(role);
     for (std::size_t t = 0; t < motion.poses.size(); ++t) {
       if (real.match.truth[t][j]) last = real.match.truth[t][j];
-      // A joint that the twin never shows is not compared; put it where it cannot occlude other joints.
+      // A joint that the twin never shows is not compared; put this joint where it cannot occlude other joints.
       motion.poses[t].joints[j] = last ? *last : parent ? motion.poses[t][*parent] : glm::dvec3(0, 0, 1);
     }
   }
@@ -29,7 +29,8 @@ BodyMotion WholeMotion(const RealRecording& real) {
 }
 
 /// Low-pass filters the twin's motion at 6 Hz (−3 dB, Gaussian), as is usual in biomechanics for optical recordings.
-/// Faster components are the twin's own noise; without the filter, the simulated sensor would reproduce them as motion.
+/// Faster components are the twin's own noise; without the filter, the simulated sensor would reproduce this noise as
+/// motion.
 BodyMotion WithoutShiver(const BodyMotion& motion) {
   constexpr double kPassHz = 6;
   const double deviation_s = std::sqrt(std::log(2.0)) / (2 * kPi * kPassHz);
@@ -40,7 +41,7 @@ BodyMotion WithoutShiver(const BodyMotion& motion) {
     for (std::size_t j = 0; j < kRoleCount; ++j) {
       glm::dvec3 sum(0);
       double weights = 0;
-      // Use the same reach to both sides, so that the filter has no lag near the ends.
+      // Average over equally many frames before and after, so that the filter has no lag near the ends.
       const long reach = std::min({kReach, t, count - 1 - t});
       for (long d = -reach; d <= reach; ++d) {
         const double off = static_cast<double>(d) / motion.rate_hz / deviation_s;
@@ -161,11 +162,11 @@ SensorStatisticsSummary SimulatedStatistics(const RealRecording& real, const Ske
 }
 
 SkeletonSensorOptions FitSensor(const RealRecording& real, const SensorFitOptions& options) {
-  // Start from the given sensor, with the measured distance.
+  // Start from the given sensor, at the distance measured in the recording.
   const SensorStatistics measured = StatisticsOf(real);
   SkeletonSensorOptions sensor = options.start;
   if (const double distance = MeanDistance(real); distance > 0) sensor.reference_distance_m = distance;
-  // Correct each setting by the ratio or the difference of the statistic that depends on it.
+  // Correct each setting by comparing, by ratio or difference, the statistic that depends on this setting.
   for (int step = 0; step < options.steps; ++step) {
     const SensorStatistics simulated = SimulatedStatistics(real, sensor, options.worlds, kFitWorlds).mean;
     FitGroups(measured, simulated, sensor);

@@ -10,8 +10,8 @@
 
 namespace etude {
 
-/// A real recording, its twin, and their alignment. Simulations start from the twin's motion and are compared with the
-/// recording.
+/// A real recording, its twin (the optical recording of the same motion), and their alignment. Simulations start from
+/// the twin's motion and are compared with the recording.
 struct RealRecording {
   JointRecording recording;
   TwinMotion twin;
@@ -24,12 +24,12 @@ std::optional<RealRecording> MakeRealRecording(JointRecording recording, TwinMot
 SensorStatistics StatisticsOf(const RealRecording& real);
 
 /// Simulates the sensor's recording of the twin's motion, seen from the real sensor's position. If that position is
-/// unknown, the sensor stands at its usual distance in front of the body (`SensorPlacement`). A joint that the twin
-/// lacks is absent.
+/// unknown, the simulated sensor stands at the usual distance in front of the body (`SensorPlacement`). A joint that
+/// the twin lacks is absent.
 JointRecording Simulate(const RealRecording& real, const SkeletonSensorOptions& options, const WorldKey& world);
 
-/// Returns statistics over `worlds` simulated recordings; each is aligned with the twin in the same way as the real
-/// recording.
+/// Returns statistics over `worlds` simulated recordings; each simulated recording is aligned with the twin in the same
+/// way as the real recording.
 SensorStatisticsSummary SimulatedStatistics(const RealRecording& real, const SkeletonSensorOptions& options, int worlds,
                                             const WorldKey& first_world);
 
@@ -44,9 +44,9 @@ struct SensorFitOptions {
 /// Fits a sensor by the method of moments, so that its simulated recordings of the twin's motion have the statistics of
 /// the real recording. Each step simulates, compares and corrects. It fits each group's size and depth ratio, planted
 /// feet, correlations along bones, the white noise at rest, the share of fast errors, the stretch of shoulders, arms
-/// and hands (the hands' stretch follows from their jumps), and the reference distance. All other settings keep their
-/// values, because one recording does not determine them. The settings of groups that were never seen also keep their
-/// values. Deterministic.
+/// and hands (the hands' stretch follows from the jumps of the hands), and the reference distance. All other settings
+/// keep their values, because one recording does not determine them. The settings of groups that were never seen also
+/// keep their values. Deterministic.
 SkeletonSensorOptions FitSensor(const RealRecording& real, const SensorFitOptions& options);
 
 }  // namespace etude

@@ -12,7 +12,7 @@ namespace {
 
 using enum Role;
 
-/// The rigid target that carries each role's joint: a target near the joint, on a bone that ends at the joint.
+/// For each role, the rigid target that carries the joint: a target near the joint, on a bone that ends at the joint.
 using T = BodyTarget;
 constexpr std::array<BodyTarget, kRoleCount> kTargetOfRole = {
     T::kHips,       T::kChest,        T::kChest,        T::kHead,        // trunk and head
@@ -39,7 +39,7 @@ TwinMotion TwinOfTargets(const std::vector<TargetFrame>& targets) {
 }
 
 /// Computes orientations for the bones of a body that is given only by joint positions. The trunk's orientation follows
-/// from its joints; a limb has the trunk's orientation, swung into the limb's direction.
+/// from the trunk's joints; a limb has the trunk's orientation, swung into the limb's direction.
 class BoneFrames {
  public:
   explicit BoneFrames(const RolePositions& places) : places_(places) {
@@ -105,7 +105,8 @@ TwinMotion TwinOfJoints(const JointCsv& csv) {
   return twin;
 }
 
-/// Returns the usual frame rate at which the duration of `frames` frames is closest to `seconds`.
+/// Returns, from the list of usual frame rates, the rate at which the duration of `frames` frames is closest to
+/// `seconds`.
 double UsualRate(std::size_t frames, double seconds) {
   double best = 60, best_error = 1e300;
   for (const double rate : {30.0, 50.0, 60.0, 100.0, 120.0, 200.0, 240.0}) {

@@ -14,19 +14,19 @@
 
 namespace etude {
 
-/// The recording of a sensor: positions of the twenty joints in metres, absent where the sensor did not see them. The
-/// frame is the recording's own; Y points up.
+/// The recording of a sensor: positions of the twenty joints in metres, absent where the sensor did not see them.
+/// Positions are in the recording's own coordinate frame, in which Y points up.
 struct JointRecording {
   double rate_hz = kJudgedRateHz;
   std::vector<RolePositions> frames;
-  /// The position of the sensor in the recording's frame: the origin for a Kinect, unknown for other files.
+  /// The position of the sensor in the recording's coordinate frame: the origin for a Kinect, unknown for other files.
   std::optional<glm::dvec3> sensor_at;
 
   double DurationSeconds() const { return static_cast<double>(frames.size()) / rate_hz; }
 };
 
-/// The rigid body that carries a joint, measured by the second system. The joint's position in the carrier's frame is
-/// constant.
+/// The rigid body that carries a joint, measured by the second system (TwinMotion). The joint's position in the
+/// carrier's frame is constant.
 struct Carrier {
   glm::dvec3 position{0};
   glm::dquat rotation{1, 0, 0, 0};
@@ -40,14 +40,15 @@ struct TwinMotion {
   double DurationSeconds() const { return static_cast<double>(frames.size()) / rate_hz; }
 };
 
-/// Reads a Kinect v2's text (30 Hz unless `rate_hz` is given) or joint CSV (at the rate of its times unless `rate_hz`
-/// is given). The first row decides the format. A failure states the file, the line and what is allowed.
+/// Reads a Kinect v2's text (30 Hz unless `rate_hz` is given) or a joint CSV (at the rate of the file's times unless
+/// `rate_hz` is given). The first row decides the format. A failure states the file, the line and what is allowed.
 Result<JointRecording> ReadJointRecording(std::string_view text, const std::string& file,
                                           std::optional<double> rate_hz);
 
 /// Reads a file of 17 rigid targets, or a joint CSV. In a joint CSV, the trunk carries its own joints, and every other
-/// joint is carried by the bone that ends in it. The rate is `rate_hz`; if it is absent, the rate of the file's times;
-/// without times, the rate among 30, 50, 60, 100, 120, 200 and 240 Hz that makes the duration closest to `seconds`.
+/// joint is carried by the bone that ends in it. The rate is `rate_hz` if it is given, otherwise the rate of the file's
+/// times. If the file has no times, the rate is chosen among 30, 50, 60, 100, 120, 200 and 240 Hz, so that the duration
+/// is closest to `seconds`.
 Result<TwinMotion> ReadTwinMotion(std::string_view text, const std::string& file, std::optional<double> rate_hz,
                                   double seconds);
 

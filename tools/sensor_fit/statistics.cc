@@ -14,7 +14,7 @@ namespace {
 
 using enum Role;
 
-/// The errors of one joint, for the frames in which both systems saw it.
+/// The errors of one joint, for the frames in which both systems (the sensor and the twin's) saw the joint.
 struct ErrorSeries {
   std::vector<glm::dvec3> errors;
   std::vector<std::size_t> frames;
@@ -44,10 +44,10 @@ ErrorSeries ErrorsOf(const JointRecording& recording, const TwinMatch& match, Ro
   return series;
 }
 
-/// Returns true if the twin's joint is at rest from five frames before `frame` to five frames after it.
+/// Returns true if the joint is at rest in the twin from five frames before `frame` to five frames after it.
 bool IsPlanted(const TwinMatch& match, std::size_t frame, std::size_t joint, double rate_hz) {
   constexpr std::size_t kReach = 5;
-  constexpr double kResting = 0.1;  // m/s
+  constexpr double kResting = 0.1;  // m/s; a slower joint is at rest
   for (std::size_t t = frame - std::min(frame, kReach); t < std::min(frame + kReach, match.truth.size() - 1); ++t) {
     const auto &a = match.truth[t][joint], &b = match.truth[t + 1][joint];
     if (a && b && glm::distance(*a, *b) * rate_hz > kResting) return false;
@@ -137,10 +137,10 @@ void MeasureCorrelations(const JointRecording& recording, const TwinMatch& match
   struct Sums {
     double both = 0, first = 0, second = 0;
   };
-  // Sum the products of the errors at both ends of each bone, about their means.
+  // Sum the products of the errors at both ends of each bone, about the means of these errors.
   std::array<Sums, kBoneKindCount> all_sums{};
   for (const Bone& bone : AllBones()) {
-    ErrorSeries parent, child;  // the errors in the frames in which both joints were seen
+    ErrorSeries parent, child;  // the errors of the bone's two joints, in frames in which both joints were seen
     for (std::size_t t = 0; t < recording.frames.size(); ++t) {
       const auto a = ErrorAt(recording, match, t, Index(bone.parent));
       const auto b = ErrorAt(recording, match, t, Index(bone.child));

@@ -22,8 +22,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-/// Returns the axis of the file that points up (0 = X, 1 = Y, 2 = Z), and the sign of its direction: −1 if the axis
-/// points down.
+/// Returns the axis of the file that points up (0 = X, 1 = Y, 2 = Z), and a sign, which is −1 if this axis points down.
 std::pair<int, int> UpOf(const aiScene& scene) {
   std::int32_t axis = 1, sign = 1;
   if (scene.mMetaData != nullptr) {
@@ -39,8 +38,9 @@ void Append(std::string& bytes, std::uint32_t number) {
   bytes.append(raw.data(), raw.size());
 }
 
-/// Writes the nodes and animations of a scene as a GLB file. assimp's own writer is not used, because it leaves out
-/// transforms within 0.01 of the identity: a joint one centimetre from its parent would move onto the parent.
+/// Writes the nodes and animations of a scene as a GLB file. assimp's own writer is not used, because that writer
+/// leaves out transforms within 0.01 of the identity: a joint one centimetre from its parent would move onto the
+/// parent.
 class MotionGlb {
  public:
   explicit MotionGlb(const aiScene& scene) {
@@ -48,7 +48,8 @@ class MotionGlb {
     for (unsigned i = 0; i < scene.mNumAnimations; ++i) AddAnimation(*scene.mAnimations[i]);
   }
 
-  /// Returns the longest time between two consecutive keys of one channel that differ, in seconds.
+  /// Returns the longest time between two consecutive keys of one channel, in seconds; only pairs of different keys
+  /// count.
   double longest_s() const { return longest_s_; }
 
   std::string Bytes() {
@@ -77,7 +78,8 @@ class MotionGlb {
   }
 
  private:
-  /// Adds a node and its subtree. assimp splits a joint with pivots into a chain of nodes; the chain becomes one node.
+  /// Adds a node and its subtree. assimp splits a joint with pivots into a chain of nodes; here, each chain becomes one
+  /// node.
   std::size_t AddNode(const aiNode& first) {
     const std::size_t index = nodes_.size();
     std::vector<const aiNode*> parts = {&first};
@@ -104,8 +106,8 @@ class MotionGlb {
     return index;
   }
 
-  /// Interpolates keys at a time: `mix(from, to, share)` blends the two neighbouring keys. Before the first key and
-  /// after the last one, the value is constant.
+  /// Interpolates the keys of a channel at a time: `mix(from, to, share)` blends the two neighbouring keys. Before the
+  /// first key and after the last one, the value is constant.
   template <typename Key, typename Mix>
   static auto ValueAt(const Key* keys, unsigned count, double time, Mix mix) {
     const auto is_before = [](const Key& key, double at) { return key.mTime < at; };
@@ -127,7 +129,7 @@ class MotionGlb {
     return {ValueAt(moved.mScalingKeys, moved.mNumScalingKeys, time, mix), rotation, place};
   }
 
-  /// The keys of a joint that assimp splits into parts: one key at each time at which any part has a key.
+  /// The keys of a joint that assimp splits into parts: one joined key for each time at which any part has a key.
   struct JoinedKeys {
     std::vector<aiVectorKey> places, scales;
     std::vector<aiQuatKey> turns;
@@ -145,8 +147,8 @@ class MotionGlb {
       for (unsigned k = 0; k < moved.mNumRotationKeys; ++k) times.insert(moved.mRotationKeys[k].mTime);
       for (unsigned k = 0; k < moved.mNumScalingKeys; ++k) times.insert(moved.mScalingKeys[k].mTime);
     }
-    // If only the joint's own node has keys, these keys hold the whole transform, because assimp includes the
-    // pre-rotation in them.
+    // If only the joint's own node has keys, these keys hold the whole transform, because assimp includes the joint's
+    // pre-rotation in its keys.
     const bool is_whole = moved_parts.size() == 1 && moved_parts.begin()->first == parts.back();
     JoinedKeys joined;
     for (const double time : times) {
@@ -176,7 +178,8 @@ class MotionGlb {
         for (const float number : numbers_of(keys[i].mValue)) values.push_back(number);
       }
       if (count == 0) return;
-      // Two keys are equal if their numbers (quaternion components, metres, scale factors) differ by less than this.
+      // Two keys are equal if their numbers (quaternion components, metres, scale factors) differ by less than this
+      // constant.
       constexpr float kSame = 0.01f;
       const std::size_t width = values.size() / count;
       for (std::size_t i = width; i < values.size(); ++i) {
@@ -213,7 +216,7 @@ class MotionGlb {
         {{"name", animation.mName.C_Str()}, {"samplers", std::move(samplers)}, {"channels", std::move(channels)}});
   }
 
-  /// Adds `count` scalars, or vectors of 3 or 4 numbers; returns the index of their accessor.
+  /// Adds `count` scalars, or vectors of 3 or 4 numbers; returns the index of the new accessor.
   std::size_t AddNumbers(const std::vector<float>& numbers, unsigned count) {
     constexpr int kFloat = 5126;
     const std::size_t width = numbers.size() / count, bytes = numbers.size() * sizeof(float);
@@ -227,8 +230,8 @@ class MotionGlb {
   }
 
   Json nodes_ = Json::array(), animations_ = Json::array(), accessors_ = Json::array(), views_ = Json::array();
-  std::map<std::string, std::size_t> by_name_;  ///< the first node of each name
-  std::map<std::size_t, std::vector<const aiNode*>> parts_;  ///< the chains that became one node
+  std::map<std::string, std::size_t> by_name_;  ///< for each name, the first node with this name
+  std::map<std::size_t, std::vector<const aiNode*>> parts_;  ///< for each joined node, its chain in the file
   std::string numbers_;
   double longest_s_ = 0;
 };

@@ -4,7 +4,7 @@
 
 namespace etude {
 
-/// Return the parts of the page that every report shares; they are built into the program (CMakeLists.txt).
+/// Return the scripts and styles that every report's page uses. They are built into the program (CMakeLists.txt).
 std::string_view ChartJs();
 std::string_view ReportCss();
 std::string_view ReportJs();

@@ -1,5 +1,5 @@
 // Draws every <canvas data-chart="id"> from the JSON element of that id, one line for each method. Shows the cells of a
-// dot or a row, and the command that runs them again. Sorts, filters and copies tables; saves pictures.
+// dot or a row, and the command that runs these cells again. Sorts, filters and copies tables; saves pictures.
 (() => {
   'use strict';
   const style = (name) => getComputedStyle(document.documentElement).getPropertyValue(name).trim();
@@ -73,7 +73,8 @@
   };
   document.documentElement.classList.add('js');
 
-  // The card of a dot or row: its cells, and the command `etude replay` that runs them again, with this page's folder.
+  // The card of a dot or row: its cells, and the command `etude replay` that runs these cells again, with this page's
+  // folder.
   const folder = location.protocol === 'file:' ? decodeURIComponent(location.pathname).replace(/\/report\/[^/]*$/, '') : '.';
   const word = (text) => /^[\w.\/=,:@%+-]+$/.test(text) ? text : "'" + text.replaceAll("'", "'\\''") + "'";
   const card = make('div', '', {className: 'row-card', hidden: true});

@@ -8,7 +8,7 @@ const HEAD = 3, HEAD_RADIUS = .1, THIN = .022;
 // The skeleton of a body: the twenty joints, or the body's own joints, which are drawn as thin lines.
 const BODY = {joints: JOINTS, parents: PARENT};
 const treeOf = (body) => body.joints ? {joints: body.joints.map((name) => name.replaceAll('_', ' ')), parents: body.parents} : BODY;
-// The colour scale runs from blue over pale yellow to red; readers who cannot distinguish green from red can read it.
+// The colour scale runs from blue over pale yellow to red: readers who confuse green and red can also read this scale.
 const SCALE = [[45, 100, 180], [125, 180, 220], [248, 232, 175], [236, 140, 72], [178, 28, 40]];
 
 const island = document.getElementById('motions');
@@ -145,7 +145,7 @@ const glRenderer = (canvas, onLost) => {
     }
     return {program, at};
   };
-  // Draws a capsule from a to b with radii a.w and b.w; its shadow is projected on the floor along the light.
+  // Draws a capsule from a to b with radii a.w and b.w; the capsule's shadow is projected on the floor along the light.
   const limbs = build(`layout(location=0) in vec4 v; layout(location=1) in vec4 a; layout(location=2) in vec4 b;
     layout(location=3) in vec4 ca; layout(location=4) in vec4 cb;
     uniform mat4 m; uniform float ground; uniform bool isShadow; out vec3 n; out vec3 w; out vec4 c;
@@ -315,7 +315,7 @@ const show = (world, cells) => {
   const labelOf = (body) => world.cells.length > 1 && body.cell >= 0 && body.label !== world.cells[body.cell].method ?
       `${body.label} (${world.cells[body.cell].method})` : body.label;
 
-  // If methods are shown apart, they stand side by side; a partner always stands beside its dancer.
+  // If methods are shown apart, they stand side by side; a partner always stands beside the dancer.
   const box = () => {
     const low = [1e9, 1e9, 1e9], high = [-1e9, -1e9, -1e9];
     for (const i of chosen) {
@@ -438,7 +438,7 @@ const show = (world, cells) => {
   };
 
   const {id, method} = world.cells.find((cell) => cell.id === cells[0]);
-  const motion = `${id.slice(0, -method.length - 1)}@${method}`;  // as `etude clip` names it
+  const motion = `${id.slice(0, -method.length - 1)}@${method}`;  // the motion's name, as `etude clip` expects it
   const boxes = make('fieldset', {}, make('legend', {}, 'Shown'), ...world.bodies.map((body, i) => make('label', {},
       make('input', {type: 'checkbox', checked: chosen.has(i), onchange: (event) => {
         event.target.checked ? chosen.add(i) : chosen.delete(i);

@@ -21,8 +21,8 @@ struct BuiltinDance {
 /// Returns the dance of a song. Throws engine::BadInput for an unknown song.
 ETUDE_API BuiltinDance DanceOfSong(const std::string& song);
 
-/// Returns the proportions of the body that performs the clips of scenarios. A program that uses these proportions gets
-/// the results of a scenario's cells.
+/// Returns the proportions of the body that performs the clips of scenarios. With these proportions, a program gets the
+/// same results as the cells of a scenario.
 ETUDE_API engine::BodyProportions ScenarioProportions();
 
 }  // namespace etude::sim

@@ -17,7 +17,7 @@ struct StudioOptions {
   /// How furnished the room is, 0 to 1. At 0 it is a bare studio with a person of capsules in warm colours; at 1 it is
   /// a lived-in room with a dressed person.
   double scene = 0;
-  std::uint64_t seed = 1;  ///< seed of the room, its objects and the person's clothes
+  std::uint64_t seed = 1;  ///< seed of the room, the objects in the room and the person's clothes
 };
 
 struct Picture {
@@ -26,9 +26,9 @@ struct Picture {
 };
 
 /// Returns two cameras side by side, placed as a person would place them in front of a body that performs this motion:
-/// 640 × 480 pixels, nearly parallel axes, a few centimetres from the exact positions (random, by `seed`). The motion
-/// is in both pictures as far as the lenses allow. Throws BadInput for a baseline that is not 0.05 to 2 m, and for a
-/// motion without frames.
+/// 640 × 480 pixels, nearly parallel axes, a few centimetres from the exact positions (random, by `seed`). The whole
+/// motion is visible to both cameras as far as the lenses allow. Throws BadInput for a baseline that is not 0.05 to 2
+/// m, and for a motion without frames.
 ETUDE_API std::vector<NamedCamera> StereoCameras(const BodyMotion& motion, double baseline_m = 0.6,
                                                  std::uint64_t seed = 1);
 

@@ -15,8 +15,8 @@ struct SensorOptions {
   /// Multiplies every error and probability, 0 to 10. At 0, hidden joints are inferred correctly.
   double strength = 1;
   double distance_m = 2.75;  ///< distance of the sensor from the middle of the motion, along the floor; 0.5 to 10
-  double turn = 0;           ///< direction of the sensor from that middle, radians; 0 is its +Z side, π/2 its +X side
-  double height_m = 1;       ///< height of the sensor; 0.1 to 3; it looks at a point one metre above the middle
+  double turn = 0;           ///< direction from the middle of the motion to the sensor, radians; 0 is +Z, π/2 is +X
+  double height_m = 1;       ///< height, 0.1 to 3; the sensor looks at a point one metre above the middle of the motion
   std::uint64_t seed = 1;    ///< the seed of all random numbers
 };
 
