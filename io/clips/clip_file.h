@@ -45,9 +45,10 @@ std::string_view FormatName(ClipFormat format);
 struct MadeBody {
   /// The source of the body, and every change that was made to the file's content, as sentences for users.
   std::vector<std::string> changes;
-  UpFinding up = {};                 ///< the axis of the file that became Y
-  double floor_m = 0;                ///< the height in the file that became 0
-  std::size_t first_frame = 0;       ///< the frame of the file that became the first frame
+  UpFinding up = {};                   ///< the axis of the file that became Y
+  double floor_m = 0;                  ///< the height in the file that became 0
+  std::size_t first_frame = 0;         ///< the frame of the file that became the first frame
+  std::optional<double> start_s = {};  ///< the first frame's time by the file's own clock, if it states one
 };
 
 /// The content of a motion file.
