@@ -16,7 +16,7 @@ static void Describe(RecordFields& fields, BlindKey::Metric& metric) {
   fields.Required("id", metric.id, "a metric with a better direction");
   fields.Required("higher_is_better", metric.higher_is_better, "which direction is better");
   fields.Required("left", metric.left, "the metric's value for the film on the left; null if there is none");
-  fields.Required("right", metric.right, "the metric's value for the film on the right, likewise");
+  fields.Required("right", metric.right, "the metric's value for the film on the right; null if there is none");
 }
 
 static void Describe(RecordFields& fields, BlindKey::Pair& pair) {

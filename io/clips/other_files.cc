@@ -73,7 +73,7 @@ constexpr Mark kMarks[] = {
     {"<COLLADA", "a Collada scene: export glTF or BVH of it, from Blender for instance", kAnywhere},
     {"<X3D", "an X3D scene: export BVH or glTF of it, from Blender for instance", kAnywhere},
     {"<OpenSimDocument", "a model of OpenSim, which holds no motion", kAnywhere},
-    {"<?xml", "XML of no kind known here; export BVH, FBX or C3D from the program that wrote it"},
+    {"<?xml", "XML of an unknown kind; export BVH, FBX or C3D from the program that wrote it"},
     {"Coordinates", kOpenSim},
     {"\nendheader", kOpenSim, kAnywhere},
     {":", "an Acclaim skeleton, whose motions are the .amc files beside it"},
@@ -96,7 +96,7 @@ std::string DescribeOtherFile(std::string_view bytes, std::string_view first_wor
   const auto* const known = std::ranges::find_if(kMarks, [&](const Mark& mark) { return Has(head, mark); });
   if (known != std::end(kMarks)) return known->told;
   if (head.find('\0') != kAnywhere) {
-    return "a binary file of no kind known here; export BVH, FBX or C3D from the program that wrote it (Motive of a "
+    return "a binary file of an unknown kind; export BVH, FBX or C3D from the program that wrote it (Motive of a "
            ".tak, QTM of a .qtm)";
   }
   const std::string begins = "that begins with " + Quote(std::string(first_word));

@@ -11,11 +11,12 @@ constexpr Range kShare{0, 1};
 KeyInfo PosesKey() {
   const ValueKind share = NumberKind(kShare);
   const ValueKind mapping = MappingKind(
-      "", std::vector<KeyInfo>{{"uniform", share, "0.5", "Share of every joint's range, about its middle."}});
+      "", std::vector<KeyInfo>{{"uniform", share, "0.5",
+                                "Share of every joint's range, around its midpoint, from which true angles are drawn."}});
   return {"poses",
           {"{uniform: 0…1}, or 0…1 alone", fmt::format(R"({{"anyOf":[{},{}]}})", share.schema, mapping.schema)},
           "{uniform: 0.5}",
-          "The true pose is drawn from this share of every joint's range, about its middle.",
+          "The true pose is drawn from this share of every joint's range, around the range's midpoint.",
           {"start", {"disturbed", "middle"}}};
 }
 

@@ -43,8 +43,8 @@ const FieldTable<TransitionCondition>& TransitionConditionFields() {
                  "series; the report always explains cells that have films."),
        // Keys of the rules by which the library is prepared.
        Key::Name("asked_for", Path(&Options::stage, &StageRules::asks_for_acts), {{"any", false}, {"acts", true}},
-                 "Which clips are requested: any other clip, or one of the coach's acts, if there are any, while other "
-                 "clips play."),
+                 "Which clips are requested while another clip plays: any clip, or one of the coach's acts if the library "
+                 "has acts."),
        Key::Number("min_clips", Path(&Options::stage, &StageRules::min_clips), {1, 1000},
                    "Minimum number of clips in which a bridge frame's ten tags must occur together."),
        Key::Number("most_per_class", Path(&Options::stage, &StageRules::most_per_class), {0, 100000},

@@ -205,9 +205,9 @@ TEST_F(ClipFileTest, WhatIsNeitherIsToldWithWhatIsAllowed) {
            {"# by hand\n[Header]\nFileType htr\n[SegmentNames&Hierarchy]\n", "Motion Analysis' HTR"},
            {"<?xml version=\"1.0\"?>\n<mvnx version=\"4\">", "Xsens' MVNX: export BVH"},
            {"<?xml version=\"1.0\"?>\n<COLLADA>", "a Collada scene"},
-           {"<?xml version=\"1.0\"?>\n<thing/>", "XML of no kind known here"},
+           {"<?xml version=\"1.0\"?>\n<thing/>", "XML of an unknown kind"},
            {std::string("\0\0\0 ftypisom", 12), "a film, picture or sound, not a motion"},
-           {std::string("\x55\xaa\0\1", 4), "a binary file of no kind known here; export BVH, FBX or C3D"},
+           {std::string("\x55\xaa\0\1", 4), "a binary file of an unknown kind; export BVH, FBX or C3D"},
            {"{\"Bodies\": []}", "JSON that is neither glTF (it has no \"asset\")"},
            {"[{\"keypoints\": []}]", "a JSON list; write joints with numpy.save"},
            {"frame,x,y,z\n", "a table that begins with 'frame,x,y,z'; one of joints has columns left_wrist_x_m"}}) {
