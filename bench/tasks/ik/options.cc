@@ -12,7 +12,8 @@ KeyInfo PosesKey() {
   const ValueKind share = NumberKind(kShare);
   const ValueKind mapping = MappingKind(
       "", std::vector<KeyInfo>{{"uniform", share, "0.5",
-                                "Share of every joint's range, around its midpoint, from which true angles are drawn."}});
+                                "Share of every joint's range, around its midpoint, from which true angles are "
+                                "drawn."}});
   return {"poses",
           {"{uniform: 0…1}, or 0…1 alone", fmt::format(R"({{"anyOf":[{},{}]}})", share.schema, mapping.schema)},
           "{uniform: 0.5}",
