@@ -50,7 +50,7 @@ struct GateReport {
   std::vector<GateAnswer> answers;
   std::vector<RatioResult> ratios;
   SnapshotComparison comparison;
-  /// Answers whose verdict became worse; an answer that changed from better to worse fails the gate.
+  /// Answers whose verdict became worse. Only a change from "better" to "worse" fails the gate (FallenAnswer::Flips).
   std::vector<FallenAnswer> fallen;
   /// One sentence for each method without any answer; each such method fails the gate.
   std::vector<std::string> silent;

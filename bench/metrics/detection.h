@@ -14,8 +14,8 @@ namespace etude {
 /// Returns `fault_found`: the share of performances with a fault, of any size, that were not called right. The result
 /// is empty if there are no such performances.
 std::optional<double> FaultFound(const std::vector<bool>& called);
-/// Returns the share of grey performances that were called right. The result is empty if there are no grey
-/// performances.
+/// Returns the share of grey performances (neither right nor wrong) that were called right. The result is empty if
+/// there are no grey performances.
 std::optional<double> GreyCalledRight(const std::vector<bool>& called);
 
 /// A performance of a move, and the move that a recogniser spotted most often during it.

@@ -10,7 +10,7 @@
 namespace etude {
 namespace {
 
-/// Computes power spectra (Fourier). All windows have one length.
+/// Computes power spectra (Fourier). All windows have the same length.
 class PowerSpectrum {
  public:
   PowerSpectrum(std::size_t length, PowerOf kind) : length_(length), kind_(kind) {

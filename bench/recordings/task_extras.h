@@ -51,7 +51,7 @@ struct TransitionExtras {
 
   std::optional<int> transition_frame;  ///< the first entry of `transition_frames`
   std::vector<int> transition_frames;   ///< the last frame of each clip before the next clip begins
-  std::string from, to;                 ///< the clip that is left, and the wanted clip
+  std::string from, to;                 ///< the playing clip and the wanted clip
   std::string branch;                   ///< the kind of transition, e.g. "front half", "in-between"
   std::string why;                      ///< a sentence that says why this transition was chosen
   std::optional<int> request_frame;     ///< frame of the request; negative = before the start of the recording

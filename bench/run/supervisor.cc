@@ -81,7 +81,7 @@ class Supervisor {
         paces_(plan.scenarios().size()) {}
 
   Result<bool> Run(const SuiteSetup& setup) {
-    AdoptOrphans();  // makes outside methods of a killed worker children of this process, which can then end them
+    AdoptOrphans();  // if a worker is killed, its outside methods become children of this process, which can end them
     const std::size_t jobs = std::min<std::size_t>(WorkerCount(options_.jobs), orders_.size());
     std::size_t programs = 1;  // the maximum number of programs that one worker runs at the same time
     for (const PreparedScenario& scenario : plan_.scenarios())

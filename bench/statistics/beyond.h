@@ -27,9 +27,9 @@ constexpr int kMinUnits = 6;
 /// Estimates the difference for other units like the units of the sample. The verdict is left open.
 ///
 /// Each unit contributes one value. If each world has *one unit*, this value is the mean of the unit's differences. If
-/// worlds have *several units* (clip left × clip entered), worlds that share a clip in either role are correlated. The
-/// value of a unit is then the jackknife's pseudo-value: n · mean − (n − 1) · (mean without the unit's worlds) (Tukey
-/// 1958; for nodes of a network Snijders & Borgatti 1999).
+/// worlds have *several units* (playing clip × wanted clip), worlds that share a clip in either role are correlated.
+/// The value of a unit is then the jackknife's pseudo-value: n · mean − (n − 1) · (mean without the unit's worlds)
+/// (Tukey 1958; for nodes of a network Snijders & Borgatti 1999).
 ///
 /// The estimate is the pseudo-median of these values, with its interval, because the interval of a mean over few units
 /// fails if the values are skewed or one is an outlier (docs/findings/verdicts.md). The mean is also reported, with

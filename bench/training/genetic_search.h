@@ -60,8 +60,8 @@ WeightFit FitWeightsGenetically(std::span<const LabelledPair> pairs, const Featu
                                 const GeneticOptions& options = {});
 
 /// Returns the weights for genes in [0, 1]: proportional to the genes' squares, with sum 8. A gene stands for √S, the
-/// factor by which equation 1 scales a difference of grades; the search thus also finds weights near zero. Nullopt if
-/// all genes are zero.
+/// factor by which paper A's equation 1 scales a difference of grades; the search thus also finds weights near zero.
+/// Nullopt if all genes are zero.
 std::optional<FeatureWeights> WeightsOfGenes(std::span<const double> genes);
 /// Returns the genes of these weights. At least one weight must be above zero.
 Genome GenesOf(const FeatureWeights& weights);

@@ -11,7 +11,7 @@
 
 namespace etude {
 
-/// The source of the weights S in equation 1.
+/// The source of the weights S in paper A's equation 1.
 enum class WeightSource {
   kFixed,     ///< the fuzzy system's own weights: paper A's, unless a file sets others
   kAdaptive,  ///< weights learnt by logistic regression (engine/fuzzy/weights.h)

@@ -86,8 +86,8 @@ struct ProjectionMatrix {
 /// Returns the projection matrix of the camera's pinhole, without its distortion.
 ProjectionMatrix MatrixOf(const Camera& camera);
 
-/// Returns the pixel that shows the point Q at `p_WQ`; nullopt if Q lies on or behind the camera's plane. The sign of H
-/// must be such that w > 0 in front of the camera (DLT normalises it so).
+/// Returns the pixel that shows the point Q at `p_WQ`; nullopt if Q lies on or behind the camera's plane. The sign of
+/// `matrix` must be such that w > 0 in front of the camera, as in every result of Calibrate (dlt.h).
 std::optional<glm::dvec2> Project(const ProjectionMatrix& matrix, const glm::dvec3& p_WQ);
 
 /// Returns the pixel at which the camera with its lens shows Q. Returns nullopt if Q lies on or behind the camera's

@@ -64,9 +64,9 @@ struct CoachOptions {
   /// If the body moved in less than this share of a window's frames, the player stood still.
   double still_share = 0.1;
   /// After this time without motion, or without a player in sight, the coach leaves the dance or standby and plays the
-  /// attract act.
+  /// act `attract`, which invites players.
   double idle_s = 30;
-  /// After this time in the attract act, the coach dozes.
+  /// After this time in the act `attract`, the coach plays the act `doze`.
   double doze_s = 30;
   /// The limits of the tempo that music tags may set, in frames of the dance per shown frame.
   double slowest = 0.8, fastest = 1.25;

@@ -138,8 +138,8 @@ BodyPose PathPose(const Playback& playback, const DanceLibrary& library, std::si
   return ClipPlace(playback).Apply(clip[index]);
 }
 
-/// The point at which a clip is left: the clip, the last whole frame that was shown, the fraction of a frame that was
-/// shown after this frame, and the place of the clip on the floor.
+/// The point at which a transition leaves the playing clip: the clip, the last whole frame that was shown, the fraction
+/// of a frame that was shown after this frame, and the place of the clip on the floor.
 struct Leaving {
   int clip = 0;
   int frame = 0;

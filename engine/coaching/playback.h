@@ -14,7 +14,7 @@ namespace etude {
 /// a clip about the vertical and shifts it on the floor.)
 struct ShownPath {
   int clip = 0;                  ///< the wanted clip, as an index in the library
-  std::vector<BodyPose> frames;  ///< shown poses, in the coordinates of the clip that was left
+  std::vector<BodyPose> frames;  ///< shown poses, in the coordinates of the clip that played before
   std::size_t entered = 0;       ///< index in `frames` from which the wanted clip plays
   int clip_frame = 0;            ///< the frame of the wanted clip that is shown at index `entered`
   FloorMove place;               ///< the wanted clip's floor move, in the coordinates of `frames`

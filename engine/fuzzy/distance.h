@@ -9,7 +9,8 @@ namespace etude {
 /// One number per feature, in the order of `AllFeatures`.
 using PerFeature = std::array<double, kFeatureCount>;
 
-/// The weights S of equation 1, one per feature. They sum to 8, so that a threshold means the same for all weights.
+/// The weights S of paper A's equation 1, one per feature. They sum to 8, so that a threshold means the same for all
+/// weights.
 using FeatureWeights = PerFeature;
 constexpr double kWeightSum = 8;
 
@@ -29,7 +30,7 @@ struct FuzzyDistance {
   PerFeature partials{};  ///< S_k Δ_k², which sum to d²
 };
 
-/// Computes equation 1, d = sqrt(Σ_k S_k Σ_terms (μ₁ − μ₂)²): a Euclidean distance in 24 dimensions.
+/// Computes paper A's equation 1, d = sqrt(Σ_k S_k Σ_terms (μ₁ − μ₂)²): a Euclidean distance in 24 dimensions.
 FuzzyDistance ComputeDistance(const Grades& a, const Grades& b, const FeatureWeights& weights);
 
 /// Returns the value of ComputeDistance(…) < `threshold`, but stops summing as soon as the answer is known.

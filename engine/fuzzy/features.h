@@ -14,7 +14,8 @@ enum class Feature { kRH, kLH, kRHE, kLHE, kPosture, kTrunk, kRF, kLF, kRFK, kLF
 constexpr std::size_t kFeatureCount = 10;
 
 std::span<const Feature, kFeatureCount> AllFeatures();
-/// Returns the feature's name in table 1: "RH", "LH", "RHE", "LHE", "Posture", "Trunk", "RF", "LF", "RFK" or "LFK".
+/// Returns the feature's name in paper A's table 1: "RH", "LH", "RHE", "LHE", "Posture", "Trunk", "RF", "LF", "RFK" or
+/// "LFK".
 std::string_view FeatureName(Feature feature);
 /// Returns the feature called `name`, or null if there is none.
 const Feature* FindFeature(std::string_view name);

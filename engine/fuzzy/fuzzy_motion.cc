@@ -23,7 +23,7 @@ namespace {
 
 constexpr double kUnreached = std::numeric_limits<double>::infinity();
 
-/// Returns √S · μ of every frame. The Euclidean distance of two such vectors is the distance of equation 1.
+/// Returns √S · μ of every frame. The Euclidean distance of two such vectors is the distance of paper A's equation 1.
 std::vector<Grades> Scaled(std::span<const Grades> motion, const FeatureWeights& weights) {
   Grades roots{};
   for (std::size_t i = 0; i < kTermCount; ++i) {

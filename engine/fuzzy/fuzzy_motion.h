@@ -40,9 +40,9 @@ struct MotionSimilarityOptions {
 /// in (0, 1]. It is symmetric, it is 1 between a motion and itself, and it does not depend on tempo as long as the path
 /// stays within the band.
 ///
-/// D is the mean of equation 1's distance along the best warping path (dynamic time warping, Sakoe and Chiba 1978: the
-/// symmetric form without slope constraint, divided by the sum of the two motions' lengths). The formula for s is
-/// Kóczy's, s = 1 / (1 + d), with the distance in units of `half_at`.
+/// D is the mean of paper A's distance (equation 1) along the best warping path (dynamic time warping, Sakoe and Chiba
+/// 1978: the symmetric form without slope constraint, divided by the sum of the two motions' lengths). The formula for
+/// s is Kóczy's, s = 1 / (1 + d), with the distance in units of `half_at`.
 ///
 /// Returns nullopt if the similarity is below `at_least` or a motion has no frame. It takes O(n · m · band) time and
 /// O(m) memory.

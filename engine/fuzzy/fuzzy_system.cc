@@ -146,8 +146,8 @@ std::string Written(Feature feature, const FeatureSettings& settings) {
   return text;
 }
 
-/// Reads the mapping under `features`: all ten features of table 1 with all their terms and no others. Features with
-/// equal settings may share a key, for example "RH, LH".
+/// Reads the mapping under `features`: all ten features of paper A's table 1 with all their terms and no others.
+/// Features with equal settings may share a key, for example "RH, LH".
 Result<FeatureSettings> ReadFeatures(const Node& node) {
   if (node.kind != Node::Kind::kMapping) {
     return Fail(node.place, "'features' must map features to their terms (RH, LH: …), found {}", Describe(node));

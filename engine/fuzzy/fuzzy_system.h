@@ -42,7 +42,7 @@ struct FuzzySystem {
 };
 
 /// Reads a system from the text of a YAML file; error messages name it `file`. The file must hold all features and
-/// terms of table 1 and no others. Weights are relative: they are scaled to sum to 8.
+/// terms of paper A's table 1 and no others. Weights are relative: they are scaled to sum to 8.
 Result<FuzzySystem> ReadFuzzySystem(std::string_view text, const std::string& file);
 /// Returns the text from which ReadFuzzySystem reads the same system, bit for bit.
 std::string WriteFuzzySystem(const FuzzySystem& system);

@@ -20,7 +20,7 @@ constexpr Named<LimitSet> kLimitSets[] = {{"adult", LimitSet::kAdult},
 constexpr double kMaxSidewaysDeg = 80;
 constexpr double kNotGiven = -1;
 
-// The extreme angles of one movement, degrees from the anatomical position: one per column of table 3.1.
+// The extreme angles of one movement, degrees from the anatomical position: one per column of paper B's table 3.1.
 using Movement = std::array<double, 4>;
 constexpr Movement kNone{0, 0, 0, 0};
 constexpr Movement kShoulderFlexion{180, 180, 90, 150};

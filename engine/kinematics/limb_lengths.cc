@@ -37,7 +37,7 @@ bool IsUsable(const LimbObservation& observation) {
   return true;
 }
 
-// Builds one limb chain of figure 3.2(a), from the end effector inwards.
+// Builds one limb chain of paper B's figure 3.2(a), from the end effector inwards.
 class ChainBuilder {
  public:
   ChainBuilder(const LimbObservation& observation, BodyPose& joints) : observation_(observation), joints_(joints) {}
@@ -170,7 +170,7 @@ std::span<const Role, 13> ObservedLimbs() { return kObserved; }
 std::optional<BodyPose> FixLimbLengths(const LimbObservation& observation, const LimbLengths& lengths) {
   if (!IsUsable(observation) || !IsValid(lengths)) return std::nullopt;
   BodyPose joints;
-  // Figure 3.2(a): build the chains of the legs, then of the arms.
+  // Paper B, figure 3.2(a): build the chains of the legs, then of the arms.
   ChainBuilder chain_builder(observation, joints);
   chain_builder.From(kLeftFoot).To(kLeftAnkle, lengths.foot).To(kLeftKnee, lengths.shank).To(kLeftHip, lengths.thigh);
   chain_builder.From(kRightFoot)

@@ -42,9 +42,9 @@ struct VelocityStep {
 /// The displacements in a motion: changes from frame to frame that no real body makes.
 struct Displacements {
   std::vector<FrameRange> frozen;    ///< frames that repeat the first frame's pose for 0.9 s or more
-  std::vector<Displacement> common;  ///< never at the ends of frozen stretches
-  std::vector<Pop> pops;             ///< never at the ends of frozen stretches
-  std::vector<VelocityStep> steps;   ///< never at the ends of frozen stretches
+  std::vector<Displacement> common;  ///< none where a frozen stretch begins or ends
+  std::vector<Pop> pops;             ///< none where a frozen stretch begins or ends
+  std::vector<VelocityStep> steps;   ///< none where a frozen stretch begins or ends
 };
 
 /// Finds displacements by third differences; FaultRules states the rules. The motion must have at least eight frames.

@@ -26,17 +26,17 @@ constexpr LimbNames kArmSchemes[] = {
     {{"upperarm", "lowerarm", "palm2"}},         // RobotExpressive of three.js
     {{"upperarm", "lowerarm", "palm"}},          // Quaternius
     {{"upperarm", "lowerarm", "fist"}},          // Quaternius
-    {{"upperarm", "forearm", "wrist"}},          // seen in hand-made rigs
-    {{"bicep", "forearm", "hand"}},              // seen in hand-made rigs
+    {{"upperarm", "forearm", "wrist"}},          // seen in hand-made skeletons
+    {{"bicep", "forearm", "hand"}},              // seen in hand-made skeletons
     {{"arm", "forearm", "wrist"}},               // Talking With Hands, GENEA
     {{"uarm", "farm", "hand"}},                  // OptiTrack's classic skeleton
     {{"armstretch", "forearmstretch", "hand"}},  // Auto-Rig Pro
     {{"shldr", "forearm", "hand"}},              // Poser
     {{"shldrbend", "forearmbend", "hand"}},      // Daz Genesis
     {{"humerus", "radius", "wrist"}},            // Acclaim: CMU's originals
-    {{"humerus", "elbow", "wrist"}},             // seen in hand-made rigs
-    {{"humerus", "forearm", "hand"}},            // seen in hand-made rigs
-    {{"humerus", "radius", "hand"}},             // seen in hand-made rigs
+    {{"humerus", "elbow", "wrist"}},             // seen in hand-made skeletons
+    {{"humerus", "forearm", "hand"}},            // seen in hand-made skeletons
+    {{"humerus", "radius", "hand"}},             // seen in hand-made skeletons
     {{"humerus", "ulna", "hand"}},               // OpenSim's bodies, SKEL
     {{"acromial", "elbow", "radiushand"}},       // OpenSim's joints
     {{"armupper", "armlower", "handwrist"}},     // Meta Quest
@@ -67,15 +67,15 @@ constexpr LimbNames kLegSchemes[] = {
     {{"thigh", "calf", "foot"}},               // 3ds Max' biped, Unreal
     {{"thigh", "shin", "foot"}},               // Poser, Blender's rigs, Rokoko
     {{"thighbend", "shin", "foot"}},           // Daz Genesis
-    {{"hip", "knee", "foot"}},                 // seen in hand-made rigs
-    {{"leg", "shin", "foot"}},                 // "leg" for the thigh: seen in hand-made rigs
-    {{"upleg", "leg", "ankle"}},               // seen in hand-made rigs
-    {{"upperleg", "lowerleg", "ankle"}},       // seen in hand-made rigs
-    {{"upperleg", "shin", "foot"}},            // seen in hand-made rigs
+    {{"hip", "knee", "foot"}},                 // seen in hand-made skeletons
+    {{"leg", "shin", "foot"}},                 // "leg" for the thigh: seen in hand-made skeletons
+    {{"upleg", "leg", "ankle"}},               // seen in hand-made skeletons
+    {{"upperleg", "lowerleg", "ankle"}},       // seen in hand-made skeletons
+    {{"upperleg", "shin", "foot"}},            // seen in hand-made skeletons
     {{"thighstretch", "legstretch", "foot"}},  // Auto-Rig Pro
     {{"femur", "tibia", "foot"}},              // Acclaim
-    {{"femur", "tibia", "ankle"}},             // seen in hand-made rigs
-    {{"femur", "knee", "ankle"}},              // seen in hand-made rigs
+    {{"femur", "tibia", "ankle"}},             // seen in hand-made skeletons
+    {{"femur", "knee", "ankle"}},              // seen in hand-made skeletons
     {{"femur", "tibia", "talus"}},             // OpenSim's bodies, SKEL
     {{"femur", "tibia", "calcn"}},             // OpenSim's bodies without a subtalar joint
     {{"hip", "walkerknee", "ankle"}},          // OpenSim's joints

@@ -88,7 +88,7 @@ struct Ground {
 
 /// Finds the ground of all clips of one skeleton in one file. The rules of ToBodyMotion are applied to the frames of
 /// all clips together. A person who sits in one clip and stands in another therefore has the same floor in both, and
-/// all clips have one unit. Values given in `options` are used. Returns nullopt if no clip has a frame, or if a
+/// all clips have the same unit. Values given in `options` are used. Returns nullopt if no clip has a frame, or if a
 /// position is not finite.
 std::optional<Ground> FindGround(std::span<const Clip> clips, const JointMap& map, const BodyOptions& options = {});
 

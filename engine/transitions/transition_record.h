@@ -17,7 +17,7 @@ enum class Pick {
   kSmallest,  ///< the smallest distance in the window; paper A also says "the smallest difference"
 };
 
-/// The rules that decide whether two frames match by the fuzzy distance (equation 1).
+/// The rules that decide whether two frames match by the fuzzy distance (paper A, equation 1).
 struct MatchRules {
   FeatureWeights weights = PaperWeights();
   /// Frames match if their distance is below this threshold; paper A's value is 0.4. A larger value finds more direct
@@ -83,8 +83,8 @@ std::string_view OutcomeName(CandidateOutcome outcome);
 
 /// A pair of frames that a choice considered.
 struct Candidate {
-  int from_frame = 0;  ///< index in the clip that is left, or in the in-between
-  int to_frame = 0;    ///< index in the clip that is entered, or in the in-between
+  int from_frame = 0;  ///< index in the playing clip, or in the in-between
+  int to_frame = 0;    ///< index in the wanted clip, or in the in-between
   FuzzyDistance distance;
   std::optional<double> cost;  ///< the cost by which the choice ranks pairs; nullopt if it ranks them by `distance`
   CandidateOutcome outcome = CandidateOutcome::kTooFar;

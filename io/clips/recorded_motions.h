@@ -31,7 +31,8 @@ class RecordedMotions {
   /// joints are not the twenty roles is read as markers, with `options`.
   virtual Result<ClipFile> Read(const std::string& text, const std::string& path, const OpenOptions& options) const = 0;
 
-  /// Returns the name of the track that the recorded method made.
+  /// Returns the name of the track that holds the motion of the recorded cell's method. `clips` are all tracks of the
+  /// recording.
   virtual std::string OwnTrack(const std::vector<Clip>& clips) const = 0;
 };
 

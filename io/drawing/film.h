@@ -32,7 +32,8 @@ struct FrameFeed {
 /// but no picture may depend on the cache. Then the film is the same for any number of processes.
 class FilmWorkers {
  public:
-  /// Draws the frame with number 0 … `frames` − 1 from the frame's data; all canvases have one size with even sides.
+  /// Draws the frame with number 0 … `frames` − 1 from the frame's data; all canvases have the same size, with even
+  /// sides.
   using Draw = std::function<Canvas(int frame, std::span<const std::uint8_t> fed)>;
 
   /// Draws the first frame in this process, so that all processes get the data that the first frame computes. Then

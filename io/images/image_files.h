@@ -47,8 +47,8 @@ struct DepthChannel {
 /// Returns the bytes of an OpenEXR file (ZIP, lossless) with the channels R, G, B (half; linear light, 1 is the
 /// brightest value of an 8-bit picture), Z (float, metres along the viewing axis), label (float that holds a whole
 /// number below 2²⁴), N.X, N.Y, N.Z (float, normals in world coordinates) and further depth images (float) under their
-/// own names. Empty pictures are left out; all others must have one size. The same pictures give the same bytes. Fails
-/// with OpenEXR's message, which names no file.
+/// own names. Empty pictures are left out; all others must have the same size. The same pictures give the same bytes.
+/// Fails with OpenEXR's message, which names no file.
 Result<std::string> EncodeExr(const View& view, const NormalImage& normals = {},
                               std::span<const DepthChannel> measured = {});
 

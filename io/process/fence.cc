@@ -53,7 +53,7 @@ bool IsWithin(const fs::path& path, const fs::path& folder) {
   return at_folder == folder.end();
 }
 
-/// Returns true if a path relative to /etc is a shown setting, or lies below one.
+/// Returns true if kShownSettings contains a path relative to /etc, or a folder above this path.
 bool IsShownSetting(const fs::path& below) {
   return std::ranges::any_of(kShownSettings, [&](const std::string_view pattern) {
     if (!pattern.ends_with('*')) return IsWithin(below, pattern);
@@ -61,7 +61,7 @@ bool IsShownSetting(const fs::path& below) {
   });
 }
 
-/// Lists the absolute paths of the shown settings; names without "*" need not exist.
+/// Lists the absolute paths of kShownSettings; names without "*" need not exist.
 std::vector<fs::path> ShownSettings() {
   std::vector<fs::path> found;
   std::error_code error;

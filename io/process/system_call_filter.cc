@@ -116,7 +116,8 @@ std::string SystemCallFilter() {
           {LoadArgument(1), SkipUnless(BPF_JEQ, F_SETPIPE_SZ, 1), Refuse(EPERM), SkipUnless(BPF_JEQ, F_OFD_SETLK, 1),
            Refuse(EINVAL), SkipUnless(BPF_JEQ, F_OFD_SETLKW, 1), Refuse(EINVAL), SkipUnless(BPF_JEQ, F_SETLEASE, 1),
            Refuse(EINVAL), kAllow});
-  constexpr std::uint32_t kFutexHash = 78;  // PR_FUTEX_HASH of Linux 6.16: up to a gigabyte that counts for no process
+  // PR_FUTEX_HASH (Linux 6.16) makes the kernel allocate up to a gigabyte that is not counted as a process's memory.
+  constexpr std::uint32_t kFutexHash = 78;
   AddCall(filter, SYS_prctl,
           {LoadArgument(0), SkipUnless(BPF_JEQ, PR_SET_SECCOMP, 1), Refuse(EINVAL), SkipUnless(BPF_JEQ, kFutexHash, 1),
            Refuse(EINVAL), kAllow});

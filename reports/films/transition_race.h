@@ -33,7 +33,7 @@ struct TransitionPath {
 /// One request, and the transitions that two to four methods made for this request.
 struct TransitionRace {
   std::string world;    ///< name of the world: "trial 30"
-  std::string request;  ///< the clip that is left and the wanted clip: "clap → side kick"
+  std::string request;  ///< the playing clip and the wanted clip: "clap → side kick"
   std::string choice;   ///< a sentence that says why this world and these methods were chosen
   std::vector<TransitionPath> paths;
 };

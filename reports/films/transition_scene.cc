@@ -38,8 +38,8 @@ std::vector<std::vector<FloorMove>> AllPlacements(const TransitionRace& race) {
   return placements;
 }
 
-// After a transition, the film marks the transition for kMarkFrames frames, and shows the last pose of the left clip as
-// a ghost for kGhostFrames frames.
+// After a transition, the film marks the transition for kMarkFrames frames. For kGhostFrames frames it shows, as a
+// ghost, the last pose before the transition.
 constexpr int kMarkFrames = kFilmRate / 2, kGhostFrames = kFilmRate;
 constexpr double kPanelMargin = 12;
 constexpr Paint kPlate{0.13, 0.15, 0.17, 1};
@@ -135,7 +135,7 @@ void TransitionPanel::Draw(Canvas& canvas, const Box& column, Renderer& renderer
 void TransitionPanel::DrawBody(Canvas& canvas, const Box& box, Renderer& renderer, int time) {
   const int frame = path_.FrameAt(time);
   const std::size_t points = path_.PointsBefore(time);
-  // For one second after a transition, show, as a ghost, the last pose of the clip that was left.
+  // For one second after a transition, show, as a ghost, the last pose before the transition.
   std::optional<int> left;
   if (points > 0) left = path_.facts.transition_frames[points - 1];
   const int since = left ? time - path_.TimeOf(*left) : 0;

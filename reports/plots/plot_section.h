@@ -40,7 +40,7 @@ std::string SurvivalHtml(const RunData& run, const ScenarioSummary& scenario);
 struct PairedWorld {
   int trial = 0;
   /// The index in PairedDots::units of the sampling unit to which the world belongs. If the world belongs to several
-  /// units (the clip that is left and the clip that is entered), this is the index of the first unit.
+  /// units (the playing clip and the wanted clip), this is the index of the first unit.
   std::size_t unit = 0;
   double baseline = 0, method = 0;
   std::string baseline_cell = {}, method_cell = {};  ///< HTML attributes of the dots; "" if the cells were not recorded

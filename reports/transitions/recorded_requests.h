@@ -36,7 +36,7 @@ struct RecordedRequest {
 
   /// Returns the name of the world: "trial 3", "threshold=0.3, trial 3".
   std::string Name() const;
-  /// Returns the clip that is left and the wanted clip: "clap → side kick".
+  /// Returns the playing clip and the wanted clip: "clap → side kick".
   std::string Request() const;
 };
 

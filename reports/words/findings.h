@@ -28,7 +28,7 @@ struct MethodFinding {
   std::string baseline;
   SamplingUnit unit = SamplingUnit::kWorld;
   bool is_compared = false;             ///< false if the method was not compared by this metric
-  std::optional<Verdict> verdict = {};  ///< verdict on the run's worlds; nullopt if conditions differ
+  std::optional<Verdict> verdict = {};  ///< verdict on the run's worlds; nullopt if it differs between conditions
   BeyondFinding beyond = {};            ///< verdicts generalised to other clips, people or libraries
   std::string others = {};    ///< all methods with which `method` is compared under any condition: “a” or “b”
   std::string sentence = {};  ///< states the comparison in words, with the numbers behind the verdicts

@@ -110,7 +110,7 @@ void Demosaic(const Mosaic& mosaic, LightImage& out);
 /// A model of the sensor. Its values are (light behind the lens × transmission × exposure + noise) × gains of the white
 /// balance.
 struct Sensor {
-  const Transmission* transmission = nullptr;  ///< must have the light's size; null: all light passes
+  const Transmission* transmission = nullptr;  ///< of the size of the LightImage; null: all light passes
   Toning toning{};
   SensorNoise noise{};
 

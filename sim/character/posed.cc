@@ -52,8 +52,8 @@ glm::dvec3 SizeOf(Role role, const BodyPose& pose) {
   for (const Role end : AllRoles()) {
     if (ParentOf(end) == role) return glm::dvec3(ratio(role, end));
   }
-  // Files put the head joint at different heights, so the head's size is only the square root of the length ratio
-  // between neck and head joint.
+  // Scale the head only by the square root of the ratio for the length from neck to head joint, because files put the
+  // head joint at different heights.
   return glm::dvec3(std::sqrt(ratio(*ParentOf(role), role)));
 }
 

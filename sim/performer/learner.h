@@ -37,8 +37,8 @@ struct LearnerOptions {
   /// every performance, this share of the learning from feedback is not retained. In [0, 1]; the default of 0.5 is
   /// ours.
   double guidance = 0.5;
-  /// The initial level of every skill, in [0, 1]. If empty, it is drawn for every fault of every move, and depends on
-  /// the kind of person.
+  /// The initial level of every skill, in [0, 1]. The learner has one skill per move and fault: that of avoiding this
+  /// fault. If empty, each level is drawn; its mean depends on the kind of person.
   std::optional<double> skill = {};
   /// The severity of every fault that happens, in [0, 1]; drawn if empty.
   std::optional<double> severity = {};

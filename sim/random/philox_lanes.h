@@ -18,7 +18,8 @@ struct HalvesWithin {
 /// FindHalvesWithin writes whole vectors: at most this many numbers after the last result.
 constexpr std::size_t kHalvesSlack = 64;
 /// Splits each of `words` into two numbers of 32 bits, the low half first, and takes the first `count` numbers. Copies
-/// the numbers in `low` … `last` to `within`, in order; `within` needs room for `count` + kHalvesSlack numbers.
+/// those with values from `low` to `last`, both included, to `within`, in order; `within` needs room for `count` +
+/// kHalvesSlack numbers.
 HalvesWithin FindHalvesWithin(const std::uint64_t* words, std::size_t count, std::uint32_t low, std::uint32_t last,
                               std::uint32_t* within);
 

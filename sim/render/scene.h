@@ -92,7 +92,7 @@ struct WallPicture {
   enum class Wall { kBack, kLeft, kRight };  ///< in order: the planes z = low.z, x = low.x, x = high.x
   Wall wall = Wall::kBack;
   glm::dvec2 centre{0};     ///< metres: along the wall (x, or z for a side wall), above the floor
-  glm::dvec2 half_size{0};  ///< metres, including the frame
+  glm::dvec2 half_size{0};  ///< metres: half width and half height of picture and frame together
   SurfacePaint paint;
   Rgb8 frame{};
   double glow = 0;  ///< emitted light; 1: a window at noon, which looks the same under all lamps

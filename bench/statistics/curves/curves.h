@@ -14,8 +14,8 @@ inline std::optional<double> Share(std::int64_t part, std::int64_t whole) {
   return static_cast<double>(part) / static_cast<double>(whole);
 }
 
-/// A scripted performance that was truly right or wrong (docs/reference/metrics.md). Grey performances are not events.
-/// "Right" is the positive class.
+/// A scripted performance that was truly right or wrong (docs/reference/metrics.md). Grey performances (neither right
+/// nor wrong) are not events. "Right" is the positive class.
 struct JudgedEvent {
   bool is_right = false;      ///< true if the performance was truly right
   bool called_right = false;  ///< true: the recogniser called it right before the end of the event's window
@@ -51,8 +51,8 @@ std::optional<double> ThresholdAtRecall(std::span<const JudgedEvent> events, dou
 /// wrong event.
 std::vector<std::pair<double, double>> RocCurve(std::span<const JudgedEvent> events);
 
-/// Returns the operating point on the ROC that the recogniser's own calls give. Empty if there is no right event or no
-/// wrong event.
+/// Returns the point of the recogniser's own decisions (`called_right`) in the ROC diagram, with RocCurve's
+/// coordinates. Empty if there is no right event or no wrong event.
 std::optional<std::pair<double, double>> OperatedAt(std::span<const JudgedEvent> events);
 
 /// Returns the largest F1 score over all thresholds on the scores. Empty if there is no right event or no wrong event.

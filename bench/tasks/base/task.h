@@ -77,8 +77,8 @@ class Task {
   /// CellResult::recording. The task must outlive its worlds.
   virtual std::unique_ptr<TaskWorld> MakeWorld(const WorldKey& key, bool keeps_motion) const = 0;
 
-  /// Returns the names of the clips from which this trial was drawn, in the order of their roles (clip left, clip
-  /// entered). Empty if a world uses no clip, or uses all of them.
+  /// Returns the names of the clips from which this trial was drawn, in the order of their roles (playing clip, wanted
+  /// clip). Empty if a world uses no clip, or uses all of them.
   virtual std::vector<std::string> ClipsOf(const WorldKey& key) const = 0;
 
   /// Returns the data that all problems of this condition share (the body's tree, the library of clips, …). Outside

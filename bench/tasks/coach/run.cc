@@ -15,7 +15,7 @@
 namespace etude {
 namespace {
 
-/// Corrects at the frames at which another session corrected.
+/// Lets the coach correct the learner at exactly the frames at which it corrected in another session.
 class Moments final : public MomentSource {
  public:
   explicit Moments(const SessionLog& other) {

@@ -186,7 +186,7 @@ double IndexOfFault(const std::optional<Fault>& fault) {
 std::vector<Series> PerformanceSeries(const DetectionWorld& world, const SessionVerdict& verdict,
                                       const Repertoire& repertoire) {
   std::vector<double> score, truth, called, fault, severity, asked, danced, named;
-  // Add one value per performance, including grey ones.
+  // Add one value per performance, also for grey performances (neither right nor wrong).
   for (std::size_t i = 0; i < verdict.events.size(); ++i) {
     const DetectionEvent& event = world.events[i];
     score.push_back(verdict.events[i].score);

@@ -12,8 +12,8 @@
 
 namespace etude {
 
-/// Returns the requested performances that are right or wrong, with their judgements. Grey performances are left out.
-/// `judgements` has one entry per event.
+/// Returns the requested performances that are right or wrong, with their judgements. Grey performances (neither right
+/// nor wrong) are left out. `judgements` has one entry per event.
 std::vector<JudgedEvent> JudgedEvents(const DetectionWorld& world, std::span<const Judgement> judgements);
 
 /// Adds the metrics of a session to a result (docs/reference/metrics.md).

@@ -20,8 +20,8 @@ struct RecogniserTraining {
 
 /// Trains the model of recogniser `learnt`. Simulated people perform the repertoire's moves in front of both sensors,
 /// with various noises, turns and distances. Performances are measured as the recogniser measures them in use, and the
-/// model is fitted to the truth. Grey performances are left out. The random numbers differ from those of every
-/// scenario, so no judged person is among the simulated people.
+/// model is fitted to the truth. Grey performances (neither right nor wrong) are left out. The random numbers differ
+/// from those of every scenario, so no judged person is among the simulated people.
 LearntModel TrainRecogniser(const Repertoire& repertoire, const RecogniserTraining& training);
 
 /// Keeps only those performances of a bag that are nearest to the move, nearest first. The farther ones cannot

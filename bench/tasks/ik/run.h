@@ -58,13 +58,13 @@ std::vector<Series> WorstErrorCurves(std::span<const IkTraceEntry> trace);
 /// `right_foot_x_axis_error_deg`, … (paper B, figure 5.2).
 std::vector<Series> EffectorCurves(const KinematicTree& tree, std::span<const IkTraceEntry> trace);
 
-/// Returns series of the effectors' errors, one value per effector, at the start (`start_…`) and at the end (table
-/// 5.1). `position_error_{x,y,z}_cm` is effector minus target along the world's axes. `orientation_error_{x,y,z}_deg`
-/// is the angle between the effector's axis and the target's axis.
+/// Returns series of the effectors' errors, one value per effector, at the start (`start_…`) and at the end (paper B,
+/// table 5.1). `position_error_{x,y,z}_cm` is effector minus target along the world's axes.
+/// `orientation_error_{x,y,z}_deg` is the angle between the effector's axis and the target's axis.
 std::vector<Series> EffectorErrors(const KinematicTree& tree, const IkProblem& problem, std::span<const double> angles);
 
-/// Returns series of differences of angles, one value per angle in the tree's order (table 5.2): `angle_change_deg` is
-/// the solution minus the start, `angle_error_deg` the solution minus the truth.
+/// Returns series of differences of angles, one value per angle in the tree's order (paper B, table 5.2):
+/// `angle_change_deg` is the solution minus the start, `angle_error_deg` the solution minus the truth.
 std::vector<Series> AngleChanges(const IkWorld& world, std::span<const double> angles);
 
 }  // namespace etude

@@ -38,7 +38,7 @@ struct SeenPair {
 /// Pairs of poses that a method must classify as alike or not.
 struct PairWorld {
   std::string name;             ///< name of the blind spot; empty for frames
-  std::string clip_a, clip_b;   ///< identities of the clips of the poses; empty for a blind spot
+  std::string clip_a, clip_b;   ///< sources of the clips of the poses; empty for a blind spot
   std::vector<SeenPair> pairs;  ///< at least one pair
 };
 
@@ -59,13 +59,13 @@ struct DancedClips {
 /// Retargets the clips to the body of the built-in moves.
 DancedClips DanceClips(const ClipLibrary& library);
 
-/// Returns true if there are clips with two different identities.
+/// Returns true if the clips have at least two different sources (`identities`).
 bool HoldsTwoDances(const DancedClips& clips);
 
 PairWorld ShowBlindSpot(int trial);
 
-/// Draws two clips with different identities and returns their indices. The trial number determines the first. There
-/// must be clips with two identities.
+/// Draws two clips from different sources and returns their indices. The trial number determines the first clip. The
+/// clips must have at least two sources (HoldsTwoDances).
 std::pair<std::size_t, std::size_t> DrawClips(const DancedClips& clips, const WorldKey& key);
 
 /// Draws two clips, and `count` pairs of frames. Each pair has a random frame of one clip and a random frame of the

@@ -44,8 +44,7 @@ BodyPose ReadOwnPose(const Json& json, const std::string& path, const BodyPropor
   return pose.value_or(BodyPose{});
 }
 
-/// Reads the method's own frames. Frame 0 of the segment is the method's version of the frame that is left; it is not
-/// shown.
+/// Reads the method's own frames. Frame 0 of the segment is the method's version of `leave_frame`; it is not shown.
 std::optional<Segment> ReadBetween(AnswerFields& fields, const BodyProportions& character) {
   const Json& entries = fields.List("between", 0, kMaxBetween);
   Segment segment{.first = 0, .last = static_cast<int>(entries.size()), .own = {BodyPose{}}, .in_place = true};
@@ -79,7 +78,7 @@ void ReadThrough(AnswerFields& fields, const Stage& stage, std::vector<Segment>&
 
 TransitionAnswer ReadTransition(AnswerFields& fields, const Stage& stage, const TransitionRequest& request) {
   TransitionAnswer answer;
-  // Read the segments: the clip that is left, clips or frames in between, and the clip that is entered.
+  // Read the segments: the playing clip, clips or frames in between, and the wanted clip.
   const int last_of_from = stage.library.tagged[request.from].FrameCount() - 1;
   const int last_of_to = stage.library.tagged[request.to].FrameCount() - 1;
   const int left = fields.Integer("leave_frame", request.request_frame, last_of_from);

@@ -58,8 +58,8 @@ Payload NaturePayload(const Stage& stage, const TransitionRequest& request);
 /// - `"between_start": [x, y, z, …]`: with `between`, the method's version of `leave_frame`. It is not shown, but the
 ///   gaps at the transition point are measured to it. Without it, the frames between are assumed to begin at constant
 ///   velocity.
-/// - `"matched": true`: the frames left and entered were chosen because they are similar. Only then `false_smooth` is
-///   measured.
+/// - `"matched": true`: the two frames of the transition point were chosen because they are similar. Only then
+///   `false_smooth` is measured.
 ///
 /// A method that finds no transition answers `{"unsolved": "why"}`. Its cell ends like that of a built-in method that
 /// finds no match.

@@ -13,7 +13,7 @@ struct TransitionAnswer;
 /// The transition of one method in one world.
 struct TransitionOutcome {
   TransitionRequest request;
-  bool matched = false;  ///< true: the frames that are left and entered were chosen because they are similar
+  bool matched = false;  ///< true: the two frames of the transition point were chosen because they are similar
   MatchRules rules;      ///< the rules by which the distances were computed
   TransitionRecord record;
   Splice splice;  ///< the spliced motion; empty if the record has no segments

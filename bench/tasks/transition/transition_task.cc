@@ -23,7 +23,7 @@ class TransitionTask final : public Task {
     return std::make_unique<TransitionRun>(basis, DrawRequest(stage_, key), keeps_motion);
   }
 
-  /// Returns the name of the clip that is left, then of the clip that is entered.
+  /// Returns the names of the playing clip and the wanted clip, in this order.
   std::vector<std::string> ClipsOf(const WorldKey& key) const override {
     const std::vector<std::string>& names = stage_.library.names;
     if (names.empty()) return {};

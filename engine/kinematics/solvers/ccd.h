@@ -61,8 +61,8 @@ class CcdSweep {
  public:
   CcdSweep(const KinematicTree& tree, const IkProblem& problem, const IkOptions& options, CcdJoint joint_kind);
 
-  /// Turns every joint once, from the leaves to the root (figure 3.10): a joint after all its children. Returns the
-  /// largest change of an angle, radians.
+  /// Turns every joint once, from the leaves to the root (paper B, figure 3.10): a joint after all its children.
+  /// Returns the largest change of an angle, radians.
   double Sweep();
 
   /// The two halves of `Sweep`: `Turn` computes new angles, `Measure` computes the frames and errors at these angles.

@@ -17,8 +17,8 @@ namespace etude {
 /// without it, a wrist at its limit would keep its hand away from the target. Without the first round, the solver takes
 /// twice as many steps and solves only three of four problems. The next passes begin at the resulting pose. Errors are
 /// measured there, so a goal counts as reached only if the angles reach it. A limb in line with its target stays in
-/// line (figure 3.8), because points on a line move only along it. `IkOptions::weights` and `refresh` do not apply. One
-/// iteration is one pair of passes with both rounds, and costs one forward-kinematics pass.
+/// line (paper B, figure 3.8), because points on a line move only along it. `IkOptions::weights` and `refresh` do not
+/// apply. One iteration is one pair of passes with both rounds, and costs one forward-kinematics pass.
 IkSolution SolveFabrik(const KinematicTree& tree, const IkProblem& problem, const IkOptions& options);
 
 /// FABRIK's two passes (Aristidou and Lasenby 2011) over a tree of rigid limbs, on positions alone. A limb has a base

@@ -247,8 +247,8 @@ class GaussNewtonLanes {
     }
   }
 
-  /// Computes the change of every hinge from the root to the leaves. Returns the lanes in which the `side` of a hinge
-  /// has changed.
+  /// Computes the change of every hinge from the root to the leaves. Returns the lanes in which a hinge has changed its
+  /// `side`: free, or fixed at the lower or upper end of its range.
   M Substitute() {
     const M counts = Flag(kCounts);
     M has_changed = Below(V(0.0), V(0.0));

@@ -74,7 +74,7 @@ struct JacobianTransposeOptions {
 /// With a gain of 1 it minimises |dX − J ΔΘ| (Buss 2004); to first order, every gain between 0 and 2 reduces it. Angles
 /// at an end of their range are left out if their torque points out of the range; no step turns an angle by more than
 /// 0.6 rad; new angles are clamped. Steps are cheap, but thousands are needed, because errors to which J is insensitive
-/// fade slowly. The solver stalls if JᵀdX = 0, as for a limb stretched towards its target (figure 3.8).
+/// fade slowly. The solver stalls if JᵀdX = 0, as for a limb stretched towards its target (paper B, figure 3.8).
 /// `IkOptions::weights` and `refresh` do not apply. One iteration is one step and costs one forward-kinematics pass.
 IkSolution SolveJacobianTranspose(const KinematicTree& tree, const IkProblem& problem, const IkOptions& options,
                                   const JacobianTransposeOptions& own = {});

@@ -145,7 +145,7 @@ TransitionRecord PlanThroughStanding(const MotionLibrary& library, const Transit
   const int standing = static_cast<int>(own.size()) - 1;
   AppendTween(entered, playing.rate_hz, tween, own);
 
-  // The record has three segments: the frame that is left, the tweens, and the wanted clip.
+  // The record has three segments: the playing clip's frame at the request, the tweens, and the wanted clip.
   TransitionRecord record;
   record.branch = Branch::kStandingPose;
   record.request_frame = request.request_frame;

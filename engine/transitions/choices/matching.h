@@ -13,8 +13,8 @@ struct PointCloudOptions {
   /// comes from Kovar, Gleicher and Pighin. A longer window also compares the motion before and after the pose; with 0,
   /// only the poses are compared.
   double window_s = 1.0 / 3;
-  /// The minimum time that the wanted clip must still play after it is entered, in seconds (default ours). Entering the
-  /// clip's front half is always allowed. A larger value leaves fewer pairs to choose from.
+  /// The minimum time that the wanted clip must still play after it is entered, in seconds (the default is ours).
+  /// Entering the clip's front half is always allowed. A larger value leaves fewer pairs to choose from.
   double least_play_s = 1;
 };
 const SettingTable<PointCloudOptions>& PointCloudSettings();

@@ -81,8 +81,8 @@ inline Reach ReachAround(int frame_a, int frames_a, int frame_b, int frames_b, i
           .after = std::min({half, frames_a - 1 - frame_a, frames_b - 1 - frame_b})};
 }
 
-/// Computes the fuzzy distance (equation 1) from one frame to many frames with SIMD instructions. The values are
-/// bit-identical to those of ComputeDistance.
+/// Computes the fuzzy distance (paper A, equation 1) from one frame to many frames with SIMD instructions. The values
+/// are bit-identical to those of ComputeDistance.
 class FuzzyRows {
  public:
   FuzzyRows(std::span<const Grades> frames, const FeatureWeights& weights);
@@ -95,8 +95,8 @@ class FuzzyRows {
   std::vector<FrameBlock> blocks_;
 };
 
-/// Computes, for each pair of a row, the mean fuzzy distance (equation 1) over the frames up to `reach` before and
-/// after the pair, as far as both clips have such frames. Overlapping windows share the comparisons of frames.
+/// Computes, for each pair of a row, the mean fuzzy distance (paper A, equation 1) over the frames up to `reach` before
+/// and after the pair, as far as both clips have such frames. Overlapping windows share the comparisons of frames.
 class FuzzyWindowRows : public PairRows {
  public:
   /// Rows begin at `first_leave_frame`. The playing clip's grades must outlive this object.

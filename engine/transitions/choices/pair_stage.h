@@ -93,7 +93,7 @@ class PairStage {
   const OwnAccelerations own_;
   WindowTurns turns_;
   std::array<std::array<Limbs, kWays.size()>, kLengths_s.size()> limbs_;
-  std::array<std::array<std::optional<FootPlan>, 2>, kLengths_s.size()> steps_;  // by [length][1 if carried]
+  std::array<std::array<std::optional<FootPlan>, 2>, kLengths_s.size()> steps_;  // by [length][CarriedShift? 1 : 0]
   const FramePair pair_;
   std::span<const double> playing_beside_, wanted_beside_;  // MotionLibrary::beside_feet of both clips
   const int before_;                                        // number of frames of `playing_` before the pair's frame

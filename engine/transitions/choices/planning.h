@@ -65,8 +65,8 @@ std::string DescribeNoMatch(const std::vector<RankedPair>& nearest, std::int64_t
 /// Returns a description such as "boxing frame 41 (0.37 s after the request) and clap frame 3".
 std::string DescribePair(const MotionLibrary& library, const TransitionRequest& request, int from, int to);
 
-/// Compares a frame that is left with all frames that may be entered; frames with d below the rules' threshold match.
-/// If the rules compare within classes only, frames of another class are left out.
+/// Compares one frame of the playing clip with all frames at which the wanted clip may be entered; frames with d below
+/// the rules' threshold match. If the rules compare within classes only, frames of another class are left out.
 class FuzzyGate {
  public:
   /// Compares frames of two clips. The clips and the rules must outlive this object.

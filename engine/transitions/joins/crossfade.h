@@ -18,8 +18,8 @@ BodyPose PoseBetween(const BodyPose& from, const BodyPose& to, const LimbTurns& 
 BodyPose PoseBetween(const BodyPose& from, const BodyPose& to, double share);
 
 struct CrossfadeOptions {
-  /// The time until only the new motion is shown, in seconds (default ours). A longer time hides larger differences,
-  /// but shows poses that are in neither clip for a longer time; 0 is a cut.
+  /// The time until only the new motion is shown, in seconds (the default is ours). A longer time hides larger
+  /// differences, but shows poses that are in neither clip for a longer time; 0 is a cut.
   double blend_s = 0.33;
 };
 const SettingTable<CrossfadeOptions>& CrossfadeSettings();

@@ -36,8 +36,8 @@ class Inertialiser {
 };
 
 struct SpringOptions {
-  /// The time after which about half of an offset is gone, in seconds (default ours). A longer time gives a smoother
-  /// motion, but its poses differ from both clips for longer.
+  /// The time after which about half of an offset is gone, in seconds (the default is ours). A longer time gives a
+  /// smoother motion, but its poses differ from both clips for longer.
   double half_life_s = 0.1;
 };
 
@@ -61,11 +61,11 @@ Blend InertialiseQuintic(const JoinInput& input, const QuinticOptions& options =
 glm::dvec3 DecayingWay(const glm::dvec3& velocity, double seconds, double half_life_s);
 
 struct DeadOptions {
-  /// The time until only the new motion is shown, in seconds (default ours). A longer time shows more of the
+  /// The time until only the new motion is shown, in seconds (the default is ours). A longer time shows more of the
   /// continuation, which is in neither clip.
   double blend_s = 0.33;
-  /// The time in which the old motion's velocity halves, in seconds (default ours). A longer time keeps more momentum,
-  /// but carries limbs farther away.
+  /// The time in which the old motion's velocity halves, in seconds (the default is ours). A longer time keeps more
+  /// momentum, but carries limbs farther away.
   double half_life_s = 0.2;
 };
 const SettingTable<DeadOptions>& DeadSettings();

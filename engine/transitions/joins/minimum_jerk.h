@@ -12,8 +12,9 @@
 namespace etude {
 
 struct MinimumJerkOptions {
-  /// The time until only the new motion is shown, in seconds, unless the choice of frames sets it (default ours).
-  /// Accelerations fall with the square of this time, but poses that are in neither clip are shown for a longer time.
+  /// The time until only the new motion is shown, in seconds, unless the choice of frames sets it (the default is
+  /// ours). Accelerations fall with the square of this time, but poses that are in neither clip are shown for a longer
+  /// time.
   double blend_s = 0.5;
   int fades = 0;   ///< if 1, use JoinStyle::kFades, unless the choice of frames prefers a style
   int direct = 0;  ///< if 1, use JoinStyle::kDirect, unless the choice of frames prefers a style

@@ -45,7 +45,7 @@ constexpr int BlocksFor(std::size_t count) { return static_cast<int>((count + kB
 /// Returns a bit mask of a block's used lanes. `count` is the number of frames from the block's first lane on.
 constexpr std::uint32_t LanesOf(int count) { return count >= kBlockLanes ? 0xffff : (1u << count) - 1; }
 
-/// The constants of equation 1: the terms and the weight of each feature.
+/// The constants of paper A's equation 1: the terms and the weight of each feature.
 struct GradeMetric {
   /// Makes the metric from weights, which must be ≥ 0.
   explicit GradeMetric(const FeatureWeights& feature_weights);

@@ -49,7 +49,7 @@ struct KeyTag {
 struct BridgeTags {
   std::string system;              ///< the fuzzy system's name
   std::string memberships_digest;  ///< digest of the membership functions: sixteen hexadecimal digits
-  FeatureWeights weights{};        ///< the weights S of equation 1
+  FeatureWeights weights{};        ///< the weights S of paper A's equation 1
   double threshold = kPaperThreshold;
   bool within_class = false;
   int min_clips = 2, most_per_class = 0;                      ///< as in TagRules

@@ -9,7 +9,7 @@
 /// Sensors that watch a body whose motion is known (docs/library.md).
 namespace etude::sim {
 
-/// A Kinect-like sensor and its position. The same options and motion give the same reports on every machine.
+/// A Kinect-like sensor and its position. The same options and motion give the same skeletons on every machine.
 struct SensorOptions {
   std::string sensor = "v2";  ///< "v1", "v2", or the text of a sensor file, as `etude sensor fit` writes it
   /// Multiplies every error and probability, 0 to 10. At 0, hidden joints are inferred correctly.
@@ -20,9 +20,9 @@ struct SensorOptions {
   std::uint64_t seed = 1;    ///< the seed of all random numbers
 };
 
-/// Returns the reports of a sensor that watches a body with this motion: one report per frame, positions in the world.
-/// Throws BadInput for options out of range, a motion without frames, a rate that is not positive, and positions that
-/// are not finite.
+/// Returns the skeletons that a sensor measures while it watches a body with this motion: one per frame, positions in
+/// the world. Throws BadInput for options out of range, a motion without frames, a rate that is not positive, and
+/// positions that are not finite.
 ETUDE_API SkeletonStream SenseSkeleton(const BodyMotion& motion, const SensorOptions& options = {});
 
 }  // namespace etude::sim
