@@ -95,8 +95,8 @@ struct SkeletonSensorOptions {
   double arm_stretch = 1;       ///< factor for shoulders, elbows and wrists along upper arm and forearm
   double hand_stretch = 1;      ///< factor for hands along the hand
   double shoulder_stretch = 1;  ///< factor for shoulders along the line between the shoulders
-  /// The `size` of the errors of an ankle or foot at rest on the floor; the noise then has the time constant
-  /// `rest_time_s`. In motion, the size of the group applies.
+  /// The `size` of the errors of an ankle or foot at rest on the floor, metres. The noise then has the time constant
+  /// `rest_time_s`. An ankle or foot in motion has the `size` of its joint group.
   double planted_feet = 0.003;
   double rest_time_s = 0.2;  ///< time constant of the noise of resting feet (ours)
 
