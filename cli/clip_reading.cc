@@ -4,10 +4,8 @@
 
 #include "bench/run/recorded_motions.h"
 #include "cli/arguments.h"
-#include "engine/base/names.h"
 #include "engine/fuzzy/open_fuzzy_system.h"
 #include "engine/retargeting/marker_sets.h"
-#include "io/clips/references.h"
 #include "io/files/files.h"
 
 namespace etude {

@@ -2,7 +2,6 @@
 
 #include <optional>
 #include <string>
-#include <vector>
 
 #include "engine/base/result.h"
 #include "engine/fuzzy/fuzzy_system.h"

@@ -12,7 +12,6 @@
 #include "cli/commands.h"
 #include "cli/facts.h"
 #include "cli/stream_reading.h"
-#include "engine/base/named.h"
 #include "engine/base/names.h"
 #include "engine/base/text.h"
 #include "engine/recognition/filters.h"

@@ -20,7 +20,6 @@
 #include "cli/interrupt.h"
 #include "cli/output_file.h"
 #include "cli/progress_bar.h"
-#include "engine/base/names.h"
 
 namespace etude {
 namespace {

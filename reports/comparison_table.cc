@@ -8,7 +8,6 @@
 #include <tuple>
 #include <vector>
 
-#include "engine/base/csv.h"
 #include "io/drawing/escape.h"
 #include "io/drawing/table.h"
 #include "reports/badge.h"

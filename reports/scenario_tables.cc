@@ -2,7 +2,6 @@
 
 #include <algorithm>
 
-#include "engine/base/csv.h"
 #include "io/drawing/escape.h"
 #include "io/drawing/table.h"
 #include "reports/comparison_table.h"

@@ -1,8 +1,5 @@
 #include "bench/metrics/matching.h"
 
-#include <cassert>
-#include <numeric>
-
 #include "bench/statistics/curves/curves.h"
 
 namespace etude {

@@ -1,14 +1,11 @@
 #pragma once
 
 #include <array>
-#include <cstddef>
 #include <optional>
 #include <span>
 #include <string_view>
-#include <vector>
 
 #include "bench/metrics/transition_join.h"
-#include "engine/motion/body.h"
 #include "engine/motion/support.h"
 
 namespace etude {

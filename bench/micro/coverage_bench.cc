@@ -5,7 +5,6 @@
 #include <benchmark/benchmark.h>
 
 #include <algorithm>
-#include <map>
 
 #include "bench/micro/seeds.h"
 #include "engine/transitions/library/coverage.h"

@@ -23,7 +23,6 @@
 #include "bench/run/supervisor.h"
 #include "bench/statistics/scenario_table.h"
 #include "engine/base/machine.h"
-#include "engine/base/names.h"
 #include "io/files/files.h"
 #include "io/files/json_text.h"
 #include "io/files/temporary_folder.h"

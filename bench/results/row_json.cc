@@ -1,7 +1,6 @@
 #include "bench/results/row_json.h"
 
 #include <algorithm>
-#include <cmath>
 #include <nlohmann/json.hpp>
 
 #include "bench/metrics/catalogue.h"

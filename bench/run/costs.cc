@@ -4,7 +4,6 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
-#include <ctime>
 #include <filesystem>
 #include <nlohmann/json.hpp>
 

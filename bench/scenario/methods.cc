@@ -6,7 +6,6 @@
 #include <nlohmann/json.hpp>
 
 #include "bench/keys/key_schema.h"
-#include "engine/base/names.h"
 #include "io/files/json.h"
 
 namespace etude {

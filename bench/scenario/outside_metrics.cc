@@ -8,7 +8,6 @@
 #include "bench/keys/key_schema.h"
 #include "bench/scenario/judging.h"
 #include "bench/scenario/methods.h"
-#include "engine/base/names.h"
 #include "engine/motion/body.h"
 #include "io/files/json.h"
 

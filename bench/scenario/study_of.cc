@@ -5,7 +5,6 @@
 #include <nlohmann/json.hpp>
 
 #include "bench/keys/key_schema.h"
-#include "bench/tasks/registry.h"
 #include "io/files/json.h"
 
 namespace etude {

@@ -7,7 +7,6 @@
 #include "bench/statistics/compare.h"
 #include "bench/statistics/distributions.h"
 #include "bench/statistics/judging.h"
-#include "engine/base/order_statistics.h"
 
 namespace etude {
 namespace {

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 
-#include "bench/metrics/detection.h"
 #include "bench/statistics/curves/curves.h"
 
 namespace etude {

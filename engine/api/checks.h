@@ -5,7 +5,6 @@
 #include <span>
 #include <string>
 #include <utility>
-#include <vector>
 
 #include "engine/base/result.h"
 #include "engine/motion/body.h"

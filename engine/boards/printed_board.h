@@ -9,7 +9,6 @@
 
 #include "engine/base/image.h"
 #include "engine/base/result.h"
-#include "engine/boards/board.h"
 #include "engine/boards/find_boards.h"
 #include "engine/cameras/planes.h"
 #include "engine/cameras/refine.h"

@@ -1,6 +1,5 @@
 #include "engine/cameras/camera_parameters.h"
 
-#include <algorithm>
 #include <cmath>
 
 #include "engine/base/euler.h"

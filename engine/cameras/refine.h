@@ -2,7 +2,6 @@
 
 #include <glm/glm.hpp>
 #include <span>
-#include <string>
 #include <vector>
 
 #include "engine/base/result.h"

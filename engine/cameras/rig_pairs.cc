@@ -2,7 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <cmath>
 #include <glm/gtc/quaternion.hpp>
 #include <map>
 #include <string>

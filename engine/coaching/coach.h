@@ -3,9 +3,7 @@
 #include <array>
 #include <cstdint>
 #include <glm/glm.hpp>
-#include <memory>
 #include <optional>
-#include <string>
 #include <string_view>
 #include <vector>
 

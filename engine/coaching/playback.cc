@@ -1,7 +1,6 @@
 #include "engine/coaching/playback.h"
 
 #include <algorithm>
-#include <cassert>
 #include <cmath>
 #include <glm/glm.hpp>
 #include <utility>

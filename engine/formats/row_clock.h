@@ -8,7 +8,6 @@
 
 #include "engine/base/result.h"
 #include "engine/formats/joint_csv.h"
-#include "engine/formats/time_scale.h"
 #include "engine/formats/trc.h"
 #include "engine/motion/body.h"
 

@@ -4,7 +4,6 @@
 #include <array>
 #include <limits>
 #include <optional>
-#include <utility>
 
 #include "engine/base/text.h"
 #include "engine/vision/strokes.h"

@@ -2,7 +2,6 @@
 
 #include <glm/glm.hpp>
 #include <optional>
-#include <string>
 #include <string_view>
 
 #include "engine/base/result.h"

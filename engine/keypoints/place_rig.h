@@ -1,11 +1,8 @@
 #pragma once
 
 #include <glm/glm.hpp>
-#include <optional>
 #include <span>
 #include <string>
-#include <string_view>
-#include <vector>
 
 #include "engine/base/result.h"
 #include "engine/cameras/rig_file.h"

@@ -10,7 +10,6 @@
 #include "engine/capture/measure_joints.h"
 #include "engine/kinematics/capture_body.h"
 #include "engine/kinematics/limb_lengths.h"
-#include "engine/kinematics/start_angles.h"
 #include "engine/motion/rest_body.h"
 
 namespace etude {

@@ -3,8 +3,6 @@
 #include <utility>
 
 #include "engine/base/angles.h"
-#include "engine/base/directions.h"
-#include "engine/base/euler.h"
 #include "engine/kinematics/capture_body.h"
 
 namespace etude {

@@ -1,8 +1,6 @@
 #pragma once
 
-#include <cstddef>
 #include <glm/glm.hpp>
-#include <optional>
 #include <span>
 #include <vector>
 

@@ -5,8 +5,6 @@
 #include <functional>
 #include <vector>
 
-#include "engine/base/angles.h"
-#include "engine/base/directions.h"
 #include "engine/retargeting/joint_names.h"
 
 namespace etude {

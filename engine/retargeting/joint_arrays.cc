@@ -6,7 +6,6 @@
 #include <array>
 #include <cmath>
 #include <set>
-#include <span>
 #include <string_view>
 
 #include "engine/base/names.h"

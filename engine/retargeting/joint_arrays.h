@@ -2,8 +2,6 @@
 
 #include <optional>
 #include <string>
-#include <string_view>
-#include <vector>
 
 #include "engine/base/result.h"
 #include "engine/formats/npz.h"

@@ -3,7 +3,6 @@
 #include <array>
 #include <span>
 #include <string>
-#include <string_view>
 #include <vector>
 
 #include "engine/motion/body.h"

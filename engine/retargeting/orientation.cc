@@ -1,7 +1,6 @@
 #include "engine/retargeting/orientation.h"
 
 #include <algorithm>
-#include <cmath>
 #include <tuple>
 #include <vector>
 

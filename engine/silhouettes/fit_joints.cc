@@ -3,7 +3,6 @@
 #include <Eigen/Cholesky>
 #include <Eigen/Core>
 #include <algorithm>
-#include <vector>
 
 #include "engine/base/angles.h"
 #include "engine/silhouettes/lost_limbs.h"

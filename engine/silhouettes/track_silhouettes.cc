@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <array>
 #include <cassert>
-#include <cmath>
 
 #include "engine/silhouettes/fit_joints.h"
 #include "engine/silhouettes/moment_fitter.h"

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "engine/base/names.h"
 #include "engine/formats/joint_csv.h"
 #include "engine/streams/format_readers.h"
 

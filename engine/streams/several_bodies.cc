@@ -7,7 +7,6 @@
 #include <string_view>
 #include <vector>
 
-#include "engine/base/names.h"
 #include "engine/formats/json_text.h"
 #include "engine/formats/text_scanner.h"
 #include "engine/streams/format_readers.h"

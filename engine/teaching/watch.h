@@ -1,13 +1,11 @@
 #pragma once
 
 #include <memory>
-#include <string>
 #include <vector>
 
 #include "engine/recognition/recognise.h"
 #include "engine/recognition/recognisers.h"
 #include "engine/recognition/sight.h"
-#include "engine/teaching/labelled_streams.h"
 
 namespace etude {
 

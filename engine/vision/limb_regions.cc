@@ -1,7 +1,6 @@
 #include "engine/vision/limb_regions.h"
 
 #include <algorithm>
-#include <cmath>
 #include <limits>
 #include <vector>
 

@@ -1,7 +1,6 @@
 #include "engine/vision/strokes.h"
 
 #include <algorithm>
-#include <cmath>
 #include <cstdint>
 #include <cstring>
 #include <vector>

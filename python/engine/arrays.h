@@ -11,7 +11,6 @@
 #include <cstring>
 #include <glm/glm.hpp>
 #include <limits>
-#include <span>
 #include <string>
 #include <type_traits>
 #include <utility>

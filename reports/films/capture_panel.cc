@@ -7,7 +7,6 @@
 #include <cmath>
 #include <cstdint>
 
-#include "io/drawing/look.h"
 #include "reports/transitions/recorded_requests.h"
 
 namespace etude {

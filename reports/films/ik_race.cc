@@ -8,8 +8,6 @@
 
 #include "bench/model/recording.h"
 #include "bench/recordings/task_extras.h"
-#include "io/files/json.h"
-#include "reports/films/shown_cell.h"
 #include "reports/words/cell_series.h"
 #include "reports/words/figures.h"
 #include "reports/words/judged.h"

@@ -4,7 +4,6 @@
 
 #include "bench/model/recording.h"
 #include "bench/model/run_data.h"
-#include "reports/transitions/recorded_requests.h"
 
 namespace etude {
 

@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <array>
 
-#include "engine/base/csv.h"
 #include "io/drawing/escape.h"
 #include "reports/paper/paper_b_tables.h"
 #include "reports/plots/curve_plot.h"

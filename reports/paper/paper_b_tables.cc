@@ -9,9 +9,7 @@
 #include <span>
 #include <utility>
 
-#include "engine/base/csv.h"
 #include "engine/base/order_statistics.h"
-#include "io/drawing/escape.h"
 #include "reports/words/cell_series.h"
 #include "reports/words/figures.h"
 

@@ -7,7 +7,6 @@
 
 #include "bench/model/run_data.h"
 #include "engine/kinematics/body_tree.h"
-#include "engine/kinematics/tree.h"
 #include "io/drawing/table.h"
 
 namespace etude {

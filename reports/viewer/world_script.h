@@ -6,7 +6,6 @@
 #include <string>
 #include <vector>
 
-#include "engine/motion/body.h"
 #include "reports/viewer/recorded_worlds.h"
 
 namespace etude {

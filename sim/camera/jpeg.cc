@@ -7,7 +7,6 @@
 #include <array>
 #include <csetjmp>
 #include <cstddef>
-#include <cstdio>
 #include <cstdlib>
 
 namespace etude {

@@ -4,7 +4,6 @@
 #include <cmath>
 #include <filesystem>
 #include <fstream>
-#include <optional>
 #include <vector>
 
 #include "engine/formats/gltf/gltf.h"

@@ -9,7 +9,6 @@
 #include "engine/cameras/rig_file.h"
 #include "engine/keypoints/agreement.h"
 #include "engine/keypoints/pixel_fit.h"
-#include "engine/keypoints/place_rig.h"
 #include "engine/keypoints/recover_person.h"
 #include "engine/keypoints/synchronise_people.h"
 #include "engine/motion/body.h"

@@ -6,7 +6,6 @@
 #include <nlohmann/json.hpp>
 #include <optional>
 
-#include "engine/base/order_statistics.h"
 #include "engine/keypoints/agreement.h"
 #include "engine/kinematics/limb_lengths.h"
 #include "engine/unmarked/recover_unmarked.h"

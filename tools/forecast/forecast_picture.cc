@@ -2,10 +2,8 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 
 #include "engine/base/base64.h"
-#include "engine/base/order_statistics.h"
 #include "io/drawing/canvas.h"
 #include "io/drawing/escape.h"
 #include "io/drawing/look.h"

@@ -4,7 +4,6 @@
 #include <cmath>
 
 #include "engine/formats/joint_csv.h"
-#include "engine/formats/number_rows.h"
 #include "engine/formats/rigid_targets.h"
 
 namespace etude {

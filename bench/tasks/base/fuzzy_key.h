@@ -1,7 +1,5 @@
 #pragma once
 
-#include <string_view>
-
 #include "bench/keys/field_table.h"
 #include "bench/tasks/base/task.h"
 #include "engine/fuzzy/open_fuzzy_system.h"

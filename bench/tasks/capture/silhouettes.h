@@ -5,10 +5,8 @@
 #include <vector>
 
 #include "bench/tasks/capture/options.h"
-#include "engine/base/result.h"
 #include "engine/capture/recover_frames.h"
 #include "engine/kinematics/capture_body.h"
-#include "engine/silhouettes/moment_fitter.h"
 #include "engine/silhouettes/silhouette_follower.h"
 #include "sim/random/stream.h"
 

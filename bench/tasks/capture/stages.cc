@@ -1,7 +1,6 @@
 #include "bench/tasks/capture/stages.h"
 
 #include <algorithm>
-#include <cmath>
 #include <numeric>
 #include <utility>
 

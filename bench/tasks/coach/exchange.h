@@ -2,7 +2,6 @@
 
 #include <memory>
 #include <optional>
-#include <string>
 
 #include "bench/tasks/base/task.h"
 #include "bench/tasks/coach/options.h"

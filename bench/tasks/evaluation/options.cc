@@ -2,7 +2,6 @@
 
 #include <string_view>
 
-#include "engine/motion/body.h"
 #include "engine/retargeting/joint_arrays.h"
 
 namespace etude {

@@ -9,7 +9,6 @@
 #include "bench/tasks/inbetween/options.h"
 #include "bench/tasks/inbetween/score.h"
 #include "bench/tasks/inbetween/windows.h"
-#include "engine/base/names.h"
 #include "io/clips/raw_motions.h"
 
 namespace etude {

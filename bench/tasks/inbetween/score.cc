@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
 
 #include "bench/metrics/alignment.h"
 #include "bench/metrics/transition_body.h"

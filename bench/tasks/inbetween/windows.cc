@@ -6,7 +6,6 @@
 #include <filesystem>
 
 #include "bench/tasks/evaluation/find_files.h"
-#include "engine/base/names.h"
 #include "io/clips/open_clip.h"
 #include "io/clips/raw_motions.h"
 #include "io/clips/references.h"

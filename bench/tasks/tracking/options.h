@@ -2,7 +2,6 @@
 
 #include <optional>
 #include <string>
-#include <vector>
 
 #include "bench/tasks/base/ik_targets.h"
 #include "bench/tasks/base/solver_fields.h"

@@ -1,7 +1,6 @@
 #include "engine/transitions/choices/rehearsal.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <limits>
 #include <memory>

@@ -3,7 +3,6 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "sim/random/stream.h"
 #include "tests/bench/gate/example.h"
 
 namespace etude {

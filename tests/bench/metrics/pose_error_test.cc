@@ -4,8 +4,6 @@
 
 #include <cmath>
 
-#include "engine/base/angles.h"
-
 namespace etude {
 namespace {
 

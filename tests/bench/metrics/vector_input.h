@@ -1,8 +1,6 @@
 #pragma once
 
 #include <glm/glm.hpp>
-#include <span>
-#include <vector>
 
 #include "engine/base/image.h"
 #include "engine/motion/body.h"

@@ -6,7 +6,6 @@
 #include <functional>
 #include <limits>
 
-#include "bench/metrics/catalogue.h"
 #include "bench/statistics/summary.h"
 
 namespace etude {

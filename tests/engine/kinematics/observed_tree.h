@@ -1,7 +1,5 @@
 #pragma once
 
-#include <algorithm>
-
 #include "engine/base/euler.h"
 #include "engine/kinematics/body_tree.h"
 #include "engine/kinematics/limb_lengths.h"

@@ -6,9 +6,7 @@
 #include <ImfInputFile.h>
 
 #include <algorithm>
-#include <fstream>
 #include <string>
-#include <vector>
 
 #include "engine/base/image.h"
 #include "sim/depth_camera/normals.h"

@@ -4,7 +4,6 @@
 #include <gtest/gtest.h>
 
 #include "tests/support/kept_answers.h"
-#include "tests/support/replaced.h"
 #include "tests/support/results.h"
 
 namespace etude {

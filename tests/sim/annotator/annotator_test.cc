@@ -3,8 +3,6 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <set>
-#include <vector>
 
 #include "tests/sim/annotator/annotated_body.h"
 

@@ -2,8 +2,6 @@
 
 #include <gtest/gtest.h>
 
-#include <algorithm>
-
 #include "engine/base/angles.h"
 #include "engine/vision/limb_regions.h"
 #include "tests/sim/annotator/annotated_body.h"

@@ -2,8 +2,6 @@
 
 #include <gtest/gtest.h>
 
-#include <numbers>
-
 #include "tests/sim/camera/shots.h"
 
 namespace etude {

@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "sim/body/shape.h"
 #include "sim/render/renderer.h"

@@ -4,7 +4,6 @@
 
 #include <cstdint>
 #include <string>
-#include <vector>
 
 /// Sensors that watch a body whose motion is known (docs/library.md).
 namespace etude::sim {

@@ -4,7 +4,6 @@
 
 #include <cmath>
 
-#include "engine/base/angles.h"
 #include "io/clips/clip_library.h"
 #include "tests/support/results.h"
 

@@ -2,7 +2,6 @@
 
 #include <gtest/gtest.h>
 
-#include <cmath>
 #include <glm/gtc/matrix_transform.hpp>
 
 #include "engine/kinematics/body_tree.h"
