@@ -55,7 +55,7 @@ struct FootTracks {
       old_turns[f] = turns[f] - TurnOnFloor(toes(w.old[f - 1]), toes(w.old[f]));
       next_turns[f] = turns[f] - TurnOnFloor(toes(w.next[f - 1]), toes(w.next[f]));
     }
-    const BodyPose& pose = w.next[0];
+    const BodyPose& pose = w.old[0];
     length = glm::distance(pose[leg.hip], pose[leg.knee]) + glm::distance(pose[leg.knee], pose[leg.ankle]);
   }
   bool StandsAtAll() const { return (old_stands | next_stands) != 0; }
