@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "engine/motion/pendulum.h"
+#include "engine/transitions/joins/limbs.h"
 #include "engine/transitions/joins/placing.h"
 #include "engine/transitions/joins/splice.h"
 
@@ -214,6 +215,7 @@ Burden PairStage::Rate(std::span<const BodyPose> played, const glm::dvec3& shift
     if (off) burden.beside += std::max(*off - std::max(kFoot, OwnBeside(f - before_)), 0.0) / window_.rate_hz;
     if (f > before_) burden.glide += GlideAt(shown, f, support.joints);
   }
+  burden.turn = LargestTurn(shown, supports);
   return burden;
 }
 
@@ -243,6 +245,43 @@ double PairStage::GlideAt(std::span<const BodyPose> shown, int frame, JointSet s
     beside(wanted_, frame - before_);
   }
   return least;
+}
+
+/// Returns the largest turn of the hips against a foot, radians, in a run of frames of the join in which this foot
+/// supports the body and rests. The turn in the same frame of a clip is subtracted. `supports` begins with the join's
+/// first frame.
+double PairStage::LargestTurn(std::span<const BodyPose> shown, std::span<const Support> supports) const {
+  double largest = 0;
+  for (const LegRoles& leg : kLegs) {
+    const auto turn = [&](std::span<const BodyPose> poses, int f) {
+      const auto line = [&](int frame, Role from, Role to) { return poses[frame][to] - poses[frame][from]; };
+      const Role other = Mirrored(leg.hip);
+      return TurnOnFloor(line(f - 1, other, leg.hip), line(f, other, leg.hip)) -
+             TurnOnFloor(line(f - 1, leg.ankle, leg.foot), line(f, leg.ankle, leg.foot));
+    };
+    TurnMeter meter;
+    for (int i = 1; i < static_cast<int>(supports.size()); ++i) {
+      const int f = before_ + i;
+      const auto speed = [&](Role role) { return glm::distance(shown[f][role], shown[f - 1][role]) * window_.rate_hz; };
+      const bool supports_body = supports[i].joints[Index(leg.ankle)] || supports[i].joints[Index(leg.foot)];
+      if (!supports_body || std::max(speed(leg.ankle), speed(leg.foot)) > kFootRules.rest_speed) {
+        meter.End();
+        continue;
+      }
+      const double whole = turn(shown, f);
+      double added = whole;  // the turn that the clips do not have; the smaller of two
+      const auto compare = [&](std::span<const BodyPose> clip, int frame) {
+        if (frame < 1 || frame >= static_cast<int>(clip.size())) return;
+        const double rest = whole - turn(clip, frame);
+        if (std::abs(rest) < std::abs(added)) added = rest;
+      };
+      compare(playing_, f);
+      compare(wanted_, i);
+      meter.Add(added);
+    }
+    largest = std::max(largest, meter.largest());
+  }
+  return largest;
 }
 
 }  // namespace etude

@@ -52,6 +52,7 @@ struct Burden {
   int unsupported = 0;  ///< length in frames of the longest run in which FindSupport finds no support
   double beside = 0;    ///< zero-moment point's distance above 10 cm and above the clips' distances, integrated, m·s
   double glide = 0;     ///< distance by which the slowest support glides farther than the same joint of a clip, metres
+  double turn = 0;      ///< largest turn of the hips against a resting foot, above the clips' own turn, radians
 };
 
 /// The data that all joins at one pair of frames have in common.
@@ -88,6 +89,7 @@ class PairStage {
             const FloorMove& floor_move, int last, int frames);
   double OwnBeside(int frame) const;
   double GlideAt(std::span<const BodyPose> shown, int frame, JointSet supports) const;
+  double LargestTurn(std::span<const BodyPose> shown, std::span<const Support> supports) const;
 
   const JoinWindow window_;  // window of the longest join
   const OwnAccelerations own_;

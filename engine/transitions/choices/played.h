@@ -42,7 +42,8 @@ const SettingTable<PlayedOptions>& PlayedSettings();
 /// - 6 s for each 10 cm that the zero-moment point is off the supports for one second (ZeroMomentOffset). Only the part
 ///   that exceeds 10 cm and the distance in either clip at that time counts, and only while something supports the
 ///   body;
-/// - one second for each centimetre that the slowest support glides farther than a clip's own joint does there.
+/// - one second for each centimetre that the slowest support glides farther than a clip's own joint does there;
+/// - one second for each 10° that the hips turn against a resting foot, above 30° and above the clips' own turn.
 ///
 /// Pairs are left out if their join would raise or lower the body without support (NeedsClip). If no other pair is
 /// allowed, the transition goes, after the wait, through an intermediate clip in which the person stands up or lies

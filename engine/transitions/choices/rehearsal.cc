@@ -7,6 +7,7 @@
 #include <tuple>
 #include <utility>
 
+#include "engine/base/angles.h"
 #include "engine/base/smoothstep.h"
 #include "engine/transitions/choices/pair_stage.h"
 
@@ -18,10 +19,12 @@ constexpr double kLimbShare = 0.6;     // share of the cost of the limbs' motion
 constexpr double kUnplanted_s = 0.1;   // cost of a frame in which no foot carries weight (FootPlan)
 constexpr double kFloating_s = 6;      // cost of each frame beyond kHop in the longest run without support
 constexpr int kHop = 2;
-constexpr double kSlides_s = 10;   // cost of one metre that feet slide
-constexpr double kBeside_s = 60;   // cost of one metre by which the zero-moment point is too far off, for one second
-constexpr double kGlides_s = 100;  // cost of one metre that the slowest support glides
-constexpr int kMaxWithFeet = 60;   // maximal number of joins that are played with planted feet
+constexpr double kSlides_s = 10;           // cost of one metre that feet slide
+constexpr double kBeside_s = 60;           // cost of one metre by which the zero-moment point is too far off, for 1 s
+constexpr double kGlides_s = 100;          // cost of one metre that the slowest support glides
+constexpr double kTurns_s = 5.73;          // cost of one radian by which the hips turn farther than kEasyTurn
+constexpr double kEasyTurn = Radians(30);  // turn against a resting foot that costs nothing
+constexpr int kMaxWithFeet = 60;           // maximal number of joins that are played with planted feet
 
 bool IsBetterWay(const PlayedJoin& a, const PlayedJoin& b) {
   const auto key = [](const PlayedJoin& w) { return std::tuple(w.cost_s, w.number, w.frames, w.way, w.carried); };
@@ -147,8 +150,8 @@ class Rehearsal {
     if (way.cost_s < least_s_) {
       const Burden burden = stage.Rate(limbs.shown, limbs.shift);
       way.unsupported = burden.unsupported;
-      way.cost_s +=
-          kFloating_s * std::max(way.unsupported - kHop, 0) + kBeside_s * burden.beside + kGlides_s * burden.glide;
+      way.cost_s += kFloating_s * std::max(way.unsupported - kHop, 0) + kBeside_s * burden.beside +
+                    kGlides_s * burden.glide + kTurns_s * std::max(burden.turn - kEasyTurn, 0.0);
       least_s_ = std::min(least_s_, way.cost_s);
       ways.push_back(way);
     }

@@ -80,6 +80,10 @@ glm::dvec3 DirectionOr(const glm::dvec3& v, const glm::dvec3& otherwise) {
 
 }  // namespace
 
+double TurnOnFloor(const glm::dvec3& from, const glm::dvec3& to) {
+  return std::atan2(from.z * to.x - from.x * to.z, from.x * to.x + from.z * to.z + 0.0);
+}
+
 glm::dvec3 KneeOffset(const glm::dvec3& hip, const glm::dvec3& knee, const glm::dvec3& ankle) {
   return AcrossOf(knee - hip, DirectionOr(ankle - hip, {0, -1, 0}));
 }

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <glm/glm.hpp>
 #include <vector>
 
@@ -15,6 +16,27 @@ LimbTurn TurnBetween(const glm::dvec3& from, const glm::dvec3& to);
 
 /// Returns `v` rotated by `turn`; its length is unchanged.
 glm::dvec3 Turned(const glm::dvec3& v, const LimbTurn& turn);
+
+/// Returns the turn about the vertical from one direction to another, radians, in [−π, π]; 0 if either is vertical.
+double TurnOnFloor(const glm::dvec3& from, const glm::dvec3& to);
+
+/// Finds the largest turn within any run of frames.
+class TurnMeter {
+ public:
+  /// Adds the turn from the previous frame to this one, radians; positive and negative turns cancel.
+  void Add(double turn) {
+    turned_ += turn;
+    min_ = std::min(min_, turned_);
+    max_ = std::max(max_, turned_);
+    largest_ = std::max(largest_, max_ - min_);
+  }
+  /// Ends the run.
+  void End() { turned_ = min_ = max_ = 0; }
+  double largest() const { return largest_; }
+
+ private:
+  double turned_ = 0, min_ = 0, max_ = 0, largest_ = 0;
+};
 
 /// Returns the vector from the hip–ankle line to the knee, perpendicular to that line, in metres. The vector points in
 /// the knee's direction, and its length grows as the leg bends.

@@ -27,7 +27,8 @@ constexpr Frames Range(int first, int last) {
   return last < first ? 0 : (Bit(last) | (Bit(last) - 1)) & ~(Bit(std::max(first, 0)) - 1);
 }
 
-/// The contacts of one foot in both motions of a window, and the distances that the foot slides.
+/// The contacts of one foot in both motions of a window, the distances that the foot slides, and the movement of the
+/// hips over it. An interpolation of both motions stands for the join's hips.
 struct FootTracks {
   FootTracks(const JoinWindow& w, const LegRoles& l, const std::vector<bool>& old, const std::vector<bool>& next)
       : window(w), leg(l), frames(std::min(w.Frames(), kMaxFrames)) {
@@ -40,6 +41,22 @@ struct FootTracks {
       old_slid[f + 1] = old_slid[f] + way(w.old, old[f]);
       next_slid[f + 1] = next_slid[f] + way(w.next, next[f]);
     }
+    // Interpolate the hips' heading and the hip joint from the old motion to the new one.
+    const auto across = [&](const BodyPose& pose) { return pose[leg.hip] - pose[Mirrored(leg.hip)]; };
+    const auto toes = [&](const BodyPose& pose) { return pose[leg.foot] - pose[leg.ankle]; };
+    double before = 0;
+    for (int f = 0; f <= frames; ++f) {
+      const double share = Smootherstep(static_cast<double>(f) / w.Frames());
+      const double was = TurnOnFloor(across(w.old[0]), across(w.old[f]));
+      const double heading = was + share * TurnOnFloor(across(w.old[f]), across(w.next[f]));
+      hip[f] = glm::mix(w.old[f][leg.hip], w.next[f][leg.hip], share);
+      turns[f] = std::remainder(heading - std::exchange(before, heading), 2 * kPi);
+      if (f == 0) continue;
+      old_turns[f] = turns[f] - TurnOnFloor(toes(w.old[f - 1]), toes(w.old[f]));
+      next_turns[f] = turns[f] - TurnOnFloor(toes(w.next[f - 1]), toes(w.next[f]));
+    }
+    const BodyPose& pose = w.old[0];
+    length = glm::distance(pose[leg.hip], pose[leg.knee]) + glm::distance(pose[leg.knee], pose[leg.ankle]);
   }
   bool StandsAtAll() const { return (old_stands | next_stands) != 0; }
 
@@ -49,6 +66,11 @@ struct FootTracks {
   Frames old_stands = 0, next_stands = 0;
   /// For each frame, the distance that the foot slid in all earlier frames in which it stood, metres.
   std::array<double, kMaxFrames + 2> old_slid{}, next_slid{};
+  std::array<glm::dvec3, kMaxFrames + 1> hip{};
+  /// Turn of the hips since the previous frame, radians: against a foot that stays in its place, against the old
+  /// motion's foot, and against the new motion's foot.
+  std::array<double, kMaxFrames + 1> turns{}, old_turns{}, next_turns{};
+  double length = 0;  ///< length of the stretched leg, metres
 };
 
 struct StepOption {
@@ -95,8 +117,37 @@ double StandingPrice(const FootTracks& foot, const FootStep& step) {
   return price;
 }
 
-/// Returns the step with its lift, cost and supporting frames. The cost is the sum of StandingPrice and of the peak
-/// accelerations of the minimum-jerk movements for the offset, the velocity and the lift.
+/// Returns the largest turn of the hips against the foot, radians, in a run of the frames `stands` before or after the
+/// step.
+double LargestTurn(const FootTracks& foot, const FootStep& step, Frames stands) {
+  TurnMeter meter;
+  for (int f = 1; f <= foot.frames; ++f) {
+    const bool steps = f > step.begin && f <= step.end;
+    if (steps || (~stands & (Bit(f - 1) | Bit(f))) != 0) {
+      meter.End();
+    } else {
+      meter.Add(f <= std::min(step.begin, step.stays_from) ? foot.old_turns[f]
+                : f > std::max(step.end, step.waits_until) ? foot.next_turns[f]
+                                                           : foot.turns[f]);
+    }
+  }
+  return meter.largest();
+}
+
+/// Returns the cost of what a step demands of the body, in centimetres per frame²: the turn of the hips against the
+/// standing foot, and the distance by which the foot is out of the leg's reach where the step begins and ends.
+double BodyPrice(const FootTracks& foot, const FootStep& step, Frames stands) {
+  constexpr double kTurning = 3, kEasyTurn = Radians(30), kStretching = 30;  // per radian; per metre
+  const auto stretch = [&](int frame, const BodyPose& pose) {
+    return std::max(glm::distance(foot.hip[frame], pose[foot.leg.ankle]) - foot.length, 0.0);
+  };
+  return kTurning * std::max(LargestTurn(foot, step, stands) - kEasyTurn, 0.0) +
+         kStretching * (stretch(step.begin, foot.window.old[std::min(step.begin, step.stays_from)]) +
+                        stretch(step.end, foot.window.next[std::max(step.end, step.waits_until)]));
+}
+
+/// Returns the step with its lift, cost and supporting frames. The cost is the sum of StandingPrice, of BodyPrice and
+/// of the peak accelerations of the minimum-jerk movements for the offset, the velocity and the lift.
 StepOption Priced(const FootTracks& foot, const FootStep& step) {
   constexpr double kCm = 100;
   StepOption option{.step = step};
@@ -111,6 +162,7 @@ StepOption Priced(const FootTracks& foot, const FootStep& step) {
   option.stands = (foot.old_stands & Range(0, step.begin)) | (foot.next_stands & Range(step.end, foot.frames)) |
                   Range(step.stays_from, step.begin) | Range(step.end, step.waits_until);
   if (travel <= kStill) option.stands |= foot.old_stands & foot.next_stands & Range(step.begin, step.end);
+  option.cost += BodyPrice(foot, step, option.stands);
   return option;
 }
 

@@ -38,7 +38,8 @@ struct FootPlan {
 };
 
 /// Plans a step for each foot within the window (ours). It prefers long steps, because they need little acceleration,
-/// and steps one after the other, because one foot then supports the body while the other moves. A window of fewer than
+/// and steps one after the other, because one foot then supports the body while the other moves. Steps cost more if the
+/// hips turn by more than 30° against a standing foot, or if a foot is out of the leg's reach. A window of fewer than
 /// two frames has no steps.
 FootPlan PlanSteps(const JoinWindow& window);
 

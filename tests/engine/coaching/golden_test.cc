@@ -97,7 +97,7 @@ TEST(Coaching, GoldenSessionsOfEveryPolicy) {
       print.Add(session.Next());
     }
   }
-  EXPECT_TRUE(print.print.Is(198004, 312.561096577));
+  EXPECT_TRUE(print.print.Is(198004, 312.552212159));
   EXPECT_TRUE(testing::AreKept(print.said, "tests/engine/coaching/said.txt"));
 }
 

@@ -71,7 +71,7 @@ TEST(ChoicesGolden, OfPlansInLibrariesOfEveryKind) {
       }
     }
   }
-  EXPECT_TRUE(print.Is(434421, -81919.432069));
+  EXPECT_TRUE(print.Is(434421, -81836.1139372));
   EXPECT_TRUE(testing::AreKept(told, "tests/engine/transitions/choices/why.txt"));
 }
 

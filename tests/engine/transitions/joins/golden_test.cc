@@ -78,7 +78,7 @@ TEST(JoinsGolden, OfEveryJoinAlongWaysOfEveryKind) {
       AddTo(print, SpliceSegments(clips, way, *FindJoin(name), settings));
     }
   }
-  EXPECT_TRUE(print.Is(1032346, -2380.80003557));
+  EXPECT_TRUE(print.Is(1032346, -2380.30896134));
 }
 
 TEST(PlantFeet, LeavesAMotionThatGoesOnAsItWas) {

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <glm/gtc/quaternion.hpp>
 
 #include "engine/base/angles.h"
@@ -38,6 +39,25 @@ TEST(Turned, EqualsAQuaternionAtAnyAngle) {
     EXPECT_NEAR(glm::distance(turned, glm::angleAxis(angle, axis) * limb), 0, 1e-15) << angle;
     EXPECT_NEAR(glm::length(turned), glm::length(limb), 1e-15) << angle;
   }
+}
+
+TEST(TurnOnFloor, IsTheAngleAboutTheVerticalWithItsSign) {
+  EXPECT_NEAR(TurnOnFloor({0, 5, 2}, {3, -1, 0}), kPi / 2, 1e-15) << "from +Z to +X, whatever the heights";
+  EXPECT_NEAR(TurnOnFloor({3, 0, 0}, {0, 0, 2}), -kPi / 2, 1e-15);
+  EXPECT_NEAR(std::abs(TurnOnFloor({1, 0, 1}, {-2, 0, -2})), kPi, 1e-15);
+  EXPECT_EQ(TurnOnFloor({0, 1, 0}, {1, 0, 0}), 0) << "a vertical direction has no heading";
+}
+
+TEST(TurnMeter, FindsTheLargestTurnWithinARun) {
+  TurnMeter meter;
+  EXPECT_EQ(meter.largest(), 0);
+  for (const double turn : {0.5, 0.25, -1.0, 0.25}) meter.Add(turn);
+  EXPECT_EQ(meter.largest(), 1) << "from 0.75 back to -0.25";
+  meter.End();
+  meter.Add(0.875);
+  EXPECT_EQ(meter.largest(), 1) << "a new run starts at 0";
+  meter.Add(0.25);
+  EXPECT_EQ(meter.largest(), 1.125);
 }
 
 }  // namespace

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "engine/base/angles.h"
+#include "engine/base/smoothstep.h"
 #include "engine/motion/body.h"
 #include "engine/transitions/joins/limbs.h"
 #include "engine/transitions/joins/placing.h"
@@ -136,6 +137,16 @@ TEST(PlanSteps, LetsFeetThatSlideInTheirClipsStayWhereTheyStand) {
     long_stands += (step.begin >= 9) + (step.end <= 21);
   }
   EXPECT_GE(long_stands, 2) << "one after the other";
+}
+
+TEST(PlanSteps, SharesATurnOfTheBodyAmongBothFeet) {
+  constexpr double kTurn = 100;
+  const JoinWindow window = Window(Stride(0.1), FloorMove{.yaw = Radians(kTurn)}.Apply(Stride(0.1)), 36);
+  for (const FootStep& step : PlanSteps(window).steps) {
+    // The hips turn by the minimum-jerk curve; a foot carries the turn before its step and the turn after it.
+    const double before = kTurn * Smootherstep(step.begin / 36.0), after = kTurn * (1 - Smootherstep(step.end / 36.0));
+    EXPECT_LE(std::max(before, after), 0.6 * kTurn) << step.begin << " to " << step.end;
+  }
 }
 
 TEST(PlanSteps, CountsTheFramesInWhichNothingCanStand) {
