@@ -32,8 +32,8 @@ std::string DescribeRootTravel(const Clip& clip, const JointMap& map) {
   const int moved = clip.frames.empty() ? -1 : MovedJoint(clip, map);
   const auto apart = static_cast<std::size_t>(std::max(1.0, std::round(kStep_s * clip.rate_hz)));
   if (moved < 0 || clip.frames.size() < apart + kMinSteps) return "";
-  // The steps of both ankles and of the moved joint, each from a sampled frame to the frame a thirtieth of a second
-  // later.
+  // The displacements of both ankles and of the moved joint, each from a sampled frame to the frame a thirtieth of a
+  // second later.
   struct Step {
     glm::dvec3 left, right, root;
   };
