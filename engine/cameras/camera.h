@@ -38,8 +38,9 @@ struct Distortion {
 glm::dvec2 Distort(const Distortion& distortion, const glm::dvec2& ray);
 
 /// Inverts `Distort` by Newton's method to 1e-12. If several rays map to `distorted`, returns the (x, y) nearest to the
-/// axis. Returns nullopt if no ray does: beyond the radius at which the model folds back (beyond this radius the model
-/// describes no lens), and, for a fisheye, outside the half-space in front of the camera.
+/// axis. Returns nullopt if no ray maps to `distorted`. This happens where the model folds back: beyond the largest
+/// radius that the model can give near the axis, it describes no lens. For a fisheye, it also happens for rays that do
+/// not point to the front of the camera.
 std::optional<glm::dvec2> Undistort(const Distortion& distortion, const glm::dvec2& distorted);
 
 /// The intrinsics of a camera in pixels. Image axes: u right, v down, origin at the top left corner; the centre of
