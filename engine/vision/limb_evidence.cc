@@ -305,8 +305,8 @@ class EvidenceFinder {
     return seen;
   }
 
-  // Returns the limb's probable half width. It is at least the outer neighbour's half width, and a share of the inner
-  // neighbour's, because one side of the limb may be hidden along the whole length.
+  // Returns the limb's probable half width. One side of the limb may be hidden along the whole length. So the result is
+  // at least the outer neighbour's half width, and at least a share of the inner neighbour's half width.
   double LikelyHalfWidth(std::size_t i) const {
     constexpr double kMinWidthRatio = 0.55;  // a foot's width as a share of the shank's width
     double half_width = limbs_[i]->line.half_width;
