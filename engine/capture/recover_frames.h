@@ -23,11 +23,10 @@ struct RecoverInputs {
   /// One observation per frame; nullopt for frames in which too little was seen.
   std::span<const std::optional<LimbObservation>> seen;
   /// One flag per frame: true if the frame itself was marked; empty if all frames were. In a marked frame the solver
-  /// starts at the angles that the pictures show, in any other frame at the angles of the last
-  /// recovered frame.
+  /// starts at the angles that the pictures show, in any other frame at the angles of the last recovered frame.
   std::vector<bool> marked = {};
-  /// The true start angles or true poses, one per frame, if known; otherwise empty. They replace the result of the
-  /// start stage or of the solver, so that the error of that stage can be measured.
+  /// The true start angles or true poses, one per frame, if known; otherwise empty. Start angles replace the result of
+  /// the start stage, poses replace the result of the solver, so that the error of the replaced part can be measured.
   std::vector<TreeState> known_starts = {}, known_poses = {};
 };
 
