@@ -36,15 +36,16 @@ namespace etude {
 /// would take more than 1 GB (an hour of 25 joints at 120 Hz).
 Result<Clip> ReadBvh(std::string_view bytes, const std::string& file, std::vector<std::string>* remarks = nullptr);
 
-/// Writes a clip as BVH. The root and every joint whose translation changes get three positions, and an OFFSET of 0:
-/// some readers replace OFFSET by positions, others add the two. Every joint gets Z, X, Y rotations in degrees; numbers
-/// have six decimals. Every joint has the same position as in the clip, in all frames. When the file is read again, a
-/// joint with positions rests at its position in the first frame, and the root rests at the origin. Scales, several
-/// roots and rotated axes at rest, which BVH cannot express, are first removed by WithoutScales, WithOneRoot and
-/// WithWorldAxesAtRest. Frames that were read from BVH need no conversion and are reproduced to the printed precision.
-/// Joints are written depth first, regardless of their order in the clip. End sites that have children or move become
-/// joints. Braces and control characters in names become '_', and duplicate names are numbered as in reading. The clip
-/// must have at least one joint and numbers within ±10⁹ (the limit of ReadBvh).
+/// Writes a clip as BVH. The root and every joint whose translation changes get three position channels, and an OFFSET
+/// of 0: some readers replace OFFSET by the position, others add the two. Every joint gets Z, X, Y rotations in
+/// degrees; numbers have six decimals. Every joint has the same position as in the clip, in all frames. When the file
+/// is read again, a joint with position channels rests at its position in the first frame, and the root rests at the
+/// origin. Scales, several roots and rotated axes at rest, which BVH cannot express, are first removed by
+/// WithoutScales, WithOneRoot and WithWorldAxesAtRest. Frames that were read from BVH need no conversion and are
+/// reproduced to the printed precision. Joints are written depth first, regardless of their order in the clip. End
+/// sites that have children or move become joints. Braces and control characters in names become '_', and duplicate
+/// names are numbered as in reading. The clip must have at least one joint and numbers within ±10⁹ (the limit of
+/// ReadBvh).
 std::string WriteBvh(Clip clip);
 
 }  // namespace etude

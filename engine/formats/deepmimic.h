@@ -19,7 +19,7 @@ bool IsDeepMimicMotion(std::string_view text);
 ///
 /// Returns an error with the position for text over 64 MiB or without valid JSON, no frames, a number of values other
 /// than 44 (as for other characters), numbers beyond ±10⁹, quaternions of length 0, and frames of different durations
-/// (that of the last frame is ignored).
+/// (the last frame's duration is ignored).
 Result<Clip> ReadDeepMimicMotion(std::string_view text, const std::string& file);
 
 }  // namespace etude
