@@ -23,10 +23,11 @@ struct Exchange {
   Role left;
   std::size_t frame;  ///< the first frame after the exchange
 };
-/// Finds exchanges in a part of a motion (ours). From one frame to the next, each joint of a pair moves to the other
-/// joint's place: with exchanged names, the sum of the two distances moved is at most a quarter. The sum of both
-/// distances in the frames before and after is at most a quarter, too, so that crossing arms are no exchange. Joints
-/// nearer than 5 cm to each other and rates below 10 Hz are not judged. `frames` are in metres.
+/// Finds exchanges in a part of a motion (ours): frames in which each joint of a pair moves to the other joint's place.
+/// Let d be the sum of the distances that the two joints, by their names, move from the frame before. With exchanged
+/// names, this sum must be less than d / 4. In the frame before and in the frame after, the smaller of the two sums
+/// must also be less than d / 4, so that crossing arms are no exchange. Joints nearer than 5 cm to each other and rates
+/// below 10 Hz are not judged. `frames` are in metres.
 std::vector<Exchange> FindExchanges(std::span<const JointPositions> frames, double rate_hz);
 
 /// Returns a message for the user about all that FindExchangedJoints and FindExchanges find; "" if that is nothing.
