@@ -58,8 +58,8 @@ AdjustedTake AdjustTake(const AdjustTakeInputs& inputs, const AdjustTakeOptions&
 BundleSmoothness SmoothnessOf(const TakeBody& body, double rate_hz);
 
 struct MeasureLengthsOptions {
-  /// The number of frames used, spread evenly over the frames that show the most joints. More frames help little: mark
-  /// errors persist over neighbouring frames, so only distant frames average them out.
+  /// The number of frames used, spread evenly over the frames that show the most joints. More frames help little: the
+  /// errors of marks are similar in neighbouring frames, so only distant frames average these errors out.
   int frames = 12;
   MarkErrors marks;
 };

@@ -11,9 +11,9 @@
 namespace etude {
 
 struct BridgeOptions {
-  /// A measurement is used at most this many frames before and after its own frame. 15 is half a second at 30 Hz; after
-  /// a longer time a limb can be anywhere. Scale it with the frame rate. If only every n-th frame is marked, set it to
-  /// at least n.
+  /// A measurement is used at most this many frames before and after its own frame. 15 frames are half a second at 30
+  /// Hz; after a longer time a limb can be anywhere. Scale this number with the frame rate. If only every n-th frame is
+  /// marked, set it to at least n.
   int max_gap = 15;
   /// The standard deviation of a stroke's end, pixels. Only its ratio to `turn_per_frame` matters, and only for limbs
   /// whose strokes alone give no direction.
@@ -40,7 +40,7 @@ std::vector<std::optional<LimbObservation>> BridgeGaps(std::span<const FrameMeas
                                                        const BridgeOptions& options = {});
 
 /// Completes the last frame from the frames before it, as a live system must. Frames that are more than `max_gap`
-/// earlier have no effect.
+/// frames earlier have no effect.
 std::optional<LimbObservation> BridgeLast(std::span<const FrameMeasurement> frames, const BridgeOptions& options = {});
 
 }  // namespace etude
