@@ -21,7 +21,7 @@ constexpr int kMaxSquares = 16;
 constexpr int kCodeSide = 4;
 constexpr int kModules = kCodeSide + 2;
 /// The number of codes. Two codes differ in at least kCodeDistance modules, however each code is rotated. A code
-/// differs in as many modules from each of its own rotations by quarter turns.
+/// differs in at least as many modules from each of its own rotations by quarter turns.
 constexpr int kCodeCount = 120;
 constexpr int kCodeDistance = 4;
 

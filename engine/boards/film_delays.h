@@ -29,11 +29,11 @@ struct FilmDelays {
 };
 
 /// Finds the delays of films of a moving board *(ours)*: the delays minimise the residual of a calibration of all
-/// cameras together. One film after the other is searched, first on a grid with steps of half the time between looks,
+/// cameras together. The delays are searched film by film, first on a grid with steps of half the time between looks,
 /// then by halving the step down to a 64th of this time. A delay is accepted only if it lowers the residual by a tenth,
 /// because boards at rest do not determine time. At most about 60 moments are used, evenly spaced. Fails like
 /// `CalibrateFromPlanes`.
-/// @param max_delay_s maximum delay of a film, seconds, either way
+/// @param max_delay_s largest delay that is tried, seconds; a film may be late or early
 Result<FilmDelays> FindFilmDelays(std::span<const PictureSize> sizes, std::span<const BoardSighting> sightings,
                                 std::span<const double> period_s, double max_delay_s, const RefineOptions& options = {},
                                 const OnProgress& on_progress = {});

@@ -24,7 +24,7 @@ constexpr double kMinAlignment = 0.97;
 constexpr double kMinSimilarity = 0.9;  // cosine of 26°: maximum rotation of the edges between neighbouring corners
 // Maximum error of a corner predicted from two neighbouring corners, as a share of the distance between these two.
 constexpr double kMaxPredictionError = 0.25;
-// Maximum ratio between the step in a new direction and a known step from the same corner in another direction.
+// Maximum distance to the next corner in a new direction, as a multiple of the known distance to another neighbour.
 constexpr double kMaxStepRatio = 2.2;
 
 struct Axes {

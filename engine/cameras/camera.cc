@@ -102,7 +102,7 @@ std::optional<glm::dvec2> Undistort(const Distortion& distortion, const glm::dve
   glm::dvec2 ray = distorted;
   for (int step = 0; step < kMaxSteps; ++step) {
     const glm::dmat2 jacobian = JacobianOf(distortion, ray);
-    // If the determinant is not positive, the picture folds back, and there is no solution.
+    // If the determinant is not positive, the model folds back at this ray (camera.h), and there is no solution.
     if (!(glm::determinant(jacobian) > 0) || !(jacobian[0][0] > 0)) return std::nullopt;
     const glm::dvec2 missing = distorted - Distort(distortion, ray);
     ray += glm::inverse(jacobian) * missing;
@@ -170,7 +170,7 @@ std::optional<glm::dvec2> DistortPixel(const Camera& camera, const glm::dvec2& p
   if (camera.distortion.IsNone()) return pixel;
   const glm::dvec2 ray = RayOf(camera.intrinsics, pixel);
   const glm::dvec2 distorted = Distort(camera.distortion, ray);
-  // Where the model folds back, undistortion returns another ray than `ray`.
+  // For a ray at which the model has folded back, `Undistort` returns another ray.
   constexpr double kSameRay = 1e-6;
   const auto back = Undistort(camera.distortion, distorted);
   if (!back || glm::length(*back - ray) > kSameRay) return std::nullopt;

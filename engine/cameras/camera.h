@@ -38,8 +38,9 @@ struct Distortion {
 glm::dvec2 Distort(const Distortion& distortion, const glm::dvec2& ray);
 
 /// Inverts `Distort` by Newton's method to 1e-12. If several rays map to `distorted`, returns the (x, y) nearest to the
-/// axis. Returns nullopt if no ray does: beyond the radius at which the model folds back (beyond this radius the model
-/// describes no lens), and, for a fisheye, outside the half-space in front of the camera.
+/// axis. Returns nullopt if `distorted` is farther from (0, 0) than every (x', y') that the model gives near the axis.
+/// For rays beyond that maximum the model *folds back*: |(x', y')| decreases while |(x, y)| grows, which no lens does.
+/// For a fisheye, also returns nullopt if the ray does not point to the front of the camera.
 std::optional<glm::dvec2> Undistort(const Distortion& distortion, const glm::dvec2& distorted);
 
 /// The intrinsics of a camera in pixels. Image axes: u right, v down, origin at the top left corner; the centre of
@@ -91,7 +92,7 @@ ProjectionMatrix MatrixOf(const Camera& camera);
 std::optional<glm::dvec2> Project(const ProjectionMatrix& matrix, const glm::dvec3& p_WQ);
 
 /// Returns the pixel at which the camera with its lens shows Q. Returns nullopt if Q lies on or behind the camera's
-/// plane, and where the distortion model folds back, far outside the picture.
+/// plane, or so far outside the picture that the distortion model folds back (`Undistort`).
 std::optional<glm::dvec2> Project(const Camera& camera, const glm::dvec3& p_WQ);
 
 /// `DistortPixel` maps a pixel of the pinhole to the pixel of the lens, and `UndistortPixel` is its inverse. Each

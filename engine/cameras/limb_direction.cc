@@ -50,7 +50,7 @@ glm::dvec3 LineAlong(std::span<const StrokePlane> planes, std::span<const double
 // the stroke are wrong by one pixel.
 std::vector<double> WeightsOf(std::span<const StrokePlane> planes, const glm::dvec3& along_W) {
   std::vector<double> weights;
-  // Minimum sine of the angle between limb and ray; it limits the weight of a limb seen end-on.
+  // Minimum sine of the angle between limb and ray; it limits the weight of a limb that lies along the line of sight.
   constexpr double kEndOn = 0.05;
   for (const StrokePlane& plane : planes) {
     const glm::dvec3 middle = glm::normalize(plane.ray_a_W + plane.ray_b_W);

@@ -128,8 +128,8 @@ Result<glm::dmat3> HomographyOf(std::span<const PointPair> pairs) {
 }
 
 Result<Intrinsics> IntrinsicsFromPlanes(std::span<const glm::dmat3> homographies, int width, int height) {
-  // Put the principal point at the origin and measure in picture widths. Then h₁ᵀωh₂ = 0 and h₁ᵀωh₁ = h₂ᵀωh₂ are linear
-  // in ω = diag(a, b, 1), where a = 1/fx², b = 1/fy².
+  // Put the principal point at the origin and divide pixels by the picture's longer side. Then h₁ᵀωh₂ = 0 and h₁ᵀωh₁ =
+  // h₂ᵀωh₂ are linear in ω = diag(a, b, 1), where a = 1/fx², b = 1/fy².
   const double unit = std::max(width, height);
   Eigen::MatrixX2d A(2 * static_cast<Eigen::Index>(homographies.size()), 2);
   Eigen::VectorXd rhs(A.rows());
@@ -157,7 +157,8 @@ Result<Intrinsics> IntrinsicsFromPlanes(std::span<const glm::dmat3> homographies
     ab.setConstant(both.dot(rhs) / both.squaredNorm());
   }
   const Eigen::Vector2d focal = unit * ab.cwiseSqrt().cwiseInverse();
-  // Maximum focal length, picture widths; longer lenses are implausible for filming a person.
+  // Maximum focal length as a multiple of the picture's longer side; longer lenses are implausible for filming a
+  // person.
   constexpr double kMaxFocal = 50;
   if (!(ab.minCoeff() > 0) || !focal.allFinite() || focal.maxCoeff() > kMaxFocal * unit) {
     return Fail({},

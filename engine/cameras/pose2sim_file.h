@@ -13,8 +13,8 @@ namespace etude {
 /// Writes the cameras of a rig as Pose2Sim's calibration file (TOML; Pagnon et al. 2021): one table for each camera
 /// with `name`, `size`, `matrix`, `distortions` (k1, k2, p1, p2; and k3 if there is one), `rotation` (Rodrigues'
 /// vector) and `translation` (metres) of the world in the camera's frame, and `fisheye`. Pixel coordinates are
-/// OpenCV's. Pose2Sim's world has Z up, our world Y: Pose2Sim's (x, y, z) is our (z, x, y). Motions that Pose2Sim
-/// triangulates and rotates to Y up are therefore in our world.
+/// OpenCV's. Pose2Sim's world has Z up, our world Y: the point (x, y, z) of Pose2Sim is the point (y, z, x) in our
+/// world. Motions that Pose2Sim triangulates and rotates to Y up are therefore in our world.
 std::string WritePose2SimCalibration(std::span<const NamedCamera> cameras);
 
 /// Reads a file of WritePose2SimCalibration, Pose2Sim, Anipose, FreeMoCap or Caliscope. Each table describes one camera

@@ -28,7 +28,7 @@ enum class LensModel {
   kPinhole,     ///< no distortion
   kRadial2,     ///< k1, k2, p1, p2: sufficient for most lenses
   kRadial3,     ///< k1, k2, k3, p1, p2: for wide-angle lenses, if there are points in the corners of the pictures
-  kAsInCamera,  ///< the distortion of the start, held fixed
+  kAsInCamera,  ///< the distortion of the start values, held fixed
 };
 
 struct RefineOptions {

@@ -41,7 +41,7 @@ struct RigFile {
 /// - a file of WriteRig, or one camera in OpenCV's format (WriteOpenCvCamera), which is named "camera";
 /// - TOML of Pose2Sim, Anipose, FreeMoCap or Caliscope (ReadPose2SimCalibration);
 /// - XML of Qualisys Track Manager (ReadQualisysCalibration).
-/// Fails with the place, what was found and what is allowed; refuses more than 64 cameras or 1 MiB.
+/// Fails with the position in the file, what was found and what is allowed; refuses more than 64 cameras or 1 MiB.
 Result<RigFile> ReadRigFile(std::string_view text, const std::string& file);
 
 /// Reads a rig from two files (`rig_pairs.h`): EasyMocap's `intri.yml` and `extri.yml`, OpenCV's stereo

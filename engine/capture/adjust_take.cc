@@ -132,7 +132,7 @@ namespace {
 
 using enum Role;
 
-/// A length of LimbLengths, and, for each side of the body, the two joints between which the length is measured.
+/// A length of LimbLengths, and the two joints between which it is measured; on the right side, their mirror images.
 struct LengthBetween {
   double LimbLengths::*length;
   Role a, b;

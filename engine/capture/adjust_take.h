@@ -33,7 +33,7 @@ std::array<double, 10> ListOf(const LimbLengths& lengths);
 struct AdjustTakeInputs {
   MeasureInputs pictures;  ///< cameras and marks; the member `known` is ignored
   LimbLengths lengths;     ///< lengths of the person, metres; the start of the search if lengths are adjusted
-  /// The joint positions of each frame at which the search starts (`BridgeJoints`).
+  /// For each frame, the joint positions at which the search starts (`BridgeJoints`).
   std::span<const OptionalJoints> start;
 };
 
@@ -58,8 +58,8 @@ AdjustedTake AdjustTake(const AdjustTakeInputs& inputs, const AdjustTakeOptions&
 BundleSmoothness SmoothnessOf(const TakeBody& body, double rate_hz);
 
 struct MeasureLengthsOptions {
-  /// The number of frames used, spread evenly over the frames that show the most joints. More frames help little: mark
-  /// errors persist over neighbouring frames, so only distant frames average them out.
+  /// The number of frames used, spread evenly over the frames that show the most joints. More frames help little: the
+  /// errors of marks are similar in neighbouring frames, so only distant frames average these errors out.
   int frames = 12;
   MarkErrors marks;
 };

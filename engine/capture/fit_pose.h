@@ -48,8 +48,8 @@ class PoseFitter {
   TreeState Improve(const PoseTargets& wanted, const TreeState& state) const;
 
  private:
-  /// A role at whose target a limb L can be pointed: a role on the limb, or the first one that has a target on a chain
-  /// of limbs beyond it.
+  /// A role at whose target a limb L can be pointed: a role on L, or the first role with a target on a chain of limbs
+  /// beyond L.
   struct Aim {
     Role role;
     glm::dvec3 p_LQ{0};  ///< position of the role relative to L if all angles beyond L are zero

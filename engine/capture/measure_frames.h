@@ -38,8 +38,8 @@ struct FrameMeasurement {
   std::array<std::optional<SightLine>, kRoleCount> sight_lines = {};
 };
 
-/// Measurements of one frame from another source than marks: another sensor, or true values, by which the error of a
-/// stage is measured. Each member that is present replaces all measurements of its kind.
+/// Measurements of one frame from another source than marks: from another sensor, or true values, with which the errors
+/// of later computations can be measured alone. Each member that is present replaces all measurements of its kind.
 struct KnownMeasurement {
   std::optional<RoleVectors> ends;
   std::optional<RoleVectors> directions;
@@ -58,12 +58,12 @@ struct MeasureInputs {
 struct MeasureOptions {
   /// Minimum angle between two viewing planes of a limb, radians, at which the limb's strokes alone give its direction.
   /// The error of the direction is the error of the strokes times 1/sin(angle), about seven times at 8°. Below this
-  /// minimum, the planes are kept and combined with neighbouring frames (`BridgeGaps`). Raise it if marks are
+  /// minimum, the planes are kept and combined with neighbouring frames (`BridgeGaps`). Raise the minimum if marks are
   /// inaccurate; lower it if marks are accurate or the cameras are close together.
   double min_plane_angle = Radians(8);
-  /// Strokes shorter than this, in pixels, give no direction: for a limb that is seen almost end on, mark errors hide
-  /// the direction. The default is three times the usual mark error, which is 2 pixels in pictures of 640 × 480; scale
-  /// it with that error.
+  /// Strokes shorter than this, in pixels, give no direction: for a limb that lies nearly along the line of sight, the
+  /// errors of the marks hide the direction. The default is three times the usual error of a mark, which is 2 pixels in
+  /// pictures of 640 × 480; scale the default with that error.
   double min_stroke_px = 6;
 };
 

@@ -221,7 +221,7 @@ std::optional<BodyPose> CompleteJoints(const OptionalJoints& joints, const BodyP
   const glm::dvec3 like_across = like[kLeftHip] - like[kRightHip];
   const FloorMove turn{.yaw = across ? YawOf(*across) - YawOf(like_across) : 0};
   const auto limb = [&](const Bone& bone) { return turn.Apply(like[bone.child] - like[bone.parent]); };
-  // Each round attaches the joints that are one limb farther from the known joints.
+  // Each pass of this loop attaches the joints that are one limb farther from the known joints.
   for (std::size_t round = 0; round < kRoleCount; ++round) {
     for (const Bone& bone : AllBones()) {
       auto &parent = filled[Index(bone.parent)], &child = filled[Index(bone.child)];

@@ -23,11 +23,11 @@ struct RecoverInputs {
   /// One observation per frame; nullopt for frames in which too little was seen.
   std::span<const std::optional<LimbObservation>> seen;
   /// One flag per frame: true if the frame itself was marked; empty if all frames were. In a marked frame the solver
-  /// starts at the angles that the pictures show, in any other frame at the angles of the last
-  /// recovered frame.
+  /// starts at the angles that the pictures show, in any other frame at the angles of the last recovered frame.
   std::vector<bool> marked = {};
-  /// The true start angles or true poses, one per frame, if known; otherwise empty. They replace the result of the
-  /// start stage or of the solver, so that the error of that stage can be measured.
+  /// The true start angles or true poses, one per frame, if known; otherwise empty. Known start angles replace the
+  /// computed start angles, and known poses replace the solver's result. The error of the replaced computation can then
+  /// be measured.
   std::vector<TreeState> known_starts = {}, known_poses = {};
 };
 
@@ -51,8 +51,8 @@ struct RecoveredFrame {
 /// Recovers a skeleton in every frame from its observation (paper B, chapter 3): fix the limb lengths, then move every
 /// end effector back to its observed position with the solver. For paper B's body, lengths are fixed as in section 3.2
 /// (`FixLimbLengths`) and start angles found as in 3.3 (`FindStartState`). For another body, `PoseFitter` replaces
-/// these two stages: it fits the body to all joints that the end effectors and the limbs' directions determine. Values
-/// that an observation lacks are taken from the last frame, or at the beginning from a standing body
+/// these two functions: it fits the body to all joints that the end effectors and the limbs' directions determine.
+/// Values that an observation lacks are taken from the last frame, or at the beginning from a standing body
 /// (`CompleteObservation`); these values are not used as targets. A frame stays empty if it has no observation, if its
 /// skeleton cannot be computed, or if no end effector was seen in this frame or an earlier one.
 std::vector<std::optional<RecoveredFrame>> RecoverFrames(const RecoverInputs& inputs, const RecoverOptions& options);
@@ -95,7 +95,7 @@ std::vector<RecoveredFrame> HoldFrames(std::span<const std::optional<RecoveredFr
 Clip ToClip(const CaptureBody& body, std::span<const RecoveredFrame> frames, double rate_hz, const std::string& name);
 
 /// Recovers a motion live: each skeleton is computed from the marks up to its frame. Values that a frame lacks come
-/// from the frames before it (`BridgeLast`); later frames do not correct it.
+/// from the frames before it (`BridgeLast`); later frames do not change the skeleton.
 class LiveRecovery {
  public:
   /// `body` must outlive this object.

@@ -53,7 +53,7 @@ ClockOffset FindOffset(const std::function<std::optional<double>(int offset)>& m
   }
   const ParabolaMinimum minimum = FitParabola(misfit, best).value_or(ParabolaMinimum{});
   // The smallest significant improvement over offset 0 is the sum of kNoBetter (a share of the misfit at offset 0) and
-  // kNothing (squared pixels). With a smaller improvement, nobody moved.
+  // kNothing (squared pixels). With a smaller improvement, the offset is 0, because probably nobody moved.
   constexpr double kNoBetter = 0.001, kNothing = 1e-4;
   // With 300 distances or more, noise alone keeps the ratio of the mean misfit to the minimum below this value.
   constexpr double kTold = 1.25;

@@ -48,8 +48,8 @@ std::vector<double> EstimateOffsets(std::span<const ProjectionMatrix> cameras,
 
 /// Returns the marks of a camera at a time between frames. A mark follows a Catmull-Rom spline through the two frames
 /// before this time and the two frames after it. If one of the outer two frames lacks the mark, the mark is
-/// interpolated linearly; if one of the inner two frames lacks it, it is missing. If only every n-th frame is marked,
-/// pass the marked frames alone.
+/// interpolated linearly; if one of the inner two frames lacks the mark, the result lacks it. If only every n-th frame
+/// is marked, pass the marked frames alone.
 Marks MarksAt(std::span<const Marks> track, double frame);
 
 /// Returns the marks of all cameras at the frame times of the first camera.

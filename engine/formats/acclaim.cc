@@ -362,7 +362,7 @@ Result<Clip> ReadAcclaimMotion(std::string_view text, const AcclaimSkeleton& ske
         fmt::format("its angles are taken as degrees: as radians, which are stated, they would reach {:.4g}", largest);
     ASSIGN_OR_RETURN(read, ReadFrames(text, skeleton, file, true));
   } else if (!read.in_degrees && read.of_root > kMaxRadians) {
-    // A body that turns on and on has no limit.
+    // A body that keeps turning in one direction can rotate its root by any angle, so the unit is not changed.
     remark = fmt::format("its root turns by {:.4g} radians: if its angles are degrees, a line :DEGREES must say so",
                          read.of_root);
   } else if (read.in_degrees && largest > kMinDegrees && largest <= 2 * kPi) {

@@ -25,19 +25,21 @@ struct AcclaimSkeleton {
   std::string remark = "";  ///< message about angles that are impossible in the stated unit; "" if there are none
 };
 
-/// Returns true if a text begins like a motion (AMC): after comments, with a line ":FULLY-SPECIFIED" or ":DEGREES".
+/// Returns true if the first line of `text` that is not a comment is ":FULLY-SPECIFIED", ":DEGREES" or ":RADIANS", as
+/// in a motion file (AMC).
 bool IsAcclaimMotion(std::string_view text);
 
-/// Reads an ASF file. Angles beyond 4π are read as degrees, whatever unit the file states. Returns an error with
-/// file:line:column if the text is not Acclaim's, has bone lengths as channels, bones that are defined twice or not
-/// connected, numbers beyond ±10⁹, or more than 1,000 bones.
+/// Reads an ASF file. If an angle exceeds 4π radians, all angles are read as degrees, whatever unit the file states.
+/// Returns an error with file:line:column if the text is not Acclaim's, has bone lengths as channels, bones that are
+/// defined twice or not connected, numbers beyond ±10⁹, or more than 1,000 bones.
 Result<AcclaimSkeleton> ReadAcclaimSkeleton(std::string_view text, const std::string& file);
 
 /// Reads an AMC file for a skeleton of ReadAcclaimSkeleton. The file has no frame rate; 120 Hz is assumed, the rate of
-/// CMU's recordings. Angles have the unit that the file states, otherwise the skeleton's unit. Angles beyond 4π radians
-/// are read as degrees. `remarks` (may be null) receives a sentence if this happens, and if angles that are read as
-/// degrees may be radians. Returns an error for bones that the skeleton lacks, a wrong number of values, frames that
-/// are not numbered consecutively, no frames, or frames of more than 1 GB.
+/// CMU's recordings. Angles have the unit that the file states, otherwise the skeleton's unit. If an angle of a bone
+/// below the root exceeds 4π radians, all angles are read as degrees. `remarks` (may be null) receives the skeleton's
+/// remark, and a sentence if the unit was changed or may be wrong. Returns an error for bones that the skeleton lacks,
+/// a wrong number of values, frames that are not numbered consecutively, no frames, or frames that take more than 1 GB
+/// in total.
 Result<Clip> ReadAcclaimMotion(std::string_view text, const AcclaimSkeleton& skeleton, const std::string& file,
                                std::vector<std::string>* remarks = nullptr);
 

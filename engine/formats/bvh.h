@@ -8,8 +8,8 @@
 
 namespace etude {
 
-/// Reads a Biovision Hierarchy file: the skeleton and its frames, in the file's own unit and axes. Error messages name
-/// it `file`, and the clip's name is `file` without folder and extension.
+/// Reads a Biovision Hierarchy file: the skeleton and its frames, in the file's own unit and axes. `file` is the file's
+/// name for error messages; without folder and extension it becomes the clip's name.
 ///
 /// Accepted:
 /// - any order and mix of channels per joint, with rotations multiplied in the order written (R = R₁R₂R₃);
@@ -23,10 +23,12 @@ namespace etude {
 ///
 /// `remarks` receives a sentence about each of these cases:
 /// - If the file has one frame more than announced, that frame is dropped, because some exporters announce the number
-/// of their last frame (as in assimp's model Boxing_Toes).
-/// - If a joint below the root has position channels and an OFFSET of 0, its rest position is that of the first frame.
-/// - If the positions of most joints with an OFFSET stay near 0, they are relative to the OFFSETs and are added to
-///   them.
+///   of their last frame (as in assimp's model Boxing_Toes).
+/// - If a joint below the root has position channels and an OFFSET of 0, its position in the first frame becomes its
+///   rest position.
+/// - If the positions of most joints with an OFFSET stay near 0, positions are relative to the OFFSETs, so the OFFSETs
+///   are added.
+/// - If no joint rotates by more than 6.28 degrees, the file's angles may be radians.
 ///
 /// Returns an error with line and column for anything outside the grammar, a second ROOT, a frame that is not one line
 /// with one number per channel, a wrong number of frames, no frames, frame times outside 0.1 ms…10 s, nesting deeper
@@ -34,15 +36,16 @@ namespace etude {
 /// would take more than 1 GB (an hour of 25 joints at 120 Hz).
 Result<Clip> ReadBvh(std::string_view bytes, const std::string& file, std::vector<std::string>* remarks = nullptr);
 
-/// Writes a clip as BVH. The root and every joint whose translation changes get three positions, and an OFFSET of 0:
-/// some readers replace OFFSET by positions, others add them to it. Every joint gets Z, X, Y rotations in degrees;
-/// numbers have six decimals. Every joint has the same position as in the clip, in all frames. When the file is read
-/// again, the rest position of a joint with positions is that of the first frame, and the root rests at the origin.
-/// Scales, several roots and rotated axes at rest, which BVH cannot express, are first removed by WithoutScales,
-/// WithOneRoot and WithWorldAxesAtRest. Frames that were read from BVH need no conversion and are reproduced to the
-/// printed precision. Joints are written depth first, regardless of their order in the clip. End sites that have
-/// children or move become joints. Braces and control characters in names become '_', and duplicate names are numbered
-/// as in reading. The clip must have at least one joint and numbers within ±10⁹ (the limit of ReadBvh).
+/// Writes a clip as BVH. The root and every joint whose translation changes get three position channels, and an OFFSET
+/// of 0: some readers replace OFFSET by the position, others add the two. Every joint gets Z, X, Y rotations in
+/// degrees; numbers have six decimals. Every joint has the same position as in the clip, in all frames. When the file
+/// is read again, a joint with position channels rests at its position in the first frame, and the root rests at the
+/// origin. Scales, several roots and rotated axes at rest, which BVH cannot express, are first removed by
+/// WithoutScales, WithOneRoot and WithWorldAxesAtRest. Frames that were read from BVH need no conversion and are
+/// reproduced to the printed precision. Joints are written depth first, regardless of their order in the clip. End
+/// sites that have children or move become joints. Braces and control characters in names become '_', and duplicate
+/// names are numbered as in reading. The clip must have at least one joint and numbers within ±10⁹ (the limit of
+/// ReadBvh).
 std::string WriteBvh(Clip clip);
 
 }  // namespace etude

@@ -272,7 +272,7 @@ Result<void> ReadFrame(TextScanner& scanner, const std::vector<BvhChannel>& chan
       Apply(channels[i], *value, pose[channels[i].joint]);
       continue;
     }
-    // Rarely, the number has another notation or is invalid.
+    // This word is a number with a leading plus, which TakeNumberInLine does not accept, or no valid number.
     const Token token = scanner.NextInLine();
     if (token.text.empty()) {
       return Fail(scanner.At(token), "frame {} has {} numbers; its {} channels need {}", number, i, channels.size(),
@@ -397,7 +397,7 @@ Result<Clip> ReadBvh(std::string_view bytes, const std::string& file, std::vecto
                     "degrees, which BVH files have",
                     largest));
   }
-  // If a joint has positions and an OFFSET of 0, its rest position is that of the first frame.
+  // A joint with positions and an OFFSET of 0 rests at its position in the first frame.
   if (const std::size_t taken = TakeOffsetsFromFrame(clip.frames.front(), clip.skeleton); taken > 0) {
     remark(fmt::format(
         "{} joints with positions have an OFFSET of 0: their rest positions are taken from the first frame", taken));

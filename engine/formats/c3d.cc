@@ -51,7 +51,7 @@ std::map<std::string, double> BodySizes(const C3dParameters& parameters) {
   return sizes;
 }
 
-/// Returns the frame number of a parameter in the group TRIAL, which is stored as two 16-bit words, the lower first.
+/// Returns the frame number in a parameter of the group TRIAL. It is stored as two 16-bit words, the lower first.
 std::optional<double> TrialField(const C3dParameters& parameters, const char* name) {
   const auto low = parameters.Number(name, 0), high = parameters.Number(name, 1);
   return low && high ? std::optional(*low + 65536 * *high) : std::nullopt;

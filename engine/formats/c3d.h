@@ -21,13 +21,13 @@ struct C3d {
 /// Returns true if bytes begin like a C3D file: a block number and the key 0x50.
 bool IsC3d(std::string_view bytes);
 
-/// Reads the points of a C3D file (c3d.org's format). It accepts files of Intel, DEC and MIPS machines, whole numbers
+/// Reads the points of a C3D file (c3d.org's format). Accepted are files of Intel, DEC and MIPS machines, whole numbers
 /// and floats, parameters at any block, more than 255 points (LABELS2 …) and more than 65,535 frames (TRIAL's fields,
-/// LONG_FRAMES). The markers' `remark` states if data follow the last frame. A point with a negative residual or
-/// without finite coordinates counts as not seen. Analogue channels, rotations and events are ignored. Widths of joints
-/// (PROCESSING:LKNEEWIDTH and so on, as Vicon writes them, millimetres) become the markers' `sizes_m`. Returns an error
-/// if the file is not C3D or is truncated, has no points or no rate, has a unit other than m, cm, mm, in, ft, or has
-/// more than 10,000 points or 10⁷ frames.
+/// LONG_FRAMES). The markers' `remark` states if data follow the last frame, or if the header's rate differs from
+/// POINT:RATE. A point with a negative residual or without finite coordinates counts as not seen. Analogue channels,
+/// rotations and events are ignored. Widths of joints (PROCESSING:LKNEEWIDTH and so on, as Vicon writes them,
+/// millimetres) become the markers' `sizes_m`. Returns an error if the file is not C3D or is truncated, has no points
+/// or no rate, has a unit other than m, cm, mm, in, ft, or has more than 10,000 points or 10⁷ frames.
 Result<C3d> ReadC3d(std::string_view bytes, const std::string& file);
 
 /// Writes trajectories as a C3D file of an Intel machine, as floats in millimetres; POINT:Y_SCREEN states that Y points

@@ -167,8 +167,8 @@ Result<JointCsv> ReadJointCsv(std::string_view text, const std::string& file) {
 }
 
 Result<JointCsvRow> ReadJointCsvRow(std::string_view row, const JointCsvColumns& columns, const std::string& file) {
-  // Put the heading above the row: it determines the separator, and a word in the row's first column is then no
-  // heading.
+  // Put the heading above the row. The heading determines the separator. Without a heading, ReadNumberRows would
+  // mistake a row that begins with a word for the heading.
   ASSIGN_OR_RETURN(const NumberRows table,
                    ReadNumberRows(columns.heading + "\n" + std::string(row), file, kMaxTime, true));
   RETURN_IF_ERROR(CheckColumns(columns.count, table.columns, file));

@@ -39,9 +39,10 @@ struct JointCsv {
   std::vector<std::array<std::optional<glm::dvec3>, kRoleCount>> frames;
   std::string remark;  ///< message for the user about assumptions and ignored columns
 };
-/// Reads a file of `WriteJointCsv`, or any file with some of its columns in any order. Returns an error with the line
-/// for anything that `ReadNumberRows` refuses, unknown headings over numbers, a joint without all three coordinates,
-/// positions beyond ±10⁹, decreasing times, and more than a million rows. Other columns of text are left out.
+/// Reads a file of `WriteJointCsv`, or any file with some of its columns in any order. Columns of text with other
+/// headings are left out. Returns an error with the line for anything that `ReadNumberRows` refuses, columns of numbers
+/// with unknown headings, a joint without all three coordinates, positions beyond ±10⁹, decreasing times, and more than
+/// a million rows.
 Result<JointCsv> ReadJointCsv(std::string_view text, const std::string& file);
 
 /// One row of a joint CSV file.

@@ -29,12 +29,12 @@ struct BidsFacts {
   std::string missing = "n/a";  ///< the value of MissingValues: the text of a cell without a value
 };
 
-/// Reads the POS channels of a recording: tracked points with the components x, y, z in m, cm or mm; a point is not
-/// seen in a frame if one of its values is missing or, in files that write 0 for missing values, if all three are 0. A
-/// channel of the type LATENCY holds the times of the frames (LayOnClock). Channels of other types are left out, and
-/// the remark says so. Fails, with the line, for channels without the required columns, points that lack a component,
-/// other units, and if the numbers of channels and columns differ; also returns the errors of GridOfRows.
-/// @param files the names of the two files, for complaints
+/// Reads the POS channels of a recording: tracked points with the components x, y, z in m, cm, mm, in or ft. A point is
+/// not seen in a frame if one of its values is missing or, in files that write 0 for missing values, if all three are
+/// 0. A channel of the type LATENCY holds the times of the frames (LayOnClock). Channels of other types are left out,
+/// and the remark says so. Fails, with the line, for channels without the required columns, points that lack a
+/// component, other units, and if the numbers of channels and columns differ; also returns the errors of GridOfRows.
+/// @param files the names of the files `motion_tsv` and `channels_tsv`, for error messages
 Result<MarkerMotion> ReadMotionBids(std::string_view motion_tsv, std::string_view channels_tsv, const BidsFacts& facts,
                                     const std::array<std::string, 2>& files);
 

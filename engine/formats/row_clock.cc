@@ -109,7 +109,7 @@ std::string DescribeGrid(const RowGrid& grid, std::size_t twice) {
 /// preferred, then a whole number, then a rate of television (n · 1000 / 1001).
 std::optional<RowGrid> GridOfCoarseTimes(std::span<const double> times, std::optional<double> told_hz) {
   constexpr std::size_t kMinRows = 8;
-  constexpr double kMinPerStep = 1.05;  // minimum mean of rows per printed step; with fewer, equal times are duplicates
+  constexpr double kMinPerStep = 1.05;  // minimum mean number of rows per step; with fewer, equal times are duplicates
   const double step = PrintedStep(times), span = times.back() - times.front();
   if (times.size() < kMinRows || step == 0 || !(span > 0) || std::ranges::adjacent_find(times) == times.end()) {
     return std::nullopt;
@@ -200,7 +200,7 @@ Result<std::optional<RowGrid>> GridOfRows(std::span<const double> times_s, std::
     const std::size_t next = std::min(at + 1, rows.size() - 1);
     GridFrame& made = grid.frames.emplace_back(GridFrame{rows[at], rows[at]});
     if (next == at || std::abs(frame - place_of(at)) <= slack) continue;
-    constexpr double kMissing = 1.5;  // frames between neighbouring rows if a row is missing
+    constexpr double kMissing = 1.5;  // a row is missing if neighbouring rows are at least this many frames apart
     const double step = place_of(next) - place_of(at);
     made = {rows[at], rows[next], (frame - place_of(at)) / step, step >= kMissing};
   }
@@ -244,8 +244,8 @@ Result<MarkerMotion> LayOnClock(MarkerRows rows, const std::string& file) {
   if (rows.has_clock) markers.start_s = scale.first * scale.seconds + rows.times_s[grid->frames.front().row];
   AddRemark(markers.remark, grid->remark);
   if (grid->is_even) return std::move(markers);
-  // Interpolate each marker between the two rows of a frame if both rows show it. Some programs write zeros for a gap,
-  // so zeros are only interpolated with zeros.
+  // Interpolate each marker between the two rows of a frame if both rows contain it. Some programs write zeros for a
+  // gap, so zeros are only interpolated with zeros.
   std::vector<std::vector<std::optional<glm::dvec3>>> frames;
   frames.reserve(grid->frames.size());
   for (const GridFrame& at : grid->frames) {

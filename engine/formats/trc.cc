@@ -167,7 +167,7 @@ Result<MarkerRows> ReadTrcRows(std::string_view text, const std::string& file) {
   // Check the line X1 Y1 Z1 …; a line that begins with a number is the first frame of a file without that line.
   const std::string_view after_names = text;
   const auto axes = Cells(TakeLine(text, line));
-  std::string order;  // of the first marker's axes
+  std::string order;  // the axes of the first marker, in the file's order
   for (const std::string_view cell : axes) {
     const std::size_t axis = cell.empty() ? std::string_view::npos : std::string_view("XYZxyz").find(cell.front());
     if (axis != std::string_view::npos && order.size() < 3) order += "XYZXYZ"[axis];

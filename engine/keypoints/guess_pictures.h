@@ -27,13 +27,14 @@ struct PictureGuess {
 };
 
 /// Finds how keypoints map to the rig's pictures *(ours)*: as `fit` declares, or also rotated by quarter turns or
-/// mirrored. Cameras are corrected one after the other, each time the camera whose correction leaves the smallest
-/// distance from the other cameras' epipolar lines. A correction is tried only if the keypoints are more than 0.3 % of
-/// the height off these lines. It must reduce this distance to less than half and to less than 5 % of the height
-/// (median over frames, for the best-fitting people and labelling of sides). A wrong correction cannot halve random
-/// errors. If pictures were fitted, the estimator may have run on the original pictures; the keypoints of all films are
-/// then pixels of these pictures. The interpretation with the smaller distance is taken, unless a file states the
-/// film's size. `told` also names a second correction if it is nearly as good, as is common with two cameras.
+/// mirrored. Cameras are corrected one after the other. Each time, the camera is taken whose correction leaves the
+/// smallest distance of its keypoints from the other cameras' epipolar lines (the median over frames; in each frame,
+/// the best-fitting person and labelling of sides count). A correction is tried only if this distance exceeds 0.3 % of
+/// the height. The correction must reduce the distance to less than half and to less than 5 % of the height. A wrong
+/// correction cannot halve random errors. If pictures were fitted, the estimator may have run on the original pictures;
+/// the keypoints of all films are then pixels of the original pictures. The interpretation with the smaller distance is
+/// taken, unless a file states the film's size. `told` also names a second correction if it is nearly as good, as is
+/// common with two cameras.
 std::vector<PictureGuess> GuessPictures(std::span<const PictureOfFilm> films, double min_confidence);
 
 /// Returns the epipolar distance of the keypoints, mapped as declared, as a share of the person's height: the mean,

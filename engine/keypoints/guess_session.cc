@@ -16,7 +16,7 @@ using Films = std::vector<PictureOfFilm>;
 constexpr std::size_t kMaxFilms = 8;  // with more films, exchanges are not tried
 
 /// A possible mistake in how keypoints were stored. `told` describes it for users. `pixel` maps a pixel of the file to
-/// the correct pixel of a film of this size.
+/// the correct pixel of a film whose pictures have the size `size`.
 struct Reading {
   std::string_view told;
   glm::dvec2 (*pixel)(const glm::dvec2& p, const glm::dvec2& size);

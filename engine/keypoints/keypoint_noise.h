@@ -33,7 +33,7 @@ double KeypointVarianceOf(const RobustPoint& point);
 /// all points, triangulated with equal weights. Errors that all cameras share are not included; errors of a wrong
 /// calibration are. Returns nullopt if no point is found. *(Ours.)*
 /// @param cameras the cameras of the rig, without lens distortion; all pixels must be undistorted
-/// @param outlier_px keypoints farther off are left out (`RobustOptions`)
+/// @param outlier_px keypoints farther than this from the projected point are left out (`RobustOptions`)
 std::optional<KeypointNoise> MeasureKeypointNoise(std::span<const ProjectionMatrix> cameras,
                                                   const MatchedPerson& person, double min_confidence,
                                                   double outlier_px);

@@ -12,8 +12,8 @@
 namespace etude {
 
 struct FollowOptions {
-  /// The longest step of a person from one frame to the next, as a share of the person's height in the picture. A film
-  /// at 30 Hz of somebody who runs across a small picture may need a larger value.
+  /// The largest distance that a person moves in the picture from one frame to the next, as a share of the person's
+  /// height in the picture. A film at 30 Hz of somebody who runs across a small picture may need a larger value.
   double max_step = 0.25;
   /// A person who was absent for at most this number of frames continues the same track. Somebody who returns later
   /// begins a new track until other cameras identify the person.

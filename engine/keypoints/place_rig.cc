@@ -22,7 +22,7 @@ using enum Landmark;
 struct LengthUnit {
   std::string_view name;
   double metres;
-  double min_stature_m;  ///< lower limit of a plausible stature; higher for rare units, which must give an adult
+  double min_stature_m;  ///< lower limit of a plausible stature; rare units must give an adult's stature
 };
 constexpr double kMinStature = 0.5, kMaxStature = 2.2, kAdult = 1.2;
 constexpr std::array kUnits = {LengthUnit{"m", 1, kMinStature}, LengthUnit{"cm", 0.01, kMinStature},

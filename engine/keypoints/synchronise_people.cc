@@ -163,7 +163,7 @@ class ClockFinder {
     constexpr double kHalf = 0.5;
     for (int round = 0; round < kRounds; ++round) {
       for (std::size_t c = 1; c < films_.size(); ++c) {
-        // In the first round, compare the film only with the films before it, whose clocks are already found.
+        // In the first pass, compare the film only with the films before it, whose clocks are already found.
         const std::size_t others = round == 0 ? c : films_.size();
         const FilmClock given = films_[c].clock;
         const auto before = LossOf(c, given, others);

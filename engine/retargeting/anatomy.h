@@ -56,7 +56,8 @@ class JointMapDraft {
   std::array<glm::dvec3, kRoleCount> rest_{};
 };
 
-/// Returns true if a wrist or ankle is moved by a separate control instead of its limb.
+/// Returns true if the joint of `end` belongs to no limb. A wrist or ankle is then moved by a separate control of the
+/// rig.
 bool IsFree(const JointMapDraft& draft, Role end);
 
 }  // namespace etude

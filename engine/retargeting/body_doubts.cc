@@ -34,7 +34,7 @@ std::vector<std::string> DoubtsOnBody(std::span<const JointPositions> frames, do
     put_midway(Role::kSpine, Role::kHipCentre, Role::kShoulderCentre);
     body.poses.push_back(pose);
   }
-  // Choose the faults that no error of a position explains.
+  // Choose torn joints and bent knees, which errors of single positions do not explain.
   std::vector<MotionFault> torn;
   std::array<std::string, 2> bends;
   const double begin_s = static_cast<double>(frames.size() - body.poses.size()) / rate_hz;

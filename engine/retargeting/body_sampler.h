@@ -36,7 +36,8 @@ std::size_t SampleStep(const Clip& clip);
 /// Samples the clip's joints at about a hundred frames, evenly spaced, in the file's axes.
 std::vector<BodyPose> SampledPoses(const Clip& clip, BodySampler& sampler);
 
-/// Poses of a clip that are sampled for FindUp: close enough in time to see steps, but few in long clips.
+/// Poses of a clip that are sampled for FindUp: a tenth of a second apart, so that the person's steps show, but at most
+/// a thousand poses.
 struct UpSamples {
   std::vector<BodyPose> poses;
   double rate_hz = 0;

@@ -104,7 +104,8 @@ std::vector<Exchange> FindExchanges(std::span<const JointPositions> frames, doub
   std::vector<Exchange> found;
   for (const auto& chain : kChains) {
     for (const Role left : chain) {
-      // The steps of both joints into each frame, by their names and with exchanged names; NaN where one is not seen.
+      // For each frame: the sum of the distances that both joints move from the frame before, by their names and with
+      // exchanged names; NaN if a joint is not seen.
       std::vector<double> straight(frames.size(), kUnseen), crossed = straight;
       for (std::size_t f = 1; f < frames.size() && rate_hz >= kMinRate_hz; ++f) {
         const auto &a = frames[f - 1][Index(left)], &b = frames[f - 1][Index(Mirrored(left))];
@@ -115,7 +116,7 @@ std::vector<Exchange> FindExchanges(std::span<const JointPositions> frames, doub
       }
       const auto step = [&](std::size_t f) { return f < frames.size() ? std::min(straight[f], crossed[f]) : kUnseen; };
       for (std::size_t f = 1; f < frames.size(); ++f) {
-        // fmax ignores a neighbour that is not seen.
+        // fmax ignores a NaN, the value of a neighbouring frame in which a joint is not seen.
         const double usual = std::fmax(std::fmax(step(f - 1), step(f + 1)), crossed[f]);
         if (usual < kShorter * straight[f]) found.push_back({left, f});
       }

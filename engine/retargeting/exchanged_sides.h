@@ -13,8 +13,9 @@ namespace etude {
 
 /// Returns the left joints that look exchanged with the right ones (ours). A left and a right limb cross if an exchange
 /// of the two joints at one end makes the two limbs shorter and their lengths far more constant. Upper arms also cross
-/// if the exchange makes them much shorter. Thighs also cross if the exchange makes them shorter in nearly all frames;
-/// so do upper arms and forearms together. Two sets of joints undo all crossings; the smaller set is returned. `frames`
+/// if the exchange makes them much shorter. Thighs also cross if the exchange makes them shorter in nearly all frames.
+/// If upper arms and forearms, or thighs and shanks, all become shorter in nearly all frames, both pairs cross. All
+/// crossings disappear if one of two complementary sets of joints is exchanged; the smaller set is returned. `frames`
 /// have any unit; unseen joints do not count.
 std::vector<Role> FindExchangedJoints(std::span<const JointPositions> frames);
 /// A left joint that exchanges its place with the right one between two frames.
@@ -22,10 +23,11 @@ struct Exchange {
   Role left;
   std::size_t frame;  ///< the first frame after the exchange
 };
-/// Finds exchanges in a part of a motion (ours). From one frame to the next, both joints of a pair move to the other's
-/// place: exchanging their names makes their steps at least four times as short. These steps are also four times as
-/// long as the steps before and after, so that crossing arms are no exchange. Joints nearer than 5 cm to each other and
-/// rates below 10 Hz are not judged. `frames` are in metres.
+/// Finds exchanges in a part of a motion (ours): frames in which each joint of a pair moves to the other joint's place.
+/// Let d be the sum of the distances that the two joints, by their names, move from the frame before. With exchanged
+/// names, this sum must be less than d / 4. In the frame before and in the frame after, the smaller of the two sums
+/// must also be less than d / 4, so that crossing arms are no exchange. Joints nearer than 5 cm to each other and rates
+/// below 10 Hz are not judged. `frames` are in metres.
 std::vector<Exchange> FindExchanges(std::span<const JointPositions> frames, double rate_hz);
 
 /// Returns a message for the user about all that FindExchangedJoints and FindExchanges find; "" if that is nothing.

@@ -31,7 +31,7 @@ std::optional<glm::dvec3> PlaceIn(const NumberArray& array, std::size_t index) {
   return std::max({size.x, size.y, size.z}) > kMaxAbsolute ? std::nullopt : std::optional(place);
 }
 
-/// Returns the first text of the array `name`, in lower case; "" if there is no such array.
+/// Returns the only text of the array `name`, in lower case; "" without such an array, or if it has several texts.
 std::string TextOf(const Npz& arrays, const std::string& name) {
   const auto found = arrays.texts.find(name);
   if (found == arrays.texts.end() || found->second.size() != 1) return "";

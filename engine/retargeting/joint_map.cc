@@ -189,8 +189,8 @@ class MapFinder {
   /// Assigns the spine: the joint nearest to the middle of the chain from the pelvis to the base of the neck.
   void FindSpine() {
     if (draft_.Has(kSpine)) return;
-    // Measure distances along the chain, because these do not depend on the rest pose, which is folded up in some
-    // files.
+    // Measure distances along the chain. Unlike straight distances, these do not depend on the rest pose; in some files
+    // the body is curled up at rest.
     const int pelvis = draft_.JointOf(kHipCentre);
     const int neck = draft_.JointOf(kShoulderCentre);
     std::vector<int> chain;

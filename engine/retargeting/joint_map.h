@@ -38,7 +38,7 @@ struct JointMapOverrides;
 ///   of the limbs. If no neck is named, it is *composed*: a point midway between the shoulders.
 /// - The hip centre is midway between the hips, wherever the file's root is (paper B's P₁). The map contains the hips'
 ///   lowest common ancestor; `Evaluate` computes the midpoint.
-/// - The spine is the joint nearest to the middle of the chain from that ancestor to the base of the neck.
+/// - The spine is the joint nearest to the middle of the chain from the hips' common ancestor to the base of the neck.
 /// - Hands, feet and head are tips: each is the farthest end of its chain (fingers, toes, skull) at a plausible
 ///   distance from wrist, ankle or base of the neck, because files contain end sites at 0 cm and at 1.6 m. Without such
 ///   an end the tip is composed (ours): hand and head extend forearm and trunk, the foot points forward, in the

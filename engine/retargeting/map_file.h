@@ -26,7 +26,7 @@ struct JointMapOverrides {
   std::optional<UpAxis> up = {};
   std::optional<double> rate_hz = {};  ///< replaces the file's own rate
   bool keep_floor = false;             ///< true: the file's floor is not moved to 0
-  std::string marker_set = "";         ///< the key in MarkerSets of a marker file's set
+  std::string marker_set = "";         ///< the key (MarkerSetKeys) of the set to use for a marker file; "": by rank
 };
 
 /// Reads a unit and returns its length in metres. `text` is m, cm, mm, in, ft, cmu (5.64 cm) or the length itself.

@@ -77,7 +77,7 @@ void PlaceHips(const std::array<glm::dvec3, 4>& pelvis, JointPositions& places) 
   places[Index(Role::kRightHip)] = front + 1e-3 * (middle + side);
 }
 
-/// Returns the joints' positions in one frame; `scale` is the length of the file's unit in metres.
+/// Returns the joints' positions in one frame; `scale` multiplies the markers' positions, which are in metres.
 JointPositions PositionsOf(const MarkerSet& set, const MarkerColumns& columns, const std::vector<MarkerPosition>& frame,
                            double scale) {
   JointPositions places;
@@ -249,7 +249,7 @@ void StandOnFloor(bool keeps_floor, bool is_own, MarkerBody& body) {
 
 bool IsOwn(const MarkerSet& set) { return &set == &MarkerSets().front(); }
 
-/// Makes the body for a given length of the file's unit (`scale`, metres); nullopt if no frame has all needed joints.
+/// Makes the body from the markers' positions times `scale`; nullopt if no frame has all needed joints.
 std::optional<MarkerBody> BodyAt(double scale, const MarkerMotion& markers, const MarkerSet& set,
                                  const MarkerColumns& columns, const MarkerOptions& options) {
   // Compute the joints and the joint centres, and fill short gaps.

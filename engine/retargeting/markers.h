@@ -45,12 +45,12 @@ struct MarkerBody {
 /// is ignored. The text before the last ':' is a prefix, and each prefix is one person. Joint centres are found by
 /// these rules, which are ours where no source is named:
 /// - the mean of the markers on both sides of a joint, if a set has both;
-/// - hips from the four markers of the pelvis (or one on the sacrum for the pelvis's back) by the regression of
+/// - hips from the four markers of the pelvis (or its two front markers and one on the sacrum) by the regression of
 ///   Harrington et al. (2007);
 /// - for single markers on the skin, the centre by MoveToJointCentres;
 /// - joints missing from a set: hip centre and shoulder centre midway between left and right, the spine midway between
-///   these centres, the head 0.3 trunk lengths above, hands 0.7 forearm lengths beyond the wrist, toes 16 cm ahead of
-///   the ankle and 4 cm below.
+///   these centres, the head 0.3 trunk lengths beyond the shoulder centre, hands 0.7 forearm lengths beyond the wrist,
+///   toes 16 cm ahead of the ankle and 4 cm below it.
 /// Gaps of up to a second are interpolated linearly and counted. If there are longer gaps, only the longest stretch
 /// without such a gap is kept, and the note states this. Positions at 0, 0, 0 may count as gaps (RepairMarkers). The
 /// note names joints that seem to be exchanged between left and right (FindExchangedJoints). FindUp finds the up axis

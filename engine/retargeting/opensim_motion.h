@@ -12,8 +12,8 @@ namespace etude {
 /// column names, and one line for each frame (angles in degrees, translations in metres). OpenSim's axes are X forward,
 /// Y up, Z to the body's right.
 ///
-/// The header also contains the model to which the angles belong (*ours*; OpenSim ignores these lines): one part for
-/// each of the nineteen limbs and one for the pelvis:
+/// The header also contains the model to which the angles belong (*ours*; OpenSim ignores these lines), with one part
+/// for the pelvis and one for each of the body's nineteen bones:
 ///     part right_knee after right_hip bone 0 -0.4165 0 turns +Z hip_flexion_r +X hip_adduction_r +Y hip_rotation_r
 ///     limit hip_flexion_r -30 120
 /// A part begins at the end of the part named after `after`, is rotated relative to that part by R = Rz Rx Ry with the
@@ -31,10 +31,10 @@ bool HasModelOfAngles(std::string_view bytes);
 
 /// Reads a .mot file that contains the model of its angles, as WriteOpenSimMotion writes it. Returns the positions of
 /// the twenty parts' ends as joints, metres, Y up. `LayOnClock` resamples rows to a constant rate by their times, and
-/// `note` states its changes; a single row has 30 Hz. `start_s` becomes the time of the first row. Angles are degrees,
-/// or radians after "inDegrees=no". Fails, with the line, for more than 64 MB, parts that are not the twenty roles
-/// (each once, after its parent), angles or translations without a column, rows of another length, numbers beyond ±10⁹,
-/// no rows, and times that run backwards.
+/// `note` states what was changed; a single row has 30 Hz. `start_s` becomes the time of the first row. Angles are
+/// degrees, or radians after "inDegrees=no". Fails, with the line, for more than 64 MB, parts that are not the twenty
+/// roles (each once, after its parent), angles or translations without a column, rows of another length, numbers beyond
+/// ±10⁹, no rows, and times that run backwards.
 Result<BodyMotion> ReadOpenSimMotion(std::string_view bytes, const std::string& file, std::string* note = nullptr,
                                      double* start_s = nullptr);
 

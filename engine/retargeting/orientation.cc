@@ -80,7 +80,7 @@ double Bend(const glm::dvec3& forward, const glm::dvec3& upper, const glm::dvec3
 /// Evidence that left and right are not exchanged. It is measured in the body's own frame, so the body may lie or turn
 /// over.
 struct Sides {
-  double shoulders = 0, toes = 0, knees = 0, arms = 0;  ///< sums over frames (and limbs); positive if sides are right
+  double shoulders = 0, toes = 0, knees = 0, arms = 0;  ///< sums over frames (and limbs); positive if not exchanged
   std::vector<double> knee_bends;                       ///< result of Bend for left and right knee in each frame
 };
 

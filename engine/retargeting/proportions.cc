@@ -130,8 +130,8 @@ BodyPose WithNewLimbs(const BodyPose& performer, const BodyPose& body, double sc
   return pose;
 }
 
-/// Returns how far the hips must be lowered for the leg to reach `ankle`, metres; less for a foot in the air, and 0 for
-/// a high foot.
+/// Returns how far the hips must be lowered for the leg to reach `ankle`, metres. The result decreases for toes 5 to 15
+/// cm above the floor, and is 0 for higher toes.
 double NeededDrop(const BodyPose& pose, const Limb& leg, const glm::dvec3& ankle, double toe_height) {
   constexpr double kStands = 0.05, kFlies = 0.15;  // height of the toes above the floor, metres
   const double stands = 1 - Smoothstep(kStands, kFlies, toe_height);

@@ -32,8 +32,8 @@ std::string DescribeRootTravel(const Clip& clip, const JointMap& map) {
   const int moved = clip.frames.empty() ? -1 : MovedJoint(clip, map);
   const auto apart = static_cast<std::size_t>(std::max(1.0, std::round(kStep_s * clip.rate_hz)));
   if (moved < 0 || clip.frames.size() < apart + kMinSteps) return "";
-  // The steps of both ankles and of the moved joint, each from a sampled frame to the frame a thirtieth of a second
-  // later.
+  // The displacements of both ankles and of the moved joint, each from a sampled frame to the frame a thirtieth of a
+  // second later.
   struct Step {
     glm::dvec3 left, right, root;
   };
@@ -76,8 +76,8 @@ std::string DescribeRootTravel(const Clip& clip, const JointMap& map) {
     }
   }
   if (!(least < kMuchLess * as_it_is)) return "";
-  // A smaller factor also stops feet that slide for another reason, so it is reported only if the speed in the file is
-  // impossible.
+  // A factor below 1 slows down all feet, even feet that slide for another reason, so it is reported only if the speed
+  // in the file is impossible.
   constexpr double kAsWell = 1.5, kImpossible = 3;  // kAsWell is a ratio, kImpossible in statures per second
   if (best < 1 && as_it_is < kImpossible) return "";
   if (slide(0) > kAsWell * least) {

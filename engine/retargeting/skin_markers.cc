@@ -20,8 +20,8 @@ using enum Role;
 struct SkinJoint {
   Role left, before;       ///< a joint of the left side, and the joint at the limb's other end
   std::string_view size;   ///< the name of the joint's width in files, without the side
-  double share;            ///< distance from marker to centre, as a share of the distance of both markers
-  std::string_view where;  ///< text for users: "knees {:.1f} cm inside"
+  double share;            ///< distance from marker to centre ÷ distance between the markers of `left` and `before`
+  std::string_view where;  ///< the joints' name in texts for users
 };
 constexpr std::array<SkinJoint, 4> kSkinJoints = {{{kLeftKnee, kLeftHip, "KNEEWIDTH", 0.12, "knees"},
                                                    {kLeftAnkle, kLeftKnee, "ANKLEWIDTH", 0.085, "ankles"},

@@ -23,16 +23,16 @@ struct Wands {
 /// Moves joints from their markers on the skin to the joints' centres (Davis et al. 1991, as in Vicon's Plug-in Gait;
 /// the shares are ours):
 /// - knee and ankle: in the plane of the limb's wand or, without one, in the plane in which the limb bends. The centre
-///   is inward of the marker by half the joint's width plus a marker's radius, and its line to the marker is
-///   perpendicular to the limb;
+///   lies inward of the marker. The lines from the centre to the marker and to the limb's other end are perpendicular;
 /// - elbow: along its hinge's axis, from the outside inward. If the lengths of the upper arms are far more constant
 ///   when the markers are assumed to be on the points of the elbows, the centre is put in front of the marker;
 /// - shoulder: below its marker, along the trunk.
-/// The distances are (width + marker diameter) / 2. Widths come from `sizes_m`, the file's own sizes: "LKNEEWIDTH",
-/// "RANKLEWIDTH", "LELBOWWIDTH", "RSHOULDEROFFSET", "MARKERDIAMETER" (otherwise 14 mm). Without a size, the distance is
-/// a share of a limb's length: 12 % of the thigh for the knee, 8.5 % of the shank for the ankle, and 13.5 % of the
-/// upper arm (between its markers) for elbow and shoulder. `frames` are in metres, with shoulders, elbows, wrists,
-/// knees and ankles at their markers; `wands` has as many frames. Returns a sentence about the moved joints, or "".
+/// The distance from marker to centre is half the joint's width, or the whole shoulder offset, plus the marker's
+/// radius. These sizes come from `sizes_m`, the file's own sizes: "LKNEEWIDTH", "RANKLEWIDTH", "LELBOWWIDTH",
+/// "RSHOULDEROFFSET", "MARKERDIAMETER" (otherwise 14 mm). Without a size, the distance is a share of a limb's length:
+/// 12 % of the thigh for the knee, 8.5 % of the shank for the ankle, and 13.5 % of the upper arm (between its markers)
+/// for elbow and shoulder. `frames` are in metres, with shoulders, elbows, wrists, knees and ankles at their markers;
+/// `wands` has as many frames. Returns a sentence about the moved joints, or "".
 std::string MoveToJointCentres(const MarkerSet& set, const std::map<std::string, double>& sizes_m,
                                const std::vector<Wands>& wands, std::vector<JointPositions>& frames);
 

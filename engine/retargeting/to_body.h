@@ -60,15 +60,16 @@ struct BodyConversion {
 /// - Unit: metre, foot, CMU (1/0.45 inch), inch, cm or mm, whichever gives a stature of 1.45 m to 2.1 m (for
 ///   millimetres, which depth sensors write, from 1.2 m). If none does (children, toys), the body is scaled to a
 ///   stature of 1.70 m. The stature is the length from ankle over knee, hip, spine and neck to the head at rest,
-///   divided by 0.92. If the median stature over the frames differs by a factor of more than 1.25, that median is used
-///   and the note states it; if no unit fits the median, the rest pose's unit is used and the frames are scaled back,
-///   positions included (if the joints themselves are scaled, use UndoScales). The note also states a ratio above 1.05,
-///   and a stature that changes by a factor of more than 1.25 within the clip. Clips of one file share a unit: pass
-///   them FindGround's stature; the note states if a clip's own median differs.
+///   divided by 0.92. If the median stature over the frames differs from that at rest by a factor of more than 1.25,
+///   the median is used and the note states it. If no unit fits the median, the rest pose's unit is used, and the
+///   frames are scaled to the stature at rest, positions included (if the joints themselves are scaled, use
+///   UndoScales). The note also states a difference of more than 5 % between both statures, and a stature that changes
+///   by a factor of more than 1.25 within the clip. Clips of one file share a unit: pass them FindGround's stature; the
+///   note states if a clip's own median differs by a factor of more than 1.25.
 /// - Floor: the 5th percentile, over the frames, of the lowest joint's height (finger tips excluded) becomes y = 0.
 ///   Horizontal position and heading stay as in the file. Clips of one file share a floor: pass them the floor of
-///   FindGround. If a clip stays farther from that floor than the length of its legs, the clip has another root and
-///   gets its own floor.
+///   FindGround. If this floor is farther than a leg's length from the floor that the clip's own frames give, the clip
+///   has another root and gets its own floor.
 ///
 /// Fails, naming `file`, for: no frames; more than an hour or half a million poses; a body without size; two or more of
 /// its eight limbs without length in the median frame; a body that is not 0.4 to 4 m tall in a given unit. Also fails
@@ -92,8 +93,8 @@ struct Ground {
 /// position is not finite.
 std::optional<Ground> FindGround(std::span<const Clip> clips, const JointMap& map, const BodyOptions& options = {});
 
-/// Removes scales from a file's frames that its rest pose does not have, such as a scale of the hips. The scales are
-/// removed only if the body at rest has a person's size in some unit, and if the scales alone make the body in the
+/// Removes from a file's frames the scales that its rest pose does not have, such as a scale of the hips. The scales
+/// are removed only if the body at rest has a person's size in some unit, and if the scales alone make the body in the
 /// frames taller or smaller by a factor of more than 1.25 (median over the clips). Returns that factor; nullopt if the
 /// clips are unchanged.
 std::optional<double> UndoScales(std::span<Clip> clips, const JointMap& map);

@@ -195,7 +195,8 @@ UpFinding FindUp(std::span<const BodyPose> all, double rate_hz, const UpRule& ru
     most = stance.upright;
     best = &axis;
   }
-  // Otherwise the posture is the only evidence.
+  // If only the posture counts, take this axis. A rule of the file or its format stays, and the contradiction is
+  // reported.
   const std::string usually = fmt::format("{} is {}", AxisName(rule.axis), rule.source);
   if (best != nullptr && rule.evidence == UpEvidence::kPosture) {
     found.axis = *best;

@@ -36,10 +36,10 @@ struct UpFinding {
 };
 
 /// Finds the axis that points up (ours). The result is the rule's axis, unless the rule's evidence is kPosture and the
-/// whole motion is evidence for another axis. An axis has evidence if the body is upright along it and hardly ever
-/// along the usual axis, and
-/// - the lowest joint stays at one height along this axis, but not along the usual axis (this also holds for users who
-///   lie, crawl or stand on their hands), or
+/// whole motion is evidence for another axis. Another axis has evidence if the body is upright along it in a tenth of
+/// the frames, and the lowest joint stays at one height along this axis, but not along the usual axis (this also holds
+/// for people who lie, crawl or stand on their hands). It also has evidence if the body is upright along it in four
+/// fifths of the frames and hardly ever along the usual axis, and
 /// - the body walks: it travels perpendicular to this axis while one foot stands, or
 /// - the file or its format states the usual axis, and along the usual axis the body stands on its head, but not on its
 ///   hands, or

@@ -12,8 +12,8 @@
 namespace etude {
 namespace {
 
-// The derivatives of a capsule's two projected ends. Each coordinate that moves the capsule's limb has one column, with
-// the six numbers δ of SilhouetteResidual.
+// The derivatives of a capsule's two projected ends. Each coordinate that moves the capsule's limb has one column: the
+// derivatives of the six numbers that SilhouetteResidual calls δ.
 struct CapsuleMotion {
   std::vector<int> coordinates;
   std::vector<std::array<double, 6>> columns;

@@ -46,8 +46,8 @@ struct TrackOptions {
   /// the position. Use larger values for frame rates below 30 Hz.
   double angle_change = 0.15;
   double position_change_m = 0.05;
-  /// If the cost of a frame exceeds this multiple of the take's 20th percentile, a limb is assumed to be lost and
-  /// searched again.
+  /// If the cost of a frame exceeds this multiple of the 20th percentile of the take's frame costs, a limb is assumed
+  /// to be lost and searched again.
   double lost = 1.8;
   /// The number of passes over a whole take in which lost frames are searched again and all frames are smoothed.
   int repairs = 2;

@@ -56,11 +56,12 @@ struct Silhouette {
 
 Silhouette MakeSilhouette(const Mask& mask, const SilhouetteOptions& options = {});
 
-/// Returns the signed distance at a pixel of the camera, in the camera's pixels, and the gradient of this distance.
-/// Both numbers come from bilinear interpolation between pixel centres. Outside the box around the person, the distance
-/// is the sum of the distance at the box's edge and the distance to the box; this is never less than the true distance.
-/// Outside the picture, the distance equals the distance at the nearest pixel inside, and the gradient across the
-/// picture's edge is 0, so flesh outside the picture is not pulled back. Precondition: `silhouette.area` > 0.
+/// The result of DistanceAtPixel: the signed distance at a pixel of the camera, in the camera's pixels, and the
+/// gradient of this distance. Both come from bilinear interpolation between pixel centres. Outside the box around the
+/// person, the distance is the sum of the distance at the box's edge and the distance to the box; this is never less
+/// than the true distance. Outside the picture, the distance equals the distance at the nearest pixel inside, and the
+/// gradient across the picture's edge is 0, so flesh outside the picture is not pulled back. Precondition:
+/// `silhouette.area` > 0.
 struct DistanceAt {
   double distance = 0;
   glm::dvec2 gradient{0};

@@ -44,7 +44,7 @@ struct SilhouetteBody {
 /// Makes the body of a generic adult with these limb lengths; only the lengths are specific to the person in the
 /// pictures. The root is the hip centre, which moves and rotates freely; the back bends at two joints; each shoulder
 /// lies at the end of a collar bone. The capsules are those of an average clothed adult, scaled by the stature that the
-/// lengths imply. Girths are *ours*: round figures, not from a table, with a centimetre of clothes on the trunk.
+/// lengths imply. Girths are *ours*: rounded values, not from a table, with a centimetre of clothes on the trunk.
 SilhouetteBody MakeSilhouetteBody(const LimbLengths& lengths);
 
 /// Returns the world position of a point of the tree.

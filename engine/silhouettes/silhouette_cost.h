@@ -115,8 +115,8 @@ SilhouetteResidual DistanceTo(const ProjectedCapsule& capsule, const glm::dvec2&
 /// Returns only the signed distance of DistanceTo.
 double SignedDistanceTo(const ProjectedCapsule& capsule, const glm::dvec2& pixel);
 
-/// The capsules of a body in one pose, projected into one picture, and the capsule nearest to every outline point. They
-/// depend on no option of the cost, so a fit computes them once for each pose.
+/// The capsules of a body in one pose, projected into one picture, and the capsule nearest to every outline point. No
+/// option of the cost changes these values, so a fit computes them once for each pose.
 struct SeenFlesh {
   std::vector<ProjectedCapsule> capsules;
   std::vector<double> distances;  ///< by column of the silhouette: the smallest signed distance to a capsule, pixels

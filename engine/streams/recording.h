@@ -51,7 +51,7 @@ struct StreamRecording {
   double first_count = 0;                  ///< the number in the clock's column at 0 s
   double metres_per_unit = 1;              ///< the factor that was applied to positions
   std::vector<RecordedFrame> frames = {};  ///< in ascending order of time
-  std::vector<std::string> remarks = {};   ///< decisions made while reading ("2 bodies, of which body 0")
+  std::vector<std::string> remarks = {};   ///< decisions made while reading ("2 bodies, of which body 0 is read")
 };
 
 /// Properties of a file that the user can state.

@@ -101,7 +101,7 @@ glm::dmat3 QuarterTurns(int quarters) {
 int QuartersOfSensor(std::span<const RecordedFrame> frames) {
   constexpr double kMinShare = 0.7, kHardlyAny = 0.05, kFaces = 0.7;
   std::array<double, 4> upright{};
-  std::vector<double> fronts;  // by frame: the angle by which the body faces up or down in the file's axes
+  std::vector<double> fronts;  // by frame: sine of the angle by which the body faces up or down in the file's axes
   double all = 0;
   for (const RecordedFrame& frame : frames) {
     const auto &hips = frame.places[Index(kHipCentre)], &neck = frame.places[Index(kShoulderCentre)],

@@ -30,13 +30,14 @@ struct StreamLevel {
 };
 
 /// Estimates gravity and floor from the body alone, because few files contain the tilt of their sensor (ours). Up is
-/// the normal of the plane under standing feet if the feet determine the plane (standard deviation of at least 10 cm in
-/// both directions, at most 3 cm off the plane, within 15° of the trunk). Otherwise up is the trunk's median direction,
-/// so a constant lean counts as a tilt of the sensor. If the result is more than 30° from the file's own up, nothing is
-/// rotated. A sensor in portrait or upside down is turned back first. Such a sensor is recognised by the trunk: in
-/// seven of ten frames it is within 30° of another axis of the file, and hardly ever near the file's up axis. In
-/// portrait, the body must also face the sensor, because a lying body faces up or down. The floor is the 10th
-/// percentile of the lower foot's height. `rate_hz` > 0 is the frames' rate.
+/// the normal of the plane under standing feet if the feet determine the plane: their positions have a standard
+/// deviation of at least 10 cm in both horizontal directions and of at most 3 cm from the plane, and the normal is
+/// within 15° of the trunk. Otherwise up is the trunk's median direction, so a constant lean counts as a tilt of the
+/// sensor. If the result is more than 30° from the file's own up, nothing is rotated. A sensor in portrait or upside
+/// down is turned back first. Such a sensor is recognised by the trunk: in seven of ten frames it is within 30° of
+/// another axis of the file, and hardly ever near the file's up axis. In portrait, the body must also face the sensor,
+/// because a lying body faces up or down. The floor is the 10th percentile of the lower foot's height. `rate_hz` > 0 is
+/// the frames' rate.
 StreamLevel EstimateLevel(std::span<const RecordedFrame> frames, double rate_hz);
 
 /// Describes a level for users: "up by the trunk (6.3 degrees), floor 0.83 m below the sensor". Also mentions a sensor

@@ -190,8 +190,9 @@ class Recovery {
     return 1 - static_cast<double>(both) / static_cast<double>(any);
   }
 
-  /// Adds the nearness to the body to each pixel's activity: `reach` minus the distance, in pixels. For pixels on the
-  /// body, this sum exceeds the activity that motion can give. If the body is unknown, every pixel counts as near.
+  /// Adds to each pixel's activity the pixel's nearness to the body: `reach` minus the distance, in pixels. For pixels
+  /// on the body, this sum exceeds the activity that motion can give. If the body is unknown, every pixel counts as
+  /// near.
   void AddNearness(const SilhouetteTrack& track, std::size_t frame, std::size_t camera, Activity& activity) {
     const double reach = kMaskPixel * options_.body_reach_px;
     const bool is_known = track.frames[frame].has_value();

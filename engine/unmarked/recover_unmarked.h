@@ -73,8 +73,8 @@ struct UnmarkedOptions {
                           .piece_reach = 30};
   TrackOptions track;
   /// The number of times that rooms are estimated. Each estimate after the first leaves out pixels near the body, which
-  /// was tracked with the previous estimate as background. In the one film that was tried, a fourth round still
-  /// improved the rooms slightly.
+  /// was tracked with the previous estimate as background. In the one film that was tried, a fourth estimate was still
+  /// slightly better than the third.
   int rounds = 4;
   /// The number of pictures from each camera, evenly spaced over the film, in which the body is tracked and from which
   /// rooms are estimated. More pictures take longer, and improve a short film little.

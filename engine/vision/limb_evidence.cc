@@ -212,14 +212,14 @@ class EvidenceFinder {
     return limb.line.IsLong() && limb.inner->half_breadth > kSide * limb.line.half_width;
   }
 
-  // Returns the centre of the limb's round outer end, which is `inset` before the visible end.
+  // Returns the centre of the limb's round outer end: `inset` pixels inward of the visible end, at most to the middle.
   static glm::dvec2 RoundEnd(const MiddleLine& line, double inset) {
     return line.At(std::max(0.5 * (line.low + line.high), line.high - inset));
   }
 
   // Returns how far a limb's round end is visible beyond the joint where a thinner `next` limb continues at an angle
-  // and covers a part of this end. The visible part is a disc with the limb's half width, without a strip of the next
-  // limb's half width.
+  // and covers a part of this end. The round end is a disc whose radius is the limb's half width. The next limb covers
+  // a strip of the disc, of its own half width on each side of its line.
   static double ReachBeyondJoint(const MiddleLine& limb, const MiddleLine& next) {
     if (!next.IsLong()) return limb.half_width;
     const double between = std::acos(std::clamp(glm::dot(limb.along, next.along), -1.0, 1.0));
@@ -243,7 +243,7 @@ class EvidenceFinder {
   std::optional<glm::dvec2> CapsuleJoint(std::size_t i, const Limb& limb) const {
     const Border& border = *limb.inner;
     const double beyond = body_[i].joint * limb.line.half_width;
-    if (border.limb_covers && !limb.line.IsLong()) return MiddleOf(limb.line);  // the limb is seen end-on
+    if (border.limb_covers && !limb.line.IsLong()) return MiddleOf(limb.line);  // the limb lies along the line of sight
     if (IsAttachedToTrunk(i)) {
       if (RunsAlong(limb)) return limb.line.At(limb.line.low + beyond);
       const glm::dvec2 outwards = limb.line.IsLong() ? limb.line.along : Unit(limb.region->middle - border.middle);
@@ -305,8 +305,8 @@ class EvidenceFinder {
     return seen;
   }
 
-  // Returns the limb's probable half width. It is at least the outer neighbour's half width, and a share of the inner
-  // neighbour's, because one side of the limb may be hidden along the whole length.
+  // Returns the limb's probable half width. One side of the limb may be hidden along the whole length. So the result is
+  // at least the outer neighbour's half width, and at least a share of the inner neighbour's half width.
   double LikelyHalfWidth(std::size_t i) const {
     constexpr double kMinWidthRatio = 0.55;  // a foot's width as a share of the shank's width
     double half_width = limbs_[i]->line.half_width;

@@ -13,7 +13,7 @@ namespace etude {
 
 /// The measurements of one limb in a picture.
 struct LimbEvidence {
-  PixelSegment line;      ///< from the inner to the outer end, pixels; a hidden end is where the visible part ends
+  PixelSegment line;      ///< from the inner to the outer end, pixels; for a hidden end, the visible part's end
   double seen_share = 1;  ///< visible pixels divided by the pixels of the whole limb seen from the side, in (0, 1]
   double contrast = 0;    ///< contrast to the surroundings, as `Region::contrast`, levels
   double half_width = 0;  ///< pixels
@@ -45,10 +45,10 @@ struct FigureLook {
 
 /// Finds the lines of limbs and the joints in a picture that was segmented into limbs. The line of a limb is the middle
 /// line of its visible pixels (`FindMiddleLine`). Joint centres follow from general proportions of bodies:
-/// - Limbs made of capsules end round: a joint lies half a width before the end of the limb in front. The ends of the
-///   border between two limbs bend towards the limb in front. Hips, shoulders and the neck lie inside the trunk: beyond
-///   the border, along the limb. Each of these joints has its own distance from the border, as a share of the border's
-///   breadth.
+/// - Limbs made of capsules have round ends: a joint lies half a width inward of the end of the limb in front. The ends
+///   of the border between two limbs bend towards the limb in front. Hips, shoulders and the neck lie inside the trunk:
+///   beyond the border, along the limb. Each of these joints has its own distance from the border, as a share of the
+///   limb's width (for the neck, of the border's breadth).
 /// - Limbs of dressed people are cut across at their joints. A joint lies at the border or, for arms, near the limb's
 ///   inner end. A shoulder lies half an arm's width inside the arm, a hip above the crotch.
 /// - A tip lies about half a width inside the limb's outer end; the head's point lies at a given distance below the

@@ -14,8 +14,8 @@
 
 namespace etude::engine {
 
-/// Reads the cameras of a rig from a file of Etude, OpenCV, Pose2Sim, Anipose or Qualisys; the format is recognised by
-/// the content. Throws BadInput for any other file.
+/// Reads the cameras of a rig from a file of Etude, OpenCV, Pose2Sim, Anipose, FreeMoCap, Caliscope or Qualisys; the
+/// format is recognised by the content. Throws BadInput for any other file.
 ETUDE_API std::vector<NamedCamera> ReadRig(std::string_view text, const std::string& file);
 
 struct CalibratedCamera {

@@ -32,7 +32,7 @@ class GltfCurve {
   static Result<GltfCurve> Read(GltfFile& file, int animation, int sampler, std::size_t width);
 
   const std::vector<double>& times() const { return times_; }
-  /// Returns the number of distinct times. Times that differ by microseconds count once; they occur if a file has
+  /// Returns the number of distinct times. Times that differ by microseconds count once; such times occur if a file has
   /// separate keys for three axes.
   std::size_t CountTimes() const;
   GltfInterpolation interpolation() const { return interpolation_; }

@@ -65,9 +65,9 @@ Result<GltfContent> ReadGltf(std::string_view bytes, const std::string& file, co
 
 /// Writes a character with its clips as one GLB: nodes, skins, materials without textures, and LINEAR animations at the
 /// clips' rates. All numeric values of surfaces and clips are rounded to floats. Reading the file returns the same
-/// skeleton, surfaces and clips, and writing these again gives the same bytes. A property that stays at rest is not
-/// written; a property that is constant in another way has one key. Neighbouring meshes with the same name and joints
-/// become one mesh with several primitives. Invalid UTF-8 and control characters in names become '?'.
+/// skeleton, surfaces and clips, and writing these again gives the same bytes. A property that has its rest value in
+/// all frames is not written; a property with another constant value has one key. Neighbouring meshes with the same
+/// name and joints become one mesh with several primitives. Invalid UTF-8 and control characters in names become '?'.
 ///
 /// Numbers must be finite, clips must have the character's skeleton, indices must be valid, and the joints of one mesh
 /// must have a common root. A character without meshes is allowed. The output is valid by Khronos' glTF validator.
