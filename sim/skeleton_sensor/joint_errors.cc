@@ -249,7 +249,7 @@ FrameErrors ContinuousErrors::Next(const BodyPose& pose, const FrameMotion& moti
     const glm::dvec3 white = group.white * wander_dice_.Normal3();
     const bool is_foot = GroupOf(role) == JointGroup::kFeet;
     const double size = is_foot ? glm::mix(options_.planted_feet, group.size, moves) : group.size;
-    const double rest_axis = std::sqrt(3.0);  // `still` and `white` are sizes per axis; InWorld expects all axes
+    const double rest_axis = std::sqrt(3.0);  // `still` and `white` are per axis; InWorld expects a size in 3D
     errors[j] = options_.strength * (InWorld(sight, unit[j], size, group.depth_ratio) +
                                      InWorld(sight, wander + white, rest_axis, group.depth_ratio));
   }
