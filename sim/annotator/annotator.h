@@ -46,7 +46,7 @@ double Unclearness(double contrast);
 double MissProbability(const LimbEvidence& limb);  ///< 0.2 %, plus ≤ 10 % if hardly visible, plus ≤ 3 % if unclear
 constexpr double kShortShare = 0.03;               ///< standard deviation of the share left out at each end of a stroke
 constexpr double kSwapProbability = 0.0003;        ///< probability per frame that left and right are exchanged
-constexpr double kOverlapSwapProbability = 0.002;  ///< added if the two limbs overlap in the picture, as in a side view
+constexpr double kOverlapSwapProbability = 0.002;  ///< times the limbs' overlap (0 to 1): added to kSwapProbability
 constexpr double kSwapFrames = 5;                  ///< mean length of an exchange, in marked frames
 
 /// The random numbers of one picture. How many numbers are drawn depends neither on the picture nor on the strength of

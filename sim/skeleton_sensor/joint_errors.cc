@@ -119,8 +119,8 @@ SlowNoise::SlowNoise(double time_s, double smoothing_s, double rate_hz, RandomSt
   // − s m)).
   const double s = smoothing_, m = memory_;
   scale_ = std::sqrt((1 + s) * (1 - s * m) / ((1 - s) * (1 + s * m)));
-  // Draw from the stationary joint distribution of the two processes (low pass and second low pass): variances 1 and
-  // 1/scale², covariance (1 − s) / (1 − s m).
+  // Draw the states of both low passes together from their stationary distribution: variances 1 and 1/scale²,
+  // covariance (1 − s) / (1 − s m).
   const glm::dvec3 a = dice.Normal3(), b = dice.Normal3();
   const double covariance = (1 - s) / (1 - s * m);
   const double rest = std::max(0.0, 1 / (scale_ * scale_) - covariance * covariance);
