@@ -34,7 +34,8 @@ class MusicPosition {
   /// Returns the seconds since the start of the song; nullopt while the music is silent.
   std::optional<double> Seconds() const { return now_s_; }
 
-  /// Reads a line of the stream; other lines change nothing. Fails on '#music' without seconds.
+  /// Reads any line of the stream. Only a '#music' line changes the position, and only while the music plays. Fails on
+  /// '#music' without seconds.
   Result<void> Take(std::string_view line, int number);
 
  private:

@@ -1,7 +1,7 @@
 """Etude from Python: runs as tables, your own methods, scenarios run from a notebook (docs/python.md).
 
-Imports only the standard library, and each module when it is first used; uses numpy, pandas and matplotlib if they are
-installed.
+The package needs only the standard library, and imports each of its modules when this module is first used. It uses
+numpy, pandas and matplotlib if they are installed.
 """
 import importlib
 

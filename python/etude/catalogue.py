@@ -10,8 +10,8 @@ from etude.program import call, find_program
 class Metric:
     """A metric. `unit` is "" for shares and counts. `direction` says whether "lower", "higher" or "neither" is better,
     `aggregate` says whether the "median" or "mean" stands for a run's cells. Differences below `practical_threshold` do
-    not matter. `vectors` are inputs with expected outputs. `reads`: "amount", or "yes-no", "share" or "score", which
-    are shown in per cent. `weight`: the metric that weights the cells in a mean, if any."""
+    not matter. `vectors` are inputs with expected outputs. `reads` is the kind of value: "amount"; or "yes-no", "share"
+    or "score", which are shown in per cent. `weight`: the metric that weights the cells in a mean, if any."""
     id: str
     version: int
     domain: str

@@ -47,7 +47,7 @@ def run(scenario, *, methods=(), metrics=(), trials=None, output=None, seed=None
 
 
 def _judged(found, code, printed, said):
-    """Returns the run. Raises EtudeError if a method has no answer; warns if no method met its goal."""
+    """Returns the run. Raises EtudeError if a method has no answer; warns if no cell is ok."""
     if code == 0:
         return found
     lines = [line.strip() for line in (said + printed).splitlines()]

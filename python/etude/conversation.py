@@ -4,7 +4,7 @@ import json
 import sys
 
 PROTOCOL = 1
-TASKS = {  # task → its seats; "" if the program answers whole problems
+TASKS = {  # task → its seats; "" means that a method answers whole problems
     "ik": [""], "tracking": [""], "transition": [""], "pose-distance": [""], "detection": [""],
     "inbetween": [""],
     "capture": ["", "segmenter"], "coach": ["recogniser", "policy", "learner"],
@@ -155,8 +155,8 @@ class Player:
         return self.answers([problem], [files])[0]
 
     def answers(self, problems, files):
-        """Returns the answers to several problems. files: the folder of each problem's attachments. Raises NoAnswer if
-        the method has no answer."""
+        """Returns the answers to several problems; a NoAnswer stands for a problem without an answer. files: the folder
+        of each problem's attachments. A method that takes batches may also raise NoAnswer."""
         asked = [self._asked_class.of(problem) for problem in problems]
         if self.spec.batch:
             answers = list(_call(self._function(), (asked,), **{**self._offered, "files": files}))
@@ -176,7 +176,7 @@ class Player:
         return self.what if self._instance is None else self._instance.answer
 
     def _told(self, answer):
-        """Returns an answer as a JSON object."""
+        """Returns an answer as a JSON object; NoAnswer is returned unchanged."""
         from etude.messages import Message, plain
         if isinstance(answer, NoAnswer):
             return answer
@@ -197,7 +197,7 @@ def _is_needed(field):
 
 
 def serve(what, lines=None, output=None):
-    """Answers for a method until the input ends. It is the last line of a program that Etude starts.
+    """Answers for a method until the input ends. A program that Etude starts calls this function in its last line.
 
     Standard output belongs to the protocol: what methods print goes to standard error, which Etude keeps.
     """

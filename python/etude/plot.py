@@ -190,7 +190,7 @@ def _aside(values):
 
 
 def _shown(figure):
-    """Returns the figure. A notebook shows the figure if a notebook's cell has it as value."""
+    """Returns the figure. A notebook shows the figure if it is the value of a notebook's cell."""
     if "IPython" in sys.modules:
         from IPython import get_ipython
         if get_ipython() is not None:

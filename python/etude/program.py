@@ -33,7 +33,7 @@ class EtudeError(Exception):
 
 def find_program(program=None):
     """Returns the path of the program: the argument, else the environment's ETUDE, else `etude` in PATH, else a program
-    beside this package: `bin/etude` of the package's prefix, or a build of the package's clone.
+    beside this package: `bin/etude` of the package's prefix, or a build in the clone that contains the package.
 
     Raises EtudeError if no program is found.
     """
@@ -56,8 +56,9 @@ def find_program(program=None):
 def call(*arguments, program=None, progress=False, allowed=(0,)):
     """Runs the program. Returns its exit code, which must be one of `allowed`, its standard output and standard error.
 
-    progress: True shows the progress on standard error; a function is called with (cells done, cells). An interrupt is
-    passed on; KeyboardInterrupt is raised when the program has ended. Raises EtudeError with the program's error.
+    progress: True shows the progress on standard error; a function is called with (cells done, cells). Ctrl-C also
+    interrupts the program; KeyboardInterrupt is raised when the program has ended. Raises EtudeError with the program's
+    error.
     """
     command = [find_program(program), *map(os.fspath, arguments)]
     with tempfile.TemporaryFile("w+", encoding="utf-8", errors="replace") as output:

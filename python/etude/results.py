@@ -79,8 +79,9 @@ class Pairs:
     """The worlds in which two methods have a value, in order. Lists or arrays, one value per world: condition, trial,
     clip, units (what the world was drawn from), baseline, method, and difference (method − baseline).
 
-    only_baseline, only_method, neither: the numbers of other worlds. verdict: the summary's Verdict on the two methods;
-    None if it has none, or if there are several conditions.
+    only_baseline, only_method, neither: the numbers of worlds in which only the baseline, only the method or neither of
+    them has a value. verdict: the summary's Verdict on the two methods; None if the summary has none, or if there are
+    several conditions.
     """
 
     def __init__(self, metric, method_name, baseline_name, found, counts, verdict, scenario):

@@ -1,8 +1,8 @@
 """A method as a program of its own: a folder from which Etude can start it, now and when the run is repeated.
 
-A method of a module is imported from its file. A method of a notebook, of `__main__` or within a function is sent by
-its source, with what it uses, as it is at that moment: functions, classes, modules, numbers, texts, lists and dicts of
-them, and numpy arrays. Anything else is refused by name.
+A method of a module is imported from its file. A method of a notebook, of `__main__` or within a function is sent as
+source code, with the present values of all that it uses: functions, classes, modules, numbers, texts, lists and dicts
+of numbers and texts, and numpy arrays. Anything else is refused by name.
 """
 import ast
 import builtins

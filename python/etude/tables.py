@@ -217,7 +217,8 @@ def read_npy(path):
 
 
 def table_of_columns(folder, metrics):
-    """Returns the table of a scenario with more than 100,000 cells. `folder` is the run's folder columns/SCENARIO."""
+    """Returns the name and the table of a scenario in a run that has columns (more than 100,000 cells). `folder` is the
+    run's folder columns/SCENARIO."""
     index = json.loads((folder / "index.json").read_text(encoding="utf-8"))
     trials, methods, conditions = index["trials"], index["methods"], index["conditions"]
     length = trials * len(methods) * len(conditions)
@@ -240,7 +241,8 @@ def table_of_columns(folder, metrics):
 
     here = {path.stem for path in folder.glob("*.npy")}
     named = [text or None for text in index["texts"]]
-    # Make readers of the settings, which the index stores once per condition, trial and method.
+    # Make readers of the settings and of each cell's condition, trial and method. The index stores each of these values
+    # once, so `spread` repeats them for all cells.
     readers = {}
     for key in conditions[0] if conditions else ():
         of_conditions = [_as_row_has_it(each[key]) for each in conditions]

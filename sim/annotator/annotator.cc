@@ -16,8 +16,8 @@ constexpr double kHeadDeviation = 0.035, kShoulderDeviation = 0.079, kElbowDevia
                  kFingerDeviation = 0.026, kHipDeviation = 0.107, kKneeDeviation = 0.087, kAnkleDeviation = 0.089,
                  kToeDeviation = 0.068;
 
-// The standard deviations σ in two keypoint evaluations, by role: the source of RelativeDeviations. They are 0 for hip
-// centre and spine, which are never marked.
+// The standard deviations σ of COCO and COCO-WholeBody, by role: the source of RelativeDeviations. The values are 0 for
+// hip centre and spine, which are never marked.
 constexpr std::array<double, kRoleCount> kDeviations = {
     0,
     0,

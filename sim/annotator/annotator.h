@@ -22,8 +22,9 @@ struct PersonErrors {
 /// Returns the relative difficulty of locating each joint centre, by role, with mean 1. The values are the standard
 /// deviations σ of two keypoint evaluations, divided by their mean. COCO measured its σ on 5,000 images annotated more
 /// than once, relative to the square root of a person's area: shoulders .079, elbows .072, wrists .062, hips .107,
-/// knees .087, ankles .089; ears (used for the head) .035. For the tips, COCO-WholeBody gives big toes .068 and middle
-/// fingers .026. The absolute size is not used, because it describes crowd workers on pictures of all kinds.
+/// knees .087, ankles .089; ears (used for the head) .035. COCO-WholeBody gives .068 for big toes (used for the feet)
+/// and .026 for middle fingers (used for the hands). Only ratios of σ are used, because the absolute values describe
+/// crowd workers on pictures of all kinds.
 const std::array<double, kRoleCount>& RelativeDeviations();
 
 /// A mark's error is the sum of three parts. These are the parts' shares of the error's variance *(ours; Bartlett,
@@ -45,7 +46,7 @@ double Unclearness(double contrast);
 double MissProbability(const LimbEvidence& limb);  ///< 0.2 %, plus ≤ 10 % if hardly visible, plus ≤ 3 % if unclear
 constexpr double kShortShare = 0.03;               ///< standard deviation of the share left out at each end of a stroke
 constexpr double kSwapProbability = 0.0003;        ///< probability per frame that left and right are exchanged
-constexpr double kOverlapSwapProbability = 0.002;  ///< added if the two limbs overlap in the picture, as in a side view
+constexpr double kOverlapSwapProbability = 0.002;  ///< times the limbs' overlap (0 to 1): added to kSwapProbability
 constexpr double kSwapFrames = 5;                  ///< mean length of an exchange, in marked frames
 
 /// The random numbers of one picture. How many numbers are drawn depends neither on the picture nor on the strength of
@@ -55,8 +56,8 @@ struct PictureDice {
   std::array<glm::dvec2, kRoleCount> independent;  ///< errors of this picture alone: standard normal in u and in v
   std::array<glm::dvec2, kStrokeCount> shortness;  ///< shortening of a stroke at its two ends: standard normal
   std::array<double, kStrokeCount> miss;           ///< decides if a limb is overlooked: uniform in [0, 1)
-  std::array<double, 2> swap_begins;               ///< decides if an exchange begins: uniform in [0, 1); arms, legs
-  std::array<double, 2> swap_lasts;                ///< gives the length of an exchange: uniform in [0, 1); arms, legs
+  std::array<double, 2> swap_begins;               ///< begins an exchange of [0] arms, [1] legs: uniform in [0, 1)
+  std::array<double, 2> swap_lasts;                ///< length of an exchange of [0] arms, [1] legs: uniform in [0, 1)
 };
 
 /// Draws the random numbers of one annotator for one camera, frame by frame (marked frames only).
@@ -80,7 +81,7 @@ class AnnotatorDice {
 
 /// Simulates the human who marks limbs and end effectors in the pictures of one camera (paper B, section 4.2), frame by
 /// frame. The annotator sees only the picture (`SeePicture`), never the true joints, and makes human errors
-/// (`PersonErrors`). Annotators with the same key, number and camera draw the same random numbers for all pictures.
+/// (`PersonErrors`). Annotators with the same `key`, `annotator` and `camera` draw the same random numbers.
 class Annotator {
  public:
   Annotator(const PersonErrors& errors, const EvidenceOptions& eye, const WorldKey& key, int annotator, int camera);
@@ -96,7 +97,7 @@ class Annotator {
   PersonErrors errors_;
   EvidenceOptions eye_;
   AnnotatorDice dice_;
-  std::array<int, 2> swapped_frames_{};  // remaining marked frames of the current exchange: arms, legs
+  std::array<int, 2> swapped_frames_{};  // remaining marked frames of the current exchange of [0] arms, [1] legs
 };
 
 }  // namespace etude

@@ -78,7 +78,7 @@ class RegionFinder {
     }
   }
 
-  // Extend the part's region.
+  // Adds a run that shows `part` to the region of this part.
   void AddRun(const PixelRun& run, std::uint8_t part) {
     Region& region = found_.parts[part];
     const int count = run.x1 - run.x0;

@@ -158,7 +158,7 @@ bool IsInside(const Capsule& capsule, const glm::dvec3& point) {
   return glm::dot(off, off) <= capsule.radius * capsule.radius;
 }
 
-/// Returns true if the ray misses the capsule's bounding sphere by more than any rounding error. Most rays do.
+/// Returns true if the ray misses the capsule's bounding sphere by more than any rounding error. Most rays miss it.
 bool PassesBy(const Capsule& capsule, const glm::dvec3& origin, const glm::dvec3& direction) {
   constexpr double kAir = 1e-6;  // a margin larger than any rounding error, metres
   const glm::dvec3 from = origin - 0.5 * (capsule.a + capsule.b);
@@ -177,7 +177,7 @@ double SideEntry(const Capsule& capsule, const glm::dvec3& origin, const glm::dv
   const glm::dvec3 across = direction - glm::dot(direction, unit) * unit;
   const glm::dvec3 from_across = from - glm::dot(from, unit) * unit;
   const double scale = glm::dot(across, across);
-  constexpr double kParallel = 1e-18;  // squared sine; a flatter ray counts as parallel and hits a half-sphere first
+  constexpr double kParallel = 1e-18;  // squared sine of the angle to the axis; below it, rays hit a half-sphere first
   if (scale < kParallel) return kInfinity;
   const double t = EntryRoot(glm::dot(from_across, across) / scale,
                              (glm::dot(from_across, from_across) - capsule.radius * capsule.radius) / scale);

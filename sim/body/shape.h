@@ -8,8 +8,8 @@
 
 namespace etude {
 
-/// The objects that a pixel or a ray can hit, with their numbers in label images: the parts of the performer's body,
-/// and all other objects.
+/// The objects that a pixel can show and a ray can hit, with their numbers in label images: the parts of the
+/// performer's body, and all other objects.
 enum class Part : std::uint32_t {
   kBackground = 0,
   kShadow = 1,
@@ -57,8 +57,8 @@ double HitDistance(const Capsule& capsule, const glm::dvec3& origin, const glm::
 
 /// The distances from an eye at which the ray to a joint hits the body; infinity without a hit.
 struct JointSight {
-  double skin;   ///< distance to the skin of the parts that end in the joint; at most the distance to the joint
-  double other;  ///< distance to the nearest part that does not end in the joint
+  double skin;   ///< distance to the skin of the parts that contain the joint; at most the distance to the joint
+  double other;  ///< distance to the nearest part that does not contain the joint
 };
 /// Computes the distances along the ray from `eye` to the joint of `role`. `body` must be `BodyCapsules(pose)`.
 JointSight SightOf(const std::vector<Capsule>& body, const BodyPose& pose, Role role, const glm::dvec3& eye);
@@ -67,8 +67,8 @@ JointSight SightOf(const std::vector<Capsule>& body, const BodyPose& pose, Role 
 /// the joint, like a hand on the hip, therefore does not hide it.
 constexpr double kHidingClearance = 0.02;
 
-/// Returns true if a part that does not end in `role` hides the joint from `eye`: the part is at least kHidingClearance
-/// in front of the joint's skin. `body` must be `BodyCapsules(pose)`.
+/// Returns true if a part that does not contain the joint of `role` hides this joint from `eye`: the part is more than
+/// kHidingClearance in front of the joint's skin. `body` must be `BodyCapsules(pose)`.
 bool IsHidden(const std::vector<Capsule>& body, const BodyPose& pose, Role role, const glm::dvec3& eye);
 
 /// An upright solid box, rotated about the vertical, metres. Sensors and the renderer use such boxes as furniture.

@@ -2,9 +2,9 @@
 
 namespace etude {
 
-/// The strengths of all effects of a camera between the light in the room and the file. At 0, an effect leaves every
-/// byte unchanged. The random numbers of an effect do not depend on any strength. The default is a camera with noise
-/// and no other effect. The headers named below describe the models.
+/// The strengths of all effects that a camera has on the light between the room and the file. An effect of strength 0
+/// changes no byte. The random numbers of an effect do not depend on any strength. By default, a camera has noise and
+/// no other effect. The headers named below describe the models.
 struct CameraEffects {
   // Time: clocks and shutters (camera_model.h).
   double sync_offset_ms = 0;      ///< clock offset of every camera except the first; the sign is random
@@ -13,7 +13,7 @@ struct CameraEffects {
   double motion_blur = 0;         ///< exposure time as a share of the time between frames
 
   // The lens (lens.h).
-  double radial_distortion = 0;      ///< shift of a picture's corner ÷ its distance from the axis; < 0 is a barrel
+  double radial_distortion = 0;      ///< a corner's shift ÷ the corner's distance from the optical axis; < 0: a barrel
   double tangential_distortion = 0;  ///< shift of that corner in a random direction, as a share like radial_distortion
   double defocus_px = 0;             ///< standard deviation of the Gaussian point spread function
   /// Vignetting: light decreases by cos(θ) to the power 4 · vignette, where θ is the angle from the axis. 1 is natural

@@ -75,7 +75,7 @@ class CameraModel {
   /// exposure, without blur, noise and dust.
   View Shoot(std::size_t frame, const Scene& scene, Targets targets);
 
-  /// Takes a picture of the empty stage at time 0, with random numbers of its own purpose.
+  /// Takes a picture of the empty stage at time 0. The noise of this picture has its own random stream.
   ColourImage ShootBackground(const Scene& scene);
 
  private:

@@ -1,6 +1,6 @@
 #include "sim/camera/jpeg.h"
 
-// jpeglib.h needs these headers before it.
+// jpeglib.h needs size_t and FILE; the headers that jpeg.h includes declare both.
 #include <jpeglib.h>
 
 #include <algorithm>

@@ -9,8 +9,8 @@
 
 namespace etude {
 
-// Only this file uses libjpeg(-turbo). Its integer transforms give the same bytes on every processor, with or without
-// vector instructions.
+// Only jpeg.cc uses libjpeg(-turbo). This library's integer transforms give the same bytes on every processor, with or
+// without vector instructions.
 
 /// Returns the bytes of a baseline JPEG file with the standard tables; colours have half the resolution (4:2:0).
 /// @param quality 1…100

@@ -106,8 +106,8 @@ LensWarp::LensWarp(const Camera& camera)
   pinhole_.intrinsics.cy += margin.y;
   assert(pinhole_.intrinsics.width <= kMaxPictureSide && pinhole_.intrinsics.height <= kMaxPictureSide);
 
-  // Store, for every pixel, its four source pixels and its nearest source pixel, and, for every row, the rows of the
-  // pinhole's picture that it needs.
+  // Store, for every pixel, its four source pixels and its nearest source pixel. Store, for every row, the rows of the
+  // pinhole's picture from which this row is interpolated.
   for (int y = 0; y < height_; ++y) {
     RowRange& rows = source_of_row_.emplace_back(RowRange{pinhole_.intrinsics.height, 0});
     for (int x = 0; x < width_; ++x) {

@@ -13,7 +13,8 @@
 namespace etude {
 
 /// Returns the lens distortion for these effects and intrinsics. k1 = radial / r², where r is the distance of the
-/// picture's farthest corner from the axis at depth 1. |p| = tangential / 3r, in a random direction (one draw).
+/// picture's farthest corner from the axis at depth 1. The vector (p1, p2) has the length tangential / 3r and a random
+/// direction (one draw).
 Distortion LensDistortion(const CameraEffects& effects, const Intrinsics& intrinsics, RandomStream& random);
 
 /// Warps pictures of a pinhole camera into pictures of a lens with distortion. The renderer draws straight lines only,
@@ -21,8 +22,8 @@ Distortion LensDistortion(const CameraEffects& effects, const Intrinsics& intrin
 /// then looked up in the pinhole's picture by `UndistortPixel`.
 class LensWarp {
  public:
-  /// Every pixel of the camera must have a source in the pinhole's picture; for usual cameras this holds if the
-  /// `radial` of a barrel distortion is above −0.14.
+  /// Every pixel of the camera must have a source in the pinhole's picture; for usual cameras this holds if a barrel
+  /// distortion has a `CameraEffects::radial_distortion` above −0.14.
   explicit LensWarp(const Camera& camera);
 
   /// Returns the pinhole camera for which scenes are rendered. Its picture is enlarged so that every pixel of the lens
@@ -35,12 +36,13 @@ class LensWarp {
 
   /// Computes these rows of `out`: light by bilinear interpolation, labels and depths from the nearest pixel. `source`
   /// must hold exactly the pinhole's rows SourceRows(rows). If the lens has no distortion, labels and depths are
-  /// copied, and light must not be passed. Empty pictures stay empty.
+  /// copied, and the overload for light must not be called.
   void Warp(const LightImage& source, const RowRange& rows, LightImage& out) const;
   void Warp(const LabelImage& source, const RowRange& rows, LabelImage& out) const;
   void Warp(const DepthImage& source, const RowRange& rows, DepthImage& out) const;
 
-  /// Warps a whole picture of the pinhole into the lens's picture. Colour is interpolated in linear light.
+  /// Warps a whole picture of the pinhole into the lens's picture. Colour is interpolated in linear light. An empty
+  /// image (colour, labels or depth) of `pinhole` stays empty.
   View Warp(const View& pinhole) const;
 
  private:

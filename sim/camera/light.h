@@ -7,8 +7,8 @@
 
 namespace etude {
 
-/// Linear light at one pixel; 1 is the brightest value that a picture can show. It has four numbers, because they fit
-/// one vector register on the oldest supported processor.
+/// Linear light at one pixel; 1 is the brightest value that a picture can show. The struct has four floats, because
+/// four floats fill one vector register of the oldest supported processor.
 struct alignas(16) Light {
   float r = 0, g = 0, b = 0, unused = 0;
 };
@@ -17,7 +17,7 @@ using LightImage = Image<Light>;
 /// Returns the linear light of each of the 256 values of an sRGB picture.
 const std::array<float, 256>& LightOfCodes();
 
-/// Converts linear light to sRGB codes by a table of 2^14 steps. Before rounding, the error is at most 0.11 codes (in
+/// Converts linear light to sRGB codes by a table of 2^14 codes. Before rounding, the error is at most 0.11 codes (in
 /// the dark, where the curve is steepest). Each value of LightOfCodes() is converted back to exactly the code that has
 /// this value.
 class CodeTable {

@@ -50,13 +50,13 @@ struct SensorNoise {
   bool IsNone() const { return read == 0 && photon == 0; }
 };
 
-/// Returns the noise of an indoor webcam whose pixels hold 3000 electrons, with a read noise of 3 electrons: about 3
-/// codes of an 8-bit picture in the dark, 2.4 at mid-grey, 2 in the light (ours). `strength` multiplies the standard
-/// deviations. With a gain of `gain_db`, proportionally fewer electrons fill a pixel.
+/// Returns the noise of an indoor webcam whose pixels hold 3000 electrons, with a read noise of 3 electrons *(ours)*.
+/// In an 8-bit picture, the standard deviation is about 3 codes in the dark, 2.4 at mid-grey and 2 in the light.
+/// `strength` multiplies it. With a gain of `gain_db`, proportionally fewer electrons fill a pixel.
 SensorNoise WebcamNoise(double strength, double gain_db);
 
 /// Draws standard normal numbers from a table of 1024 equally likely quantiles (at most 3.3 deviations from the mean),
-/// six numbers per 64 random bits. Each row of a picture uses ⌈count / 6⌉ words.
+/// six numbers per word of 64 random bits. A call for `count` numbers uses ⌈count / 6⌉ words.
 class NormalRows {
  public:
   explicit NormalRows(RandomStream& random) : random_(random) {}
@@ -74,7 +74,7 @@ class NormalRows {
   std::vector<float> normals_;
 };
 
-/// Returns the noisy value of light v, clipped at a full pixel. `normal` is a standard normal number.
+/// Returns `light` with noise, at most 1 (a full pixel). `normal` is a standard normal number.
 inline float Disturbed(const SensorNoise& noise, float light, float normal) {
   const float deviation = std::sqrt(noise.read * noise.read + noise.photon * noise.photon * (light > 0 ? light : 0));
   const float seen = light + deviation * normal;
@@ -114,7 +114,7 @@ struct Sensor {
   Toning toning{};
   SensorNoise noise{};
 
-  /// Reads the light with one chip per colour. For each pixel of a row, three random numbers are drawn.
+  /// Reads the light with one chip per colour, in place. For each pixel of a row, three random numbers are drawn.
   void ReadColours(RandomStream& random, LightImage& light) const;
   /// Reads the light with one chip under a Bayer filter. The same random numbers as in ReadColours are drawn; each
   /// pixel uses the number of its colour.

@@ -166,7 +166,7 @@ void AddTrunk(const Girth& girth, const BodyPose& rest, DressedPieces& pieces) {
               {21, 14.8, 11.2, 0.4}, {31, 16.4, 11.8, 0.6}, {38, 17, 11.4, 0.2},
               {44, 15.6, 9.8, -0.2}, {48.5, 11, 7.4, -0.6}, {51, 7, 6, -0.8}};
   for (Tube::Ring& ring : rings) {
-    // The belly is widest below the middle; the width at the shoulders follows the distance of the shoulder joints.
+    // Rings up to 12 cm get the belly's width, rings from 36 cm the trunk's. A wide belly also moves forward.
     const double low = std::clamp((36 - ring.along_cm) / 24, 0.0, 1.0);
     ring.side_cm *= std::lerp(g, b, low);
     ring.front_cm *= std::lerp(g, b, low);

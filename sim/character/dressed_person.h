@@ -16,8 +16,8 @@ enum class Build { kMedium, kSlim, kStout, kChild, kTall };
 struct Outfit {
   Build build = Build::kMedium;
   SurfacePaint skin, hair, top, bottom, shoes;
-  double sleeve_cm = 24;  ///< length of the sleeves along the arm (the wrist is at 30 + 25 cm)
-  double leg_cm = 78;     ///< length of the trousers along the leg (the ankle is at 42 + 42 cm)
+  double sleeve_cm = 24;  ///< length of the sleeves along the arm (the elbow is at 30 cm, the wrist at 55 cm)
+  double leg_cm = 78;     ///< length of the trousers along the leg (the knee is at 42 cm, the ankle at 84 cm)
   bool is_skirt = false;  ///< a skirt instead of trousers
   double skirt_cm = 40;   ///< length of the skirt from the hips down
   bool has_long_hair = false;
@@ -31,8 +31,8 @@ class DressedPerson {
  public:
   explicit DressedPerson(const Outfit& outfit);
 
-  /// Returns the figure in a pose, scaled to the body's proportions (see PosedFigure). The figure's capsules cast its
-  /// shadow.
+  /// Returns the figure in a pose, scaled to the body's proportions (see PosedFigure). `BodyCapsules(pose)` casts the
+  /// figure's shadow.
   Figure At(const BodyPose& pose) const;
 
  private:

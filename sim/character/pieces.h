@@ -70,7 +70,7 @@ struct Patch {
 };
 Piece MakePiece(const Patch& patch, const Tube& tube, const BodyPose& rest);
 
-/// A thin rope along points, which moves with one joint; centimetres from the joint.
+/// A thin rope along points that are given in centimetres from a joint. The rope moves with this joint.
 struct Rope {
   std::string name;
   Role joint;

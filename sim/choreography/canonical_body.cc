@@ -22,7 +22,7 @@ struct LegJoints {
 };
 
 /// The largest distance from hip to ankle, as a share of the leg's length. A share below 1 prevents fully straight
-/// knees, which would snap.
+/// knees, near which the knee's angle would change abruptly.
 constexpr double kReach = 0.998;
 
 double LegLength(const BodyDimensions& body) { return body.thigh + body.shank; }
@@ -201,8 +201,8 @@ glm::dvec3 PlaceHips(const Controls& controls, const BodyDimensions& body, const
   return {wanted.x, SmoothMin(wanted.y, SmoothMin(limit(Side::kLeft), limit(Side::kRight))), wanted.z};
 }
 
-/// Returns the controls with their lengths scaled to this body: by the ratio of this body's leg length to the canonical
-/// body's leg length.
+/// Returns the controls with their lengths scaled to this body: by the ratio of this body's hip height to the canonical
+/// body's hip height.
 Controls InProportion(const Controls& controls, const BodyDimensions& body) {
   constexpr std::array kMiddle = {kHipsSide, kHipsAhead, kHipsDrop, kJump};
   constexpr std::array kOfASide = {kFootSide, kFootAhead, kFootLift};

@@ -26,7 +26,7 @@ struct Word {
 };
 constexpr double kAny = 1e9;
 
-/// The words for one feature, and the part of the body that the feature describes. Features with an empty word are left
+/// The words for one feature, and the part of the body that the feature describes. A value with an empty word is left
 /// out of the hint.
 struct Vocabulary {
   std::string_view feature;  ///< name of the feature, without the prefix R or L

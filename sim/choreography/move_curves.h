@@ -35,8 +35,8 @@ class PeriodicCurve {
     double at;
     double value;
     Ease ease = Ease::kSmooth;  ///< timing of the motion from the previous key to this key
-    /// The derivatives at this key, if physics determines them (a flight). Otherwise the derivatives are computed from
-    /// the neighbouring keys.
+    /// The first and second derivatives (`slope`, `bend`) at this key, if physics determines them (in a flight).
+    /// Otherwise they are computed from the neighbouring keys.
     struct Derivatives {
       double slope, bend;
     };
@@ -100,8 +100,8 @@ class MoveCurves {
   /// may cross the end of the loop.
   MoveCurves(const std::vector<PoseKey>& keys, double beats, Style style);
 
-  /// Makes the smooth loop through bodies at equal steps over `beats` beats, for a performance without authored poses.
-  /// There must be at least one body. The curve is exactly constant between equal neighbours.
+  /// Makes the smooth loop through `bodies` (at least one), which are equally spaced over `beats` beats, for a
+  /// performance without authored poses. The curves are exactly constant between equal neighbours.
   static MoveCurves Through(std::span<const Controls> bodies, double beats);
 
   const Style& style() const { return style_; }

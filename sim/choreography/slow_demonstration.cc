@@ -20,8 +20,8 @@ class Pauses {
     double before = 0;
     for (std::size_t i = 0; i <= stops_.size(); ++i) {
       const double next = i < stops_.size() ? stops_[i] : beats;
-      // Two ramps must fit between neighbouring stops. The mean speed in a ramp is ½, so each ramp covers half of its
-      // length.
+      // Two ramps must fit between neighbouring stops. The mean speed in a ramp is ½, so a ramp that lasts r beats
+      // covers r / 2 beats of the move.
       ramp_ = std::min(ramp_, next - before);
       before = next;
     }
@@ -36,7 +36,7 @@ class Pauses {
     return stops_[stop] + PerStop() * static_cast<double>(stop) + 0.5 * ramp_;
   }
 
-  /// Returns the beat of the move at a beat of the demonstration. During a stop, it is constant.
+  /// Returns the beat of the move at a beat of the demonstration. During a hold, the beat of the move is constant.
   double MoveBeat(double beat) const {
     for (std::size_t i = stops_.size(); i-- > 0;) {
       const double since = beat - HoldStart(i);

@@ -28,9 +28,9 @@ constexpr double kBlendBeatsBefore = 1, kBlendBeatsAfter = 0.5;
 
 /// Returns the body at a beat of the music. In the blend between two turns, both turns are danced: the first turn
 /// beyond its last beat, and the second turn, with growing weight, before its first beat. Feet are not blended: they
-/// change from the first turn to the second exactly at beat 0 of the second. In every move the feet are at home at beat
-/// 0, so a standing foot does not move. `turns` (at least one) must follow each other without gaps. The body is at rest
-/// before the first turn and after the last.
+/// change from the first turn to the second exactly at beat 0 of the second turn. At beat 0 of every move, the feet are
+/// on their home spots, so a standing foot does not move. `turns` (at least one) must follow each other without gaps.
+/// The body is at rest before the first turn and after the last.
 Controls SequenceAt(std::span<const Turn> turns, double beat);
 
 /// One part of a song, in which one move is danced `times` times in a row.

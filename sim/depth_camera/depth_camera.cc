@@ -139,8 +139,8 @@ class Exposure {
     return IsDepthEdge(own, other) ? other : own;
   }
 
-  // Adds axial noise to a depth. A disparity step s is a depth step of s z² / (f b); rounding to it adds the variance
-  // step² / 12. The published law includes this variance, so this variance is subtracted here.
+  // Adds axial noise to a depth. A disparity step s is a depth step of s z² / (f b). Rounding to depth steps adds the
+  // variance (depth step)² / 12. The published law includes this variance, so this variance is subtracted here.
   double WithNoise(double z, double normal) const {
     if (std::isinf(z)) return z;
     const double step = HasSteps() ? Step() * z * z / Focus() : 0;

@@ -18,14 +18,14 @@ Mask ProjectorShadow(const DepthImage& depth, const Camera& camera, double basel
 
 /// The properties of a depth camera and the strengths of its faults.
 struct DepthCameraOptions {
-  DepthLaw law = DepthLaw::kStructuredLight;  ///< law of σ_z, a pixel's noise along the view; includes rounding
+  DepthLaw law = DepthLaw::kStructuredLight;  ///< law of σ_z, the deviation of a pixel's depth; includes rounding
   /// The focal length of the sensor's own picture, pixels. Lateral noise and disparity steps are given in these pixels.
   /// In a picture with another focal length, noise and steps have the same size in the world.
   double focal_px = 580;
   /// The distance from the camera to the projector, which is on the camera's right (+x of the camera's frame), metres.
   /// With 0 the light comes from the lens itself: there are no shadows and no depth steps.
   double baseline_m = 0.075;
-  double disparity_step_px = 1.0 / 8;  ///< step: disparities focal_px · baseline_m / z are rounded to multiples
+  double disparity_step_px = 1.0 / 8;  ///< disparities focal_px · baseline_m / z are rounded to multiples of this step
   double near_m = 0.8;
   double far_m = 4.0;
   /// The maximum angle between a surface's normal and the line of sight at which depth is measured, radians.

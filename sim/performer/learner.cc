@@ -15,8 +15,9 @@
 namespace etude {
 namespace {
 
-// The amounts of learning (learning_law.h) are ours. Practice without knowledge of results teaches little, and
-// knowledge of results teaches much: this is the first finding of Salmoni, Schmidt and Walter (1984).
+// The amounts of learning are ours; one unit is the learning from one trial with knowledge of results (`Skill`).
+// Practice without knowledge of results teaches little, and knowledge of results teaches much: this is the first
+// finding of Salmoni, Schmidt and Walter (1984).
 constexpr double kPractice = 0.25;
 constexpr double kDemonstration = 1;
 constexpr double kCorrection = 4;  // units per fault of the corrected performance
@@ -33,8 +34,8 @@ constexpr double kWrongPraiseCost = 0.06;
 constexpr double kCorrectionCost = 0.02;
 constexpr double kPraiseGain = 0.03;
 
-/// The minimum severity of a fault that happens (ours). Many faults below it would be too mild to make a performance
-/// wrong.
+/// The minimum severity of a fault that happens (ours). Many faults of lower severity would be too mild to make a
+/// performance wrong.
 constexpr double kMinSeverity = 0.35;
 
 /// The probability of each fault for a person without any skill, in the order of Fault (ours).

@@ -44,9 +44,9 @@ struct Person {
   FloorMove place = {};  ///< position and heading on the floor; the coach is at the origin and faces +Z
 
   double lag_s = 0;         ///< mean delay behind the coach
-  double lag_spread_s = 0;  ///< standard deviation of the delay between performances
+  double lag_spread_s = 0;  ///< standard deviation of the delay, over the person's performances
   double tempo = 1;         ///< factor on the move's tempo if no music sets the tempo
-  double tempo_spread = 0;  ///< standard deviation of the tempo's logarithm between performances
+  double tempo_spread = 0;  ///< standard deviation of the tempo's logarithm, over the person's performances
   double drift = 0;         ///< unevenness of the timing within a performance, as a share of the performance's length
   double amplitude = 1;     ///< factor on every angle's distance from the ready stance
   double tiring = 0;        ///< share of the amplitude that is lost after a minute of dancing

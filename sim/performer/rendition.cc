@@ -57,7 +57,7 @@ void LeaveOut(Controls& controls, const Controls& rest, const LimbName& limb, do
 }
 
 SmoothOffsets DrawWays(const Person& person, std::uint64_t key) {
-  constexpr double kOfStyle = 0.25;  // standard deviation between one person's performances ÷ between people (ours)
+  constexpr double kOfStyle = 0.25;  // deviation between one person's performances ÷ deviation between people (ours)
   RandomStream random(WorldKey{.suite_seed = key, .scenario = "rendition"}, "ways");
   return {random, kOfStyle * person.looseness};
 }

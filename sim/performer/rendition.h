@@ -50,6 +50,7 @@ class Rendition {
   const Style& style() const { return *meant_; }
 
   /// Return the body at a share of the performance: Meant returns it without the faults, Danced with the faults.
+  /// `vigour` is the share of the amplitude that is left when the person is tired.
   Controls Meant(double share, double vigour = 1) const;
   Controls Danced(double share, double vigour = 1) const;
   /// Returns the weight of the dance: 1 while the person dances, 0 while they stand still.

@@ -86,7 +86,7 @@ LampView SeeFromLamp(const std::vector<float>& depths, const Camera& camera, con
   return view;
 }
 
-// The number of cameras in the largest rig. Each kept picture takes about 25 MB at 640 × 480, or 100 MB with smoothing.
+// The number of cameras in the largest rig. A kept picture takes about 25 MB at 640 × 480, and 100 MB at 1280 × 960.
 constexpr std::size_t kMaxKept = 8;
 
 bool SameView(const Camera& a, const Camera& b) {

@@ -122,9 +122,9 @@ constexpr const char* kPlace = R"glsl(
 void main() { Place(vec4(place_in, 1.0)); }
 )glsl";
 
-// Projects a point from the lamp onto a plane: the point's coordinates are divided by its fall, the distance from the
-// lamp in the plane's direction. The homogeneous w does this division, so triangles stay flat, interpolation is exact,
-// and points above the lamp lie beyond infinity.
+// Projects a point from the lamp onto a plane: the point's coordinates are divided by `fall`, the point's distance from
+// the lamp towards the plane. The homogeneous w does this division, so triangles stay flat, interpolation is exact, and
+// points above the lamp lie beyond infinity.
 constexpr const char* kShadowPlace = R"glsl(
 uniform vec3 eye;
 uniform vec3 lamp;

@@ -17,7 +17,7 @@ struct GlLibrary {
 };
 
 /// Opens a shared library. If the library exists but cannot be loaded (for example without enough address space), the
-/// error is marked as an error of this machine.
+/// machine caused the error, so the error is made by `FailOfMachine`.
 Result<void*> OpenGlLibrary(const char* name, const char* file);
 
 /// Loads OSMesa. Fails if OSMesa is missing now or was missing at build time.

@@ -64,7 +64,7 @@ class TextureStore {
   void Bind(const SharedTexture& texture);
 
  private:
-  // This shared pointer keeps the texture alive; otherwise another texture could get the same address.
+  // `texture` is a shared pointer that keeps the texture alive; otherwise another texture could get the same address.
   struct Uploaded {
     SharedTexture texture;
     GLuint name = 0;
@@ -93,8 +93,8 @@ class FrameTargets {
   /// Clears rectangles (at least one) of the attachments selected by WriteOnly: their pixels then count as not drawn.
   /// From then on, drawing is limited to the bounding rectangle of `rects`.
   void Clear(const std::vector<PixelRect>& rects);
-  /// Selects the attachments that the next draw calls write. This uses colour and depth masks, because a change of
-  /// attachments would make Mesa finish all pending drawing.
+  /// Selects the attachments that the next draw calls write. This uses colour masks, because a change of attachments
+  /// would make Mesa finish all pending drawing.
   void WriteOnly(bool colour, bool labels, bool depth);
   /// Copies the drawn pixels of a rectangle from GL to the pictures of `view`, which must have their size already. The
   /// first row of `view` is row `top_row` of the picture.

@@ -23,7 +23,7 @@ enum class Pattern {
   kChecks,     ///< bands and stripes
   kTwoTone,    ///< the second colour below the height `size`
   kPlanks,     ///< boards of width `size`; each board has its own tone
-  kTiles,      ///< squares of side `size`, each with its own tone, separated by joints
+  kTiles,      ///< squares of side `size`, each with its own tone, separated by dark lines
   kSpeckle,    ///< grains of `size`: carpet, plaster, bark
   kPatchwork,  ///< blocks of `size`, each a mix of the two colours: books, pictures
 };

@@ -77,7 +77,7 @@ Extent ShadowOn(const Extent& extent, const glm::dvec3& lamp, int axis, double p
   const double reach = std::abs(lamp[axis] - plane), side = lamp[axis] > plane ? 1 : -1;
   for (const glm::dvec3& corner : extent.Corners()) {
     const glm::dvec3 from_lamp = corner - lamp;
-    const double fall = std::max(-side * from_lamp[axis], 0.05);  // from the lamp to the plane; ≥ 5 cm as in shaders
+    const double fall = std::max(-side * from_lamp[axis], 0.05);  // distance from the lamp towards the plane, ≥ 5 cm
     glm::dvec3 point = lamp + from_lamp * (reach / fall);
     point[axis] = plane;
     shadow.Add(point);

@@ -6,7 +6,8 @@
 
 namespace etude {
 
-/// Sets the camera's pixel geometry, the room's surfaces and its lamp in `program`, which must be in use.
+/// Sets the camera's pixel geometry, the position of the studio's wall, and the room's lamp in `program`, which must be
+/// in use.
 void SetPixelGeometry(const GlFunctions& gl, GLuint program, const Camera& camera, const Room& room);
 
 /// Sets the room's lights in `program`, which must be in use.

@@ -119,8 +119,8 @@ SlowNoise::SlowNoise(double time_s, double smoothing_s, double rate_hz, RandomSt
   // − s m)).
   const double s = smoothing_, m = memory_;
   scale_ = std::sqrt((1 + s) * (1 - s * m) / ((1 - s) * (1 + s * m)));
-  // Draw from the stationary joint distribution of the two processes (low pass and second low pass): variances 1 and
-  // 1/scale², covariance (1 − s) / (1 − s m).
+  // Draw the states of both low passes together from their stationary distribution: variances 1 and 1/scale²,
+  // covariance (1 − s) / (1 − s m).
   const glm::dvec3 a = dice.Normal3(), b = dice.Normal3();
   const double covariance = (1 - s) / (1 - s * m);
   const double rest = std::max(0.0, 1 / (scale_ * scale_) - covariance * covariance);
@@ -249,7 +249,7 @@ FrameErrors ContinuousErrors::Next(const BodyPose& pose, const FrameMotion& moti
     const glm::dvec3 white = group.white * wander_dice_.Normal3();
     const bool is_foot = GroupOf(role) == JointGroup::kFeet;
     const double size = is_foot ? glm::mix(options_.planted_feet, group.size, moves) : group.size;
-    const double rest_axis = std::sqrt(3.0);  // `still` and `white` are sizes per axis; InWorld expects all axes
+    const double rest_axis = std::sqrt(3.0);  // `still` and `white` are per axis; InWorld expects a size in 3D
     errors[j] = options_.strength * (InWorld(sight, unit[j], size, group.depth_ratio) +
                                      InWorld(sight, wander + white, rest_axis, group.depth_ratio));
   }

@@ -11,7 +11,7 @@ namespace etude {
 namespace {
 
 constexpr std::size_t kSpeedReach = 2;           // frames on either side of a frame over which a speed is measured
-constexpr std::size_t kFootReach = 5;            // frames on either side of a frame over which a foot's motion is rated
+constexpr std::size_t kFootReach = 5;            // frames on either side over which a foot's largest speed is taken
 constexpr double kResting = 0.1, kMoving = 0.6;  // m/s; a foot is at rest below kResting and in motion above kMoving
 static_assert(kSpeedReach + kFootReach == MotionWindow::kAhead);
 

@@ -216,10 +216,10 @@ SkeletonSensorOptions SensorV2() {
   SkeletonSensorOptions v2;
   v2.view = {.width = 512, .height = 424, .fx = 365, .fy = 365, .cx = 256, .cy = 212, .skew = 0};  // view 70° × 60°
   v2.depth_law = DepthLaw::kTimeOfFlight;
-  // These values were fitted by `etude sensor fit`, 240 worlds, to one recording with an optical reference: for 6.6 s,
-  // a seated person lifts and lowers both arms 3 m in front of a Kinect v2. The recording does not determine: errors of
-  // feet in motion (published: 5–6 cm); errors at other distances, of turned or standing bodies, and of other people;
-  // lag, hidden limbs, swaps and dropouts.
+  // `etude sensor fit` fitted these values, with 240 simulated worlds, to one recording with an optical reference: for
+  // 6.6 s, a seated person lifts and lowers both arms 3 m in front of a Kinect v2. The recording does not determine:
+  // errors of feet in motion (published: 5–6 cm); errors at other distances, of turned or standing bodies, and of other
+  // people; lag, hidden limbs, swaps and dropouts.
   v2.reference_distance_m = 3.04;
   v2[JointGroup::kTorso] = {.size = 0.0344, .depth_ratio = 0.93, .still = 0.0014, .white = 0.000022};
   v2[JointGroup::kShoulders] = {.size = 0.0805, .depth_ratio = 1.16, .still = 0.0014, .white = 0.000044};

@@ -87,8 +87,8 @@ struct SkeletonSensorOptions {
 
   std::array<GroupErrors, kJointGroupCount> groups;
   /// Errors follow a linear model on the tree of the body: in units of the size of the joint's group, a joint's error
-  /// is ρ times the parent joint's error plus √(1 − ρ²) times the joint's own error. ρ depends on the kind of bone and
-  /// is in (−1, 1).
+  /// is ρ times the parent joint's error plus √(1 − ρ²) times an independent part, the joint's own error. ρ depends on
+  /// the kind of bone and is in (−1, 1).
   std::array<double, kBoneKindCount> correlation{};
   /// Factors on a joint's own error along the bones that end in the joint. With a factor below 1, the sensor keeps limb
   /// lengths nearly constant.
@@ -126,7 +126,7 @@ struct SkeletonSensorOptions {
   int longest_episode = 40;
   double nearest_guess_m = 0.2;  ///< smallest and largest error of a wrong guess for a hand or foot
   double farthest_guess_m = 1.1;
-  double wrong_guess_chance = 0.6;  ///< probability of a wrong guess; others are as accurate as for a seen joint (ours)
+  double wrong_guess_chance = 0.6;  ///< probability of a wrong guess; a right guess errs like a seen joint (ours)
 
   double dropout_share = 0.02;    ///< share of all frames in which the whole body is lost
   double swaps_per_minute = 1.0;  ///< exchanges of left and right arms or legs in profile, 1/3 s each (ours)

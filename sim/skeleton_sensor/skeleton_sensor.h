@@ -131,8 +131,8 @@ class SkeletonSensor final : public LiveSensor {
   SkeletonSensor(const Camera& sensor, const Occluders& occluders, const SkeletonSensorOptions& options, double rate_hz,
                  const WorldKey& world);
 
-  /// Reports a joint as inferred while it is hidden, and as not tracked while it is out of view. The report describes
-  /// the pose `options.Lag()` frames before.
+  /// Reports a joint as inferred while it is hidden, and as not tracked while it is out of view. Because of the lag,
+  /// the report of a frame describes the pose `options.Lag()` frames before this frame.
   std::optional<SensedFrame> Update(const BodyPose& pose) override;
   /// Returns the reports of the last `kAhead` frames, at the end of a motion. No other call may follow.
   std::vector<SensedFrame> Finish();

@@ -60,13 +60,13 @@ class Movers {
 struct StageOptions {
   std::uint64_t seed = 1;  ///< seed of all random numbers; `scene` does not change these numbers
   /// 0 = the studio: an empty, bluish room and a performer of capsules in warm colours. 1 = a furnished room with
-  /// moving people and objects, whose colours the performer's clothes share (README.md has the table).
+  /// moving people and objects; the performer's clothes and the objects have similar colours (table in README.md).
   double scene = 0;
   Wardrobe wardrobe = Wardrobe::kStudio;
 };
 
-/// The room around a performer: furniture, moving objects, the performer's clothes, and the lighting. At scene 0 the
-/// room has none of them.
+/// The room around a performer: furniture, moving objects, the performer's clothes, and the lighting. At scene 0 it is
+/// the empty studio.
 class StagedRoom {
  public:
   StagedRoom() = default;

@@ -27,8 +27,8 @@ std::vector<double> ResidualsOf(const RefinedRig& rig, std::span<const TargetVie
   return rms;
 }
 
-/// Calibrates twice: the second time without the pictures whose residual exceeds three times the median, because in
-/// such pictures the board is blurred or has moved.
+/// Calibrates the rig. If the board is OpenCV's, leaves out the pictures whose residual exceeds three times the median,
+/// because in such pictures the board is blurred or has moved, and calibrates again, at most three times.
 Result<RefinedRig> CalibrateWithoutOutliers(const BoardViews& search, const CalibrateOptions& options,
                                            std::vector<TargetView>& views) {
   std::erase_if(views, [](const TargetView& view) { return !HomographyOf(view.pairs); });
@@ -200,8 +200,8 @@ Result<void> CompareBeside(const CalibrateOptions& options, const RefinedRig& ri
   return {};
 }
 
-/// Draws each camera's best picture with the corners from all pictures of this camera, coloured by error: yellow below
-/// 0.5 px, orange below 1 px, else red.
+/// Draws each camera's picture with the most corners, and over it the corners from all pictures of this camera,
+/// coloured by error: yellow below 0.5 px, orange below 1 px, else red.
 std::string PictureOfBoards(const RefinedRig& rig, std::span<const TargetView> views, std::vector<CameraBoards> seen) {
   // Lay out one panel for each camera, one below the other.
   constexpr int kWidth = 640, kGap = 8;

@@ -87,7 +87,7 @@ Result<void> SetSize(const std::string& text, std::vector<CameraPairs>& cameras)
   return {};
 }
 
-/// Fails if the picture is too small for a pixel that shows a point.
+/// Fails if the pixel of a point pair lies outside the camera's picture.
 Result<void> CheckPixels(const CameraPairs& of, const std::string& file) {
   for (const PointPair& pair : of.pairs) {
     const glm::dvec2& p = pair.pixel;
@@ -101,8 +101,8 @@ Result<void> CheckPixels(const CameraPairs& of, const std::string& file) {
 
 /// Finds a point pair that disagrees with the other pairs. Two conditions must hold. Without this pair, the squared
 /// error is lower by more than chance explains in one of 100 calibrations (F test for one pair, Bonferroni over all
-/// pairs). And the calibration from the other pairs projects its point a pixel or more away from its pixel. Only the 20
-/// pairs with the largest residuals are tried.
+/// pairs). And the calibration from the other pairs projects the point of this pair a pixel or more away from the pixel
+/// of this pair. Only the 20 pairs with the largest residuals are tried.
 std::optional<DisagreeingPair> FindDisagreeing(const CameraPairs& of, const RefinedRig& all,
                                                const RefineOptions& options) {
   constexpr std::size_t kMaxTried = 20;

@@ -24,7 +24,7 @@ struct CalibrateOptions {
   std::string world = "floor";  ///< "floor" or "wall": the plane in which the first board lies
   /// Every n-th frame of a film is searched; 0 = every 30th, or for OpenCV's boards about 200 frames.
   int every = 0;
-  double sync_s = 0;            ///< maximum delay between films of boards; 0 = two search intervals
+  double sync_s = 0;            ///< maximum delay between films of boards; 0 = twice the time between searched frames
   std::string picture;          ///< a PNG to write with the found corners and their errors, "" = none
   std::string beside;           ///< another calibration of these cameras for comparison, or "opencv"; "" = none
   std::string print;            ///< a PNG to write: the board itself, to be printed
@@ -35,7 +35,7 @@ struct CalibrateOptions {
 struct DisagreeingPair {
   std::size_t index = 0;  ///< index among the pairs of the pair's camera, from 0
   PointPair pair;
-  double error_px = 0;        ///< distance of the pixel from the point as that calibration projects it
+  double error_px = 0;        ///< distance between the pair's pixel and the projection of its point by that calibration
   double rms_without_px = 0;  ///< reprojection error of all other pairs in that calibration
 };
 
@@ -61,8 +61,8 @@ Result<Calibrated> CalibrateFromPictures(const CalibrateOptions& options);
 /// the findings. Every complaint names the file or the option.
 Result<Calibrated> CalibrateRig(const CalibrateOptions& options);
 
-/// Writes the first of `boards` to `print`, as a PNG of 16 pixels per module that states its size in print. Reports the
-/// paper size on which the board fits.
+/// Writes the first of `boards` to `print`, as a PNG of 16 pixels per module, with the resolution that prints the board
+/// at its size. Reports the paper size on which the board fits.
 Result<void> PrintBoard(const CalibrateOptions& options);
 
 }  // namespace etude

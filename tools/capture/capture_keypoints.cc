@@ -244,7 +244,7 @@ Result<bool> CaptureKeypoints(const CaptureFilmsOptions& options, FilmedSession 
   ASSIGN_OR_RETURN(SeenFilms films, SeeFilms(options, recover, session));
   ASSIGN_OR_RETURN(RecoveredPerson located, LocatePerson(films.cameras, films.people, recover));
   // Move the rig and the points into the world: metres, Y up, with the floor that the options define.
-  for (const FilmedView& view : views) {  // the cameras in `views` have the recovery's corrections
+  for (const FilmedView& view : views) {  // `SeeFilms` may have exchanged or corrected the cameras in `views`
     const auto same = std::ranges::find(session.rig.cameras, view.camera.name, &NamedCamera::name);
     if (same != session.rig.cameras.end()) same->camera = view.camera.camera;
   }

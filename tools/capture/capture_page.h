@@ -53,7 +53,8 @@ struct CapturePage {
   std::string version, command;
 };
 
-/// Writes one HTML page in the style of a run's page. It needs no other file, and may not use the network.
+/// Writes one HTML page in the style of a run's page. The page needs no other file, and its Content-Security-Policy
+/// forbids network access.
 std::string WriteCapturePage(const CapturePage& page);
 
 }  // namespace etude

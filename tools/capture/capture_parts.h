@@ -52,8 +52,8 @@ struct SeenFilms {
   MessageLog told;
 };
 
-/// Reads the keypoints or marks of all films, maps them to the rig's pictures and to a common time, and reports how it
-/// did so. Sets in `session` the rotation of each film's pictures and the camera that really took each film.
+/// Reads the keypoints or marks of all films, maps them to the rig's pictures and to a common time, and reports these
+/// mappings. Sets in `session` the rotation of each film's pictures and the camera that really took each film.
 Result<SeenFilms> SeeFilms(const CaptureFilmsOptions& options, const RecoverPersonOptions& recover,
                            FilmedSession& session);
 
@@ -138,8 +138,8 @@ Result<ReducedTake> ReadTake(const CaptureFilmsOptions& options, const std::vect
                              const std::vector<FilmClock>& clocks, MessageLog& told);
 ReducedTake PairOf(const ReducedTake& take, const CameraPair& pair);
 
-/// Findings from keypoints that support silhouettes: the person's keypoints, in the take's cameras, and the limb
-/// lengths. The keypoints or the lengths may be absent.
+/// Findings from keypoints that support the tracking by silhouettes: the person's keypoints, in the take's cameras, and
+/// the limb lengths. The keypoints or the lengths may be absent.
 struct KeypointSupport {
   const MatchedPerson* person = nullptr;
   std::optional<LimbLengths> lengths = {};

@@ -38,7 +38,7 @@ Result<SeenPeople> ReadPeople(const CaptureFilmsOptions& options, FilmedView& vi
   return std::move(film.frames);
 }
 
-/// Maps all keypoints to the rig's pictures, and reports how it did so.
+/// Maps all keypoints to the rig's pictures, and reports the mappings.
 void FitPeople(const RigFile& rig, std::vector<FilmedView>& views, std::vector<SeenPeople>& people,
                double min_confidence, MessageLog& told_lines) {
   std::vector<PictureOfFilm> films;

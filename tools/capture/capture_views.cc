@@ -195,8 +195,8 @@ Result<FilmedSession> OpenFilms(const CaptureFilmsOptions& options) {
       if (other.camera.name == view.camera.name) {
         return Fail({view.path.string()}, "camera {} has {} already", view.camera.name, other.path.string());
       }
-    // Fit the camera's pictures to the film's pictures.
     }
+    // Fit the camera's pictures to the film's pictures.
     Intrinsics& in = view.camera.camera.intrinsics;
     if (in.width == 0) FindSize(view, told);
     const bool is_turned = options.fit == "none" && in.width != in.height && in.width == view.facts.height &&

@@ -21,7 +21,8 @@ namespace fs = std::filesystem;
 
 constexpr int kMaxNumber = 16;  // if no grey value exceeds this number, the values are region numbers, not shades
 
-/// Calls `visit` with each mask of a film in order, and with the file's name for complaints.
+/// The callback of VisitFolder and VisitFilm. It receives each mask of a film in order, and the file's name for
+/// complaints.
 using MaskVisit = std::function<Result<void>(const MaskPicture& mask, const std::string& file)>;
 
 Result<void> VisitFolder(const fs::path& folder, const MaskVisit& visit) {
@@ -56,8 +57,8 @@ Result<void> VisitFilm(const fs::path& path, const MaskVisit& visit) {
   }
 }
 
-/// Returns a reduced mask, in which a pixel is set if the person covers at least half of the film's pixels that it
-/// stands for.
+/// Returns a reduced mask, in which a pixel is set if at least half of the film's pixels in the pixel's patch show the
+/// person.
 template <typename IsPerson>
 Mask Reduced(const Image<std::uint8_t>& values, const Image<FilmPatch>& patches, const IsPerson& is_person) {
   Mask mask(patches.width, patches.height);

@@ -30,9 +30,9 @@ struct OverlayView {
   double drift = 0;
 };
 
-/// Writes the films side by side. Over each film it draws the skeleton as the camera would show it (lines) and the
-/// keypoints (dots). The result has as many frames as `motion`. Fails if a film cannot be read or ffmpeg cannot be
-/// started. Returns false, and leaves no file, if the writing was stopped.
+/// Writes the films side by side. Over each film, the skeleton is drawn as lines, as the camera would show it, and the
+/// keypoints are drawn as dots. The result has as many frames as `motion`. Fails if a film cannot be read or ffmpeg
+/// cannot be started. Returns false, and leaves no file, if the writing was stopped.
 /// @param middle if not null, receives the middle frame
 Result<bool> WriteOverlayFilm(const std::filesystem::path& path, std::span<const OverlayView> views,
                               const BodyMotion& motion, const FilmWatch& watch, Picture* middle = nullptr);

@@ -19,7 +19,7 @@ struct BridgeLibraryOptions {
   /// The corrective clips, which are added to the library; empty = the coach's own clips among `clips`.
   std::vector<std::string> to;
   FuzzySystem system;
-  double threshold = 0.4;          ///< two frames match if their fuzzy distance is smaller
+  double threshold = 0.4;          ///< two frames match if their fuzzy distance is smaller than this threshold
   int min_clips = 2;               ///< minimum number of clips in which the tags of a bridge frame must occur
   int most_per_class = 0;          ///< maximum number of bridge frames per clip and pose (combination of tags); 0 = all
   bool within_class = false;       ///< compare only frames with the same ten tags

@@ -214,7 +214,7 @@ std::string BodyLines(const BodyFacts& body) {
   }
   std::string remarks;
   for (const std::string& remark : RemarksOf(body)) remarks += Line("remark", remark);
-  // The unit or the marker set is printed beside the stature; every other change gets a line of its own.
+  // The first change (the unit or the marker set) is printed beside the stature; every other change gets its own line.
   std::string changes;
   for (std::size_t i = 1; i < body.changes.size(); ++i) changes += Line("changed", body.changes[i]);
   return Line("body", fmt::format("{:.2f} m tall along its joints; {}; {} up ({})", motion.stature_m,

@@ -67,7 +67,7 @@ std::string FactsAsText(const ClipFacts& facts, const ClipFacts* before = nullpt
 /// Writes the facts as a caption: "BVH · 22.9 s at 120 Hz · 31 joints · 1.59 m tall · feet slide 0.6 cm/s · 1 unit =
 /// 5.644 cm (CMU)".
 std::string FactsAsLine(const ClipFacts& facts);
-/// Writes the facts as one line of JSON (docs/schemas/clip-info.schema.json).
+/// Returns the facts as JSON (docs/schemas/clip-info.schema.json).
 Json FactsAsJson(const std::vector<ClipFacts>& facts);
 
 }  // namespace etude

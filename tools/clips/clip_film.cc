@@ -46,7 +46,8 @@ double TurnFor(Viewpoint from) {
   return Radians(90);
 }
 
-// Rough edges are less visible in motion, so a smaller factor than for contact sheets (2) is enough.
+// Pictures are rendered larger by this factor and then shrunk, which smooths edges (supersampling). Rough edges are
+// less visible in motion, so a smaller factor than for contact sheets (2) is enough.
 constexpr double kDetail = 1.5;
 // The camera path is averaged over this many frames (half a second) to either side.
 constexpr int kSmoothing = 15;

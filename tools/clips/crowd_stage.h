@@ -22,7 +22,8 @@ class CrowdStage {
     BodyPose pose;
     bool stands_out = false;
   };
-  /// Draws a crowd with a caption of two lines. The crowd must not have more characters than the constructor was told.
+  /// Draws a crowd with a caption of two lines. The crowd must not have more characters than the constructor's
+  /// `characters`.
   Canvas Draw(std::span<const Character> crowd, const std::string& strong, const std::string& soft);
 
  private:

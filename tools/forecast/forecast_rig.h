@@ -74,7 +74,7 @@ struct RigForecast {
   double median_mm = 0, p95_mm = 0;   ///< median and 95th percentile of the error over the places that are seen
   ForecastPlace worst;                ///< the place with the largest error among the seen places
   double bodies = 0;  ///< share of places on the floor at which two cameras see each joint of a standing body
-  /// One entry per role, averaged over the places that `bodies` counts; empty if it counts no place.
+  /// One entry per role, averaged over the places that `bodies` counts; empty if `bodies` is 0.
   std::vector<ForecastJoint> joints;
   std::vector<RigWorth> worths;       ///< the unchanged rig, then the rig with each change
 };

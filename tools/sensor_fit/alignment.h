@@ -17,8 +17,8 @@ struct TwinAlignment {
   double shift_s = 0;
   glm::dmat3 R_ST{1};  ///< rotates the twin's directions into the sensor's frame
   glm::dvec3 p_ST{0};  ///< the twin's origin in the sensor's frame
-  /// The position of each joint in the frame of the joint's carrier; absent if no frame shows both the joint and the
-  /// carrier.
+  /// The position of each joint in the coordinate frame of the rigid body that carries the joint (`Carrier`); absent if
+  /// no frame of the recording shows both.
   std::array<std::optional<glm::dvec3>, kRoleCount> offsets{};
   double rms_m = 0;  ///< RMS residual over all joints, metres
 

@@ -35,18 +35,18 @@ SensorStatisticsSummary SimulatedStatistics(const RealRecording& real, const Ske
 
 struct SensorFitOptions {
   SkeletonSensorOptions start = SensorV2();  ///< settings that are not fitted keep these values
-  /// Simulated recordings per step; more reduce the noise of the fitted values.
+  /// The number of simulated recordings in each step of the fit. More recordings reduce the noise of the fitted values.
   int worlds = 96;
   int steps = 10;
   std::function<void(int step)> progress;
 };
 
 /// Fits a sensor by the method of moments, so that its simulated recordings of the twin's motion have the statistics of
-/// the real recording. Each step simulates, compares and corrects. It fits each group's size and depth ratio, planted
-/// feet, correlations along bones, the white noise at rest, the share of fast errors, the stretch of shoulders, arms
-/// and hands (the hands' stretch follows from the jumps of the hands), and the reference distance. All other settings
-/// keep their values, because one recording does not determine them. The settings of groups that were never seen also
-/// keep their values. Deterministic.
+/// the real recording. Each step simulates, compares and corrects. The fitted settings are: each group's size and depth
+/// ratio, planted feet, correlations along bones, the white noise and the fast noise at rest, the share of fast errors
+/// (from the jumps of the hands), the stretch of shoulders, arms and hands, and the reference distance. All other
+/// settings keep their values, because one recording does not determine them. The settings of groups that were never
+/// seen also keep their values. The result is deterministic.
 SkeletonSensorOptions FitSensor(const RealRecording& real, const SensorFitOptions& options);
 
 }  // namespace etude

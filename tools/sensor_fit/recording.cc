@@ -11,7 +11,7 @@ namespace {
 
 using enum Role;
 
-/// For each role, the rigid target that carries the joint: a target near the joint, on a bone that ends at the joint.
+/// For each role, the rigid target that carries the joint: a target near the joint, on a bone that meets the joint.
 using T = BodyTarget;
 constexpr std::array<BodyTarget, kRoleCount> kTargetOfRole = {
     T::kHips,       T::kChest,        T::kChest,        T::kHead,        // trunk and head

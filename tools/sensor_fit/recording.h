@@ -25,8 +25,8 @@ struct JointRecording {
   double DurationSeconds() const { return static_cast<double>(frames.size()) / rate_hz; }
 };
 
-/// The rigid body that carries a joint, measured by the second system (TwinMotion). The joint's position in the
-/// carrier's frame is constant.
+/// The rigid body that carries a joint (for example an optical target), measured by the second system (TwinMotion). The
+/// joint's position in the frame of this rigid body is constant.
 struct Carrier {
   glm::dvec3 position{0};
   glm::dquat rotation{1, 0, 0, 0};
@@ -45,10 +45,10 @@ struct TwinMotion {
 Result<JointRecording> ReadJointRecording(std::string_view text, const std::string& file,
                                           std::optional<double> rate_hz);
 
-/// Reads a file of 17 rigid targets, or a joint CSV. In a joint CSV, the trunk carries its own joints, and every other
-/// joint is carried by the bone that ends in it. The rate is `rate_hz` if it is given, otherwise the rate of the file's
-/// times. If the file has no times, the rate is chosen among 30, 50, 60, 100, 120, 200 and 240 Hz, so that the duration
-/// is closest to `seconds`.
+/// Reads a file of 17 rigid targets, or a joint CSV. For a joint CSV, the trunk is the rigid body of the trunk's
+/// joints; for every other joint, the bone from the parent joint is the rigid body. The rate is `rate_hz` if it is
+/// given, otherwise the rate of the file's times. If the file has no times, the rate is chosen among 30, 50, 60, 100,
+/// 120, 200 and 240 Hz, so that the duration is closest to `seconds`.
 Result<TwinMotion> ReadTwinMotion(std::string_view text, const std::string& file, std::optional<double> rate_hz,
                                   double seconds);
 

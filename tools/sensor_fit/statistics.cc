@@ -14,7 +14,7 @@ namespace {
 
 using enum Role;
 
-/// The errors of one joint, for the frames in which both systems (the sensor and the twin's) saw the joint.
+/// The errors of one joint, for the frames in which both the sensor and the optical system of the twin saw the joint.
 struct ErrorSeries {
   std::vector<glm::dvec3> errors;
   std::vector<std::size_t> frames;
