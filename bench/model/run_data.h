@@ -56,7 +56,7 @@ struct RunData {
   std::string suite;
   std::uint64_t seed = 1;  ///< seed of the worlds; for secret worlds, a number derived from the key's digest
   std::string key_digest;  ///< digest of the key of secret worlds; "" if worlds are not secret
-  std::string fence;       ///< description of the sandbox in which outside methods ran; "" = there were none
+  std::string fence;       ///< description of the sandbox in which outside methods ran; "" = no outside method
   std::string program_version;
   std::string command_line;  ///< the command line of the run, as host.json records it
   std::string host;          ///< description of the machine in one line
