@@ -52,7 +52,7 @@ std::vector<std::string> ReadNames(Fields& fields, const std::string& key, const
 /// Returns the items of the list at `key`; empty if the key is absent.
 std::span<const Node> ReadItems(Fields& fields, const std::string& key);
 
-/// A key of a mapping, and the member of `Options` into which the key's value is read. It is declared once for the
+/// A key of a mapping, and the member of `Options` into which the key's value is read. A key is declared once for the
 /// reader, the reference page and the schema. A `member` is a pointer to member, or a Path to a nested member; its
 /// value in `Options{}` is the default.
 template <typename Options>
