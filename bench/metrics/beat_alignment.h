@@ -19,8 +19,8 @@ std::optional<double> BeatAlignmentOfMusic(const PointTracks& found, double rate
 
 /// Returns the mean over *motion* beats of exp(−d² / 18), as mint's code (AIST++) computes it. d is the distance in
 /// frames from a motion beat to the nearest music beat. Motion beats are the frames in which the joints' summed speed
-/// is lower than in each of the ten frames on either side; fewer frames near an end. Returns nothing under the
-/// conditions of BeatAlignmentOfMusic.
+/// is lower than in each of the ten frames on either side, or in each frame of a side that has fewer. Returns nothing
+/// in the same cases as BeatAlignmentOfMusic.
 std::optional<double> BeatAlignmentOfMotion(const PointTracks& found, double rate_hz, std::span<const double> beats_s);
 
 }  // namespace etude
