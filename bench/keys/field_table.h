@@ -235,8 +235,8 @@ struct FieldTable {
   }
 };
 
-/// Reads a mapping that has only these keys, into `options`; absent keys leave their values unchanged. `what` is the
-/// mapping's name in error messages.
+/// Reads a mapping, which may have only the keys of `table`, into `options`; absent keys leave their values unchanged.
+/// `what` is the mapping's name in error messages.
 template <typename Options>
 Result<Options> ReadMapping(const Node& node, const std::string& what, const FieldTable<Options>& table,
                             Options options = {}) {
