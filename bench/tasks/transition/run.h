@@ -25,11 +25,11 @@ MatchTally TallyMatches(const Stage& stage, const TransitionRequest& request, co
 /// point.
 void ScoreTransition(const TransitionOutcome& outcome, const Stage& stage, CellResult& result);
 
-/// Measures the metrics of the pairs of frames that a transition could have used. They are missing for a method without
-/// a threshold.
+/// Measures the metrics of the pairs of frames that a transition could have used. The metrics are missing for a method
+/// without a threshold.
 void ScoreMatching(const std::optional<MatchTally>& tally, CellResult& result);
 
-/// Returns the ids of all metrics, in the order in which they are measured.
+/// Returns the ids of all metrics of the task, in the order in which they are measured.
 std::vector<std::string> TransitionMetrics();
 
 /// Returns the value of a metric for a method that made no transition (Task::ValueOfFailure). It is 0 for
