@@ -61,7 +61,7 @@ struct ComparedMethod {
   std::string against;  ///< the method with which this method is compared; the first method names itself
   /// True: ground truth replaces some processing stages, so the method is an upper bound and no competitor.
   bool has_oracle = false;
-  std::vector<std::string> oracle = {};  ///< the processing stages whose output ground truth replaces
+  std::vector<std::string> oracle = {};  ///< the processing stages whose output is replaced by ground truth
   std::string settings = {};             ///< the method's settings besides `oracle`, as text; equal settings have equal
                                          ///< texts; "" = outside method
   std::string description = {};          ///< a sentence about the method, or the method's settings
