@@ -25,8 +25,8 @@ struct Rehearsal {
   std::vector<CoachMethod> methods;
 };
 
-/// Keeps the prepared coaches of one condition (`Rehearsal`), by scenario and seed. They are made at the first request.
-/// If there is an operating point, their thresholds are set on sessions with people who are not judged.
+/// Keeps the prepared coaches of one condition (`Rehearsal`), by scenario and seed. The coaches are made at the first
+/// request. If there is an operating point, their thresholds are set on sessions with people who are not judged.
 class ReadyCoaches {
  public:
   /// `rehearsal` must outlive this object.

@@ -239,8 +239,8 @@ std::string NoteOn(const RawMotion& truth, const RawMotion& answer, const std::s
   if (is_resampled) note += fmt::format(", the answer was interpolated linearly from {:g} Hz", answer.rate_hz);
   if (matched.lag) note += ", " + NoteOn(*matched.lag);
   if (!clock.empty()) note += ", " + clock;
-  // One frame does not count: at a higher rate, the last one lies after the truth's last frame in motions of equal
-  // length.
+  // One surplus frame is not mentioned: in motions of equal length, the answer's last frame lies after the truth's last
+  // frame if the answer has the higher rate.
   if (matched.surplus > 1) note += fmt::format(", {} frames of the answer outside the truth", matched.surplus);
   if (matched.uncovered > 0) note += fmt::format(", {} frames of the truth outside the answer", matched.uncovered);
   for (const RawMotion* motion : {&truth, &answer}) {
