@@ -52,7 +52,7 @@ std::vector<std::string> ReadNames(Fields& fields, const std::string& key, const
 /// Returns the items of the list at `key`; empty if the key is absent.
 std::span<const Node> ReadItems(Fields& fields, const std::string& key);
 
-/// A key of a mapping, and the member of `Options` into which the key's value is read. It is declared once for the
+/// A key of a mapping, and the member of `Options` into which the key's value is read. A key is declared once for the
 /// reader, the reference page and the schema. A `member` is a pointer to member, or a Path to a nested member; its
 /// value in `Options{}` is the default.
 template <typename Options>
@@ -235,8 +235,8 @@ struct FieldTable {
   }
 };
 
-/// Reads a mapping that has only these keys, into `options`; absent keys leave their values unchanged. `what` is the
-/// mapping's name in error messages.
+/// Reads a mapping, which may have only the keys of `table`, into `options`; absent keys leave their values unchanged.
+/// `what` is the mapping's name in error messages.
 template <typename Options>
 Result<Options> ReadMapping(const Node& node, const std::string& what, const FieldTable<Options>& table,
                             Options options = {}) {

@@ -109,7 +109,7 @@ void RefuseMisplacedKeys(Fields& mapping, std::span<const KeyInfo> keys) {
   for (const KeyInfo& key : keys) {
     const Node* written = mapping.Raw(key.key);
     if (written == nullptr) continue;
-    std::vector<std::string> allowed;  // the values that keys of this name allow, all such keys together
+    std::vector<std::string> allowed;  // the chooser's values that allow a key of this name, for all such keys
     const bool may_stand = std::ranges::any_of(keys, [&](const KeyInfo& other) {
       if (other.key != key.key) return false;
       allowed.insert(allowed.end(), other.only_with.values.begin(), other.only_with.values.end());

@@ -12,20 +12,21 @@ namespace etude {
 /// false becomes a number or boolean, even if it was quoted.
 Json ToJson(const Node& node);
 
-/// Returns the JSON Schema of a key's value, with description and default. It is draft 7, the version that most editors
-/// support.
+/// Returns the JSON Schema of a key's value, with description and default. The schema follows draft 7 of JSON Schema,
+/// the version that most editors support.
 Json KeySchema(const KeyInfo& key);
 
 /// Returns the JSON Schema of a mapping that may have these keys and no others. A key may be listed several times with
 /// different conditions.
 Json MappingSchema(std::span<const KeyInfo> keys);
 
-/// Writes a schema as text with one line per key. Objects with described keys and long lines are split over several
-/// lines.
+/// Writes a schema as text with one line per key. An object whose keys have descriptions, and any line that would be
+/// too long, is split over several lines.
 std::string SchemaText(const Json& schema, const std::string& indent = {});
 
 /// Returns the schema rules by which a key depends on the values of other keys, as `dependencies`. If `says_all` is
-/// true, an absent key has its default; if it is false, the key may be in another part of the file.
+/// true, the mapping is complete, so an absent key has its default. If it is false, an absent key may be in another
+/// part of the file.
 Json ConditionSchemas(std::span<const KeyInfo> keys, bool says_all);
 
 }  // namespace etude

@@ -24,8 +24,8 @@ enum class Alignment {
   kFrameScaled,  ///< as kFrame, but the fit is a similarity (PA-MPJPE)
 };
 
-/// The transformations that align the frames of an answer. A frame has none if it lacks a root, or if fewer than three
-/// of its joints are seen in both answer and truth.
+/// The transformations that align the frames of an answer. A frame has none if too little is seen to find one: an
+/// alignment by the root needs the root in answer and truth, and a fit needs three joints that are seen in both.
 struct FrameFits {
   std::vector<std::optional<Similarity>> fits;
   std::size_t length = 1;  ///< number of successive frames that share one fit

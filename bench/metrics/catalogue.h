@@ -15,8 +15,8 @@ enum class Direction { kLowerIsBetter, kHigherIsBetter, kNeither };
 /// Returns "lower is better" or "higher is better"; "" if the metric has no direction.
 std::string_view DirectionWords(Direction direction);
 
-/// The way in which a run aggregates the cells' values: by the mean for shares and other values between 0 and 1, by the
-/// median for all others.
+/// The way in which a run aggregates the cells' values. The catalogue states it for each metric: the mean for shares,
+/// counts and penalised costs, among others; the median for most errors.
 enum class Aggregate { kMedian, kMean };
 
 /// The kind of a cell's value. It decides how the value is displayed: shares and scores are shown in per cent, and

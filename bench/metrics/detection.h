@@ -18,10 +18,10 @@ std::optional<double> FaultFound(const std::vector<bool>& called);
 /// there are no grey performances.
 std::optional<double> GreyCalledRight(const std::vector<bool>& called);
 
-/// A performance of a move, and the move that a recogniser spotted most often during it.
+/// A performance of a move, and the move for which a recogniser found the most evidence in it.
 struct NamedMove {
   std::string danced;
-  std::string named;  ///< the move that was spotted; empty if none was
+  std::string named;  ///< the move that the recogniser found; empty if it found none
 };
 
 /// Returns the share of performances whose move was named correctly. The result is empty if there are no performances.

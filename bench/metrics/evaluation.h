@@ -67,7 +67,7 @@ std::optional<double> AccelerationError(const PointTracks& found, const PointTra
 /// Returns AccelerationError after the answer's root is moved onto the true root in each frame (WHAM). The first and
 /// the last frame are left out.
 std::optional<double> RootAccelerationError(const EvaluatedPair& pair);
-/// Returns jitter: the mean length of the answer's third differences × rate³ ÷ 10 (WHAM).
+/// Returns jitter: the mean length of the answer's third differences × rate³, in units of 10 m/s³ (WHAM).
 std::optional<double> Jitter(const PointTracks& found, double rate_hz);
 /// Returns the mean error of the root's path after the rigid transformation that fits the whole path best, in per cent
 /// of the true path's length (WHAM). Returns nothing if the true root does not move, or if the root is seen in fewer
@@ -78,7 +78,7 @@ std::optional<double> RootTranslationError(const EvaluatedPair& pair);
 std::optional<double> SkatingRatio(const PointTracks& feet, double rate_hz);
 /// Returns the mean speed of toes that are lower than 5 cm, m/s, as Kimodo's code computes it.
 std::optional<double> SkateFromHeight(const PointTracks& feet, double rate_hz);
-/// Returns the mean speed of heels and toes over the frames in which `contacts` (frames × columns of feet) states a
+/// Returns the mean speed of ankles and toes over the frames in which `contacts` (frames × columns of feet) states a
 /// contact with the floor, m/s, as Kimodo's code computes it.
 std::optional<double> SkateFromContacts(const PointTracks& feet, const std::vector<bool>& contacts, double rate_hz);
 /// Returns the F1 score of the answer's contacts against the true contacts; nothing if neither states a contact.
@@ -100,8 +100,8 @@ struct RotationChannels {
 std::optional<RotationChannels> RotationsOf(const EvaluatedPair& pair);
 
 /// Returns the mean absolute error of the bend angles, degrees. Each entry of `bends` holds three points (hip, knee,
-/// ankle; or shoulder, elbow, wrist); the bend angle is at the middle point. Returns nothing if no three points are
-/// seen in both motions.
+/// ankle; or shoulder, elbow, wrist); the bend angle is at the middle point. Returns nothing if in no frame all three
+/// points of an entry are seen in both motions.
 std::optional<double> BendErrorDeg(const PointTracks& found, const PointTracks& truth,
                                    std::span<const std::array<std::size_t, 3>> bends);
 

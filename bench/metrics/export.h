@@ -17,8 +17,8 @@ std::string MetricsPage();
 /// Returns the rules that find faults of a motion (FaultRules), as a Markdown table.
 std::string FaultsTable();
 
-/// Returns the definitions of AddedMetrics by id, as a manifest stores them. The format is the catalogue's JSON without
-/// test vectors and with the key `reads`.
+/// Returns the definitions of AddedMetrics in the order of their ids, as a manifest stores them. Each has the format of
+/// a metric in MetricsJson, but its list of test vectors is empty.
 Json AddedMetricsJson();
 /// Adds the metrics of a list that AddedMetricsJson returned (AddMetric). Fails, naming `place`, at the first item that
 /// is not a valid metric.

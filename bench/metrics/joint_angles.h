@@ -53,7 +53,7 @@ AgreementSums SumAgreement(const AngleTracks& found, const AngleTracks& truth, s
 /// Returns the sums over the frames of `a` and the frames of `b` together.
 AgreementSums Together(const AgreementSums& a, const AgreementSums& b);
 
-/// Returns the root mean squared difference, degrees; nothing if there are no frames.
+/// Returns the root mean square of answer − truth, degrees; nothing if there are no frames.
 std::optional<double> RmsOf(const AgreementSums& sums);
 /// Returns the mean of answer − truth, degrees; nothing if there are no frames.
 std::optional<double> BiasOf(const AgreementSums& sums);

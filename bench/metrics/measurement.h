@@ -20,11 +20,11 @@ struct MeasuredError {
 };
 
 /// Returns the mean angle between the measured and the true direction, degrees (`limb_direction_error_deg`), and the
-/// coverage (`limb_direction_coverage`). One entry per limb and frame; directions need not be unit vectors.
+/// coverage (`limb_direction_coverage`). `limbs` has one entry per limb and frame; directions need not be unit vectors.
 MeasuredError LimbDirectionErrorDeg(std::span<const MeasuredAndTrue> limbs);
 
 /// Returns the mean distance between the triangulated and the true point, millimetres (`triangulation_error_mm`), and
-/// the coverage (`triangulation_coverage`). One entry per end effector and frame, in metres.
+/// the coverage (`triangulation_coverage`). `ends` has one entry per end effector and frame, in metres.
 MeasuredError TriangulationErrorMm(std::span<const MeasuredAndTrue> ends);
 
 /// A calibrated camera and the point pairs it was calibrated from.

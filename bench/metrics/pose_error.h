@@ -22,8 +22,8 @@ struct Similarity {
 struct PointMoments {
   double count = 0;
   glm::dvec3 mean{0}, target_mean{0};
-  glm::dmat3 covariance{0};  ///< Σ (target − its mean) (point − its mean)ᵀ
-  double scatter = 0;        ///< Σ ‖point − its mean‖²
+  glm::dmat3 covariance{0};  ///< Σ (target − target_mean) (point − mean)ᵀ
+  double scatter = 0;        ///< Σ ‖point − mean‖²
 
   /// Adds the sums over other points (Chan et al. 1979).
   void Add(const PointMoments& other);

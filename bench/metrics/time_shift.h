@@ -26,12 +26,13 @@ constexpr double kMaxTimeShift_s = 2;
 /// 1. Try every whole number of the truth's frames within ±kMaxTimeShift_s; take the one at which the lines explain
 ///    most of the variance of f.
 /// 2. From there, find by Newton's method the shift at which Σ w β v · (f − α − β s) = 0 over all pairs and frames.
-/// Here v is the rate of change of s by central differences, minus its regression on 1 and s. It is the truth's rate,
-/// because the noise in the answer's rate would bias the shift towards half frames. w = 1 / (the pair's mean squared
-/// residual + 1 mm²), so pairs with a good fit dominate: if the spines differ, these are the pairs within one limb.
+/// Here v is the rate of change of s by central differences, minus its regression on 1 and s. v is computed from the
+/// truth, because the noise in the answer's distances would bias the shift towards half frames. w = 1 / (the pair's
+/// mean squared residual + 1 mm²), so pairs with a good fit dominate: if the spines differ, these are the pairs within
+/// one limb.
 ///
 /// The interval comes from a jackknife over ten equal parts of the motion (Student's t), because the errors of
-/// successive frames are correlated. It does not include the effect of different joint positions.
+/// successive frames are correlated. The interval does not include the effect of different joint positions.
 ///
 /// Returns nothing if fewer than five frames are seen in both, if the best shift lies at the end of the range, or if no
 /// distance between joints changes because the truth stands still or moves rigidly.

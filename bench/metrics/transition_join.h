@@ -44,8 +44,8 @@ int JoinEnd(const JoinView& view);
 double JoinSlideCmps(const JoinView& view);
 
 /// Returns true if the transition counts for `calm_natural_share`. At every frame from the first transition point to
-/// the join's end, the jump must be at most the largest of `limit_cm` (the limit of the calmer clip), 1 cm, and 1.25
-/// times the larger jump of the two clips at that frame.
+/// the join's end, the jump must be at most the largest of `limit_cm` (the smaller NaturalLimitCm of the two clips), 1
+/// cm, and 1.25 times the larger jump of the two clips at that frame.
 bool IsCalmlyNatural(const JoinView& view, double limit_cm);
 
 /// Returns `live`: the mean joint speed in the slowest ten successive frames of the join, divided by the mean joint

@@ -54,9 +54,9 @@ struct RunSystem {
 /// `source` then reads all rows one by one.
 struct RunData {
   std::string suite;
-  std::uint64_t seed = 1;  ///< seed of the worlds; for secret worlds, a number derived from the key's digest
+  std::uint64_t seed = 1;  ///< seed of the worlds; for secret worlds, a number derived from `key_digest`
   std::string key_digest;  ///< digest of the key of secret worlds; "" if worlds are not secret
-  std::string fence;       ///< description of the sandbox in which outside methods ran; "" = there were none
+  std::string fence;       ///< description of the sandbox in which outside methods ran; "" = no outside method
   std::string program_version;
   std::string command_line;  ///< the command line of the run, as host.json records it
   std::string host;          ///< description of the machine in one line
@@ -69,8 +69,8 @@ struct RunData {
   std::vector<ScenarioSummary> scenarios;
   std::vector<CellSeries> series;
   std::vector<CellRecording> recordings;
-  std::string seal;      ///< the text of the folder's seal; "" = no seal exists, or the seal was not loaded
-  std::string unsealed;  ///< why the seal does not match, if the folder was read nevertheless; else ""
+  std::string seal;      ///< the content of the folder's seal.json; "" = the file does not exist, or was not loaded
+  std::string unsealed;  ///< why the files do not match the seal, if the folder was read nevertheless; else ""
   /// Processor times of cells, by Row::Id(); empty if the result folder does not record them.
   std::map<std::string, double> cpu_seconds;
 };

@@ -40,9 +40,10 @@ struct TailRule {
   /// A comparison with at least this many far worse worlds is a regression; 0 = never.
   int worlds = 4;
   /// The smallest share of the compared worlds that must be far worse for a regression. It applies in addition to
-  /// `worlds`: in a large number of worlds, rounding may change a few.
+  /// `worlds`, because rounding may change a few worlds if there are many.
   double share = 0.05;
-  /// A comparison in which at least this many worlds lost their value or answer is a regression; 0 = never.
+  /// A comparison is a regression if at least this many worlds have a value or an answer in the baseline but not in the
+  /// new run; 0 = never.
   int lost = 1;
 };
 
@@ -60,7 +61,7 @@ struct ComparedMethod {
   std::string against;  ///< the method with which this method is compared; the first method names itself
   /// True: ground truth replaces some processing stages, so the method is an upper bound and no competitor.
   bool has_oracle = false;
-  std::vector<std::string> oracle = {};  ///< the processing stages whose output ground truth replaces
+  std::vector<std::string> oracle = {};  ///< the processing stages whose output is replaced by ground truth
   std::string settings = {};             ///< the method's settings besides `oracle`, as text; equal settings have equal
                                          ///< texts; "" = outside method
   std::string description = {};          ///< a sentence about the method, or the method's settings
@@ -78,12 +79,12 @@ struct Study {
   std::vector<ComparedMethod> methods;              ///< at least one method
   std::vector<std::vector<SweptValue>> conditions;  ///< at least one condition
   std::vector<std::string> metrics;                 ///< headline metrics, most important first
-  std::vector<std::string> across;  ///< swept parameters under all of whose values a verdict must be the same
+  std::vector<std::string> across;  ///< swept parameters; a verdict must be the same under all their values
   /// The metric that says whether the task's goal was reached; answers compare it before the value metric. "" = the
   /// task has none.
   std::string success;
   double success_matters = 0.05;  ///< the smallest difference of success that matters, as a share
-  std::string rival;              ///< the method that all others must beat; "" = the best method is found
+  std::string rival;              ///< the method that all others must beat; "" = FindRival chooses the best method
   std::vector<Expectation> expectations;
   GateRules gate;
 };

@@ -19,7 +19,7 @@ MetricInfo ShareMetric(const Study& study, const std::string& id) {
   MetricInfo metric = *FindMetric(id);
   metric.direction = Direction::kHigherIsBetter;
   metric.aggregate = Aggregate::kMean;
-  metric.reading = metric.reading == Reading::kAmount ? Reading::kYesNo : metric.reading;  // the tail counts worlds
+  metric.reading = metric.reading == Reading::kAmount ? Reading::kYesNo : metric.reading;  // the tail is always a share
   metric.practical = study.success_matters;
   return metric;
 }
@@ -34,7 +34,7 @@ std::optional<double> SuccessAt(const MethodColumns& method, const std::string& 
 }
 
 /// A method and the other method with which it is compared in each world. A rival may differ between the two halves of
-/// the worlds.
+/// the worlds (FindRival).
 struct Pairing {
   const MethodColumns* method;
   std::vector<const MethodColumns*> other;  ///< the other method in each trial

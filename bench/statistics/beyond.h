@@ -24,7 +24,8 @@ UnitSample UnitsOf(const PairedWorlds& paired, const ConditionTable& table, cons
 /// The smallest number of units that can have a verdict: a sign test of five values cannot reach 5 %.
 constexpr int kMinUnits = 6;
 
-/// Estimates the difference for other units like the units of the sample. The verdict is left open.
+/// Estimates the difference for units that were not run but are of the same kind as the sample's. The verdict is left
+/// open.
 ///
 /// Each unit contributes one value. If each world has *one unit*, this value is the mean of the unit's differences. If
 /// worlds have *several units* (playing clip × wanted clip), worlds that share a clip in either role are correlated.
@@ -34,10 +35,10 @@ constexpr int kMinUnits = 6;
 /// The estimate is the pseudo-median of these values, with its interval, because the interval of a mean over few units
 /// fails if the values are skewed or one is an outlier (docs/findings/verdicts.md). The mean is also reported, with
 /// Student's interval from the jackknife's standard error. If every unit's value is −1, 0 or 1 (one yes-or-no world
-/// each), the estimate is the mean, with the interval of the difference of two shares. Such values are symmetric if
-/// their mean is zero, as the test requires. The test is Wilcoxon's signed-rank test of the values if it can reach 5 %
-/// among `comparisons` (2^(1 − units) × comparisons ≤ 0.05), and Student's t test of their mean otherwise. The choice
-/// depends on the numbers of units and comparisons, never on the result.
+/// each), the estimate is the mean, with the interval of the difference of two shares. If the mean of such values is
+/// zero, they are symmetric about zero, as the signed-rank test requires. The test is Wilcoxon's signed-rank test of
+/// the values if its smallest p can pass Holm's correction (2^(1 − units) × comparisons ≤ 0.05), and Student's t test
+/// of their mean otherwise. The choice depends on the numbers of units and comparisons, never on the result.
 ///
 /// With fewer than kMinUnits units the result holds the estimate and the leave-one-out means, but no interval and
 /// no test.

@@ -41,7 +41,8 @@ class DrawnMedian {
         lower_((sorted.size() - 1) / 2),
         upper_(sorted.size() / 2),
         near_(sorted.size() + kHalvesSlack) {
-    // The middle draws are nearly always within three standard errors, √count / 2 each, of the middle value.
+    // The ranks of the middle draws are nearly always within three standard errors, √count / 2 ranks each, of the
+    // middle.
     const auto reach = static_cast<std::size_t>(1.5 * std::sqrt(static_cast<double>(sorted.size())));
     low_ = static_cast<std::uint32_t>(FirstDrawing(lower_ - std::min(lower_, reach)));
     last_ = static_cast<std::uint32_t>(FirstDrawing(std::min(sorted.size(), upper_ + 1 + reach)) - 1);

@@ -27,7 +27,7 @@ Interval BcaInterval(std::vector<double>& replicates, double estimate, std::span
                      double confidence = kConfidence);
 
 /// The largest sample that is resampled. For larger samples, closed forms give the same interval within a tenth of its
-/// width (tests use log-normal values) at no cost.
+/// width (tested with log-normal values) at no cost.
 constexpr int kMaxResampled = 5'000;
 
 /// Returns the BCa interval of the values' aggregate, from 1,999 resamples drawn from a random stream keyed by `seed`

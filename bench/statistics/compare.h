@@ -51,8 +51,9 @@ bool SeesTooFewDiffer(const Comparison& comparison, const MetricInfo& metric);
 Verdict VerdictOf(const Comparison& comparison, const MetricInfo& metric, double confidence = kConfidence);
 
 /// Judges a comparison without and with failures. If `with_failures` is given, the comparison's p becomes the p with
-/// failures counted. If the verdicts without and with failures are equal, this becomes the comparison's verdict, else
-/// kInconclusive. Both inputs must have their own `p_holm`. Returns the verdict without failures.
+/// failures counted. With this p, the verdicts from the pairs alone and with failures counted must be equal; otherwise
+/// the comparison's verdict is kInconclusive. Both inputs must have their own `p_holm`. Returns the verdict from the
+/// pairs alone: with their own p or, if this verdict is inconclusive, with the p with failures counted.
 Verdict JudgeBothWays(Comparison& comparison, const std::optional<Comparison>& with_failures, const MetricInfo& metric,
                       double confidence = kConfidence);
 

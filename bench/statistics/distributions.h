@@ -20,9 +20,8 @@ double FairCoinUpperTail(int successes, int trials);
 double KeepThirtyBits(double value);
 
 /// Returns the smallest mean difference that a two-sided paired t test at 5 % finds with a power of 80 %. Its unit is
-/// the standard deviation of the `count` > 1 independent differences. `comparisons` = m is the number of tests
-/// (Bonferroni, the first step of Holm): (t(1 − 0.05 / 2m) + t(0.8)) / √n, both quantiles with n − 1 degrees of
-/// freedom.
+/// the standard deviation of the n = `count` > 1 independent differences. For m = `comparisons` tests (Bonferroni, the
+/// first step of Holm) it is (t(1 − 0.05 / 2m) + t(0.8)) / √n, where both quantiles t have n − 1 degrees of freedom.
 double MinDetectableDifference(int count, int comparisons);
 
 }  // namespace etude

@@ -21,7 +21,7 @@ PairedTest SignedRankTest(std::span<const double> differences);
 
 /// Returns the matched-pairs rank-biserial correlation (Kerby 2014), −1…1: the rank sum of the positive differences
 /// minus the rank sum of the negative ones, divided by the total of these two sums. The ranks are those of the
-/// signed-rank test. It is 0 if all differences are zero.
+/// signed-rank test. The correlation is 0 if all differences are zero.
 double RankBiserial(std::span<const double> differences);
 
 /// Computes the sign-flip permutation test (Fisher 1935) of the differences' median or mean. Up to 16 non-zero

@@ -25,7 +25,7 @@ struct Rater {
   int left = 0, decided = 0;
 };
 
-/// The raters' votes on one pair of films: left minus right.
+/// For each pair of films on a page, the raters' votes: left minus right.
 using Votes = std::vector<int>;
 
 WinTable EmptyTable(std::size_t items) { return {items, std::vector<double>(items)}; }

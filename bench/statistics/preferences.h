@@ -54,7 +54,7 @@ struct Preferences {
 };
 
 /// Summarises checked files (CheckBlindFiles). Intervals of methods are BCa intervals of raters drawn with replacement,
-/// from a stream keyed by `seed`; raters with the same name in several files are one.
+/// from a stream keyed by `seed`; raters with the same name in several files are one rater.
 Preferences MeasurePreferences(const BlindFiles& files, std::uint64_t seed);
 
 }  // namespace etude

@@ -12,8 +12,9 @@ namespace etude {
 struct PseudoMedian {
   double value = 0;
   /// The 95 % interval: the locations that Wilcoxon's signed-rank test does not reject (Hollander & Wolfe, section
-  /// 3.3). Its ends are Walsh averages. The ranks are exact for up to 50 values; for more, they come from a normal
-  /// approximation. It is nullopt for fewer than six values, because a test of five values cannot reach 5 %.
+  /// 3.3). Its ends are Walsh averages. The ranks of these ends are exact for up to 50 values; for more, they come from
+  /// a normal approximation. The interval is nullopt for fewer than six values, because a test of five values cannot
+  /// reach 5 %.
   std::optional<std::pair<double, double>> interval;
 };
 

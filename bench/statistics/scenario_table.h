@@ -126,10 +126,11 @@ bool HasRival(const Study& study, const ComparedMethod& method);
 /// not a candidate, because the two are compared in all worlds anyway. A method therefore beats all others if it beats
 /// its baseline and its rival.
 ///
-/// The best method is chosen by the first headline metric. Methods that differ in it by less than the practical
-/// threshold are compared by the next metric, and so on. A failed cell counts as the condition's worst value. The rival
-/// is chosen in one half of the worlds and judged in the other: worlds of odd units choose the rival for worlds of even
-/// units, and the reverse. (If every world is a unit or has several units, odd and even trials are used instead.)
+/// The best method is chosen by the first headline metric. Methods that are worse than the best by less than the
+/// practical threshold are compared by the next metric, and so on. A failed cell counts as the condition's worst value.
+/// The rival is chosen in one half of the worlds and judged in the other: worlds of odd units choose the rival for
+/// worlds of even units, and the reverse. (If every world is a unit or has several units, odd and even trials are used
+/// instead.)
 ///
 /// Returns nothing if the method is itself the rival or does not compete, if only the baseline competes, or if one half
 /// has no worlds from which to choose.

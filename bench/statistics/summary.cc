@@ -15,7 +15,7 @@
 namespace etude {
 namespace {
 
-/// Returns the metrics that the condition's cells report: the catalogue's in its order, then the added metrics.
+/// Returns the metrics that the condition's cells report: the metrics of the catalogue in its order, then AddedMetrics.
 std::vector<const MetricInfo*> MetricsIn(const ConditionTable& table) {
   std::vector<const MetricInfo*> present;
   for (const MetricInfo& metric : AllMetrics()) {

@@ -54,14 +54,14 @@ constexpr double kFitnessRamp = 0.5;
 
 /// Fits the `genetic` weights (paper A leaves them to future work; the method is Etude's): the weights S ≥ 0 with sum 8
 /// for which "d < 0.4" best separates the close pairs, measured by soft F1. The first ancestor is `start`, so the
-/// result is no worse on the training pairs. The status is that of FitWeights; `iterations` counts generations. Unless
-/// the status is kFitted, the weights are `start`.
+/// result is no worse than `start` on the training pairs. The status is that of FitWeights; `iterations` counts
+/// generations. Unless the status is kFitted, the weights are `start`.
 WeightFit FitWeightsGenetically(std::span<const LabelledPair> pairs, const FeatureWeights& start,
                                 const GeneticOptions& options = {});
 
 /// Returns the weights for genes in [0, 1]: proportional to the genes' squares, with sum 8. A gene stands for √S, the
-/// factor by which paper A's equation 1 scales a difference of grades; the search thus also finds weights near zero.
-/// Nullopt if all genes are zero.
+/// factor by which paper A's equation 1 scales a difference of grades; weights near zero are therefore frequent among
+/// random genes. Nullopt if all genes are zero.
 std::optional<FeatureWeights> WeightsOfGenes(std::span<const double> genes);
 /// Returns the genes of these weights. At least one weight must be above zero.
 Genome GenesOf(const FeatureWeights& weights);

@@ -26,8 +26,8 @@ struct TrainingClips {
   std::vector<std::vector<TrainingFrame>> frames;  ///< frames of each clip, sampled evenly
 };
 
-/// The number of frames sampled from a clip. They are the middles of equal parts, so a long clip does not count more
-/// than a short one. If a clip has fewer frames, all are used.
+/// The number of frames sampled from a clip. They are the middle frames of equal parts of the clip, so a long clip does
+/// not count more than a short one. If a clip has fewer frames, all are used.
 constexpr int kFramesPerClip = 16;
 
 /// Retargets clips to `proportions` and samples their frames. The order of the clips is kept.
@@ -38,8 +38,9 @@ TrainingClips SampleClips(std::vector<std::string> identities, std::span<const B
 /// clips would make learning slow, and would improve it little.
 constexpr std::size_t kMaxTrainingClips = 40;
 
-/// Returns every built-in move and the clips of `clips` with other identities, all retargeted to `proportions`. If
-/// there are more than kMaxTrainingClips, evenly chosen ones are returned.
+/// Returns every built-in move and the clips of `clips` with other identities, each once, all retargeted to
+/// `proportions`. If there are more than kMaxTrainingClips, some of the clips from `clips`, evenly chosen, are left
+/// out.
 Result<TrainingClips> GatherTrainingClips(std::span<const BodyMotion> clips, const std::vector<std::string>& identities,
                                           const BodyProportions& proportions);
 
@@ -69,7 +70,7 @@ struct MatchScore {
   double F1() const { return close_matched > 0 ? 2.0 * close_matched / (matched + close) : 0; }
 };
 
-/// Labelled pairs in a form in which many weights can be scored quickly: feature by feature, in single precision.
+/// Labelled pairs, stored feature by feature in single precision, so that many weights can be scored quickly.
 class PairTable {
  public:
   explicit PairTable(std::span<const LabelledPair> pairs);

@@ -21,13 +21,13 @@ enum class Tuning {
 
 struct TunedSystem {
   WeightFitStatus status = WeightFitStatus::kOneClassOnly;
-  FuzzySystem system;  ///< the start system unless the status is kFitted
+  FuzzySystem system;  ///< paper A's system unless the status is kFitted
   int pairs = 0, close_pairs = 0;
   int generations = 0;  ///< number of generations of the genetic algorithm, or of Newton steps
 };
 
-/// Tunes a fuzzy system so that "d < 0.4" separates the close pairs of these clips as well as possible (paper A leaves
-/// this to future work; the methods are Etude's). `genetic` has no effect on kAdaptive.
+/// Tunes paper A's fuzzy system so that "d < 0.4" separates the close pairs of these clips as well as possible (paper A
+/// leaves this to future work; the methods are Etude's). `genetic` has no effect on kAdaptive.
 TunedSystem TuneSystem(ClipFrames clips, Tuning tuning, const GeneticOptions& genetic = {});
 
 /// How well a system separates close pairs of frames from other pairs.

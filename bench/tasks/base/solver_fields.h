@@ -10,7 +10,7 @@ namespace etude {
 /// Returns the solver for a method that does not name one: gauss-newton.
 const IkSolver* DefaultIkSolver();
 
-/// Returns the default options of solvers with at most `most_steps` steps.
+/// Returns the default solver options, but with `most_steps` as the largest number of steps.
 IkOptions IkBudget(int most_steps);
 
 /// Returns the names of the solvers that have the settings `weights` and `refresh`.

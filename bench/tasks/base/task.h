@@ -26,8 +26,9 @@ class LiveProgram {
   virtual ~LiveProgram() = default;
   /// Begins a session. Returns false if the program has failed.
   virtual bool Begin(const Payload& session) = 0;
-  /// Asks for the next step. Returns the answer, an object whose numbers are finite. Returns null if the program has
-  /// failed or gave no answer; the session is then over, and the caller of RunWith knows the reason.
+  /// Sends the next step's data to the program. Returns the program's answer, an object whose numbers are finite.
+  /// Returns null if the program has failed or gave no answer; the session is then over, and the caller of RunWith
+  /// knows the reason.
   virtual JsonPtr Step(const Payload& step) = 0;
 };
 

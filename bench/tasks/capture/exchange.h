@@ -38,7 +38,8 @@ Payload DescribeStudio();
 /// `marks` are the annotator's marks on each camera's frames, as built-in methods receive them. They are for methods
 /// without vision of their own. The annotator draws on the person that a segmenter has cut out, so parts that the
 /// segmenter lost are not marked. Marks are listed by segmenter, then [camera][frame]. A frame is null if the annotator
-/// was not shown it, a mark is null if it is missing or unreadable. A stroke goes from its limb's `from` to its `to`.
+/// did not have to mark it; a mark is null if it is missing or unreadable. A stroke goes from its limb's `from` to its
+/// `to`.
 ///
 /// The marks are also given as COCO keypoints, in the files `marks-hue-camera-1.coco.json` and so on (coco.h). The
 /// calibration points are also given in the format of `etude calibrate`, in the file `calibration-points.yaml`.
@@ -62,7 +63,7 @@ Result<Payload> MakeCaptureTruth(CaptureStages& stages);
 Result<void> MakeCapturePictures(const StudioOptions& options, const WorldKey& key, CaptureStages& stages,
                                  const AttachmentSink& keep);
 
-/// The answer of an outside method, one entry per frame, null without a pose:
+/// The answer of an outside method. It has one entry per frame: a pose, or null.
 ///
 ///     {"poses": [[sixty numbers], null, …]}
 ///

@@ -20,9 +20,10 @@ namespace etude {
 /// (`StudioOptions::picture_every`).
 struct Observation {
   PersonSource source;
-  std::vector<std::vector<Marks>> marks;  ///< the marks; empty in frames that the annotator was not shown
-  std::vector<std::vector<Mask>>
-      masks;        ///< masks by picture, half size; kept on request, and for silhouettes (`kMaxSilhouettePictures`)
+  std::vector<std::vector<Marks>> marks;  ///< the marks; empty in frames that are not to be marked (`IsMarked`)
+  /// Masks by picture, half size. They are kept if Film's `wants_masks` is true, and for silhouettes if the take has at
+  /// most kMaxSilhouettePictures pictures.
+  std::vector<std::vector<Mask>> masks;
   MaskScore score;  ///< mean score over all pictures
   /// The agreement of two annotators over all pictures. Empty if there is one annotator.
   std::optional<double> annotator_distance_px, annotator_overlap;

@@ -23,7 +23,7 @@ class LiveCapture {
   LiveCapture& operator=(const LiveCapture&) = delete;
 
   /// Adds the person's next pose. Cameras also shoot between frames, so a frame needs the two poses after it, and more
-  /// if their clocks are off.
+  /// if the cameras' clocks differ.
   void Add(const BodyPose& pose) { stages_.Add(pose); }
 
   /// Returns the skeleton of the next frame. The pose of that frame, and the later poses that the frame needs (Add),

@@ -52,8 +52,8 @@ class Marking {
   std::vector<MarkedTwice> joints_, limbs_;
 };
 
-/// Returns `FigureLook::head_below_crown` of a performer in the pose `body`. Like the limb lengths, it is the same in
-/// every pose and is measured beforehand.
+/// Returns `FigureLook::head_below_crown` of a performer in the pose `body`: the distance of the head joint below the
+/// crown, in half widths of the head. Like the limb lengths, it is the same in every pose and is measured beforehand.
 double HeadBelowCrown(const Figure& figure, const BodyPose& body);
 
 /// Returns the mean of the two annotators' marks for each stroke and disc, or the single mark if only one annotator

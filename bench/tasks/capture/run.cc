@@ -228,7 +228,7 @@ BridgeOptions LiveBridgeOptions(const StudioOptions& options) {
 }
 
 Result<CaptureBody> BodyFor(CaptureStages& stages, const CaptureRun& run) {
-  // The triangulated points will determine the body later.
+  // RecoverByKeypoints replaces this body by one from the triangulated points.
   if (run.method.recovery == Recovery::kKeypoints) return PaperBody({});
   if (run.method.lengths == LengthSource::kKnown) {
     ASSIGN_OR_RETURN(const CaptureBody* body, stages.GetKnownBody(run.method));

@@ -27,8 +27,9 @@ struct CaptureRun {
 /// Returns the options with which RecoverFrames runs this method.
 RecoverOptions RecoverOptionsOf(const CaptureMethod& method);
 
-/// Returns the limits on gaps for a live method. A live method receives marked frames only, so each limit is a number
-/// of marked frames. The limit is scaled to the duration that it would have if every frame were marked.
+/// Returns the options for bridging gaps in a live method. A live method receives marked frames only, so the options
+/// count marked frames instead of all frames. The longest gap therefore has fewer frames, and the turn per frame is
+/// larger.
 BridgeOptions LiveBridgeOptions(const StudioOptions& options);
 
 /// Returns the body with which a method begins. Its limb lengths are known, or are measured from the marks. Fails, with

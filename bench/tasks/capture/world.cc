@@ -11,7 +11,7 @@
 namespace etude {
 namespace {
 
-constexpr double kReach = 1.2;  // metres from the middle, within which both cameras see the body
+constexpr double kReach = 1.2;  // metres from the middle along X and Z, within which the cameras see the body
 
 // A window of a clip, and the movement that brings it to the middle of the floor.
 struct Window {

@@ -63,10 +63,10 @@ struct FilmedPerson {
 CaptureWorld MakeStudio(const StudioOptions& options, const FilmedPerson& booking, const WorldKey& key);
 
 /// Makes the world of `key`. The window of the clip begins at a random frame. A few random windows are tried. The first
-/// one that keeps the performer within 1.2 m of the middle, where both cameras see the whole body, is taken. If none
-/// does, the window that leaves this circle least is taken. Clips that loop are repeated; other clips that are shorter
-/// than the window are used whole. In a secret world the clip is disguised (bench/tasks/base/disguise.h), unless it has
-/// its own figure.
+/// one that keeps the performer within 1.2 m of the middle along X and Z, where the cameras see the whole body, is
+/// taken. If none does, the window that exceeds this distance least is taken. Clips that loop are repeated; other clips
+/// that are shorter than the window are used whole. In a secret world the clip is disguised
+/// (bench/tasks/base/disguise.h), unless it has its own figure.
 CaptureWorld MakeCaptureWorld(const StudioOptions& options, const LibraryClip& clip, const WorldKey& key);
 
 /// Returns the lens distortion of a camera that has these effects.

@@ -25,8 +25,8 @@ struct Rehearsal {
   std::vector<CoachMethod> methods;
 };
 
-/// Keeps the prepared coaches of a rehearsal, by scenario and seed. They are made at the first request. If there is an
-/// operating point, their thresholds are set on sessions with people who are not judged.
+/// Keeps the prepared coaches of one condition (`Rehearsal`), by scenario and seed. The coaches are made at the first
+/// request. If there is an operating point, their thresholds are set on sessions with people who are not judged.
 class ReadyCoaches {
  public:
   /// `rehearsal` must outlive this object.
@@ -84,7 +84,7 @@ class CoachTaskWorld final : public TaskWorld {
     return result;
   }
 
-  /// Returns the coaches. This cannot fail, because the task has already made them.
+  /// Returns the coaches. This cannot fail, because MakeCoachTask has checked that all recognisers can be taught.
   const std::vector<ReadyCoach>& Coaches() const { return **coaches_.For(world_.key); }
 
   const Rehearsal& shared_;

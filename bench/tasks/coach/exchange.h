@@ -53,7 +53,7 @@ class SeatedCoachProgram {
 ///
 ///     {"asked": 0.7, "spotted": [0, 0.1, …]}
 ///
-/// `program` must outlive the recogniser and its follower.
+/// `program` must outlive the recogniser and its MoveFollower.
 std::unique_ptr<Recogniser> MakeSeatedRecogniser(SeatedCoachProgram& program);
 
 /// Makes a policy that asks a program. A step holds the state of the coach in the previous frame, and its verdicts on

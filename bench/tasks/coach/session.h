@@ -87,7 +87,7 @@ struct SessionParts {
   CaptureMethod capture = {};  ///< if cameras are the sensor: the causal method that makes skeletons
 };
 
-/// Decides in each frame if the coach corrects, instead of the coach's own policy.
+/// Replaces the coach's own policy: decides in each frame if the coach corrects.
 class MomentSource {
  public:
   virtual ~MomentSource() = default;

@@ -35,8 +35,8 @@ CoachCondition DrawCondition(const WorldKey& key) {
   if (dice.Chance(0.5)) condition.sight.sensor = SensorV1();
   condition.sight.session.people = People::kMixed;
   condition.learner.skill = dice.Uniform(0.1, 0.8);
-  // Give half of the sessions full severity. Full mistakes would otherwise be rare, and the model must learn to detect
-  // them.
+  // Give half of the sessions full severity. Faults of full severity would otherwise be rare, and the model must learn
+  // to detect them.
   if (dice.Chance(0.5)) condition.learner.severity = 1;
   return condition;
 }

@@ -18,10 +18,10 @@ struct CoachedTraining {
 };
 
 /// Trains the model of recogniser `coached`. Simulated people of all kinds and skills dance these songs with a coach
-/// who never interrupts, in front of both sensors and with various noises. Every performance is measured in its window,
-/// as the recogniser measures it in use, and the model is fitted to the truth. Grey performances (neither right nor
-/// wrong) are left out. The random numbers differ from those of every scenario, so no judged person is among the
-/// simulated people. Only LearntModel::asked is fitted. Fails on an unknown song.
+/// who never interrupts, in front of the sensors of both Kinects, with noise of various strengths. Every performance is
+/// measured in its window, as the recogniser measures it in use, and the model is fitted to the truth. Grey
+/// performances (neither right nor wrong) are left out. The random numbers differ from those of every scenario, so no
+/// judged person is among the simulated people. Only LearntModel::asked is fitted. Fails on an unknown song.
 Result<LearntModel> TrainCoached(std::span<const std::string> songs, const CoachedTraining& training);
 
 }  // namespace etude

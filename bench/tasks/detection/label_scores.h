@@ -49,9 +49,9 @@ class LabelScores {
   /// All arguments must outlive this object. `recogniser` must have been taught `moves`.
   LabelScores(std::span<const TaughtMove> moves, const Recogniser& recogniser, const WatchOptions& watch);
 
-  /// Adds a recording with its labelled parts and the moves spotted in it. The recogniser is asked for each performance
-  /// from its beginning to half a second after its end. The performance is called right if its evidence reaches the
-  /// threshold. Labels of moves that were not taught are only counted.
+  /// Adds a recording with its labelled parts and the moves spotted in it. The recogniser judges each performance from
+  /// the performance's beginning to half a second after its end. The performance is called right if its evidence
+  /// reaches the threshold. Labels of moves that were not taught are only counted.
   void Add(const NamedStream& stream, std::span<const LabelledPart> parts, std::span<const Spotting> spottings);
 
   const std::vector<JudgedEvent>& Performances() const { return performances_; }

@@ -20,7 +20,7 @@ std::vector<JudgedEvent> JudgedEvents(const DetectionWorld& world, std::span<con
 void ScoreSession(const DetectionWorld& world, const SessionVerdict& verdict, const Repertoire& repertoire,
                   CellResult& result);
 
-/// Returns the ids of all metrics, in the order in which they are measured.
+/// Returns the ids of all metrics of the task, in the order in which they are measured.
 std::vector<std::string> DetectionMetrics();
 
 /// Returns the value of a metric for a method without an answer (Task::ValueOfFailure). A coach without answers calls

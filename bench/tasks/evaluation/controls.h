@@ -9,15 +9,15 @@ namespace etude {
 
 /// Returns foot contacts as RawMotion::contacts has them, found by height and speed (Etude's own rule). An ankle below
 /// 12 cm or toes below 5 cm touch while they are slower than 0.2 m/s along the floor, measured over 0.13 s. A motion
-/// without ankles and toes has no contacts.
+/// that lacks one of the four joints has no contacts.
 std::vector<bool> ContactsByMotion(const RawMotion& motion);
 
 /// Returns `given`, completed by what the truth's own motion yields: its beats (MotionBeats), and the mean and
 /// deviation (at least 1 cm) of each judged joint.
 EvaluationSideData SideDataOf(const MatchedMotions& matched, EvaluationSideData given);
 
-/// Hides `percent` per cent of the joints, over all frames: the joints farthest from the truth. Both motions have the
-/// same joints and frames.
+/// Hides `percent` per cent of the joint positions in all frames: those that are farthest from the truth. Both motions
+/// have the same joints and frames.
 void HideWorst(RawMotion& answer, const RawMotion& truth, double percent);
 
 }  // namespace etude

@@ -35,8 +35,9 @@ Recording RecordingOf(const MatchedMotions& matched) {
   return {{}, WriteEvaluationExtras(extras)};
 }
 
-/// Adds to the notes what no person's motion has. Only points are judged: UnderstandClip refuses skeletons whose sides
-/// are exchanged, and drawn figures may come apart.
+/// Adds notes on features that no person's motion has (DoubtsOnBody). Only motions of points, which have no rotations,
+/// are judged: UnderstandClip already refuses skeletons whose sides are exchanged, and the joints of animators' figures
+/// may move apart.
 void AddDoubts(RawMotion& motion) {
   if (!motion.rotations.empty()) return;
   std::ranges::move(DoubtsOnBody(RolesIn(motion), motion.rate_hz), std::back_inserter(motion.notes));

@@ -15,11 +15,12 @@ namespace etude {
 constexpr std::size_t kMaxPairs = 100'000;
 
 /// Finds the pairs of files of task evaluation (TaskKind::find_files), sorted by name. A folder stands for the motion
-/// files in it, recognised by their extensions. The pairs are those of a CSV file. Without a CSV file, a truth and an
-/// answer are a pair if their file names are equal apart from the extension; if there is a single truth and a single
-/// answer of each method, they are a pair whatever their names. An answer without a truth is left out. Fails if two
-/// truths, or two answers of a method, have the same name; if a method has no answer for any truth; if there are more
-/// than kMaxPairs pairs; if the CSV file is invalid; and if an answer is a link that the scenario does not name itself.
+/// files in it, recognised by their extensions. The pairs are those of the CSV file that the condition names (`pairs`).
+/// Without a CSV file, a truth and an answer are a pair if their file names are equal apart from the extension; if
+/// there is a single truth and a method has a single answer, they are a pair whatever their names. An answer without a
+/// truth is left out. Fails if two truths, or two answers of a method, have the same name; if a method has no answer
+/// for any truth; if there are more than kMaxPairs pairs; if the CSV file is invalid; and if an answer is a link that
+/// the scenario does not name itself.
 Result<FoundFiles> FindEvaluatedFiles(const Node& condition, std::span<const Node> methods,
                                       const std::map<std::string, std::string>& texts);
 

@@ -207,7 +207,7 @@ ClockOffset OffsetOf(const RawMotion& truth, const RawMotion& answer) {
   return {frames / truth.rate_hz, both + ": judged by these clocks, and the answer is interpolated linearly"};
 }
 
-/// Describes the lag, e.g. "the answer is 40.2 ms late (39.8 to 40.6), taken out".
+/// Describes the lag, e.g. "the answer is 40.20 ms late (95 %: 39.80 to 40.60), which was removed".
 std::string NoteOn(const TimeShift& lag) {
   constexpr double kToMs = 1000;
   const double ms = kToMs * lag.shift_s;
@@ -239,7 +239,8 @@ std::string NoteOn(const RawMotion& truth, const RawMotion& answer, const std::s
   if (is_resampled) note += fmt::format(", the answer was interpolated linearly from {:g} Hz", answer.rate_hz);
   if (matched.lag) note += ", " + NoteOn(*matched.lag);
   if (!clock.empty()) note += ", " + clock;
-  // At another rate, the last frame may be the rest of a frame of the truth.
+  // One surplus frame is not mentioned: in motions of equal length, the answer's last frame lies after the truth's last
+  // frame if the answer has the higher rate.
   if (matched.surplus > 1) note += fmt::format(", {} frames of the answer outside the truth", matched.surplus);
   if (matched.uncovered > 0) note += fmt::format(", {} frames of the truth outside the answer", matched.uncovered);
   for (const RawMotion* motion : {&truth, &answer}) {
@@ -313,7 +314,7 @@ Result<MatchedMotions> Match(const RawMotion& given_truth, const RawMotion& give
   matched.bends = FindBends(common, truth);
   matched.parents = FindParents(common, truth);
   MatchAngles(truth, sampled, matched);
-  // Count the frames before the answer's beginning and after its end.
+  // Count the truth's frames before the answer's beginning and after its end.
   for (std::size_t f = 0; f < frames; ++f) {
     constexpr double kRounding = 1e-6;  // tolerance in frames, as in `Sampled`
     const double at = (start_s + static_cast<double>(f) / rate_hz) * answer.rate_hz;

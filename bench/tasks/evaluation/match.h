@@ -28,9 +28,9 @@ struct MatchedMotions {
   std::string note;                       ///< a note on the match, in one line
 };
 
-/// The rule by which the frame of the answer is found that is paired with the truth's first frame.
+/// The time of the answer that is paired with the truth's first frame.
 enum class Lag {
-  kNone,  ///< the answer's first frame
+  kNone,  ///< the same time by the clocks of both files; the answer's first frame if they state no common clock
   kFind,  ///< the time that FindTimeShift finds, which may be between two frames
 };
 

@@ -9,7 +9,7 @@
 
 namespace etude {
 
-/// Returns the ids of all metrics, in the order in which they are measured.
+/// Returns the ids of all metrics of the task, in the order in which they are measured.
 std::vector<std::string> EvaluationMetrics();
 
 /// Data that some metrics need in addition to the motions.

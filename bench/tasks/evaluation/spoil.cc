@@ -180,7 +180,7 @@ RawMotion Spoilt(const RawMotion& truth, const Spoiler& spoiler, const std::stri
                                   spoiler.lifted_cm / kCmPerMetre, 0);
   });
   if (spoiler.feet_locked_cm > 0) LockFeet(motion, spoiler.feet_locked_cm / kCmPerMetre);
-  // Change the times at which the joints have these positions.
+  // Exchange left and right, and change the times at which the joints have these positions.
   const auto begin_of = [&](double share) {
     return static_cast<std::size_t>(static_cast<double>(truth.FrameCount()) * (1 - share));
   };

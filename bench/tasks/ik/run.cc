@@ -69,8 +69,8 @@ CellResult RunIkCell(const KinematicTree& tree, const IkWorld& world, const IkMe
 
 namespace {
 
-/// Returns the largest number of forward-kinematics passes. Each solver makes one pass before its first step and one in
-/// each step.
+/// Returns the limit of forward-kinematics passes for the penalised costs: one pass before the first step and one in
+/// each step. Some solvers make further passes and may exceed the limit.
 double LargestFkCount(int max_steps) { return max_steps + 1; }
 
 /// Adds a cost, and the cost in penalised form. Both are missing if the method did not report the cost.

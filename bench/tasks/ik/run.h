@@ -54,7 +54,7 @@ constexpr int kMaxCurveEntries = 200;
 /// after each iteration. A curve has at most kMaxCurveEntries entries.
 std::vector<Series> WorstErrorCurves(std::span<const IkTraceEntry> trace);
 
-/// Returns curves for each effector, with the entries of WorstErrorCurves: `right_foot_position_error_cm`,
+/// Returns curves for each effector, after the same iterations as WorstErrorCurves: `right_foot_position_error_cm`,
 /// `right_foot_x_axis_error_deg`, … (paper B, figure 5.2).
 std::vector<Series> EffectorCurves(const KinematicTree& tree, std::span<const IkTraceEntry> trace);
 

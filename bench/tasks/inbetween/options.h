@@ -17,12 +17,12 @@ struct InbetweenOptions {
                                       ///< unit
   int window = 65, offset = 40;       ///< length of a window, and distance of successive windows, frames
   int training_window = 50, training_offset = 20;
-  int past = 10;                  ///< number of frames before the gap; all are given
+  int past = 10;                  ///< number of frames before the gap; methods receive all of them
   int gap = 30;                   ///< number of hidden frames
   int future = 10;                ///< number of frames that a window must have after the gap
-  int given = 1;                  ///< number of frames after the gap that are given
+  int given = 1;                  ///< number of frames after the gap that methods receive
   std::optional<double> rate_hz;  ///< rate to which motions are sampled; nullopt = each file's own
-  glm::dvec3 facing{0, 1, 0};     ///< the root's axis that is turned to X in the last past frame
+  glm::dvec3 facing{0, 1, 0};     ///< the root's axis that points along X in the last frame before the gap
   /// True: a window has its file's own offsets; false: those of the first training file.
   bool own_offsets = false;
 };

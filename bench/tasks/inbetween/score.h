@@ -34,7 +34,7 @@ struct HiddenWindow {
   std::shared_ptr<const JudgedFile> file;  ///< shared by all windows of a file; the windows outlive the file's motion
 };
 
-/// Returns the ids of all metrics, in the order in which they are measured.
+/// Returns the ids of all metrics of the task, in the order in which they are measured.
 std::vector<std::string> InbetweenMetrics();
 
 /// Measures a whole file. Only `motion` and `roles` of `whole` must be set.

@@ -10,7 +10,7 @@
 
 namespace etude {
 
-/// Returns the ids of all metrics, in the order in which they are measured.
+/// Returns the ids of all metrics of the task, in the order in which they are measured.
 std::vector<std::string> PlausibilityMetrics();
 /// Returns the ids of the metrics that may have limits. For these metrics, lower is better.
 std::vector<std::string> LimitedMetrics();

@@ -42,7 +42,7 @@ struct PairVerdict {
 PairVerdict ComputePairVerdict(const PairWorld& world, const PoseDistanceMethod& method, const Memberships& memberships,
                       const FeatureWeights& weights);
 
-/// Returns the ids of all metrics, in the order in which they are measured.
+/// Returns the ids of all metrics of the task, in the order in which they are measured.
 std::vector<std::string> PoseDistanceMetrics();
 
 /// Scores a verdict. `distance` is the built-in distance that was used; its value is a metric if the world has a single

@@ -20,9 +20,9 @@
 
 namespace etude {
 
-/// Describes a person for whom the studio's cameras are set up. The person stands as in `first`, moves up to half a
-/// metre to every side, and jumps. The limb lengths are those of `first`. `places` are the expected poses
-/// (PlacesAround).
+/// Describes a person for whom the studio's cameras are set up. The person stands as in `first`, may move up to half a
+/// metre to every side, and may raise an arm above the head. The limb lengths are those of `first`. `places` are the
+/// expected poses (PlacesAround).
 FilmedPerson MakeFilmedPerson(std::span<const BodyPose> places, const BodyPose& first, std::size_t frames);
 std::vector<BodyPose> PlacesAround(const BodyPose& first);
 

@@ -13,8 +13,8 @@ struct CameraSensing {
   std::vector<PersonSource> sources;  ///< the sources of all methods; equal sources are listed once
 };
 
-/// Returns the keys of a condition with `sensor: cameras`: `picture_every`, and those keys of `task: capture` that do
-/// not concern that task's takes.
+/// Returns the keys of a condition with `sensor: cameras`: `picture_every`, and the keys of a condition of `task:
+/// capture` except `duration_s`, `figure` and `moments`.
 const FieldTable<StudioOptions>& CameraSensingFields();
 
 /// Returns the key `capture` of a method. The key says how pictures become skeletons; its value is a mapping with the

@@ -21,9 +21,9 @@ struct CrowdOptions {
 /// the built-in moves and acts. Fails if these clips are too short for enough windows.
 Result<std::vector<TrackingWorld>> MakeCrowd(const CrowdOptions& options);
 
-/// Follows the motions of many characters at once. Each frame is one batch of `gauss-newton`, in which every character
-/// starts from its previous answer, within the joint limits. In double precision, each character's result equals, bit
-/// for bit, the result of task `tracking` for that character alone.
+/// Follows the motions of many characters at once. In each frame, one batch of `gauss-newton` solves the problems of
+/// all characters. Every character starts from its previous answer and keeps the joint limits. In double precision,
+/// each character's result equals, bit for bit, the result of task `tracking` for that character alone.
 class Crowd {
  public:
   /// There must be at least one world. All worlds must have the same tree and number of frames, and must outlive this

@@ -144,7 +144,7 @@ void AddIterations(const std::optional<std::vector<int>>& iterations, CellResult
 }
 
 /// Describes the unsolved frames: "12 of 150 frames not solved; in the first of them, 0, worst effector 3.1 cm, 4°".
-/// Returns "" if all frames are solved.
+/// If a frame exceeds a limit, describes the first such frame instead. Returns "" if all frames are solved.
 std::string DescribeFailure(const Outcome& outcome) {
   const auto unsolved = std::count_if(outcome.frames.begin(), outcome.frames.end(), std::not_fn(IsFrameSolved));
   if (unsolved == 0) return "";

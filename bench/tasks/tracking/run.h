@@ -22,9 +22,10 @@ struct TrackingAnswer {
 Result<TrackingAnswer> Follow(const TrackingWorld& world, const TrackingMethod& method);
 
 /// Measures an answer against the given targets and the true motion. The answer has one entry per frame. The cell is
-/// `ok` if every frame is solved practically. Otherwise it is `unsolved`, with the number of unsolved frames and the
-/// first of them. A frame in which a limit is exceeded is unsolved. The cell's series have one value per frame. With
-/// `keeps_motion`, a recording has the tracks "truth" and "solution".
+/// `ok` if every frame is solved practically. Otherwise it is `unsolved`. The reason then describes the first frame in
+/// which a limit is exceeded or, if there is none, states the number of unsolved frames and the first of them. A frame
+/// in which a limit is exceeded is unsolved. The cell's series have one value per frame. With `keeps_motion`, a
+/// recording has the tracks "truth" and "solution".
 CellResult ScoreTracking(const TrackingWorld& world, double rate_hz, const TrackingAnswer& answer, bool keeps_motion);
 
 /// Returns the ids of all metrics that a cell reports, by a value or by the reason why the value is missing.

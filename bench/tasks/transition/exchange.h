@@ -48,9 +48,9 @@ Payload NaturePayload(const Stage& stage, const TransitionRequest& request);
 /// - `"through": [{"clip": 2, "enter_frame": 3, "leave_frame": 40}]`: clips played in between, entered and left by the
 ///   same rule.
 /// - `"join"`: a built-in join, which has its default settings; `cut` if absent.
-/// - `"join_s": 0.5`: the duration of `minimum-jerk` or `planted-feet`, 0 to 5 s. With it `"fades": true`: the old clip
-///   continues while it fades out; or `"direct": true`: each limb moves with minimum jerk to its pose in the new clip
-///   at the end. Other joins have durations of their own.
+/// - `"join_s": 0.5`: the duration of `minimum-jerk` or `planted-feet`, 0 to 5 s. Together with `join_s`,
+///   `"fades": true` makes the old clip continue while it fades out, or `"direct": true` makes each limb move with
+///   minimum jerk to its pose in the new clip at the join's end. Other joins have durations of their own.
 /// - `"between": [[x, y, z, …], …]`: the method's own frames, shown after `leave_frame` in the place and heading of
 ///   clip `from` in the setting. Clip `to` is then aligned with the last of these frames, which should be the method's
 ///   own version of `enter_frame`. The body must be the clips' body: a limb that is more than 2 cm longer or shorter is

@@ -21,14 +21,15 @@ namespace etude {
 MatchTally TallyMatches(const Stage& stage, const TransitionRequest& request, const TransitionWay& way);
 
 /// Measures the metrics of a transition (docs/reference/metrics.md) from the segments that it plays. A transition
-/// through a clip in between has two transition points. Each metric is that of the worse point.
+/// through clips in between has several transition points. A metric of a transition point is then that of the worst
+/// point.
 void ScoreTransition(const TransitionOutcome& outcome, const Stage& stage, CellResult& result);
 
-/// Measures the metrics of the pairs of frames that a transition could have used. They are missing for a method without
-/// a threshold.
+/// Measures the metrics of the pairs of frames that a transition could have used. The metrics are missing for a method
+/// without a threshold.
 void ScoreMatching(const std::optional<MatchTally>& tally, CellResult& result);
 
-/// Returns the ids of all metrics, in the order in which they are measured.
+/// Returns the ids of all metrics of the task, in the order in which they are measured.
 std::vector<std::string> TransitionMetrics();
 
 /// Returns the value of a metric for a method that made no transition (Task::ValueOfFailure). It is 0 for
@@ -37,7 +38,8 @@ std::vector<std::string> TransitionMetrics();
 /// for `false_smooth` would reward the failure.
 std::optional<double> TransitionFailureValue(std::string_view metric);
 
-/// Records the metrics of ScoreTransition as missing, for a world in which no transition was found.
+/// Records the metrics of ScoreTransition for a world in which no transition was found: the values of
+/// TransitionFailureValue, and all other metrics as missing.
 void MeasureNoWay(CellResult& result);
 
 /// The data that the runs of a task share. All data must outlive the runs.

@@ -28,7 +28,7 @@ Result<TransitionRequest> DrawRequest(const Stage& stage, const WorldKey& key) {
   if (others.empty()) return Fail({}, "no other clip of this library has {} frames", kMinClipFrames);
   // Draw the requested clip and the time of the request.
   request.to = others[RandomStream(key, "to-clip").IndexBelow(others.size())];
-  // At least a whole window of frames precedes the request, and the clip's last frame follows it.
+  // At least kEarliestRequest frames precede the request, and at least the clip's last frame follows it.
   const int last = frames - 2;
   RandomStream dice(key, "request-time");
   request.request_frame = kEarliestRequest + static_cast<int>(dice.IndexBelow(last - kEarliestRequest + 1));
