@@ -158,7 +158,7 @@ Result<FbxMotion> FbxReader::Read(std::string_view bytes, const std::string& pat
           "joints whose pre-rotations, post-rotations and orders are left out, because RotationActive is not set: {}",
           inactive));
     }
-    constexpr double kLong = 0.1;  // seconds; between keys less far apart, every curve is nearly a straight line
+    constexpr double kLong = 0.1;  // seconds; between keys that are closer in time, every curve is nearly straight
     if (const double apart = std::strtod(said->c_str() + name + 1, nullptr); apart > kLong) {
       remarks.push_back(
           fmt::format("its keys are up to {:.2f} s apart: between them joints turn along the shortest "

@@ -54,7 +54,7 @@ class FilmWorkers {
     /// The socket carries single bytes. The drawing process sends a byte for "drawn"; this process sends a byte for
     /// "the next frame's data have arrived", or, without a feed, for "a slot is free".
     std::optional<ForkedCopy> copy;
-    int fed = 0, taken = 0;  ///< number of this process's frames that got their data, and number that Next returned
+    int fed = 0, taken = 0;  ///< number of the drawing process's frames that have their data; number that Next returned
   };
   struct Unmap {
     std::size_t bytes;
@@ -78,7 +78,7 @@ class FilmWorkers {
 
   int frames_, width_, height_;
   FrameFeed feed_;
-  int chunk_, slots_;  ///< frames per chunk; maximum number of frames by which a process may be ahead
+  int chunk_, slots_;  ///< frames per chunk; maximum number of frames that a process may draw ahead of Next
   int next_ = 0, fed_ = 0;
   std::vector<Worker> workers_;
   std::unique_ptr<std::uint8_t, Unmap> memory_{nullptr, Unmap{0}};  ///< `slots_` slots for each process

@@ -47,8 +47,8 @@ bool NaturallyBefore(const fs::path& a, const fs::path& b) {
       ++j;
     }
   }
-  // The numbers are equal up to leading zeros. The name with the shorter remainder comes first; then the plain order
-  // decides.
+  // The numbers are equal up to leading zeros. The name with the shorter remainder comes first; if the remainders have
+  // equal lengths, the characters decide.
   return x.size() - i != y.size() - j ? x.size() - i < y.size() - j : x < y;
 }
 

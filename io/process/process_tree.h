@@ -19,7 +19,7 @@ struct ProcessUsage {
   double own_cpu_s = 0;       ///< processor time without the time of child processes
 };
 
-/// Reads a file in /proc, at most `max_bytes` and up to 4 KiB more; returns "" if the process does not exist any more.
+/// Reads at most `max_bytes` + 4 KiB of a file in /proc; returns "" if the process does not exist any more.
 std::string ReadProcFile(const std::string& path, std::size_t max_bytes = std::size_t{1} << 30);
 
 /// Returns `root` and its living descendants, parents before children, at most 4096 processes. Processes may start and
