@@ -168,7 +168,7 @@ Result<int> CoachCommand(const CoachCommandOptions& options) {
     file.open(options.stream);
     if (!file || std::filesystem::is_directory(options.stream)) return Fail({options.stream}, "cannot be read");
   }
-  // Print the head, then one line for each frame.
+  // Print the head (the song, its moves and their key poses), then one line for each frame.
   ASSIGN_OR_RETURN(const auto head, CoachHead(library.dance()));
   fmt::print("{}\n", head);
   StreamReading reading{.rate_hz = options.rate_hz};

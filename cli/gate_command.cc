@@ -169,8 +169,8 @@ std::string RateText(const Rate& rate) {
                      rate.of == 0 ? 0.0 : 100.0 * rate.count / rate.of, 100 * rate.low, 100 * rate.high);
 }
 
-/// Returns a sentence that says whether the gate keeps its error limits. A small number of gates without an alarm is no
-/// evidence of this.
+/// Returns a sentence that says whether the gate keeps its error limits. A few repetitions without a false alarm are
+/// not enough to prove this.
 const char* PromiseSentence(const SelfTestReport& report) {
   if (!report.Holds()) return "The gate exceeds its error limits.";
   if (report.false_alarms.high > kFalseAlarmLimit) {

@@ -25,7 +25,7 @@ namespace etude {
 namespace {
 
 /// The default sample size. If 5 % of a very large number of cells are forged, the sample misses all forged cells with
-/// probability 0.95^59, 1 in 21. With fewer cells, this probability is lower.
+/// probability 0.95^59, 1 in 21. In a run with fewer cells, this probability is lower.
 constexpr const char* kDefaultSample = "59";
 constexpr const char* kWholeSample = "all";
 constexpr std::size_t kMaxSample = 10'000'000;
