@@ -261,7 +261,7 @@ std::string List(std::string_view title, const std::vector<std::string>& lines) 
   return text;
 }
 
-/// Returns Markdown that folds `content` below a title; "" if `content` is empty.
+/// Returns `content` as Markdown, collapsed below a title (<details>); "" if `content` is empty.
 std::string FoldedAway(const std::string& title, const std::string& content) {
   if (content.empty()) return "";
   return fmt::format("\n<details><summary>{}</summary>\n{}\n</details>\n", title, content);
@@ -338,7 +338,7 @@ std::string WriteGateMarkdown(const GateReport& report) {
   text += List("**Methods without an answer:**", report.silent);
   text += List("**Not met:**", ClaimsThatAre(report, ClaimOutcome::kUnmet));
   text += List("**Answers that became worse** (a change from better to worse is a regression):", FallenLines(report));
-  // Write the changed metrics. Changes that fail the gate are visible; all other changes are folded away.
+  // Write the changed metrics. Changes that fail the gate are visible; all other changes are collapsed.
   std::vector<GateTableRow> failing, others;
   for (GateTableRow& row : MovedRows(report.comparison)) (row.fails ? failing : others).push_back(std::move(row));
   if (!failing.empty()) text += MoveTable(failing);

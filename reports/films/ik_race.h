@@ -36,8 +36,8 @@ struct IkPath {
   std::size_t EntryAt(double iteration) const;
 };
 
-/// Returns true if any of these errors is above zero. If all position errors (or all orientation errors) are zero, the
-/// world has no such targets, so the film leaves out the plot of these errors.
+/// Returns true if any of these errors is above zero. If all position errors (or all orientation errors) are zero, no
+/// target prescribes a position (or an orientation), so the film leaves out the plot of these errors.
 bool IsAskedFor(const std::vector<double>& errors);
 
 /// The joints that have targets, in the order of the effectors in the tree.

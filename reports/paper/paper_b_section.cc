@@ -180,7 +180,8 @@ bool HasEffectorCurves(const RunData& run, const ScenarioSummary& scenario) {
 
 /// Draws paper B's figure 5.2: each end effector's position error, and the angular error of each axis of the effector,
 /// over iterations. Each small plot shows all methods on a logarithmic axis: a thin line for the first trial, a thick
-/// line for the median of all trials. Returns one folded figure per condition; "" if no cell recorded these curves.
+/// line for the median of all trials. Returns one collapsed figure (<details>) per condition; "" if no cell recorded
+/// these curves.
 std::string EffectorCurvesHtml(const RunData& run, const ScenarioSummary& scenario) {
   if (!HasEffectorCurves(run, scenario)) return "";
   const CellSeriesIndex series(run);
