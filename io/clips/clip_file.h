@@ -48,7 +48,7 @@ struct MadeBody {
   UpFinding up = {};                   ///< the axis of the file that became Y
   double floor_m = 0;                  ///< the height in the file that became 0
   std::size_t first_frame = 0;         ///< the frame of the file that became the first frame
-  std::optional<double> start_s = {};  ///< the first frame's time by the file's own clock, if it states one
+  std::optional<double> start_s = {};  ///< the first frame's time by the file's own clock, if the file states times
 };
 
 /// The content of a motion file.

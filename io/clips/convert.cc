@@ -25,7 +25,7 @@ namespace etude {
 namespace {
 
 bool ParseSeconds(std::string_view text, double& seconds) {
-  if (text.empty()) return true;  // the text of this end is missing: the end stays open
+  if (text.empty()) return true;  // an end of the span that has no text stays open
   const auto value = ParseFinite(text);
   seconds = value.value_or(-1);
   return seconds >= 0;

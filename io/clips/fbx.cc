@@ -54,8 +54,8 @@ std::string NameOfReader() {
   return "assimp is part of the program";
 }
 
-/// Returns the address space that this process already uses, bytes. RLIMIT_AS also counts this address space, so it is
-/// added to the limit.
+/// Returns the address space that this process already uses, bytes. RLIMIT_AS also counts this address space, so the
+/// limit is this number plus kMemoryBytes.
 rlim_t MappedBytes() {
   rlim_t pages = 0;
   std::ifstream("/proc/self/statm") >> pages;

@@ -193,7 +193,7 @@ Result<OpenedClip> UnderstandBuiltin(SourceClip source, const BodyOptions& optio
 Result<std::vector<SourceClip>> ReadClips(const std::string& reference, const OpenOptions& options) {
   if (reference.starts_with(kBuiltinPrefix)) return ReadBuiltin(reference);
   SplitReference wanted = Split(reference);
-  // Replace a reference to a run by the file of its recording.
+  // Replace a reference to a run by the file of the run's recording.
   if (options.recorded != nullptr) {
     ASSIGN_OR_RETURN(wanted, options.recorded->Find(wanted));
   }

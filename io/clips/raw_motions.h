@@ -23,8 +23,8 @@ Result<RawMotion> RawMotionOf(SourceClip source, const OpenOptions& options, boo
 /// read.
 Result<std::string> DigestOfFile(const std::string& reference, const OpenOptions& options);
 
-/// Reads one motion: arrays of positions by ReadRawNpz, any other motion as ReadOneClip does. `keeps_rig` has the
-/// meaning of RawMotionOf.
+/// Reads one motion: arrays of positions by ReadRawNpz, any other motion as ReadOneClip does. `keeps_rig` has the same
+/// meaning as in RawMotionOf.
 Result<RawMotion> OpenRawMotion(const std::string& reference, const OpenOptions& options, bool keeps_rig = false);
 
 }  // namespace etude

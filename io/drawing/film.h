@@ -27,18 +27,18 @@ struct FrameFeed {
   std::function<Result<void>(int frame, std::span<std::uint8_t> into)> fill = {};
 };
 
-/// Draws the frames of a film in several processes, which start as copies of this process, and returns them in order.
-/// Each process draws chunks of consecutive frames. The function that draws a frame may cache data for the next frame,
-/// but no picture may depend on the cache. Then the film is the same for any number of processes.
+/// Draws the frames of a film in several processes, which start as copies of this process, and returns the frames in
+/// order. Each process draws chunks of consecutive frames. The function that draws a frame may cache data for the next
+/// frame, but no picture may depend on the cache. The film is therefore the same for any number of processes.
 class FilmWorkers {
  public:
   /// Draws the frame with number 0 … `frames` − 1 from the frame's data; all canvases have the same size, with even
-  /// sides.
+  /// width and height.
   using Draw = std::function<Canvas(int frame, std::span<const std::uint8_t> fed)>;
 
-  /// Draws the first frame in this process, so that all processes get the data that the first frame computes. Then
-  /// starts `jobs` processes (0 = one per processor). Other threads of this process must not hold a lock that `draw`
-  /// needs.
+  /// Draws the first frame in this process, so that all processes get the data that drawing the first frame computes.
+  /// Then starts `jobs` processes (0 = one per processor). Other threads of this process must not hold a lock that
+  /// `draw` needs.
   static Result<FilmWorkers> Start(int frames, int jobs, const Draw& draw, FrameFeed feed = {});
   FilmWorkers(FilmWorkers&&) noexcept = default;
   FilmWorkers& operator=(FilmWorkers&&) = delete;

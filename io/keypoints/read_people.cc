@@ -110,9 +110,9 @@ Result<std::vector<SeenPerson>> ReadFrame(const fs::path& file, const std::strin
   return frame;
 }
 
-/// Counts the people of a file with 25 keypoints: in `between` if the ninth keypoint lies midway between the tenth and
-/// the thirteenth, otherwise in `elsewhere`. In `body_25` these three are the mid-hip and the hips; in `body_25b` they
-/// are the right elbow, the left wrist and the right hip.
+/// Counts those people in a file who have 25 keypoints: in `between` if the ninth keypoint lies midway between the
+/// tenth and the thirteenth, otherwise in `elsewhere`. In `body_25` these three are the mid-hip and the hips; in
+/// `body_25b` they are the right elbow, the left wrist and the right hip.
 void CountMidHips(const Json& json, const Place& place, int& between, int& elsewhere) {
   constexpr std::size_t kCount = 25, kMidHip = 8, kRightHip = 9, kLeftHip = 12;
   constexpr double kMaxShare = 0.03;  // tolerance as a share of the person's height

@@ -108,8 +108,8 @@ bool WriteTo(const char* path, std::string_view text) {
   return written;
 }
 
-/// Sets up the new namespaces as bubblewrap expects: the same user and group IDs, and a separate /proc. Sets the kernel's
-/// limits per user for the namespace, so that the program cannot use up the limits of the user's other programs.
+/// Sets up the new namespaces as bubblewrap expects: the same user and group IDs, and a separate /proc. Sets the
+/// kernel's limits per user for the namespace, so that the program cannot use up the limits of the user's programs.
 bool SetUpNamespaces(const ExecPlan& child) {
   const bool is_set_up = WriteTo("/proc/self/setgroups", "deny") && WriteTo("/proc/self/uid_map", child.user_map) &&
                          WriteTo("/proc/self/gid_map", child.group_map) &&

@@ -52,7 +52,7 @@ struct ChildOptions {
   std::string error_file = {};  ///< the child's standard error is appended here; "" = the child uses this process's
   bool limited = false;         ///< true for outside programs: ProgramLimits apply, no new privileges, no variable PWD
   /// Makes the child the first process of new user, PID and mount namespaces, if the kernel allows it. When the child
-  /// ends (at the latest with this process), the kernel ends all processes in the namespaces.
+  /// ends (at the latest, when this process ends), the kernel ends all processes in the namespaces.
   bool contained = false;
   int programs = 1;  ///< number of outside programs that run at the same time
   /// ControlGroup::folder of the group to start the child in; only if contained.

@@ -32,7 +32,7 @@ std::vector<pid_t> ChildrenOf(pid_t parent);
 /// Measures one process without its living descendants; returns zeros if the process does not exist any more.
 ProcessUsage MeasureProcess(pid_t process);
 
-/// Gives all threads of a process, and all that they start from now on, the lowest priority.
+/// Gives the lowest priority to all threads of a process, and to everything that these threads start from now on.
 void LowerPriority(pid_t process);
 
 /// A process and its descendants, held by pidfds. If a process of the tree has ended and another process gets its ID,
