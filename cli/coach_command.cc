@@ -47,7 +47,7 @@ struct CoachCommandOptions {
   std::string join = "planted-feet";
   std::string filter = "none";
   bool mirror = false;   ///< true: players mirror the coach
-  bool reflect = false;  ///< true: the stream's X axis points the other way
+  bool reflect = false;  ///< true: the stream is mirrored, so X is negated
   bool now = false;      ///< true: the coach begins to dance without waiting for a clap
   bool brief = false;    ///< true: frames without a decision are left out
   bool timing = false;   ///< true: processing times of frames are printed at the end

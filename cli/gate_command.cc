@@ -25,7 +25,7 @@ namespace {
 struct GateOptions {
   std::string target;         ///< a result folder; with self_test a scenario file, "" = the built-in scenario
   std::string baseline;       ///< a baseline file, "" = none
-  bool update = false;        ///< write the baseline from the run, and print what moved
+  bool update = false;        ///< write the baseline from the run, and print the metrics that changed
   bool self_test = false;     ///< measure the gate's own rates of false alarms and of detection
   int repetitions = 40;       ///< for the self-test: number of pairs of runs with different seeds
   std::optional<int> trials;  ///< for the self-test: worlds per condition; default: the scenario's trials
@@ -128,7 +128,7 @@ Result<int> Judge(const GateOptions& options, const FinishedRun& run) {
   return UnlessReplaced(options.target, run.data, ExitCode(GateVerdictOf(report)));
 }
 
-/// Prints the metrics that moved between two baselines, for the worlds that are in both baselines.
+/// Prints the metrics that changed between two baselines, for the worlds that are in both baselines.
 void PrintDifference(Snapshot before, Snapshot after, const FinishedRun& run) {
   PrintList("Made anew:", DropIncomparable(before, after));
   const SnapshotComparison comparison = CompareSnapshots(before, after, ExactScenarios(run), TailRulesOf(run));
