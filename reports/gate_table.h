@@ -37,7 +37,7 @@ std::vector<std::string> GateSentences(const GateReport& report);
 /// Returns one line for each answer whose verdict became worse since the baseline. If `only_flipped` is true, returns
 /// only the answers that changed from better to worse, which fail the gate.
 std::vector<std::string> FallenLines(const GateReport& report, bool only_flipped = false);
-/// Returns the number of metrics that moved in each direction: "170 comparisons: 2 worse, 3 better, 165 same".
+/// Returns the number of metrics with each outcome: "170 comparisons: 2 worse, 3 better, 165 same".
 std::string CompareSentence(const SnapshotComparison& comparison);
 
 /// A line of text about a world that is far worse than in the baseline.

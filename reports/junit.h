@@ -27,9 +27,9 @@ std::string WriteJunitXml(const std::string& name, const std::vector<JunitSuite>
 
 /// Returns the run as JUnit XML, one suite per scenario. A suite has one case that passes if every cell has a row, one
 /// that passes if no cell crashed, failed, timed out or gave an invalid answer, one that always passes and states the
-/// scenario's answer, and one per expectation (failed if unmet, skipped if undecided). If the motions have no ground
-/// truth, the suite has one case per clip (ClipCases) instead of the case for cells that crashed, failed, timed out or
-/// gave an invalid answer.
+/// scenario's answer (if methods are compared), and one per expectation (failed if unmet, skipped if undecided). If the
+/// motions have no ground truth, the suite has one case per clip (ClipCases) instead of the case for cells that
+/// crashed, failed, timed out or gave an invalid answer.
 std::string WriteJunit(const RunData& run);
 
 }  // namespace etude

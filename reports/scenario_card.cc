@@ -230,7 +230,7 @@ std::string Expectations(const ScenarioSummary& scenario) {
   return Folded(title, html + "</ul>", unmet > 0 ? " class=\"unmet\"" : "");
 }
 
-/// Returns the identity of the first cell that ended for this reason, so that the reader can run the cell again.
+/// Returns the ID of the first cell that ended for this reason, so that the reader can run the cell again.
 std::string FirstCellOf(const RunData& run, const ScenarioSummary& scenario, const ReasonCount& reason) {
   for (const Row& row : run.rows) {
     if (row.scenario == scenario.name && row.method == reason.method && row.result.status == reason.status &&

@@ -32,7 +32,8 @@ struct IkPath {
   std::string ending;  ///< the outcome: "solved", "not solved", or the status
   std::string reason;  ///< why the method did not solve the pose; "" if the pose is solved
 
-  /// Returns the index of the entry to show at `iteration`: the last recorded iteration that is not later.
+  /// Returns the index of the entry to show at `iteration`: the last recorded iteration that is not later than
+  /// `iteration`.
   std::size_t EntryAt(double iteration) const;
 };
 

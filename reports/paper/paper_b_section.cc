@@ -117,7 +117,7 @@ std::string Under(const PaperBCondition& condition) {
   return condition.condition.empty() ? "" : ", " + ConditionLabel(condition.condition);
 }
 
-// Table 5.2 contains the errors of table 5.1 and, in addition, the angles of the hidden joints.
+// Table 5.2 contains the errors of table 5.1 and, in addition, the hidden angles, which no target determines.
 std::string_view TableName(const PaperBSet& set) { return set.angles.empty() ? "table 5.1" : "table 5.2"; }
 
 std::string Note(const PaperBSet& set) {

@@ -59,7 +59,7 @@ std::string WayOf(const TransitionFacts& facts) {
 }
 
 /// Returns the largest distance of the transition points. If this distance is below the threshold, the distances of all
-/// transition points are.
+/// transition points are below it.
 std::optional<double> WorstDistance(const TransitionFacts& facts) {
   std::optional<double> worst;
   for (const PointFacts& point : facts.points) {
