@@ -34,7 +34,7 @@ CLI::Option* AddSeed(CLI::App& command, std::uint64_t& seed, const std::string& 
 /// Adds --seed. If the option is not given, `seed` is nullopt; the scenario's or the program's default then applies.
 CLI::Option* AddSeed(CLI::App& command, std::optional<std::uint64_t>& seed, const std::string& help);
 /// Adds --seed-file, for every command that draws the random numbers of worlds. The command refuses --seed together
-/// with it.
+/// with --seed-file.
 CLI::Option* AddSeedFile(CLI::App& command, std::string& file);
 /// Reads the key of secret worlds; nullopt if `file` is "". Warns if other users can read the file; fails if a seed is
 /// also given.

@@ -20,7 +20,7 @@ namespace {
 
 struct BridgeCommandOptions {
   std::vector<std::string> clips;
-  std::vector<std::string> to;  ///< corrective clips; empty = the coach's own clips among `clips`
+  std::vector<std::string> to;  ///< clips into which every other clip must lead; empty = the coach's own ones
   std::string output;           ///< a tags file, "" = only the summary
   std::string check;            ///< a tags file to check; "" = none
   /// "builtin:NAME" or a file; "" = paper A's system, or the system that the checked tags file names.

@@ -93,7 +93,7 @@ Result<void> WriteBids(const BidsFiles& files, const std::filesystem::path& fold
     const bool is_of_set = name.find('/') == std::string::npos;
     if (is_of_set && std::filesystem::exists(folder / name)) continue;
     RETURN_IF_ERROR(CheckOutput((folder / name).string(), overwrite));
-    written.emplace_back(Inside(folder) / name, &bytes);  // does not follow links in the folder
+    written.emplace_back(Inside(folder) / name, &bytes);  // `Inside` follows no links in the folder
   }
   for (const auto& [path, bytes] : written) RETURN_IF_ERROR(WriteFileAtomically(path, *bytes));
   return {};

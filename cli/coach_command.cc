@@ -47,7 +47,7 @@ struct CoachCommandOptions {
   std::string join = "planted-feet";
   std::string filter = "none";
   bool mirror = false;   ///< true: players mirror the coach
-  bool reflect = false;  ///< true: the stream's X axis points the other way
+  bool reflect = false;  ///< true: the stream is mirrored, so X is negated
   bool now = false;      ///< true: the coach begins to dance without waiting for a clap
   bool brief = false;    ///< true: frames without a decision are left out
   bool timing = false;   ///< true: processing times of frames are printed at the end
@@ -168,7 +168,7 @@ Result<int> CoachCommand(const CoachCommandOptions& options) {
     file.open(options.stream);
     if (!file || std::filesystem::is_directory(options.stream)) return Fail({options.stream}, "cannot be read");
   }
-  // Print the head, then one line for each frame.
+  // Print the head (the song, its moves and their key poses), then one line for each frame.
   ASSIGN_OR_RETURN(const auto head, CoachHead(library.dance()));
   fmt::print("{}\n", head);
   StreamReading reading{.rate_hz = options.rate_hz};

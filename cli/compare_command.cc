@@ -51,7 +51,7 @@ Result<int> CompareCommand(const std::string& a, const std::string& b, Sealing s
     RETURN_IF_ERROR(PrintFacts("compare", std::move(facts)));
     return kSuccess;
   }
-  // Print the comparison as text: moved metrics, unmatched cells, and a summary.
+  // Print the comparison as text: changed metrics, unmatched cells, and a summary.
   PrintMoves(comparison, "A", "B", comparison.moves.size());
   PrintList("Only in A:", comparison.only_before);
   PrintList("Only in B:", comparison.only_after);

@@ -29,7 +29,7 @@ namespace {
 struct CrowdCommandOptions {
   CrowdOptions crowd;
   double seconds = 2;
-  int steps = 100;  ///< maximum steps per frame; a character that misses its targets may get as many again
+  int steps = 100;  ///< maximum number of solver iterations per frame; it may double if a character misses its targets
   bool in_float = false;
   std::string output;  ///< the film to write; "" = only the report
   int jobs = 0;

@@ -43,7 +43,7 @@ struct EvaluateOptions {
   std::string command_line;
 };
 
-/// Returns the methods that the columns of a CSV file of pairs name.
+/// Returns the methods that the heading of a CSV file of pairs lists, one per column.
 Result<std::vector<NamedResult>> ReadColumns(const std::string& file) {
   ASSIGN_OR_RETURN(const auto text, ReadWholeFile(file));
   std::vector<NamedResult> results;
@@ -206,9 +206,10 @@ void PrintTable(const ScenarioSummary& summary) {
   }
 }
 
-/// The notes in a run's rows on pairs of files, as lines "METHOD, PAIR: reason".
+/// The notes on pairs of files from the rows of a run, as lines "METHOD, PAIR: reason".
 struct PairNotes {
-  std::vector<std::string> judged;      ///< one line per method and condition: what was judged, how answers changed
+  std::vector<std::string> judged;      ///< one line per method and condition: what was judged, how answers were
+                                        ///< changed
   std::vector<std::string> not_judged;  ///< one line for every pair that could not be judged
 };
 
@@ -253,7 +254,7 @@ Error AboutArguments(Error error, const std::string& text) {
       {"floor_m", "--floor"},  {"at_most", "--limits"},   {"music_beats", "--music-beats"},
       {"metrics", "--metric"}, {"methods", "the results"}};
   if (error.place.file != kScenarioFile) return error;
-  // Find the key of the line; an indented line belongs to the key of the line above.
+  // Find the key of the line; an indented line belongs to the last key above this line.
   std::istringstream lines(text);
   std::string line;
   std::string found;
@@ -289,7 +290,7 @@ Result<int> EvaluateCommand(const EvaluateOptions& options) {
   }
   const ScenarioSummary& summary = data.scenarios.front();
   // A pair that is not judged must not pass unnoticed. Among motions without a truth, clips that cannot be judged are
-  // an error only with limits.
+  // an error only if limits are given.
   const bool lacks_some = !options.alone.is_alone && outcome->cells_ok < outcome->cells;
   const bool has_silent = lacks_some || std::ranges::any_of(summary.conditions.front().methods,
                                                             [](const MethodSummary& method) { return method.ok == 0; });

@@ -37,7 +37,8 @@ class StdoutToStderr {
   int output_ = -1;  ///< a copy of the original standard output; −1 = not redirected
 };
 
-/// Returns, as JSON, the metrics that moved in a comparison, and the entries that only one of the two snapshots has.
+/// Returns, as JSON, the metrics that changed between the two snapshots of a comparison, and the entries that only one
+/// of these snapshots has.
 Json FactsOf(const SnapshotComparison& comparison);
 
 }  // namespace etude

@@ -24,7 +24,7 @@ namespace {
 struct GateOptions {
   std::string target;         ///< a result folder; with self_test a scenario file, "" = the built-in scenario
   std::string baseline;       ///< a baseline file, "" = none
-  bool update = false;        ///< write the baseline from the run, and print what moved
+  bool update = false;        ///< write the baseline from the run, and print the metrics that changed
   bool self_test = false;     ///< measure the gate's own rates of false alarms and of detection
   int repetitions = 40;       ///< for the self-test: number of pairs of runs with different seeds
   std::optional<int> trials;  ///< for the self-test: worlds per condition; default: the scenario's trials
@@ -127,7 +127,7 @@ Result<int> Judge(const GateOptions& options, const FinishedRun& run) {
   return UnlessReplaced(options.target, run.data, ExitCode(GateVerdictOf(report)));
 }
 
-/// Prints the metrics that moved between two baselines, for the worlds that are in both baselines.
+/// Prints the metrics that changed between two baselines, for the worlds that are in both baselines.
 void PrintDifference(Snapshot before, Snapshot after, const FinishedRun& run) {
   PrintList("Made anew:", DropIncomparable(before, after));
   const SnapshotComparison comparison = CompareSnapshots(before, after, ExactScenarios(run), TailRulesOf(run));
@@ -168,8 +168,8 @@ std::string RateText(const Rate& rate) {
                      rate.of == 0 ? 0.0 : 100.0 * rate.count / rate.of, 100 * rate.low, 100 * rate.high);
 }
 
-/// Returns a sentence that says whether the gate keeps its error limits. A small number of gates without an alarm is no
-/// evidence of this.
+/// Returns a sentence that says whether the gate keeps its error limits. A few repetitions without a false alarm are
+/// not enough to prove this.
 const char* PromiseSentence(const SelfTestReport& report) {
   if (!report.Holds()) return "The gate exceeds its error limits.";
   if (report.false_alarms.high > kFalseAlarmLimit) {

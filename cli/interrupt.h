@@ -28,7 +28,8 @@ class Interrupt {
 };
 
 /// Runs `work` in a copy of this process. Ctrl-C (or SIGTERM) kills the copy at any point; then `clean_up` removes
-/// unfinished output. Returns the exit code of `work`. Use it for work with long single steps.
+/// unfinished output. Returns the exit code of `work`. Use it for work that cannot check often whether a stop was
+/// requested.
 int DoInterruptibly(const std::function<int()>& work, const std::function<void()>& clean_up);
 
 /// Returns false if Ctrl-C was pressed, otherwise `is_whole`, the result of writing a film. (Ctrl-C also ends the

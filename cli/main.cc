@@ -188,7 +188,7 @@ int Main(int argc, char** argv) {
     return ComplainOfArguments(app, error);
   }
   if (auto choice = CheckRendererChoice(); !choice) return Complain(choice.error());
-  // Restart in the pinned environment, so that results do not depend on this shell.
+  // Restart in the pinned environment, so that results do not depend on the shell's variables.
   if (!RunsUnpinned(app)) {
     if (auto pinned = EnterPinnedEnvironment(); !pinned) return Complain(pinned.error());
   }

@@ -15,8 +15,8 @@ struct NamedResult {
 };
 
 /// Reads arguments RESULT or NAME=PATTERN, one for each method. A method without a name is named after the folder or
-/// file of its answers. Fails if several arguments have no name, because a shell may have expanded a pattern into
-/// files.
+/// file of its answers. Fails if there are several arguments and one of them has no name, because a shell may have
+/// expanded a pattern into files.
 Result<std::vector<NamedResult>> ReadResults(std::span<const std::string> arguments);
 
 /// Reads arguments FILE or NAME=PATTERN. All arguments without a name form one method. This method is named after its

@@ -119,7 +119,7 @@ void PrintSpotting(const Spotting& spotting, const Taught& taught, double rate_h
 
 /// Recognises moves in the skeletons that standard input delivers line by line, until the input ends.
 Result<int> RecogniseLive(const RecogniseCommandOptions& options, const Taught& taught) {
-  // Set up the reader of lines and the watcher of moves.
+  // Set up the reader of lines, and the watcher that recognises moves.
   const StreamOptions making = options.reading.Options();
   LiveStream live("standard input", options.reading.Reading(), making);
   StreamWatcher watcher(*taught.recogniser, taught.moves.size(), taught.watch, making.rate_hz);

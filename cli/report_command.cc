@@ -46,7 +46,7 @@ Result<int> ReportCommand(const std::string& folder, const std::vector<std::stri
   return code;
 }
 
-/// Fails if the run has no such method, or if a method is named twice.
+/// Fails if `methods` names a method that no transition scenario of the run has, or names a method twice.
 Result<void> CheckBlindMethods(const RunData& run, std::span<const std::string> methods) {
   std::vector<std::string> known;
   for (const ScenarioSummary& scenario : run.scenarios) {

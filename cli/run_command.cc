@@ -157,8 +157,8 @@ void TellUnlocked(const RunOutcome& outcome) {
             fmt::format("could not be locked ({}); make sure that no other run writes into it", outcome.why_unlocked)});
 }
 
-/// Prints the changes that were made to the content of the clips' files, one per line. If there are many changes,
-/// prints only the first of them.
+/// Prints the changes that were made to the content of the clips' files, one per line. Prints at most the first 40
+/// changes.
 void TellChanges(const std::vector<LoadedChange>& changes) {
   constexpr std::size_t kShown = 40;
   for (std::size_t i = 0; i < std::min(changes.size(), kShown); ++i) {

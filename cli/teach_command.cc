@@ -49,7 +49,7 @@ Result<std::vector<TaughtMove>> Teach(const TeachCommandOptions& options) {
     ASSIGN_OR_RETURN(const auto labels, LoadLabels(options.labels));
     ASSIGN_OR_RETURN(parts, MatchLabels(labels, options.labels, loaded.streams));
   }
-  // Leave out the moves that --without names; each must exist.
+  // Leave out the moves that --without names; each of these moves must exist.
   std::set<std::string> moves;
   for (const LabelledPart& part : parts) moves.insert(part.move);
   const std::vector<std::string> names(moves.begin(), moves.end());

@@ -4,8 +4,8 @@
 
 namespace etude {
 
-/// Returns a listener that prints to standard output and shows progress on standard error. With it, Ctrl-C stops a
-/// film.
+/// Returns a listener that prints to standard output and shows progress on standard error. With this listener, Ctrl-C
+/// stops the writing of a film.
 Listener TerminalListener();
 
 }  // namespace etude

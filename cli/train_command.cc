@@ -142,7 +142,8 @@ std::string ScoreLine(const char* what, ClipFrames clips, const FuzzySystem& sys
                      matches.close_matched);
 }
 
-/// Scores the paper's system and the tuned system, one line each.
+/// Scores paper A's system and the tuned system: for each, one line for the learnt clips and one for the held-out
+/// clips.
 std::vector<std::string> CompareSystems(const Split& split, const FuzzySystem& tuned) {
   const FuzzySystem paper;
   return {

@@ -25,7 +25,7 @@ namespace etude {
 namespace {
 
 /// The default sample size. If 5 % of a very large number of cells are forged, the sample misses all forged cells with
-/// probability 0.95^59, 1 in 21. With fewer cells, this probability is lower.
+/// probability 0.95^59, 1 in 21. In a run with fewer cells, this probability is lower.
 constexpr const char* kDefaultSample = "59";
 constexpr const char* kWholeSample = "all";
 constexpr std::size_t kMaxSample = 10'000'000;
@@ -113,8 +113,8 @@ Json FactsOf(const CellChoice& choice) {
           {"missed", std::move(missed)}};
 }
 
-/// Adds the checks of the report, and of the files that a gate left in the report's folder, if these exist. Only the
-/// check of a report needs all rows in memory, as making the report did.
+/// Adds the checks of the report, and of the files that `etude gate` wrote into the report's folder, if these files
+/// exist. Only the check of a report needs all rows in memory, as making the report did.
 Result<void> AddReport(const std::string& folder, std::vector<Verified>& all, std::vector<std::string>& not_verified) {
   if (!Exists(Inside(folder) / "report") && !Exists(Inside(folder) / "video")) return {};
   ASSIGN_OR_RETURN(auto run, LoadFinishedRun(folder, Sealing::kIgnored));

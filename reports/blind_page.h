@@ -20,7 +20,7 @@ struct BlindTrial {
 };
 
 struct BlindOptions {
-  std::vector<std::string> methods;  ///< at least two; each world shows two of these, and the possible pairs take turns
+  std::vector<std::string> methods;  ///< at least two; each world shows one pair of them; all pairs are used in turn
   int pairs = 40;                    ///< maximum number of filmed pairs; fewer if the run recorded fewer worlds
   std::uint64_t seed = 1;            ///< seed of the random order of the worlds, and of the methods' sides
   FilmWatch watch = {};

@@ -32,11 +32,11 @@ std::size_t CountComparisons(const ScenarioSummary& scenario);
 
 /// Returns every comparison of one scenario once as an HTML table, one row per comparison: the difference with its
 /// interval, the verdict on the worlds of this run and the generalised verdict, the number of worlds, corrected p,
-/// effect size and caveats. Comparisons by metrics other than the first are folded away. Returns "" if no methods are
-/// compared.
+/// effect size and caveats. Comparisons by metrics other than the first are collapsed (<details>). Returns "" if no
+/// methods are compared.
 std::string ComparisonTableHtml(const ScenarioSummary& scenario);
 
-/// Returns the comparisons of ComparisonTableHtml as a folded Markdown table.
+/// Returns the comparisons of ComparisonTableHtml as a collapsed Markdown table (<details>).
 std::string ComparisonTableMarkdown(const ScenarioSummary& scenario);
 
 /// Returns all comparisons as CSV with full precision, with the test on worlds and the test on sampling units. Fields

@@ -49,7 +49,7 @@ std::string WorldsText(const MetricMove& move) {
   return text;
 }
 
-/// Returns how many moves have each outcome, without zeros: "2 worse, 3 better, 165 same".
+/// Returns how many changes of metrics have each outcome, without zeros: "2 worse, 3 better, 165 same".
 std::string MovementCounts(const std::vector<MetricMove>& moves) {
   std::string text;
   for (Movement movement : {Movement::kWorse, Movement::kChanged, Movement::kBetter, Movement::kUnclear,
@@ -91,7 +91,7 @@ std::string ValuesText(const TailWorld& world, const std::string& metric) {
   const std::string before = FormatValue(world.before, words), after = FormatValue(world.after, words);
   if (!world.after) return fmt::format("{}{}no value ({})", before, kTo, ended_after);
   if (before != after) return before + kTo + after;
-  return fmt::format("{}{}{}", *world.before, kTo, *world.after);  // FormatValue would drop differing digits
+  return fmt::format("{}{}{}", *world.before, kTo, *world.after);  // FormatValue would drop the digits that differ
 }
 
 }  // namespace
@@ -208,7 +208,7 @@ std::vector<TailLine> TailLines(const std::vector<const MetricMove*>& moves, con
 }
 
 std::vector<TailLine> TailLines(const GateReport& report, bool failing, std::size_t most_each, std::size_t most) {
-  // The moves of each method under each condition, in the order of the run.
+  // The changes of metrics of each method under each condition, in the order of the run.
   std::vector<std::vector<const MetricMove*>> methods;
   std::map<std::tuple<std::string, std::string, std::string>, std::size_t> places;
   for (const MetricMove& move : report.comparison.moves) {
@@ -261,7 +261,7 @@ std::string List(std::string_view title, const std::vector<std::string>& lines) 
   return text;
 }
 
-/// Returns Markdown that folds `content` below a title; "" if `content` is empty.
+/// Returns `content` as Markdown, collapsed below a title (<details>); "" if `content` is empty.
 std::string FoldedAway(const std::string& title, const std::string& content) {
   if (content.empty()) return "";
   return fmt::format("\n<details><summary>{}</summary>\n{}\n</details>\n", title, content);
@@ -338,7 +338,7 @@ std::string WriteGateMarkdown(const GateReport& report) {
   text += List("**Methods without an answer:**", report.silent);
   text += List("**Not met:**", ClaimsThatAre(report, ClaimOutcome::kUnmet));
   text += List("**Answers that became worse** (a change from better to worse is a regression):", FallenLines(report));
-  // Write the changed metrics. Changes that fail the gate are visible; all other changes are folded away.
+  // Write the changed metrics. Changes that fail the gate are visible; all other changes are collapsed.
   std::vector<GateTableRow> failing, others;
   for (GateTableRow& row : MovedRows(report.comparison)) (row.fails ? failing : others).push_back(std::move(row));
   if (!failing.empty()) text += MoveTable(failing);

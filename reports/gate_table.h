@@ -14,7 +14,8 @@ struct GateTableRow {
   std::string before, after;  ///< the metric's aggregate over all worlds: in the baseline, and in this run
   std::string difference;     ///< median (or mean) of the paired differences, now − baseline, and its interval
   std::string p;              ///< p-value after Holm's correction; kNoValue if nothing was tested
-  std::string worlds;         ///< number of differing worlds, "12 of 60", and of lost, gained and far worse worlds
+  std::string worlds;         ///< number of worlds whose values differ, "12 of 60"; numbers of lost values, gained
+                              ///< values and far worse worlds
   std::string verdict;        ///< text of MovementWords, or "worse in 5 worlds" if the far worse worlds decided
   bool fails = false;
 };
@@ -34,9 +35,9 @@ std::string_view GateVerdictWords(GateVerdict verdict);
 /// 170 comparisons: 2 worse, 168 same".
 std::vector<std::string> GateSentences(const GateReport& report);
 /// Returns one line for each answer whose verdict became worse since the baseline. If `only_flipped` is true, returns
-/// only the answers that fell from better to worse, which fail the gate.
+/// only the answers that changed from better to worse, which fail the gate.
 std::vector<std::string> FallenLines(const GateReport& report, bool only_flipped = false);
-/// Returns the number of metrics that moved in each direction: "170 comparisons: 2 worse, 3 better, 165 same".
+/// Returns the number of metrics with each outcome: "170 comparisons: 2 worse, 3 better, 165 same".
 std::string CompareSentence(const SnapshotComparison& comparison);
 
 /// A line of text about a world that is far worse than in the baseline.

@@ -25,10 +25,11 @@ struct JunitSuite {
 /// from the cases. `version` is Etude's version, which becomes a property of each suite.
 std::string WriteJunitXml(const std::string& name, const std::vector<JunitSuite>& suites, const std::string& version);
 
-/// Returns the run as JUnit XML, one suite per scenario. A suite has one case per expectation (failed if unmet, skipped
-/// if undecided), and one case that passes if every cell has a row. The last case passes if no cell crashed, failed,
-/// timed out or gave an invalid answer. If the motions have no ground truth, the suite has one case per clip
-/// (ClipCases) instead of this last case.
+/// Returns the run as JUnit XML, one suite per scenario. A suite has one case that passes if every cell has a row, one
+/// that passes if no cell crashed, failed, timed out or gave an invalid answer, one that always passes and states the
+/// scenario's answer (if methods are compared), and one per expectation (failed if unmet, skipped if undecided). If the
+/// motions have no ground truth, the suite has one case per clip (ClipCases) instead of the case for cells that
+/// crashed, failed, timed out or gave an invalid answer.
 std::string WriteJunit(const RunData& run);
 
 }  // namespace etude

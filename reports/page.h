@@ -9,8 +9,8 @@
 
 namespace etude {
 
-/// Returns the HTML report of a run: first the verdicts, in plain words with pictures; tables of numbers are folded
-/// away. The page embeds everything except the recorded motions, which are scripts beside the page. The page's
+/// Returns the HTML report of a run: first the verdicts, in plain words with pictures; tables of numbers are collapsed.
+/// The page embeds everything except the recorded motions, which are scripts beside the page. The page's
 /// Content-Security-Policy forbids network access. `real` holds captures of real films, which the page shows beside the
 /// simulated captures.
 std::string WritePage(const RunData& run, const Media& media, std::span<const RealTake> real = {});
@@ -20,8 +20,8 @@ std::string WriteMarkdown(const RunData& run);
 
 /// Returns one scenario as LaTeX floats for plain pdflatex with the package booktabs. For each condition, the floats
 /// show every method's value of every headline metric, with an interval, the number of cells with a value, the paired
-/// comparison with the baseline and the verdict of this comparison. Paper B's tables follow, if the cells keep their
-/// data. Figures are rounded as on the page; the CSV files hold all digits.
+/// comparison with the baseline and the verdict of this comparison. Paper B's tables follow, if the cells keep the data
+/// for these tables. Figures are rounded as on the page; the CSV files hold all digits.
 std::string ScenarioLatex(const RunData& run, const ScenarioSummary& scenario);
 
 /// Returns every summary of one scenario as CSV in full precision: median, interval, mean, the number of values, and

@@ -14,7 +14,7 @@ constexpr std::string_view kBase64 = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnop
 // Maximum digits of a picture's width or height, so that a picture stays within the page.
 constexpr std::size_t kMaxDigits = 4;
 
-/// An HTML element that is allowed between the marks (kMediaBegin …), and its allowed attributes.
+/// An HTML element that is allowed in an enclosed part (kMediaBegin, kTakesBegin), and its allowed attributes.
 struct Element {
   std::string_view name;
   /// "class=film" allows only this value; "alt=" allows every value that IsAllowedValue accepts
@@ -127,7 +127,7 @@ PageCheck CheckPage(std::string_view page, std::string_view bare) {
   PageCheck check;
   while (true) {
     const std::size_t media = bare.find(kMediaBegin), takes = bare.find(kTakesBegin);
-    if (media == takes) break;  // true if no marks of either kind are left
+    if (media == takes) break;  // true if `bare` has no enclosed part any more
     const bool is_media = media < takes;
     const std::string_view end = is_media ? kMediaEnd : kTakesEnd;
     const std::size_t before = is_media ? media + kMediaBegin.size() : takes + kTakesBegin.size();

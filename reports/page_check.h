@@ -4,21 +4,21 @@
 
 namespace etude {
 
-/// These marks enclose the parts of a page that cannot be reproduced from the run's rows alone: pictures and films,
-/// with captions.
+/// These HTML comments enclose the parts of a page that cannot be reproduced from the run's rows alone: pictures and
+/// films, with captions.
 constexpr std::string_view kMediaBegin = "<!--media-->", kMediaEnd = "<!--/media-->";
-/// These marks enclose the table rows about captures of real films, which do not come from the run.
+/// These HTML comments enclose the table rows about captures of real films, which do not come from the run.
 constexpr std::string_view kTakesBegin = "<!--takes-->", kTakesEnd = "<!--/takes-->";
 
 /// The result of comparing a page with the page made from its run.
 struct PageCheck {
-  bool same = false;                          ///< true if both pages have the same bytes outside the marks
-  bool has_media = false, has_takes = false;  ///< true if the page has content between these marks (not compared)
+  bool same = false;                          ///< true if both pages have the same bytes outside the enclosed parts
+  bool has_media = false, has_takes = false;  ///< true if the page has such an enclosed part, which is not compared
 };
 
-/// Compares a page with `bare`, the page of the same run with nothing between the marks. Between the marks, the page
-/// may hold any text, and the HTML elements of pictures and films, or of table rows. Each element must be closed before
-/// the end mark. The pages count as different if a style, a script or anything else between the marks could affect the
+/// Compares a page with `bare`, the page of the same run whose enclosed parts are empty. An enclosed part of the page
+/// may hold any text, and the HTML elements of pictures and films, or of table rows. Each element must be closed within
+/// the part. The pages count as different if a style, a script or anything else in an enclosed part could affect the
 /// rest of the page.
 PageCheck CheckPage(std::string_view page, std::string_view bare);
 

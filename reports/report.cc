@@ -109,7 +109,7 @@ Result<ReportCheck> CheckReport(const RunData& run, const std::filesystem::path&
     if (compared.has_takes) check.not_compared.push_back(page.string() + ": rows of captures of real films");
     has_media = compared.has_media;
   }
-  // List files in the report's folder that the run does not produce.
+  // List files in the report's folder that no report of this run contains.
   ASSIGN_OR_RETURN(const auto beside, PlainFilesBelow(folder));
   for (const fs::path& name : beside) {
     const bool is_picture = name.parent_path() == kPicturesFolder && name.extension() == ".exr";

@@ -92,7 +92,7 @@ std::optional<Chart> CurveChart(const RunData& run, const ScenarioSummary& scena
   if (scenario.conditions.empty()) return std::nullopt;
   const bool follows_motion = scenario.task == "tracking";
   const std::vector<SweptValue>& first = scenario.conditions.front().condition;
-  // Find the metric, and the cells and methods whose curves to draw.
+  // Find the metric, and the cells and methods whose curves are drawn.
   std::map<std::string, std::string> method_of;
   for (const Row& row : run.rows) {
     if (row.scenario == scenario.name && (!follows_motion || row.condition == first)) method_of[row.Id()] = row.method;
@@ -180,7 +180,7 @@ std::string ChartFigure(const Chart& chart, const std::string& id) {
       EscapeScriptJson(chart.json));
 }
 
-/// Returns a folded section of the card; "" if `html` is empty.
+/// Returns a collapsed section (<details>) of the card; "" if `html` is empty.
 std::string Folded(const std::string& title, const std::string& html, std::string_view style = "") {
   if (html.empty()) return "";
   return fmt::format("<details{}><summary>{}</summary>{}</details>", style, EscapeMarkup(title), html);
@@ -230,7 +230,7 @@ std::string Expectations(const ScenarioSummary& scenario) {
   return Folded(title, html + "</ul>", unmet > 0 ? " class=\"unmet\"" : "");
 }
 
-/// Returns the identity of the first cell that ended for this reason, so that the reader can run the cell again.
+/// Returns the ID of the first cell that ended for this reason, so that the reader can run the cell again.
 std::string FirstCellOf(const RunData& run, const ScenarioSummary& scenario, const ReasonCount& reason) {
   for (const Row& row : run.rows) {
     if (row.scenario == scenario.name && row.method == reason.method && row.result.status == reason.status &&
@@ -241,7 +241,7 @@ std::string FirstCellOf(const RunData& run, const ScenarioSummary& scenario, con
   return "";
 }
 
-/// Returns a folded section: how many cells ended in each status, which goals the methods reached, and why cells
+/// Returns a collapsed section: how many cells ended in each status, which goals the methods reached, and why cells
 /// failed. The section's title, which is always visible, counts the cells that are not ok.
 std::string Failures(const RunData& run, const ScenarioSummary& scenario, const ScenarioFindings& findings) {
   int others = 0;
@@ -287,7 +287,7 @@ std::string AnswerHtml(const MethodFinding& finding, std::string_view begin) {
 }
 
 /// Returns the verdicts and the sentence about the comparison with the baseline. If the strongest other method is not
-/// the baseline, adds, folded away, the verdicts and the sentence about the comparison with that method.
+/// the baseline, adds a collapsed part with the verdicts and the sentence about the comparison with that method.
 std::string AnswerBlock(const ScenarioFindings& findings) {
   const std::string html = AnswerHtml(findings.answer, VerdictBadges(findings.answer) + " ");
   if (!HasOtherRival(findings)) return html;

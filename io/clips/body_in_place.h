@@ -17,8 +17,10 @@ struct BodyInPlace {
   BodyMotion motion;                    ///< the twenty joints at the file's own rate and heights, metres, Y up
   /// The time of the first frame: above 0 if a leading T-pose, or frames before the body is complete, were left out.
   double begin_s = 0;
-  double lost_after_s = 0;              ///< length of the file's last part, where needed joints are missing, seconds
-  double lost_before_s = 0;             ///< length of the file's first part, where needed joints are missing, seconds
+  double lost_after_s = 0;              ///< duration of the file's last frames that were left out because joints are
+                                        ///< missing, seconds
+  double lost_before_s = 0;             ///< duration of the file's first frames that were left out because joints are
+                                        ///< missing, seconds
   std::vector<JointSet> unseen = {};    ///< for each frame: joints that the file does not show (FaultOptions::unseen)
   bool is_of_markers = false;           ///< true if the joints were found from markers on the skin
   std::vector<std::string> notes = {};  ///< findings and corrections (BodyConversion::changes)

@@ -80,8 +80,8 @@ ClipFile FileOfOne(ClipFormat format, Clip clip) {
   return file;
 }
 
-/// Makes a clip file of a motion that is a body already. `notes` states the source of the motion and every change to
-/// the motion.
+/// Makes a clip file of a motion whose joints are already the twenty canonical ones. `notes` states the source of the
+/// motion and every change to the motion.
 ClipFile FileOfBody(ClipFormat format, const BodyMotion& motion, const std::string& path,
                     std::vector<std::string> notes) {
   ClipFile file = FileOfOne(format, RigClip(motion, StandingPose(), fs::path(path).stem().string()));
@@ -154,7 +154,7 @@ Result<BidsFacts> ReadBidsFacts(const std::string& file, CappedReader& reader) {
 }
 
 /// Makes a clip file from an array of joints; such an array states no frame rate. `said` describes how the array was
-/// turned to Y up, and becomes the end of the note.
+/// turned to Y up; it is appended to the clip's remark.
 Result<ClipFile> FileOfArray(const NumberArray& array, const std::optional<std::string>& layout,
                              const std::string& path, const OpenOptions& options, const std::string& said = "") {
   std::string note;
@@ -187,7 +187,7 @@ Result<ClipFile> ReadClipFile(const std::string& path, const std::optional<std::
   const Token first = has_text ? scanner.Next() : Token{};
 
   ClipFile file;
-  // Try arrays: our own bodies, motions of AMASS and Kimodo, or positions of joints.
+  // Try arrays: bodies that Etude wrote, motions of AMASS and Kimodo, or positions of joints.
   if (IsZip(bytes)) {
     ASSIGN_OR_RETURN(const auto arrays, ReadNpz(bytes, path));
     if (IsBodyNpz(arrays)) {
@@ -202,7 +202,7 @@ Result<ClipFile> ReadClipFile(const std::string& path, const std::optional<std::
         if (const auto up = ToldUp(options)) file.bodies[0].up = {.axis = AxisOf(*up), .evidence = UpEvidence::kTold};
         return file;
       }
-      // For other joints, or for tracks with gaps, the joints' names determine the body.
+      // If the joints are not the twenty canonical ones, or if tracks have gaps, find the body by the joints' names.
       return FileOfJoints(ClipFormat::kNpz, raw, path, options);
     }
     if (IsKimodoNpz(arrays)) {

@@ -47,19 +47,20 @@ struct MadeBody {
   UpFinding up = {};                   ///< the axis of the file that became Y
   double floor_m = 0;                  ///< the height in the file that became 0
   std::size_t first_frame = 0;         ///< the frame of the file that became the first frame
-  std::optional<double> start_s = {};  ///< the first frame's time by the file's own clock, if it states one
+  std::optional<double> start_s = {};  ///< the first frame's time by the file's own clock, if the file states times
 };
 
 /// The content of a motion file.
 struct ClipFile {
   ClipFormat format = ClipFormat::kBvh;
   Character figure;                       ///< a skeleton, and meshes if the file has any
-  /// Clips on that skeleton; some glTF files have no clip; a marker file has one clip per person.
+  /// Clips of the skeleton in `figure`; some glTF files have no clip; a marker file has one clip per person.
   std::vector<Clip> clips;
   std::vector<MadeBody> bodies = {};      ///< one entry per clip if the clips are bodies already; else empty
   std::vector<std::string> remarks = {};  ///< repairs that were made while reading
   std::optional<JointMapOverrides> roles = {};  ///< roles that the bone table of a VRM file assigns
-  /// MarkerBody::shown of each clip that was made from markers; filled only if `keeps_shown` is set.
+  /// For each clip that was made from markers, the joints and markers in the file (MarkerBody::shown); empty unless
+  /// OpenOptions::keeps_shown is set.
   std::vector<MarkerMotion> shown = {};
   bool has_rate = true;  ///< false: the file gives no rate, so a rate was assumed
 };

@@ -25,7 +25,7 @@ namespace etude {
 namespace {
 
 bool ParseSeconds(std::string_view text, double& seconds) {
-  if (text.empty()) return true;  // the text of this end is missing: the end stays open
+  if (text.empty()) return true;  // an end of the span that has no text stays open
   const auto value = ParseFinite(text);
   seconds = value.value_or(-1);
   return seconds >= 0;
@@ -69,8 +69,8 @@ Result<Clip> Edited(const Clip& clip, const ConvertOptions& options) {
   return edited;
 }
 
-/// Adds the user's edits to the list of changes. `from_hz` is the clip's rate if the clip is resampled here, otherwise
-/// the user's wanted rate.
+/// Adds the user's edits to the list of changes. `from_hz` is the clip's own rate; or it is the wanted rate if
+/// UnderstandClip has resampled the clip and described this.
 void AddEdits(double from_hz, const ConvertOptions& options, std::vector<std::string>& changes) {
   if (options.trim) changes.emplace_back("trimmed");
   if (std::string said = DescribeResampling(from_hz, options.rate_hz.value_or(from_hz)); !said.empty()) {
@@ -79,7 +79,8 @@ void AddEdits(double from_hz, const ConvertOptions& options, std::vector<std::st
   if (options.mirror) changes.emplace_back("mirrored: left is right");
 }
 
-/// Finds the unit and the up axis of a BVH file. If no roles are found, `options` must give the unit.
+/// Finds the unit and the up axis of a clip that is not from a glTF file. If no roles are found, `options` must give
+/// the unit.
 Result<BodyConversion> FindUnit(const SourceClip& source, const OpenOptions& options) {
   auto opened = UnderstandClip(source, options);
   if (opened) return std::move(opened->body);
@@ -98,7 +99,7 @@ Result<Converted> ConvertOwnSkeletons(std::vector<SourceClip> sources, MotionFor
                                       const ConvertOptions& options) {
   Converted converted{.bytes = "", .note = "own skeleton", .changes = {}};
   std::vector<Clip> clips;
-  // Edit each clip. GLB requires metres and Y up, so clips of formats without a fixed unit are converted.
+  // Edit each clip. GLB requires metres and Y up, so clips that are not from a glTF file are converted.
   for (const SourceClip& source : sources) {
     auto edited = Edited(source.clip, options);
     if (!edited) return Fail({source.source, 0, 0}, "{}", edited.error().message);

@@ -20,7 +20,8 @@ struct TimeSpan {
 /// infinity). Fails on any other text, and if the end lies before the start.
 Result<TimeSpan> ParseTimeSpan(const std::string& text);
 
-/// Returns this part of a clip, or the whole clip without a span. An open end is the end of the clip.
+/// Returns the part `span` of a clip, or the whole clip if there is no span. If `span.to_s` is infinity, the part ends
+/// with the clip.
 Result<Clip> TrimTo(const Clip& clip, const std::optional<TimeSpan>& span);
 
 /// The formats that can be written. kBids (Motion-BIDS) is a folder of files; every other format is one file.
@@ -51,11 +52,11 @@ struct Converted {
   std::vector<std::string> changes;
 };
 
-/// Converts the clips of one file: exactly one, or any number for GLB. A clip keeps its own skeleton (and its meshes,
-/// from glTF to GLB) unless the result must be a body: with `ground`, `retarget`, a performer, or a format that holds
-/// only joints. A BVH file becomes GLB in metres and Y up, so the file's unit must be known: the unit is found from the
-/// roles or given in `options`. Fails if a format other than GLB is to hold several clips or a performer, and if
-/// trimming, resampling or UnderstandClip fails.
+/// Converts the clips of one file: exactly one clip, or any number of clips if the result is GLB. A clip keeps its own
+/// skeleton (and its meshes, from glTF to GLB) unless the result must be a body: with `ground`, `retarget`, a
+/// performer, or a format that holds only joints. A BVH file becomes GLB in metres and Y up, so the file's unit must be
+/// known: the unit is found from the roles or given in `options`. Fails if a format other than GLB is to hold several
+/// clips or a performer, and if trimming, resampling or UnderstandClip fails.
 Result<Converted> ConvertClips(std::vector<SourceClip> clips, MotionFormat format, const ConvertOptions& options);
 
 }  // namespace etude

@@ -53,8 +53,8 @@ std::string NameOfReader() {
   return "assimp is part of the program";
 }
 
-/// Returns the address space that this process already uses, bytes. RLIMIT_AS also counts this address space, so it is
-/// added to the limit.
+/// Returns the address space that this process already uses, bytes. RLIMIT_AS also counts this address space, so the
+/// limit is this number plus kMemoryBytes.
 rlim_t MappedBytes() {
   rlim_t pages = 0;
   std::ifstream("/proc/self/statm") >> pages;
@@ -157,7 +157,7 @@ Result<FbxMotion> FbxReader::Read(std::string_view bytes, const std::string& pat
           "joints whose pre-rotations, post-rotations and orders are left out, because RotationActive is not set: {}",
           inactive));
     }
-    constexpr double kLong = 0.1;  // seconds; between keys less far apart, every curve is nearly a straight line
+    constexpr double kLong = 0.1;  // seconds; between keys that are closer in time, every curve is nearly straight
     if (const double apart = std::strtod(said->c_str() + name + 1, nullptr); apart > kLong) {
       remarks.push_back(
           fmt::format("its keys are up to {:.2f} s apart: between them joints turn along the shortest "

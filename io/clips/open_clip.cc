@@ -71,8 +71,8 @@ void RootAtHips(Clip& clip, bool has_meshes, std::vector<std::string>& remarks) 
   clip = WithRootAt(clip, root);
 }
 
-/// Finds the common ground of a file with several clips. Returns nullopt if the skeleton has no roles; UnderstandClip
-/// then reports which roles are missing.
+/// Finds the up axis, the floor and the stature that all clips of a file with several clips share. Returns nullopt if
+/// the skeleton has no roles; UnderstandClip then reports which roles are missing.
 std::optional<Ground> GroundOf(const ClipFile& file, const std::string& path, const OpenOptions& options) {
   if (file.clips.size() < 2) return std::nullopt;
   const auto map =
@@ -155,7 +155,8 @@ Result<OpenedClip> UnderstandBuiltin(SourceClip source, const BodyOptions& optio
   } else {
     opened.body.changes.emplace_back("the canonical body");
   }
-  // Markers have already been turned and scaled as the user's options say. Our own arrays and angles are turned here.
+  // Markers have already been turned and scaled as the user's options say. Bodies from Etude's arrays or from OpenSim's
+  // angles are turned here.
   const bool is_turned = options.up == UpAxis::kZ && !is_ours && !IsOfMarkers(opened.source.format);
   if (is_turned) {
     opened.body.found_up = {.axis = AxisOf(UpAxis::kZ), .evidence = UpEvidence::kTold};
@@ -192,7 +193,7 @@ Result<OpenedClip> UnderstandBuiltin(SourceClip source, const BodyOptions& optio
 Result<std::vector<SourceClip>> ReadClips(const std::string& reference, const OpenOptions& options) {
   if (reference.starts_with(kBuiltinPrefix)) return ReadBuiltin(reference);
   SplitReference wanted = Split(reference);
-  // Replace a reference to a run by the file of its recording.
+  // Replace a reference to a run by the file of the run's recording.
   if (options.recorded != nullptr) {
     ASSIGN_OR_RETURN(wanted, options.recorded->Find(wanted));
   }
@@ -237,7 +238,7 @@ Result<std::vector<SourceClip>> ReadClips(const std::string& reference, const Op
                     shown_of(0)});
     return only;
   }
-  // If the file holds several clips, undo scales and find the common ground before one clip is chosen.
+  // If the file holds several clips, undo scales and find the ground that all clips share, before one clip is chosen.
   std::map<std::string, MadeBody> bodies;
   for (std::size_t i = 0; i < file.bodies.size(); ++i) bodies[file.clips[i].name] = file.bodies[i];
   std::map<std::string, std::shared_ptr<const MarkerMotion>> shown;
@@ -279,7 +280,7 @@ Result<OpenedClip> UnderstandClip(SourceClip source, const OpenOptions& options)
   RootAtHips(source.clip, source.character != nullptr, source.remarks);
   ASSIGN_OR_RETURN(
       auto map, FindJointMap(source.clip.skeleton, source.source, TaughtBy(options, source.roles), source.clip.frames));
-  // The common ground of the file's clips has priority over the ground of this one clip.
+  // The ground that all clips of the file share has priority over the ground of this one clip.
   if (source.ground) {
     if (!told.up) told.found_up = source.ground->found_up;
     told.floor = source.ground->floor;

@@ -24,9 +24,9 @@ struct SourceClip {
   /// The file's figure, if the file has meshes. The clip uses the figure's skeleton, and all clips of the file share
   /// the figure.
   std::shared_ptr<const Character> character;
-  std::optional<Ground> ground = {};  ///< common ground of the file's clips; empty if the file holds only one
+  std::optional<Ground> ground = {};  ///< the floor and up axis that all clips of the file share; empty for one clip
   std::optional<MadeBody> made = {};  ///< how the body was made, if the clip is a body already (metres, Y up)
-  /// Repairs made while reading the file; UnderstandClip appends them to the body's note.
+  /// Repairs made while reading the file; UnderstandClip appends them to BodyConversion::changes.
   std::vector<std::string> remarks = {};
   std::optional<JointMapOverrides> roles = {};     ///< roles that the file assigns; OpenOptions::roles has priority
   std::shared_ptr<const MarkerMotion> shown = {};  ///< this clip's entry of ClipFile::shown; null if there is none
@@ -35,7 +35,7 @@ struct SourceClip {
 /// Reads the clips of one file or built-in name (as ExpandReference returns them): the one clip of a BVH, all
 /// animations of a glTF, or the animation named after '#'. The animation's name may omit the prefix that exporters
 /// write ("Jump" for "Armature|Jump"). If the animation does not exist, the error lists the animations of the file.
-/// `options` may override the frame rate, and helps to find the ground.
+/// `options` may override the frame rate; its roles, unit and up axis are used to find the ground.
 Result<std::vector<SourceClip>> ReadClips(const std::string& reference, const OpenOptions& options = {});
 /// Reads the only clip that a reference names. Fails if the reference names several clips, and the error lists these
 /// clips.

@@ -14,7 +14,7 @@ constexpr std::size_t kHeadBytes = 4096;
 struct Mark {
   std::string_view bytes;
   const char* told;
-  std::size_t at = 0;  ///< position in the file; kAnywhere: anywhere within the head
+  std::size_t at = 0;  ///< position in the file; kAnywhere: anywhere in the first kHeadBytes
 };
 
 constexpr const char* kOpenSim =

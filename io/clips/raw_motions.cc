@@ -70,14 +70,15 @@ RawMotion OfSkeleton(const Clip& clip, double unit, UpAxis up) {
   return raw;
 }
 
-/// Returns true if the joint that carries both hips is a pelvis by its name or its position, or if the user's roles
-/// make this joint the hip centre.
+/// Returns true if the joint from which both hips branch is a pelvis by its name or its position, or if the user's
+/// roles name the hip centre.
 bool CarriesAsPelvis(const RawMotion& raw, const JointMap& map, const JointMapOverrides* told) {
   if (told != nullptr && told->joints.contains(Role::kHipCentre)) return true;
   std::string name = raw.joints[map[Role::kHipCentre].joint];
   std::ranges::transform(name, name.begin(), [](char c) { return c >= 'A' && c <= 'Z' ? char(c - 'A' + 'a') : c; });
   if (name.ends_with("hips") || name.ends_with("pelvis")) return true;
-  constexpr double kMaxThighs = 0.4;  // in thigh lengths; pelvises of 4 libraries: ≤ 0.33; OpenNI's torso: 0.44–0.50
+  // Distance from the hips' middle in thigh lengths. Pelvises of 4 libraries: ≤ 0.33; OpenNI's torso: 0.44–0.50.
+  constexpr double kMaxThighs = 0.4;
   const auto at_rest = [&](Role role) { return raw.rest_positions[map[role].joint]; };
   const glm::dvec3 left = at_rest(Role::kLeftHip), right = at_rest(Role::kRightHip);
   const double thighs = glm::distance(left, at_rest(Role::kLeftKnee)) + glm::distance(right, at_rest(Role::kRightKnee));
@@ -140,7 +141,7 @@ Result<RawMotion> RawMotionOf(SourceClip source, const OpenOptions& options, boo
     const JointMapOverrides* told = options.roles ? &*options.roles : nullptr;
     if (!is_body && !CarriesAsPelvis(raw, opened.map, told)) raw.roles[Index(Role::kHipCentre)] = -1;
     if (is_body && !keeps_rig) {
-      raw.rotations.clear();  // RigClip made up these rotations; the file has no rotations
+      raw.rotations.clear();  // RigClip computed these rotations; the file has none
       raw.rest_rotations.clear();
       raw.rest_positions.clear();
     } else {

@@ -24,8 +24,8 @@ Result<BuiltinClip> LoadBuiltinClip(const std::string& name, const Place& place)
 
 /// The maximum number of clips that a reference may stand for.
 constexpr std::size_t kMaxClips = 1000;
-/// The maximum for a reference whose clips are read one by one: 278 hours in clips of ten seconds. This limit only
-/// guards against patterns that match a whole disk.
+/// The maximum number of clips for a reference whose clips are read one by one. At this maximum, clips of ten seconds
+/// last 278 hours in total. This limit only guards against patterns that match a whole disk.
 constexpr std::size_t kMaxLibraryClips = 100'000;
 
 /// Lists the clips that a reference stands for, in order. Each entry of the list is a reference to one clip. A

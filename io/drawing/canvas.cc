@@ -48,7 +48,8 @@ cairo_status_t AppendBytes(void* out, const unsigned char* data, unsigned length
   return CAIRO_STATUS_SUCCESS;
 }
 
-// Computes, for each pixel of a rounded upper left corner, the share of the pixel that lies inside.
+// Computes, for each pixel at the upper left corner of a box with rounded corners, the share of the pixel that lies
+// inside the box.
 Image<double> CornerCover(int radius) {
   Image<double> cover(radius, radius);
   if (radius == 0) return cover;

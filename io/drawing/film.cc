@@ -19,8 +19,8 @@
 namespace etude {
 namespace {
 
-// The number of consecutive frames that one process draws. A larger number lets one process draw the frames that share
-// a picture; a smaller number lets all processes end at about the same time.
+// The number of consecutive frames that one process draws. A larger number lets one process draw all consecutive frames
+// that show the same rendered picture; a smaller number lets all processes end at about the same time.
 constexpr int kChunk = 8;
 
 bool SendByte(int socket) { return SendAll(socket, "."); }

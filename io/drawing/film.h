@@ -27,18 +27,18 @@ struct FrameFeed {
   std::function<Result<void>(int frame, std::span<std::uint8_t> into)> fill = {};
 };
 
-/// Draws the frames of a film in several processes, which start as copies of this process, and returns them in order.
-/// Each process draws chunks of consecutive frames. The function that draws a frame may cache data for the next frame,
-/// but no picture may depend on the cache. Then the film is the same for any number of processes.
+/// Draws the frames of a film in several processes, which start as copies of this process, and returns the frames in
+/// order. Each process draws chunks of consecutive frames. The function that draws a frame may cache data for the next
+/// frame, but no picture may depend on the cache. The film is therefore the same for any number of processes.
 class FilmWorkers {
  public:
   /// Draws the frame with number 0 … `frames` − 1 from the frame's data; all canvases have the same size, with even
-  /// sides.
+  /// width and height.
   using Draw = std::function<Canvas(int frame, std::span<const std::uint8_t> fed)>;
 
-  /// Draws the first frame in this process, so that all processes get the data that the first frame computes. Then
-  /// starts `jobs` processes (0 = one per processor). Other threads of this process must not hold a lock that `draw`
-  /// needs.
+  /// Draws the first frame in this process, so that all processes get the data that drawing the first frame computes.
+  /// Then starts `jobs` processes (0 = one per processor). Other threads of this process must not hold a lock that
+  /// `draw` needs.
   static Result<FilmWorkers> Start(int frames, int jobs, const Draw& draw, FrameFeed feed = {});
   FilmWorkers(FilmWorkers&&) noexcept = default;
   FilmWorkers& operator=(FilmWorkers&&) = delete;
@@ -54,7 +54,7 @@ class FilmWorkers {
     /// The socket carries single bytes. The drawing process sends a byte for "drawn"; this process sends a byte for
     /// "the next frame's data have arrived", or, without a feed, for "a slot is free".
     std::optional<ForkedCopy> copy;
-    int fed = 0, taken = 0;  ///< number of this process's frames that got their data, and number that Next returned
+    int fed = 0, taken = 0;  ///< number of the drawing process's frames that have their data; number that Next returned
   };
   struct Unmap {
     std::size_t bytes;
@@ -78,7 +78,7 @@ class FilmWorkers {
 
   int frames_, width_, height_;
   FrameFeed feed_;
-  int chunk_, slots_;  ///< frames per chunk; maximum number of frames by which a process may be ahead
+  int chunk_, slots_;  ///< frames per chunk; maximum number of frames that a process may draw ahead of Next
   int next_ = 0, fed_ = 0;
   std::vector<Worker> workers_;
   std::unique_ptr<std::uint8_t, Unmap> memory_{nullptr, Unmap{0}};  ///< `slots_` slots for each process

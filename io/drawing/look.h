@@ -29,8 +29,8 @@ void DrawMark(Canvas& canvas, const Box& panel, const std::string& text);
 /// Breaks words into lines no wider than `room`; a single word may be wider.
 std::vector<std::string> LinesOf(const Canvas& canvas, const std::string& words, double size, double room, bool bold);
 
-/// Draws text in the lower left corner over a soft shade, in as many lines as the text needs. `strong` may be empty.
-/// `lift` raises the text from the lower edge, pixels.
+/// Draws `strong` (bold, may be empty) and, below it, `soft` in the lower left corner over a soft shade, in as many
+/// lines as the texts need. `lift` raises the texts from the lower edge, pixels.
 void DrawCaption(Canvas& canvas, const Box& panel, const std::string& strong, const std::string& soft, double lift = 0);
 
 }  // namespace etude

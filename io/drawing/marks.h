@@ -13,8 +13,9 @@ struct PlotColour {
   std::string_view light, dark;
 };
 
-/// The colours of methods by the methods' index in the scenario; the colours repeat after eight methods. They can be
-/// told apart with protanopia, deuteranopia and tritanopia, and they differ from both backgrounds (marks_test.cc).
+/// The colours of methods by the methods' index in the scenario; the colours repeat after eight methods. People with
+/// protanopia, deuteranopia or tritanopia can distinguish the colours, and the colours differ from both backgrounds
+/// (marks_test.cc).
 inline constexpr std::array<PlotColour, 8> kPlotColours = {{{"#41464b", "#969ca1"},
                                                             {"#1ea194", "#9ff5d4"},
                                                             {"#9c5201", "#f97341"},

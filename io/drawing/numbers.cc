@@ -11,7 +11,7 @@
 namespace etude {
 namespace {
 
-// A smaller value, in any unit, is the rounding error of a zero.
+// A value below this constant is, in any unit, the rounding error of a zero.
 constexpr double kRounding = 1e-12;
 
 std::string GroupThousands(std::string digits) {

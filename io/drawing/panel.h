@@ -29,7 +29,7 @@ Axis AxisOf(const std::vector<double>& values, double floor);
 Axis AxisAroundZero(const std::vector<double>& values);
 
 /// Makes a logarithmic axis of one to eight whole decades. The axis ends above the largest value. It begins below the
-/// smallest value, or eight decades below its own end if that is higher. Without a value above zero, the axis is 1…10.
+/// smallest value, but at most eight decades below the axis's end. Without a value above zero, the axis is 1…10.
 Axis DecadeAxis(const std::vector<double>& values);
 
 /// Returns the label of a number on a linear axis: "0.01", "12", "−3", "1e-05".

@@ -63,7 +63,8 @@ void Shrinker::Shrink(const Image<std::uint32_t>& large, const PixelRect& rect, 
   const int first = columns_[static_cast<std::size_t>(left)].first;
   const int last = std::min(columns_[static_cast<std::size_t>(right) - 1].first + kTaps, large.width);
   std::vector<std::uint16_t> sums(4 * static_cast<std::size_t>(last - first + kTaps));
-  // For each small row, first compute the weighted sum of its large rows, then the weighted sums of that sum's columns.
+  // For each small row, first compute the weighted sum of its large rows. Then compute weighted sums of the columns of
+  // this sum.
   for (int y = top; y < bottom; ++y) {
     const Cover& rows = rows_[static_cast<std::size_t>(y)];
     const int bytes = 4 * (last - first);

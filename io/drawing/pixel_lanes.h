@@ -14,7 +14,7 @@ namespace etude {
 /// Shrinks pictures; each pixel of the small picture is the mean of the large picture's pixels that it covers.
 class Shrinker {
  public:
-  /// Makes a shrinker for pictures of the large size. The small size may be at most three times smaller.
+  /// Makes a shrinker for pictures of the large size. The large size may be at most three times the small size.
   Shrinker(int large_width, int large_height, int small_width, int small_height);
 
   /// Computes only the small pixels that the rectangle `rect` of the large picture touches.

@@ -21,8 +21,8 @@ struct ViewBounds {
   glm::dvec2 high{-1e9};
 };
 
-/// An endless floor with a grid of 0.5 m, seen by a fixed camera in front of the origin, at +Z. The camera does not
-/// move; bodies are moved to the origin instead (FloorMove), and the grid moves under a walker.
+/// An endless floor with grid lines every 0.5 m, seen by a fixed camera in front of the origin, at +Z. The camera does
+/// not move; bodies are moved to the origin instead (FloorMove), and the grid moves under a walker.
 class Studio {
  public:
   /// Widens `bounds` so that the view contains a figure that FloorMove has moved.

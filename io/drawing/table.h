@@ -47,7 +47,7 @@ struct TableRow {
   std::string attributes = {};  ///< HTML attributes of the row, or of the group: " class=\"taken\""
 };
 
-/// A table as a value. All four writers (page, Markdown, LaTeX, CSV) escape the table's texts.
+/// The content of a table. All four writers (page, Markdown, LaTeX, CSV) escape the table's texts.
 struct Table {
   /// The table's name for screen readers, if the page may scroll the table sideways; "" = the table does not scroll.
   std::string label = {};

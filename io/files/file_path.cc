@@ -31,7 +31,8 @@ int OpenNext(int folder, const std::string& name, bool makes) {
   return ::openat(folder, name.c_str(), kFlags);
 }
 
-/// The result of opening the folders of `below`, one after the other, from `given` on.
+/// The result of WalkDown, which opens the folder `given` and then, one inside the other, the folders of the relative
+/// path `below`.
 struct Walk {
   Descriptor end;            ///< the last folder; none on failure
   fs::path stopped_at = {};  ///< the folder that could not be opened

@@ -45,8 +45,8 @@ class FilePath {
 /// Marks a folder that the user gave and somebody else may have filled. The folder itself may be a link.
 FilePath Inside(const std::filesystem::path& folder);
 
-/// An open folder and the name of a file in this folder: the arguments of the system calls that end in "at" (openat,
-/// renameat).
+/// An open folder and the name of a file in this folder: the arguments of the system calls whose names end in "at"
+/// (openat, renameat).
 class FileSpot {
  public:
   /// Opens the folders of an `Inside` path one by one; `makes_folders` creates missing folders. Fails if a folder is a
@@ -62,9 +62,9 @@ class FileSpot {
   std::string name_;
 };
 
-/// Opens a regular file with the flags of ::open (O_CLOEXEC is added); O_CREAT also creates its folders. Fails as
-/// FileSpot::Find does; on anything but a regular file (opening a pipe could block); and, with the system's reason, if
-/// the file cannot be opened.
+/// Opens a regular file with the flags of ::open (O_CLOEXEC is added); O_CREAT also creates the file's folders. Fails
+/// as FileSpot::Find does; on anything but a regular file (opening a pipe could block); and, with the system's reason,
+/// if the file cannot be opened.
 Result<Descriptor> OpenFile(const FilePath& path, int flags, mode_t mode = 0666);
 
 /// Returns true if a file, a folder or a link has this path. A link below an `Inside` folder counts, although OpenFile

@@ -43,8 +43,8 @@ Result<void> Sync(const std::filesystem::path& path, int flags) {
   return {};
 }
 
-/// Returns temporary name number `copy`. The name keeps the extension, because encoders choose the container by the
-/// extension.
+/// Returns the temporary name with the number `copy` + 1, which is left out if `copy` is 0. The name keeps the
+/// extension, because encoders choose the container by the extension.
 std::filesystem::path NameOfCopy(const std::filesystem::path& path, int copy) {
   const std::string number = copy == 0 ? "" : std::to_string(copy + 1);
   return path.parent_path() / (path.stem().string() + ".partial" + number + path.extension().string());

@@ -19,9 +19,9 @@ enum class OnDisk {
   kLater,   ///< synchronised by the caller with SyncTree, or never for temporary files
 };
 
-/// Writes a file completely or not at all: first under a temporary name beside `path`, which is then renamed. The
-/// rename replaces a link instead of following it. Creates the folder. Fails as FileSpot::Find does; also fails, with
-/// the path and the system's reason, if the file cannot be written.
+/// Writes a file completely or not at all: first under a temporary name beside `path`; then the temporary file is
+/// renamed. The rename replaces a link instead of following it. Creates the folder. Fails as FileSpot::Find does; also
+/// fails, with the path and the system's reason, if the file cannot be written.
 Result<void> WriteFileAtomically(const FilePath& path, std::string_view bytes, OnDisk when = OnDisk::kAtOnce);
 
 /// Writes one JSON value and a line end with WriteFileAtomically. Also fails on NaN and infinity (WriteJson).

@@ -90,7 +90,7 @@ std::string ShowJson(const Json& json) {
   if (json.is_array()) return fmt::format("a list of {}", json.size());
   if (json.is_object()) return "an object";
   constexpr std::size_t kMaxShownLength = 40;
-  std::string text = json.dump(-1, ' ', true, Json::error_handler_t::replace);  // ASCII, so any cut of it is safe
+  std::string text = json.dump(-1, ' ', true, Json::error_handler_t::replace);  // ASCII, so no cut splits a character
   return text.size() <= kMaxShownLength ? text : text.substr(0, kMaxShownLength) + "…";
 }
 

@@ -9,7 +9,7 @@
 namespace etude {
 
 /// A temporary folder, deleted with its contents by the destructor. If the process is killed, the next process that
-/// makes a temporary folder in the same parent folder deletes it.
+/// makes a temporary folder in the same parent folder deletes the folder of the killed process.
 class TemporaryFolder {
  public:
   /// Makes a temporary folder in $TMPDIR, else in /tmp. `purpose` becomes part of its name.
@@ -19,7 +19,7 @@ class TemporaryFolder {
   static Result<TemporaryFolder> MakeIn(const std::filesystem::path& parent, const std::string& purpose);
   /// Makes a temporary folder that stays if the process is killed; FindKept finds it by `kept`, a part of its name.
   static Result<TemporaryFolder> MakeKept(const std::filesystem::path& parent, const std::string& kept);
-  /// Takes over all folders of killed processes that MakeKept made with the name `kept`.
+  /// Takes over all folders that MakeKept made with the name `kept` in processes that have been killed.
   static std::vector<TemporaryFolder> FindKept(const std::filesystem::path& parent, const std::string& kept);
   /// Deletes the folders in `parent` (default: the system's temporary folder) whose processes have been killed. Make
   /// and MakeIn do this too.

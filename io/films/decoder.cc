@@ -103,7 +103,7 @@ Result<FilmFacts> ProbeFilm(const std::filesystem::path& path, const std::string
     return Fail(place, "{:g} frames of {:g} x {:g} pixels; allowed: at least one frame, up to 64 million pixels",
                 frames, width, height);
   }
-  // Swap the sides of a film that is shown rotated by 90°.
+  // Swap width and height of a film that is shown rotated by 90°.
   facts.width = static_cast<int>(width);
   facts.height = static_cast<int>(height);
   facts.frames = static_cast<int>(frames);

@@ -19,7 +19,7 @@ namespace {
 
 // The size of an uncompressed picture with kMaxPictureSide pixels per side, rounded up.
 constexpr std::uintmax_t kMaxPictureFileBytes = std::uintmax_t{1} << 28;
-// The maximum side, pixels, of pictures that no camera took; GL and JPEG have the same limit.
+// The maximum side, pixels, of pictures that no camera took; GL and the JPEG reader have the same limit.
 constexpr std::uint32_t kMaxSide = 16'384;
 constexpr int kRunLengthOnly = 3;  // the value of zlib's Z_RLE
 
@@ -172,7 +172,7 @@ Result<MaskPicture> LoadMaskPng(const std::string& path) {
   ASSIGN_OR_RETURN(const auto bytes, ReadWholeFile(path, kMaxPictureFileBytes));
   png_image png{};
   RETURN_IF_ERROR(BeginPng(bytes, path, png));
-  // Read a palette unchanged, so that pixels stay indices into it.
+  // Keep the palette of a picture, so that pixels stay indices into the palette.
   MaskPicture mask{.values = {static_cast<int>(png.width), static_cast<int>(png.height)},
                    .is_indexed = (png.format & PNG_FORMAT_FLAG_COLORMAP) != 0};
   png.format = mask.is_indexed ? PNG_FORMAT_RGB_COLORMAP : PNG_FORMAT_GRAY;

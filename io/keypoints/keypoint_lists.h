@@ -39,17 +39,18 @@ bool IsKeypointList(const Json& json);
 ///   `keypoints`;
 /// - MMPose's `instance_info`: objects with `frame_id` and `instances`, names in `meta_info`;
 /// - frames in order, as users of MediaPipe save them: objects with `pose_landmarks`, `landmarks`, `keypoints`,
-///   `people` or `instances`, or bare lists of people or of points; null means no people. Frame numbers count from 1 if
-/// no number is 0 and the film's number of frames is unknown or equals the last number; otherwise they count from 0. If
-/// frames have no numbers but all have a time (`timestamp`, `timestamp_ms`, `time`, …), and the film has another number
-/// of frames, the times place them; only ratios of times matter. `told` says if frames are missing.
+///   `people` or `instances`, or bare lists of people or of points; null means no people.
+/// Frame numbers count from 1 if no number is 0 and the film's number of frames is unknown or equals the last number;
+/// otherwise they count from 0. If frames have no numbers but all have a time (`timestamp`, `timestamp_ms`, `time`, …),
+/// and the film's number of frames differs from the list's, the times place the frames; only ratios of times matter.
+/// `told` says if frames are missing.
 Result<PeopleOfFilm> ReadKeypointList(const Json& json, const std::string& layout, const FilmOfKeypoints& of,
                                       const Place& place);
 
 /// Places the frames of a film, one for each name, by the number at the end of each name. This requires names that
-/// begin alike, numbers that ascend, and a film with another number of frames. A missing number becomes a frame without
-/// people, and `told` says so. If only the end is missing, or if more than nine of ten frames would be empty, the
-/// frames stay as they are.
+/// begin with the same text, numbers that ascend, and a film whose number of frames differs from the number of names. A
+/// missing number becomes a frame without people, and `told` says so. If only frames at the end are missing, or if more
+/// than nine of ten frames would be empty, the frames stay as they are.
 void LayByNames(std::span<const std::string> names, const FilmOfKeypoints& of, PeopleOfFilm& film);
 
 }  // namespace etude

@@ -47,8 +47,8 @@ bool NaturallyBefore(const fs::path& a, const fs::path& b) {
       ++j;
     }
   }
-  // The numbers are equal up to leading zeros. The name with the shorter remainder comes first; then the plain order
-  // decides.
+  // The numbers are equal up to leading zeros. The name with the shorter remainder comes first; if the remainders have
+  // equal lengths, the characters decide.
   return x.size() - i != y.size() - j ? x.size() - i < y.size() - j : x < y;
 }
 
@@ -110,9 +110,9 @@ Result<std::vector<SeenPerson>> ReadFrame(const fs::path& file, const std::strin
   return frame;
 }
 
-/// Counts the people of a file with 25 keypoints: in `between` if the ninth keypoint lies midway between the tenth and
-/// the thirteenth, otherwise in `elsewhere`. In `body_25` these three are the mid-hip and the hips; in `body_25b` they
-/// are the right elbow, the left wrist and the right hip.
+/// Counts those people in a file who have 25 keypoints: in `between` if the ninth keypoint lies midway between the
+/// tenth and the thirteenth, otherwise in `elsewhere`. In `body_25` these three are the mid-hip and the hips; in
+/// `body_25b` they are the right elbow, the left wrist and the right hip.
 void CountMidHips(const Json& json, const Place& place, int& between, int& elsewhere) {
   constexpr std::size_t kCount = 25, kMidHip = 8, kRightHip = 9, kLeftHip = 12;
   constexpr double kMaxShare = 0.03;  // tolerance as a share of the person's height

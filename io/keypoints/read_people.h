@@ -26,12 +26,12 @@ struct FilmOfKeypoints {
 /// landmarks (`keypoint_lists.h`). In these files pixel centres are whole numbers; in the result they end in .5. COCO's
 /// v is 2 for a visible and 1 for a hidden keypoint (confidence 1 and 0.5), or a score within 0…1. If all keypoints lie
 /// within 0…1 (with a tolerance of 0.1) and the film is known to be larger, they are shares of its width and height,
-/// and `told` says so. The number of keypoints, or the names in the file, give their order. 25 keypoints of a folder
-/// are taken as `body_25` if the mid-hip lies between the hips, and `told` says so. Fails if there are no frames or if
-/// numbers are not finite. With an empty `layout`, also fails if no layout, or more than one, has that number of
-/// keypoints. The error states the file, what was found, and what is allowed.
-/// @param layout a name of KeypointLayouts(), or "" to choose it by the number of keypoints
-/// @param film gives the number of frames if a file lists only frames with people
+/// and `told` says so. The number of keypoints, or the names in the file, give their order. If the people in the files
+/// of a folder have 25 keypoints and the mid-hip lies between the hips, the order is `body_25`, and `told` says so.
+/// Fails if there are no frames or if numbers are not finite. With an empty `layout`, also fails if no layout, or more
+/// than one, has that number of keypoints. The error states the file, what was found, and what is allowed. @param
+/// layout a name of KeypointLayouts(), or "" to choose it by the number of keypoints @param film gives the number of
+/// frames if a file lists only frames with people
 Result<PeopleOfFilm> ReadKeypoints(const std::filesystem::path& path, const std::string& layout,
                                    const FilmOfKeypoints& film = {});
 

@@ -34,7 +34,7 @@ bool IsProgram(const std::string& path) {
   return ::stat(path.c_str(), &status) == 0 && S_ISREG(status.st_mode) && ::access(path.c_str(), X_OK) == 0;
 }
 
-constexpr int kChunksPerReceive = 16;  // of at most 64 KiB; the limit ends Receive even if a child writes endlessly
+constexpr int kChunksPerReceive = 16;  // at most 64 KiB each; the limit ends Receive even if a child writes endlessly
 
 std::vector<char*> Pointers(std::vector<std::string>& texts) {
   std::vector<char*> pointers;
@@ -78,7 +78,7 @@ struct ExecPlan {
   const char* path;
   char* const* argv;
   char* const* envp;
-  int input, output, errors;  ///< descriptors; `errors` is −1 if the child shares ours
+  int input, output, errors;  ///< descriptors; `errors` is −1 if the child uses our standard error
   int report;                 ///< a pipe to which the child writes the errno of a failure
   int parent;                 ///< a pidfd of this process
   bool limited, contained;
@@ -108,8 +108,8 @@ bool WriteTo(const char* path, std::string_view text) {
   return written;
 }
 
-/// Sets up the new namespaces as bubblewrap expects: the same user and group IDs, and a separate /proc. The kernel's
-/// limits per user are set for the namespace, so that the user's other programs keep a share.
+/// Sets up the new namespaces as bubblewrap expects: the same user and group IDs, and a separate /proc. Sets the
+/// kernel's limits per user for the namespace, so that the program cannot use up the limits of the user's programs.
 bool SetUpNamespaces(const ExecPlan& child) {
   const bool is_set_up = WriteTo("/proc/self/setgroups", "deny") && WriteTo("/proc/self/uid_map", child.user_map) &&
                          WriteTo("/proc/self/gid_map", child.group_map) &&
@@ -129,7 +129,7 @@ bool SetUpNamespaces(const ExecPlan& child) {
   ::prctl(PR_SET_CHILD_SUBREAPER, 1);  // the child adopts the orphans among its descendants
   ::prctl(PR_SET_PDEATHSIG, SIGKILL);
   pollfd parent{child.parent, POLLIN, 0};
-  if (::poll(&parent, 1, 0) != 0) ::_exit(0);  // the parent died before the line above
+  if (::poll(&parent, 1, 0) != 0) ::_exit(0);  // the parent died before PR_SET_PDEATHSIG was set
   for (const int number : {SIGINT, SIGTERM, SIGPIPE, SIGCHLD, SIGXFSZ}) ::signal(number, SIG_DFL);
   if (child.contained && !SetUpNamespaces(child)) GiveUp(child, kNotContained);
   if (child.limited) LimitProgram();
@@ -386,7 +386,7 @@ bool ChildProcess::HasEnded() const {
 
 std::string ChildProcess::Finish(int patience_ms) {
   if (pid_ < 0) return "not running";
-  HeldTree tree(pid_);  // kill the tree before the child ends: later, the child's descendants cannot be found
+  HeldTree tree(pid_);  // list the tree before the child ends: later, the child's descendants cannot be found
   ::close(input_);
   for (int i = 0; i < patience_ms && !HasEnded(); ++i) ::usleep(1000);
   ::close(output_);

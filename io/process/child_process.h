@@ -30,7 +30,7 @@ struct ProgramLimits {
   static constexpr std::size_t kProcesses = 256;
   static constexpr std::size_t kThreads = 4096;
   static constexpr std::size_t kDescriptors = 4096;
-  static constexpr std::size_t kSockets = 1024;  ///< sockets, which are counted only in a fence
+  static constexpr std::size_t kSockets = 1024;  ///< sockets, which are counted only in a fence (fence.h)
   static constexpr std::size_t kFileLocks = 16384;
 
   // Kernel limits per user are divided among `programs`, the programs that run at the same time: half of the 128
@@ -49,10 +49,10 @@ Result<std::string> FindProgram(const std::string& name);
 struct ChildOptions {
   std::string program;  ///< a path, or a name that is looked up in PATH
   std::vector<std::string> arguments = {};
-  std::string error_file = {};  ///< the child's standard error is appended here; "" = the child shares ours
-  bool limited = false;         ///< true: gets ProgramLimits, no new privileges, and no PWD (outside program)
+  std::string error_file = {};  ///< the child's standard error is appended here; "" = the child uses this process's
+  bool limited = false;         ///< true for outside programs: ProgramLimits apply, no new privileges, no variable PWD
   /// Makes the child the first process of new user, PID and mount namespaces, if the kernel allows it. When the child
-  /// ends (at the latest with this process), the kernel ends all processes in the namespaces.
+  /// ends (at the latest, when this process ends), the kernel ends all processes in the namespaces.
   bool contained = false;
   int programs = 1;  ///< number of outside programs that run at the same time
   /// ControlGroup::folder of the group to start the child in; only if contained.
@@ -127,7 +127,7 @@ class ChildProcess {
   std::size_t sent_ = 0;        ///< bytes of `unsent_` already written
   std::string buffer_;          ///< output received so far
   std::size_t line_start_ = 0;  ///< start of the next line in `buffer_`
-  std::size_t scanned_ = 0;     ///< end of the part, from line_start_ on, that has no line end
+  std::size_t scanned_ = 0;     ///< end of the part of `buffer_`, from line_start_ on, that has no line end
 };
 
 }  // namespace etude

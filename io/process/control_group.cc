@@ -43,7 +43,7 @@ bool IsPlace(const fs::path& folder) {
 }
 
 /// Makes this process's own group usable (IsPlace), if no other process is in this group. Moves this process into a
-/// child group, because a group that passes controllers on may not contain processes.
+/// child group, because a group that passes controllers on to child groups may not contain processes.
 bool MakePlaceOf(const fs::path& own) {
   const fs::path below = own / fmt::format("{}{}", kPrefix, ::getpid());
   std::error_code error;

@@ -29,7 +29,7 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr int kTrialMs = 5000;
-// Bytes per temporary file with a long name, measured on Linux 6.18.
+// Kernel memory for the name and the inode of one temporary file with a long name, measured on Linux 6.18.
 constexpr double kNameBytes = 700, kInodeBytes = 900;
 
 /// Folders that every program sees: the system's programs and libraries.
@@ -53,7 +53,7 @@ bool IsWithin(const fs::path& path, const fs::path& folder) {
   return at_folder == folder.end();
 }
 
-/// Returns true if kShownSettings contains a path relative to /etc, or a folder above this path.
+/// Returns true if kShownSettings contains `below` (a path relative to /etc), or a folder above `below`.
 bool IsShownSetting(const fs::path& below) {
   return std::ranges::any_of(kShownSettings, [&](const std::string_view pattern) {
     if (!pattern.ends_with('*')) return IsWithin(below, pattern);
@@ -79,7 +79,7 @@ void Add(std::vector<std::string>& words, std::initializer_list<std::string> mor
   words.insert(words.end(), more.begin(), more.end());
 }
 
-/// Returns changes to the closed environment that remove the names of our folders and of the user.
+/// Returns the changes that remove the names of our folders and of the user from the closed environment.
 std::vector<std::string> Environment(const std::vector<fs::path>& shown) {
   std::string folders;
   const char* variable = ::getenv("PATH");
@@ -98,7 +98,7 @@ std::vector<std::string> Environment(const std::vector<fs::path>& shown) {
 }
 
 /// Returns the prlimit command that sets the thread limit. The command must run inside the fence, because the kernel
-/// counts a user's threads by namespace. Returns an empty list if prlimit is missing.
+/// counts a user's threads in each namespace separately. Returns an empty list if prlimit is missing.
 std::vector<std::string> Limiter(int programs) {
   const auto prlimit = FindProgram("prlimit");
   rlimit ours{};
@@ -146,10 +146,11 @@ std::vector<fs::path> KeptFromUsers() {
 }
 
 /// The first process in a fence: a shell that waits for the program. It replaces bubblewrap's own first process:
-/// programs inside could read its memory, which holds our folders' names.
+/// programs inside the fence could read the memory of that process, which holds our folders' names.
 constexpr const char* kFirstProcess = R"(exec 3>&2 2>/dev/null; (exec "$@" 2>&3 3>&-); exit $?)";
 
-/// Returns the first line that a command prints in the fence, or the fence's error; "" if neither arrives in time.
+/// Returns the first line that a command prints in the fence, or the fence's error; "" if neither arrives within
+/// kTrialMs.
 std::string FirstLineOf(const Fence& fence, const std::vector<std::string>& command) {
   std::vector<std::string> words = {"-c", R"(exec "$0" "$@" 2>&1)"};
   FencedCommand fenced = fence.Around(command, {});
@@ -214,7 +215,7 @@ ScratchUse Fence::MeasureScratch(pid_t inside) const {
   ScratchUse use;
   if (!IsUp()) return use;
   constexpr double kMb = 1 << 20;
-  std::set<dev_t> seen;  // file systems already counted: several folders may be on one, or may not be mounted yet
+  std::set<dev_t> seen;  // file systems already counted; folders may be on the same file system, or not mounted yet
   if (struct stat ours{}; ::stat(kScratch[0], &ours) == 0) seen.insert(ours.st_dev);
   for (const char* folder : kScratch) {
     const std::string path = fmt::format("/proc/{}/root{}", inside, folder);
@@ -318,7 +319,7 @@ FencedCommand Fence::Around(const std::vector<std::string>& command, const std::
   }
   words.insert(words.end(), masks.begin(), masks.end());
   Add(words, {"--chdir", start.empty() ? kScratch[0] : start.string()});
-  // Add the filter; then pass all arguments as a text on descriptor 3.
+  // Add the system call filter; then pass all arguments as a text on descriptor 3.
   std::string filter = SystemCallFilter();
   if (!filter.empty()) Add(words, {"--seccomp", pass_text(std::move(filter))});
   for (const char* folder : {"/dev", "/proc", "/"}) Add(words, {"--remount-ro", folder});

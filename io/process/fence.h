@@ -32,7 +32,7 @@ struct ScratchUse {
 /// files shown to them, all read-only, and scratch folders that are removed with the fence (docs/outside-methods.md).
 class Fence {
  public:
-  /// Makes no fence: programs run like this process.
+  /// Makes no fence: programs run with the rights of this process.
   Fence() = default;
   /// Tries once to run bubblewrap, and returns the fence. If that fails, returns no fence, and `description` says why.
   static Fence Find();

@@ -24,7 +24,7 @@ Result<ForkedCopy> ForkedCopy::Start(const std::function<int(int socket)>& work)
   if (child == 0) {
     ::close(ends[0]);
     ::prctl(PR_SET_PDEATHSIG, SIGKILL);
-    if (::getppid() != parent) ::_exit(1);  // the parent died before the line above
+    if (::getppid() != parent) ::_exit(1);  // the parent died before PR_SET_PDEATHSIG was set
     ::_exit(work(ends[1]));
   }
   const int why = errno;

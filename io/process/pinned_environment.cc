@@ -83,7 +83,7 @@ const std::vector<std::string>& PinnedEnvironment() {
       "GALLIUM_OVERRIDE_CPU_CAPS=sse4.1",                  // else llvmpipe compiles shaders for the machine's CPU
       "MESA_SHADER_CACHE_DISABLE=true",                    // cached shaders may be from another CPU
       "LP_NUM_THREADS=0",                                  // one process per core is faster than threads
-      "LC_ALL=C.UTF-8",                                    // formats of numbers and sort orders in libraries
+      "LC_ALL=C.UTF-8",                                    // fixes number formats and sort orders in libraries
   };
   return settings;
 }

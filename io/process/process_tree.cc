@@ -80,8 +80,8 @@ ProcessUsage MeasureProcess(pid_t process) {
   unsigned long faults = 0;
   long user_waited_for = 0, system_waited_for = 0, resident_pages = 0;
   const int read = std::sscanf(stat.c_str() + name_end + 1,
-                               " %*c %*s %*s %*s %*s %*s %*s %lu %*s %*s %*s %*s %*s"  // fields 3 to 15; reads 10
-                               " %ld %ld %*s %*s %*s %*s %*s %*s %ld",                 // reads 16, 17, 24
+                               " %*c %*s %*s %*s %*s %*s %*s %lu %*s %*s %*s %*s %*s"  // fields 3 to 15: reads field 10
+                               " %ld %ld %*s %*s %*s %*s %*s %*s %ld",                 // reads fields 16, 17, 24
                                &faults, &user_waited_for, &system_waited_for, &resident_pages);
   if (read != 4) return {};
   static const double seconds_per_tick = 1.0 / static_cast<double>(::sysconf(_SC_CLK_TCK));
@@ -128,7 +128,7 @@ void HeldTree::Kill() {
 bool HeldTree::Grow() {
   const std::size_t before = processes_.size();
   for (std::size_t i = 0; i < before; ++i) {
-    constexpr int kExists = 0;  // signal 0 only tests
+    constexpr int kExists = 0;  // signal 0 only tests whether the process exists
     if (Signal(processes_[i].handle, kExists)) AddTree(processes_[i].number);
   }
   return processes_.size() > before;

@@ -19,7 +19,7 @@ struct ProcessUsage {
   double own_cpu_s = 0;       ///< processor time without the time of child processes
 };
 
-/// Reads a file in /proc, at most `max_bytes` and up to 4 KiB more; returns "" if the process does not exist any more.
+/// Reads at most `max_bytes` + 4 KiB of a file in /proc; returns "" if the process does not exist any more.
 std::string ReadProcFile(const std::string& path, std::size_t max_bytes = std::size_t{1} << 30);
 
 /// Returns `root` and its living descendants, parents before children, at most 4096 processes. Processes may start and
@@ -32,7 +32,7 @@ std::vector<pid_t> ChildrenOf(pid_t parent);
 /// Measures one process without its living descendants; returns zeros if the process does not exist any more.
 ProcessUsage MeasureProcess(pid_t process);
 
-/// Gives all threads of a process, and all that they start from now on, the lowest priority.
+/// Gives the lowest priority to all threads of a process, and to everything that these threads start from now on.
 void LowerPriority(pid_t process);
 
 /// A process and its descendants, held by pidfds. If a process of the tree has ended and another process gets its ID,

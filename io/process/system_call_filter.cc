@@ -87,7 +87,7 @@ constexpr sock_filter SkipUnless(std::uint16_t test, std::uint32_t value, std::s
 
 void Add(Filter& filter, const Filter& more) { filter.insert(filter.end(), more.begin(), more.end()); }
 
-/// Adds the rules for one system call; the last rule must decide.
+/// Adds the rules for one system call; the last rule must allow or refuse the call.
 void AddCall(Filter& filter, long number, const Filter& rules) {
   filter.push_back(SkipUnless(BPF_JEQ, static_cast<std::uint32_t>(number), rules.size()));
   Add(filter, rules);

@@ -33,7 +33,7 @@ constexpr double kMb = 1 << 20;
 constexpr double kThreadMb = 25e3 / kMb, kMappingMb = 250 / kMb, kLockMb = 250 / kMb;
 
 constexpr std::size_t kMaxUncheckedDescriptors = 256;  // number of descriptors above which pipes are counted
-constexpr std::size_t kMaxFreeSockets = 64;            // sockets above this number count as full
+constexpr std::size_t kMaxFreeSockets = 64;            // each socket above this number counts with a full buffer
 constexpr std::size_t kMaxLockBytes = 4 << 20;
 constexpr std::size_t kEnoughLocks = 17'000;  // more than a program may have (ProgramLimits::kFileLocks)
 constexpr int kMaxSamplesUnseen = 3;
@@ -81,7 +81,7 @@ ProcessBound BoundOf(pid_t process) {
 }
 
 /// Returns the private memory of a process, MB, where a page that n processes map counts 1/n (PSS); `bound_mb` if the
-/// kernel refuses it, 0 if the process has ended.
+/// kernel refuses to state the private memory, 0 if the process has ended.
 double ProportionalMb(pid_t process, double bound_mb) {
   const std::string shares = ReadProcFile(fmt::format("/proc/{}/smaps_rollup", process));
   if (shares.empty()) return ::access(fmt::format("/proc/{}", process).c_str(), F_OK) == 0 ? bound_mb : 0;

@@ -74,7 +74,7 @@ class TreeMeter {
   /// pages of parts that no process maps any more.
   struct SharedMemory {
     std::map<std::uint64_t, std::uint64_t> parts;  ///< all byte ranges ever seen mapped: begin → end
-    double hidden_mb = 0;                          ///< bound on parts that were unmapped before the first sample
+    double hidden_mb = 0;                          ///< upper bound on parts that were unmapped before the first sample
     int samples_unseen = 0;                        ///< consecutive samples in which no process mapped this mapping
     bool is_new = true;                            ///< first seen in the current sample
 

@@ -18,7 +18,7 @@ struct RealDistance {
   bool operator==(const RealDistance&) const = default;
 };
 
-/// A capture of real films beside a reference.
+/// A capture of real films, and its distances from a reference.
 struct RealTake {
   std::string name;
   std::string recovery;   ///< how the person was found in the films: "keypoints", "marks", "silhouettes"

@@ -26,7 +26,7 @@ struct LoadedStreams {
   std::vector<NamedStream> streams;
   /// Files of folders and patterns that could not be read; a file that is named directly makes the load fail.
   std::vector<Error> refused;
-  int passed_over = 0;  ///< number of files in folders that are not recordings
+  int passed_over = 0;  ///< number of files, found in folders, that are not recordings
 };
 /// Loads recordings. Fails if there are none, and if `clips` gives a joint map, a unit or an axis but no reference is a
 /// clip.

@@ -24,9 +24,9 @@ Result<void> SaveStripPictures(const CapturePanel& capture, Renderer& renderer, 
 /// most two cameras are shown. Returns nullopt if the recording keeps no moments.
 std::optional<Picture> DrawPlate(const CapturePanel& capture, Renderer& renderer);
 
-/// Finds the captures that a film compares: at most three of the methods that were recorded in the world of `typical`
-/// (ChooseCell), in the scenario's order. The result is empty if that world has no recordings. Fails if a recording
-/// cannot be read.
+/// Finds the captures that a film compares: at most three captures of the world of `typical` (ChooseCell), one per
+/// method, in the scenario's order of methods. The result is empty if that world has no recordings. Fails if a
+/// recording cannot be read.
 Result<std::vector<CapturePanel>> FindCaptures(const RunData& run, const ShownCell& typical);
 
 /// The film of a capture: the views of two cameras and, for each method, a column with the true skeleton and, over it,

@@ -17,7 +17,8 @@ namespace etude {
 /// and the last iterations pass quickly. The film rests on the first and on the last state for a while.
 class RaceClock {
  public:
-  /// Makes a clock for a film whose slowest method takes `last_iteration` ≥ 0 steps; the film lasts 6 to 10 seconds.
+  /// Makes a clock for a film whose slowest method takes `last_iteration` ≥ 0 iterations; the film lasts 6 to 10
+  /// seconds.
   explicit RaceClock(int last_iteration);
 
   int LastIteration() const { return last_; }
@@ -66,7 +67,7 @@ class ErrorPlot {
 };
 
 /// Renders the bodies of the two methods in the film. One camera, which sees every pose of both methods, renders all
-/// pictures. The true pose appears as a ghost, and the left side is free for text.
+/// pictures. The true pose appears as a ghost, and the left part of each picture is free for text.
 class ConvergenceStage {
  public:
   /// Prepares pictures of `width` × `height` pixels.

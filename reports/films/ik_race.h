@@ -32,12 +32,13 @@ struct IkPath {
   std::string ending;  ///< the outcome: "solved", "not solved", or the status
   std::string reason;  ///< why the method did not solve the pose; "" if the pose is solved
 
-  /// Returns the index of the entry to show at `iteration`: the last recorded iteration that is not later.
+  /// Returns the index of the entry to show at `iteration`: the last recorded iteration that is not later than
+  /// `iteration`.
   std::size_t EntryAt(double iteration) const;
 };
 
-/// Returns true if any of these errors is above zero. If all position errors (or all orientation errors) are zero, the
-/// world has no such targets, so the film leaves out the plot of these errors.
+/// Returns true if any of these errors is above zero. If all position errors (or all orientation errors) are zero, no
+/// target prescribes a position (or an orientation), so the film leaves out the plot of these errors.
 bool IsAskedFor(const std::vector<double>& errors);
 
 /// The joints that have targets, in the order of the effectors in the tree.

@@ -45,7 +45,7 @@ struct JudgedSessionFacts {
 };
 
 /// Reads the recording that the detection task keeps of a cell, and the recordings of other methods in the same world.
-/// Fails if the cell has no such recording.
+/// Fails if the task kept no recording of the cell.
 Result<JudgedSessionFacts> ReadJudgedSession(const RunData& run, const ShownCell& cell);
 
 /// The film of a session in which methods judge performances. It shows the sensed skeleton over the true body; the

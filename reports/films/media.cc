@@ -72,7 +72,8 @@ void MakeStageFilm(const RunData& run, const MediaPaths& paths, const FilmWatch&
   shoot(CaptureScene(**renderer, std::move(*captures)));
 }
 
-// Draws one plate (DrawPlate) for each capture scenario, from a recorded cell that keeps moments.
+// Draws one plate (DrawPlate) for each capture scenario, from a recorded cell that keeps intermediate results
+// (CaptureExtras::moments).
 void MakePlates(const RunData& run, Media& media) {
   for (const ScenarioSummary& scenario : run.scenarios) {
     if (scenario.task != "capture") continue;

@@ -6,9 +6,9 @@
 
 namespace etude {
 
-/// A plot of a path's jumps over time (the largest second difference of any joint's position, cm) and, where it is
-/// known, of the jump's limit in natural motion. Below the curve are the names of the clips that play: the clip that is
-/// left, an in-between clip, or the wanted clip. Time is in frames after the request.
+/// A plot of a path's jumps over time (the largest second difference of any joint's position, cm) and of the limit of
+/// jumps in natural motion, if this limit is known. Below the curve are the names of the clips that play: the clip that
+/// is left, an in-between clip, or the wanted clip. Time is in frames after the request.
 class JumpStrip {
  public:
   /// Shows the times `first` … `last`, in frames after the request. The vertical axis ends at `highest_cm` > 0.

@@ -25,7 +25,7 @@ const std::vector<PaperAFigure>& PaperAFigures();
 double MeanRoundTripError(Feature feature, const Memberships& memberships, Defuzzification method);
 
 /// Draws the membership functions of one feature over its universe as an SVG element. The name of each term stands at
-/// the term's peak. The axis has a mark wherever the slope of a piecewise linear function changes.
+/// the term's peak. The axis has a tick wherever the slope of a piecewise linear function changes.
 std::string MembershipPlotSvg(Feature feature, const Memberships& memberships, const std::string& title);
 
 /// Returns true if the card of the scenario shows paper A's figures: for paper A's own scenario (task transition, named
@@ -36,7 +36,7 @@ bool ShowsPaperA(const ScenarioSummary& scenario);
 /// defuzzification recovers from the grades. If the scenario sweeps other fuzzy systems, their functions follow.
 /// Returns "" if ShowsPaperA is false.
 std::string PaperAHtml(const ScenarioSummary& scenario);
-/// Returns the membership functions of the features as a folded Markdown table.
+/// Returns the membership functions of the features as a collapsed Markdown table (<details>).
 std::string PaperAMarkdown(const ScenarioSummary& scenario);
 /// Returns the membership functions of the features as a LaTeX float for the package booktabs.
 std::string PaperALatex(const ScenarioSummary& scenario);

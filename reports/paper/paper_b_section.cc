@@ -116,7 +116,7 @@ std::string Under(const PaperBCondition& condition) {
   return condition.condition.empty() ? "" : ", " + ConditionLabel(condition.condition);
 }
 
-// Table 5.2 contains the errors of table 5.1 and, in addition, the angles of the hidden joints.
+// Table 5.2 contains the errors of table 5.1 and, in addition, the hidden angles, which no target determines.
 std::string_view TableName(const PaperBSet& set) { return set.angles.empty() ? "table 5.1" : "table 5.2"; }
 
 std::string Note(const PaperBSet& set) {
@@ -179,7 +179,8 @@ bool HasEffectorCurves(const RunData& run, const ScenarioSummary& scenario) {
 
 /// Draws paper B's figure 5.2: each end effector's position error, and the angular error of each axis of the effector,
 /// over iterations. Each small plot shows all methods on a logarithmic axis: a thin line for the first trial, a thick
-/// line for the median of all trials. Returns one folded figure per condition; "" if no cell recorded these curves.
+/// line for the median of all trials. Returns one collapsed figure (<details>) per condition; "" if no cell recorded
+/// these curves.
 std::string EffectorCurvesHtml(const RunData& run, const ScenarioSummary& scenario) {
   if (!HasEffectorCurves(run, scenario)) return "";
   const CellSeriesIndex series(run);

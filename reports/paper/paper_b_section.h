@@ -14,7 +14,7 @@ bool ShowsPaperB(const RunData& run, const ScenarioSummary& scenario);
 /// 5.2, tables 5.1 and 5.2 filled from the run, and, beside these, the tables that the paper prints. Returns "" if no
 /// cell recorded these data.
 std::string PaperBHtml(const RunData& run, const ScenarioSummary& scenario);
-/// Returns the tables of PaperBHtml as folded Markdown, without the curves.
+/// Returns the tables of PaperBHtml as collapsed Markdown tables (<details>), without the curves.
 std::string PaperBMarkdown(const RunData& run, const ScenarioSummary& scenario);
 /// Returns the tables of PaperBHtml as LaTeX floats for the package booktabs.
 std::string PaperBLatex(const RunData& run, const ScenarioSummary& scenario);

@@ -123,7 +123,8 @@ PaperTable AngleTable(const char* caption, const AngleFigures& figures) {
   return table;
 }
 
-// A cell that has this series recorded the errors of its end effectors, so it also has the series of all other errors.
+// If a cell has this series, the cell recorded the errors of its end effectors, so it also has the series of all other
+// errors.
 constexpr std::string_view kErrorSeries = "position_error_x_cm";
 
 constexpr std::string_view kNoAxis = "a dash means that the joint has no such axis.";

@@ -79,7 +79,7 @@ struct PaperBSet {
   std::string angle_note;          ///< a sentence that explains the numbers in `angles`; "" if there are no angles
   std::string replay;              ///< the command that repeats the trial; "" for all trials
   std::vector<PaperTable> errors;  ///< table "(a) before", then one table per method; a row per effector
-  std::vector<PaperTable> angles;  ///< one table per method: the hidden angles of each joint
+  std::vector<PaperTable> angles;  ///< one table per method: each joint's hidden angles, which no target determines
   /// One line per method: the status in which the method ended, and the number of its iterations.
   std::vector<std::string> outcomes;
 };

@@ -17,15 +17,15 @@ struct PlotCurve {
 
 /// Axes that neighbouring panels share, so that the curves of these panels can be compared.
 struct CurveAxes {
-  Axis across;  ///< horizontal axis: from step 0 to the last step
+  Axis across;  ///< horizontal axis: from 0 to the last index of the longest curve
   Axis up;      ///< vertical axis: logarithmic, from one power of ten to another
 };
 
 /// Returns axes that contain all `curves`. The vertical axis covers at most eight powers of ten.
 CurveAxes AxesFor(const std::vector<const PlotCurve*>& curves);
 
-/// Draws curves over steps as an SVG element. A value below the range of the vertical axis is drawn at the axis's lower
-/// end.
+/// Draws curves over the positions of their values as an SVG element. A value below the range of the vertical axis is
+/// drawn at the axis's lower end.
 std::string CurvePlotSvg(const std::vector<PlotCurve>& curves, CurveAxes axes, const std::string& title);
 
 /// Returns a curve as an SVG line: at most 80 points of the curve, including the last point.

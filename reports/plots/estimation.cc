@@ -144,7 +144,7 @@ class Plot {
     return svg + fmt::format("<circle class=\"estimate\" cx=\"{}\" cy=\"{:.1f}\" r=\"4.5\"/>", x, at(*estimate));
   }
 
-  /// Draws the mean difference of each sampling unit (clip, person, …), and beside these dots the difference and
+  /// Draws the mean difference of each sampling unit (clip, person, …) as a dot, and beside the dots the difference and
   /// interval generalised over units.
   std::string Units(const Axis& axis) const {
     if (!ShowsUnits()) return "";

@@ -30,13 +30,13 @@ std::string StripsHtml(const RunData& run, const ScenarioSummary& scenario, cons
 /// the order in which the stages were replaced. `condition` is in words and may be empty.
 std::string ErrorBudgetHtml(const ErrorBudget& budget, const std::string& condition);
 
-/// Draws survival curves of the metrics that are censored in this scenario (steps of unsolved cells, waits that never
-/// ended): one curve per method, one plot per condition. Returns "" if no metric is censored. Cells in which the event
-/// never happened stay in the denominator, so a method gains nothing by giving up early.
+/// Draws survival curves of the metrics that are censored in this scenario (iterations of unsolved cells, waits that
+/// never ended): one curve per method, one plot per condition. Returns "" if no metric is censored. Cells in which the
+/// event never happened stay in the denominator, so a method gains nothing by giving up early.
 std::string SurvivalHtml(const RunData& run, const ScenarioSummary& scenario);
 
-/// The values of the two methods of a comparison in one world. Each of the methods has a value there. Shares are in per
-/// cent.
+/// The values of the two methods of a comparison in one world; each of the two methods has a value in this world.
+/// Shares are in per cent.
 struct PairedWorld {
   int trial = 0;
   /// The index in PairedDots::units of the sampling unit to which the world belongs. If the world belongs to several

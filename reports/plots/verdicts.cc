@@ -8,8 +8,7 @@
 namespace etude {
 namespace {
 
-/// Finds the series of a cell by name. A series that is longer or shorter than the first series counts as missing
-/// (null).
+/// Finds the series of a cell by name. A series that does not have `count` values counts as missing (null).
 class Columns {
  public:
   Columns(const CellSeries& cell, std::size_t count) : cell_(cell), count_(count) {}

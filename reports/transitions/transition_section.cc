@@ -58,8 +58,8 @@ std::string WayOf(const TransitionFacts& facts) {
   return text.empty() ? std::string(kNoValue) : text;
 }
 
-/// Returns the largest distance of the transition points. If this distance is below the threshold, so is the
-/// transition.
+/// Returns the largest distance of the transition points. If this distance is below the threshold, the distances of all
+/// transition points are below it.
 std::optional<double> WorstDistance(const TransitionFacts& facts) {
   std::optional<double> worst;
   for (const PointFacts& point : facts.points) {

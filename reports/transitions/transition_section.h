@@ -19,8 +19,8 @@ constexpr std::string_view kFeatureLegend =
     "jumping; Trunk: its lean; RF, LF: angles by which the legs are spread; RFK, LFK: their knees.";
 
 /// A table of the ten partial distances of transition points, one row per point, with a bar for each partial distance.
-/// A full bar means that this partial distance alone reaches the threshold. The feature weights are listed above the
-/// table, once for all methods that share them.
+/// A full bar means that this partial distance alone reaches the threshold. The table's first rows list the feature
+/// weights, one row for all methods with the same weights.
 class DistanceTable {
  public:
   void AddWeights(const std::string& method, const FeatureWeights& weights);
@@ -38,7 +38,7 @@ class DistanceTable {
     std::optional<double> threshold;
   };
 
-  /// Names of the methods that share feature weights, and the weights that they share.
+  /// Names of the methods with the same feature weights, and these weights.
   std::vector<std::pair<std::string, FeatureWeights>> weights_;
   std::vector<Point> points_;
 };

@@ -25,7 +25,7 @@ namespace {
 struct TrackLook {
   std::string_view task, track;
   std::string_view label;  ///< label of the track; "" = the method's name
-  std::string_view kind;   ///< "shown", "ghost" (the reference of errors) or "partner" (stands beside the dancer)
+  std::string_view kind;   ///< "shown", "ghost" (the reference of errors) or "partner" (the coach beside the dancer)
   std::vector<std::string_view> against = {};
   bool has_contacts = false;
 };

@@ -161,8 +161,8 @@ std::string RatioText(const CostRatio& ratio) {
   return least == most ? least : fmt::format("{}–{}", least, most);
 }
 
-/// Returns true if this metric is the scenario's first headline metric, which its question is about. The answer then
-/// compares success before it compares the metric.
+/// Returns true if this metric is the scenario's first headline metric, which the scenario's question is about. The
+/// answer then compares success before it compares the metric.
 bool IsAnswer(const ScenarioSummary& scenario, const std::string& metric) {
   return !scenario.headline_metrics.empty() && scenario.headline_metrics.front() == metric;
 }

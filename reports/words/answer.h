@@ -11,7 +11,7 @@ namespace etude {
 /// Returns a scenario's answer in one line: how `method` compares with its baseline, and with the strongest other
 /// method: "better than “fixed”; needs 140 × the solver steps of “gauss-newton”". If one cost is at least twice the
 /// other, the line states the ratio of the costs, else the verdict. If no other method is compared, the line ends after
-/// the baseline. If there is no verdict generalised to other clips or people, the line says so.
+/// the comparison with the baseline. If there is no verdict generalised to other clips or people, the line says so.
 std::string HeadlineOf(const ScenarioSummary& scenario, const std::string& method, const std::string& metric);
 
 /// The ratio of two methods' costs: the smallest and the largest ratio over conditions.

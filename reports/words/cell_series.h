@@ -48,7 +48,7 @@ std::vector<const Row*> RowsUnder(const RunData& run, const std::string& scenari
 /// Returns each recording together with the row of its cell, in the run's order. Recordings without a row are left out.
 std::vector<std::pair<const Row*, const CellRecording*>> RecordedRows(const RunData& run);
 
-/// Returns the median curve of several curves: at each step, the median of the curves' values. A curve that has ended
+/// Returns the median curve of several curves: at each index, the median of the curves' values. A curve that has ended
 /// keeps its last value, because a solver that has stopped keeps its answer.
 std::vector<double> MedianCurve(const std::vector<const std::vector<double>*>& curves);
 

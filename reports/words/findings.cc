@@ -150,8 +150,8 @@ std::vector<std::string> OthersBeside(const ScenarioSummary& scenario, const std
   return names;
 }
 
-/// Returns the number of worlds, over all conditions, in which method `other` is worse than method `asked` by at least
-/// the practical threshold.
+/// Returns "12/60": the number of worlds, over all conditions, in which method `other` is worse than method `asked` by
+/// at least the practical threshold, and the number of paired worlds.
 std::string WorldsLostTo(const ScenarioSummary& scenario, const std::string& asked, const std::string& other,
                          const std::string& metric) {
   for (const Against against : {Against::kBaseline, Against::kRival}) {

@@ -60,8 +60,8 @@ std::string CountVerdicts(const std::vector<Verdict>& verdicts, std::size_t cond
 /// Returns the verdict of each entry of `judged` on the worlds of this run.
 std::vector<Verdict> VerdictsOf(const std::vector<Judged>& judged);
 
-/// Returns true if a method is compared with no other method (its `against` names itself). Returns false for the first
-/// method, because other methods are compared with the first method.
+/// Returns true if a method is compared with no other method (its key `against` names the method itself). Returns false
+/// for the first method, because other methods are compared with the first method.
 bool IsComparedWithNone(const ScenarioSummary& scenario, const std::string& method);
 
 /// Returns true for a yardstick, such as natural motion: a method that is compared with no other method, and no other

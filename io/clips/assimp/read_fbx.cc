@@ -148,7 +148,7 @@ class MotionGlb {
       for (unsigned k = 0; k < moved.mNumScalingKeys; ++k) times.insert(moved.mScalingKeys[k].mTime);
     }
     // If only the joint's own node has keys, these keys hold the whole transform, because assimp includes the joint's
-    // pre-rotation in its keys.
+    // pre-rotation in the keys.
     const bool is_whole = moved_parts.size() == 1 && moved_parts.begin()->first == parts.back();
     JoinedKeys joined;
     for (const double time : times) {

@@ -58,7 +58,7 @@ save.onclick = () => {
 document.onkeydown = (event) => {
   const side = {ArrowLeft: 'left', ArrowDown: 'same', ArrowRight: 'right'}[event.key];
   if (!side || event.target === rater || event.target.tagName === 'VIDEO') return;
-  if (event.repeat || event.altKey || event.ctrlKey || event.metaKey) return;  // no answer: Alt+Left leaves the page
+  if (event.repeat || event.altKey || event.ctrlKey || event.metaKey) return;  // shortcuts are not answers: Alt+Left leaves the page
   event.preventDefault();
   answer(side);
 };

@@ -1,5 +1,5 @@
-// Shows recorded motions: bodies, errors by colour, marks on a time bar (reports/viewer). A button whose
-// data-cell is a recorded cell opens it; cards of dots and rows get such a button (event etude:cells).
+// Shows recorded motions: bodies, errors by colour, marks on a time bar (reports/viewer). A button whose data-cell is a
+// recorded cell opens this cell; cards of dots and rows get such a button (event etude:cells).
 const JOINTS = ['hip centre', 'spine', 'shoulder centre', 'head', ...['shoulder elbow wrist hand', 'hip knee ankle foot'].flatMap((limb) =>
   ['left', 'right'].flatMap((side) => limb.split(' ').map((joint) => `${side} ${joint}`)))];
 const PARENT = [-1, 0, 1, 2, 2, 4, 5, 6, 2, 8, 9, 10, 0, 12, 13, 14, 0, 16, 17, 18];
@@ -315,7 +315,7 @@ const show = (world, cells) => {
   const labelOf = (body) => world.cells.length > 1 && body.cell >= 0 && body.label !== world.cells[body.cell].method ?
       `${body.label} (${world.cells[body.cell].method})` : body.label;
 
-  // If methods are shown apart, they stand side by side; a partner always stands beside the dancer.
+  // If methods are shown apart, they stand side by side; a partner (the coach) always stands beside the dancer.
   const box = () => {
     const low = [1e9, 1e9, 1e9], high = [-1e9, -1e9, -1e9];
     for (const i of chosen) {
