@@ -38,7 +38,8 @@ class CellRunner {
   /// Runs a method in the open world. An exception gives a row of status `failed`. If memory runs out, there are two
   /// cases. If the cell held more memory than the scenario allows, its status is `out_of_memory`; if it held less, the
   /// machine has too little memory, and the cell counts as not run. Outside metric programs do not measure the cell
-  /// here, because they would learn the truth of the world before all methods have answered.
+  /// here but in Measure: they receive the truth of the world, which no outside method may learn before it has
+  /// answered.
   FinishedCell Run(std::size_t method);
   /// Lets the outside metric programs measure an answered cell. A run calls this function after all methods have
   /// answered (RunOrders).
@@ -70,8 +71,8 @@ class CellRunner {
   std::string WhyNotAsked(std::size_t method, const std::string& reason) const;
   CellResult RunWithProgram(std::size_t method, CellUsage& usage);
   std::size_t IndexInTask(std::size_t method) const;
-  /// Returns the world's setting, which an outside method receives before its first problem. If the setting cannot be
-  /// made, returns the failure as the result of the cell.
+  /// Returns the data that all problems of a condition share (Task::Setting), or those of the world alone if the task
+  /// HasOwnSettings. If they cannot be made, returns the failure as the result of the cell.
   tl::expected<const Payload*, CellResult> OpenSetting();
   std::string SettingId() const;
 

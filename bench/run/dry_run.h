@@ -43,8 +43,7 @@ struct Forecast {
 
 /// Checks all input as Run does, estimates the time, and writes nothing. If a shipped scenario uses its own clips and
 /// recordings, its stored cost is scaled by this machine's speed; clips are not read and recognisers are not trained.
-/// For any other scenario, the first worlds are run until `sample_seconds` have passed, at least one world per
-/// scenario.
+/// For the other scenarios, worlds are run for `sample_seconds` in all, and at least one world of each scenario.
 Result<Forecast> DryRun(const RunOptions& options, double sample_seconds);
 
 }  // namespace etude

@@ -6,7 +6,7 @@ namespace etude {
 
 /// Returns the function that reads recordings in result folders, for `OpenOptions::recorded`. In the reference
 /// "RUN#CELL@NAME", NAME is a track of the cell's recording, or another method of the same world. CELL may leave out
-/// its method. Links inside a run are refused, because a stranger may have made the run.
+/// its method. Symbolic links in the run's folder are refused, because a stranger may have made the run.
 const RecordedMotions& MotionsOfRuns();
 
 }  // namespace etude

@@ -51,7 +51,7 @@ bool IsWithin(const fs::path& path, const fs::path& folder) {
 }
 
 /// Gives the folder `fresh` the name `old`, and the previous `old` the name `aside`. If the file system can exchange
-/// names, this is a single (atomic) step.
+/// names, `fresh` and `old` are exchanged in a single (atomic) step.
 bool Exchange(const fs::path& fresh, const fs::path& old, const fs::path& aside) {
   if (::renameat2(AT_FDCWD, fresh.c_str(), AT_FDCWD, old.c_str(), RENAME_EXCHANGE) == 0) {
     return ::rename(fresh.c_str(), aside.c_str()) == 0;
