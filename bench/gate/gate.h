@@ -50,9 +50,10 @@ struct GateReport {
   std::vector<GateAnswer> answers;
   std::vector<RatioResult> ratios;
   SnapshotComparison comparison;
-  /// Answers whose verdict became worse. Only a change from "better" to "worse" fails the gate (FallenAnswer::Flips).
+  /// Answers whose verdict became worse. Only a change from "better" to "worse" makes the gate fail
+  /// (FallenAnswer::Flips).
   std::vector<FallenAnswer> fallen;
-  /// One sentence for each method without any answer; each such method fails the gate.
+  /// One sentence for each method without any answer; each such method makes the gate fail.
   std::vector<std::string> silent;
   std::vector<std::string> incomplete;  ///< the reasons why the gate gives no verdict
   /// True: some methods are outside programs, so `etude replay` needs permission to run them.
