@@ -74,7 +74,8 @@ enum class Sealing {
 /// (CheckStillThere).
 Result<RunData> LoadRun(const std::filesystem::path& folder, Sealing sealing = Sealing::kRequired);
 
-/// Reads a result folder without holding its rows, curves and recordings in memory: `source` reads them one by one.
+/// Reads a result folder without its recordings. Rows and curves are not held in memory: `RunData::source` reads them
+/// one by one.
 Result<RunData> LoadRunRowByRow(const std::filesystem::path& folder, Sealing sealing = Sealing::kRequired);
 
 /// Reads everything except rows, series and recordings.
