@@ -91,7 +91,8 @@ Json Says(const std::string& key, const std::string& value) {
 Json Has(const char* key) { return {{"required", {key}}}; }
 Json If(Json condition, Json then) { return {{"if", std::move(condition)}, {"then", std::move(then)}}; }
 
-/// Returns the schema of the allowed key names of a scenario: the keys of every task, the keys of files, and `own`.
+/// Returns the schema of the allowed key names of a scenario: the keys that all scenarios have, the keys of files, and
+/// `own`.
 Json Names(std::span<const KeyInfo> own) {
   std::vector<std::string> names = NamesOf(CommonScenarioKeys(), &KeyInfo::key);
   for (const std::vector<std::string>& more : {NamesOf(FileKeys(), &KeyInfo::key), NamesOf(own, &KeyInfo::key)}) {

@@ -118,7 +118,7 @@ struct Scenario {
   std::string success = {};                         ///< metric of success; the task's default if the file names none
   double success_matters = 0.05;                    ///< the smallest difference of success that matters, as a share
   std::vector<OutsideMetric> outside_metrics = {};  ///< metrics that outside programs measure; also in `metrics`
-  std::vector<std::string> across;  ///< swept parameters under all of whose values a verdict must be the same
+  std::vector<std::string> across;  ///< swept parameters; a verdict must be the same under all their values
   std::string rival;                ///< the method that others must beat; "" = the best method is found
   std::vector<Expectation> expectations;
   RecordingSelection recordings;

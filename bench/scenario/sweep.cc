@@ -144,7 +144,7 @@ Condition At(Condition condition, const Point& point) {
   return condition;
 }
 
-/// Reads the axis of parameters that are stepped in parallel: the k-th point has the k-th value of each parameter.
+/// Reads the axis of parameters that change their values together: the k-th point has the k-th value of each parameter.
 Result<Axis> ReadAxis(const std::vector<Node::Entry>& parameters) {
   Axis axis;
   for (const Node::Entry& parameter : parameters) {
