@@ -32,8 +32,8 @@ inline Vector Cross(Vector a, Vector b) {
 }
 Vector From(const glm::dvec3& v) { return {v.x, v.y, v.z}; }
 
-// Returns the dot product of `a` and `b` over the rows from the SIMD vector that contains row `from` to the end. Eight
-// partial sums hide the latency.
+// Returns the dot product of `a` and `b` over the last rows: it begins with the SIMD vector (eight rows) that contains
+// row `from`. Eight partial sums hide the latency of the additions.
 constexpr int kSums = 8;
 inline double DotRows(const double* a, const double* b, int from = 0) {
   double sums[kSums] = {};
@@ -195,7 +195,8 @@ class DensePeer final : public IkPeer {
     is_met_ = farthest < squared_goal_ && longest < squared_chord_;
   }
 
-  // Computes J, e and JJᵀ. A column of J is zero except in the rows of the effectors that its angle moves.
+  // Computes the Jacobian J, the residuals e and JJᵀ. A column of J is zero except in the rows of the effectors that
+  // the column's angle moves.
   void Linearise() {
     for (int e = 0; e < ends_; ++e) {
       const Goal& goal = goals_[e];
@@ -239,8 +240,8 @@ class DensePeer final : public IkPeer {
     }
   }
 
-  // Solves (JJᵀ without the fixed angles + μI) y = duals_ in place. Gaussian elimination works on the upper triangle,
-  // in whole SIMD vectors.
+  // Solves (JJᵀ + μI) y = duals_ in place, where JJᵀ is without the columns of the fixed angles. Gaussian elimination
+  // works on the upper triangle, in whole SIMD vectors.
   bool SolveDuals(double mu) {
     std::memcpy(factor_, gram_, sizeof(gram_));
     for (int d = 0; d < dofs_; ++d) {
@@ -254,7 +255,7 @@ class DensePeer final : public IkPeer {
       inverses_[r] = inverse;
       for (int below = r + 1; below < rows_; ++below) {
         const double share = factor_[r][below] * inverse;
-        const int from = below & ~7;  // start of a vector; entries left of the diagonal are not read
+        const int from = below & ~7;  // start of a SIMD vector; entries left of the diagonal are not read
         for (int c = from; c < kRows; ++c) factor_[below][c] -= share * factor_[r][c];
         duals_[below] -= share * duals_[r];
       }

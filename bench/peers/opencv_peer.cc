@@ -83,7 +83,7 @@ struct OpenCvPerson::State {
   double cosine2;
   int steps;               ///< the threshold in steps of cvtColor's hue (2°)
   cv::Mat bx, by3, reach;  ///< used only by kSameHue
-  cv::Mat hue;             ///< used only by kHsv
+  cv::Mat hue;             ///< used only by kHsv and kHsvContours
   cv::Mat chroma, planes[2], dot, own, tmp, mask, hsv, apart;
   Buffers buffers;
 
