@@ -33,7 +33,8 @@ class CellRunner {
   CellRunner(const PreparedScenario& scenario, std::string error_folder, const Fence& fence);
   ~CellRunner();
 
-  /// Builds the world of a trial under a condition. If that fails, all cells of the world end with the same failure.
+  /// Builds the world of a trial under a condition. If the world cannot be built, all its cells end with the same
+  /// failure.
   void Open(int condition, int trial);
   /// Runs a method in the open world. An exception gives a row of status `failed`. If memory runs out, there are two
   /// cases. If the cell held more memory than the scenario allows, its status is `out_of_memory`; if it held less, the
@@ -67,7 +68,7 @@ class CellRunner {
   void Complete(int condition, Row& row) const;
   CellResult RunMethod(std::size_t method, CellUsage& usage);
   CellResult AskOutside(std::size_t method, CellUsage& usage);
-  /// Returns a text with the name of an outside method and the reason why it did not get the problem.
+  /// Returns a text with the name of an outside method and the reason why the method did not get the problem.
   std::string WhyNotAsked(std::size_t method, const std::string& reason) const;
   CellResult RunWithProgram(std::size_t method, CellUsage& usage);
   std::size_t IndexInTask(std::size_t method) const;

@@ -101,7 +101,7 @@ class OrderQueue {
   std::vector<Condition> conditions_;  ///< in the order of the plan
   std::function<bool(int scenario)> is_long_;
   std::vector<std::size_t> open_;  ///< conditions that were begun; some of them may have no orders left
-  std::size_t begun_ = 0;          ///< number of conditions that were begun, the first ones
+  std::size_t begun_ = 0;          ///< number of begun conditions; they are the first ones
   std::size_t left_ = 0;
 };
 

@@ -131,7 +131,8 @@ Result<OpenOptions> OpenOptionsOf(const ScenarioSetup& setup, const SourceTexts&
 bool IsFilmed(const Scenario& scenario);
 
 /// Returns the number of people in a scenario's recordings; nullopt if its worlds are not made from recordings. `texts`
-/// contains the labels. If a file of a folder or pattern cannot be read, it is added to `setup.refused`.
+/// contains the labels. A file that a folder or pattern in `setup.streams` contains but that cannot be read is added to
+/// `setup.refused`.
 Result<std::optional<int>> CountRecordedPeople(ScenarioSetup& setup, const StreamSource& source,
                                                const SourceTexts& texts);
 

@@ -103,7 +103,7 @@ class Copies {
 
 /// Encodes the findings of a method as two summaries. One has the comparisons without failures, the other has the
 /// comparisons with failures counted. If there is no comparison with failures counted, a comparison of zero pairs is
-/// written in its place. A real comparison with failures counted has pairs.
+/// written in its place. A real comparison with failures counted never has zero pairs.
 Result<std::string> EncodeFindings(const ConditionFindings& findings) {
   ScenarioSummary both;
   ConditionSummary& without = both.conditions.emplace_back(findings.summary);
