@@ -15,7 +15,7 @@ struct RatioResult {
   TimeRatio rule;
   /// Number of worlds, over all conditions, in which neither method timed out, crashed or ran out of memory.
   int pairs = 0;
-  /// Median over worlds of the ratio of processor times, and its 95 % interval.
+  /// Median over worlds of the ratio of processor times, `rule.of` / `rule.over`, and the median's 95 % interval.
   std::optional<double> median, ci_low, ci_high;
   /// Unmet if the whole interval of the ratio is above the limit. Undecided if only the median is above the limit
   /// (times vary on a busy machine), or if too few worlds have the times of both methods. Otherwise met.

@@ -18,14 +18,14 @@ struct SpecimenProblem {
   /// (Task::HasOwnSettings).
   std::shared_ptr<const Payload> setting;
   std::unique_ptr<TaskWorld> world;
-  Payload problem;  ///< the problem; empty for tasks with seats
+  Payload problem;  ///< the problem; empty if the tested program takes a seat
 };
 
 struct Specimen {
   std::unique_ptr<ClipLibrary> clips;  ///< the clips, which must outlive the task
   std::unique_ptr<Task> task;
   std::vector<SpecimenProblem> problems;
-  bool has_plain_method = false;  ///< true: method 0 of the specimen's worlds is a built-in method that solves them
+  bool has_plain_method = false;  ///< true: method 0 is a built-in method that solves some of the specimen's worlds
 };
 
 /// Makes two specimens of a task with different conditions and three problems each. They are the same in every call.

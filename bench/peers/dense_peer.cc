@@ -15,7 +15,7 @@ namespace {
 
 constexpr int kMaxDofs = 32, kMaxEffectors = 4, kRows = 6 * kMaxEffectors;
 
-// These constants have the values of jacobian_solvers.cc.
+// These constants have the same values as in engine/kinematics/solvers/jacobian_solvers.cc.
 constexpr double kMinFactor = 1e-2, kMaxFactor = 1e9, kMinMu = 1e-9;
 constexpr double kMinProgress = 0.7, kSettledProgress = 1 - 1e-5;
 constexpr int kMaxPatience = 6, kMaxPasses = 4;
@@ -266,7 +266,7 @@ class DensePeer final : public IkPeer {
     return true;
   }
 
-  // Computes the step and returns the largest change of an angle in the step, radians; 0 on failure.
+  // Computes the step. Returns the largest change of an angle before the step is shortened, radians; 0 on failure.
   double FindStep(double mu) {
     // Active-set passes: solve with some angles fixed at their limits, until the set of fixed angles stays the same.
     std::memset(sides_, 0, sizeof(sides_));
@@ -310,8 +310,8 @@ class DensePeer final : public IkPeer {
     return gain;
   }
 
-  // Reduces the cost by damped steps from the current pose. Ends when the problem is solved, or when the cost has not
-  // fallen below `progress` times its last value for kMaxPatience steps.
+  // Reduces the cost by damped steps from the current pose. Ends when the problem is solved, or when kMaxPatience steps
+  // in a row have not reduced the cost below `progress` times the cost before them.
   void Descend(double progress) {
     double fallen_to = pose_.cost, factor = 1, growth = 2;
     bool has_moved = true;

@@ -88,7 +88,7 @@ struct OpenCvPerson::State {
   Buffers buffers;
 
   void Chroma(const cv::Mat& rgb) {
-    // The rows compute 2R − G − B and G − B, which are whole numbers in floats. Grey gets the hue of red.
+    // The rows of the matrix compute 2R − G − B and G − B, which are whole numbers in floats. Grey gets the hue of red.
     static const cv::Matx23f kToChroma(2, -1, -1, 0, 1, -1);
     rgb.convertTo(tmp, CV_32F);
     cv::transform(tmp, chroma, kToChroma);

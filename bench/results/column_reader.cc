@@ -175,7 +175,7 @@ class ScenarioColumns {
         if (text >= index_.texts.size()) return Fail(place, "names text {} of {}", text, index_.texts.size());
       }
     }
-    // The ends of the curves must ascend to the number of values.
+    // The ends of the curves must ascend, and the last end must be the number of values.
     for (const auto& [name, ends] : *ends_) {
       std::uint64_t last = 0;
       const NpyFile& curve = curves_->at(name.substr(0, name.size() - std::string_view(kCurveEnds).size()));

@@ -188,7 +188,7 @@ Json ScenarioSchema() {
     tops.push_back(If({{"properties", {{"defaults", Says("task", kind.name)}}}, {"required", {"defaults"}}},
                       {{"properties", {{"scenarios", std::move(in_list)}}}}));
   }
-  // A required key must be in every scenario if `defaults` lacks it.
+  // A required key must be in every scenario if `defaults` lacks it and no file is included.
   for (const std::string& key : required) {
     const Json default_says{{"properties", {{"defaults", {{"required", {key}}}}}}, {"required", {"defaults"}}};
     tops.push_back({{"if", {{"anyOf", {default_says, Has("include")}}}},

@@ -25,7 +25,7 @@ struct NamedClips {
 /// Recordings of people. Worlds are made from them instead of from simulated people.
 struct StreamSource {
   std::vector<std::string> files;  ///< references to recordings, as the file writes them
-  /// File or folder of tag streams with the labels of performances in streams or clips.
+  /// File with the labels of performances in streams or clips (a tag stream), or a folder of such files.
   std::string labels;
   StreamReading reading;
   StreamOptions making;
@@ -42,7 +42,7 @@ struct Condition {
 /// A value of a condition that is the name of a file.
 struct NamedFile {
   std::string key;
-  const Node* node = nullptr;  ///< the scalar within the condition that holds the file's name
+  const Node* node = nullptr;  ///< the node, in the condition's mapping, whose scalar is the file's name
 };
 /// Returns the values of `condition` that are names of files (ValueKind::names_file), in the order of the task's keys.
 std::vector<NamedFile> FilesNamedBy(const Condition& condition, const TaskKind& kind);

@@ -204,7 +204,7 @@ Result<std::vector<Axis>> ReadAxes(const Node& sweep, const TaskKind& kind) {
   }
   std::vector<Axis> axes;
   std::vector<std::string> seen;
-  // Add the axis of some parameters. Each parameter may be swept once.
+  // Adds the axis that `parameters` form. Each parameter may be swept once.
   const auto add = [&](const std::vector<Node::Entry>& parameters, bool in_group) -> Result<void> {
     for (const Node::Entry& parameter : parameters) {
       RETURN_IF_ERROR(CheckParameter(parameter, kind, in_group));
