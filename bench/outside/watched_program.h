@@ -86,7 +86,7 @@ class WatchedProgram {
   /// Returns the number of bytes that were sent to the program and that the program has not read yet.
   std::size_t UnreadBytes() const { return child_->UnreadBytes(); }
 
-  /// Returns the folder that holds the folders of attachments. It exists from the first start on.
+  /// Returns the folder that holds the folders of attachments. The returned folder exists from the first start on.
   const std::filesystem::path& attachment_root() const { return attachment_root_->path(); }
   /// Returns a text in which "FILES" replaces the path of the attachments' folder, because this path differs in every
   /// run.

@@ -54,7 +54,8 @@ double ThreadTimeUs() {
   return 1e6 * static_cast<double>(now.tv_sec) + 1e-3 * static_cast<double>(now.tv_nsec);
 }
 
-// Returns the time that it takes to read the clock, microseconds. It matters if a solution takes only microseconds.
+// Returns the time that it takes to read the clock, microseconds. This time matters if a solution takes only
+// microseconds.
 double ClockTimeUs() {
   double least = std::numeric_limits<double>::infinity();
   for (int i = 0; i < 10000; ++i) {

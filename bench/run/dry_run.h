@@ -28,8 +28,9 @@ struct ScenarioForecast {
   /// success metric.
   std::string metric = {};
   /// The standard deviation, over worlds, of the paired differences in `metric`, in the metric's unit. The compared
-  /// methods are the first method that has a baseline, and its baseline. The value is the median over conditions. It is
-  /// stored, or comes from the worlds that were run to measure the time. 0 = there are fewer than kMinSample pairs.
+  /// methods are the first method that has a baseline, and its baseline. The value is the median over conditions. The
+  /// value is stored, or computed from the worlds that were run to measure the time. 0 = there are fewer than
+  /// kMinSample pairs.
   double spread = 0;
 };
 
