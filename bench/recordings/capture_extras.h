@@ -14,10 +14,10 @@
 namespace etude {
 
 /// The extras of task `capture`: the data of a recording that is needed, in addition to its tracks "truth" and
-/// "recovered", to draw the stereo views again. The tracks have 30 Hz; frame k of the tracks is frame k here. To show
-/// frame k of camera c: render the truth, dressed in `colours` (or as its stage dresses it), in Room{texture_seed,
-/// brightness[k], casts_shadows} from cameras[c].truth, draw masks[k] over the picture, and project the recovered
-/// joints with MatrixOf(cameras[c].truth).
+/// "recovered", to draw the stereo views again. The tracks have 30 Hz; brightness[k] and masks[k] belong to frame k of
+/// the tracks. To show frame k of camera c: render the truth, dressed in `colours` (or as its stage dresses it), in
+/// Room{texture_seed, brightness[k], casts_shadows} from cameras[c].truth, draw masks[k] over the picture, and project
+/// the recovered joints with MatrixOf(cameras[c].truth).
 ///
 /// As JSON (the content of `Recording::extras_json`):
 ///

@@ -18,8 +18,8 @@
 
 namespace etude {
 
-/// The version of the layout of a result folder (docs/results.md). It is raised when older programs could no longer
-/// read the folder.
+/// The version of the layout of a result folder (docs/results.md). The version is raised when older programs can no
+/// longer read the folder.
 constexpr int kResultSchema = 4;
 
 /// The names of the files with the rows and with the times of the cells, one line of text per row.

@@ -90,8 +90,8 @@ struct OutsideMetric {
   std::vector<MetricExample> vectors;
 };
 
-/// The time and memory that one cell, or the building of one world, may use. A cell or building that uses more is
-/// ended.
+/// The time and memory that one cell, or the building of one world, may use. If a limit is exceeded, Etude ends the
+/// cell or stops building the world.
 struct Limits {
   double time_s = 300;
   double memory_mb = 4096;  ///< limit of the resident memory of the worker, and of each outside method
