@@ -46,8 +46,8 @@ struct ExportOutcome {
 /// machine. `on_progress` counts three steps per world: problem made, problem written, truth written.
 Result<ExportOutcome> ExportSuite(const ExportOptions& options, const OnProgress& on_progress);
 
-/// The layout version of a data set, stored as the key `data_set` of its manifest. A manifest without this key has
-/// version 1, in which pictures are PNG files.
+/// The layout version of a data set, stored as the key `data_set` of its manifest. A data set whose manifest lacks this
+/// key has version 1; its pictures are PNG files.
 constexpr int kDataSetVersion = 2;
 
 /// Deletes the temporary folder that a killed export to `output` left.

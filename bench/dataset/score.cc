@@ -72,7 +72,8 @@ std::string NameOf(const Plan& plan, std::size_t w) {
                      WorldName(plan.scenario_of(w), world.condition, world.trial));
 }
 
-// Largest size of an answer file, bytes; equal to kMaxReplyBytes. An answer with 60 s of poses takes 3 MB.
+// Largest size of an answer file, bytes; equal to kMaxReplyBytes (bench/outside/messages.h). An answer with 60 s of
+// poses takes 3 MB.
 constexpr std::uintmax_t kMaxAnswerBytes = std::uintmax_t{16} << 20;
 
 Result<CellResult> JudgeFile(TaskWorld& world, const FilePath& file) {
@@ -98,7 +99,7 @@ FinishedCell JudgeWorld(const Plan& plan, std::size_t w, const std::optional<Fil
   const bool is_filmed = scenario.scenario().recordings.KeepsTrial(world.trial);
   const auto built =
       scenario.task(world.condition).MakeWorld(scenario.KeyOf(world.condition, world.trial), is_filmed || has_programs);
-  // A skipped world, or a missing or broken answer, gives a row without metrics.
+  // A skipped world gives the row of a skipped cell. A missing or broken answer gives the row of a failed cell.
   if (const auto why = built->WhySkipped()) {
     if (file) faults.extra.push_back(fmt::format("{}.json ({})", NameOf(plan, w), *why));
     return ended(Status::kSkipped, *why);

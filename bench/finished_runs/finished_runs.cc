@@ -33,7 +33,7 @@ bool IsCommonKey(const std::string& key) {
 }
 
 /// Returns the digest of everything that determines the worlds of a condition: the task, the task's own keys and the
-/// clips. Files of worlds made of files are left out, because they have digests of their own.
+/// clips. The files that a task judges are left out, because they have digests of their own.
 std::string WorldDigest(const std::string& task, const Node& condition, std::span<const std::string> clip_digests) {
   Digest digest;
   digest.Add(std::string_view(task));
@@ -62,9 +62,9 @@ std::string MethodDigest(const MethodEntry& method) {
 
 constexpr const char* kBuiltInName = "built in";
 
-// A fast scenario with metrics of every kind: medians, a share and a count. Each method limits, by an angle of its own,
-// how far a joint may turn from the start pose. The start pose has an error of 15° (standard deviation), so some
-// methods differ little from the first one and others much.
+// A fast scenario with metrics of every kind: medians, a share and a count. Each method but the first limits, by an
+// angle of its own, how far a joint may turn from the start pose. The start pose has an error of 5° or 15° (standard
+// deviation), so some methods differ little from the first one and others much.
 constexpr const char* kBuiltInScenario = R"(
 scenario: gate-self-test
 question: Does the gate see what it should, and nothing else?

@@ -61,22 +61,23 @@ class Lines {
   std::optional<Error> error_;
 };
 
-// The status letters that may occur in a baseline. The letters 'm', 't' and 'c' are missing, because no baseline is
-// made of a run with such a cell.
+// The status letters that may occur in a baseline. The letters 'm' (out of memory), 't' (timeout) and 'c' (crashed) are
+// missing, because no baseline is made of a run with such a cell.
 constexpr std::string_view kLetters = "oufbs";
 constexpr std::string_view kAnswers = "ou";     // letters of the statuses that have an answer
 constexpr std::int64_t kMaxTrials = 1'000'000;  // the largest number of trials that a scenario file may state
 constexpr std::int64_t kMaxVersions = 1'000'000;
 
-/// Returns the seal of a baseline: the digest of its JSON values without the key `seal`. White space does not affect
-/// it.
+/// Returns the seal of a baseline: the digest of its JSON values without the key `seal`. White space in the file does
+/// not affect the digest.
 Result<std::string> SealOf(Json baseline) {
   baseline.erase("seal");
   ASSIGN_OR_RETURN(const auto text, WriteJson(baseline));
   return Digest().Add(std::string_view(text)).Hex();
 }
 
-/// The cells of one scenario, condition and method. One line of statuses or values in the file fills them.
+/// The cells of one scenario, condition and method. In the file, one line holds their statuses, and one line per metric
+/// holds their values.
 struct Slot {
   std::size_t trials = 0;
   SnapshotCells* cells = nullptr;

@@ -57,8 +57,8 @@ const std::string* FindDigest(const NamedDigests& digests, const std::string& na
   return found == nullptr ? nullptr : &found->second;
 }
 
-/// The trials of the worlds that exist in both snapshots of a scenario. Trial `before[i]` of one and trial `after[i]`
-/// of the other are the same world.
+/// The trials of the worlds that exist in both snapshots of a scenario. Trial `before[i]` of the earlier snapshot and
+/// trial `after[i]` of the later one are the same world.
 struct SharedWorlds {
   std::vector<std::size_t> before, after;
 };

@@ -14,7 +14,7 @@ namespace etude {
 struct SnapshotComparison {
   /// The change of each metric that both snapshots have, even if no value changed.
   std::vector<MetricMove> moves;
-  /// Entries of one snapshot only, e.g. "ik-weights, joint_noise_deg=5, fixed, iterations".
+  /// Entries that only one of the two snapshots contains, e.g. "ik-weights, joint_noise_deg=5, fixed, iterations".
   std::vector<std::string> only_before, only_after;
   std::vector<std::string> settings_changed;  ///< methods with the same name but different settings
 };

@@ -25,7 +25,7 @@ bool KeepsAnswers(const Study& study, const SnapshotScenario& snapshot) {
 }
 
 /// Computes the summary of a study, with its verdicts, from the values in a snapshot. Each world counts as its own
-/// sampling unit: snapshots do not contain the units, and only the verdicts on the run's worlds are compared.
+/// sampling unit: snapshots do not contain the units, and the compared verdicts are about the run's worlds alone.
 ScenarioSummary SummaryOf(Study study, const SnapshotScenario& snapshot) {
   study.unit = SamplingUnit::kWorld;
   study.expectations.clear();

@@ -38,7 +38,8 @@ struct FinishedRun {
 std::vector<std::string> CellsOf(const Study& study);
 
 /// Checks that the run has one row for each cell that the scenarios require, and no other rows. Missing rows are added
-/// to `incomplete`. Fails on a duplicate row, and on a row that no scenario requires.
+/// to `incomplete`. Fails on a duplicate row, on a row that no scenario requires and, if the run has more than 100,000
+/// rows, on a missing row.
 Result<void> CheckRows(FinishedRun& run, const Place& place);
 
 /// The values of one metric, by trial; nullopt if the cell of a trial has no value.

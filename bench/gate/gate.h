@@ -15,7 +15,7 @@ struct RatioResult {
   TimeRatio rule;
   /// Number of worlds, over all conditions, in which neither method timed out, crashed or ran out of memory.
   int pairs = 0;
-  /// Median over worlds of the ratio of processor times, and its 95 % interval.
+  /// Median over worlds of the ratio of processor times, `rule.of` / `rule.over`, and the median's 95 % interval.
   std::optional<double> median, ci_low, ci_high;
   /// Unmet if the whole interval of the ratio is above the limit. Undecided if only the median is above the limit
   /// (times vary on a busy machine), or if too few worlds have the times of both methods. Otherwise met.
@@ -50,9 +50,10 @@ struct GateReport {
   std::vector<GateAnswer> answers;
   std::vector<RatioResult> ratios;
   SnapshotComparison comparison;
-  /// Answers whose verdict became worse. Only a change from "better" to "worse" fails the gate (FallenAnswer::Flips).
+  /// Answers whose verdict became worse. Only a change from "better" to "worse" makes the gate fail
+  /// (FallenAnswer::Flips).
   std::vector<FallenAnswer> fallen;
-  /// One sentence for each method without any answer; each such method fails the gate.
+  /// One sentence for each method without any answer; each such method makes the gate fail.
   std::vector<std::string> silent;
   std::vector<std::string> incomplete;  ///< the reasons why the gate gives no verdict
   /// True: some methods are outside programs, so `etude replay` needs permission to run them.

@@ -38,7 +38,7 @@ Movement MovementOf(const Comparison& comparison, const MetricInfo& metric) {
 }
 
 /// Returns the result that comes first in the order worse, better, unclear. Both results are about the same metric.
-/// Returns kNoMatter if neither is one of these.
+/// Returns kNoMatter if neither `a` nor `b` is one of these.
 Movement MoreImportant(Movement a, Movement b) {
   for (Movement movement : {Movement::kWorse, Movement::kBetter, Movement::kUnclear}) {
     if (a == movement || b == movement) return movement;

@@ -56,7 +56,7 @@ struct MetricMove {
   /// True if `movement` follows from the difference of means; false if it follows from the metric's own aggregate.
   bool by_mean = false;
   std::optional<Comparison> presence;  ///< comparison of "has a value" (1 or 0), if values were lost or gained
-  /// Far worse worlds: first those that lost their value, then the others from the worst on.
+  /// Far worse worlds: first those that lost their value, then the others, the worst first.
   std::vector<TailWorld> tail;
   bool by_tail = false;  ///< true: only the tail rule makes this change a regression
 };
@@ -88,8 +88,8 @@ using TailRules = std::map<std::string, TailRule>;
 
 /// Returns the worlds that became far worse: by more than `rule.times` practical thresholds, or because their value was
 /// lost. For kOkShare, a world is far worse if it was `ok` and no longer is; the world counts as lost unless it is now
-/// `unsolved`. If the metric has no direction, only lost values count. Lost worlds come first, then the others from the
-/// worst on.
+/// `unsolved`. If the metric has no direction, only lost values count. Lost worlds come first, then the others, the
+/// worst first.
 std::vector<TailWorld> FindTail(const MoveColumns& columns, const MetricInfo& metric, const TailRule& rule);
 
 /// Returns the smallest number of far worse worlds, among `compared` worlds, that counts as a regression; 0 if no

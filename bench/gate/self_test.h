@@ -41,7 +41,7 @@ struct SelfTestReport {
   /// interval of the false alarms does not lie above kFalseAlarmLimit, and the tail rule finds exactly the changes that
   /// it must find.
   bool Holds() const;
-  bool tails_found = true;  ///< true: the tail rule reported a regression exactly when it had to
+  bool tails_found = true;  ///< true: the tail rule reported a regression if and only if it had to
 };
 
 /// The largest allowed share of gates that report a regression although nothing changed: the significance level of
@@ -51,29 +51,32 @@ constexpr double kFalseAlarmLimit = 0.05;
 using RunUnderSeed = std::function<Result<FinishedRun>(std::uint64_t seed)>;
 
 /// Measures the gate on `repetitions` pairs of seeds (2i − 1, 2i):
-/// - false alarms: compares trial t of one seed with trial t of the other. Both have the same distribution, so the
-///   sign of every difference is random, and every reported regression is false. The differences are far larger than
-///   in a real gate, because the worlds differ; the test is the same. The tail rule, which requires equal worlds, is
-///   off.
+/// - false alarms: compares trial t of one seed with trial t of the other. Both trials' values have the same
+///   distribution, so the sign of every difference is random, and every reported regression is false. The differences
+///   are far larger than in a real gate, because the worlds differ; the test is the same. The tail rule, which requires
+///   equal worlds, is off.
 /// - reruns: compares the first seed with a second run of this seed.
 /// - injected: compares the first seed with a copy in which a random difference is added to every value of one metric,
-///   under the first method and condition. The metric is the first one compared that is a median and has a direction.
+///   under the first method and condition. The metric is the first compared metric that is aggregated by the median and
+///   has a direction.
 ///   The differences are normal: mean k practical thresholds (worse), standard deviation three thresholds.
-/// - tails: compares the first seed with a copy in which a few worlds of that metric are changed (InjectedTails).
+/// - tails: compares the first seed with a copy in which the metric of `injected` is changed in a few worlds
+///   (InjectedTails).
 /// - real: compares the first seed's first method with each other method under the first method's name.
 /// Fails if a run fails, or if the scenario has no metric for injection.
 Result<SelfTestReport> RunSelfTest(const RunUnderSeed& run, int repetitions);
 
-/// Makes a few worlds of a snapshot far worse, and counts the gates that find the change: a gate must find it exactly
-/// if the tail rule counts it as a regression.
+/// Makes a few worlds of a snapshot far worse, and counts the gates that find the change: a gate must find it if and
+/// only if the tail rule counts it as a regression.
 class InjectedTails {
  public:
   /// Makes copies of `first`. Each copy has one change, to the values of metric `target` in the first cells of the
   /// first scenario:
-  /// - n worlds become worse by 2 × `rule.times`; n = 1, 2, 3, 5, 10 and the smallest number that is a regression;
-  /// - that smallest number of worlds becomes worse by 0.9 × `rule.times`;
+  /// - n worlds become worse by 2 × `rule.times` practical thresholds; n = 1, 2, 3, 5, 10 and the smallest number that
+  ///   is a regression;
+  /// - that smallest number of worlds becomes worse by 0.9 × `rule.times` practical thresholds;
   /// - one value is lost.
-  /// `seed` keys the choice of worlds.
+  /// `seed` determines which worlds are chosen.
   void Try(const Snapshot& first, const std::string& target, std::uint64_t seed, const TailRule& rule);
 
   std::vector<PowerResult> Results() const;

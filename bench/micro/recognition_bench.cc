@@ -52,7 +52,7 @@ void Follow(benchmark::State& state, const RecogniserKind* kind) {
   const SeenStream seen = SeeStream(dances.stream, {});
   const auto follower = (*recogniser)->Follow(dances.stream.rate_hz);
   std::size_t frame = 0;
-  constexpr std::size_t kWindow = 120;  // frames for which a move is requested
+  constexpr std::size_t kWindow = 120;  // number of frames for which a move is requested
   for (auto _ : state) {
     if (frame % kWindow == 0) follower->Ask(frame / kWindow % dances.taught.size());
     benchmark::DoNotOptimize(follower->Update(seen[frame % seen.frames.size()]).asked);

@@ -27,7 +27,7 @@ struct Recipe {
   const char* task;
   std::vector<std::string> clips;
   std::array<const char*, 2> conditions;
-  const char* plain_method = "";  ///< a built-in method that solves the worlds; "" if every method of the task solves
+  const char* plain_method = "";  ///< a built-in method that solves some worlds; "" if every method of the task solves
                                   ///< some
 };
 

@@ -14,23 +14,25 @@ namespace etude {
 struct SpecimenProblem {
   std::string id;
   std::string setting_id;
-  /// The setting, shared by all problems of the specimen or of this world alone.
+  /// The setting: the data that all problems of the specimen share, or those of this world alone
+  /// (Task::HasOwnSettings).
   std::shared_ptr<const Payload> setting;
   std::unique_ptr<TaskWorld> world;
-  Payload problem;  ///< the problem; empty for tasks with seats
+  Payload problem;  ///< the problem; empty if the tested program takes a seat
 };
 
 struct Specimen {
   std::unique_ptr<ClipLibrary> clips;  ///< the clips, which must outlive the task
   std::unique_ptr<Task> task;
   std::vector<SpecimenProblem> problems;
-  bool has_plain_method = false;  ///< true: method 0 of the specimen's worlds is a built-in method that solves them
+  bool has_plain_method = false;  ///< true: method 0 is a built-in method that solves some of the specimen's worlds
 };
 
-/// Makes two settings of a task with three problems each. The problems are the same in every call. Fails if there is no
-/// such task, if its worlds cannot be made on this machine (no renderer), or if `seat` is not one of the task's seats
-/// ("" if the task has no seats). With `recordings`, the worlds are the recorded people, with one problem for each of
-/// the first three people; only task detection has such worlds. `recordings` must outlive the result.
+/// Makes two specimens of a task with different conditions and three problems each. The specimens are the same in every
+/// call. Fails if there is no such task, if its worlds cannot be made on this machine (no renderer), or if `seat` is
+/// not one of the task's seats ("" if the task has no seats). With `recordings`, the worlds are the recorded people,
+/// with one problem for each of the first three people; only task detection has such worlds. `recordings` must outlive
+/// the result.
 Result<std::vector<Specimen>> MakeSpecimens(const std::string& task, const std::string& seat,
                                             const LabelledStreams* recordings = nullptr);
 
@@ -44,9 +46,9 @@ struct ConformanceCheck {
 /// Sends the specimens of the method's task to the method and calls `report` after every check. The checks are: the
 /// method answers the handshake; its answers can be scored; they depend on the problem alone, not on earlier problems
 /// or settings; it accepts long lines; it ends when its input ends; and it solves some problems if a plain built-in
-/// method solves some (if not, the report says if its angles seem to be in radians). Stops after a failed handshake or
-/// an answer that cannot be scored. Returns true if all checks passed. Fails if MakeSpecimens fails, or if the program
-/// cannot be found.
+/// method solves some (if not, the report says whether the answered angles seem to be in radians). Stops after a failed
+/// handshake or an answer that cannot be scored. Returns true if all checks passed. Fails if MakeSpecimens fails, or if
+/// the program cannot be found.
 Result<bool> CheckConformance(const OutsideOptions& options, const std::string& seat,
                               const std::function<void(const ConformanceCheck&)>& report,
                               const LabelledStreams* recordings = nullptr);

@@ -14,7 +14,7 @@ constexpr std::size_t kMaxReplyBytes = std::size_t{16} << 20;
 constexpr int kMaxReplyDepth = 32;
 
 /// These functions return the lines that Etude sends. `options` and `content` are JSON objects. `files` is the folder
-/// of the attachments, or "" if there are none. They fail if a number is NaN or infinite.
+/// of the attachments, or "" if there are none. The functions fail if a number is NaN or infinite.
 Result<std::string> HelloLine(const std::string& task, const Json& options);
 Result<std::string> SettingLine(const std::string& id, const Json& content, const std::string& files);
 Result<std::string> ProblemLine(const std::string& id, const Json& content, const std::string& files);
@@ -22,9 +22,9 @@ Result<std::string> ProblemLine(const std::string& id, const Json& content, cons
 Result<std::string> BeginLine(const std::string& id, const Json& content, const std::string& files);
 Result<std::string> StepLine(const std::string& id, int number, const Json& content, const std::string& files);
 
-/// A program's reply to the handshake. Each function below reads one type of line. It fails on invalid JSON, another
-/// type, another problem, a missing field, or a field of the wrong type; the error says what was found. Unknown fields
-/// are ignored.
+/// A program's reply to the handshake. Each function below reads one type of line. The function fails on invalid JSON,
+/// another type, another problem, a missing field, or a field of the wrong type; the error says what was found. Unknown
+/// fields are ignored.
 struct HelloReply {
   std::string name;
   std::string version;

@@ -33,8 +33,8 @@ struct OutsideOptions {
   Seed seed = 1;
 };
 
-/// Returns the longest time that Ask may take with the default start_s, seconds. It covers handshake, setting, problem
-/// and cleaning up.
+/// Returns the longest time that Ask may take with the default start_s, seconds. This time covers the handshake, the
+/// setting, the problem and the cleaning up.
 double MaxAskSeconds(double time_s);
 
 /// The outcome of one problem, or of one step of a session.

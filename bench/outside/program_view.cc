@@ -104,7 +104,7 @@ ProgramView ViewOf(const std::vector<std::string>& command, const std::vector<st
     view.command.push_back(path.string());
     if (!is_file || Fence::IsOfSystem(path)) continue;
     const fs::path folder = path.parent_path();
-    // The Python of a virtual environment is a link, so it cannot be a mount point. It is shown together with its
+    // The Python of a virtual environment is a link, so it cannot be a mount point. The link is shown together with its
     // folder.
     const bool is_shown = fs::is_symlink(path, error) && std::ranges::any_of(view.shown, [&](const fs::path& one) {
                             return std::ranges::mismatch(one, path).in1 == one.end();

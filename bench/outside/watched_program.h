@@ -70,8 +70,8 @@ class WatchedProgram {
   /// running".
   std::string Stop(int patience_ms);
 
-  /// Sends a line. If the program has closed its input, the next WaitForLine fails. Send and the next five functions
-  /// require a running program.
+  /// Sends a line. If the program has closed its input, the next WaitForLine fails. The functions from Send to
+  /// UnreadBytes require a running program.
   void Send(const std::string& line) { child_->Send(line); }
   /// Reads the output that is available now. NextLine then returns its lines.
   void Receive();
@@ -86,13 +86,13 @@ class WatchedProgram {
   /// Returns the number of bytes that were sent to the program and that the program has not read yet.
   std::size_t UnreadBytes() const { return child_->UnreadBytes(); }
 
-  /// Returns the folder that holds the folders of attachments. It exists from the first start on.
+  /// Returns the folder that holds the folders of attachments. The returned folder exists from the first start on.
   const std::filesystem::path& attachment_root() const { return attachment_root_->path(); }
   /// Returns a text in which "FILES" replaces the path of the attachments' folder, because this path differs in every
   /// run.
   std::string WithoutFolder(std::string text) const;
 
-  /// Returns the program's processor time since the previous call, seconds. Each call uses the last sample before it.
+  /// Returns the program's processor time since the previous call, seconds. The time of the last sample counts.
   double TakeCpuSeconds();
   /// Returns the largest memory measured since ForgetPeak, MB.
   double peak_mb() const { return peak_mb_; }

@@ -1,5 +1,6 @@
 // Times the calibration of one camera and its lens from 15 views of a board: Etude's function and, if OpenCV is
-// installed, cv::calibrateCamera. Both minimise the same sum of squares, so the program also compares their results.
+// installed, cv::calibrateCamera. Both functions minimise the same sum of squares, so the program also compares their
+// results.
 #include <benchmark/benchmark.h>
 
 #include <cmath>

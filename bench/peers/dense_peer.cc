@@ -15,7 +15,7 @@ namespace {
 
 constexpr int kMaxDofs = 32, kMaxEffectors = 4, kRows = 6 * kMaxEffectors;
 
-// These constants have the values of jacobian_solvers.cc.
+// These constants have the same values as in engine/kinematics/solvers/jacobian_solvers.cc.
 constexpr double kMinFactor = 1e-2, kMaxFactor = 1e9, kMinMu = 1e-9;
 constexpr double kMinProgress = 0.7, kSettledProgress = 1 - 1e-5;
 constexpr int kMaxPatience = 6, kMaxPasses = 4;
@@ -32,8 +32,8 @@ inline Vector Cross(Vector a, Vector b) {
 }
 Vector From(const glm::dvec3& v) { return {v.x, v.y, v.z}; }
 
-// Returns the dot product of `a` and `b` over the rows from the SIMD vector that contains row `from` to the end. Eight
-// partial sums hide the latency.
+// Returns the dot product of `a` and `b` over the last rows: it begins with the SIMD vector (eight rows) that contains
+// row `from`. Eight partial sums hide the latency of the additions.
 constexpr int kSums = 8;
 inline double DotRows(const double* a, const double* b, int from = 0) {
   double sums[kSums] = {};
@@ -195,7 +195,8 @@ class DensePeer final : public IkPeer {
     is_met_ = farthest < squared_goal_ && longest < squared_chord_;
   }
 
-  // Computes J, e and JJᵀ. A column of J is zero except in the rows of the effectors that its angle moves.
+  // Computes the Jacobian J, the residuals e and JJᵀ. A column of J is zero except in the rows of the effectors that
+  // the column's angle moves.
   void Linearise() {
     for (int e = 0; e < ends_; ++e) {
       const Goal& goal = goals_[e];
@@ -239,8 +240,8 @@ class DensePeer final : public IkPeer {
     }
   }
 
-  // Solves (JJᵀ without the fixed angles + μI) y = duals_ in place. Gaussian elimination works on the upper triangle,
-  // in whole SIMD vectors.
+  // Solves (JJᵀ + μI) y = duals_ in place, where JJᵀ is without the columns of the fixed angles. Gaussian elimination
+  // works on the upper triangle, in whole SIMD vectors.
   bool SolveDuals(double mu) {
     std::memcpy(factor_, gram_, sizeof(gram_));
     for (int d = 0; d < dofs_; ++d) {
@@ -254,7 +255,7 @@ class DensePeer final : public IkPeer {
       inverses_[r] = inverse;
       for (int below = r + 1; below < rows_; ++below) {
         const double share = factor_[r][below] * inverse;
-        const int from = below & ~7;  // start of a vector; entries left of the diagonal are not read
+        const int from = below & ~7;  // start of a SIMD vector; entries left of the diagonal are not read
         for (int c = from; c < kRows; ++c) factor_[below][c] -= share * factor_[r][c];
         duals_[below] -= share * duals_[r];
       }
@@ -265,7 +266,7 @@ class DensePeer final : public IkPeer {
     return true;
   }
 
-  // Computes the step and returns the largest change of an angle in the step, radians; 0 on failure.
+  // Computes the step. Returns the largest change of an angle before the step is shortened, radians; 0 on failure.
   double FindStep(double mu) {
     // Active-set passes: solve with some angles fixed at their limits, until the set of fixed angles stays the same.
     std::memset(sides_, 0, sizeof(sides_));
@@ -309,8 +310,8 @@ class DensePeer final : public IkPeer {
     return gain;
   }
 
-  // Reduces the cost by damped steps from the current pose. Ends when the problem is solved, or when the cost has not
-  // fallen below `progress` times its last value for kMaxPatience steps.
+  // Reduces the cost by damped steps from the current pose. Ends when the problem is solved, or when kMaxPatience steps
+  // in a row have not reduced the cost below `progress` times the cost before them.
   void Descend(double progress) {
     double fallen_to = pose_.cost, factor = 1, growth = 2;
     bool has_moved = true;

@@ -1,12 +1,12 @@
 #!/usr/bin/env python3
-"""Times `etude evaluate` on hours of pairs, and NumPy on the same arrays in the same run.
+"""Times `etude evaluate` on pairs of motions, hours in all, and NumPy on the same arrays in the same run.
 
     bench/peers/evaluation_numpy.py FOLDER [--etude PROGRAM] [--hours 10] [--bvh]
 
 FOLDER receives pairs of files of five minutes at 30 Hz: a built-in dance, and a copy with noise, another size and a
 drift. NumPy computes every positional metric, vectorised, on motions without gaps. The script fails if a metric differs
-by more than 1e-8 of its value. Times are processor seconds of one thread, including reading; memory is the peak of a
-process. With --bvh, only the program is measured, on BVH files.
+by more than 1e-8 (relative for values above 1). Times are processor seconds of one thread, including reading; memory is
+the peak of a process. With --bvh, only Etude is measured, on BVH files.
 """
 import argparse
 import json
@@ -21,7 +21,7 @@ os.environ.update(OMP_NUM_THREADS="1", OPENBLAS_NUM_THREADS="1")
 import numpy as np  # noqa: E402
 
 RATE, FRAMES, SEGMENT = 30, 9000, 100
-FEET = [14, 15, 18, 19]  # of AllRoles: ankle and foot, left and right
+FEET = [14, 15, 18, 19]  # indices in AllRoles: ankle and foot, left and right
 BENDS = [(4, 5, 6), (8, 9, 10), (12, 13, 14), (16, 17, 18)]
 
 

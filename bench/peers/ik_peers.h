@@ -22,7 +22,7 @@ class IkPeer {
  public:
   virtual ~IkPeer() = default;
 
-  /// Returns the effectors' frames by the library's own forward kinematics. They show whether the library's model
+  /// Returns the effectors' frames by the library's own forward kinematics. The frames show whether the library's model
   /// equals the tree.
   virtual std::vector<LimbFrame> Effectors(std::span<const double> angles) = 0;
 

@@ -1,9 +1,9 @@
 // Times Etude's inverse kinematics, for single problems and in batches, and the inverse kinematics of other libraries.
 // All methods solve the same problems to the same accuracy in one process. In every round, every method solves every
-// problem; each problem's shortest time is reported. A problem is solved if, by Etude's forward kinematics, every
-// effector's position and axes are within the goals, and all angles are within their limits.
+// problem. The median and the mean of the problems' shortest times are reported. A problem is solved if, by Etude's
+// forward kinematics, every effector's position and axes are within the goals, and all angles are within their limits.
 //
-//     ik_peers_bench [--trials=50] [--rounds=3] [--only=parts of methods' names, commas between]
+//     ik_peers_bench [--trials=50] [--rounds=3] [--only=comma-separated parts of methods' names]
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -54,7 +54,8 @@ double ThreadTimeUs() {
   return 1e6 * static_cast<double>(now.tv_sec) + 1e-3 * static_cast<double>(now.tv_nsec);
 }
 
-// Returns the time that it takes to read the clock, microseconds. It matters if a solution takes only microseconds.
+// Returns the time that it takes to read the clock, microseconds. This time matters if a solution takes only
+// microseconds.
 double ClockTimeUs() {
   double least = std::numeric_limits<double>::infinity();
   for (int i = 0; i < 10000; ++i) {

@@ -23,9 +23,9 @@ LimbFrame FromFrame(const KDL::Frame& f) {
 
 std::string SegmentName(int joint, int axis) { return std::to_string(joint) + "xyz"[axis]; }
 
-// Makes one KDL segment per degree of freedom. This is the smallest possible number; KDL's recursion over names is
-// slow. The first segment of a joint contains the joint's offset and rest rotation; the last segment of a limb contains
-// its effector's offset.
+// Makes one KDL segment per degree of freedom, the smallest possible number, because KDL's recursion over the segments'
+// names is slow. The first segment of a joint contains the joint's offset and rest rotation; the last segment of a limb
+// contains its effector's offset.
 KDL::Tree ToKdl(const KinematicTree& tree) {
   KDL::Tree made("root");
   const TreeState rest = StandingState(tree);

@@ -83,12 +83,12 @@ struct OpenCvPerson::State {
   double cosine2;
   int steps;               ///< the threshold in steps of cvtColor's hue (2°)
   cv::Mat bx, by3, reach;  ///< used only by kSameHue
-  cv::Mat hue;             ///< used only by kHsv
+  cv::Mat hue;             ///< used only by kHsv and kHsvContours
   cv::Mat chroma, planes[2], dot, own, tmp, mask, hsv, apart;
   Buffers buffers;
 
   void Chroma(const cv::Mat& rgb) {
-    // The rows compute 2R − G − B and G − B, which are whole numbers in floats. Grey gets the hue of red.
+    // The rows of the matrix compute 2R − G − B and G − B, which are whole numbers in floats. Grey gets the hue of red.
     static const cv::Matx23f kToChroma(2, -1, -1, 0, 1, -1);
     rgb.convertTo(tmp, CV_32F);
     cv::transform(tmp, chroma, kToChroma);

@@ -42,8 +42,8 @@ struct SimbodyModel::Parts {
   SimTK::Markers* markers = nullptr;  // owned by the assembler
   SimTK::OrientationSensors* sensors = nullptr;
 
-  // Gimbal rotates by Rx Ry Rz and Universal by Rx Ry, like the tree's joints. Pin rotates about Z, so a joint's X axis
-  // becomes its Z axis.
+  // Gimbal rotates by Rx Ry Rz and Universal by Rx Ry, like the tree's joints. Pin rotates about its Z axis, so this
+  // axis is turned onto the joint's X axis.
   void AddJoint(const Joint& joint) {
     using SimTK::MobilizedBody;
     if (joint.parent < 0 || joint.dof_count == 0) {

@@ -14,19 +14,19 @@
 namespace etude {
 
 /// The extras of task `capture`: the data of a recording that is needed, in addition to its tracks "truth" and
-/// "recovered", to draw the stereo views again. The tracks have 30 Hz; frame k of the tracks is frame k here. To show
-/// frame k of camera c: render the truth, dressed in `colours` (or as its stage dresses it), in Room{texture_seed,
-/// brightness[k], casts_shadows} from cameras[c].truth, draw masks[k] over the picture, and project the recovered
-/// joints with MatrixOf(cameras[c].truth).
+/// "recovered", to draw the stereo views again. The tracks have 30 Hz; brightness[k] and masks[k] belong to frame k of
+/// the tracks. To show frame k of camera c: render the truth, dressed in `colours` (or as its stage dresses it), in
+/// Room{texture_seed, brightness[k], casts_shadows} from cameras[c].truth, draw masks[k] over the picture, and project
+/// the recovered joints with MatrixOf(cameras[c].truth).
 ///
 /// As JSON (the content of `Recording::extras_json`):
 ///
 ///     {"format": "etude-capture", "version": 1,
 ///      "room": {"texture_seed": 7, "casts_shadows": true},
 ///      "colours": [[r, g, b], …],                          sixteen, by Part: Figure::colours
-///      "stage": {"seed": 7, "scene": 0.5, "everyday": false},    the options of sim/stage; absent in the studio
-///                                                                  of people in usual clothes;
-///                                                                  "coded": true for a performer in that suit
+///      "stage": {"seed": 7, "scene": 0.5, "everyday": false},    the options of sim/stage, and "coded": true
+///                                                                  for the suit with coded colours; absent in the
+///                                                                  empty studio without this suit
 ///      "brightness": [1.0, 1.01, …],                       one per frame
 ///      "cameras": [{"width": 640, "height": 480, "fx": …, "fy": …, "cx": …, "cy": …, "skew": 0,
 ///                   "R_CW": [nine numbers, row by row], "p_WC": [x, y, z],
@@ -34,7 +34,7 @@ namespace etude {
 ///                   "mask_width": 320, "mask_height": 240,
 ///                   "still": "/9j/4AAQ…",                      frame n / 2 as JPEG in base64; may be absent
 ///                   "masks": ["120 14 306 …", …]}, …],         one text per frame, see EncodeMask
-///      "moments": [{"frame": 9, "fixed": [[x, y, z], …],          of the twenty roles, lengths fixed, before IK
+///      "moments": [{"frame": 9, "fixed": [[x, y, z], …],          the twenty joints with known limb lengths, before IK
 ///                   "marks": [[[u, v, u, v, r, g, b], …], …]}],    per camera; absent if none were requested
 ///      "bvh": "HIERARCHY\n…"}                              the recovered clip as a BVH file's text
 struct CaptureExtras {

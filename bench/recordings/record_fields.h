@@ -37,7 +37,7 @@ class RecordFields {
   }
 
   /// Reads a record. Error messages name the position within the JSON object: "events[2].score: \"high\" is not a
-  /// number (how right it looked)".
+  /// number (the method's confidence that it was right)".
   template <typename Record>
   static Result<Record> Read(const std::string& text) {
     Record record;

@@ -16,8 +16,8 @@ namespace etude {
 // where one declaration serves for writing, reading and documenting. Frames count from the recording's first frame,
 // unless stated otherwise.
 
-/// The extras of task `ik`. The tracks are "truth", "start" and "solution" (one frame per step). Each list has one
-/// entry per frame.
+/// The extras of task `ik`. The tracks are "truth", "start" and "solution". Each list has one entry per frame of
+/// "solution", but `targets_m` has one entry per end effector.
 struct IkExtras {
   std::vector<int> iterations;
   std::vector<double> position_error_max_cm, orientation_error_max_deg;

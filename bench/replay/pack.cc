@@ -20,8 +20,8 @@ namespace fs = std::filesystem;
 
 constexpr int kPackVersion = 3;
 
-/// Packs clips in order. A built-in clip is packed as its name, any other clip as its file with content. Each file is
-/// packed once.
+/// Packs clips in order. A built-in clip is packed as its name, any other clip as the name and content of its file.
+/// Each file is packed once.
 Result<Json> PackClips(const ClipLibrary& library) {
   Json clips = Json::array(), files = Json::array();
   std::map<std::string, std::size_t> number_of;

@@ -29,7 +29,7 @@ struct CellCheck {
   std::optional<Row> row = std::nullopt;
 };
 
-/// Compares the cells of two rows: world and method.
+/// Compares to which cells two rows belong: scenario, task, cell identity, clip and sampling units.
 CellCheck CompareIdentity(const Row& then, const Row& now);
 /// Compares a row with the row of the second run: identity, stages, status, reason, metrics.
 CellCheck CompareRows(const Row& then, const Row& now);
@@ -57,7 +57,8 @@ struct ReplayOutcome {
   CellChoice choice;
 };
 
-/// Runs cells of a finished run again, as the run's manifest describes them. Compares every stage, curve and recording.
+/// Runs cells of a finished run again, as the run's manifest describes them. Compares the rows (CompareRows), curves
+/// and recordings.
 Result<ReplayOutcome> ReplayRun(const ReplayOptions& options);
 Result<ReplayOutcome> ReplayPrepared(const ReplayOptions& options, const RunData& run, const PreparedRun& prepared);
 

@@ -62,8 +62,8 @@ Result<Verified> VerifySummary(const FilePath& folder, const FinishedRun& run, i
   return verified;
 }
 
-/// Returns the files that a run of these scenarios may leave, relative to its folder. Files made from the results later
-/// are not included.
+/// Returns the files that a run of these scenarios may leave, relative to its folder. Files that other commands make
+/// from the results (reports, videos) are not included.
 Result<std::set<fs::path>> FilesOfRun(const FilePath& folder, const FinishedRun& run) {
   // Add the files that every run may leave.
   std::set<fs::path> files = {"manifest.json", "host.json", "summary.json", kOtherLibrariesFile,

@@ -31,7 +31,8 @@ class ScenarioColumns {
       if (!Exists(ColumnFile(own, kTextColumns[i]))) continue;
       ASSIGN_OR_RETURN(columns.texts_[i], columns.OpenColumn<std::uint32_t>(own, kTextColumns[i]));
     }
-    // For each kind, open the columns of its metrics, stages and curves. Each column is opened once.
+    // For each kind of rows (ColumnIndex::Kind), open the columns of its metrics, stages and curves. Each column is
+    // opened once.
     for (const ColumnIndex::Kind& kind : index.kinds) {
       KindColumns& of_kind = columns.kinds_.emplace_back();
       for (std::size_t i = 0; i < kind.metrics.size(); ++i) {
@@ -174,7 +175,7 @@ class ScenarioColumns {
         if (text >= index_.texts.size()) return Fail(place, "names text {} of {}", text, index_.texts.size());
       }
     }
-    // The ends of the curves must ascend to the number of values.
+    // The ends of the curves must ascend, and the last end must be the number of values.
     for (const auto& [name, ends] : *ends_) {
       std::uint64_t last = 0;
       const NpyFile& curve = curves_->at(name.substr(0, name.size() - std::string_view(kCurveEnds).size()));
@@ -190,7 +191,7 @@ class ScenarioColumns {
     return {};
   }
 
-  /// Parses the texts that are lists of units.
+  /// Parses the texts that are lists of sampling units.
   Result<void> ReadUnits(const FilePath& folder) {
     units_.resize(index_.texts.size());
     if (!texts_[kUnits]) return {};
@@ -214,7 +215,7 @@ class ScenarioColumns {
   ColumnIndex index_;
   std::optional<NpyFile> status_, kind_, cpu_s_;
   std::array<std::optional<NpyFile>, kTextColumns.size()> texts_;
-  /// For each text, the units that it lists; empty if it is not a list of units.
+  /// For each text, the sampling units that it lists; empty if the text is not a list of units.
   std::vector<std::vector<std::string>> units_;
   // The maps are behind pointers, so that pointers in KindColumns stay valid when this object is moved.
   std::unique_ptr<Files> values_ = std::make_unique<Files>(), digests_ = std::make_unique<Files>(),

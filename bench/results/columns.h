@@ -114,8 +114,8 @@ class ColumnWriter {
   CyclicLookup<Curve> curves_;
 };
 
-/// Opens the columns of a run. The source makes rows from them one at a time, in canonical order. Fails, naming the
-/// file, if a column is missing or contains an index that is out of range.
+/// Opens the columns of a run. The returned source makes rows from the columns one at a time, in canonical order.
+/// Fails, naming the file, if a column is missing or contains an index that is out of range.
 Result<std::shared_ptr<const RowSource>> OpenColumns(const std::filesystem::path& folder,
                                                      const std::vector<std::string>& scenarios);
 

@@ -130,7 +130,8 @@ Result<void> LoadManifest(const FilePath& folder, RunData& run) {
   return {};
 }
 
-/// Returns the text of the seal. It differs between any two runs, because it contains digests of the times of a run.
+/// Returns the text of the seal. The text differs between any two runs, because it contains digests of the times of a
+/// run.
 std::string SealText(const FilePath& folder) { return ReadWholeFile(folder / kSealFile).value_or(""); }
 
 }  // namespace

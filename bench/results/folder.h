@@ -18,8 +18,8 @@
 
 namespace etude {
 
-/// The version of the layout of a result folder (docs/results.md). It is raised when older programs could no longer
-/// read the folder.
+/// The version of the layout of a result folder (docs/results.md). The version is raised when older programs can no
+/// longer read the folder.
 constexpr int kResultSchema = 4;
 
 /// The names of the files with the rows and with the times of the cells, one line of text per row.
@@ -74,7 +74,8 @@ enum class Sealing {
 /// (CheckStillThere).
 Result<RunData> LoadRun(const std::filesystem::path& folder, Sealing sealing = Sealing::kRequired);
 
-/// Reads a result folder without holding its rows, curves and recordings in memory: `source` reads them one by one.
+/// Reads a result folder without its recordings. Rows and curves are not held in memory: `RunData::source` reads them
+/// one by one.
 Result<RunData> LoadRunRowByRow(const std::filesystem::path& folder, Sealing sealing = Sealing::kRequired);
 
 /// Reads everything except rows, series and recordings.

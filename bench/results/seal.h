@@ -16,11 +16,12 @@ constexpr const char *kSignedFile = "signed.b2", *kSignatureFile = "signed.b2.mi
 /// The name of the lock file, which is locked by the process that writes into the folder. It is not a result.
 constexpr const char* kLockFile = "lock";
 
-/// Returns true if a part of a result folder is made from results and therefore not sealed: `report`, `video`.
+/// Returns true if a part of a result folder is made from results and therefore not sealed: `report`, `video`, `blind`.
 bool IsMadeFromResults(std::string_view part);
 
 /// Writes `seal.json`, which holds the XXH3 digest of every file in the folder except `seal.json`, signatures, the
-/// journal and parts that are made from results. A seal detects accidental changes; it is not a signature.
+/// journal, the lock file and parts that are made from results. A seal detects accidental changes; it is not a
+/// signature.
 ///
 ///     {"format": "etude-seal", "version": 1, "files": {"cells.jsonl": "0123456789abcdef", …}}
 Result<void> SealRun(const std::filesystem::path& folder);

@@ -7,10 +7,11 @@
 
 namespace etude {
 
-/// These functions sign a run as its owner. A seal detects errors; a forger can renew the seal, but not the signature.
+/// These functions sign a run for its owner and check the signature. A seal detects errors; a forger can renew the
+/// seal, but not the signature.
 ///
 ///     signed.b2          the BLAKE2b digests of seal.json and of every sealed file, in the format of `b2sum`
-///     signed.b2.minisig  the Ed25519 signature of that file, in the format of `minisign -S` and `minisign -V`
+///     signed.b2.minisig  the Ed25519 signature of signed.b2, in the format of `minisign -S` and `minisign -V`
 
 /// Signs a sealed run with the secret key in the file `secret_key`, made by `minisign -G -W`. Fails if the key has a
 /// password.

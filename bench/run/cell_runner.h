@@ -33,12 +33,14 @@ class CellRunner {
   CellRunner(const PreparedScenario& scenario, std::string error_folder, const Fence& fence);
   ~CellRunner();
 
-  /// Builds the world of a trial under a condition. If that fails, all cells of the world end with the same failure.
+  /// Builds the world of a trial under a condition. If the world cannot be built, all its cells end with the same
+  /// failure.
   void Open(int condition, int trial);
   /// Runs a method in the open world. An exception gives a row of status `failed`. If memory runs out, there are two
   /// cases. If the cell held more memory than the scenario allows, its status is `out_of_memory`; if it held less, the
   /// machine has too little memory, and the cell counts as not run. Outside metric programs do not measure the cell
-  /// here, because they would learn the truth of the world before all methods have answered.
+  /// here but in Measure: they receive the truth of the world, which no outside method may learn before it has
+  /// answered.
   FinishedCell Run(std::size_t method);
   /// Lets the outside metric programs measure an answered cell. A run calls this function after all methods have
   /// answered (RunOrders).
@@ -66,12 +68,12 @@ class CellRunner {
   void Complete(int condition, Row& row) const;
   CellResult RunMethod(std::size_t method, CellUsage& usage);
   CellResult AskOutside(std::size_t method, CellUsage& usage);
-  /// Returns a text with the name of an outside method and the reason why it did not get the problem.
+  /// Returns a text with the name of an outside method and the reason why the method did not get the problem.
   std::string WhyNotAsked(std::size_t method, const std::string& reason) const;
   CellResult RunWithProgram(std::size_t method, CellUsage& usage);
   std::size_t IndexInTask(std::size_t method) const;
-  /// Returns the world's setting, which an outside method receives before its first problem. If the setting cannot be
-  /// made, returns the failure as the result of the cell.
+  /// Returns the data that all problems of a condition share (Task::Setting), or those of the world alone if the task
+  /// HasOwnSettings. If they cannot be made, returns the failure as the result of the cell.
   tl::expected<const Payload*, CellResult> OpenSetting();
   std::string SettingId() const;
 

@@ -33,8 +33,8 @@ struct KeptCost {
   }
 };
 
-/// Reads the stored costs of shipped scenarios, by WorkOf. The result is empty if no table of costs is shipped. Fails
-/// if the table is invalid.
+/// Reads the stored costs of shipped scenarios. The keys are the digests that WorkOf returns. The result is empty if no
+/// table of costs is shipped. Fails if the table is invalid.
 Result<std::map<std::string, KeptCost>> ReadKeptCosts();
 
 /// The speed of this machine under its present load.

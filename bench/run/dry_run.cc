@@ -34,8 +34,9 @@ int CountUnitsOf(const PreparedScenario& prepared) {
   return static_cast<int>(units.size());
 }
 
-/// Returns a step by which the conditions are visited in an order without a trend. The visited conditions serve to
-/// measure costs. Costs change along a sweep, so visiting conditions in order would bias the measurement.
+/// Returns a number of conditions. If costs are measured on every condition that is this number after the last one
+/// (modulo all conditions), the order has no trend. Costs change along a sweep, so the order of the sweep would bias
+/// the measurement.
 int StepOver(int conditions) {
   constexpr double kGolden = 0.618;
   int step = std::max(1, static_cast<int>(std::lround(kGolden * conditions)));
@@ -134,8 +135,8 @@ std::size_t CountIn(const Shard& shard, std::size_t first, std::size_t count) {
 }  // namespace
 
 Result<Forecast> DryRun(const RunOptions& options, double sample_seconds) {
-  // Check all input as a run does. A scenario with a stored cost needs no check, because its input was valid when the
-  // cost was measured.
+  // Check all input as a run does. A scenario of known cost (IsKnown) needs no check, because its input was valid when
+  // the cost was measured.
   ASSIGN_OR_RETURN(auto suite, ReadSuiteToRun(options));
   if (!suite.seed.IsPlain()) ThrowOtherDice(suite);
   ASSIGN_OR_RETURN(const auto kept, ReadKeptCosts());

@@ -28,8 +28,9 @@ struct ScenarioForecast {
   /// success metric.
   std::string metric = {};
   /// The standard deviation, over worlds, of the paired differences in `metric`, in the metric's unit. The compared
-  /// methods are the first method that has a baseline, and its baseline. The value is the median over conditions. It is
-  /// stored, or comes from the worlds that were run to measure the time. 0 = there are fewer than kMinSample pairs.
+  /// methods are the first method that has a baseline, and its baseline. The value is the median over conditions. The
+  /// value is stored, or computed from the worlds that were run to measure the time. 0 = there are fewer than
+  /// kMinSample pairs.
   double spread = 0;
 };
 
@@ -43,8 +44,7 @@ struct Forecast {
 
 /// Checks all input as Run does, estimates the time, and writes nothing. If a shipped scenario uses its own clips and
 /// recordings, its stored cost is scaled by this machine's speed; clips are not read and recognisers are not trained.
-/// For any other scenario, the first worlds are run until `sample_seconds` have passed, at least one world per
-/// scenario.
+/// For the other scenarios, worlds are run for `sample_seconds` in all, and at least one world of each scenario.
 Result<Forecast> DryRun(const RunOptions& options, double sample_seconds);
 
 }  // namespace etude

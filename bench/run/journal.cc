@@ -17,7 +17,7 @@ namespace etude {
 namespace {
 
 constexpr std::uint32_t kInMemory = std::numeric_limits<std::uint32_t>::max();
-// Memory for the parts of all files that are cached together, bytes.
+// Memory for the cached parts of all files together, bytes.
 constexpr std::size_t kMemory = std::size_t{64} << 20;
 constexpr std::size_t kMaxPartBytes = 1 << 20, kMinPartBytes = 1 << 14;
 

@@ -25,7 +25,7 @@ class CellTable {
   bool Has(std::size_t cell) const { return places_[cell].length > 0; }
   std::vector<bool> Done() const;
 
-  /// Adds a file that contains lines of cells. Returns the file's number, which the other overload of Put needs.
+  /// Adds a file that contains lines of cells. Returns the file's number, which is the argument `file` of Put.
   std::uint32_t AddFile(const FilePath& file);
   void Put(std::size_t cell, std::uint32_t file, std::uint64_t offset, std::size_t length);
   /// Stores the line of a cell in memory.
@@ -75,8 +75,8 @@ struct JournalLag {
 
 /// The append-only record of a run in progress, and of a finished shard. It is a file of JSON Lines. It begins with two
 /// copies of the head, because no line can be read without the head. Then comes one line per cell (cell_line.h), in
-/// order of completion. Each line is written at once; lines are synchronised to the disk in groups. If outside programs
-/// measure a cell, the cell has two lines: an answered line with its motion, and a finished line.
+/// order of completion. Each line is written immediately; lines are synchronised to the disk in groups. If outside
+/// programs measure a cell, the cell has two lines: an answered line with its motion, and a finished line.
 class Journal {
  public:
   static Result<Journal> Begin(const std::filesystem::path& folder, const JournalHead& head,
@@ -113,11 +113,11 @@ struct JournalContent {
   std::size_t answered = 0;  ///< number of cells that are answered but not yet measured
 };
 
-/// Reads the finished cells of a journal into `cells`. Unless `answered` is null, reads the cells that are answered but
-/// not measured into `answered`. Both tables have one entry per cell of `plan`. If the last line is incomplete, because
-/// the process was killed, it is ignored. If a line was changed (a flipped bit, an edit), only its own cell is lost. If
-/// a cell has two lines of one kind, the second is ignored. Fails, with file and line, at a valid line whose cell is
-/// not in the plan or shard.
+/// Reads the finished cells of a journal into `cells`. Unless `answered` is null, reads the answered lines into
+/// `answered`, also those of cells with a finished line. Both tables have one entry per cell of `plan`. If the last
+/// line is incomplete, because the process was killed, it is ignored. If a line was changed (a flipped bit, an edit),
+/// only its own cell is lost. If a cell has two lines of one kind, the second is ignored. Fails, with file and line, at
+/// a valid line whose cell is not in the plan or shard.
 Result<JournalContent> ReadJournal(const std::filesystem::path& folder, const Plan& plan, CellTable& cells,
                                    CellTable* answered = nullptr);
 

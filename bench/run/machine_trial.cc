@@ -25,8 +25,8 @@ bool Draws(const PreparedScenario& prepared) {
   return IsFilmed(scenario) || FindTaskKind(scenario.task)->platform != nullptr;
 }
 
-/// Makes a renderer in a forked copy of this process. If memory is short, Mesa ends the process; only the copy then
-/// ends.
+/// Makes a renderer in a forked copy of this process. If memory is short, Mesa ends the process that uses it, here only
+/// the copy.
 Result<void> TryRendererInACopy() {
   constexpr int kNotLoaded = 2;
   ASSIGN_OR_RETURN(ForkedCopy copy, ForkedCopy::Start([](int) {
@@ -40,8 +40,8 @@ Result<void> TryRendererInACopy() {
   return Fail({}, "drawing is impossible: Mesa gets no memory, or provides no context");
 }
 
-/// Fails if the sandbox (fence) could not be made because processes, memory or files are short. Any other reason why
-/// there is no sandbox is accepted.
+/// Fails if the sandbox (fence) could not be made because the machine has no more processes, memory or open files. Any
+/// other reason why there is no sandbox is accepted.
 Result<void> CheckFence(const Fence& fence) {
   for (const int shortage : {EAGAIN, ENOMEM, EMFILE, ENFILE}) {
     if (!fence.IsUp() && fence.description().find(std::strerror(shortage)) != std::string::npos) {

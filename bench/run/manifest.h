@@ -49,7 +49,8 @@ std::string InWords(std::span<const JsonDifference> differences);
 bool AreOfLibraries(std::span<const JsonDifference> differences);
 /// Reads the differences of libraries that are recorded in a run's folder.
 Result<std::vector<JsonDifference>> OtherLibrariesOf(const std::filesystem::path& folder);
-/// Records in the run's folder which libraries changed while its cells were computed. Each difference is recorded once.
+/// Records in the run's folder which libraries changed while the run's cells were computed. Each difference is recorded
+/// once.
 Result<void> RecordOtherLibraries(const std::filesystem::path& folder, std::span<const JsonDifference> differences);
 
 /// Makes host.json, which describes the machine, the command line and the duration of the run.

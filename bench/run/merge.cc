@@ -20,8 +20,8 @@ namespace fs = std::filesystem;
 struct Shards {
   int count = 0;
   std::map<int, fs::path> folders;
-  std::string manifest;              ///< text of the manifest, which all shards share
-  std::vector<std::string> missing;  ///< messages about shards that are in no folder, and about folders without a shard
+  std::string manifest;              ///< text of the first shard's manifest
+  std::vector<std::string> missing;  ///< messages about missing shards and cells, and about folders without a shard
   std::vector<JsonDifference> other_libraries = {};
 };
 

@@ -33,7 +33,7 @@ Measured ReadValue(const std::string& id, const OutsideReply& reply) {
   const auto missing = [&](Status status, std::string why) {
     return Measured{status, {id, std::nullopt, std::move(why)}};
   };
-  // The reason is "gave no answer: …".
+  // The reason of kUnsolved begins with "gave no answer: ", so it needs no other beginning.
   if (reply.status == Status::kUnsolved) return missing(reply.status, reply.reason);
   if (reply.status != Status::kOk) return missing(reply.status, fmt::format("its program: {}", reply.reason));
   AnswerFields fields(*reply.answer);

@@ -42,14 +42,15 @@ bool Holds(const fs::path& folder, const fs::path& path) {
   return std::ranges::mismatch(folder, path).in1 == folder.end();
 }
 
-/// Returns true if a folder below a system folder belongs to Etude, e.g. /opt/NAME or /usr/src/NAME, and does not
-/// contain the outside program. The whole folder may then be hidden from the program.
+/// Returns true if `folder` lies so deep in a system folder that it can be a project of its own, e.g. /opt/NAME or
+/// /usr/src/NAME, and does not contain the outside program `program`. The whole folder may then be hidden from the
+/// program.
 bool IsOursInSystem(const fs::path& folder, const fs::path& program) {
   const auto depth = std::distance(folder.begin(), folder.end());
   return Fence::IsOfSystem(folder) && depth >= (Holds("/opt", folder) ? 3 : 4) && !Holds(folder, program);
 }
 
-/// Fails if an outside program in secret worlds could see a file that reveals them.
+/// Fails if an outside program could read a file that reveals the scenario's secret worlds.
 Result<void> CheckShown(const PreparedScenario& scenario, const ScenarioProgram& program, const ProgramView& view,
                         const fs::path& folder, const std::optional<SecretKey>& key) {
   const std::pair<const char*, fs::path> secrets[] = {
@@ -66,7 +67,7 @@ Result<void> CheckShown(const PreparedScenario& scenario, const ScenarioProgram&
   return {};
 }
 
-/// Fails if a file that a program lists does not exist, or if it contains a folder to which programs write.
+/// Fails if a path in a program's key `files` does not exist, or is or contains a folder to which programs write.
 Result<void> CheckFiles(const PreparedScenario& scenario, const ScenarioProgram& program) {
   std::error_code error;
   for (const std::string& file : program.entry->files) {

@@ -25,10 +25,10 @@ std::vector<std::string> ProgramsOf(std::span<const PreparedScenario> scenarios)
 Result<void> CheckPrograms(const std::string& file, std::span<const PreparedScenario> scenarios,
                            const OutsideRules& rules);
 
-/// Makes the sandbox for the outside programs of these scenarios. It hides the run's `folder` ("" = none). Without
-/// outside programs, the sandbox is empty. Fails if worlds are secret and this machine cannot make a sandbox, unless
-/// the rules switch the sandbox off. Fails also if an outside program could see a scenario with secret worlds, the
-/// run's folder or the key's file.
+/// Makes the sandbox for the outside programs of these scenarios. The sandbox hides the run's `folder` ("" = none).
+/// Without outside programs, the sandbox is empty. Fails if worlds are secret and this machine cannot make a sandbox,
+/// unless the rules switch the sandbox off. Fails also if an outside program could read the key's file, the run's
+/// folder, or the file of a scenario with secret worlds.
 Result<Fence> FenceFor(std::span<const PreparedScenario> scenarios, const OutsideRules& rules,
                        const std::filesystem::path& folder, const std::optional<SecretKey>& key);
 

@@ -70,9 +70,9 @@ class Plan {
 /// The orders that no worker has taken yet, by condition. The worlds of a condition share data (thresholds, tuned
 /// weights), which every worker must prepare for itself. A worker therefore stays with its condition until no orders of
 /// this condition are left. Then the worker begins the next condition that no worker has begun. If every condition has
-/// been begun, the worker joins the condition with the most orders left. If a begun condition has long worlds, the
-/// worker joins it even before it begins another one, because a long world that is begun last leaves all other workers
-/// idle.
+/// been begun, the worker joins the condition with the most orders left. A worker joins a begun condition that has long
+/// worlds even if other conditions have not been begun, because a long world that is begun last leaves all other
+/// workers idle.
 class OrderQueue {
  public:
   /// The condition of a worker that has not had an order yet.
@@ -100,7 +100,7 @@ class OrderQueue {
   std::vector<Condition> conditions_;  ///< in the order of the plan
   std::function<bool(int scenario)> is_long_;
   std::vector<std::size_t> open_;  ///< conditions that were begun; some of them may have no orders left
-  std::size_t begun_ = 0;          ///< the number of conditions that were begun or had no orders
+  std::size_t begun_ = 0;          ///< number of begun conditions; they are the first ones
   std::size_t left_ = 0;
 };
 

@@ -36,7 +36,8 @@ std::vector<FilePath> RecordingsOf(const fs::path& run, const std::string& cell)
   return found;
 }
 
-/// Returns a reference to a recording's file. Fails if the file is a link, because a stranger may have made the run.
+/// Returns a reference to a recording's file. Fails if the file is a symbolic link, because a stranger may have made
+/// the run.
 Result<SplitReference> ReferTo(const FilePath& file, const std::optional<std::string>& animation) {
   RETURN_IF_ERROR(OpenFile(file, O_RDONLY));
   return SplitReference{file.string(), animation};

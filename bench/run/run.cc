@@ -129,7 +129,7 @@ class JournalRecorder {
  private:
   const Clock::time_point start_ = Clock::now();
   CellTable& cells_;
-  CellTable* answered_;  ///< the answered cells, which programs must still measure; null if there are no such programs
+  CellTable* answered_;  ///< the cells that outside metric programs must still measure; null without such programs
   Journal journal_;
   std::uint32_t file_, answered_file_;  ///< numbers of the journal file in `cells_` and in `answered_`
   /// Progress that counts the cells synchronised to the disk, and progress that counts all written cells.
@@ -234,7 +234,7 @@ Result<RunOutcome> Run(const RunOptions& options, const std::function<void(const
   const bool may_be_used = options.reuse_key;
   const bool is_secret = !suite.seed.IsPlain();
   if (is_secret && !may_be_used && !continues) RETURN_IF_ERROR(CheckUnused(*options.key, use));
-  // Claim the folder. Files are written from here on only.
+  // Claim the folder. Nothing is written before this point.
   ASSIGN_OR_RETURN(auto claimed, RunFolder::Claim(folder, continues));
   if (continues) {
     RETURN_IF_ERROR(CheckManifest(folder, manifest + "\n", options.other_libraries));

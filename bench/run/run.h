@@ -41,7 +41,7 @@ struct RunOptions {
   Shard shard;   ///< the part of the run to do; by default the whole run
   int jobs = 0;  ///< number of worker processes; 0 = one per processor
   OutsideRules outside;
-  JournalLag sync;           ///< limits on the number and age of results that are not yet on the disk
+  JournalLag sync;           ///< limits on the size and age of results that are not yet on the disk
   std::string command_line;  ///< the command line that host.json records
   std::string program_version;
   const std::atomic<bool>* stop = nullptr;
@@ -87,8 +87,8 @@ struct RunOutcome {
 };
 
 /// Runs scenarios and writes a result folder. All input is checked before anything is written. Each finished cell is
-/// written to journal.jsonl at once; the journal is synchronised to the disk in groups of cells. A run that was ended
-/// at any moment, by a kill or a power cut, can be resumed, and the result has the same bytes. A shard keeps its
+/// written to journal.jsonl immediately; the journal is synchronised to the disk in groups of cells. A run that was
+/// ended at any moment, by a kill or a power cut, can be resumed, and the result has the same bytes. A shard keeps its
 /// journal for Merge. If no cell is finished, a new folder is removed again.
 Result<RunOutcome> Run(const RunOptions& options, const std::function<void(const Progress&)>& on_progress);
 

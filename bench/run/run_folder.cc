@@ -51,7 +51,7 @@ bool IsWithin(const fs::path& path, const fs::path& folder) {
 }
 
 /// Gives the folder `fresh` the name `old`, and the previous `old` the name `aside`. If the file system can exchange
-/// names, this is a single (atomic) step.
+/// names, `fresh` and `old` are exchanged in a single (atomic) step.
 bool Exchange(const fs::path& fresh, const fs::path& old, const fs::path& aside) {
   if (::renameat2(AT_FDCWD, fresh.c_str(), AT_FDCWD, old.c_str(), RENAME_EXCHANGE) == 0) {
     return ::rename(fresh.c_str(), aside.c_str()) == 0;
@@ -135,7 +135,7 @@ Result<bool> RunFolder::TakeUp() {
 
 bool RunFolder::Replace() {
   std::error_code error;
-  const fs::path old = fs::canonical(path_, error);  // the target of the path if it is a link, so that the link stays
+  const fs::path old = fs::canonical(path_, error);  // if `path_` is a link: its target, so that the link stays
   if (error || IsWithin(fs::current_path(error), old) || !old.has_relative_path()) return false;
   auto aside = TemporaryFolder::MakeKept(old.parent_path(), old.filename().string());
   if (!aside) return false;
@@ -181,7 +181,7 @@ void RunFolder::Keep() {
   // a run.
   if (aside_) fs::rename(aside_->path() / kOldRun, aside_->path() / kGone, ignored);
   aside_.reset();
-  FindLeft();  // deletes what a killed `--overwrite` left, if its run has been resumed
+  FindLeft();  // deletes what a killed run with `--overwrite` left, if it has been resumed
 }
 
 Result<void> RunFolder::Lock() {

@@ -48,10 +48,10 @@ class RunFolder {
   /// Exchanges this folder for an empty, locked one. Returns false if the folder cannot be renamed.
   bool Replace();
   Result<void> Empty();
-  /// Finds the old run that a killed `--overwrite` moved aside; the destructor then restores it, unless Keep is called.
-  /// Returns false if there is no old run, or if this folder contains a finished run.
+  /// Finds the old run that a killed run with `--overwrite` moved aside; the destructor then restores the old run,
+  /// unless Keep is called. Returns false if there is no old run, or if this folder contains a finished run.
   Result<bool> TakeUp();
-  /// Returns the temporary folders that killed `--overwrite` runs left.
+  /// Returns the temporary folders that killed runs with `--overwrite` left.
   std::vector<TemporaryFolder> FindLeft() const;
 
   std::filesystem::path path_;

@@ -65,8 +65,8 @@ struct SuiteSetup {
   std::optional<ScoredMethod> scored;  ///< a method with answers from files, added to every scenario; nullopt = none
   /// Version of the rule by which secret worlds are made; matters only if the seed is secret.
   int secret_worlds = kSecretWorldsVersion;
-  /// Maps the names of texts in `sources` to their names in the manifest. Only names that differ are listed
-  /// (CanonicalNames). Error messages show the names that the user gave.
+  /// Maps the names of texts in `sources` to their names in the manifest. A name that is not listed is the same in the
+  /// manifest (CanonicalNames). Error messages show the names that the user gave.
   std::map<std::string, std::string> canonical = {};
   /// A cache of the scenarios that have been parsed, by file name in `sources`.
   std::map<std::string, std::vector<Scenario>> parsed = {};
@@ -91,8 +91,8 @@ class PreparedScenario {
   const Task& task(int condition) const { return *tasks_[condition]; }
   const OpenOptions& opening() const { return *opening_; }
 
-  /// Returns the key from which the random numbers of a trial under a condition are derived. In open worlds, all
-  /// conditions share this key. In secret worlds, each condition has its own key: two worlds with the same random
+  /// Returns the key from which the random numbers of a trial under a condition are derived. If the seed is plain, all
+  /// conditions share this key. If the seed is secret, each condition has its own key: two worlds with the same random
   /// numbers and different noise would together reveal the ground truth.
   WorldKey KeyOf(int condition, int trial) const { return {setup_.seed, dice_names_[condition], trial}; }
   /// Returns a cell's row, still without a result.
@@ -131,7 +131,8 @@ Result<OpenOptions> OpenOptionsOf(const ScenarioSetup& setup, const SourceTexts&
 bool IsFilmed(const Scenario& scenario);
 
 /// Returns the number of people in a scenario's recordings; nullopt if its worlds are not made from recordings. `texts`
-/// contains the labels. If a file of a folder or pattern cannot be read, it is added to `setup.refused`.
+/// contains the labels. A file that a folder or pattern in `setup.streams` contains but that cannot be read is added to
+/// `setup.refused`.
 Result<std::optional<int>> CountRecordedPeople(ScenarioSetup& setup, const StreamSource& source,
                                                const SourceTexts& texts);
 
@@ -139,8 +140,8 @@ Result<std::optional<int>> CountRecordedPeople(ScenarioSetup& setup, const Strea
 class ParsedSuite {
  public:
   explicit ParsedSuite(const SuiteSetup& suite) : suite_(suite) {}
-  /// Returns the scenario that `setup` names, with its trials and libraries. Fails if the suite's texts do not contain
-  /// it.
+  /// Returns the scenario that `setup` names, with the trials and libraries of `setup`. Fails if the suite's texts do
+  /// not contain this scenario.
   Result<Scenario> Find(const ScenarioSetup& setup);
 
  private:

@@ -19,8 +19,8 @@ std::vector<std::string> ShippedScenarios();
 /// there is none.
 std::filesystem::path FindShipped(const std::string& name);
 
-/// Returns the error for a name that is neither a path nor a shipped suite. It proposes the shipped name that is most
-/// similar.
+/// Returns the error for a name that is neither a path nor a shipped suite. The error proposes the shipped name that is
+/// most similar.
 tl::unexpected<Error> NotShipped(const std::string& path);
 
 /// Returns the scenario file, or the folder of scenario files, that a path or a shipped name denotes. A local file or

@@ -120,8 +120,8 @@ Result<std::vector<std::string>> KeepLabels(const std::string& path, SourceTexts
   return files;
 }
 
-/// Checks that scenarios can use an option. Fails if a path in `paths` has no scenario that can use it. Not every
-/// scenario of a path need use it.
+/// Fails if a path in `paths` has no scenario that can use an option. `with_use` contains the scenario files that can
+/// use it. One such file per path is enough.
 Result<void> CheckThatUsed(const std::vector<std::string>& paths, const std::set<std::string>& with_use,
                            std::string_view why) {
   for (const std::string& path : paths) {

@@ -9,10 +9,10 @@
 
 namespace etude {
 
-/// Returns the names that the manifest uses for a scenario file and its included files, by their names in `sources`. A
-/// manifest name is the path from the root of the repository (the nearest folder above the scenario with `.git`) or
-/// from ShippedFolder; it is absolute if the scenario is in neither. These names are the same in every checkout and
-/// working folder. Relative `include` paths between them still work.
+/// Maps the names in `sources`, a scenario file and its included files, to the names that the manifest uses. A manifest
+/// name is the path from the root of the repository (the nearest folder above the scenario with `.git`) or from
+/// ShippedFolder; it is absolute if the scenario is in neither. These names are the same in every checkout and working
+/// folder. With these names, relative `include` paths between the files still work.
 std::map<std::string, std::string> CanonicalNames(const std::string& scenario_file,
                                                   const std::vector<std::string>& sources);
 

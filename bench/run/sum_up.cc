@@ -101,9 +101,9 @@ class Copies {
   std::vector<Copy> copies_;
 };
 
-/// Encodes the findings of a method as two summaries. One has the comparisons without failures, the other has the
-/// comparisons with failures counted. If there is no comparison without failures, a comparison of zero pairs is written
-/// in its place; no real comparison has zero pairs.
+/// Encodes the findings of a method as two summaries. The first has the comparisons without failures, the second has
+/// the comparisons with failures counted. If there is no comparison with failures counted, a comparison of zero pairs
+/// is written in its place. A real comparison with failures counted never has zero pairs.
 Result<std::string> EncodeFindings(const ConditionFindings& findings) {
   ScenarioSummary both;
   ConditionSummary& without = both.conditions.emplace_back(findings.summary);

@@ -26,13 +26,13 @@ namespace {
 
 constexpr int kPollMilliseconds = 20;  // pause between two measurements of workers' memory and time
 constexpr double kAheadS = 0.05;       // seconds of work that a worker gets at a time, estimated from earlier worlds
-// A longer world counts as long: begun last, it would delay the run more than preparing its condition on two workers.
+// Longer worlds are begun early: waiting for one that is begun last costs more time than preparing its condition twice.
 constexpr double kLongWorldS = 1;
 constexpr int kGatherMicroseconds = 2000;  // pause to collect more results if no worker is idle
 // Number of successive worker deaths in set-up that end the run; one death may be chance (short memory, a stray kill).
 constexpr int kMaxDeathsInSetup = 3;
 constexpr double kMaxSetupS = 600;      // maximum duration of a worker's set-up, in which the worker loads clips
-constexpr double kClockPerLimit = 20;   // maximum wall time of a step, as a multiple of the processor-time limit
+constexpr double kClockPerLimit = 20;   // wall-time limit of a world or method, a multiple of the processor-time limit
 constexpr double kGraceS = 10;          // additional time in which a worker can end an outside method and report this
 constexpr int kShutdownGraceMs = 3000;  // time in which an ending worker can end all its outside methods
 

@@ -20,8 +20,8 @@ struct SupervisorOptions {
   Fence fence = {};                         ///< sandbox in which outside methods run
   int jobs = 0;                             ///< number of worker processes; 0 = one per processor
   const std::atomic<bool>* stop = nullptr;  ///< the run ends early when this becomes true (Ctrl-C)
-  /// The cells that are answered but not yet measured: cells of an earlier attempt, and cells that Deliver adds. If
-  /// null, answered cells are stored in a temporary file, and Deliver receives measured cells only.
+  /// The cells that are answered but not yet measured: cells that a resumed run read from its journal, and cells that
+  /// Deliver adds. If null, answered cells are stored in a temporary file, and Deliver receives measured cells only.
   CellTable* answered = nullptr;
   /// Called many times a second while the run waits for workers.
   std::function<void()> on_wait = {};
@@ -44,11 +44,10 @@ using Deliver = std::function<Result<void>(const DeliveredCell& cell)>;
 /// worker waits. A worker that exceeds the scenario's limits of time or memory is ended. If a worker dies or is ended,
 /// only the cell in progress is lost: its row gets the status `crashed`, `timeout` or `out_of_memory`, with the reason,
 /// and a new worker runs the world's other methods. If the worker was still building the world, all cells of the world
-/// get such a row. A worker that dies during its set-up costs no cell. Programs that measure learn the truth. They are
-/// therefore started only after all methods have answered and these workers, with the methods' programs, have ended.
-/// Returns false if the user stopped the run early. Fails with an error of this machine (machine.h) if no worker can
-/// start, if several in a row die during their set-up, or, at the end, if cells could not be run and were not
-/// delivered.
+/// get such a row. If a worker dies during its set-up, no cell is lost. Outside metric programs learn the truth. They
+/// are therefore started only after all methods have answered and the methods' workers and programs have ended. Returns
+/// false if the user stopped the run early. Fails with an error of this machine (machine.h) if no worker can start, if
+/// several in a row die during their set-up, or, at the end, if cells could not be run and were not delivered.
 Result<bool> RunOrders(const SuiteSetup& setup, const Plan& plan, std::vector<Order> orders,
                        const SupervisorOptions& options, const Deliver& deliver);
 

@@ -16,7 +16,7 @@ struct KeyUse {
   std::string manifest;  ///< digest of the manifest (DigestOfRun)
   Shard shard = {};
   std::filesystem::path folder;  ///< the folder into which the command writes
-  bool continues = false;        ///< true: the command resumes a run (`--resume`), which the list must contain
+  bool continues = false;        ///< true: the command resumes a run (`--resume`), whose use is already listed
   /// True: the command repeats a run (`--from`), so the key may have been used for this run before.
   bool repeats = false;
 };
@@ -35,8 +35,9 @@ Result<void> CheckUnused(const SecretKey& key, const KeyUse& use);
 /// written.
 Result<void> NoteUse(const SecretKey& key, const KeyUse& use, bool may_be_used);
 
-/// Adds the use by a replay to the list of the key's uses, unless the list contains it. A replay is a use, because the
-/// outside programs that the manifest names may learn the key's worlds. Fails if the list cannot be written.
+/// Adds the use by a replay to the list of the key's uses, unless the list already contains a use of this key. A replay
+/// is a use, because the outside programs that the manifest names may learn the key's worlds. Fails if the list cannot
+/// be written.
 Result<void> NoteRepeat(const SecretKey& key, const KeyUse& use);
 
 }  // namespace etude

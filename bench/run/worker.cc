@@ -123,7 +123,8 @@ int RunWorker(std::istream& in, std::ostream& out) {
   // signals.
   std::signal(SIGINT, SIG_IGN);
   std::signal(SIGTERM, SIG_IGN);
-  // An invalid memory access by a method then ends the worker, and the method's cell is recorded as crashed.
+  // With the default handler, an invalid memory access by a method ends the worker, and its cell is recorded as
+  // crashed.
   std::signal(SIGBUS, SIG_DFL);
   in.exceptions(std::ios::badbit);  // otherwise, a shortage of memory would look like the end of input
   try {

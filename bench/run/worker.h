@@ -11,8 +11,8 @@ constexpr const char* kWorldBuilt = "built";
 /// The beginning of the line that a worker writes for a cell that this machine could not run. The reason follows.
 constexpr const char* kNotRun = "not run: ";
 
-/// The exit code of a worker that ends because of a fault of this machine (EX_TEMPFAIL). Its current cell counts as not
-/// run.
+/// The exit code of a worker that ends because of a fault of this machine (EX_TEMPFAIL). The worker's current cell
+/// counts as not run.
 constexpr int kCannotGoOn = 75;
 
 /// Runs a worker process (`etude worker`) until `in` ends. The first line is the set-up, `{"setup": …, "error_folder":

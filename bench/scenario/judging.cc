@@ -50,7 +50,7 @@ std::vector<SweptValue> ReadWhere(Fields& fields, const Scenario& scenario) {
     }
     where.push_back({entry.key, entry.value.scalar});
   }
-  // With `together`, parameters are stepped in parallel, so some combinations of known values are not a condition.
+  // With `together`, parameters change their values together, so some combinations of known values are not a condition.
   const auto has = [](const Condition& condition, const SweptValue& swept) {
     return std::find(condition.swept.begin(), condition.swept.end(), swept) != condition.swept.end();
   };

@@ -19,7 +19,7 @@ void NoteMetric(Fields& fields, const std::string& task, const std::vector<std::
                 const Place& place, std::vector<std::string>& metrics);
 
 // These functions return the keys of `expect`, `gate` and `time_ratios`. The keys name methods and conditions of
-// `scenario`, which must outlive the tables, and metrics of its task (`metrics`).
+// `scenario`, which must outlive the returned tables, and metrics of the scenario's task (`metrics`).
 FieldTable<Expectation> ExpectationFields(const Scenario& scenario, const std::vector<std::string>& metrics);
 // Returns the keys about success. The value of `success` must be one of `metrics`, the result of SuccessMetricsOf.
 FieldTable<Scenario> SuccessFields(const std::vector<std::string>& metrics);

@@ -91,7 +91,8 @@ Json Says(const std::string& key, const std::string& value) {
 Json Has(const char* key) { return {{"required", {key}}}; }
 Json If(Json condition, Json then) { return {{"if", std::move(condition)}, {"then", std::move(then)}}; }
 
-/// Returns the schema of the allowed key names of a scenario: the keys of every task, the keys of files, and `own`.
+/// Returns the schema of the allowed key names of a scenario: the keys that all scenarios have, the keys of files, and
+/// `own`.
 Json Names(std::span<const KeyInfo> own) {
   std::vector<std::string> names = NamesOf(CommonScenarioKeys(), &KeyInfo::key);
   for (const std::vector<std::string>& more : {NamesOf(FileKeys(), &KeyInfo::key), NamesOf(own, &KeyInfo::key)}) {
@@ -187,7 +188,7 @@ Json ScenarioSchema() {
     tops.push_back(If({{"properties", {{"defaults", Says("task", kind.name)}}}, {"required", {"defaults"}}},
                       {{"properties", {{"scenarios", std::move(in_list)}}}}));
   }
-  // A required key must be in every scenario if `defaults` lacks it.
+  // A required key must be in every scenario if `defaults` lacks it and no file is included.
   for (const std::string& key : required) {
     const Json default_says{{"properties", {{"defaults", {{"required", {key}}}}}}, {"required", {"defaults"}}};
     tops.push_back({{"if", {{"anyOf", {default_says, Has("include")}}}},

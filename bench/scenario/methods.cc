@@ -36,8 +36,8 @@ void ReadProgram(Fields& method, MethodEntry& entry) {
                   "'exec' needs a program and its arguments, such as [python3, my_solver.py]");
 }
 
-/// Checks the key names of a built-in method. Its task reads the values, but does not know that `against` and `exec`
-/// are also allowed.
+/// Checks the key names of a built-in method. The method's task reads the values, but does not know that `against` and
+/// `exec` are also allowed.
 void CheckKeysOfBuiltIn(Fields& method, const TaskKind& kind) {
   for (const char* key : {"options", "files", "time_s"}) {
     const Node* value = method.Raw(key);

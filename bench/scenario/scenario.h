@@ -25,7 +25,7 @@ struct NamedClips {
 /// Recordings of people. Worlds are made from them instead of from simulated people.
 struct StreamSource {
   std::vector<std::string> files;  ///< references to recordings, as the file writes them
-  /// File or folder of tag streams with the labels of performances in streams or clips.
+  /// File with the labels of performances in streams or clips (a tag stream), or a folder of such files.
   std::string labels;
   StreamReading reading;
   StreamOptions making;
@@ -42,7 +42,7 @@ struct Condition {
 /// A value of a condition that is the name of a file.
 struct NamedFile {
   std::string key;
-  const Node* node = nullptr;  ///< the scalar within the condition that holds the file's name
+  const Node* node = nullptr;  ///< the node, in the condition's mapping, whose scalar is the file's name
 };
 /// Returns the values of `condition` that are names of files (ValueKind::names_file), in the order of the task's keys.
 std::vector<NamedFile> FilesNamedBy(const Condition& condition, const TaskKind& kind);
@@ -90,8 +90,8 @@ struct OutsideMetric {
   std::vector<MetricExample> vectors;
 };
 
-/// The time and memory that one cell, or the building of one world, may use. A cell or building that uses more is
-/// ended.
+/// The time and memory that one cell, or the building of one world, may use. If a limit is exceeded, Etude ends the
+/// cell or stops building the world.
 struct Limits {
   double time_s = 300;
   double memory_mb = 4096;  ///< limit of the resident memory of the worker, and of each outside method
@@ -118,7 +118,7 @@ struct Scenario {
   std::string success = {};                         ///< metric of success; the task's default if the file names none
   double success_matters = 0.05;                    ///< the smallest difference of success that matters, as a share
   std::vector<OutsideMetric> outside_metrics = {};  ///< metrics that outside programs measure; also in `metrics`
-  std::vector<std::string> across;  ///< swept parameters under all of whose values a verdict must be the same
+  std::vector<std::string> across;  ///< swept parameters; a verdict must be the same under all their values
   std::string rival;                ///< the method that others must beat; "" = the best method is found
   std::vector<Expectation> expectations;
   RecordingSelection recordings;

@@ -144,7 +144,7 @@ Condition At(Condition condition, const Point& point) {
   return condition;
 }
 
-/// Reads the axis of parameters that are stepped in parallel: the k-th point has the k-th value of each parameter.
+/// Reads the axis of parameters that change their values together: the k-th point has the k-th value of each parameter.
 Result<Axis> ReadAxis(const std::vector<Node::Entry>& parameters) {
   Axis axis;
   for (const Node::Entry& parameter : parameters) {
@@ -204,7 +204,7 @@ Result<std::vector<Axis>> ReadAxes(const Node& sweep, const TaskKind& kind) {
   }
   std::vector<Axis> axes;
   std::vector<std::string> seen;
-  // Add the axis of some parameters. Each parameter may be swept once.
+  // Adds the axis that `parameters` form. Each parameter may be swept once.
   const auto add = [&](const std::vector<Node::Entry>& parameters, bool in_group) -> Result<void> {
     for (const Node::Entry& parameter : parameters) {
       RETURN_IF_ERROR(CheckParameter(parameter, kind, in_group));

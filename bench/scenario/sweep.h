@@ -30,8 +30,9 @@ FieldTable<RangeWords> RangeFields(std::size_t most);
 constexpr std::size_t kMaxFileValues = 300'000;
 constexpr std::size_t kMaxConditions = 1000;
 
-/// Reads `sweep`: the product of its axes, of which the last one varies fastest. An axis is one swept parameter, or
-/// several parameters that are stepped in parallel (`together`). Errors are collected in `fields`.
+/// Reads `sweep` and returns a condition for each combination of the axes' values; the last axis varies fastest. An
+/// axis is one swept parameter, or several parameters that change their values together (`together`). Errors are
+/// collected in `fields`.
 std::vector<Condition> ReadSweep(Fields& fields, const TaskKind& kind);
 
 }  // namespace etude

@@ -36,7 +36,7 @@ class Figures(unittest.TestCase):
 
     def figures(self, *arguments, root=None):
         tool = importlib.util.module_from_spec(importlib.util.spec_from_loader("figures", LOADER))
-        LOADER.exec_module(tool)  # load again, because it caches files
+        LOADER.exec_module(tool)  # load again, because the module caches files
         said = io.StringIO()
         with unittest.mock.patch.object(sys, "argv", ["figures", "--root", str(root or self.root), *map(str, arguments)]), \
                 contextlib.redirect_stdout(said), contextlib.redirect_stderr(said):
@@ -212,7 +212,7 @@ class Figures(unittest.TestCase):
         self.of_page(self.LARGE)
         self.figures("--take", "large", run)
         kept = json.loads((self.root / "docs/figures/large.json").read_text())
-        self.assertEqual(kept["of"]["metrics"], {"jump_cm": 1})  # other metrics do not age it
+        self.assertEqual(kept["of"]["metrics"], {"jump_cm": 1})  # only the metrics that pages use
         self.assertEqual(kept["runs"], [{"suite": "large", "seed": 3, "cells": "abc"}])
         self.assertEqual(list(kept["of"]["stages"]), ["s"])
         catalogue, scenario = self.root / "bench/metrics/catalogue/1.yaml", self.root / "scenarios/s.yaml"

@@ -1,5 +1,5 @@
-"""Tests scripts/findings in a tree of its own, with a stub in place of Etude: it repeats runs, continues them, and
-lists changes."""
+"""Tests that scripts/findings repeats runs, continues them and lists changes, in a temporary tree with a stub in place
+of Etude."""
 import json
 import pathlib
 import shutil
@@ -10,8 +10,8 @@ import unittest
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 
-# Writes a run of one scenario: a jump of `jump` cm in every world, and a stage digest `stage`, both read from files
-# beside it.
+# The stub writes a run of one scenario: a jump of `jump` cm in every world, and a stage digest `stage`. It reads both
+# from files next to itself.
 PROGRAM = '''#!/usr/bin/env python3
 import json, pathlib, sys
 here, told = pathlib.Path(__file__).parent, sys.argv[1:]

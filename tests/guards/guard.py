@@ -4,10 +4,10 @@
     guard.py RULE ROOT              complains about every file of ROOT that breaks RULE; exit code 1
     guard.py RULE ROOT --must-flag  the control: fails unless it complains about every file of ROOT
 
-Rules: imports, rooms (rooms.py), doors, installed (headers that users of the library get), determinism, types (two
-types of one name, which the linker would merge), pages (files that .md files mention), words (house words in code and
-pages for which the field has a term). Prints the number of checked files, so that a guard that checks nothing cannot
-pass unnoticed.
+Rules: imports (between top folders), rooms (folders with a CMakeLists.txt: rooms.py), doors (folders that alone may
+include a heavy library), installed (headers that users of the library get), determinism, types (two types of one name,
+which the linker would merge), pages (files that .md files mention), words (house words in code and pages for which the
+field has a term). Prints the number of checked files, so that a guard that checks nothing cannot pass unnoticed.
 """
 import fnmatch
 import functools
@@ -61,7 +61,7 @@ DOORS = {
     "Simbody.h": ["bench/peers"],
     "opencv2/": ["bench/peers", "engine/boards/opencv"],
 }
-# Headers may include these from outside: small ones, or ones with names only.
+# Third-party headers that our headers may include: small ones, or ones that only declare names.
 LIGHT_HEADERS = ("etude/", "glm/", "fmt/", "tl/", "nlohmann/json_fwd.hpp")
 
 BANNED = [
@@ -75,7 +75,7 @@ BANNED = [
     (r"std::(jthread|async)\b|std::thread\b(?!::hardware_concurrency)",
      "runs in an order of its own; work in parallel is done by worker processes"),
 ]
-# Banned everywhere except in this folder: outside methods there are built for speed.
+# Banned everywhere except in this folder: rival implementations there are built for speed.
 BANNED_BUT_IN = [
     ("bench/peers", r"-ffast-math|-march=native|-Ofast", "gives other bytes on another machine"),
 ]
@@ -86,12 +86,12 @@ BANNED_BELOW = [
     (("engine",), r"std::(i|o)?fstream\b|\bfopen\(", "engine reads bytes, not files"),
 ]
 
-# Files are written by io/files only, as a whole and synchronised; exceptions grow line by line or are not regular
-# files.
+# Files are written by io/files only, as a whole and synchronised. The other WRITERS write files that grow line by line,
+# or files that are not regular.
 WRITES = re.compile(r"std::o?fstream\b|\bfopen\(|\bO_CREAT\b|\bcreat\(")
 WRITERS = ["io/files", "bench/outside/watched_program.cc", "io/process/child_process.cc",
            "bench/run/cell_runner.cc", "bench/run/journal.cc", "bench/run/used_keys.cc",
-           "bench/run/run_folder.cc"]  # the last one is an empty lock file
+           "bench/run/run_folder.cc"]  # run_folder.cc makes an empty lock file
 
 DRAW = re.compile(r"\b(\w+)\.(?:Bits|Chance|IndexBelow|Normal3?|Uniform)(?=\()|(?<=[(, ])(random|dice)(?=[,)])")
 INNERMOST = re.compile(r"([({\[])([^(){}\[\]]*)[)}\]]")
@@ -180,7 +180,7 @@ class Rooms:
         yield from self.check_through_others(room, file)
 
     def unused(self):
-        """Yields permissions in the lists that nothing uses."""
+        """Yields the rooms without code, and the rooms in a DEPENDS that no file includes."""
         for room, others in self.may_include.items():
             if room not in self.seen:
                 yield f"the room {room} holds no code"

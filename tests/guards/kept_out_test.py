@@ -1,5 +1,5 @@
-"""Tests scenarios/kept_out.txt: no shipped setting names a clip of the list, and claims about clips are judged on
-its clips."""
+"""Tests scenarios/kept_out.txt: no shipped recogniser or fuzzy system was learnt from a clip of the list, and the
+scenario capture_unseen films exactly the clips of the list."""
 import fnmatch
 import pathlib
 import re

@@ -1,5 +1,5 @@
 """Checks which folder may include which. A room is a folder with a CMakeLists.txt; it may include only the rooms in its
-DEPENDS, of etude_folder(…). A listed room that no file needs is an error, too. The rooms form no circle.
+DEPENDS, of etude_folder(…). A room in DEPENDS that no file includes is an error, and so is a circle of rooms.
 """
 import pathlib
 import re

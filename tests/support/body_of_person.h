@@ -46,7 +46,7 @@ inline void ExpectThePersonsPlaces(const BodyPose& body, double scale = 1, doubl
   }
 }
 
-/// Checks that joints play all roles in a skeleton that is PersonSkeleton with other names.
+/// Checks that FindJointMap finds all roles in a skeleton that equals PersonSkeleton apart from the joints' names.
 inline void ExpectThePerson(const Skeleton& skeleton) {
   const auto map = FindJointMap(skeleton, "person.bvh");
   ASSERT_TRUE(map) << ToString(map.error());

@@ -11,7 +11,7 @@ namespace etude::testing {
 
 inline constexpr int kIntel = 84, kDec = 85, kMips = 86;
 
-/// Writes C3D files; a second implementation, by the tables of the format's specification.
+/// Writes C3D files. It is a second implementation of the format, made from the tables of the format's specification.
 class C3dWriter {
  public:
   C3dWriter(int machine, bool floats) : machine_(machine), floats_(floats) {}
@@ -79,7 +79,7 @@ class C3dWriter {
     return machine_ == kMips ? std::string{high, low} : std::string{low, high};
   }
   std::string Float(double value) const {
-    // DEC's format has an exponent higher by two, and exchanges a number's halves.
+    // DEC's format has an exponent higher by two, and exchanges the two 16-bit halves of a number.
     const auto bits = std::bit_cast<std::uint32_t>(static_cast<float>(machine_ == kDec ? value * 4 : value));
     const std::size_t low = bits & 0xffff, high = bits >> 16;
     return machine_ == kIntel ? Word(low) + Word(high) : Word(high) + Word(low);

@@ -14,11 +14,11 @@
 namespace etude::testing {
 
 /// The number of results of a computation, and their sum with fixed weights in [−1, 1): a golden value in two numbers.
-/// It changes if a number changes, is added, removed or moved. It does not show what changed, so other tests must check
-/// that results are right. A failure prints the new numbers; whoever stores them states in the commit which results
-/// changed and why. Use one fingerprint for counts and errors and another for many or large numbers, because a
-/// billionth of the latter would hide the former. Draw inputs one number per expression, because compilers evaluate
-/// arguments in different orders.
+/// The fingerprint changes if a number changes, is added, removed or moved. It does not show what changed, so other
+/// tests must check that results are right. A failure prints the new numbers; whoever stores them states in the commit
+/// which results changed and why. Use one fingerprint for counts and errors and another for many or large numbers: `Is`
+/// tolerates 10⁻⁹ of the sum of all magnitudes, which would hide a small change of an error. Draw inputs one number per
+/// expression, because compilers evaluate arguments in different orders.
 class Fingerprint {
  public:
   template <typename T>
@@ -51,8 +51,8 @@ class Fingerprint {
 
   double sum() const { return sum_; }
 
-  /// Compares the fingerprint with stored values: the count must be equal, the sum equal to 10⁻⁹ of the sum of
-  /// magnitudes.
+  /// Compares the fingerprint with stored values. The counts must be equal; the sums may differ by 10⁻⁹ of the sum of
+  /// the magnitudes of all added numbers.
   ::testing::AssertionResult Is(std::size_t count, double sum) const {
     if (count_ == count && std::isfinite(size_) && std::abs(sum_ - sum) <= 1e-9 * size_)
       return ::testing::AssertionSuccess();

@@ -30,8 +30,9 @@ inline std::string Shortened(const std::string& answer) {
 }
 
 /// Calls `answer` with each line of a text file, and compares the answer (Shortened) with the following line, which
-/// begins with two blanks. "@ TEXT" surrounds the following lines by a text, in which they replace "…"; in both, "\n"
-/// is a line end. Empty lines and lines that begin with '#' are comments. `ETUDE_RENEW` works as in AreKept.
+/// begins with two blanks. After a line "@ TEXT", `answer` receives TEXT with the line in place of "…". In TEXT and in
+/// lines, "\n" is a line end. Empty lines and lines that begin with '#' are comments. `ETUDE_RENEW` works as in
+/// AreKept.
 inline ::testing::AssertionResult AnswersAreKept(const std::string& path,
                                                  const std::function<std::string(const std::string& text)>& answer) {
   std::ifstream file(path, std::ios::binary);
@@ -51,8 +52,8 @@ inline ::testing::AssertionResult AnswersAreKept(const std::string& path,
   return AreKept(lines, path);
 }
 
-/// Returns the text with its first FROM replaced, for an edit "FROM => TO". A line without an arrow is a whole new
-/// text.
+/// Returns the text with its first FROM replaced by TO, if `line` is "FROM => TO". A line without an arrow is a whole
+/// new text.
 inline std::string Edited(std::string text, const std::string& line) {
   const std::size_t arrow = line.find(" => ");
   if (arrow == std::string::npos) return line;

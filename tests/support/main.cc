@@ -9,7 +9,7 @@ namespace {
 
 constexpr std::string_view kHeavy = "HEAVY_";  // prefix of tests that only `scripts/test --full` runs
 
-// Returns a filter for the heavy or the other tests with files directly in a folder of tests/; "" without any.
+// Returns a filter for those tests in tests/`folder`, without subfolders, that are heavy, or not; "" if there are none.
 std::string TestsOf(const std::string& folder, bool heavy) {
   std::string filter;
   const testing::UnitTest& all = *testing::UnitTest::GetInstance();
@@ -29,7 +29,7 @@ std::string TestsOf(const std::string& folder, bool heavy) {
 }  // namespace
 
 // GoogleTest's main with `--folder=bench/statistics`, which runs only this folder's tests: those that are not heavy, or
-// with a second argument `--heavy` the heavy ones. A filter given on the command line applies, too.
+// with a second argument `--heavy` the heavy ones. A filter given on the command line replaces this selection.
 int main(int argc, char** argv) {
   testing::InitGoogleTest(&argc, argv);
   constexpr const char* kFolder = "--folder=";

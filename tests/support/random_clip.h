@@ -70,8 +70,8 @@ inline Clip RandomClip(std::uint64_t seed, const RandomClipOptions& options = {}
   return clip;
 }
 
-/// Returns the largest distance, over all frames, between joints of the same name in `a` and `b`; huge if a name is
-/// missing.
+/// Returns the largest distance, over all frames, between joints of the same name in `a` and `b`; 10⁹ or more if a name
+/// is missing or the numbers of frames differ.
 inline double WorstDistance(const Clip& a, const Clip& b) {
   double worst = a.frames.size() == b.frames.size() ? 0 : 1e9;
   std::vector<GlobalTransform> of_a, of_b;

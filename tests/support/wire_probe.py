@@ -1,9 +1,9 @@
-"""Stands between Etude and a method: passes every line on, and ends with a complaint at the first line that its schema
-refuses.
+"""Stands between Etude and the method that COMMAND starts: passes every line on, and ends with a complaint at the first
+line that the protocol's schema refuses.
 
-    wire_probe.py TASK SEAT COMMAND…      SEAT is - for whole problems; without COMMAND it answers nothing itself
+    wire_probe.py TASK SEAT COMMAND…      SEAT is - for a method that answers whole problems
 
-Undeclared keys are refused, too, except the one with which check-method tries unknown keys.
+Undeclared keys are refused, too, except the one that `etude check-method` sends to test unknown keys.
 """
 import json
 import subprocess

@@ -1,3 +1,3 @@
-// What every room includes must not know a task: whoever includes this header is flagged as well.
+// Many rooms include this header, so it must not include a task. Files that include it are flagged as well.
 #pragma once
 #include "bench/tasks/base/task.h"

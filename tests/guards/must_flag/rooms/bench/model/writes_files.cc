@@ -1,2 +1,2 @@
-// Rows do not know how they are written.
+// Rows must not include the code that writes them.
 #include "bench/results/row_json.h"

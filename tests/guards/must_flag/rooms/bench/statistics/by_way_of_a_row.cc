@@ -1,2 +1,2 @@
-// Allowed by itself; but the header beside includes a task.
+// This include is allowed, but bench/model/row.h includes a task.
 #include "bench/model/row.h"

@@ -1,2 +1,2 @@
-// The lowest room knows no other.
+// The lowest room, engine/base, must not include any other room.
 #include "engine/motion/body.h"

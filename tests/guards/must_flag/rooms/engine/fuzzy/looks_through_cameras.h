@@ -1,3 +1,3 @@
-// Pose features are of a body, however it was seen.
+// Pose features depend on the body alone, so they must not include cameras.
 #pragma once
 #include "engine/cameras/camera.h"

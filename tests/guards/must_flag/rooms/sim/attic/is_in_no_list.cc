@@ -1,2 +1,2 @@
-// A room that the table does not have.
+// This folder is not a room, because it has no CMakeLists.txt.
 #include "engine/base/angles.h"
