@@ -42,7 +42,7 @@ function(etude_folder)
   file(GLOB sources CONFIGURE_DEPENDS "${CMAKE_CURRENT_SOURCE_DIR}/*.cc")
   if(sources)
     add_library(${target} STATIC ${sources})
-    etude_unity(${target})
+    etude_unity(${target} 24)
     set(scope PUBLIC)
   else()
     add_library(${target} INTERFACE)
@@ -79,14 +79,14 @@ function(etude_shared_library TARGET)
   target_include_directories(${TARGET} INTERFACE "$<INSTALL_INTERFACE:include/etude>")
 endfunction()
 
-# etude_unity(<target>): with ETUDE_UNITY, compiles the files of a folder a dozen at a time, after the headers that
+# etude_unity(<target> <count>): with ETUDE_UNITY, compiles <count> files of a folder together, after the headers that
 # ETUDE_HEADERS names, because headers are more than nine tenths of the text that the compiler reads. Files that Highway
 # compiles once per instruction set are compiled alone.
-function(etude_unity TARGET)
+function(etude_unity TARGET COUNT)
   if(NOT ETUDE_UNITY)
     return()
   endif()
-  set_target_properties(${TARGET} PROPERTIES UNITY_BUILD ON UNITY_BUILD_BATCH_SIZE 12)
+  set_target_properties(${TARGET} PROPERTIES UNITY_BUILD ON UNITY_BUILD_BATCH_SIZE ${COUNT})
   if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
     # GCC treats a .cc file compiled together with others as a header, and warns about types in its unnamed namespaces.
     target_compile_options(${TARGET} PRIVATE -Wno-subobject-linkage)
@@ -159,7 +159,7 @@ function(etude_test_program NAME)
     target_compile_options(${program} PRIVATE -O0)
     set(ETUDE_HEADERS etude_tests_unoptimised_headers)
   endif()
-  etude_unity(${program})
+  etude_unity(${program} 12)  # names in the unnamed namespaces of more files would collide
   set_target_properties(${program} PROPERTIES BUILD_RPATH "${CMAKE_BINARY_DIR}")  # the folder of the modules
   if(ETUDE_HAS_GOLD AND NOT ETUDE_SANITIZE)
     target_link_options(${program} PRIVATE -fuse-ld=gold)

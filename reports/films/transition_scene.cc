@@ -43,7 +43,7 @@ std::vector<std::vector<FloorMove>> AllPlacements(const TransitionRace& race) {
 constexpr int kMarkFrames = kFilmRate / 2, kGhostFrames = kFilmRate;
 constexpr double kPanelMargin = 12;
 constexpr Paint kPlate{0.13, 0.15, 0.17, 1};
-constexpr Paint kVeil{0.078, 0.090, 0.102, 0.6};
+constexpr Paint kPanelVeil{0.078, 0.090, 0.102, 0.6};
 
 constexpr double kLeft = 12, kTop = 52, kBottom = 12, kBetween = 10;
 
@@ -156,7 +156,7 @@ void TransitionPanel::DrawBody(Canvas& canvas, const Box& box, Renderer& rendere
   constexpr double kMarkRoom = 112;
   // Dim the picture until the recording begins.
   if (!path_.IsRecordedAt(time)) {
-    canvas.FillBox(box, kVeil, kPanelRadius);
+    canvas.FillBox(box, kPanelVeil, kPanelRadius);
     const std::string begin = FormatFixed(path_.TimeOf(0) / path_.motion.rate_hz, 1);
     canvas.DrawText({box.x + 16, box.y + box.height / 2}, fmt::format("recorded from {} s on", begin), 17, kSoftInk,
                     box.width - 32);
