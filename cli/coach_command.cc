@@ -210,7 +210,7 @@ void DefineCoach(CLI::App& app, Action& action) {
   command->add_option("--choice", options->choice, "How the frames of a transition are chosen")
       ->check(CLI::IsMember(ChoiceNames()))
       ->capture_default_str();
-  command->add_option("--join", options->join, "How clips are joined there")
+  command->add_option("--join", options->join, "How the two clips are joined at these frames")
       ->check(CLI::IsMember(JoinNames()))
       ->capture_default_str();
   command->add_option("--filter", options->filter, "Filter that smooths the skeletons")

@@ -23,10 +23,10 @@ struct RigOptions {
   /// The angles of the cameras around the performer for kAngles, degrees; 0 = in front, positive = to the performer's
   /// left.
   std::vector<double> angles_deg = {-40, 40};
-  /// The heights of the cameras, metres: one per angle for kAngles; for other shapes, the list is repeated over the
-  /// cameras. The defaults differ, because two cameras at the same height cannot determine the direction of a limb that
-  /// is parallel to the line between the cameras: hips, shoulders and stretched arms of a performer who faces both
-  /// cameras.
+  /// The heights of the cameras, metres: one per angle for kAngles; for kStereo only the first is used; for kRing and
+  /// kCorners the list is repeated over the cameras. The defaults differ, because two cameras at the same height cannot
+  /// determine the direction of a limb that is parallel to the line between the cameras: hips, shoulders and stretched
+  /// arms of a performer who faces both cameras.
   std::vector<double> heights_m = {1.0, 2.2};
   double distance_m = 3.8;       ///< distance from the middle of the performer's motion; less if the room is too small
   double baseline_m = 0.6;       ///< kStereo: distance between the two cameras

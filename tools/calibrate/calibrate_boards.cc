@@ -47,7 +47,7 @@ Result<RefinedRig> CalibrateWithoutOutliers(const BoardViews& search, const Cali
     if (search.Told().empty() || kept.size() == views.size() || round == kMaxRounds) {
       if (views.size() < all) {
         options.listener.print(
-            fmt::format("{} of {} pictures of boards were left out: their residuals are three times the median\n",
+            fmt::format("{} of {} pictures of boards were left out: their residuals exceed three times the median\n",
                         all - views.size(), all));
       }
       return rig;
@@ -126,7 +126,7 @@ void TellResiduals(const RefinedRig& rig, const CalibrateOptions& options, std::
   options.listener.print(
       fmt::format("doubtful: each camera alone fits its boards far better than all cameras together. Films may not "
                   "be synchronised{}, a\ncamera may have moved, or the board may bend.\n",
-                  seen.front().every > 1 ? " (--every 1 would tell)" : ""));
+                  seen.front().every > 1 ? " (--every 1 would show it)" : ""));
 }
 
 /// Returns the digits at the end of a name: "0" for cam_0; "" if there are none.

@@ -271,8 +271,8 @@ std::string AssumedWords(const RigForecast& forecast, const ForecastOptions& opt
                                       forecast.measured->all_px, forecast.measured->points)
                         : fmt::format("Assumed: pixels err by {:g} px along each axis,", errors.noise_px);
   return fmt::format(
-      "{} a camera gives none in {:g} % of its pictures; cameras err by {:g} mm, {:g} degrees, {:g} % of the focal "
-      "length",
+      "{} a camera gives no keypoint in {:g} % of its pictures; cameras err by {:g} mm, {:g} degrees, {:g} % of the "
+      "focal length",
       measured, 100 * errors.dropout, kMmPerM * errors.calibration.place_m, Degrees(errors.calibration.turn),
       100 * errors.calibration.focal);
 }
