@@ -141,8 +141,8 @@ void DefineCalibrate(CLI::App& app, Action& action) {
       ->capture_default_str();
   command
       ->add_option("--sync", options->sync_s,
-                   "Largest delay of a film of boards, s; the delay is found from the board (0: up to two of the "
-                   "pictures that are used)")
+                   "Largest delay of a film of boards, s; the delay is found from the board (0: twice the time between "
+                   "the pictures that are used)")
       ->check(NumberWithin(0, 60, "time in s"))
       ->capture_default_str();
   // Define further outputs and comparisons.

@@ -220,7 +220,7 @@ void DefineCoach(CLI::App& app, Action& action) {
   command->add_flag("--mirror", options->mirror,
                     "Players mirror the coach: they move their right when it moves its left");
   command->add_flag("--now", options->now, "Dance at once, without a clap");
-  command->add_flag("--brief", options->brief, "Leave out frames without decisions, and bodies");
+  command->add_flag("--brief", options->brief, "Leave out all bodies, and the frames without decisions");
   command->add_flag("--timing", options->timing, "Print at the end how long frames took");
   command->add_option("--format", options->format, "Format of the stream (default: found from the content)")
       ->check(CLI::IsMember(StreamFormatNames()));

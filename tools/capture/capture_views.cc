@@ -242,7 +242,7 @@ MarkerMotion SynchroniseWith(const MarkerMotion& motion, MarkerMotion reference,
   if (std::abs(own_rate - motion.rate_hz) > kWritten * own_rate) {
     const auto clock = MeasureClock(motion, reference);
     const bool is_mended = clock && clock->after < 0.5 * clock->before;
-    std::string said = "; no marker of both shows how they drift apart";
+    std::string said = "; no marker of both shows how their clocks drift apart";
     if (clock) {
       said =
           fmt::format(": {:+.2f} frames of drift measured, {:+.2f} in the middle{}", clock->DriftOver(frames),
