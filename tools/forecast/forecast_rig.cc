@@ -253,9 +253,8 @@ std::string JointsText(const RigForecast& forecast) {
 
 std::string WorthsText(const RigForecast& forecast) {
   std::string text = fmt::format(
-      "\nWhat would help: the median error of a point at the places that two cameras see today, and the share of all "
-      "places\n"
-      "that two cameras then see\n{:<52}{:>12}{:>13}\n",
+      "\nWhat would help: the median error of a point at the places that two cameras of the present rig see, and the\n"
+      "share of all places that two cameras of the changed rig see\n{:<52}{:>12}{:>13}\n",
       "", "median, mm", "places seen");
   for (const RigWorth& worth : forecast.worths)
     text += fmt::format("{:<52}{:>12.1f}{:>11.0f} %\n", worth.change, worth.median_mm, 100 * worth.seen);
