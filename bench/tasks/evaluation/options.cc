@@ -58,9 +58,9 @@ const FieldTable<EvaluationOptions>& EvaluationConditionFields() {
         [](Fields& fields, EvaluationOptions& options) {
           options.joints = fields.Choice("joints", JointSetNames(), options.joints);
         }},
-       Key::Number(
-           "noise_mm", &EvaluationOptions::noise_mm, {0, 1000},
-           "Standard deviation of white noise, along each axis, that is added to every control's answer first."),
+       Key::Number("noise_mm", &EvaluationOptions::noise_mm, {0, 1000},
+                   "Standard deviation of white noise, along each axis, that is added to every control's answer before "
+                   "its other errors."),
        Key::Text("people", &EvaluationOptions::people, "a pattern such as '{person}_*'",
                  "Which part of a pair's name is the person; verdicts for other files count each person once.")
            .WhenAbsent("(each pair counts for itself)"),
