@@ -32,7 +32,7 @@ struct BridgeCommandOptions {
 };
 
 constexpr const char* kBridgeExamples =
-    "\nA bridge frame is suitable for a transition: its pose occurs in several clips, and its head is still. Two\n"
+    "\nA bridge frame is suitable for a transition: its pose occurs in several clips, and the head is still. Two\n"
     "bridge frames match when their fuzzy distance is below the threshold. Clips are named as in etude clip --help;\n"
     "docs/bridge-frames.md explains more.\n\n"
     "Try:\n"
@@ -96,7 +96,7 @@ Result<int> CheckTags(const BridgeCommandOptions& options) {
 
 Result<int> BridgeCommand(const BridgeCommandOptions& options) {
   if (!options.check.empty()) return CheckTags(options);
-  if (options.clips.empty()) return Fail({}, "etude bridge needs clips, or --check a tags file");
+  if (options.clips.empty()) return Fail({}, "etude bridge needs clips, or --check with a tags file");
   if (!options.output.empty()) RETURN_IF_ERROR(CheckOutput(options.output, options.overwrite));
   ASSIGN_OR_RETURN(const auto loaded, LoadLibrary(options));
   if (!options.output.empty()) RETURN_IF_ERROR(WriteTags(loaded, options.output));
@@ -126,7 +126,7 @@ void DefineBridge(CLI::App& app, Action& action) {
   CLI::Option* output = command->add_option("-o,--output", options->output, "The tags file to write (XML)");
   // --check excludes most other options, because the tags file states the rules.
   CLI::Option* check = command->add_option("--check", options->check,
-                                           "Check this tags file, and that it fits the clips if any are named");
+                                           "Check this tags file; if clips are named, also check that it fits them");
   check->excludes(output);
   const auto add = [&](CLI::Option* option) { check->excludes(option); };
   add(command->add_option(
@@ -144,8 +144,10 @@ void DefineBridge(CLI::App& app, Action& action) {
           ->check(CLI::Range(1, 1000))
           ->capture_default_str());
   add(command
-          ->add_option("--most-per-class", options->most_per_class,
-                       "Maximum number of bridge frames per clip and pose, those most like other clips' (0: all)")
+          ->add_option(
+              "--most-per-class", options->most_per_class,
+              "Maximum number of bridge frames per clip and pose; those most like other clips' frames are kept "
+              "(0: all)")
           ->check(CLI::Range(0, 1000000))
           ->capture_default_str());
   add(command->add_option("--wait", options->wait_s, "Longest wait for a transition, seconds")

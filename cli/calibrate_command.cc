@@ -115,11 +115,12 @@ void DefineCalibrate(CLI::App& app, Action& action) {
   command
       ->add_option(
           "--board", options->boards,
-          "COLUMNSxROWSxSQUARE, squares and metres, @FIRST_CODE for a second board with codes of its own; or one of "
-          "OpenCV's: chess:9x6x0.025, charuco:5x7x0.04 (its dictionary, print and layout are found)")
+          "COLUMNSxROWSxSQUARE: the numbers of squares, and a square's side in metres; @FIRST_CODE gives a second "
+          "board other codes. Or a board of OpenCV: chess:9x6x0.025, charuco:5x7x0.04 (dictionary, colours and layout "
+          "are found)")
       ->capture_default_str();
   // Define what is estimated, and in which world frame.
-  command->add_option("--method", options->method, "Of point pairs")
+  command->add_option("--method", options->method, "How cameras are computed from point pairs")
       ->check(CLI::IsMember(CalibrationNames()))
       ->capture_default_str();
   command
@@ -140,8 +141,8 @@ void DefineCalibrate(CLI::App& app, Action& action) {
       ->capture_default_str();
   command
       ->add_option("--sync", options->sync_s,
-                   "Largest delay of a film of boards, s; the delay is found from the board (0: up to two of the "
-                   "pictures that are used)")
+                   "Largest delay of a film of boards, s; the delay is found from the board (0: twice the time between "
+                   "the pictures that are used)")
       ->check(NumberWithin(0, 60, "time in s"))
       ->capture_default_str();
   // Define further outputs and comparisons.

@@ -73,7 +73,7 @@ Result<int> CaptureCommand(const CaptureCommandOptions& options) {
   aside.End();
   if (options.as_json) RETURN_IF_ERROR(PrintFacts("capture", *captured.facts));
   if (!is_refused) return kSuccess;
-  Complain({{}, captured.doubt + "; nothing was written (--accept-doubtful writes it nevertheless)"});
+  Complain({{}, captured.doubt + "; nothing was written (--accept-doubtful writes the motion nevertheless)"});
   return kNothingWorked;
 }
 

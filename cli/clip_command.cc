@@ -161,9 +161,9 @@ void DefineConvert(CLI::App& clip, Action& action) {
       ->add_option("--rate", options->rate_hz,
                    "Frames per second (default: the clip's rate; with --ground or --retarget, 30)")
       ->check(NumberWithin(1, 1000, "rate in Hz"));
-  command->add_flag("--mirror", options->mirror, "Left becomes right");
-  command->add_flag("--ground", options->ground, "As a body: twenty joints, metres, Y up, feet on the floor");
-  command->add_flag("--retarget", options->retarget, "As a body of the canonical proportions, 1.70 m tall");
+  command->add_flag("--mirror", options->mirror, "Mirror the motion: left becomes right");
+  command->add_flag("--ground", options->ground, "Write a body: twenty joints, metres, Y up, feet on the floor");
+  command->add_flag("--retarget", options->retarget, "Write a body of the canonical proportions, 1.70 m tall");
   command
       ->add_option("--character", options->character,
                    "Retarget to the bear or the mannequin (GLB only); none leaves out the file's meshes")

@@ -59,10 +59,10 @@ constexpr const char* kCoachExamples =
     "song, its\n"
     "moves and their key poses, then an object for each frame (docs/coach.md explains all keys). The coach waits for\n"
     "a clap, dances, judges every performance, and interrupts by the rule --policy: it shakes its head, waves or "
-    "is\npuzzled, shows the move slowly, and returns to it. Scenarios of `task: coach` judge this program.\n\n"
+    "is\npuzzled, shows the move slowly, and returns to the dance. Scenarios of `task: coach` judge this program.\n\n"
     "Rows are what `etude clip convert` writes as CSV, or a Kinect's (docs/streams.md). You play the music: a\nframe's "
-    "\"music\" states from where, and when to stop. A line '#music 12.34' in the stream tells the coach where\n"
-    "the music is, so that it can slow down or speed up its moves.\n\n"
+    "\"music\" states from where to play it, and when to stop. A line '#music 12.34' in the stream tells the coach\n"
+    "where the music is, so that it can slow down or speed up its moves.\n\n"
     "Try:\n"
     "  etude coach warm_up --stream take.csv --brief          what would the coach have said to this recording?\n"
     "  my_sensor | etude coach groove --stream - | my_stage   live\n"
@@ -210,7 +210,7 @@ void DefineCoach(CLI::App& app, Action& action) {
   command->add_option("--choice", options->choice, "How the frames of a transition are chosen")
       ->check(CLI::IsMember(ChoiceNames()))
       ->capture_default_str();
-  command->add_option("--join", options->join, "How clips are joined there")
+  command->add_option("--join", options->join, "How the two clips are joined at these frames")
       ->check(CLI::IsMember(JoinNames()))
       ->capture_default_str();
   command->add_option("--filter", options->filter, "Filter that smooths the skeletons")
@@ -220,7 +220,7 @@ void DefineCoach(CLI::App& app, Action& action) {
   command->add_flag("--mirror", options->mirror,
                     "Players mirror the coach: they move their right when it moves its left");
   command->add_flag("--now", options->now, "Dance at once, without a clap");
-  command->add_flag("--brief", options->brief, "Leave out frames without decisions, and bodies");
+  command->add_flag("--brief", options->brief, "Leave out all bodies, and the frames without decisions");
   command->add_flag("--timing", options->timing, "Print at the end how long frames took");
   command->add_option("--format", options->format, "Format of the stream (default: found from the content)")
       ->check(CLI::IsMember(StreamFormatNames()));

@@ -25,7 +25,9 @@ int TellStopped(const Error& what_is_left) {
 
 Result<int> UnlessReplaced(const std::string& folder, const RunData& run, int code) {
   if (CheckStillThere(folder, run)) return code;
-  Complain({{folder, 0, 0}, "changed while files were written into it: another run, or a foreign file; write them again"});
+  Complain({{folder, 0, 0},
+            "changed while files were written into it: another run replaced it, or another program wrote a file; write "
+            "them again"});
   return kIncompleteRun;
 }
 

@@ -45,7 +45,7 @@ void Print(const ScenarioForecast& one) {
   fmt::print("{} ({}): {} × {} × {} = {} cells, {:.2g} s a world{}\n", one.name, one.task,
              CountOf(one.conditions, "condition"), CountOf(one.worlds, "world"), CountOf(one.methods, "method"),
              one.conditions * one.worlds * one.methods, one.seconds_per_world,
-             one.is_kept ? "" : ", measured on first ones");
+             one.is_kept ? "" : ", measured on the first worlds");
   if (one.comparisons == 0) return;
   const int worlds = static_cast<int>(one.worlds);
   const std::string among = one.comparisons == 1 ? "1 comparison" : fmt::format("{} comparisons", one.comparisons);
@@ -62,7 +62,7 @@ void Print(const ScenarioForecast& one) {
     fmt::print("  for others: no verdict: {}; at least {} are needed\n", CountUnits(one.units, one.unit), kMinUnits);
     return;
   }
-  fmt::print("  for others: from {:.2f} standard deviations of the mean differences of {}\n",
+  fmt::print("  for others: a difference of {:.2f} or more standard deviations of the mean differences of {}\n",
              MinDetectableDifference(one.units, one.comparisons), CountUnits(one.units, one.unit));
 }
 

@@ -43,7 +43,7 @@ Result<std::map<std::string, double>> ReadLimitsFile(const std::string& name) {
   auto limits = ReadLimits(fields);
   RETURN_IF_ERROR(fields.Finish());
   if (limits.empty())
-    return Fail({file.string()}, "sets no limit; allowed: a metric a line, such as skates_share: 0.02");
+    return Fail({file.string()}, "sets no limit; allowed: one metric per line, such as skates_share: 0.02");
   return limits;
 }
 

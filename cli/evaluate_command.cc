@@ -332,8 +332,8 @@ void DefineEvaluate(CLI::App& app, const std::string& command_line, Action& acti
   options->command_line = command_line;
   CLI::App* command = app.add_subcommand(
       "evaluate",
-      "Compare motion files with their truths, or find faults in motions without a truth; exit code 1: a pair is not "
-      "judged, or nothing of a method is judged");
+      "Compare motion files with their truths, or find faults in motions without a truth; exit code 1: a pair could "
+      "not be judged, or a method has no result that could be judged");
   command->add_option("files", options->files,
                       "The truth, then results: each a file, a folder or a pattern in quotes; several results need "
                       "names: NAME=PATTERN");

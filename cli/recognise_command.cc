@@ -289,7 +289,7 @@ void DefineRecognise(CLI::App& app, Action& action) {
           "--recogniser", options->recogniser,
           "The recogniser (default: learnt; key-pose if a move has no example; whole-body with --leave-one-person-out)")
       ->check(CLI::IsMember(RecogniserNames()));
-  command->add_option("--filter", options->filter, "Filter that smooths the joints first")
+  command->add_option("--filter", options->filter, "Filter that smooths the joints before recognition")
       ->check(CLI::IsMember(FilterNames()))
       ->capture_default_str();
   command->add_option("--weights", options->weights, "Weights of the angles: all equal, or by how well they are seen")

@@ -79,7 +79,7 @@ Result<int> BlindPageCommand(const std::string& folder, BlindOptions options, Se
   const FilePath key_file = Inside(folder) / "blind" / (key.page + ".key.json");
   RETURN_IF_ERROR(WriteFileAtomically(key_file, WriteBlindKey(key)));
   RETURN_IF_ERROR(WriteFileAtomically(page, page_html));
-  fmt::print("{} of {} recorded worlds; {} left out, where a method made no transition. Keep the key from raters.\n",
+  fmt::print("{} of {} recorded worlds; {} left out, where a method made no transition. Do not show raters the key.\n",
              Plural(static_cast<long long>(key.pairs.size()), "pair"), key.worlds, key.left_out);
   TellWritten(page.string());
   TellWritten(key_file.string());

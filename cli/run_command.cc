@@ -246,7 +246,7 @@ int MergeCommand(const MergeOptions& given) {
 
 void AddOtherLibraries(CLI::App& command, bool& other_libraries) {
   command.add_flag("--other-libraries", other_libraries,
-                   "Accept that libraries have changed since (which ones is recorded in other_libraries.json)");
+                   "Accept that libraries have changed since the run began (other_libraries.json records which ones)");
 }
 
 }  // namespace
@@ -287,7 +287,7 @@ void DefineRun(CLI::App& app, const std::string& command_line, Action& action) {
   command->add_option("--sync-seconds", options->sync.seconds, "Longest time until a finished cell is on the disk, s")
       ->check(NumberWithin(0, 3600, "time in s"))
       ->capture_default_str();
-  command->add_option("--sync-mebibytes", options->sync.mebibytes, "Largest amount not yet on the disk, MiB")
+  command->add_option("--sync-mebibytes", options->sync.mebibytes, "Largest amount of results not yet on the disk, MiB")
       ->check(NumberWithin(0, 1024, "size in MiB"))
       ->capture_default_str();
   CLI::Option* dry =

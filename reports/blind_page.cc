@@ -151,7 +151,9 @@ Result<std::optional<BlindTrial>> MakeBlindTrial(const RunData& run, const Blind
     }
   }
   if (shown.empty()) {
-    return Fail({}, "no world kept transitions of two of {} (etude run --keep motions, or the key 'video', keeps them)",
+    return Fail({},
+                "in no world are the motions of two of these methods recorded: {}; etude run --keep motions, or the "
+                "key 'video', records them",
                 fmt::join(options.methods, ", "));
   }
   // Film the pairs, and write into the key which method each side shows.

@@ -198,7 +198,8 @@ std::string MissingHtml(const RunData& run, const ScenarioSummary& scenario) {
 
 constexpr std::string_view kLegend =
     "Apart: the distance of the worst joint after headings and hips are aligned. ✗: called alike although a joint is "
-    "more than 20 cm off. Beside it is the distance that the method measured: the fuzzy distance, or centimetres.";
+    "more than 20 cm off. Beside “alike” or “apart” is the distance that the method measured: the fuzzy distance, or "
+    "centimetres.";
 
 std::string VerdictOf(const Row& row) {
   const auto alike = ValueOf(row, "called_alike");

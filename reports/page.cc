@@ -114,7 +114,7 @@ decides. If that does not decide either, the <b>tail</b> does: the worlds in whi
 worse. A method <b>loses</b> a world if it is worse there by a difference that matters.</p>
 <p>Each comparison has two verdicts. <b>On these worlds</b> (these clips, these people): the differences that were
 measured. <b>For others</b> (other clips, other people): each clip counts once, however many worlds were drawn from
-it, and with fewer than six clips there is no such verdict. It is about the <b>pseudo-median</b> of the clips'
+it, and with fewer than six clips there is no such verdict. The verdict is about the <b>pseudo-median</b> of the clips'
 differences (the median of the means of all pairs of clips), which a single unusual clip hardly changes; the mean must
 have the same sign. A sign in brackets, such as (=), is a verdict on these worlds only.</p>
 <p>Status <b>ok</b> means that a cell was measured, not that it reached its goal: success is reported separately.

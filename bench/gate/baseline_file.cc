@@ -263,7 +263,7 @@ class BaselineReader {
     if (skipped || statuses.find_first_of(kAnswers) != std::string::npos) return {};
     return Fail(place,
                 "all {} cells of {} failed, so no run could be worse; allowed: a baseline in which each method has "
-                "a cell that is ok or unsolved, or is skipped",
+                "a cell that is ok or unsolved, or has only skipped cells",
                 cells.trials, name);
   }
 

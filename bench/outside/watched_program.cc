@@ -247,7 +247,7 @@ OutsideFailure WatchedProgram::HowItEnded() {
   const std::string end = child_->Finish(0);
   if (group_.IsUp() && group_.WasFull()) return TooMuchMemory().value();
   std::string reason = "ended with " + end;
-  if (!part.empty()) reason += ", amid the line " + Printable(part);
+  if (!part.empty()) reason += ", in the middle of the line " + Printable(part);
   if (const std::string words = WithoutFolder(errors_.LastLine()); !words.empty()) {
     reason += "; its last words: " + Printable(words, 200);
   }

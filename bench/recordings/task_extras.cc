@@ -31,7 +31,7 @@ static void Describe(RecordFields& fields, TransitionExtras::Candidate& candidat
   fields.Required("from_frame", candidate.from_frame, "the frame at which the clip is left at that point");
   fields.Required("to_frame", candidate.to_frame, "frame of the clip that is entered there");
   fields.Required("distance", candidate.distance, "fuzzy distance between the two frames");
-  fields.Tolerated("partials", candidate.partials, "as at a transition point");
+  fields.Tolerated("partials", candidate.partials, "by feature, as the `partials` of a transition point");
   fields.Tolerated("cost", candidate.cost, "the cost by which the choice ranks; null if that is the distance");
   fields.Tolerated("outcome", candidate.outcome, "`taken`, `too far`, `later` or `worse`");
 }

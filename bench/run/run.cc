@@ -59,7 +59,8 @@ Result<void> CheckManifest(const fs::path& folder, const std::string& manifest, 
     return Fail({path.string()}, "belongs to another run: {}; only the same run can be resumed", InWords(differences));
   }
   if (other_libraries) return RecordOtherLibraries(folder, differences);
-  return Fail({path.string()}, "libraries have changed since: {}; --other-libraries resumes anyway and records it",
+  return Fail({path.string()},
+              "libraries have changed since the run began: {}; --other-libraries resumes anyway and records it",
               InWords(differences));
 }
 

@@ -202,7 +202,8 @@ FieldTable<GateRules> GateFields(const Scenario& scenario, const std::vector<std
            Key::Name("rule", &GateRules::exact, {{"threshold", false}, {"exact", true}},
                      "threshold: only a difference that matters is a regression; exact: every difference is."),
            {{"tail", MappingKind("a mapping", TailFields().Describe()), "{}",
-             "When far worse single worlds are a regression, even if the whole comparison is none; not with `exact`."},
+             "When single worlds that are far worse are a regression, even if the whole comparison is not; not with "
+             "`exact`."},
             [](Fields& gate, GateRules& rules) { ReadNested(gate, "tail", TailFields(), rules.tail); }},
            {{"time_ratios", ListKind("a list of ratios", MappingKind("", TimeRatioFields(scenario).Describe())), "[]",
              "Bounds on ratios of processor times within the run."},

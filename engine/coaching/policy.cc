@@ -38,7 +38,7 @@ struct FadingOptions {
 const SettingTable<FadingOptions>& FadingSettings() {
   static const SettingTable<FadingOptions> table({
       {"mistakes_per_correction", &FadingOptions::mistakes_per_correction, 0, 10,
-       "Number of additional successive mistakes without a correction, for every correction of the move so far."},
+       "For every correction of the move so far, this many more successive mistakes are not corrected."},
   });
   return table;
 }

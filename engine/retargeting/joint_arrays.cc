@@ -267,7 +267,7 @@ Result<RawMotion> ReadRawNpz(const Npz& arrays, const std::string& file, const A
       return Fail({file}, "in the unit given (1 unit = {:.4g} cm) the joints extend {:.3g} m; allowed: {:g} to {:g} m",
                   100 * unit, extent, kMinExtent_m, kMaxExtent_m);
     }
-    motion.notes.push_back(fmt::format("1 unit = {:g} cm (told)", 100 * unit));
+    motion.notes.push_back(fmt::format("1 unit = {:g} cm (given)", 100 * unit));
   } else {
     ASSIGN_OR_RETURN(unit, UnitOf(arrays, motion, file, motion.notes));
   }

@@ -107,7 +107,7 @@ Result<std::string> AcclaimSkeletonBeside(const std::string& path) {
   if (found.size() == 1) return found.front();
   return Fail({path},
               "an Acclaim motion, whose skeleton is another file: {} .asf files are in its folder; allowed: one, or "
-              "one that begins its name ('01.asf' of '01_01.amc')",
+              "one whose name begins the motion's name ('01.asf' of '01_01.amc')",
               found.empty() ? "no" : std::to_string(found.size()));
 }
 

@@ -96,8 +96,8 @@ std::string DescribeOtherFile(std::string_view bytes, std::string_view first_wor
   const auto* const known = std::ranges::find_if(kMarks, [&](const Mark& mark) { return Has(head, mark); });
   if (known != std::end(kMarks)) return known->told;
   if (head.find('\0') != kAnywhere) {
-    return "a binary file of an unknown kind; export BVH, FBX or C3D from the program that wrote it (Motive of a "
-           ".tak, QTM of a .qtm)";
+    return "a binary file of an unknown kind; export BVH, FBX or C3D from the program that wrote it (Motive writes "
+           ".tak, QTM .qtm)";
   }
   const std::string begins = "that begins with " + Quote(std::string(first_word));
   const std::string_view line = head.substr(0, head.find('\n'));

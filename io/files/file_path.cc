@@ -125,7 +125,7 @@ Result<Descriptor> OpenFile(const FilePath& path, int flags, mode_t mode) {
   struct stat status {};
   if (::fstat(file.number(), &status) != 0 || !S_ISREG(status.st_mode)) return Fail({path.string()}, "is no file");
   if (path.is_inside() && (flags & O_ACCMODE) != O_RDONLY && status.st_nlink > 1) {
-    return Fail({path.string()}, "has another name (a hard link), so that file would be overwritten, too");
+    return Fail({path.string()}, "has another name (a hard link); the file of that name would be overwritten, too");
   }
   if ((flags & O_TRUNC) != 0 && ::ftruncate(file.number(), 0) != 0) {
     return CannotWrite(path.string(), "cannot write this file", errno);

@@ -195,7 +195,7 @@ Fence Fence::Find() {
     fence.groups_ = ControlGroup::FindPlace();
     return fence;
   }
-  none.description_ = fmt::format("none ({})", said.empty() ? "bubblewrap says nothing" : said);
+  none.description_ = fmt::format("none ({})", said.empty() ? "bubblewrap gave no reason" : said);
   return none;
 }
 
@@ -208,7 +208,7 @@ Result<void> Fence::Try() const {
   if (!IsUp()) return {};
   const std::string said = FirstLineOf(*this, {program_, "--version"});
   if (said.starts_with("bubblewrap ")) return {};
-  return FailOfMachine("no program can be run in the fence: {}", said.empty() ? "it says nothing" : said);
+  return FailOfMachine("no program can be run in the fence: {}", said.empty() ? "bubblewrap gave no reason" : said);
 }
 
 ScratchUse Fence::MeasureScratch(pid_t inside) const {

@@ -87,10 +87,10 @@ Result<TransitionRace> FindTransitionRace(const RunData& run, const ScenarioSumm
   if (worlds.empty()) {
     return Fail({}, "this run kept no recordings of transitions of this scenario (its key 'video')");
   }
-  if (shown < 2) return Fail({}, "no world kept recordings of two methods with a transition");
+  if (shown < 2) return Fail({}, "in no world are two methods with a transition recorded");
   TransitionRace race = RaceIn(*best, scenario, scenario.methods);
-  race.choice = fmt::format("the first of {} recorded worlds in which most of them have one",
-                            Plural(static_cast<long long>(worlds.size()), "world"));
+  race.choice = fmt::format("the first world in which the most methods have a transition, of {}",
+                            Plural(static_cast<long long>(worlds.size()), "recorded world"));
   return race;
 }
 

@@ -182,11 +182,12 @@ std::string VerdictPanels(const RunData& run, const ScenarioSummary& scenario, c
   std::string html;
   if (!curves.rocs.empty()) {
     html += SharePanel(prefix +
-                           "share of right performances called right over the share of wrong ones called right, for "
-                           "all thresholds and all people together; the mark is the method's own threshold",
+                           "share of right performances called right, against the share of wrong ones called right, "
+                           "for all thresholds and all people together; the mark is the method's own threshold",
                        curves.words, curves.rocs, curves.operated);
     html += DetPanel(
-        prefix + "the same errors on scales of normal deviates: right performances missed over wrong ones called right",
+        prefix +
+            "the same errors on scales of normal deviates: right performances missed, against wrong ones called right",
         curves.words, curves.rocs, curves.operated);
   }
   if (!curves.found.empty()) {

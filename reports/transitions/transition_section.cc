@@ -173,8 +173,8 @@ std::string AllCandidates(const RecordedRequest& world) {
   }
   if (html.empty()) return html;
   return html +
-         "<p class=\"quiet legend\">Too far: d is not below the threshold. Later: it matches, but an earlier match is "
-         "taken. Worse: it matches, but another pair ranks higher.</p>";
+         "<p class=\"quiet legend\">Too far: the pair's d is not below the threshold. Later: the pair matches, but an "
+         "earlier match is taken. Worse: the pair matches, but another pair ranks higher.</p>";
 }
 
 std::string WorldHtml(const RecordedRequest& world) {
@@ -244,8 +244,8 @@ std::string DistanceTable::Html() const {
     table.rows.push_back(std::move(row));
   }
   return TableHtml(table) + fmt::format(
-                                "<p class=\"quiet legend\">They sum to d². A full bar alone reaches the threshold; "
-                                "without a threshold, a full bar is the largest of its row. {}</p>",
+                                "<p class=\"quiet legend\">The bars of a row sum to d². A full bar alone reaches the "
+                                "threshold; without a threshold, a full bar is the largest of its row. {}</p>",
                                 EscapeMarkup(kFeatureLegend));
 }
 

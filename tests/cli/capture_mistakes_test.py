@@ -665,7 +665,7 @@ class Mistakes(EtudeCase):
                  "--stature", "0.7", "-o", self.folder / "small.csv", *arguments]
         refused = self.ends(1, *small, "--json")
         self.assertRegex(refused.stderr, r"etude: in \d+ % of \w+'s frames, body and outline overlap by less than half; nothing was written "
-                                         r"\(--accept-doubtful writes it nevertheless\)\n$")
+                                         r"\(--accept-doubtful writes the motion nevertheless\)\n$")
         facts = json.loads(refused.stdout)
         self.assertIsNone(facts["output"])
         self.assertIn("overlap by less than half", facts["doubt"])

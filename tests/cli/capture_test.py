@@ -232,7 +232,7 @@ class Capture(EtudeCase):
             (late / f"right_{k}.json").unlink()
         make_film(self.films[2], frames=FRAMES - 2)
         out = self.folder / "m.csv"
-        self.assertIn("use keypoints to find the time (--sync)", self.refusal(*self.capture("-o", out)))
+        self.assertIn("use keypoints to find the delay (--sync)", self.refusal(*self.capture("-o", out)))
         self.assertIn("--sync: outlines do not show the time", self.refusal(
             "capture", "--rig", self.rig, *self.films, "--silhouettes", "--sync", "1", "-o", out))
         told = self.etude(*self.capture("-o", out, "--sync", "0.3", "--film", self.folder / "m.mp4")).stdout

@@ -34,7 +34,7 @@ class DryRun(EtudeCase):
         self.assertIn("1 condition × 8 worlds × 2 methods = 16 cells", told)
         # 8 pairs: (t(0.975) + t(0.8)) / √8 of 7 degrees of freedom; 6 clips likewise.
         self.assertIn("1 comparison shows a mean difference of 1.15 or more standard deviations of the worlds' differences", told)
-        self.assertIn("from 1.42 standard deviations of the mean differences of 6 clips", told)
+        self.assertIn("a difference of 1.42 or more standard deviations of the mean differences of 6 clips", told)
 
     def test_of_a_shard_tells_its_own_cells_and_time(self):
         whole = self.facts("quick/ik", "--trials", 8)

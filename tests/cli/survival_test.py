@@ -137,7 +137,7 @@ class Survival(EtudeCase):
         self.assertIn("libraries changed meanwhile", (self.out / "report" / "index.html").read_text())
         # A resumed run says the same.
         resumed = self.ends(2, "run", self.scenario, "-o", folders[1], "--shard", "2/3", "--resume")
-        self.assertIn(f"libraries have changed since: libraries.{name} was", resumed.stderr)
+        self.assertIn(f"libraries have changed since the run began: libraries.{name} was", resumed.stderr)
         self.ends(0, "run", self.scenario, "-o", folders[1], "--shard", "2/3", "--resume", "--other-libraries")
         self.assertTrue((folders[1] / "other_libraries.json").exists())
 

@@ -47,7 +47,7 @@ Result<RefinedRig> CalibrateWithoutOutliers(const BoardViews& search, const Cali
     if (search.Told().empty() || kept.size() == views.size() || round == kMaxRounds) {
       if (views.size() < all) {
         options.listener.print(
-            fmt::format("{} of {} pictures of boards were left out: their residuals are three times the median\n",
+            fmt::format("{} of {} pictures of boards were left out: their residuals exceed three times the median\n",
                         all - views.size(), all));
       }
       return rig;
@@ -126,7 +126,7 @@ void TellResiduals(const RefinedRig& rig, const CalibrateOptions& options, std::
   options.listener.print(
       fmt::format("doubtful: each camera alone fits its boards far better than all cameras together. Films may not "
                   "be synchronised{}, a\ncamera may have moved, or the board may bend.\n",
-                  seen.front().every > 1 ? " (--every 1 would tell)" : ""));
+                  seen.front().every > 1 ? " (--every 1 would show it)" : ""));
 }
 
 /// Returns the digits at the end of a name: "0" for cam_0; "" if there are none.
@@ -157,8 +157,8 @@ Result<void> CompareWithOpenCv(const CalibrateOptions& options, std::span<const 
     ASSIGN_OR_RETURN(const OpenCvCalibration theirs, CalibrateByOpenCv(own, sizes[camera], RefineOptionsOf(options).lens));
     const Intrinsics &a = alone->cameras.front().intrinsics, &b = theirs.intrinsics;
     options.listener.print(fmt::format(
-        "  {:<14} focal lengths {:.2f}, {:.2f} px, there {:.2f}, {:.2f} ({:+.3f}, {:+.3f} %); residual {:.4f} px, "
-        "there {:.4f}\n",
+        "  {:<14} focal lengths {:.2f}, {:.2f} px, OpenCV's {:.2f}, {:.2f} ({:+.3f}, {:+.3f} %); residual {:.4f} "
+        "px, OpenCV's {:.4f}\n",
         seen[camera].name, a.fx, a.fy, b.fx, b.fy, kPercent * (a.fx / b.fx - 1), kPercent * (a.fy / b.fy - 1),
         alone->rms_px, theirs.rms_px));
   }
@@ -189,12 +189,12 @@ Result<void> CompareBeside(const CalibrateOptions& options, const RefinedRig& ri
   for (std::size_t i = 0; i < cameras.size(); ++i) {
     const Intrinsics &a = rig.cameras[i].intrinsics, &b = cameras[i].intrinsics;
     options.listener.print(fmt::format(
-        "  {:<14} focal lengths {:.1f}, {:.1f} px, there {:.1f}, {:.1f} ({:+.1f}, {:+.1f} %); residual {:.3f} px, "
-        "there {:.3f}\n",
+        "  {:<14} focal lengths {:.1f}, {:.1f} px, the other's {:.1f}, {:.1f} ({:+.1f}, {:+.1f} %); residual {:.3f} "
+        "px, the other's {:.3f}\n",
         seen[i].name, a.fx, a.fy, b.fx, b.fy, kPercent * (a.fx / b.fx - 1), kPercent * (a.fy / b.fy - 1),
         rig.camera_rms_px[i], placed->camera_rms_px[i]));
     if (i == 0) continue;
-    options.listener.print(fmt::format("  {:<14} {:.3f} m from {}, there {:.3f}\n", "", glm::distance(rig.cameras[i].p_WC, rig.cameras[0].p_WC),
+    options.listener.print(fmt::format("  {:<14} {:.3f} m from {}, the other's {:.3f}\n", "", glm::distance(rig.cameras[i].p_WC, rig.cameras[0].p_WC),
                seen.front().name, glm::distance(cameras[i].p_WC, cameras[0].p_WC)));
   }
   return {};

@@ -43,7 +43,7 @@ Result<CapturedFilms> CaptureFilms(const CaptureFilmsOptions& options) {
     RETURN_IF_ERROR(CheckReference(*reference, options.reference));
   }
   if (options.silhouettes && options.sync_s > 0)
-    return Fail({}, "--sync: outlines do not show the time; cut the films alike");
+    return Fail({}, "--sync: outlines do not show the time; cut the films so that they begin at the same moment");
   if (options.silhouettes && !options.keypoints.empty() && options.stature_m > 0) {
     return Fail({}, "--stature: the keypoints already determine how tall the person is");
   }

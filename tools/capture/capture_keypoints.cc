@@ -56,7 +56,7 @@ std::string PeopleText(const RecoveredPerson& person, const std::vector<FilmedVi
     text += fmt::format("person {}: seen by {}; rays miss each other by {:.1f} % of the height\n", ++number, by,
                         100 * one.error);
   }
-  if (alone > 0) text += fmt::format("{} tracks that only one camera saw: people or errors\n", alone);
+  if (alone > 0) text += fmt::format("{} tracks that only one camera saw: other people, or errors\n", alone);
   return text;
 }
 
@@ -74,7 +74,7 @@ std::string ReportText(const RecoveredPerson& person, const std::vector<FilmedVi
   }
   text += fmt::format("\nlengths, cm: {}\n", Join(lengths));
   const auto held = std::ranges::count(person.is_held, true);
-  if (held > 0) text += fmt::format("{} frames show too little and hold the last pose\n", held);
+  if (held > 0) text += fmt::format("{} frames show too little and repeat the last pose\n", held);
   return text;
 }
 

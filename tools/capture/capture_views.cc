@@ -121,7 +121,8 @@ Result<void> CheckTogether(const std::vector<FilmedView>& views, bool may_differ
     if (may_differ_in_time) continue;
     const bool is_one_rate = std::abs(view.facts.rate_hz - first.facts.rate_hz) <= kSameRateTolerance * first.facts.rate_hz;
     if (is_one_rate && view.facts.frames != first.facts.frames) {
-      return Fail({view.path.string()}, "{} frames, {} {}; cut them alike, or use keypoints to find the time (--sync)",
+      return Fail({view.path.string()},
+                  "{} frames, but {} has {}; cut both to the same time, or use keypoints to find the delay (--sync)",
                   view.facts.frames, first.path.string(), first.facts.frames);
     }
     const double seconds = static_cast<double>(view.facts.frames) / view.facts.rate_hz;
@@ -130,8 +131,8 @@ Result<void> CheckTogether(const std::vector<FilmedView>& views, bool may_differ
     constexpr double kFrames = 1.5;
     if (!is_one_rate && std::abs(seconds - wanted) > kFrames * frame) {
       return Fail({view.path.string()},
-                  "{:.3g} s at {:g} frames a second, {} {:.3g} s at {:g} frames a second; cut them alike, or use "
-                  "keypoints to find the time (--sync)",
+                  "{:.3g} s at {:g} frames a second, but {} has {:.3g} s at {:g} frames a second; cut both to the same "
+                  "time, or use keypoints to find the delay (--sync)",
                   seconds, view.facts.rate_hz, first.path.string(), wanted, first.facts.rate_hz);
     }
   }
@@ -241,7 +242,7 @@ MarkerMotion SynchroniseWith(const MarkerMotion& motion, MarkerMotion reference,
   if (std::abs(own_rate - motion.rate_hz) > kWritten * own_rate) {
     const auto clock = MeasureClock(motion, reference);
     const bool is_mended = clock && clock->after < 0.5 * clock->before;
-    std::string said = "; no marker of both shows how they drift apart";
+    std::string said = "; no marker of both shows how their clocks drift apart";
     if (clock) {
       said =
           fmt::format(": {:+.2f} frames of drift measured, {:+.2f} in the middle{}", clock->DriftOver(frames),

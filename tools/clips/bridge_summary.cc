@@ -106,8 +106,8 @@ std::string ClipsAsText(const BridgeLibrary& loaded, const Coverage& coverage, c
                         100 * clip.in_between_share);
   }
   text += fmt::format(
-      "\nposes: different sets of ten tags. frames with a match: of all frames, d < {} to some frame of {}.\n"
-      "worst wait: until a bridge frame that leads on{}; the clip starts over at its end.\n"
+      "\nposes: different sets of ten tags. frames with a match: share of frames with d < {} to some frame of {}.\n"
+      "worst wait: longest time until a bridge frame that leads on{}; the clip starts over at its end.\n"
       "in-between: how often a transition within {} s needs one.{}\n",
       loaded.match_rules.threshold, has_pairs ? "another clip" : "any other clip",
       has_pairs ? ", over the clips reached" : " to any other clip", wait_s,

@@ -63,8 +63,8 @@ void Label(const std::array<RoleOnSheet, kRoleCount>& roles, std::vector<SheetJo
     SheetJoint& shown = joints[joint];
     const bool is_sure = by == By::kName || by == By::kComposed;
     shown.words += fmt::format("{} {}{}", shown.plays ? "," : "  =", RoleName(role),
-                               by == By::kComposed   ? " (rides on it)"
-                               : by == By::kAnatomy  ? " (by build)"
+                               by == By::kComposed   ? " (fixed to it)"
+                               : by == By::kAnatomy  ? " (by shape)"
                                : by == By::kProposed ? " ?"
                                                      : "");
     shown.paint = is_sure ? kAccent : kWarm;

@@ -156,8 +156,8 @@ std::string WorthsHtml(const RigForecast& forecast) {
     table.rows.push_back(
         {{worth.change, fmt::format("{:.1f}", worth.median_mm), fmt::format("{:.0f} %", 100 * worth.seen)}});
   }
-  return "<p>The median error of a triangulated point at the places that two cameras see today, and the share of all "
-         "places that two cameras then see.</p>" +
+  return "<p>The median error of a triangulated point at the places that two cameras of the present rig see, and the "
+         "share of all places that two cameras of the changed rig see.</p>" +
          TableHtml(table);
 }
 

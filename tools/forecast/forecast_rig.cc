@@ -254,9 +254,8 @@ std::string JointsText(const RigForecast& forecast) {
 
 std::string WorthsText(const RigForecast& forecast) {
   std::string text = fmt::format(
-      "\nWhat would help: the median error of a point at the places that two cameras see today, and the share of all "
-      "places\n"
-      "that two cameras then see\n{:<52}{:>12}{:>13}\n",
+      "\nWhat would help: the median error of a point at the places that two cameras of the present rig see, and the\n"
+      "share of all places that two cameras of the changed rig see\n{:<52}{:>12}{:>13}\n",
       "", "median, mm", "places seen");
   for (const RigWorth& worth : forecast.worths)
     text += fmt::format("{:<52}{:>12.1f}{:>11.0f} %\n", worth.change, worth.median_mm, 100 * worth.seen);
@@ -272,8 +271,8 @@ std::string AssumedWords(const RigForecast& forecast, const ForecastOptions& opt
                                       forecast.measured->all_px, forecast.measured->points)
                         : fmt::format("Assumed: pixels err by {:g} px along each axis,", errors.noise_px);
   return fmt::format(
-      "{} a camera gives none in {:g} % of its pictures; cameras err by {:g} mm, {:g} degrees, {:g} % of the focal "
-      "length",
+      "{} a camera gives no keypoint in {:g} % of its pictures; cameras err by {:g} mm, {:g} degrees, {:g} % of the "
+      "focal length",
       measured, 100 * errors.dropout, kMmPerM * errors.calibration.place_m, Degrees(errors.calibration.turn),
       100 * errors.calibration.focal);
 }

@@ -88,7 +88,8 @@ FieldTable<StudioOptions> MakeConditionFields() {
            .With("rig", {"ring"}),
        Key::Numbers("camera_heights_m", Path(&Options::rig, &RigOptions::heights_m), {1, kMaxCameras},
                     "one to eight of 0.2…5", {0.2, 5},
-                    "Heights of the cameras: one per angle; in other rigs the cameras take them in turn."),
+                    "Heights of the cameras: one per angle; in a ring or in corners the list is repeated over the "
+                    "cameras; cameras side by side have the first height."),
        Key::Number("camera_distance_m", Path(&Options::rig, &RigOptions::distance_m), {2, 10},
                    "Distance to the middle of the performer's path, as far as the room allows."),
        // Keys of the performer, the room and the light.

@@ -174,7 +174,7 @@ const FieldTable<DetectionMethod>& DetectionMethodFields() {
     // Keys of the stages from the sensor to skeletons.
     std::vector<MethodKey> fields = {MethodKey::Name("filter", Path(&Method::filter, &FilterOptions::kind),
                                                      FilterNames(), FilterOf,
-                                                     "How the sensed joints are smoothed first.")};
+                                                     "How the sensed joints are smoothed before recognition.")};
     Append(FilterFields(), fields);
     fields.push_back(
         MethodKey::Flags("oracle", {{"stream", &Method::sees_truth}},

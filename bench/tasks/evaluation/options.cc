@@ -57,15 +57,15 @@ const FieldTable<EvaluationOptions>& EvaluationConditionFields() {
         [](Fields& fields, EvaluationOptions& options) {
           options.joints = fields.Choice("joints", JointSetNames(), options.joints);
         }},
-       Key::Number(
-           "noise_mm", &EvaluationOptions::noise_mm, {0, 1000},
-           "Standard deviation of white noise, along each axis, that is added to every control's answer first."),
+       Key::Number("noise_mm", &EvaluationOptions::noise_mm, {0, 1000},
+                   "Standard deviation of white noise, along each axis, that is added to every control's answer before "
+                   "its other errors."),
        Key::Text("people", &EvaluationOptions::people, "a pattern such as '{person}_*'",
                  "Which part of a pair's name is the person; verdicts for other files count each person once.")
            .WhenAbsent("(each pair counts for itself)"),
        Key::Name("lag", &EvaluationOptions::lag, {{"none", Lag::kNone}, {"find", Lag::kFind}},
-                 "none: frames of equal times belong together if both files state a clock, else the first frames; "
-                 "find: the time shift between them is found and removed."),
+                 "none: frames of equal times are compared, by the files' clocks if both state one, otherwise counted "
+                 "from the first frames; find: the time shift between truth and answer is found and removed."),
        {{"statistics", FileKind("a CSV file"), "(L2P has no value)",
          "Means and standard deviations of joints over a training set: a heading `JOINT_x_m,…` and two rows."},
         [](Fields& fields, EvaluationOptions& options) { options.statistics = fields.Text("statistics", ""); }},

@@ -83,7 +83,7 @@ const FieldTable<IkCondition>& IkConditionFields() {
                    "Moves one target away from the root, this far beyond the reach of all limbs together.")
            .With("start", {"disturbed", "middle"}),
        Key{{"targets", NameKind(std::vector<std::string>{"both", "position", "orientation"}), "both",
-            "Which parts of their targets effectors must meet for a world to be solved."},
+            "What every effector must meet for a world to be solved: its target's position, orientation or both."},
            ReadTargets},
        // Keys of the data that a cell keeps, and of the goals at which solvers stop.
        Key::Flags("record",

@@ -30,7 +30,7 @@ const FieldTable<InbetweenOptions>& InbetweenConditionFields() {
        Key::Number("past", &Options::past, {3, 10'000}, "Frames before the gap; methods get all of them."),
        Key::Number("gap", &Options::gap, kFrames, "Number of hidden frames."),
        Key::Number("future", &Options::future, {3, 10'000}, "Frames that a window must have after the gap."),
-       Key::Number("given", &Options::given, {1, 10'000}, "How many of the frames after the gap methods get."),
+       Key::Number("given", &Options::given, {1, 10'000}, "Number of frames after the gap that methods get."),
        Key::Number("rate_hz", &Options::rate_hz, {1, 1000}, "The rate to which motions are resampled, Hz.")
            .WhenAbsent("(each file's own)"),
        Key::Name("facing", &Options::facing, {{"x", {1, 0, 0}}, {"y", {0, 1, 0}}, {"z", {0, 0, 1}}},

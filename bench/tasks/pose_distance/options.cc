@@ -42,7 +42,7 @@ const FieldTable<PoseDistanceMethod>& PoseDistanceMethodFields() {
                  "regression or a genetic algorithm.")
            .With("distance", {"fuzzy"}),
        // Grades are in [0, 1] and the weights S have sum 8, so no distance exceeds sqrt(8 · 4).
-       Key::Number("threshold", &Method::threshold, {0, 6}, "Poses are called alike when d is below it.")
+       Key::Number("threshold", &Method::threshold, {0, 6}, "Poses are called alike if d is below this threshold.")
            .With("distance", {"fuzzy"})},
       SetThreshold};
   return table;

@@ -48,8 +48,8 @@ const FieldTable<TransitionCondition>& TransitionConditionFields() {
        Key::Number("min_clips", Path(&Options::stage, &StageRules::min_clips), {1, 1000},
                    "Minimum number of clips in which a bridge frame's ten tags must occur together."),
        Key::Number("most_per_class", Path(&Options::stage, &StageRules::most_per_class), {0, 100000},
-                   "Maximum number of bridge frames per clip and set of ten tags, those most like other clips' frames; "
-                   "0: all."),
+                   "Maximum number of bridge frames per clip and set of ten tags; those most like other clips' frames "
+                   "are kept; 0: all."),
        Key::Angle("head_bend_deg", Path(&Options::stage, &StageRules::head, &HeadRule::max_bend), {0, 180},
                   "Largest bend of the neck in a bridge frame."),
        Key::Angle("head_turn_dps", Path(&Options::stage, &StageRules::head, &HeadRule::max_turn_speed), {0, 10000},

@@ -367,7 +367,8 @@ class ClipReader {
     std::string name = base;
     for (int number = 2; !names_.insert(name).second; ++number) name = fmt::format("{}_{}", base, number);
     if (name != base)
-      remarks_.push_back(fmt::format("another animation is called {}, too: it is {} here", Quote(base), Quote(name)));
+      remarks_.push_back(
+          fmt::format("two animations are called {}: the later one is called {} here", Quote(base), Quote(name)));
     return name;
   }
 

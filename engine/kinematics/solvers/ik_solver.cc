@@ -143,7 +143,8 @@ std::span<const IkSolver> AllIkSolvers() {
                   Between("damping", 1e-9, 1e6, "The damping of the first step.")),
       WithSetting(
           {.name = "damped-least-squares-active-set",
-           .description = "the same, limits by an active set: other angles compensate for those at their limits",
+           .description =
+               "like damped-least-squares, limits by an active set: other angles compensate for those at their limits",
            .step = "steps"},
           SolveWithOwn<DampedLeastSquaresOptions>(SolveDampedLeastSquaresActiveSet), &SolverSettings::damping,
           &DampedLeastSquaresOptions::first_damping, Between("damping", 1e-9, 1e6, "The damping of the first step.")),

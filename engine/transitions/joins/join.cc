@@ -52,7 +52,8 @@ std::span<const JoinKind> Table() {
                .settings = MinimumJerkSettings().Describe(),
                .begin = BeginWith<MinimumJerk, MinimumJerkSettings>},
       JoinKind{.name = "planted-feet",
-               .description = "the same, and each foot changes from the old motion's path to the new one's in one step",
+               .description =
+                   "like minimum-jerk, and each foot changes from the old motion's path to the new one's in one step",
                .settings = MinimumJerkSettings().Describe(),
                .begin = BeginWith<PlantedFeet, MinimumJerkSettings>,
                .align = AlignOnPlantedFeet},

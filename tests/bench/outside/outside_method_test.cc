@@ -119,7 +119,7 @@ INSTANTIATE_TEST_SUITE_P(
     ::testing::Values(
         Hostility{"crashes", Status::kCrashed,
                   "ended with signal 11 (Segmentation fault); its last words: 'about to fall'"},
-        Hostility{"exits", Status::kFailed, R"(ended with exit code 3, amid the line '{"type": "ans')"},
+        Hostility{"exits", Status::kFailed, R"(ended with exit code 3, in the middle of the line '{"type": "ans')"},
         Hostility{"prints_garbage", Status::kBadOutput,
                   R"(wrote something that is not JSON: 'loading model \x1b[1m100%\x1b[0m')"},
         Hostility{"answers_nan", Status::kBadOutput, "wrote something that is not JSON near byte 68: '"},
