@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <ctime>
 #include <filesystem>
 #include <nlohmann/json.hpp>
 

@@ -1,6 +1,7 @@
 #include "bench/statistics/answers.h"
 
 #include <algorithm>
+#include <cstddef>
 
 #include "bench/statistics/beyond.h"
 #include "bench/statistics/bootstrap.h"

@@ -5,6 +5,7 @@
 #include <iterator>
 
 #include "bench/tasks/sensing/camera_stream.h"
+#include "engine/teaching/labelled_streams.h"
 #include "engine/teaching/watch.h"
 
 namespace etude {

@@ -4,6 +4,7 @@
 
 #include "engine/base/angles.h"
 #include "engine/base/smoothstep.h"
+#include "engine/transitions/fillers/gap_library.h"
 #include "engine/transitions/fillers/planted_gap.h"
 #include "engine/transitions/joins/inertialise.h"
 #include "engine/transitions/joins/minimum_jerk.h"
