@@ -43,7 +43,8 @@ struct Pace {
   double yardstick_ms = 0;      ///< processor time of one yardstick; 0.5 ms on an AMD EPYC
 };
 
-/// Measures the speed of this machine: one copy of this process per worker runs yardsticks for an eighth of a second.
+/// Measures the speed of this machine: one copy of this process per worker repeats a fixed computation (a yardstick)
+/// for an eighth of a second.
 Result<Pace> MeasurePace(int workers);
 
 }  // namespace etude

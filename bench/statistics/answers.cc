@@ -148,8 +148,8 @@ class Measurer {
   const std::uint64_t seed_;
 };
 
-/// Corrects the p-values of one step over a family of answers (Holm), and sets the verdicts of this step. `metric_of`
-/// returns the metric whose threshold judges an answer's step.
+/// Corrects the p-values of one step of the comparisons (success, value or tail) over a family of answers (Holm), and
+/// sets the verdicts of this step. `metric_of` returns the metric whose threshold judges an answer's step.
 template <typename MetricOf>
 void JudgeStep(const std::vector<Answer*>& family, std::optional<Comparison> Answer::*step, SamplingUnit unit,
                const MetricOf& metric_of) {

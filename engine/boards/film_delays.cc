@@ -82,8 +82,8 @@ std::vector<TargetView> SynchronisedViews(std::span<const BoardSighting> sightin
   for (const BoardSighting& s : sightings) {
     const std::size_t camera = s.view.camera;
     const double period = period_s[camera];
-    // Find the look of the first film that is nearest in time, and the time from this sighting to that look, as a
-    // fraction of the time between looks.
+    // In the first film, find the look (an examined picture) that is nearest in time to this sighting. Compute the time
+    // from this sighting to that look, as a fraction of the time between looks.
     const int look = static_cast<int>(std::lround((s.look * period - delay_s[camera]) / period_s[0]));
     const double share = (look * period_s[0] + delay_s[camera]) / period - s.look;
     constexpr double kHalf = 0.5 + 1e-9;

@@ -15,8 +15,8 @@
 namespace etude {
 namespace {
 
-/// A hypothesis: how a picture was rotated and mirrored, and whether its keypoints are pixels of the rig's original
-/// picture, not of the fitted film.
+/// A hypothesis: how a picture was rotated and mirrored, and whether its keypoints are pixels of the camera's original
+/// picture instead of the film, which was scaled or cropped (`PixelFit`).
 struct Guess {
   int quarter_turns = 0;
   bool is_mirrored = false;

@@ -52,8 +52,8 @@ double ReferenceOffset(const GroundView& ground, const std::vector<Level>& level
   return reference;
 }
 
-/// The frames that were reported as displaced, and the vertical displacement, metres, that frames at the right height
-/// have.
+/// The frames that were reported as displaced. `reference` is the sum of all vertical displacements before a frame at
+/// the right height, metres.
 struct Told {
   std::vector<bool> frames;
   double reference = 0;

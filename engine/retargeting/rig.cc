@@ -49,9 +49,10 @@ namespace {
 using enum Role;
 
 /// For each limb, in the order of kLimbs, a direction in the middle of the upper bone's range, in the axes of chest or
-/// hips. To find the twist of a straight limb, a hanging limb is rotated to this direction by the shortest rotation,
-/// and from there to its direction in the pose by the shortest rotation. The twist is discontinuous only in the
-/// opposite direction, which must lie outside of the range: inward through the chest, or backward through the hips.
+/// hips. The positions of a straight limb do not show its twist. The limb gets the twist that results if it hangs down,
+/// then rotates to this middle direction, and from there to its direction in the pose, both by the shortest rotation.
+/// The twist is discontinuous only opposite to the middle direction. That must lie outside of the range: inward through
+/// the chest, or backward through the hips.
 constexpr std::array<glm::dvec3, kLimbs.size()> kMidDirections = {
     {{0.71, 0, 0.71}, {-0.71, 0, 0.71}, {0, -0.87, 0.5}, {0, -0.87, 0.5}}};
 

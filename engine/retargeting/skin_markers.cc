@@ -68,9 +68,9 @@ glm::dvec3 Chord(const glm::dvec3& other_end, const glm::dvec3& marker, const gl
   return marker - depth * share * limb / length + depth * std::sqrt(1 - share * share) * aside;
 }
 
-/// Returns the inward direction. Blends `rough`, which is always known, with the normal of the bend plane, which gets
-/// more weight as the limb bends more. A marker that is `depth` beside a straight limb makes the limb seem bent; this
-/// apparent bend is subtracted.
+/// Returns the direction from a marker on the skin to the joint inside the limb. Blends `rough`, which is always known,
+/// with the normal of the bend plane, which gets more weight as the limb bends more. A marker that is `depth` beside a
+/// straight limb makes the limb seem bent; this apparent bend is subtracted.
 glm::dvec3 Inward(const glm::dvec3& rough, const glm::dvec3& upper, const glm::dvec3& lower, double sign, double depth) {
   constexpr double kCertain = 1.2, kRange = 0.25;  // kCertain multiplies the apparent bend; kRange is a sine
   const double a = std::max(glm::length(upper), 1e-9), b = std::max(glm::length(lower), 1e-9);

@@ -160,8 +160,8 @@ bool Overrules(const Stance& other, const Stance& usual, bool is_opposite, const
   // Accept `other` if the body walks perpendicular to it.
   if (other.way > 0.5 && other.steps > 0.4) return true;
   if (rule.is_of_rest) return false;
-  // Accept `other` if the body stands on its feet along it, and either the lowest joint's height varies less or the
-  // body is still.
+  // Accept `other` if, with `other` as the up axis, the body stands on its feet, and either the lowest joint's height
+  // varies less than with the usual axis or the body is still.
   if (other.balanced > 0.75 && other.floor < kStillFloor && usual.floor > std::max(0.06, 2 * other.floor)) return true;
   return other.straight > 0.9 && other.balanced > 0.9 && other.floor < 0.02;
 }

@@ -50,7 +50,7 @@ class SilhouetteFollower {
   const std::optional<TreeState> start_;
   MomentFitter fitter_{body_, options_};
   std::vector<Path> paths_;    ///< by ascending cost; empty until somebody was found
-  int moments_ = 0;            ///< moments since the body was found
+  int moments_ = 0;            ///< moments (all films' pictures of one time) since the body was found
   int since_search_ = 0;       ///< moments since the last search for limbs
   std::vector<double> costs_;  ///< `picture_cost` of the last returned fits, oldest first
   std::optional<ThicknessEstimate> thickness_;

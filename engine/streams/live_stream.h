@@ -49,7 +49,7 @@ class LiveStream {
   std::optional<StreamRecording> meaning_;  // the recording's properties, without frames
   StreamLevel level_;
   std::optional<StreamMaker> maker_;
-  std::optional<JointCsvColumns> columns_;  // columns of a CSV file, found in its first row after the start
+  std::optional<JointCsvColumns> columns_;  // columns of a CSV stream, from its heading
 };
 
 }  // namespace etude

@@ -42,7 +42,8 @@ class Fence {
   static bool IsOfSystem(const std::filesystem::path& path);
   /// Lists the sockets and named pipes below a folder: programs could write to them even in a read-only mount.
   static std::vector<std::filesystem::path> PipesBelow(const std::filesystem::path& folder);
-  /// Returns true if a folder is or contains a scratch folder, so it cannot be shown as it is.
+  /// Returns true if a folder is or contains a scratch folder. Programs see scratch folders empty, so such a folder
+  /// cannot be mounted unchanged.
   static bool HoldsScratch(const std::filesystem::path& folder);
 
   bool IsUp() const { return !program_.empty(); }

@@ -28,7 +28,8 @@ struct QuantisedMotion {
 /// If all points are equal, the step is 0.
 QuantisedMotion Quantise(std::span<const glm::dvec3> points);
 
-/// Writes the motions of one world as the script beside the page that the viewer loads: `etudeMotion({…});`, in ASCII.
+/// Writes the motions of one world as a script in the page's folder, which the viewer loads: `etudeMotion({…});`,
+/// ASCII.
 ///
 ///     {"file": …, "title": …, "rate_hz": 30, "floor_m": 0, "error": what errors are, "unit": "mm" or "cm",
 ///      "notes": [what could not be read],

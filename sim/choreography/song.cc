@@ -30,8 +30,9 @@ double StartingClock(double time, double lead) {
   return 0.5 * (t * t / lead - lead);
 }
 
-/// Returns a turn's own time, beats. The time runs with the music within the turn, accelerates in the blend before it,
-/// and stops in the blend after it. Therefore blends cut off no gesture.
+/// Returns the time of a turn (the beats in which one dancer performs a move) on the turn's own clock, beats. It runs
+/// with the music within the turn, accelerates in the blend before it, and stops in the blend after it. Therefore
+/// blends cut off no gesture.
 double ClockOf(const Turn& turn, double beat) {
   const double since = beat - turn.start_beat;
   if (since > turn.beats) return turn.beats - StartingClock(turn.beats - since, kBlendBeatsAfter);

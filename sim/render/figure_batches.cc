@@ -96,7 +96,7 @@ void AddTriangles(const Surface& surface, std::optional<Part> seen_as, int paint
   std::vector<std::uint32_t> first(surface.positions.size(), kNone);
   std::vector<Made> made;
   const std::size_t before = all.corners.size();
-  // Finds a vertex's corner for a part, or adds this corner.
+  // Returns the corner of this vertex that belongs to this part; adds the corner if it does not exist yet.
   const auto corner_of = [&](std::uint32_t vertex, Part part) {
     std::uint32_t* at = &first[vertex];
     while (*at != kNone && made[*at].part != part) at = &made[*at].next;

@@ -8,11 +8,11 @@
 
 namespace etude {
 
-/// The clothes of the people on stage.
+/// The clothes of the people on stage. `scene` is the share of the furnished room in a picture: 0 = studio, 1 = room.
 enum class Wardrobe {
   kStudio,    ///< the captured performer's warm colours, which become everyday colours as `scene` grows
-  kEveryday,  ///< a grey shirt and dark blue trousers for every `scene`
-  kCoded,     ///< a tight suit with a different colour for every limb (`CodedSuit`), for every `scene`
+  kEveryday,  ///< a grey shirt and dark blue trousers at any `scene`
+  kCoded,     ///< a tight suit with a different colour for every limb (`CodedSuit`), at any `scene`
 };
 
 /// Returns the coded suit. The suit's colours are plain and saturated, and as bright as possible without clipping under

@@ -36,7 +36,7 @@ class LearnerPlayer final : public Player {
   /// shown.
   std::optional<double> last_frame_;
   int danced_ = -1;          ///< the repetition that the learner danced in the previous frame; −1: none
-  int performances_ = 0;     ///< number of performances begun; each repeat of a repetition counts again
+  int performances_ = 0;     ///< number of performances begun; a repetition that is danced twice counts as two
   int about_ = -1;           ///< index of the move of the latest correction; −1: none
   std::vector<int> latest_;  ///< for each repetition of the dance, the index of its latest performance; −1: none
 };

@@ -18,7 +18,7 @@ class SessionWorld final : public TaskWorld {
   /// A function that returns the thresholds of the methods. The first call may be expensive.
   using Decide = std::function<const std::vector<MethodDecision>&()>;
 
-  /// A function that returns the setting of this world alone.
+  /// A function that returns the `setting` message of this world, for tasks whose worlds have different ones.
   using Set = std::function<Payload()>;
 
   /// `methods` and `repertoire` must outlive this object. `set` is empty if the task's worlds share a setting.

@@ -6,7 +6,8 @@
 namespace etude {
 namespace {
 
-// Grades are in [0, 1] and the weights S have sum 8, so no distance exceeds sqrt(8 · 4).
+// Grades are in [0, 1], a feature has at most 4 terms, and the features' weights have sum 8 (S, paper A, equation 1),
+// so no distance exceeds sqrt(8 · 4).
 constexpr Range kThresholds{0, 6};
 constexpr Range kWaits_s{0, 60};
 
