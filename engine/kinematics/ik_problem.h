@@ -23,7 +23,7 @@ enum class WeightRule {
   kAdaptive,       ///< w_p = e, w_ok = θ_k in degrees: B's proposal without factors
   kAdaptiveTuned,  ///< w_p = 0.003 e, w_ok = θ_k in degrees
   kAdaptivePower,  ///< w_p = 5·10⁻⁵ e^0.75, w_ok = θ_k^0.75, radians
-  kWangChen,       ///< w_p = 0.0007 (1 + min/max(|P_d|, |P_c|)), w_o = 1 (Wang and Chen 1991)
+  kWangChen,       ///< w_p = 0.0007 · `WangChenFactor`, w_o = 1 (Wang and Chen 1991)
 };
 
 /// How often a solver recomputes adaptive weights: once per sweep, joint, or degree of freedom.
@@ -54,8 +54,8 @@ struct WeightFormula {
 /// Returns the rule in SI units; for `kWangChen` the formula lacks the factor 1 + ρ.
 WeightFormula FormulaOf(WeightRule rule);
 
-/// Returns true if the weights depend on the errors. Instead, the weights of `kWangChen` depend on the joint that
-/// turns.
+/// Returns true if the weights depend on the errors. Returns false for `kWangChen`, whose weights depend on the joint
+/// that turns.
 bool IsAdaptive(WeightRule rule);
 
 /// Returns the weights of an effector that is `distance` metres from its target and whose axes are off by `axis_angles`

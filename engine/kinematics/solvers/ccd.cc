@@ -303,8 +303,8 @@ class Accelerated {
   std::vector<double> now_, swept_, mixed_;
 };
 
-// Skip a difference if the part that is linearly independent of newer differences is shorter than this share of the
-// difference: so short a part is mostly rounding.
+// Skip a difference if its part that is orthogonal to all newer differences is shorter than this share of its length:
+// such a part is mostly rounding error.
 constexpr double kNewPart = 1e-10;
 
 double Dot(std::span<const double> a, std::span<const double> b) {
