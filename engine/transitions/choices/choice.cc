@@ -23,7 +23,7 @@ struct PairSurvey {
   AllowedFrames allowed;
   std::int64_t matching = 0;
   std::int64_t nearer = 0;          ///< number of matching pairs with a smaller distance than the taken pair
-  std::vector<RankedPair> nearest;  ///< by frame that may be left: the frame's nearest pair, except the taken pair
+  std::vector<RankedPair> nearest;  ///< for each frame that may be left: its nearest pair, except the taken pair
 };
 
 PairSurvey SurveyPairs(const MotionLibrary& library, const TransitionRequest& request, const MatchRules& rules,
@@ -200,7 +200,7 @@ Choice Ranked(const char* name, const char* description, bool uses_fuzzy) {
           .plan = PlanWith<Plan, Settings>};
 }
 
-// Returns the table of choices. The table is made on the first call, when the strings that it uses are initialised.
+// Returns the table of choices. The table is made on the first call; by then the strings that it uses are initialised.
 std::span<const Choice> Table() {
   static const std::array kChoices = {
       // Choices that search for good frames.

@@ -49,7 +49,8 @@ struct PlacedSegment {
 };
 
 /// Moves the segment `next`, which follows frame `left` of `old`, to where the body's momentum carries it in a join of
-/// `frames` frames. A clip that has ended has no velocity.
+/// `frames` frames. If the old clip has ended, its last velocity is used; if the new clip ends within the join, its
+/// velocity there is 0.
 void Carry(const PlacedSegment& old, int left, int frames, PlacedSegment& next) {
   if (frames == 0) return;
   const int last = static_cast<int>(next.frames.size()) - 1, end = std::min(next.first + frames, last);
