@@ -72,7 +72,7 @@ std::vector<FrameRange> GroupsOf(const std::vector<int>& frames) {
 
 std::vector<FrameRange> FindFrozen(const BodyMotion& motion) {
   constexpr double kNeverAsStill = 0.003;  // stricter limit of the joints' mean speed near a freeze, metres per second
-  constexpr double kGentle = 0.6;          // a step beside a freeze is gentle up to this share of the step beyond
+  constexpr double kGentle = 0.6;          // a step next to a freeze is gentle up to this share of the next step away
   // Compute the mean speed of the joints at each step, and mark the steps without motion.
   const int steps = static_cast<int>(motion.poses.size()) - 1;
   std::vector<double> mean(steps);
