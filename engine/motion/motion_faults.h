@@ -58,7 +58,7 @@ struct MotionFaults {
 /// Options of FindMotionFaults.
 struct FaultOptions {
   std::optional<double> floor_m = {};  ///< the height of the floor; absent: see FindMotionFaults
-  double begin_s = 0;                  ///< time of the first frame by the file's clock; the faults' times use this clock
+  double begin_s = 0;                  ///< time of the first frame by the file's clock, which faults' times use
   /// For each frame, the joints that it does not show, because the file lacks them and a reader guessed their
   /// positions; empty: all joints are shown. Limbs that end at such joints are not judged.
   std::vector<JointSet> unseen = {};
