@@ -254,7 +254,7 @@ class Builder {
                               : IsArm(limb.leads_to)  ? glm::cross(z, kAhead)
                                                       : kToTheRight;
     glm::dvec3 x = wanted - glm::dot(wanted, z) * z;
-    // If that X axis is nearly parallel to Z, take the forward axis instead; if the forward axis is, too, take the
+    // If `wanted` is nearly parallel to Z, take the forward axis instead; if both are nearly parallel to Z, the
     // downward axis.
     constexpr double kAlong = 0.1;
     if (glm::length(x) < kAlong) x = kAhead - glm::dot(kAhead, z) * z;

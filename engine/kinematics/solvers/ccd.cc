@@ -166,7 +166,7 @@ double CcdSweep::TurnHinge(int joint, int axis) {
   if (options_.refresh == WeightRefresh::kDof) UpdateWeightsBelow(joint);
   const int dof = tree_.joints[joint].first_dof + axis;
   double& angle = state_.angles[dof];
-  // The axis is still valid, because no joint between it and the root has turned since the last forward kinematics.
+  // The axis is still valid, because no joint nearer to the root has turned since the last forward kinematics.
   const glm::dvec3& axis_W = frames_.dof_axes[dof];
   const AngleRange left{ranges_[dof].lower - angle, ranges_[dof].upper - angle};
   const double turn = GainAbout(axis_W, joint).OptimumWithin(left);

@@ -117,7 +117,7 @@ IkSolution SolveCcdAnderson(const KinematicTree& tree, const IkProblem& problem,
                             const CcdAndersonOptions& own = {});
 
 /// Anderson's extrapolation of a fixed-point iteration x ← g(x) (Anderson 1965; "type II" of Walker and Ni 2011). With
-/// f = g(x) − x and Δ the differences of consecutive pairs, it returns
+/// f = g(x) − x and Δ the differences of consecutive pairs, the extrapolated point is
 ///     g − Σ γ_i Δg_i,   γ = argmin |f − Σ γ_i Δf_i|.
 /// If g is linear, this is the point in the affine span of the pairs at which f is shortest. The constructor allocates
 /// all memory.

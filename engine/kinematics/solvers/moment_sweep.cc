@@ -93,8 +93,8 @@ HWY_INLINE double TurnHinge(const Quad& from, const Quad& towards, HingeState& h
   const double square = x * x + y * y;
   const double length = std::sqrt(square);
   // If the optimum is outside the range, take the end that is nearer on the circle, because it has the larger gain; on
-  // a tie, take the lower end. The test uses (x, y) and not its direction, so that the test need not wait for the
-  // division.
+  // a tie, take the lower end. The test uses (x, y) without dividing it by its length, so that the test need not wait
+  // for the division.
   const bool is_inside = x * hinge.cos_middle + y * hinge.sin_middle >= hinge.cos_half * length;
   const bool is_below = 0.0 >= y * hinge.cos_middle - x * hinge.sin_middle;
   const double half_s = is_below ? 0.0 - hinge.sin_half : hinge.sin_half;
