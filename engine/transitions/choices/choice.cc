@@ -131,9 +131,9 @@ TransitionRecord PlanUnbroken(const MotionLibrary& library, const TransitionRequ
   return record;
 }
 
-/// Plans a transition as games make it, according to paper A (section 1: all their clips begin and end standing). It
-/// leaves at once, tweens into a standing pose, and tweens from there into the wanted clip's first frame. It ignores
-/// the budget; the rules of tweens determine their duration.
+/// Plans a transition as games make it, according to paper A (section 1: all their clips begin and end standing). The
+/// playing clip is left at once. One tween leads into a standing pose, a second tween from there into the wanted clip's
+/// first frame. The budget is ignored: the rules of tweens determine how long the tweens last.
 TransitionRecord PlanThroughStanding(const MotionLibrary& library, const TransitionRequest& request,
                                      const MatchRules& rules) {
   const TaggedClip &playing = library.tagged[request.from], &next = library.tagged[request.to];

@@ -6,7 +6,8 @@
 
 namespace etude {
 
-/// Training motions from which fillers learn; no judged motion may be among them. *(Ours, after motion matching.)*
+/// Training motions from which fillers learn; motions on which fillers are evaluated may not be among them. *(Ours; the
+/// search for similar frames is taken from motion matching.)*
 ///
 /// The squared distance of two gaps, m², is a mean over the joints. It compares features in the root's frame: at both
 /// ends of the gap, the joints' positions, the vertical direction and the root's height; at the first end also the

@@ -109,8 +109,8 @@ Splice SpliceSegments(std::span<const BodyMotion> clips, std::span<const Segment
     if (join.align != nullptr && preferred && preferred->carried) {
       Carry(old, left, static_cast<int>(std::lround(preferred->blend_s * rate_hz)), next);
     }
-    // Measure the gap at the point between the clips, not in the joined motion; the gap then depends only on the choice
-    // of frames.
+    // Measure the jump at the point between the unjoined clips, not in the joined motion: the jump then depends only on
+    // the choice of frames.
     const PlacedPoint point{.frame = static_cast<int>(shown.size()) - 1,
                             .leaving_before = old.Before(left),
                             .leaving = old.At(left),
