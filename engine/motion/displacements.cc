@@ -210,7 +210,7 @@ std::vector<Pop> FindPops(const BodyMotion& motion, const std::vector<PoseSteps>
       largest[Index(h.joint)] = std::max(largest[Index(h.joint)], h.size);
     }
     const auto at = static_cast<std::size_t>(std::ranges::max_element(largest) - largest.begin());
-    // A joint that pops also displaces the joints farther out on its limb, so name the innermost joint.
+    // A joint that pops also displaces the joints farther out on its limb, so the fault names the innermost joint.
     Role joint = AllRoles()[at];
     for (auto parent = ParentOf(joint); parent && largest[Index(*parent)] > kAsLarge * largest[at];
          parent = ParentOf(joint)) {
