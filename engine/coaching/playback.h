@@ -60,7 +60,8 @@ struct Playback {
   double dance_frame = 0;                 ///< index of the shown frame of the dance; used only if `path` is null
 };
 
-/// The playing clip and the frame in it; in a transition, the first frame of the wanted clip.
+/// The clip that a path plays, and the shown frame of this clip; during a transition, the wanted clip and the first of
+/// its frames that will be shown.
 struct PlayedClip {
   int clip = 0;
   double frame = 0;

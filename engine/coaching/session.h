@@ -25,7 +25,8 @@ class CoachSession {
     const Coach* coach = nullptr;
     const Recogniser* recogniser = nullptr;  ///< a recogniser that was taught the moves of the dance, in the same order
     FilterOptions filter = {};
-    /// If true, a second follower judges the mirror image; it affects only the coach's words and the computing time.
+    /// If true, a second MoveFollower judges the mirror image of each frame that the first MoveFollower judges. This
+    /// affects only the coach's words and the computing time.
     bool tells_wrong_side = true;
   };
 
@@ -40,7 +41,8 @@ class CoachSession {
   CoachOutput Next(const SensedFrame& frame, const SessionInput& input = {});
 
   const CoachState& state() const { return state_; }
-  /// Replaces the state while no window is open. The states of filters and followers do not change.
+  /// Replaces the state while no window is open. The states of filters and of the recogniser's MoveFollowers do not
+  /// change.
   void ReplaceState(CoachState state) { state_ = std::move(state); }
 
  private:
