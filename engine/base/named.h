@@ -17,7 +17,7 @@ struct Named {
   Value value;
 };
 
-/// Returns the member `name` of a row; the default of FindByName.
+/// Returns the member `name` of a row; the default `name_of` of FindByName.
 struct NameMember {
   template <typename Row>
   constexpr std::string_view operator()(const Row& row) const {

@@ -51,7 +51,7 @@ struct CoachOptions {
   /// begins and ends, because learners follow with a lag.
   double reaction_s = 0.3;
   /// True if the player dances as in a mirror: the player's left side follows the coach's right side. The caller must
-  /// then mirror the input (CoachSession does so); in the coach, this option only changes what it says.
+  /// then mirror the input. CoachSession reads this option and does so; Coach does not read it.
   bool player_mirrors = false;
   /// After this number of consecutive mistakes, the coach plays the act `puzzled` in place of head shake or wave.
   int puzzled_after = 3;
@@ -81,7 +81,8 @@ struct CoachInput {
   Evidence evidence = {};
   std::optional<double> other_side = {};  ///< Evidence::asked of the mirror image; nullopt if it is not computed
   std::optional<double> music_s = {};     ///< position in the song that is heard now, in seconds; nullopt without music
-  /// For policy `oracle`: true if the requested performance was right. It is read in the last frame of the performance.
+  /// For policy `oracle`: true if the requested performance was right. It is read in the frame in which the window
+  /// closes.
   std::optional<bool> told_right = {};
   bool moment = false;  ///< true: policy `yoked` corrects as soon as the dance can be interrupted
 };

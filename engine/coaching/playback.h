@@ -10,8 +10,9 @@
 
 namespace etude {
 
-/// The frames of a transition that are shown after the request, until only the wanted clip plays. (A floor move rotates
-/// a clip about the vertical and shifts it on the floor.)
+/// The frames that are shown after a request: those of the transition, then those of the entered clip to its end (of an
+/// act only the beginning is entered: DanceLibrary::ClipEntering). (A floor move rotates a clip about the vertical and
+/// shifts it on the floor.)
 struct ShownPath {
   int clip = 0;                  ///< the wanted clip, as an index in the library
   std::vector<BodyPose> frames;  ///< shown poses, in the coordinates of the clip that played before
@@ -22,8 +23,8 @@ struct ShownPath {
   std::shared_ptr<const TransitionRecord> record;
 };
 
-/// Plans the transitions within a dance by one method. Each transition is planned on its first use and cached, so a
-/// result does not depend on earlier calls. The class is not thread-safe.
+/// Plans the transitions within a dance by one method. Each transition is planned on its first use and cached. A result
+/// depends only on the arguments, not on earlier calls. The class is not thread-safe.
 class DanceTransitions {
  public:
   /// Plans the transitions of `library`, which must outlive this object.
@@ -54,12 +55,13 @@ class DanceTransitions {
 /// The current state of playing: the dance itself, or a path (a transition and the clip it leads into).
 struct Playback {
   std::shared_ptr<const ShownPath> path;  ///< the path that is shown; null while the dance itself plays
-  double path_frame = 0;                  ///< index in the path's frames or, later, in the path's clip; fractional
+  double path_frame = 0;                  ///< frames since the path began, also while its clip plays; fractional
   FloorMove place;                        ///< floor move of the path
   double dance_frame = 0;                 ///< index of the shown frame of the dance; used only if `path` is null
 };
 
-/// The playing clip and the frame in it; in a transition, the first frame of the wanted clip.
+/// The clip that a path plays, and the shown frame of this clip; during a transition, the wanted clip and the first of
+/// its frames that will be shown.
 struct PlayedClip {
   int clip = 0;
   double frame = 0;

@@ -41,7 +41,8 @@ class CoachSession {
   CoachOutput Next(const SensedFrame& frame, const SessionInput& input = {});
 
   const CoachState& state() const { return state_; }
-  /// Replaces the state while no window is open. The states of filters and followers do not change.
+  /// Replaces the state while no window is open. The states of filters and of the recogniser's MoveFollowers do not
+  /// change.
   void ReplaceState(CoachState state) { state_ = std::move(state); }
 
  private:

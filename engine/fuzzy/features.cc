@@ -16,7 +16,7 @@ struct FeatureFacts {
   std::span<const Role> joints;
 };
 
-// Limb angles are measured against the trunk, so all features except elbows and knees depend on hips and shoulders.
+// The angles of upper arms and thighs are measured against the trunk, so they also depend on hips and shoulders.
 constexpr std::array kRightArmRaise = {kRightShoulder, kRightElbow, kLeftShoulder, kLeftHip, kRightHip};
 constexpr std::array kLeftArmRaise = {kLeftShoulder, kLeftElbow, kRightShoulder, kLeftHip, kRightHip};
 constexpr std::array kRightElbowBend = {kRightShoulder, kRightElbow, kRightWrist};

@@ -73,8 +73,8 @@ std::optional<double> ComputeMotionSimilarity(std::span<const Grades> a, std::sp
   const std::vector<Grades> rows = Scaled(a, options.weights), columns = Scaled(b, options.weights);
   const Band band(rows.size(), columns.size(), options.band);
   const double steps = static_cast<double>(rows.size() + columns.size());
-  // The similarity is below `at_least` exactly if the sum of distances along the path exceeds `max_cost`, apart from a
-  // margin for rounding.
+  // The similarity is below `at_least` if and only if the sum of distances along the path exceeds `max_cost`, apart
+  // from a margin for rounding.
   const double max_cost =
       options.at_least > 0 ? steps * options.half_at * (1 / options.at_least - 1) * (1 + 1e-12) + 1e-12 : kUnreached;
 

@@ -44,8 +44,8 @@ struct MotionSimilarityOptions {
 /// 1978: the symmetric form without slope constraint, divided by the sum of the two motions' lengths). The formula for
 /// s is Kóczy's, s = 1 / (1 + d), with the distance in units of `half_at`.
 ///
-/// Returns nullopt if the similarity is below `at_least` or a motion has no frame. It takes O(n · m · band) time and
-/// O(m) memory.
+/// Returns nullopt if the similarity is below `at_least` or a motion has no frame. The computation takes O(n · m ·
+/// band) time and O(m) memory for motions of n and m frames.
 std::optional<double> ComputeMotionSimilarity(std::span<const Grades> a, std::span<const Grades> b,
                                               const MotionSimilarityOptions& options = {});
 

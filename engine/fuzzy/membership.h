@@ -16,7 +16,8 @@ struct Node;
 
 /// The shapes of membership functions that paper A names (section 2.4, figure 1). Inputs have the feature's unit.
 struct Triangular {
-  /// The grade is 0 up to `left`, 1 at `peak`, 0 from `right`; left ≤ peak ≤ right, equal for a vertical side.
+  /// The grade is 0 up to `left`, 1 at `peak`, 0 from `right`; left ≤ peak ≤ right; two of these are equal if the side
+  /// between them is vertical.
   double left, peak, right;
 };
 struct Trapezoidal {

@@ -9,7 +9,7 @@ namespace etude {
 /// One training example: two frames of different clips, and whether their poses are practically the same.
 struct LabelledPair {
   PerFeature squared_gaps{};  ///< Δ_k² of the two frames
-  bool close = false;         ///< true if every joint's positions in the two frames are closer than the pose gap
+  bool close = false;         ///< true if the PoseGap of the two frames is below a limit that the caller sets
 };
 
 struct WeightFitOptions {

@@ -25,7 +25,7 @@ struct CaptureBody {
     bool has_direction = true;
     double sense = 1;  ///< −1 if the tree's limb points inwards and the annotator's stroke outwards; else 1
   };
-  /// The twist of a limb, given by two neighbouring limbs: the limb's X axis points along
+  /// The twist of a limb, given by two neighbouring limbs. `bends` is 1 or −1. The limb's X axis points along
   /// `bends` · (middle − upper) × (lower − middle).
   struct Twist {
     int joint;
@@ -50,7 +50,7 @@ struct CaptureBody {
   bool hips_turn = false;
   std::vector<End> ends;  ///< one per effector of the tree
   std::vector<Twist> twists;
-  LimbLengths lengths;                      ///< paper B's lengths; each is the mean of left and right
+  LimbLengths lengths;                      ///< the limb lengths of paper B's body; each is the mean of left and right
   std::array<double, kRoleCount> bones{};   ///< for each role, the distance from its parent role at rest, metres
   std::array<bool, kRoleCount> is_rigid{};  ///< for each role: true if no joint lies between role and parent role
   std::vector<ClipJoint> skeleton;          ///< parents first; empty for paper B's body, which has its own `ToClip`

@@ -13,7 +13,8 @@ using enum Role;
 constexpr double kSamePositionM = 1e-6;
 constexpr double kMinLimbLengthM = 1e-4;
 constexpr double kMaxOffLineM = 1e-4;
-// A range that never limits an angle: start angles are within half a turn of zero, so no angle reaches ±3π.
+// A range that never limits an angle: start angles are within half a turn of zero, and an angle would have to turn by a
+// whole turn to reach ±3π.
 constexpr double kUnlimited = 3 * kPi;
 // The largest absolute angle of a joint that coincides with no role, radians.
 constexpr double kMaxHiddenAngle = Radians(90);
@@ -44,8 +45,8 @@ class Parts {
     return std::ranges::all_of(AllRoles(), [&](Role role) { return IsBelowPelvis(carrier_[Index(role)]); });
   }
 
-  /// Removes parts that do not belong to the pelvis or its descendants, and parts without tips. If a part turns about
-  /// the same point as its parent, it becomes a child of its grandparent.
+  /// Removes all parts but the pelvis and its descendants, and parts without tips (`TipsOf`). If a part turns about the
+  /// same point as its parent, it becomes a child of its grandparent.
   void Simplify() {
     for (std::size_t i = 0; i < all_.size(); ++i) all_[i].is_left_out = !IsBelowPelvis(static_cast<int>(i));
     for (const Role role : AllRoles()) AssignToParent(role);
@@ -251,7 +252,7 @@ class Builder {
                               : IsArm(limb.leads_to)  ? glm::cross(z, kAhead)
                                                       : kToTheRight;
     glm::dvec3 x = wanted - glm::dot(wanted, z) * z;
-    // If that X axis is nearly parallel to Z, take the forward axis instead; if the forward axis is, too, take the
+    // If `wanted` is nearly parallel to Z, take the forward axis instead; if both are nearly parallel to Z, the
     // downward axis.
     constexpr double kAlong = 0.1;
     if (glm::length(x) < kAlong) x = kAhead - glm::dot(kAhead, z) * z;

@@ -23,7 +23,7 @@ enum class WeightRule {
   kAdaptive,       ///< w_p = e, w_ok = θ_k in degrees: B's proposal without factors
   kAdaptiveTuned,  ///< w_p = 0.003 e, w_ok = θ_k in degrees
   kAdaptivePower,  ///< w_p = 5·10⁻⁵ e^0.75, w_ok = θ_k^0.75, radians
-  kWangChen,       ///< w_p = 0.0007 (1 + min/max(|P_d|, |P_c|)), w_o = 1 (Wang and Chen 1991)
+  kWangChen,       ///< w_p = 0.0007 · `WangChenFactor`, w_o = 1 (Wang and Chen 1991)
 };
 
 /// How often a solver recomputes adaptive weights: once per sweep, joint, or degree of freedom.
@@ -54,8 +54,8 @@ struct WeightFormula {
 /// Returns the rule in SI units; for `kWangChen` the formula lacks the factor 1 + ρ.
 WeightFormula FormulaOf(WeightRule rule);
 
-/// Returns true if the weights depend on the errors. Instead, the weights of `kWangChen` depend on the joint that
-/// turns.
+/// Returns true if the weights depend on the errors. Returns false for `kWangChen`, whose weights depend on the joint
+/// that turns.
 bool IsAdaptive(WeightRule rule);
 
 /// Returns the weights of an effector that is `distance` metres from its target and whose axes are off by `axis_angles`
@@ -63,7 +63,7 @@ bool IsAdaptive(WeightRule rule);
 EffectorWeights ComputeWeights(WeightRule rule, double distance, const glm::dvec3& axis_angles);
 
 /// Returns 1 + ρ, where ρ is the ratio min / max of two distances from the joint: the effector's and the target's.
-/// Returns 1 if these are 0.
+/// Returns 1 if both distances are 0.
 double WangChenFactor(const glm::dvec3& current, const glm::dvec3& desired);
 
 /// The desired pose X_WD of one end effector, and the weights of its position and of its axes.
@@ -108,7 +108,7 @@ struct IkOptions {
   /// A pose has converged if every effector is nearer to its target than `position_goal`, and each of the effector's
   /// axes is nearer to the target's axis than `axis_goal`. Axes and positions of weight 0 do not count. (A mean over
   /// the axes would accept a twisted limb, because a twist does not change the limb's own axis.) The defaults, 0.1 cm
-  /// and 0.1°, mean "solved practically".
+  /// and 0.1°, are accurate enough for practical use.
   double position_goal = 0.001;     ///< metres
   double axis_goal = Radians(0.1);  ///< radians
   /// A solver has stalled if no angle changes by more than `stall_change` radians in one iteration. The default is far

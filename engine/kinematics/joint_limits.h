@@ -15,8 +15,8 @@ enum class LimitSet {
   kAaos,        ///< American Academy of Orthopaedic Surgeons
   kKendall,     ///< Kendall and McCreary; values missing here, in kHoppenfeld or in kAma are taken from kAaos
   kHoppenfeld,  ///< Hoppenfeld
-  /// American Medical Association. Its column has two parts of the trunk: flexion and rotation are the thoracic
-  /// spine's, extension and lateral bending the lumbar spine's.
+  /// American Medical Association. For the trunk, this column gives flexion and rotation of the thoracic spine, but
+  /// extension and lateral bending of the lumbar spine.
   kAma,
 };
 

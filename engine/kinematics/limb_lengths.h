@@ -27,8 +27,8 @@ struct LimbObservation {
 /// Returns the roles at which `LimbObservation::directions` is read: the lower joints of thirteen limbs.
 std::span<const Role, 13> ObservedLimbs();
 
-/// The role `spine` is on the line from navel to neck, at this fraction of it. *Ours: paper B's body has no such joint;
-/// the value lies between the built-in body's 0.40 and 0.5.*
+/// The role `spine` is on the line from navel to neck, at this fraction of the way. *Ours: paper B's body has no such
+/// joint; the value lies between 0.40, the fraction in the built-in body, and 0.5, the middle.*
 constexpr double kSpineShare = 0.45;
 
 /// Returns the positions of the twenty joints after every limb got its known length (paper B, section 3.2, figure 3.2):
@@ -56,10 +56,10 @@ LimbLengths MeasureLimbLengths(std::span<const BodyPose> poses);
 /// - A missing end effector follows from the rest of the body: hips and shoulders have their orientation in `like`, and
 ///   the limbs extend from there with their lengths and directions. If no foot was seen, the hips are placed below the
 ///   shoulders, along the trunk of `like`; if no hand was seen, the shoulders are placed above the hips in the same
-///   way. If neither was seen, the hips follow from the head; if no end effector was seen, the hips are where `like`
-///   has them.
+///   way. If neither a foot nor a hand was seen, the hips follow from the head; if no end effector was seen, the hips
+///   are where `like` has them.
 /// A complete observation is returned unchanged.
-/// @param like a pose near the observed one: the last one recovered, or a standing body
+/// @param like a pose near the observed pose: the pose recovered last, or a standing body
 /// @param is_placed true if `like` stands at the right position in the world
 /// @return nullopt if no end effector was seen and `is_placed` is false
 std::optional<LimbObservation> CompleteObservation(const LimbObservation& seen, const LimbLengths& lengths,

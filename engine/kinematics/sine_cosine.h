@@ -11,11 +11,11 @@ struct SineCosine {
 
 /// Returns sine and cosine of an angle in radians, for |angle| ≤ 10⁶. The error is at most 1.5 units in the last place
 /// for angles up to 100 rad, and 2.5 units for larger angles. The code has no branches, so compilers can compute
-/// several angles at once. It gives the same bits with every C library.
+/// several angles at once. The result has the same bits with every C library.
 ///
 /// The angle is reduced to r in [−π/4, π/4] by subtracting the nearest multiple of π/2, with π/2 split into three parts
-/// (Cody and Waite); the first part is short enough for its multiple to be exact. In that interval, the Taylor series
-/// up to r¹⁷ (sine) and r¹⁶ (cosine) are accurate to 10⁻¹⁷.
+/// (Cody and Waite); the first part is short enough for its multiple to be exact. For r in this interval, the Taylor
+/// series up to r¹⁷ (sine) and r¹⁶ (cosine) are accurate to 10⁻¹⁷.
 inline SineCosine ComputeSineCosine(double angle) {
   constexpr double kTwoOverPi = 0.6366197723675814;
   constexpr double kFirst = 0x1.921fb544p+0, kSecond = 0x1.0b4611a6p-34, kThird = 0x1.3198a2e037073p-69;

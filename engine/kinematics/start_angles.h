@@ -15,8 +15,8 @@ namespace etude {
 /// compensates as far as possible. The positions of a limb's two ends do not define its rotation about its own line.
 /// These rules do *(ours)*:
 /// - upper arms and the right thigh: the X axis of elbow or knee is normal to the two limbs that meet there, unless
-///   these limbs are nearly parallel (3°). In that case, and for the neck, the smallest rotation from the parent's rest
-///   frame is used;
+///   these limbs are nearly parallel (3°). In that case, and for the neck, the limb turns by the smallest rotation from
+///   its direction at rest (all angles of the joint zero);
 /// - the left leg, whose three limbs are joined by hinges with a common X axis: this axis is the mean of the normals at
 ///   ankle and knee, and the limbs lie in the plane normal to it, as near as possible to their directions. If the whole
 ///   leg with the foot is straight, the axis is the component of the hip line that is normal to the leg;

@@ -95,8 +95,9 @@ struct FloorMove {
   BodyPose Apply(const BodyPose& pose) const;
 };
 
-/// Returns the unit horizontal direction that the body faces: perpendicular to the lines through the hips and through
-/// the shoulders, +Z at rest. Returns +Z for a degenerate pose (both lines vertical).
+/// Returns the unit horizontal direction that the body faces: perpendicular to the sum of the vectors from right to
+/// left hip and from right to left shoulder, +Z at rest. Returns +Z for a degenerate pose (the sum is vertical or
+/// zero).
 glm::dvec3 Facing(const BodyPose& pose);
 /// Returns the heading: the angle of `Facing` about +Y, measured from +Z, in (−π, π].
 double Heading(const BodyPose& pose);

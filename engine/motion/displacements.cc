@@ -72,7 +72,7 @@ std::vector<FrameRange> GroupsOf(const std::vector<int>& frames) {
 
 std::vector<FrameRange> FindFrozen(const BodyMotion& motion) {
   constexpr double kNeverAsStill = 0.003;  // stricter limit of the joints' mean speed near a freeze, metres per second
-  constexpr double kGentle = 0.6;          // a step beside a freeze is gentle up to this share of the step beyond
+  constexpr double kGentle = 0.6;          // a step next to a freeze is gentle up to this share of the next step away
   // Compute the mean speed of the joints at each step, and mark the steps without motion.
   const int steps = static_cast<int>(motion.poses.size()) - 1;
   std::vector<double> mean(steps);
@@ -210,7 +210,7 @@ std::vector<Pop> FindPops(const BodyMotion& motion, const std::vector<PoseSteps>
       largest[Index(h.joint)] = std::max(largest[Index(h.joint)], h.size);
     }
     const auto at = static_cast<std::size_t>(std::ranges::max_element(largest) - largest.begin());
-    // A joint that pops also displaces the joints farther out on its limb, so name the innermost joint.
+    // A joint that pops also displaces the joints farther out on its limb, so the fault names the innermost joint.
     Role joint = AllRoles()[at];
     for (auto parent = ParentOf(joint); parent && largest[Index(*parent)] > kAsLarge * largest[at];
          parent = ParentOf(joint)) {

@@ -7,7 +7,7 @@ inline constexpr double kAgreeingShare = 0.7;  ///< share of joints that move al
 
 // Floats and sinks.
 inline constexpr double kFloatInAll_m = 0.10, kSink_m = 0.06, kSink_s = 0.15;
-inline constexpr double kLevel_m = 0.04;  ///< minimum vertical displacement
+inline constexpr double kLevel_m = 0.04;  ///< minimum vertical displacement of the whole body
 inline constexpr double kStand_m = 0.15;  ///< feet that rest higher than this are taken to stand on an object
 
 /// A body floats if its lowest joint stays above `height_m` for more than `longest_s`.
@@ -29,7 +29,7 @@ inline constexpr double kJumpAlongFloor_m = 0.10, kJump_m = 0.25;
 inline constexpr double kPop_m = 0.25, kSurePop_m = 0.45, kPopTimesUsual = 6, kUsualPop = 0.95;
 /// In clips of kShortClipFrames to kPopFrames / (1 − kUsualPop) frames, the usual third difference ignores the
 /// `kPopFrames` largest differences; a pop exceeds `kShortPop_m` and kPopTimesUsual times the usual difference. Clips
-/// below `kShortClipFrames` have no such limit.
+/// with fewer than `kShortClipFrames` frames have no such limit.
 inline constexpr double kShortPop_m = 0.36, kShortClipFrames = 45, kPopFrames = 9;
 
 // Freezes.

@@ -14,7 +14,7 @@ namespace etude {
 /// The joints of the feet.
 inline constexpr std::array kFootJoints = {Role::kLeftFoot, Role::kRightFoot, Role::kLeftAnkle, Role::kRightAnkle};
 
-/// A motion with its floor, without the displacements of the whole body.
+/// A motion, its floor, and its positions without the displacements of the whole body (Displacements::common).
 class GroundView {
  public:
   /// `motion` and `displacements` must outlive this object. FindMotionFaults says how the floor is found.

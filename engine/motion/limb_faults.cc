@@ -27,7 +27,7 @@ constexpr std::array kLegs = {Leg{kLeftHip, kLeftKnee, kLeftAnkle, kLeftFoot},
 constexpr std::array kArms = {Arm{kLeftElbow, kLeftWrist, kLeftHand}, Arm{kRightElbow, kRightWrist, kRightHand}};
 
 /// Appends a fault for every stretch of at least `min_s` seconds in which `value` is above `limit`; gaps of less than
-/// 0.4 s are bridged. A fault's size is its largest value.
+/// 0.4 s between such stretches are included. A fault's size is its largest value.
 void AppendRanges(const BodyMotion& motion, const std::vector<double>& value, double limit, double min_s,
                   MotionFault fault, std::vector<MotionFault>& faults) {
   std::vector<bool> is_beyond;

@@ -245,7 +245,7 @@ std::vector<std::string> FaultSentences(const std::vector<MotionFault>& faults) 
   std::vector<std::string> sentences;
   int left_out = 0;
   for (const MotionFault& fault : faults) {
-    // A smaller distance from the spine is worse; otherwise a larger size is worse.
+    // For kPasses, a smaller size (distance from the spine) is worse; for all other kinds, a larger size is worse.
     const auto is_worse = [&](const MotionFault& other) {
       if (other.kind != fault.kind || &other == &fault) return false;
       if (other.size == fault.size) return &other < &fault;

@@ -18,7 +18,7 @@ enum class FaultKind {
   kSkates,     ///< standing feet move along the floor; size: their common speed, metres per second
   kJumps,      ///< the whole body is displaced from one frame to the next; size: distance, metres
   kPops,       ///< one joint is displaced alone; size: distance, metres
-  kFreezes,    ///< no joint moves while the body was in motion; size: seconds
+  kFreezes,    ///< no joint moves, and the body stops or starts abruptly; size: seconds
   kStretches,  ///< a limb changes its length; size: share of its median length
   kBends,      ///< a knee bends backwards; size: degrees
   kTorn,       ///< a joint is at a wrong distance from its neighbours, or (without a joint) left and right are
@@ -58,7 +58,7 @@ struct MotionFaults {
 /// Options of FindMotionFaults.
 struct FaultOptions {
   std::optional<double> floor_m = {};  ///< the height of the floor; absent: see FindMotionFaults
-  double begin_s = 0;                  ///< the time of the first frame; the times of faults count from it
+  double begin_s = 0;                  ///< time of the first frame by the file's clock, which faults' times use
   /// For each frame, the joints that it does not show, because the file lacks them and a reader guessed their
   /// positions; empty: all joints are shown. Limbs that end at such joints are not judged.
   std::vector<JointSet> unseen = {};

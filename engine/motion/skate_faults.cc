@@ -88,7 +88,7 @@ std::optional<Glide> GlideAround(const GroundView& ground, int frame, const Glid
 /// Appends a skate from the first to the last of `glides` if it lasts long enough.
 void AppendSkate(const GroundView& ground, const std::vector<Glide>& glides, std::vector<MotionFault>& faults) {
   constexpr double kMargin_s = 0.15, kMinShare = 0.25, kShare = 0.1;
-  // Each glide's window extends beyond its frame, so extend the skate by a part of the window.
+  // Each glide's window extends beyond its frame, so extend the skate at both ends by a part of the window.
   const int margin = FramesIn(ground, kMargin_s, 0), step = FramesIn(ground, kStep_s, 1), end = ground.frames() - 1;
   const int first = glides.front().frame <= step ? 0 : std::max(glides.front().frame - margin, 0);
   const int last = glides.back().frame >= end - step ? end : std::min(glides.back().frame + margin, end);

@@ -15,8 +15,8 @@ namespace etude {
 using JointSet = std::bitset<kRoleCount>;
 
 /// Rules that decide which joints support a body, without an assumed floor; metres, seconds. The rules are our own.
-/// Their values were tuned on a hundred requests to each of ten libraries (built-in moves, captures, cartoons) and
-/// evaluated on two hundred others.
+/// Their values were tuned on a hundred transition requests to each of ten libraries (built-in moves, captures,
+/// cartoons) and evaluated on two hundred other requests.
 struct SupportRules {
   double lowest = 0.12;       ///< a joint may bear the body if it is at most this high above the lowest joint
   double rest_speed = 0.5;    ///< a joint is at rest up to this speed (feet roll, and captures are noisy)
@@ -77,8 +77,9 @@ struct Support {
 /// joint bears the clip (SupportRules::heel, toes). A joint supports the body
 /// - if it is at rest where the same joint of a clip rests near that time: at most SupportRules::height above and at
 ///   most SupportRules::level below the lowest such height, or within `height` of a higher surface; or
-/// - if it moves like a joint that bears the clip in that frame or a neighbouring one: the heights of the two joints
-///   differ by at most SupportRules::height, their velocities by at most SupportRules::rest_speed.
+/// - if it moves like the same joint of a clip, and that joint bears the clip's body in that frame or a neighbouring
+///   one: the heights of the two joints differ by at most SupportRules::height, their velocities by at most
+///   SupportRules::rest_speed.
 /// Consecutive frames without support are a flight if the body is supported just before and just after them, if the
 /// ground can have thrown it (SupportRules::max_push), and if the mass centre falls as SupportRules states over these
 /// frames, or over these frames and the two neighbouring frames. A flight is judged over at least five frames.

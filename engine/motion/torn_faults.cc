@@ -18,7 +18,7 @@ using enum Role;
 constexpr double kUnseen = std::numeric_limits<double>::quiet_NaN();
 
 // All limits are shares of the body's size: the length of a leg plus the trunk. In 269 clips of seven libraries,
-// captured bodies without faults stay below 0.8 of each limit. Characters animated by hand stay below each limit,
+// captured bodies without faults stay below 0.8 times each limit. Characters animated by hand stay below each limit,
 // unless they grow or come apart.
 
 /// Two joints whose distance hardly changes. Limbs are not listed, because FindStretches judges them.

@@ -80,8 +80,9 @@ using Pattern = std::vector<PoseVector>;
 constexpr double kFar = std::numeric_limits<double>::infinity();
 
 /// An unknown motion at this distance, metres, is the alternative to a move if no known motion is nearer. In 19 of 20
-/// cases, another person's performance of a move is nearer to the move's examples than this (tests/sim/performer; the
-/// medians of two recorded sets are 10 and 16–28 cm).
+/// cases, another person's performance of a move is nearer to the move's examples than this (simulated people,
+/// tests/sim/performer). In recordings of real people, the median of that person's distance is 10 cm in one set and
+/// 16–28 cm in another.
 constexpr double kUnknownMotionDistance = 0.21;
 
 /// An example of a move and the wrong patterns that it is compared with. All have the same number of steps.

@@ -17,8 +17,8 @@ namespace etude {
 /// poses must be held. The score of a passage is the score of its worst pose.
 class PoseSequence {
  public:
-  /// `poses` ≥ 1 is the number of poses; `hold_frames` ≥ 1. A spotted passage lasts at most `span_frames` ≥ 0 frames
-  /// from its first pose to its last.
+  /// `poses` ≥ 1 is the number of poses; `hold_frames` ≥ 1. A passage for `Spotted` lasts at most `span_frames` ≥ 0
+  /// frames from its first pose to its last.
   PoseSequence(std::size_t poses, int hold_frames, int span_frames);
 
   /// Starts a new window, that is, the time in which the move is asked for: `Asked` counts only passages that begin
@@ -69,9 +69,9 @@ struct KeyPoseOptions {
 };
 
 /// Returns how well this frame matches the pose, in [0, 1]: 1 / (1 + s²). Here s is the smallest factor by which all
-/// tolerances must be multiplied until the required share of angles is within them. The result is at least ½ exactly if
-/// paper A's crisp rule is fulfilled; a lower threshold means wider tolerances. It is 0 if no angle has a positive
-/// weight.
+/// tolerances must be multiplied until the required share of angles is within them. The result is at least ½ if and
+/// only if paper A's crisp rule is fulfilled (every required angle within its tolerance). The result is 0 if no angle
+/// has a positive weight.
 double MatchOf(const FeatureFrame& frame, const TaughtPose& pose, const TrackingWeights& weights,
                const KeyPoseOptions& options);
 

@@ -18,7 +18,7 @@ double Sigmoid(double log_odds) { return 1.0 / (1.0 + std::exp(-log_odds)); }
 constexpr std::size_t kBins = 64;
 constexpr std::size_t kRows = 3;  // depth of a tree: comparisons from the root to a leaf
 
-/// The performances of one boosting round, with their measures as histogram bins.
+/// The performances of one multiple-instance round (BoostingOptions::rounds), with their measures as histogram bins.
 struct Sample {
   std::vector<std::array<std::uint8_t, kMeasureCount>> bins;
   std::vector<std::array<double, kBins - 1>> cuts;  // for each measure: values in (cuts[b − 1], cuts[b]] are in bin b

@@ -69,10 +69,10 @@ class StepDescriber {
 /// Returns the steps of a recorded stream; steps without a body are left out.
 std::vector<PoseVector> DescribeStream(const SkeletonStream& stream, PoseParts parts);
 
-/// A follower that compares motions in steps. Its evidence changes only when a step is completed.
+/// A MoveFollower that compares motions in steps. Its evidence changes only when a step is completed.
 class StepFollower : public MoveFollower {
  public:
-  /// Creates a follower for frames at `rate_hz` > 0.
+  /// `rate_hz` > 0 is the stream's frame rate; `moves` is the number of taught moves.
   StepFollower(PoseParts parts, const TrackingWeights& weights, std::size_t moves, double rate_hz);
 
   void Ask(std::optional<std::size_t> move) final;

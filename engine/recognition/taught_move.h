@@ -27,7 +27,7 @@ struct TaughtMove {
   std::string name;
   std::vector<TaughtPose> poses = {};  ///< key poses, which must be reached in this order
   /// The longest duration of one performance: the move's length at its slowest tempo. Seconds, above 0 and at most
-  /// kMaxSpan. If the move was not asked for, its performance may begin at most this long ago.
+  /// kMaxSpan. If the move was not asked for, its performance may begin at most this long before the present frame.
   double span_s = 10;
   std::vector<SkeletonStream> examples = {};          ///< right performances from the first beat to the last
   std::vector<SkeletonStream> counter_examples = {};  ///< wrong performances that look similar

@@ -143,8 +143,8 @@ struct WholeMove {
   }
 };
 
-/// Returns true if the examples' median distance from their own mirror images exceeds the usual distance between two
-/// people.
+/// Returns true if the examples' median squared distance from their own mirror images exceeds twice the usual squared
+/// distance between two people.
 bool HasSides(const WholeMove& move) {
   constexpr double kOwnImage = 2;
   std::vector<double> nearest;

@@ -18,8 +18,8 @@ namespace etude {
 ///   its own mirror image has no wrong side.
 /// - A move that was not asked for is spotted with evidence n / (r + n), where r is its distance and n the smallest
 ///   distance of another move within the last second. The value of n is limited to a distance that other people's
-///   performances rarely exceed. If a move has fewer than three examples, the spread between people is unknown, and the
-///   judge's evidence is used.
+///   performances rarely exceed. If any move has fewer than three examples, the spread between people is unknown, and
+///   the judge's evidence is used for all moves.
 std::unique_ptr<Recogniser> MakeWholeBodyRecogniser(std::span<const TaughtMove> taught, const TrackingWeights& weights,
                                                     std::unique_ptr<Recogniser> judge);
 

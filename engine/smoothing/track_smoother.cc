@@ -65,7 +65,7 @@ struct WhiteMeasurement {
     int rows = 0;
     for (int i = 0; i < 3; ++i) rows += eigen.eigenvalues()[i] > min_information && eigen.eigenvalues()[2] > 0;
     A.resize(rows, 3);
-    for (int i = 0; i < rows; ++i) {  // Eigen sorts them in ascending order
+    for (int i = 0; i < rows; ++i) {  // Eigen sorts eigenvalues in ascending order
       const int column = 3 - rows + i;
       A.row(i) = std::sqrt(eigen.eigenvalues()[column]) * eigen.eigenvectors().col(column).transpose();
     }

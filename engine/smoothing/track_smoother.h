@@ -33,7 +33,7 @@ struct SmoothedTrack {
   std::vector<glm::dvec3> positions;    ///< metres, expected values given the measurements of all frames
   std::vector<glm::dvec3> velocities;   ///< m/s
   std::vector<glm::dmat3> covariances;  ///< covariances of the positions, m²
-  double log_likelihood = 0;            ///< natural logarithm of the likelihood of the measurements under this motion
+  double log_likelihood = 0;            ///< natural logarithm of the measurements' likelihood by the motion model
 };
 
 /// Smooths a track by the method of Rauch, Tung and Striebel (1965): a Kalman filter forwards, then a backward pass

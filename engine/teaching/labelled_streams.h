@@ -20,7 +20,7 @@ struct NamedStream {
   std::string person;  ///< the person in the file's name, for known data sets (PersonInName); otherwise empty
   SkeletonStream stream;
   double start_s = 0;                     ///< time of the first frame by the file's own clock
-  std::string description;                ///< one line for users: format, length, states, level, remarks
+  std::string description;                ///< one line for users: format, length, tracking states, StreamLevel, remarks
   std::optional<BodyMotion> motion = {};  ///< the true motion; known for clips only
 };
 
@@ -73,8 +73,8 @@ using LabelTexts = std::map<std::string, std::string>;
 
 /// Combines labels and recordings. Without any labels, each recording is one performance (WholeStreams); otherwise a
 /// recording without a label contains no move. The person of a recording is named by its labels, otherwise by its
-/// file's name; otherwise each recording counts as another person. Fails for the errors of ReadLabels and MatchLabels,
-/// and if the labels of a recording name two people.
+/// file's name; otherwise each recording counts as a person of its own. Fails for the errors of ReadLabels and
+/// MatchLabels, and if the labels of a recording name two people.
 Result<LabelledStreams> LabelStreams(std::vector<NamedStream> streams, const LabelTexts& labels);
 
 }  // namespace etude

@@ -52,8 +52,8 @@ enum class JoinStyle {
 struct PreferredJoin {
   double blend_s = 0;  ///< time until only the new motion is shown, seconds
   JoinStyle way = JoinStyle::kDecays;
-  /// True: the new motion is placed where the body's momentum carries it (CarriedShift). False: it is placed by the
-  /// feet. Only `planted-feet` uses this.
+  /// True: the new motion is placed where the body's momentum carries it (CarriedShift). False: the feet that stand in
+  /// both motions determine its place (AlignOnPlantedFeet). Only `planted-feet` uses this.
   bool carried = false;
 };
 

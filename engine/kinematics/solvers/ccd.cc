@@ -166,7 +166,7 @@ double CcdSweep::TurnHinge(int joint, int axis) {
   if (options_.refresh == WeightRefresh::kDof) UpdateWeightsBelow(joint);
   const int dof = tree_.joints[joint].first_dof + axis;
   double& angle = state_.angles[dof];
-  // The axis is still valid, because no joint between it and the root has turned since the last forward kinematics.
+  // The axis is still valid, because no joint nearer to the root has turned since the last forward kinematics.
   const glm::dvec3& axis_W = frames_.dof_axes[dof];
   const AngleRange left{ranges_[dof].lower - angle, ranges_[dof].upper - angle};
   const double turn = GainAbout(axis_W, joint).OptimumWithin(left);
@@ -303,8 +303,8 @@ class Accelerated {
   std::vector<double> now_, swept_, mixed_;
 };
 
-// Skip a difference if the part that is linearly independent of newer differences is shorter than this share of the
-// difference: so short a part is mostly rounding.
+// Skip a difference if its part that is orthogonal to all newer differences is shorter than this share of its length:
+// such a part is mostly rounding error.
 constexpr double kNewPart = 1e-10;
 
 double Dot(std::span<const double> a, std::span<const double> b) {

@@ -13,12 +13,12 @@ struct CeresLmOptions {
 };
 
 /// Solves by the Levenberg–Marquardt method of Ceres Solver, a general-purpose solver, for comparison with our solvers.
-/// Its options are tuned for speed (bench/peers/README.md lists what was tried). It minimises the same sum as
-/// `damped-least-squares`,
+/// Ceres's options are tuned for speed (bench/peers/README.md lists what was tried). The solver minimises the same sum
+/// as `damped-least-squares`,
 ///   Σ_e [ position_weight · (|P_d − P_c| / 30 cm)² + Σ_k axis_weights_k · |u_kd − u_kc|² ],
-/// by steps (JᵀJ + I / radius) dq = −Jᵀr with an analytic Jacobian; the sum may rise for some steps. Limits are Ceres's
-/// bounds. `IkOptions::weights` and `refresh` do not apply. One iteration is one attempted step. The solver also stalls
-/// if a step lowers the sum by less than 10⁻⁹ of its value.
+/// by steps (JᵀJ + I / radius) dq = −Jᵀr with an analytic Jacobian; the sum may rise for some steps. Joint limits are
+/// passed to Ceres as bounds. `IkOptions::weights` and `refresh` do not apply. One iteration is one attempted step. The
+/// solver also stalls if a step lowers the sum by less than 10⁻⁹ of its value.
 IkSolution SolveCeresLm(const KinematicTree& tree, const IkProblem& problem, const IkOptions& options,
                         const CeresLmOptions& own = {});
 

@@ -28,7 +28,7 @@ class Follower {
   // Changes `angles` so that the limbs follow the result of the passes. `frames` are the frames at `angles`.
   void Follow(const TreeFrames& frames, std::vector<double>& angles) {
     limbs_ = frames.joints;
-    // In the first round, each joint fits the tips of its own limb. In the second round, it fits all tips beyond it.
+    // First, turn every joint to fit the tips of its own limb; then, to fit all tips beyond the joint.
     for (int j = 1; j < static_cast<int>(led_.size()); ++j) {
       if (!led_[j].empty()) TurnJoint(j, std::span(led_[j]).first(1), angles);
     }

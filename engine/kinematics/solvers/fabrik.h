@@ -10,26 +10,27 @@ namespace etude {
 
 /// Solves by FABRIK (Aristidou and Lasenby 2011), which moves joints as points, backward from the targets and forward
 /// from the root (`FabrikPass`). It uses positions only; the targets' axes are ignored but still count in the errors.
-/// The step from points to angles is *ours*. After every pair of passes the joints turn, parents first and hinge by
-/// hinge, each within its range and starting from the actual pose of the joints before it. The first round moves the
-/// tips of each joint's own limb as near as possible to their positions in the passes, without changing the twist; the
-/// second round does so for all tips beyond the joint. The second round compensates for hinges and limits farther out:
-/// without it, a wrist at its limit would keep its hand away from the target. Without the first round, the solver takes
-/// twice as many steps and solves only three of four problems. The next passes begin at the resulting pose. Errors are
-/// measured there, so a goal counts as reached only if the angles reach it. A limb in line with its target stays in
-/// line (paper B, figure 3.8), because points on a line move only along it. `IkOptions::weights` and `refresh` do not
-/// apply. One iteration is one pair of passes with both rounds, and costs one forward-kinematics pass.
+/// The step from points to angles is *ours*. After every pair of passes, all joints turn, and then all joints turn
+/// again: parents first and hinge by hinge, each within its range and starting from the actual pose of the joints
+/// before it. The first turn of a joint moves the tips of its own limb as near as possible to their positions after the
+/// passes, without changing the twist; the second turn does so for all tips beyond the joint. The second turn
+/// compensates for hinges and limits farther out: without it, a wrist at its limit would keep its hand away from the
+/// target. Without the first turn, the solver takes twice as many steps and solves only three of four problems. The
+/// next passes begin at the resulting pose. The errors of this pose are measured, so a goal counts as reached only if
+/// the angles reach it. A limb in line with its target stays in line (paper B, figure 3.8), because points on a line
+/// move only along it. `IkOptions::weights` and `refresh` do not apply. One iteration is one pair of passes with both
+/// turns of all joints, and costs one forward-kinematics pass.
 IkSolution SolveFabrik(const KinematicTree& tree, const IkProblem& problem, const IkOptions& options);
 
 /// FABRIK's two passes (Aristidou and Lasenby 2011) over a tree of rigid limbs, on positions alone. A limb has a base
 /// (its joint) and tips (the joints beyond it, the effectors at its end). With one tip this is exactly the paper's
 /// rule: the tip moves to its desired position, and the base follows on the line to its old position. With several
 /// tips, the paper moves their common joint (its sub-base) to the mean of the positions to which the chains beyond it
-/// lead. It has no rule for tips that form one rigid limb, like shoulders and neck. *Ours*: such a limb turns so that
-/// it fits its tips by least squares:
-/// - backward, tips to root: the mean of the tips moves to the mean of their desired positions; the limb turns about it
-///   to fit the tips and the old position of its base, which has the weight of one tip;
-/// - forward, root to tips: the base is at the end of the limb before; the limb turns about it to fit the tips.
+/// lead. The paper has no rule for tips that form one rigid limb, like shoulders and neck. *Ours*: such a limb turns so
+/// that it fits its tips by least squares:
+/// - backward, tips to root: the mean of the tips moves to the mean of their desired positions; the limb turns about
+///   this mean to fit the tips and the old position of its base, which has the weight of one tip;
+/// - forward, root to tips: the base is at the end of the limb before; the limb turns about its base to fit the tips.
 /// Both passes use the smallest rotation: a limb whose points lie on one line does not turn about that line. A limb
 /// without a target moves along with the limb before it.
 class FabrikPass {

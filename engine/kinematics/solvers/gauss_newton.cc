@@ -21,7 +21,7 @@ constexpr double kDoubtfulShare = 1e-9, kDoubtfulRounding = 1e-14;
 
 // The float solver aims at this share of each goal, so that float's rounding cannot make a missed goal look reached.
 constexpr double kFloatShare = 0.9;
-// Stall threshold in float, radians: an angle may move by its last bit after it has converged.
+// Stall threshold in float, radians: an angle may move by its last bit after the pose has converged.
 constexpr double kFloatStall = 2e-7;
 constexpr GaussNewtonCourse::Numerics kFloatNumerics{.min_damping = 1e-5, .pulled_above = 1e-6};
 

@@ -15,9 +15,9 @@ struct GaussNewtonOptions {
   /// steps work better from the start pose than from a pose whose angles sweeps have moved to their limits. Raise it
   /// only to compare (README.md has the figures).
   int first_sweeps = 0;
-  /// The number of extra active-set passes per step while damping is small: the null-space components of the step
-  /// depend on which limits are active. More than three change little. Set it to 0 if the time per step matters more
-  /// than its accuracy.
+  /// The number of extra active-set passes per step while damping is small. Extra passes find which limits are active;
+  /// the null-space components of the step depend on these limits. More than three passes change the step little. Set
+  /// it to 0 if the time per step matters more than its accuracy.
   int extra_passes = 3;
   /// The number of restarts from other poses when steps are stuck. Set it to 0 if targets are often unreachable and the
   /// start is near: all iterations then minimise the residual around the start.
@@ -36,7 +36,8 @@ struct GaussNewtonOptions {
 ///    raise the residual;
 /// 4. `restarts` from other poses around the start, each with two sweeps and steps as in 3; none if the targets are out
 ///    of reach of any pose;
-/// 5. from the pose of the smallest residual, steps as in 3 until they stall: the answer if the targets cannot be met.
+/// 5. from the pose of the smallest residual, steps as in 3 until they stall. The pose where they stall is the answer
+///    if the targets cannot be met.
 ///
 /// Most problems end in phase 2. If few iterations are allowed, phases 2 and 3 end sooner, so that along a motion a
 /// blocked solver recovers within a few frames. One iteration is one sweep or one step. A trace can jump where phases 4
@@ -72,10 +73,10 @@ enum class Precision { kFloat, kDouble };
 /// restarts with their sweeps; everything else runs in lanes.
 /// - `kDouble`: every solution equals that of `SolveGaussNewton` to the last bit.
 /// - `kFloat`: twice as many lanes. The solver aims at nine tenths of each goal, so that the requested goal is met in
-///   double. Damping is at least 10⁻⁵. Once |e|² < 10⁻⁶, steps are taken without the pull to the start, which float
-///   cannot resolve there. A problem that float does not solve is solved again in double from its start; only the
-///   iterations in double are reported. If several poses meet the targets, float may find another pose than double. Do
-///   not use it for goals below 2·10⁻⁴ cm or degrees.
+///   double. Damping is at least 10⁻⁵. Once the squared residual is below 10⁻⁶, steps are taken without the pull to the
+///   start, which float cannot resolve there. A problem that float does not solve is solved again in double from its
+///   start; only the iterations in double are reported. If several poses meet the targets, float may find another pose
+///   than double. Do not use `kFloat` for goals below 2·10⁻⁴ cm or degrees.
 /// A faulty problem gets kBadInput; if the tree or the options have a fault, all problems do. `IkOptions::trace` is
 /// ignored.
 IkBatchSolution SolveGaussNewtonBatch(const KinematicTree& tree, const IkBatch& problems, const IkOptions& options,

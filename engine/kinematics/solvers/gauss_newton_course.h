@@ -153,7 +153,7 @@ class GaussNewtonCourse {
     factor_ = 1;
   }
 
-  /// Returns true if the phase goes on with `next`, false if it has ended.
+  /// Returns true if the phase goes on with `next`, false if the phase has ended.
   bool Approach(double squares, Next& next) {
     if (!MayGoOn()) return false;
     // The step raised the residual: go back and raise the damping.
@@ -165,7 +165,8 @@ class GaussNewtonCourse {
       next.act = Act::kGoBack;
       return true;
     }
-    // The step was good: lower the damping, and end the phase after too many steps with little progress.
+    // The step did not raise the residual: lower the damping, and end the phase after too many steps with little
+    // progress.
     factor_ = std::max(phase_ == Phase::kSettle ? kDampingFloor : 1.0, factor_ / kDampingDown);
     if (squares < progress_ * fallen_to_) {
       fallen_to_ = squares;

@@ -137,7 +137,7 @@ struct TargetLanes {
   V axis_weights[3];
 };
 
-/// The quadratic ½VᵀΛV − ηᵀV of one target, stored by the few numbers that define it.
+/// One target's quadratic ½VᵀΛV − ηᵀV in the limb's movement V (rotation, translation at the root), stored compactly.
 template <class V>
 struct TargetQuadraticLanes {
   V turn[6];  ///< rotation block of Λ: its lower triangle, row by row
@@ -363,7 +363,7 @@ struct QuadraticRows {
 
 /// The frame of one trunk limb, as in `FrameLanes`.
 struct TrunkFrame {
-  Four axes[3];  ///< x, y, z, 0
+  Four axes[3];  ///< each as x, y, z, 0
   Four position;
 };
 

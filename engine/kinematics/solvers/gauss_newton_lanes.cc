@@ -19,10 +19,10 @@
 HWY_BEFORE_NAMESPACE();
 namespace etude::HWY_NAMESPACE {
 
-/// Solves one problem per lane in rounds: a round places all poses, passes their residuals to the lanes' courses, and
-/// steps. A lane skips the step of a round if its course requests another action, or if it needs one more active-set
-/// pass and few other lanes do. The results of a lane depend on its own problem alone; only their timing depends on the
-/// others.
+/// Solves one problem per lane. Each cycle of `Run` places all poses, passes their residuals to the lanes' courses, and
+/// steps. A lane skips the step of a cycle if its course requests another action, or if it needs one more active-set
+/// pass and fewer than half of the stepping lanes do. The results of a lane depend on its own problem alone; only their
+/// timing depends on the others.
 template <class T>
 class GaussNewtonLanes {
  public:
@@ -55,21 +55,21 @@ class GaussNewtonLanes {
 
   struct Lane {
     int problem = -1;
-    bool steps = false;  ///< true if the lane takes part in the step of this round
-    int passes = 0;      ///< number of active-set passes that the current step took in earlier rounds
+    bool steps = false;  ///< true if the lane takes part in the step of this cycle
+    int passes = 0;      ///< number of active-set passes that the current step took in earlier cycles
     GaussNewtonCourse course;
   };
 
   /// Variables with one number per lane.
   enum Register {
     kDamping,
-    kToStart,    // 1 if the step is pulled to the start, else 0; the following are flags, too
+    kToStart,    // 1 if the step is pulled to the start, else 0; all following variables but kLargest are flags, too
     kKeepsLast,  // the present pose is stored as the last pose
     kKeepsBest,  // the present pose is stored as the best pose
     kCounts,     // the lane takes part in this active-set pass
     kHasChanged,
     kMoves,
-    kLargest,
+    kLargest,    // largest change of an angle in the step, radians
     kRegisterCount
   };
 
@@ -184,7 +184,7 @@ class GaussNewtonLanes {
     int counting = 0;
     for (const Lane& lane : lanes_) counting += lane.steps;
     if (counting == 0) return;
-    // Repeat passes until nearly all lanes have finished their active sets.
+    // Repeat passes until more than half of the stepping lanes have finished their active sets.
     while (true) {
       Eliminate();
       const M has_changed = Substitute();
@@ -199,7 +199,7 @@ class GaussNewtonLanes {
         if (is_finished) At(kCounts, n) = 0;
         unfinished += !is_finished;
       }
-      if (2 * unfinished < counting) break;  // the unfinished lanes continue in the next round
+      if (2 * unfinished < counting) break;  // the unfinished lanes continue in the next cycle
     }
     // Change the angles of the lanes that have finished their active sets.
     for (std::size_t n = 0; n < lanes_.size(); ++n) At(kMoves, n) = lanes_[n].steps && lanes_[n].passes == 0;

@@ -259,7 +259,7 @@ class LimbLanes final : public GaussNewtonLimbs {
   const LimbPacks& packs_;
   const std::size_t index_count_;
   LimbPoses poses_;
-  AlignedList<double> numbers_;  // memory of the following rows, one number per angle index
+  AlignedList<double> numbers_;  // memory of the following rows, one number per index of `LimbPacks::places`
   double *now_, *last_, *best_, *start_, *lower_, *upper_;
   double *to_start_, *to_lower_, *to_upper_, *change_;  // rows of the current step
   AlignedList<TrunkState> trunk_;                       // one per trunk joint

@@ -10,7 +10,8 @@ namespace etude {
 
 struct KinematicTree;
 
-/// Returns the height of every joint: the number of joints from it to the farthest leaf.
+/// Returns the height of every joint: the number of joints beyond the joint on the longest way to a leaf (0 for a
+/// leaf).
 std::vector<int> JointHeights(const KinematicTree& tree);
 
 /// Returns the joints without the root, sorted by height: each comes after all joints beyond it, and joints of one

@@ -19,7 +19,8 @@ enum class Precision;
 /// The options that vector code needs.
 struct GaussNewtonRules {
   /// A pose meets the goals if its largest squared distance and its largest squared chord are below `…_met`, and misses
-  /// the goals if one of these numbers is not below its `…_missed`. In other cases its errors must be measured exactly.
+  /// the goals if one of these numbers is not below its `…_missed`. In other cases the pose's errors must be measured
+  /// exactly.
   double squared_distance_met = 0, squared_distance_missed = 0;
   double squared_chord_met = 0, squared_chord_missed = 0;
   int extra_passes = 0;

@@ -68,7 +68,8 @@ class IkRun {
   /// Records that the solver has stalled.
   void Stall() { has_stalled_ = true; }
 
-  /// Records that the solution is not the pose recorded last; `Finish` then measures its errors with one more pass.
+  /// Records that the solution is not the pose recorded last; `Finish` then measures the errors of the solution with
+  /// one more pass.
   void DiscardErrors();
 
   bool HasConverged() const { return worst_.Within(options_); }
@@ -150,7 +151,7 @@ inline constexpr int kRestarts = 20;
 
 /// Sets `angles` to the pose of restart `number` ≥ 1: every angle differs from `start` by up to 1.5 rad and lies within
 /// `ranges`. The pose is a deterministic function of `number` and `start`; it uses no random numbers. Along a motion
-/// with few iterations per frame, every frame therefore tries new poses.
+/// the start differs from frame to frame, so every frame tries new poses.
 void ScatterAround(std::span<const double> start, std::span<const AngleRange> ranges, int number,
                    std::vector<double>& angles);
 

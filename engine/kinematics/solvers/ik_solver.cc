@@ -27,8 +27,8 @@ Own OwnOptions(const SolverSettings& settings, auto SolverSettings::*told, auto 
   return own;
 }
 
-/// Makes an IkSolver of a function that has options of its own. The setting `told`, if given, sets `member` of these
-/// options; `number.fallback` becomes the default of `member`.
+/// Makes an IkSolver of a function that has options of its own. The setting `told` of SolverSettings, if it has a
+/// value, sets `member` of these options. `number.fallback` is set to the default of `member`.
 template <typename Own, typename Number>
 IkSolver WithSetting(IkSolver solver, SolveWithOwn<Own> solve, std::optional<Number> SolverSettings::*told,
                      Number Own::*member, NumberSetting number) {

@@ -36,9 +36,10 @@ class DampedInverse {
   /// Kunisch 2002): solve for y with some angles fixed at an end of their range, none at first; then fix each angle
   /// whose preferred + Jᵀy leaves its range at the end where it leaves, and free the others. (Starting from the active
   /// set of the last step takes more passes.) At most four passes are made; with the damping of `levenberg-marquardt`
-  /// the mean is 1.5; nearly every active set settles, and more passes hardly help the rest. The answer always lies
-  /// within the ranges. It is the optimum if the active set has settled (`is_exact`): then the conditions of Karush,
-  /// Kuhn and Tucker hold. Returns false, like `Step`, if the matrix of the free angles is singular.
+  /// the mean is 1.5 passes; nearly every active set settles in these passes, and few others would settle in more
+  /// passes. The answer always lies within the ranges. It is the optimum if the active set has settled (`is_exact`):
+  /// then the conditions of Karush, Kuhn and Tucker hold. Returns false, like `Step`, if the matrix of the free angles
+  /// is singular.
   bool StepWithin(double damping, std::span<const double> preferred, std::span<const double> angles,
                   std::span<const AngleRange> ranges, std::vector<double>& step);
 
@@ -74,7 +75,7 @@ struct JacobianTransposeOptions {
 /// With a gain of 1 it minimises |dX − J ΔΘ| (Buss 2004); to first order, every gain between 0 and 2 reduces it. Angles
 /// at an end of their range are left out if their torque points out of the range; no step turns an angle by more than
 /// 0.6 rad; new angles are clamped. Steps are cheap, but thousands are needed, because errors to which J is insensitive
-/// fade slowly. The solver stalls if JᵀdX = 0, as for a limb stretched towards its target (paper B, figure 3.8).
+/// decrease slowly. The solver stalls if JᵀdX = 0, as for a limb stretched towards its target (paper B, figure 3.8).
 /// `IkOptions::weights` and `refresh` do not apply. One iteration is one step and costs one forward-kinematics pass.
 IkSolution SolveJacobianTranspose(const KinematicTree& tree, const IkProblem& problem, const IkOptions& options,
                                   const JacobianTransposeOptions& own = {});
@@ -103,7 +104,7 @@ struct DampedLeastSquaresOptions {
   /// start: raise it if the answer should stay there (README.md has the figures).
   double first_damping = 1e-2;
   /// The way in which a step keeps the limits. Clamping is the default because most implementations of this method do
-  /// it. It is slow along limits, because other angles compensate for a clamped angle only in later steps.
+  /// it. Clamping is slow along limits, because other angles compensate for a clamped angle only in later steps.
   /// `damped-least-squares-active-set` uses the active set.
   Bounds bounds = Bounds::kClamped;
 };

@@ -31,8 +31,9 @@ void ComputeJacobian(const KinematicTree& tree, const TreeFrames& frames, TreeJa
 inline constexpr double kPositionScale = 0.30;
 
 /// The targets of a problem, linearised at a pose: to first order, angle changes dq meet the targets if J dq = e. A
-/// position has three rows, in units of 0.30 m; the axes have up to three, in radians, about the effector's own axes.
-/// All rows are multiplied by the square root of their weight, so to first order |e|² is
+/// position has three rows, in units of 0.30 m; the three axes together have up to three rows, in radians, about the
+/// effector's own axes. All rows are multiplied by the square root of their weight. With the position P and the axes
+/// u_k of an effector (d: desired, c: current), |e|² to first order is therefore
 ///     Σ_e [ position_weight · (|P_d − P_c| / 0.30 m)² + Σ_k axis_weights_k · |u_kd − u_kc|² ].
 /// Positions and axes of weight 0 have no rows. All solvers that use a Jacobian share this class.
 class LinearTargets {

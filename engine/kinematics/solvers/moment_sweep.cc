@@ -4,15 +4,15 @@
 //
 // For every effector E beyond a joint and its target D, the moments are
 //     M = Σ w_p (p_LE, 1)(p_WD, 1)ᵀ + Σ_k w_ok (u_kE_L, 0)(u_kD_W, 0)ᵀ,
-// with rows in the frame of the limb L and columns in the world W. A hinge that turns axis i of L towards axis j by the
-// angle q has the gain
+// with rows in the frame of the limb L and columns in the world W, whose origin is at the root here. A hinge that turns
+// axis i of L towards axis j by the angle q has the gain
 //     x cos q + y sin q,   x = M_i·ê_i + M_j·ê_j,   y = M_i·ê_j − M_j·ê_i,
-// where M_i is a row and ê = (e_W, −p_WJ·e_W) an axis of the frame before the hinge turns: M_i·ê_j sums the current
-// components along i times the desired components along j, all relative to the joint J. So the best angle has the
-// direction (x, y) (paper B's equations 3.10–3.13 for several effectors). The turn by the best angle mixes rows i and
-// j. A step to the parent's joint, at the offset p_PJ, adds p_PJ[r] times the last row to row r. Columns never change.
-// The vectors ê are also enough for forward kinematics: a turn mixes two of them, and a step by p_PJ subtracts p_PJ[k]
-// from the last component of ê_k.
+// where M_i is a row, and ê = (e_W, −p_WJ·e_W) describes an axis e of the frame before the hinge turns: M_i·ê_j sums
+// the current components along i times the desired components along j, all relative to the joint J. So the best angle
+// has the direction (x, y) (paper B's equations 3.10–3.13 for several effectors). The turn by the best angle mixes rows
+// i and j. A step to the parent's joint, at the offset p_PJ, adds p_PJ[r] times the last row to row r. Columns never
+// change. The vectors ê are also enough for forward kinematics: a turn mixes two of them, and a step by p_PJ subtracts
+// p_PJ[k] from the last component of ê_k.
 #include "engine/kinematics/solvers/moment_sweep.h"
 
 #include <algorithm>
@@ -40,7 +40,7 @@ struct Moments {
 
 struct GoalState {
   Quad axes[3];   // axes of the target, (u_kD_W, 0)
-  Quad position;  // position of the target, (p_WD, 1), from the root
+  Quad position;  // position of the target relative to the root, (p_RD_W, 1)
   double position_weight, axis_weights[3];
   double position_share, axis_shares[3];  // 1 if the position or axis has weight, else 0
   // Errors at the pose measured last, and weights of the present sweep.
@@ -93,8 +93,8 @@ HWY_INLINE double TurnHinge(const Quad& from, const Quad& towards, HingeState& h
   const double square = x * x + y * y;
   const double length = std::sqrt(square);
   // If the optimum is outside the range, take the end that is nearer on the circle, because it has the larger gain; on
-  // a tie, take the lower end. The test uses (x, y) and not its direction, so that the test need not wait for the
-  // division.
+  // a tie, take the lower end. The test uses (x, y) without dividing it by its length, so that the test need not wait
+  // for the division.
   const bool is_inside = x * hinge.cos_middle + y * hinge.sin_middle >= hinge.cos_half * length;
   const bool is_below = 0.0 >= y * hinge.cos_middle - x * hinge.sin_middle;
   const double half_s = is_below ? 0.0 - hinge.sin_half : hinge.sin_half;

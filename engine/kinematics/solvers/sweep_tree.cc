@@ -52,7 +52,7 @@ std::vector<SweepTree::Step> StepsOf(const KinematicTree& tree) {
     int& depth = depths[n];
     depth = depths[joint.parent];
     ordered.push_back({{.joint = n}, depth++});
-    // The Z axis is nearest to the leaves: turning it does not move the joint's other axes.
+    // The Z axis is nearest to the leaves: a turn about it does not move the joint's other axes.
     for (int axis = 0; axis < joint.dof_count; ++axis) {
       ordered.push_back(
           {{.joint = n, .hinge = joint.first_dof + axis, .i = (axis + 1) % 3, .j = (axis + 2) % 3}, depth++});

@@ -8,9 +8,9 @@ namespace etude {
 
 /// A tree in the form that `MomentSweep` needs: plain numbers, and a list of steps that is the same for every problem.
 /// Forwards, the steps are a sweep from the leaves to the root; backwards, they are forward kinematics. Limbs have
-/// their own frames S: if R_PJ of the tree only permutes axes, as everywhere on the body, the limb's axes are named
-/// after the parent's, so that R_PJ becomes the identity and needs no computation. P, J and L below are limbs in these
-/// frames.
+/// their own frames S: if R_PJ of the tree only permutes axes, as at every joint of paper B's body, the limb's axes are
+/// named after the parent's, so that R_PJ becomes the identity and needs no computation. P, J and L below are limbs in
+/// these frames.
 struct SweepTree {
   struct Joint {
     int parent = -1;

@@ -23,7 +23,7 @@ struct PairSurvey {
   AllowedFrames allowed;
   std::int64_t matching = 0;
   std::int64_t nearer = 0;          ///< number of matching pairs with a smaller distance than the taken pair
-  std::vector<RankedPair> nearest;  ///< by frame that may be left: the frame's nearest pair, except the taken pair
+  std::vector<RankedPair> nearest;  ///< for each frame that may be left: its nearest pair, except the taken pair
 };
 
 PairSurvey SurveyPairs(const MotionLibrary& library, const TransitionRequest& request, const MatchRules& rules,
@@ -131,9 +131,9 @@ TransitionRecord PlanUnbroken(const MotionLibrary& library, const TransitionRequ
   return record;
 }
 
-/// Plans a transition as games make it, according to paper A (section 1: all their clips begin and end standing). It
-/// leaves at once, tweens into a standing pose, and tweens from there into the wanted clip's first frame. It ignores
-/// the budget; the rules of tweens determine their duration.
+/// Plans a transition as games make it, according to paper A (section 1: all their clips begin and end standing). The
+/// playing clip is left at once. One tween leads into a standing pose, a second tween from there into the wanted clip's
+/// first frame. The budget is ignored: the rules of tweens determine how long the tweens last.
 TransitionRecord PlanThroughStanding(const MotionLibrary& library, const TransitionRequest& request,
                                      const MatchRules& rules) {
   const TaggedClip &playing = library.tagged[request.from], &next = library.tagged[request.to];
@@ -200,7 +200,7 @@ Choice Ranked(const char* name, const char* description, bool uses_fuzzy) {
           .plan = PlanWith<Plan, Settings>};
 }
 
-// Returns the table of choices. The table is made on the first call, when the strings that it uses are initialised.
+// Returns the table of choices. The table is made on the first call; by then the strings that it uses are initialised.
 std::span<const Choice> Table() {
   static const std::array kChoices = {
       // Choices that search for good frames.

@@ -18,7 +18,7 @@ namespace etude {
 struct Choice {
   std::string name;
   std::string description;                   ///< one line for users
-  bool matches_poses = false;                ///< true if poses are compared; only then is `false_smooth` measured
+  bool matches_poses = false;                ///< true if poses are compared; needed for the metric `false_smooth`
   bool uses_fuzzy = false;                   ///< true if the rules' weights and threshold apply
   std::vector<NumberSetting> settings = {};  ///< settings of this choice, in addition to the rules of all fuzzy choices
   /// Returns the frames that the choice may take; null for choices that do not compare poses.

@@ -39,20 +39,22 @@ class CostMeter {
   const PlayedRates& rates_;
   BodyPose before_, here_;
   std::size_t count_ = 0;
-  double worst_excess_ = 0;  // the largest excess of a joint's second difference over that in the two motions, metres
+  double worst_excess_ = 0;  // the largest excess of a joint's second difference over both `own_` and `usual_`, metres
   double off_ = 0;           // distance from the nearer clip's pose, metres, summed over the frames
 };
 
-/// Returns the distance that the feet slide along the floor in a join, metres. A foot's weight decreases with the
-/// foot's height and is 0 from 2.5 cm on (Zhang, Starke, Komura and Saito 2018).
+/// Returns the distance that the feet slide along the floor in a join, metres. The displacement of a foot is multiplied
+/// by a weight that decreases with the foot's height and is 0 from 2.5 cm on (Zhang, Starke, Komura and Saito 2018).
 double SlideOf(std::span<const BodyPose> played);
 
 /// Measures of how badly the floor supports the body in a join.
 struct Burden {
   int unsupported = 0;  ///< length in frames of the longest run in which FindSupport finds no support
-  double beside = 0;    ///< zero-moment point's distance above 10 cm and above the clips' distances, integrated, m·s
-  double glide = 0;     ///< distance by which the slowest support glides farther than the same joint of a clip, metres
-  double turn = 0;      ///< largest turn of the hips against a resting foot, above the clips' own turn, radians
+  /// Distance of the zero-moment point from the supports, integrated over time, m·s. Only the part above 10 cm and
+  /// above the distance in the clips themselves counts.
+  double beside = 0;
+  double glide = 0;  ///< distance by which the slowest support glides farther than the same joint of a clip, metres
+  double turn = 0;   ///< largest turn of the hips against a resting foot, above the clips' own turn, radians
 };
 
 /// The data that all joins at one pair of frames have in common.
@@ -71,8 +73,8 @@ class PairStage {
   /// Returns one frame of a join of length kLengths_s[length] (`frames` frames), without planted feet and without
   /// shift.
   const BodyPose& LimbsAt(std::size_t length, int frames, JoinStyle way, int frame);
-  /// Returns PlanSteps of a window that WindowFor returned for kLengths_s[length], with CarriedShift or without. Joins
-  /// of every style in kWays have the same steps, so the steps are planned once.
+  /// Returns the steps that PlanSteps plans for a window that WindowFor returned for kLengths_s[length]. `carried`:
+  /// with CarriedShift. Joins of every style in kWays have the same steps, so the steps are planned once.
   const FootPlan& StepsIn(const JoinWindow& window, std::size_t length, bool carried);
   /// Rates a motion: the frames `played` of a join, and after them the wanted clip, moved by `shift`.
   Burden Rate(std::span<const BodyPose> played, const glm::dvec3& shift) const;

@@ -55,7 +55,7 @@ std::vector<Candidate> ListCandidates(const MotionLibrary& library, const Transi
     return std::tuple(!a.matches, a.rank, a.from, a.to) < std::tuple(!b.matches, b.rank, b.from, b.to);
   });
   others.resize(std::min(others.size(), kMaxCandidates - 1));
-  // List the taken pair and these others, in order of their frames.
+  // List the taken pair and the kept pairs, in order of their frames.
   std::vector<Candidate> candidates;
   const auto add = [&](const RankedPair& pair, CandidateOutcome outcome) {
     const Grades &from = library.tagged[request.from].grades[pair.from],

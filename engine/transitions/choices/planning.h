@@ -66,7 +66,8 @@ std::string DescribeNoMatch(const std::vector<RankedPair>& nearest, std::int64_t
 std::string DescribePair(const MotionLibrary& library, const TransitionRequest& request, int from, int to);
 
 /// Compares one frame of the playing clip with all frames at which the wanted clip may be entered; frames with d below
-/// the rules' threshold match. If the rules compare within classes only, frames of another class are left out.
+/// the rules' threshold match. If the rules compare only frames with the same ten tags (`within_class`), all other
+/// frames are left out.
 class FuzzyGate {
  public:
   /// Compares frames of two clips. The clips and the rules must outlive this object.

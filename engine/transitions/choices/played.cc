@@ -214,7 +214,7 @@ TransitionRecord PlanThroughClip(const MotionLibrary& library, const TransitionR
   const int entered = in.pair.enter, shown = entered + in.frames;
   const double rate_hz = library.motions[through->clip].rate_hz;
   // Choose the join out of the intermediate clip: after the first join is complete, and before the clip has been shown
-  // too long.
+  // for `most_through_s`.
   std::vector<int> leave;
   for (int frame : through->leave) {
     const bool is_soon = frame - entered <= options.most_through_s * rate_hz;

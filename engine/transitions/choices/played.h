@@ -25,10 +25,11 @@ const SettingTable<PlayedOptions>& PlayedSettings();
 /// Plays candidate transitions and takes the one with the lowest cost.
 ///
 /// Candidates: the wait is divided into sixteen parts. From the pairs that the budget and `most_skipped_s` allow, the
-/// nearest pair of each part by MotionFeatures is taken. Each pair is joined at several lengths from 0.3 to 1.2 s, as
-/// far as the wanted clip goes. For each length there are direct joins and fades (PlayMinimumJerk), with planted feet
-/// (PlantFeet); each is placed once by the feet and once where the body's momentum carries it (CarriedShift). The
-/// cheapest candidates are played first, and only as long as they may be the best (PlayJoins).
+/// nearest pair of each part by MotionFeatures is taken. Each pair is joined at several lengths from 0.3 to 1.2 s;
+/// lengths for which the wanted clip is too short are left out, except 0.3 s. For each length there are direct joins
+/// and fades (PlayMinimumJerk), with planted feet (PlantFeet); each is placed once by the feet and once where the
+/// body's momentum carries it (CarriedShift). The cheapest candidates are played first, and only as long as they may be
+/// the best (PlayJoins).
 ///
 /// The cost in seconds is the sum of
 /// - the wait and the length of the join;
@@ -50,9 +51,9 @@ const SettingTable<PlayedOptions>& PlayedSettings();
 /// down (FindThroughClip); without such a clip in the library the record has no segments. The last segment of the
 /// record holds the preferred join (PreferredJoin).
 ///
-/// This choice is ours. It searches by the resulting motion instead of similarity, after Kovar, Gleicher and Pighin
-/// 2002 and Bollo 2018. Support is computed as in the evaluation of transitions, but the choice does not know the
-/// evaluation's limits.
+/// This choice is ours. It compares the resulting motions instead of the similarity of poses, after Kovar, Gleicher and
+/// Pighin 2002 and Bollo 2018. Support is computed as in the evaluation of transitions, but the choice does not know
+/// the evaluation's limits.
 TransitionRecord PlanPlayed(const MotionLibrary& library, const TransitionRequest& request, const MatchRules& rules,
                             const PlayedOptions& options = {});
 

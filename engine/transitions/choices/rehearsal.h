@@ -36,9 +36,9 @@ struct PlayedRates {
 /// exceed it.
 ///
 /// The method is best-first search (Hart, Nilsson and Raphael 1968): the join with the lowest cost so far is continued.
-/// That cost first contains only the time, then also the limbs, frame by frame, then the feet and the support that
-/// FindSupport reports. Most joins are therefore never played to their end. Planting the feet can raise or lower the
-/// cost, so only three fifths of the limbs' cost count before the feet are planted.
+/// That cost first contains only the time, then also the costs of the limbs' movement, frame by frame, then those of
+/// sliding feet and of missing support (FindSupport). Most joins are therefore never played to their end. Planting the
+/// feet can raise or lower the cost, so only three fifths of the limbs' cost count before the feet are planted.
 std::vector<PlayedJoin> PlayJoins(const MotionLibrary& library, const TransitionRequest& request,
                                   const PlayedRates& rates, const std::vector<FramePair>& pairs, int last);
 

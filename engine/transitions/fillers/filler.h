@@ -49,10 +49,10 @@ struct Ends {
   double seconds = 1;                           ///< from start to end
 };
 
-/// Returns the straight line from start to end plus one offset for each end. An offset starts with value 0 and with the
-/// difference between the end's velocity and the mean velocity. It decays as a critically damped spring (SpringDecay),
-/// and fades to 0 at the other end by 3s² − 2s³, where s is the elapsed share of the gap. An absent end velocity has no
-/// offset.
+/// Returns the straight line from start to end plus one offset for each end. An offset starts with the value 0; its
+/// initial velocity is the difference between the velocity at this end and the mean velocity. It decays as a critically
+/// damped spring (SpringDecay), and fades to 0 at the other end by 3s² − 2s³, where s is the elapsed share of the gap.
+/// The end has no offset if its velocity is absent.
 glm::dvec3 InertialisedAt(const Ends& ends, double seconds, double half_life_s);
 
 /// Continues the motion forwards from the start and backwards from the end, each time with a velocity that halves every

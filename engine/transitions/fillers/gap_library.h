@@ -6,7 +6,8 @@
 
 namespace etude {
 
-/// Training motions from which fillers learn; no judged motion may be among them. *(Ours, after motion matching.)*
+/// Training motions from which fillers learn; motions on which fillers are evaluated may not be among them. *(Ours; the
+/// search for similar frames is taken from motion matching.)*
 ///
 /// The squared distance of two gaps, m², is a mean over the joints. It compares features in the root's frame: at both
 /// ends of the gap, the joints' positions, the vertical direction and the root's height; at the first end also the
@@ -26,7 +27,7 @@ class GapLibrary {
   std::vector<TreePose> FillLikeNearest(const Gap& gap, Fill fill) const;
 
   /// Fills a gap with `fill` and corrects the result by a weighted mean of the errors (truth minus filled) that `fill`
-  /// makes in those gaps of the library whose distance d is at most 0.36 m (kernel regression). The weight is
+  /// makes in those gaps of the library whose distance d is below 0.36 m (kernel regression). The weight is
   /// exp(−d²/2h²), h = 0.12 m. The mean includes an error of zero with weight 2, which shrinks the correction. Of gaps
   /// that overlap by more than half, only the nearest counts.
   std::vector<TreePose> FillLikeNear(const Gap& gap, Fill fill) const;
@@ -36,15 +37,15 @@ class GapLibrary {
     TreeMotion motion;
     std::vector<double> seen;  ///< the features (AppendSeen) of every frame, frame by frame
   };
-  /// A gap of the library: the index of the motion, the frame before the gap, and the squared distance from the gap to
-  /// be filled, m².
+  /// A gap of the library: its motion, the frame before the gap, and the squared distance from the gap to be filled,
+  /// m².
   struct Near {
     const Entry* entry = nullptr;
     std::size_t frame = 0;
     double squared = 0;
   };
 
-  /// Calls `visit` with every gap whose squared distance is at most `limit`. `visit` may lower the limit.
+  /// Calls `visit` with every gap whose squared distance is below `limit`. `visit` may lower the limit.
   template <typename Visit>
   void ForEachNear(const Gap& gap, double& limit, const Visit& visit) const;
   /// Adds to `filled`, multiplied by `share`, the errors that `fill` makes in the library's gap `near`.

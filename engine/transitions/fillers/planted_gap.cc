@@ -52,7 +52,7 @@ struct Footfalls {
 /// The data from which the steps of one foot are planned.
 struct FootView {
   const glm::dvec3& End(std::size_t end) const { return end == 0 ? path.front() : path.back(); }
-  /// Returns the position of `leg.tip` at an end of the gap, lowered to the surface on which the foot stands.
+  /// Returns the position of `leg.tip` at an end of the gap, lowered by `raised`.
   glm::dvec3 Lowered(std::size_t end) const { return End(end) - glm::dvec3(0, raised[end], 0); }
 
   TreeLeg leg;
@@ -61,7 +61,7 @@ struct FootView {
   glm::dvec3 velocity{0};          ///< velocity of `leg.tip` before the gap, metres per second
   std::array<bool, 2> stands{};    ///< [0]: true if the foot stands before the gap; [1]: after the gap
   double length = 0;               ///< length of the stretched leg from hip to tip, metres
-  std::array<double, 2> raised{};  ///< height of the tip of a raised standing foot above the floor, metres
+  std::array<double, 2> raised{};  ///< height of the tip beyond 2 cm above the floor, metres; 0 on another surface
 };
 
 constexpr double kLowest_m = 0.1, kRest_mps = 0.4, kLanded_m = 0.06, kPassing_m = 0.02, kTravels_mps = 0.5;
@@ -110,8 +110,8 @@ std::optional<std::array<FootView, 2>> ViewFeet(const Gap& gap, std::span<const 
     // A foot stands at an end of the gap if its tip is slow and near the height of the lowest joint there.
     const glm::dvec3 &first = frames.front()[tip], &last = frames.back()[tip];
     foot.stands[0] = first.y <= frames.front().Lowest() + kLowest_m && glm::length(foot.velocity) <= kRest_mps;
-    // With one future frame, the velocity is unknown and only the height decides. The limit is lower if the body
-    // travels, because a walking person lifts the foot only a little.
+    // With one future frame, the velocity is unknown and only the height decides. The limit of the height is lower if
+    // the body travels, because a walking person lifts the foot only a little.
     const glm::dvec3 after = knows_velocity ? Globals(gap.tree, gap.future[1])[tip] : last;
     const double highest = knows_velocity ? kLowest_m : speed > kTravels_mps ? kPassing_m : kLanded_m;
     foot.stands[1] = last.y <= frames.back().Lowest() + kLowest_m && last.y <= landed + highest &&
@@ -342,7 +342,7 @@ glm::dquat RaisedHeel(const FootPose& foot, const glm::dvec3& hip, const glm::dv
   return angle > 0 ? TurnOf(whole * (turn / angle)) * foot.turn : foot.turn;
 }
 
-/// Solves one leg of a pose by inverse kinematics, to reach its foot.
+/// Solves one leg of a pose by inverse kinematics, so that the leg reaches the pose `foot`.
 void SetLeg(const JointTree& tree, const TreeLeg& leg, const FootPose& foot, double reach, TreePose& pose) {
   const auto at = [](int joint) { return static_cast<std::size_t>(joint); };
   const Globals world(tree, pose);

@@ -24,7 +24,7 @@ Blend BeginWith(const JoinInput& input, std::span<const double> values) {
   return Begin(input, Settings().Apply(values));
 }
 
-// Returns the table of joins. The table is made on the first call, when the strings that it uses are initialised.
+// Returns the table of joins. The table is made on the first call; by then the strings that it uses are initialised.
 std::span<const JoinKind> Table() {
   static const std::array kJoins = {
       // Joins of papers and games.

@@ -61,8 +61,9 @@ class WindowTurns {
 ///   minimum jerk. Velocities are measured from the point to the next frame, so the first shown frame is the old
 ///   motion's next frame, and a jump of the new motion at the point has no effect. If the old motion has ended,
 ///   velocities are measured up to the point.
-/// - kFades: both motions play, and the share of the new motion grows along a minimum-jerk curve, limb by limb. The
-///   shown motion has less of the two motions' accelerations, and more of the difference between the motions.
+/// - kFades: both motions play, and the share of the new motion grows along a minimum-jerk curve, limb by limb.
+///   Compared with kDecays, the shown motion has less of the two motions' accelerations, and more of the difference
+///   between the motions.
 /// - kDirect: every limb and the hip centre move with minimum jerk from the old motion's pose to the new motion's pose
 ///   at the end of the join, with the motions' velocities at both ends. Accelerations of the motions within the join
 ///   are not shown.

@@ -255,9 +255,9 @@ double ReachAt(const JoinWindow& window, const LegRoles& leg, int frame) {
   return std::min(std::max(own, kEasy * whole), whole) - kGiven * 64 * rest * rest * rest;
 }
 
-/// Rotates a leg's pole (see SolveLeg) about the leg until it points at most 60° to a side; `share` (0 to 1) is how
-/// much of this rotation is applied. A pole that points backwards turns outwards, which keeps the legs apart. (Depth
-/// sensors show straight legs as overextended; the join must not bend a knee further in that direction.)
+/// Rotates a leg's pole (see SolveLeg) about the leg until it is at most 60° from the forward direction; `share` (0 to
+/// 1) is how much of this rotation is applied. A pole that points backwards turns outwards, which keeps the legs apart.
+/// (Depth sensors show straight legs as overextended; the join must not bend a knee further in that direction.)
 glm::dvec3 BentForwards(const glm::dvec3& pole, const glm::dvec3& line, const glm::dvec3& forwards, bool is_left,
                         double share) {
   constexpr double kSide = Radians(60), kInwards = Radians(-120);

@@ -26,7 +26,7 @@ struct FootStep {
   int begin = 0;       ///< frame of the join at which the step begins
   int end = 1;
   double lift = 0;            ///< height in the middle of the step, metres
-  int stays_from = kNoFrame;  ///< from this frame until the step, the foot keeps its position in the old motion
+  int stays_from = kNoFrame;  ///< until the step, the foot keeps its position in this frame of the old motion
   int waits_until = -1;       ///< from the step until this frame, the foot has this frame's position in the new motion
 
   static constexpr int kNoFrame = 1 << 30;

@@ -49,7 +49,8 @@ struct PlacedSegment {
 };
 
 /// Moves the segment `next`, which follows frame `left` of `old`, to where the body's momentum carries it in a join of
-/// `frames` frames. A clip that has ended has no velocity.
+/// `frames` frames. If the old clip has ended, its last velocity is used; if the new clip ends within the join, its
+/// velocity there is 0.
 void Carry(const PlacedSegment& old, int left, int frames, PlacedSegment& next) {
   if (frames == 0) return;
   const int last = static_cast<int>(next.frames.size()) - 1, end = std::min(next.first + frames, last);
@@ -108,8 +109,8 @@ Splice SpliceSegments(std::span<const BodyMotion> clips, std::span<const Segment
     if (join.align != nullptr && preferred && preferred->carried) {
       Carry(old, left, static_cast<int>(std::lround(preferred->blend_s * rate_hz)), next);
     }
-    // Measure the gap at the point between the clips, not in the joined motion; the gap then depends only on the choice
-    // of frames.
+    // Measure the jump at the point between the unjoined clips, not in the joined motion: the jump then depends only on
+    // the choice of frames.
     const PlacedPoint point{.frame = static_cast<int>(shown.size()) - 1,
                             .leaving_before = old.Before(left),
                             .leaving = old.At(left),

@@ -11,8 +11,8 @@ namespace {
 
 using enum Role;
 
-/// Returns the neck's unit direction in the trunk's frame (left, up, front). In this frame the head counts as still if
-/// the whole body turns.
+/// Returns the neck's unit direction relative to the trunk's axes (left, up, front). A head that turns together with
+/// the whole body therefore counts as still.
 glm::dvec3 NeckInTrunk(const BodyPose& pose) {
   const glm::dvec3 none(0);
   const glm::dvec3 up = UnitOr(pose[kShoulderCentre] - pose[kHipCentre], none);
@@ -102,7 +102,8 @@ struct PoseClass {
   std::map<int, Sums> by_clip;
 };
 
-/// Returns the mean of d² from `frame` to the frames of a class that are not in `own`: Σ w (a² − 2 a E[x] + E[x²]).
+/// Returns the mean of d² from `frame` to the frames of a class that are not in `own`: Σ w (a² − 2 a E[x] + E[x²]),
+/// where a is a grade of `frame`, and x the same grade of those frames.
 double MeanSquareDistance(const Grades& frame, const Sums& all, const Sums& own, const FeatureWeights& weights) {
   const double others = all.frames - own.frames;
   double sum = 0;

@@ -54,7 +54,8 @@ struct FrameRating {
   int clips = 0;   ///< number of clips, including its own, in which the frame's ten tags occur together
   int frames = 0;  ///< number of frames of the library with these tags
   /// The root mean square of this frame's distances (paper A, equation 1) from the frames with the same tags in other
-  /// clips. It estimates the distance of a transition within the class. 0 if no other clip has these tags.
+  /// clips. It estimates the distance of a transition between frames with these tags. 0 if no other clip has these
+  /// tags.
   double difference = 0;
 };
 

@@ -47,7 +47,8 @@ ClipCoverage CoverageOf(const TaggedClip& clip, std::span<const int> frames, std
 std::vector<int> AllFrames(const TaggedClip& clip) { return FramesWithin({0, clip.FrameCount() - 1}); }
 std::vector<int> BridgeFrames(const TaggedClip& clip) { return clip.bridge_frames; }
 
-/// Returns, for each clip, the participating frames that match a participating frame of any other clip.
+/// Returns, for each clip, the frames that match a frame of any other clip. `participating` returns the frames of a
+/// clip that are compared.
 std::vector<std::vector<int>> MatchesAnywhere(std::span<const TaggedClip> clips, const MatchRules& rules,
                                               std::vector<int> (*participating)(const TaggedClip&),
                                               const OnProgress& on_progress) {

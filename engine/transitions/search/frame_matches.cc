@@ -63,7 +63,7 @@ class PairSearch {
  private:
   struct NearBlock {
     int block;
-    double bound;  // lower bound for the distance from all sixteen query frames
+    double bound;  // lower bound for the distance from any of the sixteen query frames
     double reach;  // distance at the last comparison plus the value of `travelled_` then
   };
 

@@ -77,7 +77,7 @@ BlockResult SquaredDistances(const GradeMetric& metric, const Grades& query, con
 /// same order, and rounding is monotonic.
 BlockResult SquaredBounds(const GradeMetric& metric, const GradeBox& query, const BoxBlock& block, double limit);
 
-/// Returns a limit for d²: a frame whose rounded distance is at most `distance` never exceeds the limit.
+/// Returns a limit for d²: if a frame's rounded distance is at most `distance`, its d² never exceeds the limit.
 double SquaredLimit(double distance);
 
 /// For tests and benchmarks: BlockTargets returns the vector instruction sets of this CPU, the best first.

@@ -71,8 +71,8 @@ Result<void> CheckBeforeParsing(std::string_view text, const std::string& file) 
   if (const std::size_t at = text.find("<!DOCTYPE"); at != std::string_view::npos) {
     return Fail({file, LineOf(text, at), 0}, "a document type declaration; allowed: none (entities are not expanded)");
   }
-  // libxml2 takes quadratic time in the number of a tag's attributes, so tags are limited. The limit allows two names
-  // of 4096 bytes whose characters are all written as &quot; entities.
+  // libxml2 takes quadratic time in the number of a tag's attributes, so the length of a tag is limited. The limit
+  // allows two names of 4096 bytes whose characters are all written as &quot; entities.
   constexpr std::size_t kMaxTagBytes = 65536;
   for (std::size_t start = 0; start < text.size();) {
     const std::size_t next = std::min(text.find('<', start + 1), text.size());
