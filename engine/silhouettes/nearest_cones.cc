@@ -128,6 +128,27 @@ void Compare(const ConeColumns& cones, size_t cone, const PointColumns& points, 
   }
 }
 
+/// Returns false if the cone certainly lowers none of the distances of a block's points: it computes no division and no
+/// root.
+bool MayLower(const Axes& axes, size_t cone, const PointColumns& points, size_t first_point, const double* distance) {
+  const Real real;
+  const auto zero = hn::Zero(real), one = hn::Set(real, 1.0);
+  Vec axis[kAxisRows];
+  for (size_t row = 0; row < kAxisRows; ++row) axis[row] = hn::Set(real, static_cast<double>(axes.rows[row][cone]));
+  for (size_t i = first_point; i < first_point + kBlockPoints; i += hn::Lanes(real)) {
+    const auto from_u = hn::Sub(hn::LoadU(real, points.u + i), axis[kFromU]);
+    const auto from_v = hn::Sub(hn::LoadU(real, points.v + i), axis[kFromV]);
+    const auto dot = hn::Add(hn::Mul(from_u, axis[kAlongU]), hn::Mul(from_v, axis[kAlongV]));
+    const auto share = hn::Min(hn::Max(hn::Mul(dot, axis[kInverse]), zero), one);
+    const auto off_u = hn::Sub(from_u, hn::Mul(share, axis[kAlongU]));
+    const auto off_v = hn::Sub(from_v, hn::Mul(share, axis[kAlongV]));
+    const auto reach = hn::Max(hn::Add(hn::LoadU(real, distance + i), axis[kWidest]), zero);
+    const auto square = hn::Add(hn::Mul(off_u, off_u), hn::Mul(off_v, off_v));
+    if (!hn::AllFalse(real, hn::Lt(square, hn::Mul(reach, reach)))) return true;
+  }
+  return false;
+}
+
 /// Returns the largest of a block's distances.
 double Farthest(const double* distance) {
   const Real real;
@@ -156,21 +177,25 @@ void FindNearest(const ConeColumns& cones, const PointColumns& points, double* d
     const double reach = Farthest(distance + first_point) + radius;
     std::uint64_t others = Within(bounds, cones.count, static_cast<float>(reach)) & ~(std::uint64_t{1} << nearest);
     for (; others != 0; others &= others - 1) {
-      Compare(cones, FirstOf(others), points, first_point, distance, owner);
+      const size_t cone = FirstOf(others);
+      if (!MayLower(axes, cone, points, first_point, distance)) continue;
+      Compare(cones, cone, points, first_point, distance, owner);
     }
   }
 }
 
-/// Adds the residuals of one point to the sums: `slopes` are its derivatives, filled up with zeros.
-HWY_INLINE void AddPoint(const double* slopes, double weight, double weighted_value, Vec (&gradient)[kParts],
-                         Vec (&hessian)[6][kParts]) {
+/// The numbers of one point: its six derivatives, its weight, and the weight times the residual.
+enum PointNumber { kWeight = 6, kWeightedValue, kNumbers };
+
+/// Adds one point to the sums; what it adds to rows 6 and 7 has no meaning.
+HWY_INLINE void AddPoint(const double* point, Vec (&gradient)[kParts], Vec (&hessian)[6][kParts]) {
   const Real real;
   for (size_t part = 0; part < kParts; ++part) {
-    const auto rows = hn::Load(real, slopes + part * hn::Lanes(real));
-    gradient[part] = hn::Add(gradient[part], hn::Mul(hn::Set(real, weighted_value), rows));
-    const auto weighted = hn::Mul(hn::Set(real, weight), rows);
+    const auto rows = hn::Load(real, point + part * hn::Lanes(real));
+    gradient[part] = hn::Add(gradient[part], hn::Mul(hn::Set(real, point[kWeightedValue]), rows));
+    const auto weighted = hn::Mul(hn::Set(real, point[kWeight]), rows);
     for (size_t column = 0; column < 6; ++column) {
-      hessian[column][part] = hn::Add(hessian[column][part], hn::Mul(weighted, hn::Set(real, slopes[column])));
+      hessian[column][part] = hn::Add(hessian[column][part], hn::Mul(weighted, hn::Set(real, point[column])));
     }
   }
 }
@@ -185,8 +210,7 @@ void SumCone(const ConeColumns& cones, size_t cone, const ConePoints& points, Co
     gradient[part] = zero;
     for (size_t column = 0; column < 6; ++column) hessian[column][part] = zero;
   }
-  enum { kWeight = 6, kWeightedValue, kNumbers };
-  HWY_ALIGN double numbers[kNumbers][kBlockPoints], slopes[kBlockPoints][8] = {};
+  HWY_ALIGN double numbers[kNumbers][kBlockPoints], transposed[kBlockPoints][kNumbers];
   for (size_t first = 0; first < points.count; first += kBlockPoints) {
     // Compute the derivatives and weights of eight points (`DistanceTo`, `LossOf`).
     for (size_t i = 0; i < kBlockPoints; i += hn::Lanes(real)) {
@@ -214,11 +238,9 @@ void SumCone(const ConeColumns& cones, size_t cone, const ConePoints& points, Co
     // Add them in the points' order, so that the sums do not depend on the vectors' width.
     const size_t count = points.count - first < kBlockPoints ? points.count - first : kBlockPoints;
     for (size_t i = 0; i < count; ++i) {
-      for (size_t k = 0; k < 6; ++k) slopes[i][k] = numbers[k][i];
+      for (size_t k = 0; k < kNumbers; ++k) transposed[i][k] = numbers[k][i];
     }
-    for (size_t i = 0; i < count; ++i) {
-      AddPoint(slopes[i], numbers[kWeight][i], numbers[kWeightedValue][i], gradient, hessian);
-    }
+    for (size_t i = 0; i < count; ++i) AddPoint(transposed[i], gradient, hessian);
   }
   for (size_t part = 0; part < kParts; ++part) {
     const size_t row = part * hn::Lanes(real);
