@@ -32,7 +32,7 @@ void SubsequenceAligner::Update(const PoseVector& seen) {
   const std::size_t size = pattern_.size();
   std::uint8_t* advances = advances_.data() + static_cast<std::size_t>(now % longest_) * size;
   // Compute the local distances of this step to every step of the pattern.
-  for (std::size_t j = 0; j < size; ++j) distances_[j] = SquaredDistance(seen, pattern_[j]);
+  SquaredDistances(seen, pattern_, distances_);
 
   // Extend the best paths by this step. Go from the pattern's end to its start, so that costs_[j - 1] and costs_[j - 2]
   // still hold the values of the previous step.

@@ -226,7 +226,7 @@ void RigidComparison::Update(const PoseVector& seen) {
   // Ignore steps after the end of the pattern, even at the slowest pace and the largest lag.
   if (TaughtAt(now, kPaces.size() - 1, kLatest) >= size) return;
   seen_.push_back(seen);
-  for (std::size_t j = 0; j < pattern_.size(); ++j) distances_[j] = SquaredDistance(seen, pattern_[j]);
+  SquaredDistances(seen, pattern_, distances_);
   for (std::size_t pace = 0; pace < kPaces.size(); ++pace) {
     for (int lag = kEarliest; lag <= kLatest; ++lag) {
       const int taught = TaughtAt(now, pace, lag);

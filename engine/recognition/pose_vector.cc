@@ -53,14 +53,27 @@ double TrunkLength(const SensedFrame& skeleton) {
 
 }  // namespace
 
-double SquaredDistance(const PoseVector& seen, const PoseVector& taught) {
-  double sum = 0, total = 0;
-  for (std::size_t i = 0; i < kPosePartCount; ++i) {
-    const glm::dvec3 gap = seen.parts[i] - taught.parts[i];
-    sum += seen.weights[i] * glm::dot(gap, gap);
-    total += seen.weights[i];
+void SquaredDistances(const PoseVector& seen, std::span<const PoseVector> taught, std::span<double> out) {
+  double total = 0;
+  for (const double weight : seen.weights) total += weight;
+  // Two poses at a time, which the compiler vectorises; an odd last pose is computed twice.
+  for (std::size_t j = 0; j < taught.size(); j += 2) {
+    const std::size_t next = std::min(j + 1, taught.size() - 1);
+    double sum = 0, sum_next = 0;
+    for (std::size_t i = 0; i < kPosePartCount; ++i) {
+      const glm::dvec3 gap = seen.parts[i] - taught[j].parts[i], gap_next = seen.parts[i] - taught[next].parts[i];
+      sum += seen.weights[i] * glm::dot(gap, gap);
+      sum_next += seen.weights[i] * glm::dot(gap_next, gap_next);
+    }
+    out[j] = total > 0 ? sum / total : 0.0;
+    out[next] = total > 0 ? sum_next / total : 0.0;
   }
-  return total > 0 ? sum / total : 0.0;
+}
+
+double SquaredDistance(const PoseVector& seen, const PoseVector& taught) {
+  double distance = 0;
+  SquaredDistances(seen, {&taught, 1}, {&distance, 1});
+  return distance;
 }
 
 PoseVector MeanOf(std::span<const PoseVector> poses) {

@@ -26,6 +26,8 @@ struct PoseVector {
 /// Returns the mean squared distance of the poses' parts, weighted by `seen.weights`, in the square of the parts' unit.
 /// Returns 0 if all weights are 0.
 double SquaredDistance(const PoseVector& seen, const PoseVector& taught);
+/// Computes the SquaredDistance of `seen` to every pose of `taught`.
+void SquaredDistances(const PoseVector& seen, std::span<const PoseVector> taught, std::span<double> out);
 
 /// Returns the mean of `poses`, which must not be empty, with the weights of the first pose.
 PoseVector MeanOf(std::span<const PoseVector> poses);

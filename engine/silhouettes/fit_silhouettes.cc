@@ -12,11 +12,13 @@
 namespace etude {
 namespace {
 
-// The derivatives of a capsule's two projected ends. Each coordinate that moves the capsule's limb has one column: the
-// derivatives of the six numbers that SilhouetteResidual calls δ.
+// The derivatives of a capsule's two projected ends: rows are the six numbers δ of SilhouetteResidual, columns are the
+// coordinates that move the capsule's limb.
 struct CapsuleMotion {
-  std::vector<int> coordinates;
-  std::vector<std::array<double, 6>> columns;
+  static constexpr std::size_t kMaxCount = 32;
+  std::size_t count = 0;
+  std::array<int, kMaxCount> coordinates;
+  std::array<std::array<double, kMaxCount>, 6> rows;
 };
 
 // For one seen joint: the offset of its projection from the pixel where it was seen, the loss (Geman and McClure), and
@@ -44,39 +46,18 @@ class Linearisation {
   Linearisation(const SilhouetteBody& body, int size)
       : body_(body), gradient_(Eigen::VectorXd::Zero(size)), hessian_(Eigen::MatrixXd::Zero(size, size)) {}
 
-  // Adds the residuals of one picture. Residuals are summed by capsule first and only then transformed to coordinates,
-  // because there are far fewer capsules than residuals.
-  void Add(const std::vector<SilhouetteResidual>& residuals, const TreeFrames& frames, const ProjectionMatrix& matrix,
-           const SilhouetteCostOptions& options) {
-    using Six = Eigen::Matrix<double, 6, 1>;
-    using SixBySix = Eigen::Matrix<double, 6, 6>;
-    // Sum gradient and Hessian of each capsule, with respect to its six numbers.
-    std::vector<Six> gradients(body_.flesh.size(), Six::Zero());
-    std::vector<SixBySix> hessians(body_.flesh.size(), SixBySix::Zero());
-    for (const SilhouetteResidual& residual : residuals) {
-      const Eigen::Map<const Six> slopes(residual.slopes.data());
-      const double weight = LossOf(residual, options).weight;
-      gradients[residual.capsule] += weight * residual.value * slopes;
-      hessians[residual.capsule] += weight * slopes * slopes.transpose();
-    }
-    // Transform these gradients and Hessians to the coordinates that move the capsules (chain rule).
+  // Adds the residuals of one picture: transforms the sums of each capsule to the coordinates that move the capsule
+  // (chain rule). There are far fewer capsules than residuals.
+  void Add(const ResidualSums& sums, const TreeFrames& frames, const ProjectionMatrix& matrix) {
     const PixelScale camera(matrix);
     for (std::size_t i = 0; i < body_.flesh.size(); ++i) {
-      if (hessians[i].isZero(0)) continue;
+      const ConeSums& of = sums.capsules[i];
+      const bool is_empty = std::ranges::all_of(of.hessian, [](const double(&column)[8]) {
+        return std::ranges::all_of(std::span(column).first(6), [](double x) { return x == 0; });
+      });
+      if (is_empty) continue;
       MoveCapsule(body_.flesh[i], frames, camera);
-      const std::size_t count = motion_.coordinates.size();
-      for (std::size_t j = 0; j < count; ++j) {
-        const Eigen::Map<const Six> column_j(motion_.columns[j].data());
-        const Six projected = hessians[i] * column_j;
-        const int at_j = motion_.coordinates[j];
-        gradient_[at_j] += gradients[i].dot(column_j);
-        for (std::size_t k = 0; k <= j; ++k) {
-          const double product = projected.dot(Eigen::Map<const Six>(motion_.columns[k].data()));
-          const int at_k = motion_.coordinates[k];
-          hessian_(at_j, at_k) += product;
-          if (at_j != at_k) hessian_(at_k, at_j) += product;
-        }
-      }
+      Transform(of);
     }
   }
 
@@ -96,9 +77,12 @@ class Linearisation {
         const glm::dvec3 moves = about == nullptr ? axis : glm::cross(axis, p_WQ - *about);
         slopes_.push_back({coordinate, {glm::dot(at.u, moves), glm::dot(at.v, moves)}});
       });
-      for (const auto& [j, slope_j] : slopes_) {
-        gradient_[j] += error.weight * glm::dot(error.off, slope_j);
-        for (const auto& [k, slope_k] : slopes_) hessian_(j, k) += error.weight * glm::dot(slope_j, slope_k);
+      for (std::size_t j = 0; j < slopes_.size(); ++j) {
+        const auto& [at_j, slope_j] = slopes_[j];
+        gradient_[at_j] += error.weight * glm::dot(error.off, slope_j);
+        for (std::size_t k = 0; k <= j; ++k) {
+          hessian_(slopes_[k].first, at_j) += error.weight * glm::dot(slope_j, slopes_[k].second);
+        }
       }
     }
   }
@@ -110,24 +94,60 @@ class Linearisation {
   }
 
   const Eigen::VectorXd& gradient() const { return gradient_; }
-  const Eigen::MatrixXd& hessian() const { return hessian_; }
+  Eigen::MatrixXd Hessian() const {
+    Eigen::MatrixXd hessian = hessian_ + hessian_.transpose();
+    hessian.diagonal() = hessian_.diagonal();
+    return hessian;
+  }
 
  private:
+  // Adds the sums of one capsule, transformed to the coordinates of motion_. Each sum of six products is added in two
+  // interleaved halves.
+  void Transform(const ConeSums& of) {
+    const auto& rows = motion_.rows;
+    const std::size_t count = motion_.count;
+    // Multiply the Hessian by every column, all columns at once.
+    std::array<std::array<double, CapsuleMotion::kMaxCount>, 6> x;
+    for (std::size_t row = 0; row < 6; ++row) {
+      for (std::size_t j = 0; j < count; ++j) x[row][j] = of.hessian[0][row] * rows[0][j];
+      for (std::size_t column = 1; column < 6; ++column) {
+        for (std::size_t j = 0; j < count; ++j) x[row][j] += of.hessian[column][row] * rows[column][j];
+      }
+    }
+    // Add the products of each coordinate with itself and the coordinates before it.
+    for (std::size_t j = 0; j < count; ++j) {
+      const double* const g = of.gradient;
+      const int at_j = motion_.coordinates[j];
+      gradient_[at_j] += (g[0] * rows[0][j] + (g[2] * rows[2][j] + g[4] * rows[4][j])) +
+                         (g[1] * rows[1][j] + (g[3] * rows[3][j] + g[5] * rows[5][j]));
+      const double x0 = x[0][j], x1 = x[1][j], x2 = x[2][j], x3 = x[3][j], x4 = x[4][j], x5 = x[5][j];
+      std::array<double, CapsuleMotion::kMaxCount> products;
+      for (std::size_t k = 0; k <= j; ++k) {
+        products[k] = (x0 * rows[0][k] + (x2 * rows[2][k] + x4 * rows[4][k])) +
+                      (x1 * rows[1][k] + (x3 * rows[3][k] + x5 * rows[5][k]));
+      }
+      double* const column = hessian_.col(at_j).data();
+      for (std::size_t k = 0; k <= j; ++k) column[motion_.coordinates[k]] += products[k];
+    }
+  }
+
   void MoveCapsule(const FleshCapsule& flesh, const TreeFrames& frames, const PixelScale& camera) {
     assert(flesh.a.joint == flesh.b.joint);
-    motion_.coordinates.clear();
-    motion_.columns.clear();
+    motion_.count = 0;
     const glm::dvec3 p_WA = PlaceOf(flesh.a, frames), p_WB = PlaceOf(flesh.b, frames);
     const PixelScale::Slopes at_a = camera.SlopesAt(p_WA), at_b = camera.SlopesAt(p_WB);
-    const auto add = [&](int coordinate, const glm::dvec3& moves_a, const glm::dvec3& moves_b) {
-      motion_.coordinates.push_back(coordinate);
-      motion_.columns.push_back({glm::dot(at_a.u, moves_a), glm::dot(at_a.v, moves_a),
-                                 flesh.radius_a * glm::dot(at_a.pixels_per_metre, moves_a), glm::dot(at_b.u, moves_b),
-                                 glm::dot(at_b.v, moves_b), flesh.radius_b * glm::dot(at_b.pixels_per_metre, moves_b)});
-    };
     ForEachMotion(flesh.a.joint, frames, [&](int coordinate, const glm::dvec3& axis, const glm::dvec3* about) {
-      if (about == nullptr) return add(coordinate, axis, axis);
-      add(coordinate, glm::cross(axis, p_WA - *about), glm::cross(axis, p_WB - *about));
+      const glm::dvec3 moves_a = about == nullptr ? axis : glm::cross(axis, p_WA - *about);
+      const glm::dvec3 moves_b = about == nullptr ? axis : glm::cross(axis, p_WB - *about);
+      const std::size_t j = motion_.count++;
+      assert(j < CapsuleMotion::kMaxCount);
+      motion_.coordinates[j] = coordinate;
+      motion_.rows[0][j] = glm::dot(at_a.u, moves_a);
+      motion_.rows[1][j] = glm::dot(at_a.v, moves_a);
+      motion_.rows[2][j] = flesh.radius_a * glm::dot(at_a.pixels_per_metre, moves_a);
+      motion_.rows[3][j] = glm::dot(at_b.u, moves_b);
+      motion_.rows[4][j] = glm::dot(at_b.v, moves_b);
+      motion_.rows[5][j] = flesh.radius_b * glm::dot(at_b.pixels_per_metre, moves_b);
     });
   }
 
@@ -153,7 +173,7 @@ class Linearisation {
   CapsuleMotion motion_;
   std::vector<std::pair<int, glm::dvec2>> slopes_;
   Eigen::VectorXd gradient_;
-  Eigen::MatrixXd hessian_;
+  Eigen::MatrixXd hessian_;  // for each pair of coordinates, one of the two equal entries is filled; the other is 0
 };
 
 // Calls take(coordinate, value, spread) for every squared term (value / spread)² of the priors.
@@ -175,27 +195,26 @@ void ForEachPrior(const SilhouetteBody& body, const TreeState& state, const Pose
 }
 
 // Projects the flesh capsules of the body in the pose `state` into all views: fills `workspace.frames` and
-// `workspace.flesh`.
+// `workspace.kept`.
 void See(const SilhouetteBody& body, std::span<const SilhouetteView> views, const TreeState& state,
          FitWorkspace& workspace) {
   ComputeFrames(body.tree, state, workspace.frames);
-  workspace.flesh.resize(views.size());
+  workspace.kept.resize(views.size());
   for (std::size_t i = 0; i < views.size(); ++i) {
-    ProjectFlesh(body, workspace.frames, views[i].matrix, workspace.flesh[i].capsules);
-    MeasureFlesh(*views[i].silhouette, workspace.flesh[i]);
+    ProjectFlesh(body, workspace.frames, views[i].matrix, workspace.kept[i].capsules);
+    MeasureFlesh(*views[i].silhouette, workspace.kept[i]);
   }
 }
 
-// Linearises the residuals at `state`; `workspace.kept` must hold the capsules projected in this pose.
+// Linearises the residuals at `state`; `workspace.kept` and `workspace.frames` must hold the capsules and frames of
+// this pose.
 Linearisation LineariseAt(const SilhouetteBody& body, std::span<const SilhouetteView> views, const TreeState& state,
                           const PosePrior* prior, const SilhouetteCostOptions& options, FitWorkspace& workspace) {
   Linearisation linear(body, kRootDofs + body.tree.dof_count());
-  ComputeFrames(body.tree, state, workspace.frames);
   for (std::size_t i = 0; i < views.size(); ++i) {
     const SilhouetteView& view = views[i];
-    workspace.residuals.clear();
-    AppendResiduals(workspace.kept[i], *view.silhouette, options, workspace.residuals);
-    linear.Add(workspace.residuals, workspace.frames, view.matrix, options);
+    SumResiduals(workspace.kept[i], *view.silhouette, options, workspace.sums);
+    linear.Add(workspace.sums, workspace.frames, view.matrix);
     linear.Add(view.joints, workspace.frames, view.matrix, options);
   }
   ForEachPrior(body, state, prior,
@@ -217,7 +236,7 @@ std::vector<bool> Held(const KinematicTree& tree, const TreeState& state, const 
 
 // Returns the damped Gauss–Newton step; held coordinates do not move.
 Eigen::VectorXd Step(const Linearisation& linear, const std::vector<bool>& held, double damping) {
-  Eigen::MatrixXd h = linear.hessian();
+  Eigen::MatrixXd h = linear.Hessian();
   Eigen::VectorXd g = linear.gradient();
   constexpr double kMinDiagonal = 1e-6;
   for (Eigen::Index i = 0; i < g.size(); ++i) {
@@ -231,47 +250,57 @@ Eigen::VectorXd Step(const Linearisation& linear, const std::vector<bool>& held,
   return -h.llt().solve(g);
 }
 
-// Computes the cost of `state`; `flesh` holds the capsules projected in that pose.
-SilhouetteFit CostOfSeen(const SilhouetteBody& body, std::span<const SilhouetteView> views, const TreeState& state,
-                         const PosePrior* prior, const SilhouetteCostOptions& options,
-                         const std::vector<SeenFlesh>& flesh, const FitWorkspace& workspace) {
-  SilhouetteFit fit{.state = state};
-  for (std::size_t i = 0; i < views.size(); ++i) {
-    const SilhouetteView& view = views[i];
-    AddLosses(flesh[i], *view.silhouette, options, fit.picture_cost);
-    const PixelScale camera(view.matrix);
-    for (const SeenJoint& seen : view.joints) {
-      fit.picture_cost += JointErrorOf(seen, body, workspace.frames, camera, options).loss;
-    }
-  }
-  fit.cost = fit.picture_cost;
+// Adds the cost of one picture to `sum`; `flesh` holds the capsules projected in that pose.
+void AddPictureCost(const SilhouetteBody& body, const SilhouetteView& view, const SilhouetteCostOptions& options,
+                    const SeenFlesh& flesh, const TreeFrames& frames, double& sum) {
+  AddLosses(flesh, *view.silhouette, options, sum);
+  const PixelScale camera(view.matrix);
+  for (const SeenJoint& seen : view.joints) sum += JointErrorOf(seen, body, frames, camera, options).loss;
+}
+
+// Returns `cost` plus the cost of the priors.
+double WithPriors(const SilhouetteBody& body, const TreeState& state, const PosePrior* prior, double cost) {
   ForEachPrior(body, state, prior,
-               [&](int, double value, double spread) { fit.cost += value * value / (spread * spread); });
-  return fit;
+               [&](int, double value, double spread) { cost += value * value / (spread * spread); });
+  return cost;
 }
 
 }  // namespace
 
 SilhouetteFit CostOf(const SilhouetteBody& body, std::span<const SilhouetteView> views, const TreeState& state,
-                     const PosePrior* prior, const SilhouetteCostOptions& options, FitWorkspace& workspace) {
-  See(body, views, state, workspace);
-  return CostOfSeen(body, views, state, prior, options, workspace.flesh, workspace);
+                     const PosePrior* prior, const SilhouetteCostOptions& options, FitWorkspace& workspace,
+                     double limit) {
+  constexpr double kRounding = 1e-9;  // far above the relative rounding error of a sum
+  SilhouetteFit fit{.state = state};
+  const double most = limit * (1 + kRounding) - WithPriors(body, state, prior, 0);
+  ComputeFrames(body.tree, state, workspace.frames);
+  workspace.flesh.resize(views.size());
+  for (std::size_t i = 0; i < views.size(); ++i) {
+    if (fit.picture_cost > most) {
+      fit.cost = std::numeric_limits<double>::infinity();
+      return fit;
+    }
+    SeenFlesh& flesh = workspace.flesh[i];
+    ProjectFlesh(body, workspace.frames, views[i].matrix, flesh.capsules);
+    MeasureFlesh(*views[i].silhouette, flesh);
+    AddPictureCost(body, views[i], options, flesh, workspace.frames, fit.picture_cost);
+  }
+  fit.cost = WithPriors(body, state, prior, fit.picture_cost);
+  return fit;
 }
 
 NormalEquations NormalEquationsAt(const SilhouetteBody& body, std::span<const SilhouetteView> views,
                                   const TreeState& state, const PosePrior* prior, const SilhouetteCostOptions& options,
                                   FitWorkspace& workspace) {
   See(body, views, state, workspace);
-  std::swap(workspace.flesh, workspace.kept);
   const Linearisation linear = LineariseAt(body, views, state, prior, options, workspace);
-  return {{linear.gradient().begin(), linear.gradient().end()},
-          {linear.hessian().data(), linear.hessian().data() + linear.hessian().size()}};
+  const Eigen::MatrixXd hessian = linear.Hessian();
+  return {{linear.gradient().begin(), linear.gradient().end()}, {hessian.data(), hessian.data() + hessian.size()}};
 }
 
 SilhouetteFit FitSilhouettes(const SilhouetteBody& body, std::span<const SilhouetteView> views, const TreeState& start,
                              const PosePrior* prior, const FitOptions& options, FitWorkspace& workspace) {
   See(body, views, start, workspace);
-  std::swap(workspace.flesh, workspace.kept);
   return FitFurther(body, views, start, prior, options, workspace);
 }
 
@@ -279,7 +308,11 @@ SilhouetteFit FitFurther(const SilhouetteBody& body, std::span<const SilhouetteV
                          const PosePrior* prior, const FitOptions& options, FitWorkspace& workspace) {
   constexpr double kFirstDamping = 1e-2, kGrows = 4, kShrinks = 0.3, kMaxDamping = 1e6;
   ComputeFrames(body.tree, start, workspace.frames);
-  SilhouetteFit fit = CostOfSeen(body, views, start, prior, options.cost, workspace.kept, workspace);
+  SilhouetteFit fit{.state = start};
+  for (std::size_t i = 0; i < views.size(); ++i) {
+    AddPictureCost(body, views[i], options.cost, workspace.kept[i], workspace.frames, fit.picture_cost);
+  }
+  fit.cost = WithPriors(body, start, prior, fit.picture_cost);
   double damping = kFirstDamping;
   while (fit.iterations < options.max_iterations && damping < kMaxDamping) {
     // Linearise at the current pose. Angles that are held at a limit are left out of the step.
@@ -292,7 +325,7 @@ SilhouetteFit FitFurther(const SilhouetteBody& body, std::span<const SilhouetteV
       const Eigen::VectorXd step = Step(linear, held, damping);
       SilhouetteFit trial =
           CostOf(body, views, Moved(body.tree, fit.state, {step.data(), static_cast<std::size_t>(step.size())}), prior,
-                 options.cost, workspace);
+                 options.cost, workspace, fit.cost);
       is_better = trial.cost < fit.cost;
       damping = is_better ? damping * kShrinks : damping * kGrows;
       if (!is_better) continue;

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <limits>
 #include <span>
 #include <vector>
 
@@ -37,11 +38,14 @@ struct FitWorkspace {
   std::vector<SeenFlesh> flesh;  ///< per view: the capsules in the pose whose cost was computed last
   std::vector<SeenFlesh> kept;   ///< per view: the capsules in the pose at which the last fit ended
   std::vector<SilhouetteResidual> residuals;
+  ResidualSums sums;
 };
 
-/// Computes the cost of `state`. `prior` may be null.
+/// Computes the cost of `state`. `prior` may be null. As soon as the cost is certain to reach `limit`, returns an
+/// infinite cost; this is safe because the cost is a sum of losses ≥ 0.
 SilhouetteFit CostOf(const SilhouetteBody& body, std::span<const SilhouetteView> views, const TreeState& state,
-                     const PosePrior* prior, const SilhouetteCostOptions& options, FitWorkspace& workspace);
+                     const PosePrior* prior, const SilhouetteCostOptions& options, FitWorkspace& workspace,
+                     double limit = std::numeric_limits<double>::infinity());
 
 /// Fits the body to the silhouettes of one moment (the pictures of one time) by the method of Levenberg and Marquardt,
 /// from `start`, over the root's position, the root's rotation and all angles within their limits. Angles that are held

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <optional>
+#include <utility>
 
 #include "engine/base/angles.h"
 #include "engine/cameras/triangulation.h"
@@ -95,9 +96,13 @@ SilhouetteFit MomentFitter::FitKnown(const MomentViews& views, const TreeState& 
 SilhouetteFit MomentFitter::Follow(const MomentViews& views, const TreeState& before_last, const TreeState& last) {
   const TreeState foretold = Extrapolated(before_last, last, kSpeedKept);
   const PosePrior prior = PriorNear(foretold);
-  const bool still = CostOf(body_, views, last, &prior, wide_.cost, workspace_).cost <
-                     CostOf(body_, views, foretold, &prior, wide_.cost, workspace_).cost;
-  return Fit(views, still ? last : foretold, &prior, true);
+  // Start from the pose of lower cost; the workspace keeps its projected capsules for the fit.
+  const double moving = CostOf(body_, views, foretold, &prior, wide_.cost, workspace_).cost;
+  std::swap(workspace_.flesh, workspace_.kept);
+  const bool still = CostOf(body_, views, last, &prior, wide_.cost, workspace_, moving).cost < moving;
+  if (still) std::swap(workspace_.flesh, workspace_.kept);
+  const TreeState from = FitFurther(body_, views, still ? last : foretold, &prior, wide_, workspace_).state;
+  return FitFurther(body_, views, from, &prior, fine_, workspace_);
 }
 
 // Fits the body from every heading and posture, starting at the point triangulated from the silhouettes' centres.

@@ -4,6 +4,10 @@
 #include <cassert>
 #include <cmath>
 #include <cstdint>
+#include <cstdlib>
+#include <cstring>
+#include <numeric>
+#include <span>
 #include <utility>
 #include <vector>
 
@@ -58,51 +62,57 @@ class Envelope {
   std::vector<double> begins_;  // the x from which each parabola is the lowest
 };
 
-// Computes every pixel's squared distance to the nearest pixel whose mask value is `value`.
-std::vector<double> SquaredDistancesTo(const Mask& mask, std::uint8_t value) {
-  const int width = mask.width, height = mask.height;
-  const int longest = std::max(width, height);
-  std::vector<double> squared(mask.pixels.size());
-  // Along each column, count the steps to the nearest pixel of that value, above and below. All columns advance row by
-  // row.
+// Computes every pixel's squared distance to the nearest pixel of its column that has the other mask value.
+std::vector<double> SquaresAlongColumns(const Mask& mask) {
+  const auto width = static_cast<std::size_t>(mask.width), height = static_cast<std::size_t>(mask.height);
+  std::vector<double> squares(mask.pixels.size());
+  // Count the steps from above and from below. All columns advance row by row.
   std::vector<double> steps(width, Envelope::kNone);
-  const auto walk = [&](int y, const auto& take) {
-    for (int x = 0; x < width; ++x) {
-      const std::size_t i = static_cast<std::size_t>(y) * width + x;
-      steps[x] = mask.pixels[i] == value ? 0 : steps[x] + 1;
-      take(squared[i], steps[x]);
+  const auto walk = [&](std::size_t y, std::size_t before, const auto& take) {
+    const std::uint8_t *own = &mask.pixels[y * width], *other = &mask.pixels[before * width];
+    double* const row = &squares[y * width];
+    for (std::size_t x = 0; x < width; ++x) {
+      steps[x] = own[x] == other[x] ? steps[x] + 1 : 1;
+      row[x] = take(row[x], steps[x]);
     }
   };
-  for (int y = 0; y < height; ++y) walk(y, [](double& above, double count) { above = count; });
+  for (std::size_t y = 0; y < height; ++y) walk(y, y > 0 ? y - 1 : 0, [](double, double above) { return above; });
   steps.assign(width, Envelope::kNone);
-  for (int y = height - 1; y >= 0; --y) {
-    walk(y, [](double& nearest, double below) {
-      nearest = std::min(nearest, below);
-      nearest = nearest >= Envelope::kNone ? Envelope::kNone : nearest * nearest;
+  for (std::size_t y = height; y-- > 0;) {
+    walk(y, std::min(y + 1, height - 1), [](double above, double below) {
+      const double nearest = std::min(above, below);
+      return nearest >= Envelope::kNone ? Envelope::kNone : nearest * nearest;
     });
   }
-  // Along each row, combine the columns' squared distances by the lower envelope.
-  Envelope envelope(longest);
-  std::vector<double> row(longest), out(longest);
-  for (int y = 0; y < height; ++y) {
-    double* const begin = squared.data() + static_cast<std::size_t>(y) * width;
-    std::copy_n(begin, width, row.begin());
-    envelope.Fill(row, width, out);
-    std::copy_n(out.begin(), width, begin);
-  }
-  return squared;
+  return squares;
 }
 
 }  // namespace
 
 Image<float> SignedDistances(const Mask& mask) {
-  const std::vector<double> to_set = SquaredDistancesTo(mask, 1), to_unset = SquaredDistancesTo(mask, 0);
+  const std::vector<double> squares = SquaresAlongColumns(mask);
   Image<float> distances(mask.width, mask.height);
   const double farthest = mask.width + mask.height;
-  for (std::size_t i = 0; i < mask.pixels.size(); ++i) {
-    const bool inside = mask.pixels[i] != 0;
-    const double away = std::min(std::sqrt(inside ? to_unset[i] : to_set[i]) - 0.5, farthest);
-    distances.pixels[i] = static_cast<float>(inside ? -away : away);
+  // Combine the columns by the lower envelope, for each run of equal pixels of a row. The pixel before the run and the
+  // pixel behind it have the other value, so no column farther away is nearer.
+  const int longest = mask.width + 2;
+  Envelope envelope(longest);
+  std::vector<double> heights(longest), nearest(longest);
+  for (int y = 0; y < mask.height; ++y) {
+    const std::size_t row = static_cast<std::size_t>(y) * mask.width;
+    for (int begin = 0, end = 0; begin < mask.width; begin = end) {
+      const bool inside = mask.pixels[row + begin] != 0;
+      while (end < mask.width && (mask.pixels[row + end] != 0) == inside) ++end;
+      const int size = end - begin + 2;
+      heights[0] = begin > 0 ? 0 : Envelope::kNone;
+      std::copy_n(&squares[row + begin], end - begin, &heights[1]);
+      heights[size - 1] = end < mask.width ? 0 : Envelope::kNone;
+      envelope.Fill(heights, size, nearest);
+      for (int x = begin; x < end; ++x) {
+        const double away = std::min(std::sqrt(nearest[x - begin + 1]) - 0.5, farthest);
+        distances.pixels[row + x] = static_cast<float>(inside ? -away : away);
+      }
+    }
   }
   return distances;
 }
@@ -139,10 +149,13 @@ Box BoxOf(const Mask& mask) {
   constexpr int kMargin = 8;
   Box box{mask.width, mask.height, 0, 0};
   for (int y = 0; y < mask.height; ++y) {
-    for (int x = 0; x < mask.width; ++x) {
-      if (mask.At(x, y) == 0) continue;
-      box = {std::min(box.left, x), std::min(box.top, y), std::max(box.right, x + 1), y + 1};
-    }
+    const std::uint8_t* const row = mask.pixels.data() + static_cast<std::size_t>(y) * mask.width;
+    const void* const first = std::memchr(row, 1, static_cast<std::size_t>(mask.width));
+    if (first == nullptr) continue;
+    int last = mask.width - 1;
+    while (row[last] == 0) --last;
+    box = {std::min(box.left, static_cast<int>(static_cast<const std::uint8_t*>(first) - row)), std::min(box.top, y),
+           std::max(box.right, last + 1), y + 1};
   }
   return {std::max(box.left - kMargin, 0), std::max(box.top - kMargin, 0), std::min(box.right + kMargin, mask.width),
           std::min(box.bottom + kMargin, mask.height)};
@@ -156,24 +169,32 @@ Mask CutOut(const Mask& mask, const Box& box) {
   return part;
 }
 
-// Returns the pixels whose signed distance is at most `distance`: a dilation, or an erosion for a negative value. A
-// dilation keeps all set pixels, and an erosion keeps all unset pixels, so only one of the two distance maps is needed.
-Mask Grown(const Mask& mask, double distance) {
-  const bool erodes = distance < 0;
-  const std::vector<double> squared = SquaredDistancesTo(mask, erodes ? 0 : 1);
-  Mask grown = mask;
-  for (std::size_t i = 0; i < grown.pixels.size(); ++i) {
-    if ((mask.pixels[i] != 0) != erodes) continue;
-    const auto away = static_cast<float>(std::sqrt(squared[i]) - 0.5);
-    grown.pixels[i] = (erodes ? -away : away) <= distance;
+// Gives the value `kValue` to every pixel that has a pixel of that value in its neighbourhood. `is_near` decides
+// whether a neighbour belongs to it, from the distance between the pixel and the neighbour's border; `reach` is the
+// largest offset of a neighbour.
+template <std::uint8_t kValue, typename IsNear>
+Mask Spread(const Mask& mask, int reach, const IsNear& is_near) {
+  Mask out = mask;
+  for (int j = -reach; j <= reach; ++j) {
+    for (int i = -reach; i <= reach; ++i) {
+      if ((i == 0 && j == 0) || !is_near(static_cast<float>(std::sqrt(i * i + j * j) - 0.5))) continue;
+      const int left = std::max(0, -i), count = mask.width - std::abs(i);
+      for (int y = std::max(0, -j); y < mask.height - std::max(0, j); ++y) {
+        const std::uint8_t* from = mask.pixels.data() + static_cast<std::size_t>(y + j) * mask.width + left + i;
+        std::uint8_t* to = out.pixels.data() + static_cast<std::size_t>(y) * mask.width + left;
+        for (int x = 0; x < count; ++x) to[x] = kValue != 0 ? to[x] | from[x] : to[x] & from[x];
+      }
+    }
   }
-  return grown;
+  return out;
 }
 
-// Removes parts that are thinner than a disc of this radius (morphological opening).
+// Removes parts that are thinner than a disc of this radius (morphological opening: an erosion, then a dilation).
 Mask Opened(const Mask& mask, double radius) {
   if (radius <= 0) return mask;
-  return Grown(Grown(mask, -radius), radius);
+  const int reach = static_cast<int>(radius + 0.5) + 1;
+  const Mask eroded = Spread<0>(mask, reach, [&](float away) { return away < radius; });
+  return Spread<1>(eroded, reach, [&](float away) { return away <= radius; });
 }
 
 // Fills `made.outline`, `made.area` and `made.centre`.
@@ -198,27 +219,33 @@ void SampleOutline(const Mask& mask, const SilhouetteOptions& options, Silhouett
   if (made.area > 0) made.centre = options.mask_pixel * sum / static_cast<double>(made.area);
 }
 
+// Sorts points into blocks of neighbours: halves the set across the longer side of its box until a block is left.
+void SortIntoBlocks(const std::vector<OutlinePoint>& outline, std::span<int> points) {
+  if (points.size() <= kBlockPoints) return;
+  glm::dvec2 low = outline[static_cast<std::size_t>(points[0])].pixel, high = low;
+  for (const int point : points) {
+    low = glm::min(low, outline[static_cast<std::size_t>(point)].pixel);
+    high = glm::max(high, outline[static_cast<std::size_t>(point)].pixel);
+  }
+  const int axis = high.x - low.x < high.y - low.y;
+  const std::size_t blocks = (points.size() + kBlockPoints - 1) / kBlockPoints, half = blocks / 2 * kBlockPoints;
+  std::ranges::nth_element(points, points.begin() + static_cast<std::ptrdiff_t>(half), {}, [&](int point) {
+    return std::pair(outline[static_cast<std::size_t>(point)].pixel[axis], point);
+  });
+  SortIntoBlocks(outline, points.first(half));
+  SortIntoBlocks(outline, points.subspan(half));
+}
+
 }  // namespace
 
 OutlineColumns MakeColumns(const std::vector<OutlinePoint>& outline) {
   OutlineColumns columns;
   if (outline.empty()) return columns;
-  // Sort the points along a Morton curve of 8-pixel squares, which keeps neighbours in the picture together in memory.
-  constexpr double kSquare = 8;  // pixels
-  const auto key = [&](int point) {
-    const glm::dvec2 square = glm::max(outline[static_cast<std::size_t>(point)].pixel / kSquare, glm::dvec2(0));
-    const auto x = static_cast<std::uint32_t>(square.x), y = static_cast<std::uint32_t>(square.y);
-    std::uint64_t code = 0;
-    for (int bit = 0; bit < 16; ++bit) {
-      code |= std::uint64_t{x >> bit & 1} << (2 * bit) | std::uint64_t{y >> bit & 1} << (2 * bit + 1);
-    }
-    return code;
-  };
-  std::vector<std::pair<std::uint64_t, int>> order;
-  for (int i = 0; i < std::ssize(outline); ++i) order.emplace_back(key(i), i);
-  std::ranges::sort(order);
+  std::vector<int> order(outline.size());
+  std::iota(order.begin(), order.end(), 0);
+  SortIntoBlocks(outline, order);
   columns.places.resize(outline.size());
-  for (const auto& [code, point] : order) {
+  for (const int point : order) {
     columns.places[static_cast<std::size_t>(point)] = static_cast<int>(columns.u.size());
     columns.u.push_back(outline[static_cast<std::size_t>(point)].pixel.x);
     columns.v.push_back(outline[static_cast<std::size_t>(point)].pixel.y);
@@ -257,38 +284,6 @@ Silhouette MakeSilhouette(const Mask& mask, const SilhouetteOptions& options) {
   SampleOutline(person, options, made);
   made.columns = MakeColumns(made.outline);
   return made;
-}
-
-DistanceAt DistanceAtPixel(const Silhouette& silhouette, const glm::dvec2& pixel) {
-  assert(silhouette.area > 0);
-  const Image<float>& field = silhouette.distances;
-  // Clamp the pixel to the picture, then to the box that holds distances.
-  const glm::dvec2 wanted = pixel / silhouette.mask_pixel - 0.5;
-  const glm::dvec2 seen = glm::clamp(wanted, glm::dvec2(0), glm::dvec2(silhouette.width - 1, silhouette.height - 1));
-  const glm::dvec2 in_box = seen - glm::dvec2(silhouette.left, silhouette.top);
-  const glm::dvec2 at = glm::clamp(in_box, glm::dvec2(0), glm::dvec2(field.width - 1, field.height - 1));
-  // Interpolate the distance and its gradient between the four pixel centres.
-  const int x = std::min(static_cast<int>(at.x), field.width - 2),
-            y = std::min(static_cast<int>(at.y), field.height - 2);
-  const double s = at.x - x, t = at.y - y;
-  const double a = field.At(x, y), b = field.At(x + 1, y), c = field.At(x, y + 1), d = field.At(x + 1, y + 1);
-  DistanceAt found{(1 - t) * ((1 - s) * a + s * b) + t * ((1 - s) * c + s * d),
-                   {(1 - t) * (b - a) + t * (d - c), (1 - s) * (c - a) + s * (d - b)}};
-  // Set the gradient to 0 along each axis on which the point was clamped.
-  const glm::dvec2 beyond = in_box - at;
-  for (int axis = 0; axis < 2; ++axis) {
-    if (beyond[axis] != 0 || seen[axis] != wanted[axis]) found.gradient[axis] = 0;
-  }
-  // Outside the box, add the distance to the box.
-  const double away = glm::length(beyond);
-  if (away > 0) {
-    found.distance += away;
-    for (int axis = 0; axis < 2; ++axis) {
-      if (seen[axis] == wanted[axis]) found.gradient[axis] += beyond[axis] / away;
-    }
-  }
-  found.distance *= silhouette.mask_pixel;
-  return found;
 }
 
 }  // namespace etude

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <algorithm>
+#include <cassert>
 #include <glm/glm.hpp>
 #include <vector>
 
@@ -33,7 +35,7 @@ struct OutlinePoint {
   glm::dvec2 normal{0};  ///< unit vector, points out of the silhouette
 };
 
-/// An outline's points as columns of coordinates, sorted so that neighbouring points are close in memory
+/// An outline's points as columns of coordinates, sorted so that the points of a block are neighbours
 /// (nearest_cones.h).
 struct OutlineColumns {
   std::vector<int> places;  ///< the column of each outline point
@@ -66,6 +68,40 @@ struct DistanceAt {
   double distance = 0;
   glm::dvec2 gradient{0};
 };
-DistanceAt DistanceAtPixel(const Silhouette& silhouette, const glm::dvec2& pixel);
+inline DistanceAt DistanceAtPixel(const Silhouette& silhouette, const glm::dvec2& pixel) {
+  assert(silhouette.area > 0);
+  const Image<float>& field = silhouette.distances;
+  // Clamp the pixel to the picture, then to the box that holds distances.
+  const glm::dvec2 wanted = pixel / silhouette.mask_pixel - 0.5;
+  const glm::dvec2 seen = glm::clamp(wanted, glm::dvec2(0), glm::dvec2(silhouette.width - 1, silhouette.height - 1));
+  const glm::dvec2 in_box = seen - glm::dvec2(silhouette.left, silhouette.top);
+  const glm::dvec2 at = glm::clamp(in_box, glm::dvec2(0), glm::dvec2(field.width - 1, field.height - 1));
+  // Interpolate the distance and its gradient between the four pixel centres.
+  const int x = std::min(static_cast<int>(at.x), field.width - 2),
+            y = std::min(static_cast<int>(at.y), field.height - 2);
+  const double s = at.x - x, t = at.y - y;
+  const double a = field.At(x, y), b = field.At(x + 1, y), c = field.At(x, y + 1), d = field.At(x + 1, y + 1);
+  DistanceAt found{(1 - t) * ((1 - s) * a + s * b) + t * ((1 - s) * c + s * d),
+                   {(1 - t) * (b - a) + t * (d - c), (1 - s) * (c - a) + s * (d - b)}};
+  if (seen == wanted && at == in_box) {  // the usual case
+    found.distance *= silhouette.mask_pixel;
+    return found;
+  }
+  // Set the gradient to 0 along each axis on which the point was clamped.
+  const glm::dvec2 beyond = in_box - at;
+  for (int axis = 0; axis < 2; ++axis) {
+    if (beyond[axis] != 0 || seen[axis] != wanted[axis]) found.gradient[axis] = 0;
+  }
+  // Outside the box, add the distance to the box.
+  const double away = glm::length(beyond);
+  if (away > 0) {
+    found.distance += away;
+    for (int axis = 0; axis < 2; ++axis) {
+      if (seen[axis] == wanted[axis]) found.gradient[axis] += beyond[axis] / away;
+    }
+  }
+  found.distance *= silhouette.mask_pixel;
+  return found;
+}
 
 }  // namespace etude

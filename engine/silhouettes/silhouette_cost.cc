@@ -5,8 +5,7 @@
 #include <cassert>
 #include <cmath>
 #include <limits>
-
-#include "engine/silhouettes/nearest_cones.h"
+#include <numeric>
 
 namespace etude {
 namespace {
@@ -36,12 +35,11 @@ ConePoint NearestOnCone(const ProjectedCapsule& capsule, const glm::dvec2& pixel
   return found;
 }
 
-ConeColumns ConesOf(const std::vector<ProjectedCapsule>& flesh) {
-  ConeColumns cones;
+void PrepareCones(const std::vector<ProjectedCapsule>& flesh, ConeColumns& cones) {
   cones.count = (flesh.size() + kConeLanes - 1) / kConeLanes * kConeLanes;
   assert(cones.count <= kMaxCones);
   for (std::size_t i = 0; i < cones.count; ++i) {
-    std::array<double, kConeRows> cone = {0, 0, 0, 0, 1, 0, 1, -std::numeric_limits<double>::infinity(), 0};
+    std::array<double, kConeRows> cone = {0, 0, 0, 0, 1, 0, 1, -std::numeric_limits<double>::infinity(), 0, 0, 0};
     if (i < flesh.size() && flesh[i].is_valid) {
       const ProjectedCapsule& capsule = flesh[i];
       const glm::dvec2 axis = capsule.b - capsule.a;
@@ -55,11 +53,12 @@ ConeColumns ConesOf(const std::vector<ProjectedCapsule>& flesh) {
               widens,
               is_ball ? 1 : std::sqrt(length2 - widens * widens),
               capsule.radius_a,
-              is_ball ? (widens > 0 ? 1.0 : 0.0) : -1.0};
+              is_ball ? (widens > 0 ? 1.0 : 0.0) : -1.0,
+              capsule.b.x,
+              capsule.b.y};
     }
     for (std::size_t row = 0; row < kConeRows; ++row) cones.rows[row][i] = cone[row];
   }
-  return cones;
 }
 
 PointColumns PointsOf(const OutlineColumns& columns) {
@@ -129,7 +128,8 @@ void ProjectFlesh(const SilhouetteBody& body, const TreeFrames& frames, const Pr
 void MeasureFlesh(const Silhouette& silhouette, SeenFlesh& flesh) {
   flesh.distances.assign(silhouette.columns.u.size(), std::numeric_limits<double>::infinity());
   flesh.owners.assign(flesh.distances.size(), -1);
-  FindNearestCones(ConesOf(flesh.capsules), PointsOf(silhouette.columns), flesh.distances.data(), flesh.owners.data());
+  PrepareCones(flesh.capsules, flesh.cones);
+  FindNearestCones(flesh.cones, PointsOf(silhouette.columns), flesh.distances.data(), flesh.owners.data());
   flesh.inside.resize(flesh.capsules.size());
   for (std::size_t i = 0; i < flesh.capsules.size() && silhouette.area > 0; ++i) {
     if (!flesh.capsules[i].is_valid) continue;
@@ -160,14 +160,71 @@ void AppendResiduals(const SeenFlesh& flesh, const Silhouette& silhouette, const
       [&](const SilhouetteResidual& residual) { out.push_back(residual); });
 }
 
+void SumResiduals(const SeenFlesh& flesh, const Silhouette& silhouette, const SilhouetteCostOptions& options,
+                  ResidualSums& out) {
+  out.capsules.resize(flesh.capsules.size());
+  if (silhouette.area == 0) {
+    std::ranges::fill(out.capsules, ConeSums{});
+    return;
+  }
+  // Sort the outline points by their nearest capsule; within a capsule they keep their order.
+  const auto owner_of = [&](std::size_t point) {
+    return static_cast<int>(flesh.owners[static_cast<std::size_t>(silhouette.columns.places[point])]);
+  };
+  std::array<std::size_t, kMaxCones + 1> ends{};
+  const std::size_t count = silhouette.outline.size();
+  for (std::size_t i = 0; i < count; ++i) ++ends[static_cast<std::size_t>(owner_of(i) + 1)];
+  ends[0] = 0;  // points without a capsule
+  std::partial_sum(ends.begin(), ends.end(), ends.begin());
+  out.u.resize(count + kBlockPoints);
+  out.v.resize(count + kBlockPoints);
+  for (std::size_t i = 0; i < count; ++i) {
+    const int owner = owner_of(i);
+    if (owner < 0) continue;
+    const std::size_t at = ends[static_cast<std::size_t>(owner)]++;
+    out.u[at] = silhouette.outline[i].pixel.x;
+    out.v[at] = silhouette.outline[i].pixel.y;
+  }
+  // Sum the outline's residuals capsule by capsule, then add those of containment.
+  std::size_t begin = 0;
+  for (std::size_t i = 0; i < flesh.capsules.size(); begin = ends[i++]) {
+    if (ends[i] == begin) {
+      out.capsules[i] = {};
+      continue;
+    }
+    SumConePoints(flesh.cones, i,
+                  {ends[i] - begin, &out.u[begin], &out.v[begin], 1 / (options.sigma_px * options.sigma_px),
+                   options.outline_reach_px * options.outline_reach_px},
+                  out.capsules[i]);
+  }
+  ForEachContainment(
+      flesh.capsules, options, [&](std::size_t i, std::size_t sample) { return flesh.inside[i][sample]; },
+      [&](const SilhouetteResidual& residual) {
+        ConeSums& sums = out.capsules[static_cast<std::size_t>(residual.capsule)];
+        const double weight = LossOf(residual, options).weight, weighted_value = weight * residual.value;
+        for (std::size_t row = 0; row < 6; ++row) {
+          sums.gradient[row] += weighted_value * residual.slopes[row];
+          const double weighted = weight * residual.slopes[row];
+          for (std::size_t column = 0; column < 6; ++column) {
+            sums.hessian[column][row] += weighted * residual.slopes[column];
+          }
+        }
+      });
+}
+
 void AddLosses(const SeenFlesh& flesh, const Silhouette& silhouette, const SilhouetteCostOptions& options,
                double& sum) {
   if (silhouette.area == 0) return;
-  double outline = sum;  // a local sum, so that the compiler knows that writes to it change no option
-  for (const int place : silhouette.columns.places) {
-    const auto at = static_cast<std::size_t>(place);
-    if (flesh.owners[at] >= 0) outline += LossOf({.value = flesh.distances[at]}, options).loss;
+  // Compute the losses by column, where they are vectorised, and add them in the outline's order.
+  std::vector<double> losses(flesh.distances.size());
+  const double counts = 1 / (options.sigma_px * options.sigma_px);
+  const double reach2 = options.outline_reach_px * options.outline_reach_px;
+  for (std::size_t i = 0; i < losses.size(); ++i) {
+    const double square = flesh.distances[i] * flesh.distances[i];
+    losses[i] = flesh.owners[i] >= 0 ? counts * square * (1 / (1 + square / reach2)) : 0;
   }
+  double outline = sum;
+  for (const int place : silhouette.columns.places) outline += losses[static_cast<std::size_t>(place)];
   sum = outline;
   ForEachContainment(
       flesh.capsules, options, [&](std::size_t i, std::size_t sample) { return flesh.inside[i][sample]; },
@@ -184,7 +241,9 @@ void AddContainmentLosses(const std::vector<ProjectedCapsule>& flesh, const Silh
 void OutlineDistances(const std::vector<ProjectedCapsule>& flesh, const Silhouette& silhouette,
                       std::span<double> distances) {
   std::vector<double> owners(distances.size());
-  FindNearestCones(ConesOf(flesh), PointsOf(silhouette.columns), distances.data(), owners.data());
+  ConeColumns cones;
+  PrepareCones(flesh, cones);
+  FindNearestCones(cones, PointsOf(silhouette.columns), distances.data(), owners.data());
 }
 
 }  // namespace etude

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "engine/cameras/camera.h"
+#include "engine/silhouettes/nearest_cones.h"
 #include "engine/silhouettes/silhouette.h"
 #include "engine/silhouettes/silhouette_body.h"
 
@@ -121,6 +122,7 @@ struct SeenFlesh {
   std::vector<ProjectedCapsule> capsules;
   std::vector<double> distances;  ///< by column of the silhouette: the smallest signed distance to a capsule, pixels
   std::vector<double> owners;     ///< by column: the nearest capsule's index; -1 if no capsule is valid
+  ConeColumns cones;              ///< the capsules, prepared for FindNearestCones
   /// For each capsule, the silhouette's signed distances at kInsideSamples points along the capsule's axis, pixels.
   static constexpr std::size_t kInsideSamples = 4;
   std::vector<std::array<DistanceAt, kInsideSamples>> inside;
@@ -135,6 +137,14 @@ void MeasureFlesh(const Silhouette& silhouette, SeenFlesh& flesh);
 ///   silhouette's signed distance there plus `inside_share` of the radius; there is none if this sum is at most 0.
 void AppendResiduals(const SeenFlesh& flesh, const Silhouette& silhouette, const SilhouetteCostOptions& options,
                      std::vector<SilhouetteResidual>& out);
+
+/// The normal equations of the residuals of AppendResiduals, with respect to the six numbers of each capsule.
+struct ResidualSums {
+  std::vector<ConeSums> capsules;
+  std::vector<double> u, v;  ///< the outline points, sorted by capsule
+};
+void SumResiduals(const SeenFlesh& flesh, const Silhouette& silhouette, const SilhouetteCostOptions& options,
+                  ResidualSums& out);
 
 /// Adds the loss (LossOf) of every residual of AppendResiduals to `sum`, in order.
 void AddLosses(const SeenFlesh& flesh, const Silhouette& silhouette, const SilhouetteCostOptions& options, double& sum);

@@ -3,6 +3,9 @@
 #include <algorithm>
 #include <array>
 #include <cassert>
+#include <limits>
+#include <ranges>
+#include <utility>
 
 #include "engine/silhouettes/fit_joints.h"
 #include "engine/silhouettes/moment_fitter.h"
@@ -76,8 +79,14 @@ class Tracker {
  private:
   struct Anchor {
     std::size_t frame = 0;
-    SilhouetteFit fit;
+    Fits fits;  // the start pose at `frame`, and the frames around it that a trial has followed
   };
+
+  Anchor AnchorAt(std::size_t frame, SilhouetteFit fit) const {
+    Anchor anchor{frame, Fits(frame_count_)};
+    anchor.fits[frame] = std::move(fit);
+    return anchor;
+  }
 
   bool Shows(std::size_t frame) const { return views_[frame].size() >= 2; }
 
@@ -85,32 +94,30 @@ class Tracker {
     if (!take_.start) return std::nullopt;
     for (std::size_t frame = 0; frame < frame_count_; ++frame) {
       if (!Shows(frame)) continue;
-      return Anchor{frame, fitter_.FitKnown(views_[frame], *take_.start)};
+      return AnchorAt(frame, fitter_.FitKnown(views_[frame], *take_.start));
     }
     return std::nullopt;
   }
 
   // Follows the body from the pose of `anchor` through the frames around it, and returns the mean cost of these frames.
-  double TrialCost(const Anchor& anchor) {
+  // As soon as the mean is certain to exceed `limit`, returns infinity.
+  double TrialCost(Anchor& anchor, double limit) {
+    constexpr double kRounding = 1e-9;  // far above the relative rounding error of a sum
     const std::size_t reach = options_.trial_frames;
     const std::size_t first = anchor.frame < reach ? 0 : anchor.frame - reach;
     const std::size_t last = std::min(anchor.frame + reach, frame_count_ - 1);
-    Fits fits(frame_count_);
-    fits[anchor.frame] = anchor.fit;
-    Follow(anchor.frame, last, fits);
-    Follow(anchor.frame, first, fits);
-    double sum = 0;
-    int count = 0;
-    for (std::size_t k = first; k <= last; ++k) {
-      if (!fits[k]) continue;
-      sum += fits[k]->cost;
-      ++count;
+    const auto count = std::ranges::count_if(std::views::iota(first, last + 1), [&](auto k) { return Shows(k); });
+    const double most = limit * static_cast<double>(count) * (1 + kRounding);
+    if (!Follow(anchor.frame, last, anchor.fits, most) || !Follow(anchor.frame, first, anchor.fits, most)) {
+      return std::numeric_limits<double>::infinity();
     }
-    return sum / count;
+    double sum = 0;
+    for (std::size_t k = first; k <= last; ++k) sum += anchor.fits[k] ? anchor.fits[k]->cost : 0;
+    return sum / static_cast<double>(count);
   }
 
-  // Returns the start poses for following the take: the known start first, then poses found in the pictures, the most
-  // likely first.
+  // Returns at most kFollowedAnchors start poses for following the take: the known start first, then poses found in the
+  // pictures, the most likely first.
   std::vector<Anchor> ChooseAnchors() {
     std::vector<Anchor> anchors = FindAnchors();
     if (const std::optional<Anchor> known = KnownAnchor()) anchors.insert(anchors.begin(), *known);
@@ -130,36 +137,45 @@ class Tracker {
   }
 
   std::vector<Anchor> FindAnchors() {
-    std::vector<std::pair<double, Anchor>> tried;
+    std::vector<std::pair<double, Anchor>> best;
     for (const std::size_t frame : MomentsOf(options_.anchors)) {
       for (SilhouetteFit& fit : fitter_.Find(views_[frame])) {
-        Anchor anchor{frame, std::move(fit)};
-        const double cost = TrialCost(anchor);
-        tried.emplace_back(cost, std::move(anchor));
+        const bool is_full = best.size() == kFollowedAnchors;
+        Anchor anchor = AnchorAt(frame, std::move(fit));
+        const double cost = TrialCost(anchor, is_full ? best.back().first : std::numeric_limits<double>::infinity());
+        best.emplace_back(cost, std::move(anchor));
+        std::ranges::stable_sort(best, {}, [](const auto& one) { return one.first; });
+        if (is_full) best.pop_back();
       }
     }
-    std::ranges::stable_sort(tried, {}, [](const auto& one) { return one.first; });
     std::vector<Anchor> anchors;
-    for (auto& [cost, anchor] : tried) anchors.push_back(std::move(anchor));
+    for (auto& [cost, anchor] : best) anchors.push_back(std::move(anchor));
     return anchors;
   }
 
   // Fits the frames from `from` (exclusive) to `to`, forwards or backwards in time, each from the frame before it.
-  void Follow(std::size_t from, std::size_t to, Fits& fits) {
+  // Frames that are fitted already stay as they are. Stops, and returns false, when the sum of the costs in `fits`
+  // exceeds `most`.
+  bool Follow(std::size_t from, std::size_t to, Fits& fits, double most = std::numeric_limits<double>::infinity()) {
     const int step = to >= from ? 1 : -1;
+    const auto add = [](double sum, const auto& fit) { return fit ? sum + fit->cost : sum; };
+    double sum = std::accumulate(fits.begin(), fits.end(), 0.0, add);
     TreeState last = fits[from]->state, before_last = last;
-    for (std::size_t k = from; k != to;) {
+    for (std::size_t k = from; k != to && sum <= most;) {
       k += step;
       if (!Shows(k)) continue;
-      fits[k] = fitter_.Follow(views_[k], before_last, last);
+      if (!fits[k]) {
+        fits[k] = fitter_.Follow(views_[k], before_last, last);
+        sum += fits[k]->cost;
+      }
       before_last = std::move(last);
       last = fits[k]->state;
     }
+    return sum <= most;
   }
 
   Fits FollowBothWays(const Anchor& anchor) {
-    Fits fits(frame_count_);
-    fits[anchor.frame] = anchor.fit;
+    Fits fits = anchor.fits;
     Follow(anchor.frame, frame_count_ - 1, fits);
     Follow(anchor.frame, 0, fits);
     return fits;
@@ -176,9 +192,9 @@ class Tracker {
     for (const std::size_t frame : MomentsOf(kTurnedMoments)) {
       if (!fits[frame]) continue;
       const TreeState turned = TurnedRound(body_, fits[frame]->state);
-      Anchor anchor{frame,
-                    fitter_.WithLimbsFound(views_[frame], fitter_.Fit(views_[frame], turned, nullptr, true), nullptr)};
-      const double cost = TrialCost(anchor);
+      Anchor anchor = AnchorAt(
+          frame, fitter_.WithLimbsFound(views_[frame], fitter_.Fit(views_[frame], turned, nullptr, true), nullptr));
+      const double cost = TrialCost(anchor, likeliest ? least : std::numeric_limits<double>::infinity());
       if (likeliest && cost >= least) continue;
       likeliest = std::move(anchor);
       least = cost;

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cassert>
 #include <cstdint>
+#include <utility>
 
 #include "engine/vision/change_detection.h"
 
@@ -35,16 +36,21 @@ Activity ShareAbout(const Mask& mask, int reach) {
 }  // namespace
 
 std::vector<Activity> MotionActivity(std::span<const ColourImage> pictures, const MotionOptions& options) {
+  const auto changes = [&](std::size_t a, std::size_t b) {
+    Mask changed(pictures[a].width, pictures[a].height);
+    for (std::size_t i = 0; i < changed.pixels.size(); ++i) {
+      changed.pixels[i] = MaxDifference(pictures[a].pixels[i], pictures[b].pixels[i]) > options.change;
+    }
+    return changed;
+  };
+  // The change from picture k to k + lag serves both pictures.
+  std::vector<Mask> to_later;
   std::vector<Activity> activity;
   for (std::size_t k = 0; k < pictures.size(); ++k) {
-    const ColourImage& now = pictures[k];
-    const ColourImage& before = pictures[k < options.lag ? 0 : k - options.lag];
-    const ColourImage& after = pictures[std::min(k + options.lag, pictures.size() - 1)];
-    Mask moved(now.width, now.height);
-    for (std::size_t i = 0; i < moved.pixels.size(); ++i) {
-      moved.pixels[i] = MaxDifference(now.pixels[i], before.pixels[i]) > options.change ||
-                        MaxDifference(now.pixels[i], after.pixels[i]) > options.change;
-    }
+    to_later.push_back(changes(k, std::min(k + options.lag, pictures.size() - 1)));
+    Mask moved = to_later.back();
+    const Mask to_earlier = k < options.lag ? changes(k, 0) : std::move(to_later[k - options.lag]);
+    for (std::size_t i = 0; i < moved.pixels.size(); ++i) moved.pixels[i] |= to_earlier.pixels[i];
     activity.push_back(ShareAbout(moved, options.reach));
   }
   return activity;
@@ -55,18 +61,26 @@ ColourImage EstimateBackground(std::span<const ColourImage> pictures, std::span<
   assert(!pictures.empty() && activity.size() == pictures.size() && kept >= 1);
   kept = std::min(kept, pictures.size());
   ColourImage background(pictures[0].width, pictures[0].height);
-  std::vector<std::size_t> by_activity(pictures.size());
+  std::vector<std::size_t> quietest(kept);  // pictures by ascending activity at the pixel; of equals, the earlier first
+  std::vector<float> least(kept);           // their activities
   std::vector<std::uint8_t> levels(kept);
+  std::vector<const float*> activities;
+  for (const Activity& one : activity) activities.push_back(one.pixels.data());
   // For each pixel: select the pictures with the lowest activity there, then take the median of each channel.
   for (std::size_t i = 0; i < background.pixels.size(); ++i) {
-    for (std::size_t k = 0; k < by_activity.size(); ++k) by_activity[k] = k;
-    const auto last = by_activity.begin() + static_cast<std::ptrdiff_t>(kept) - 1;
-    std::nth_element(by_activity.begin(), last, by_activity.end(), [&](std::size_t a, std::size_t b) {
-      const float first = activity[a].pixels[i], second = activity[b].pixels[i];
-      return first != second ? first < second : a < b;
-    });
+    for (std::size_t k = 0; k < pictures.size(); ++k) {
+      const float own = activities[k][i];
+      if (k >= kept && own >= least[kept - 1]) continue;
+      std::size_t at = std::min(k, kept - 1);
+      for (; at > 0 && own < least[at - 1]; --at) {
+        least[at] = least[at - 1];
+        quietest[at] = quietest[at - 1];
+      }
+      least[at] = own;
+      quietest[at] = k;
+    }
     const auto median = [&](std::uint8_t Rgb8::*colour) {
-      for (std::size_t k = 0; k < kept; ++k) levels[k] = pictures[by_activity[k]].pixels[i].*colour;
+      for (std::size_t k = 0; k < kept; ++k) levels[k] = pictures[quietest[k]].pixels[i].*colour;
       const auto middle = levels.begin() + static_cast<std::ptrdiff_t>(kept / 2);
       std::nth_element(levels.begin(), middle, levels.end());
       return *middle;

@@ -53,16 +53,43 @@ Chroma ChromaOrRed(Rgb8 colour) {
   return chroma;
 }
 
-/// Returns true if no change of light explains the difference of the two colours: the pixel's colour is too far from
-/// every multiple of the background's colour, or the nearest multiple has an implausible factor.
-bool IsNoShade(Rgb8 background, Rgb8 pixel, const ChangeOptions& o) {
+/// Decides whether no change of light explains the difference of two colours: the pixel's colour is too far from every
+/// multiple of the background's colour, or the nearest multiple has an implausible factor.
+class ShadeComparison {
+ public:
+  explicit ShadeComparison(const ChangeOptions& options) : o_(options) {
+    constexpr double kRounding = 1e-6;
+    const double factor = std::max(0.0, std::min(1 - o_.darkest_shadow, o_.brightest_light - 1));
+    alike2_ = (1 - kRounding) * o_.ratio_threshold * o_.ratio_threshold;
+    alike_share2_ = (1 - kRounding) * factor * factor;
+  }
+
+  bool Differ(Rgb8 background, Rgb8 pixel) const {
+    // Most colours are so alike that neither limit can be exceeded: the factor differs from 1 by at most the length of
+    // the colours' difference divided by the length of the background's colour.
+    const int r = pixel.r - background.r, g = pixel.g - background.g, b = pixel.b - background.b;
+    const int off2 = r * r + g * g + b * b;
+    const int length2 = background.r * background.r + background.g * background.g + background.b * background.b;
+    if (off2 < alike2_ && off2 < alike_share2_ * length2) return false;
+    return IsNoShade(background, pixel);
+  }
+
+ private:
+  bool IsNoShade(Rgb8 background, Rgb8 pixel) const;
+
+  ChangeOptions o_;
+  double alike2_ = 0;        // below this squared difference, the distance from the nearest multiple is small enough
+  double alike_share2_ = 0;  // below this share of the background's squared length, the factor is plausible
+};
+
+bool ShadeComparison::IsNoShade(Rgb8 background, Rgb8 pixel) const {
   const double br = background.r, bg = background.g, bb = background.b;
   const double dot = pixel.r * br + pixel.g * bg + pixel.b * bb;
   const double length2 = br * br + bg * bg + bb * bb;
   const double factor = length2 > 0 ? dot / length2 : 1;
-  if (factor < o.darkest_shadow || factor > o.brightest_light) return true;
+  if (factor < o_.darkest_shadow || factor > o_.brightest_light) return true;
   const double r = pixel.r - factor * br, g = pixel.g - factor * bg, b = pixel.b - factor * bb;
-  return r * r + g * g + b * b > o.ratio_threshold * o.ratio_threshold;
+  return r * r + g * g + b * b > o_.ratio_threshold * o_.ratio_threshold;
 }
 
 class GatedComparison {
@@ -129,7 +156,7 @@ Mask DetectChange(const ColourImage& background, const ColourImage& picture, Seg
       compare([tones = GatedComparison(options)](Rgb8 b, Rgb8 p) { return tones.Differ(b, p); });
       break;
     case Segmenter::kRatio:
-      compare([&](Rgb8 b, Rgb8 p) { return IsNoShade(b, p, options); });
+      compare([shades = ShadeComparison(options)](Rgb8 b, Rgb8 p) { return shades.Differ(b, p); });
       break;
     case Segmenter::kRunning:
     case Segmenter::kLikelihood:

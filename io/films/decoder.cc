@@ -35,6 +35,8 @@ Result<Child> StartReading(const Words& words, const Place& place) {
   int ends[2];
   if (!child.log || pipe2(ends, O_CLOEXEC) != 0)
     return FailOfMachine("no connection to {}: {}", words[0], std::strerror(errno));
+  constexpr int kPipeBytes = 1 << 20;  // fewer changes between the two programs; the default size serves as well
+  fcntl(ends[1], F_SETPIPE_SZ, kPipeBytes);
   const int error = SpawnProgram(words, kNowhere, ends[1], child.log.get(), child.pid);
   close(ends[1]);
   child.output.reset(fdopen(ends[0], "rb"));
@@ -88,8 +90,7 @@ Result<FilmFacts> ProbeFilm(const std::filesystem::path& path, const std::string
                     "default=nw=1", "file:" + path.string()},
                    place));
   auto keys = ReadKeys(child.output.get());
-  if (const int status = WaitFor(child.pid);
-      !WIFEXITED(status) || WEXITSTATUS(status) != 0 || keys.empty()) {
+  if (const int status = WaitFor(child.pid); !WIFEXITED(status) || WEXITSTATUS(status) != 0 || keys.empty()) {
     const std::string words = FirstLineOf(child.log.get());
     return Fail(place, "not a film that ffmpeg can read{}{}", words.empty() ? "" : ": ", words);
   }

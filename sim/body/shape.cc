@@ -158,13 +158,17 @@ bool IsInside(const Capsule& capsule, const glm::dvec3& point) {
   return glm::dot(off, off) <= capsule.radius * capsule.radius;
 }
 
-/// Returns true if the ray misses the capsule's bounding sphere by more than any rounding error. Most rays miss it.
-bool PassesBy(const Capsule& capsule, const glm::dvec3& origin, const glm::dvec3& direction) {
+BoundingSphere SphereAround(const Capsule& capsule, const glm::dvec3& eye) {
   constexpr double kAir = 1e-6;  // a margin larger than any rounding error, metres
-  const glm::dvec3 from = origin - 0.5 * (capsule.a + capsule.b);
+  const glm::dvec3 from = eye - 0.5 * (capsule.a + capsule.b);
   const double radius = 0.5 * glm::length(capsule.b - capsule.a) + capsule.radius + kAir;
-  const double along = glm::dot(from, direction), outside = glm::dot(from, from) - radius * radius;
-  return outside > 0 && (along > 0 || along * along < outside);
+  return {from, glm::dot(from, from) - radius * radius};
+}
+
+/// Returns true if the ray misses the sphere. Most rays do.
+bool PassesBy(const BoundingSphere& sphere, const glm::dvec3& direction) {
+  const double along = glm::dot(sphere.from, direction);
+  return sphere.outside > 0 && (along > 0 || along * along < sphere.outside);
 }
 
 /// Returns the distance at which the ray enters the cylinder between the two half-spheres.
@@ -204,30 +208,44 @@ std::vector<Capsule> BodyCapsules(const BodyPose& pose) {
   return body;
 }
 
-double HitDistance(const Capsule& capsule, const glm::dvec3& origin, const glm::dvec3& direction) {
-  if (PassesBy(capsule, origin, direction)) return kInfinity;
+namespace {
+
+/// Returns the distance along a ray that does not miss the capsule's bounding sphere.
+double HitDistanceNear(const Capsule& capsule, const glm::dvec3& origin, const glm::dvec3& direction) {
   if (IsInside(capsule, origin)) return 0;
   return std::min({SideEntry(capsule, origin, direction), SphereEntry(capsule.a, capsule.radius, origin, direction),
                    SphereEntry(capsule.b, capsule.radius, origin, direction)});
 }
 
-JointSight SightOf(const std::vector<Capsule>& body, const BodyPose& pose, Role role, const glm::dvec3& eye) {
-  const glm::dvec3 line = pose[role] - eye;
+}  // namespace
+
+double HitDistance(const Capsule& capsule, const glm::dvec3& origin, const glm::dvec3& direction) {
+  if (PassesBy(SphereAround(capsule, origin), direction)) return kInfinity;
+  return HitDistanceNear(capsule, origin, direction);
+}
+
+BodySight::BodySight(const BodyPose& pose, const glm::dvec3& eye) : pose_(pose), eye_(eye) {
+  for (const Capsule& capsule : BodyCapsules(pose)) capsules_.push_back({capsule, SphereAround(capsule, eye)});
+}
+
+JointSight BodySight::Of(Role role) const {
+  const glm::dvec3 line = pose_[role] - eye_;
   const double distance = glm::length(line);
   JointSight sight{.skin = distance, .other = kInfinity};
   if (distance == 0) return sight;
   const glm::dvec3 direction = line / distance;
   const auto [first, second] = OwnPartsOf(role);
-  for (const Capsule& capsule : body) {
-    const double hit = HitDistance(capsule, eye, direction);
-    double& nearest = capsule.part == first || capsule.part == second ? sight.skin : sight.other;
-    nearest = std::min(nearest, hit);
+  for (const SeenCapsule& seen : capsules_) {
+    if (PassesBy(seen.sphere, direction)) continue;
+    const Part part = seen.capsule.part;
+    double& nearest = part == first || part == second ? sight.skin : sight.other;
+    nearest = std::min(nearest, HitDistanceNear(seen.capsule, eye_, direction));
   }
   return sight;
 }
 
-bool IsHidden(const std::vector<Capsule>& body, const BodyPose& pose, Role role, const glm::dvec3& eye) {
-  const JointSight sight = SightOf(body, pose, role, eye);
+bool IsHidden(const BodyPose& pose, Role role, const glm::dvec3& eye) {
+  const JointSight sight = BodySight(pose, eye).Of(role);
   return sight.other < sight.skin - kHidingClearance;
 }
 

@@ -60,16 +60,39 @@ struct JointSight {
   double skin;   ///< distance to the skin of the parts that contain the joint; at most the distance to the joint
   double other;  ///< distance to the nearest part that does not contain the joint
 };
-/// Computes the distances along the ray from `eye` to the joint of `role`. `body` must be `BodyCapsules(pose)`.
-JointSight SightOf(const std::vector<Capsule>& body, const BodyPose& pose, Role role, const glm::dvec3& eye);
+/// A sphere around a capsule, seen from an eye: the vector from the sphere's centre to the eye, and the squared length
+/// of this vector minus the squared radius.
+struct BoundingSphere {
+  glm::dvec3 from;
+  double outside;
+};
+
+/// A body in one pose, seen from one eye.
+class BodySight {
+ public:
+  /// `pose` must outlive this object.
+  BodySight(const BodyPose& pose, const glm::dvec3& eye);
+
+  /// Computes the distances along the ray from the eye to the joint of `role`.
+  JointSight Of(Role role) const;
+
+ private:
+  struct SeenCapsule {
+    Capsule capsule;
+    BoundingSphere sphere;
+  };
+  const BodyPose& pose_;
+  const glm::dvec3 eye_;
+  std::vector<SeenCapsule> capsules_;
+};
 
 /// Another part hides a joint only if it is at least this far in front of the joint's skin, metres. A part that touches
 /// the joint, like a hand on the hip, therefore does not hide it.
 constexpr double kHidingClearance = 0.02;
 
 /// Returns true if a part that does not contain the joint of `role` hides this joint from `eye`: the part is more than
-/// kHidingClearance in front of the joint's skin. `body` must be `BodyCapsules(pose)`.
-bool IsHidden(const std::vector<Capsule>& body, const BodyPose& pose, Role role, const glm::dvec3& eye);
+/// kHidingClearance in front of the joint's skin.
+bool IsHidden(const BodyPose& pose, Role role, const glm::dvec3& eye);
 
 /// An upright solid box, rotated about the vertical, metres. Sensors and the renderer use such boxes as furniture.
 struct Cuboid {

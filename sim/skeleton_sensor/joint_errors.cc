@@ -114,7 +114,9 @@ glm::dvec3 Stiffened(glm::dvec3 own, Role role, const BodyPose& pose, const Sigh
 }  // namespace
 
 SlowNoise::SlowNoise(double time_s, double smoothing_s, double rate_hz, RandomStream& dice)
-    : memory_(MemoryOf(time_s, rate_hz)), smoothing_(MemoryOf(smoothing_s, rate_hz)) {
+    : memory_(MemoryOf(time_s, rate_hz)),
+      novelty_(std::sqrt(1 - memory_ * memory_)),
+      smoothing_(MemoryOf(smoothing_s, rate_hz)) {
   // Compute the variance of a second low pass (s) applied to a unit AR(1) process (m): (1 − s) (1 + s m) / ((1 + s) (1
   // − s m)).
   const double s = smoothing_, m = memory_;
@@ -129,7 +131,7 @@ SlowNoise::SlowNoise(double time_s, double smoothing_s, double rate_hz, RandomSt
 }
 
 glm::dvec3 SlowNoise::Next(RandomStream& dice) {
-  first_ = memory_ * first_ + std::sqrt(1 - memory_ * memory_) * dice.Normal3();
+  first_ = memory_ * first_ + novelty_ * dice.Normal3();
   second_ = smoothing_ * second_ + (1 - smoothing_) * first_;
   return scale_ * second_;
 }
@@ -178,18 +180,41 @@ PoseField::PoseField(Role role, const PoseLengths& lengths, RandomStream& dice) 
   }
 }
 
-glm::dvec3 PoseField::At(const BodyPose& pose) const {
+std::array<double, PoseField::kWaves> PoseField::PhasesAt(const BodyPose& pose) const {
   std::array<glm::dvec3, kMaxPoints> points;
   for (std::size_t i = 0; i < point_count_; ++i) {
     points[i] = pose[points_[i].joint] - (points_[i].from_shoulders ? pose[kShoulderCentre] : glm::dvec3(0));
   }
-  glm::dvec3 sum(0);
-  for (const Wave& wave : waves_) {
-    double phase = wave.phase;
-    for (std::size_t i = 0; i < point_count_; ++i) phase += glm::dot(wave.per_metre[i], points[i]);
-    sum += wave.direction * std::cos(phase);
+  std::array<double, kWaves> phases;
+  for (std::size_t w = 0; w < kWaves; ++w) {
+    phases[w] = waves_[w].phase;
+    for (std::size_t i = 0; i < point_count_; ++i) phases[w] += glm::dot(waves_[w].per_metre[i], points[i]);
   }
+  return phases;
+}
+
+glm::dvec3 PoseField::At(const BodyPose& pose) const {
+  const std::array<double, kWaves> phases = PhasesAt(pose);
+  glm::dvec3 sum(0);
+  for (std::size_t w = 0; w < kWaves; ++w) sum += waves_[w].direction * std::cos(phases[w]);
   return sum;
+}
+
+bool PoseField::ExceedsAlongX(const BodyPose& pose, double threshold) const {
+  // Sum cosines with an error of at most kError: in full turns, a polynomial of the difference from the nearest turn.
+  constexpr double kError = 2e-4;
+  const std::array<double, kWaves> phases = PhasesAt(pose);
+  double sum = 0, margin = 0;
+  for (std::size_t w = 0; w < kWaves; ++w) {
+    const double turns = phases[w] * (0.5 / kPi), rest = 2 * kPi * (turns - std::floor(turns + 0.5));
+    const double x = rest * rest;  // at most π²
+    const double cosine =
+        1 - x / 2 * (1 - x / 12 * (1 - x / 30 * (1 - x / 56 * (1 - x / 90 * (1 - x / 132)))));  // Taylor's series
+    sum += waves_[w].direction.x * cosine;
+    margin += kError * std::abs(waves_[w].direction.x);
+  }
+  if (std::abs(sum - threshold) > margin) return sum > threshold;
+  return At(pose).x > threshold;
 }
 
 PoseError::PoseError(Role role, const SkeletonSensorOptions& options, RandomStream& dice)
@@ -203,7 +228,7 @@ PoseError::PoseError(Role role, const SkeletonSensorOptions& options, RandomStre
 }
 
 glm::dvec3 PoseError::At(const BodyPose& pose) const {
-  const bool mode = preference_.At(pose).x > threshold_;
+  const bool mode = preference_.ExceedsAlongX(pose, threshold_);
   return mode ? mode_size_ * in_mode_.At(pose) : usual_size_ * usual_.At(pose);
 }
 

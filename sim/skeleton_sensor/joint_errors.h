@@ -24,7 +24,7 @@ class SlowNoise {
   glm::dvec3 Next(RandomStream& dice);
 
  private:
-  double memory_, smoothing_, scale_;
+  double memory_, novelty_, smoothing_, scale_;
   glm::dvec3 first_{0}, second_{0};
 };
 
@@ -56,6 +56,8 @@ class PoseField {
   PoseField(Role role, const PoseLengths& lengths, RandomStream& dice);
 
   glm::dvec3 At(const BodyPose& pose) const;
+  /// Returns true if At(pose).x exceeds `threshold`, usually without computing a cosine exactly.
+  bool ExceedsAlongX(const BodyPose& pose, double threshold) const;
 
  private:
   static constexpr int kWaves = 12;
@@ -71,6 +73,8 @@ class PoseField {
     std::array<glm::dvec3, kMaxPoints> per_metre;
     double phase;
   };
+  std::array<double, kWaves> PhasesAt(const BodyPose& pose) const;
+
   std::array<Point, kMaxPoints> points_{};
   std::size_t point_count_ = 0;
   std::array<Wave, kWaves> waves_;

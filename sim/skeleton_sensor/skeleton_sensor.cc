@@ -40,14 +40,14 @@ constexpr std::uint64_t kMinDropout = 2, kMaxDropout = 10;
 }  // namespace
 
 HiddenJoints FindHidden(const BodyPose& pose, std::size_t frame, const Occluders& occluders, const glm::dvec3& eye) {
-  const std::vector<Capsule> flesh = BodyCapsules(pose);
+  const BodySight body(pose, eye);
   std::vector<Capsule> bystander;
   if (!occluders.bystander.empty()) {
     bystander = BodyCapsules(occluders.bystander[std::min(frame, occluders.bystander.size() - 1)]);
   }
   HiddenJoints hidden;
   for (const Role role : AllRoles()) {
-    const JointSight sight = SightOf(flesh, pose, role, eye);
+    const JointSight sight = body.Of(role);
     const double other = std::min(sight.other, NearestOccluder(occluders.furniture, bystander, pose[role], eye));
     hidden[Index(role)] = other < sight.skin - kHidingClearance;
   }

@@ -11,17 +11,16 @@ double ReductionOf(const Intrinsics& in, int side) {
 }
 
 Rgb8 MeanOf(const ColourImage& picture, const FilmPatch& patch) {
-  int r = 0, g = 0, b = 0;
-  const int count = (patch.right - patch.left) * (patch.bottom - patch.top);
-  if (count <= 0) return {};
+  if (patch.right <= patch.left || patch.bottom <= patch.top) return {};
+  const auto width = static_cast<unsigned>(patch.right - patch.left);
+  const unsigned count = width * static_cast<unsigned>(patch.bottom - patch.top);
+  unsigned r = count / 2, g = r, b = r;  // so that the division rounds
   for (int y = patch.top; y < patch.bottom; ++y) {
-    for (int x = patch.left; x < patch.right; ++x) {
-      const Rgb8 pixel = picture.At(x, y);
-      r += pixel.r, g += pixel.g, b += pixel.b;
-    }
+    const Rgb8* const row = &picture.At(patch.left, y);
+    for (unsigned x = 0; x < width; ++x) r += row[x].r, g += row[x].g, b += row[x].b;
   }
-  const auto mean = [&](int sum) { return static_cast<std::uint8_t>((sum + count / 2) / count); };
-  return {mean(r), mean(g), mean(b)};
+  return {static_cast<std::uint8_t>(r / count), static_cast<std::uint8_t>(g / count),
+          static_cast<std::uint8_t>(b / count)};
 }
 
 }  // namespace

@@ -154,6 +154,24 @@ TEST(FitSilhouettes, NearestCapsulesAreThoseThatAComparisonOfAllFinds) {
       for (const SilhouetteResidual& residual : found) sum += LossOf(residual, options).loss;
       AddLosses(seen, silhouette, options, told);
       EXPECT_EQ(told, sum);
+      // The normal equations of a capsule equal the sums over its residuals, bit for bit.
+      std::vector<ConeSums> wanted(flesh.size());
+      for (const SilhouetteResidual& residual : found) {
+        ConeSums& sums = wanted[static_cast<std::size_t>(residual.capsule)];
+        const double weight = LossOf(residual, options).weight;
+        for (int i = 0; i < 6; ++i) {
+          sums.gradient[i] += weight * residual.value * residual.slopes[i];
+          for (int j = 0; j < 6; ++j) sums.hessian[j][i] += weight * residual.slopes[i] * residual.slopes[j];
+        }
+      }
+      ResidualSums sums;
+      SumResiduals(seen, silhouette, options, sums);
+      for (std::size_t j = 0; j < flesh.size(); ++j) {
+        for (int i = 0; i < 6; ++i) {
+          EXPECT_EQ(sums.capsules[j].gradient[i], wanted[j].gradient[i]);
+          for (int k = 0; k < 6; ++k) EXPECT_EQ(sums.capsules[j].hessian[k][i], wanted[j].hessian[k][i]);
+        }
+      }
       // Capsules lower distances that are given by column.
       std::vector<double> distances(silhouette.columns.u.size(), 1.5);
       OutlineDistances(flesh, silhouette, distances);

@@ -119,38 +119,34 @@ TEST(BodyCapsules, StayFiniteForACollapsedPose) {
 
 TEST(IsHidden, NothingIsHiddenOfABodySeenFromTheFront) {
   const BodyPose pose = StandingPose();
-  const auto body = BodyCapsules(pose);
-  for (Role role : AllRoles()) EXPECT_FALSE(IsHidden(body, pose, role, {0, 1.2, 3})) << RoleName(role);
+  for (Role role : AllRoles()) EXPECT_FALSE(IsHidden(pose, role, {0, 1.2, 3})) << RoleName(role);
 }
 
 TEST(IsHidden, TheFarArmIsHiddenBehindTheTrunkInProfile) {
   const BodyPose pose = StandingPose();
-  const auto body = BodyCapsules(pose);
   const glm::dvec3 from_left(4, 1.2, 0);
-  EXPECT_TRUE(IsHidden(body, pose, kRightElbow, from_left));
-  EXPECT_TRUE(IsHidden(body, pose, kRightKnee, from_left));
-  EXPECT_FALSE(IsHidden(body, pose, kLeftElbow, from_left));
-  EXPECT_FALSE(IsHidden(body, pose, kLeftKnee, from_left));
-  EXPECT_FALSE(IsHidden(body, pose, kHead, from_left));
+  EXPECT_TRUE(IsHidden(pose, kRightElbow, from_left));
+  EXPECT_TRUE(IsHidden(pose, kRightKnee, from_left));
+  EXPECT_FALSE(IsHidden(pose, kLeftElbow, from_left));
+  EXPECT_FALSE(IsHidden(pose, kLeftKnee, from_left));
+  EXPECT_FALSE(IsHidden(pose, kHead, from_left));
 }
 
 TEST(IsHidden, AHandBehindTheBackIsHiddenUntilOneLooksFromBehind) {
   BodyPose pose = StandingPose();
   pose[kLeftHand] = {0, 1.1, -0.25};
   pose[kLeftWrist] = {0.12, 1.1, -0.22};
-  const auto body = BodyCapsules(pose);
-  EXPECT_TRUE(IsHidden(body, pose, kLeftHand, {0, 1.2, 3}));
-  EXPECT_FALSE(IsHidden(body, pose, kLeftHand, {0, 1.2, -3}));
+  EXPECT_TRUE(IsHidden(pose, kLeftHand, {0, 1.2, 3}));
+  EXPECT_FALSE(IsHidden(pose, kLeftHand, {0, 1.2, -3}));
 }
 
 TEST(IsHidden, AFlatHandOnTheChestHidesNothingButTheChest) {
   BodyPose pose = StandingPose();
   pose[kLeftHand] = pose[kSpine] + glm::dvec3(0, 0, 0.3);
   pose[kLeftWrist] = pose[kLeftHand] + glm::dvec3(0.1, 0, 0);
-  const auto body = BodyCapsules(pose);
-  EXPECT_TRUE(IsHidden(body, pose, kSpine, {pose[kSpine].x, pose[kSpine].y, 3}));
-  EXPECT_FALSE(IsHidden(body, pose, kLeftHand, {pose[kSpine].x, pose[kSpine].y, 3}));
-  EXPECT_FALSE(IsHidden(body, pose, kHead, {0, 1.2, 3}));
+  EXPECT_TRUE(IsHidden(pose, kSpine, {pose[kSpine].x, pose[kSpine].y, 3}));
+  EXPECT_FALSE(IsHidden(pose, kLeftHand, {pose[kSpine].x, pose[kSpine].y, 3}));
+  EXPECT_FALSE(IsHidden(pose, kHead, {0, 1.2, 3}));
 }
 
 TEST(CuboidHitDistance, MeetsItsFacesWhereGeometrySays) {
