@@ -41,7 +41,7 @@ struct VelocityStep {
 
 /// The displacements in a motion: changes from frame to frame that no real body makes.
 struct Displacements {
-  std::vector<FrameRange> frozen;    ///< frames that repeat the first frame's pose for 0.9 s or more
+  std::vector<FrameRange> frozen;    ///< frames that keep the pose of their first frame (FaultRules, "freezes")
   std::vector<Displacement> common;  ///< none where a frozen stretch begins or ends
   std::vector<Pop> pops;             ///< none where a frozen stretch begins or ends
   std::vector<VelocityStep> steps;   ///< none where a frozen stretch begins or ends
