@@ -156,8 +156,8 @@ class CiFiles(EtudeCase):
             self.ends(0, "clip", "convert", "builtin:clap", self.repository / folder / "clap.csv")
         result = self.bash("\n".join(job["script"]), job["variables"])
         self.assertEqual(result.returncode, 0, result.stdout + result.stderr)
-        # MOTIONS has one pattern a line, and folders with spaces in their names.
-        result = self.bash("\n".join(job["script"]), job["variables"] | {"MOTIONS": "my clips/*.csv\nours=motions/*\n"})
+        # One pattern a line; folders may have spaces in their names.
+        result = self.bash("\n".join(job["script"]), job["variables"] | {"MOTIONS": "a=my clips/*.csv\nb=motions/*\n"})
         self.assertEqual(result.returncode, 0, result.stdout + result.stderr)
         self.assertIn("2 of 2 clips without a fault", result.stdout)
         # The control: a clip a metre above the floor.
