@@ -15,6 +15,7 @@
 #include "engine/base/names.h"
 #include "engine/document/node.h"
 #include "engine/retargeting/map_file.h"
+#include "io/drawing/numbers.h"
 #include "io/files/files.h"
 
 namespace etude {
@@ -105,7 +106,8 @@ Triage TriageOf(const RunData& run) {
 }
 
 void PrintTriage(const Triage& triage) {
-  fmt::print("{} of {} clips without a fault\n", triage.fault_free, triage.clips);
+  fmt::print("{} of {} without a fault{}\n", triage.fault_free, Plural(static_cast<long long>(triage.clips), "clip"),
+             triage.not_judged.empty() ? "" : fmt::format(", {} more not judged", triage.not_judged.size()));
   for (const auto& [kind, clips] : triage.kinds) fmt::print("  {:<10}  {:>6}\n", kind, clips);
   if (!triage.kinds.empty()) fmt::print("  etude list faults: states what each fault is\n");
   if (triage.has_limits) PrintLines("beyond the limits", triage.beyond_limits);

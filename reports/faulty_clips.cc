@@ -15,7 +15,7 @@ constexpr std::string_view kTask = "plausibility", kWithin = "within_limits";
 /// The clips that show faults, and the clips whose answers could not be judged.
 struct FaultyClips {
   Table table;  ///< clips that exceed their fault limits come first, clips that could not be judged last
-  /// Says how many clips are faulty and how many could not be judged; empty if the run judged no clips.
+  /// Says how many clips have no fault and how many could not be judged; empty if the run judged no clips.
   std::string sentence;
   std::size_t rows = 0;  ///< the number of clips to list, even if the table shows only the first `most`
 };
@@ -44,14 +44,14 @@ FaultyClips FaultyClipsOf(const RunData& run, std::size_t most) {
   if (judged + unjudged.size() == 0) return found;
   // Write a sentence that counts the clips of each kind.
   found.rows = beyond.size() + others.size() + unjudged.size();
-  found.sentence = fmt::format("{} of {} show what no person does{}.", beyond.size() + others.size(),
-                               Plural(static_cast<long long>(judged), "clip"),
-                               beyond.empty() ? "" : fmt::format("; {} exceed their limits", beyond.size()));
-  if (!unjudged.empty()) {
-    found.sentence +=
-        fmt::format(" {} could not be judged.", Plural(static_cast<long long>(unjudged.size()), "further clip"));
-  }
-  found.sentence += " etude list faults states what each fault is.";
+  const auto count = [&](std::size_t clips, std::string_view how) {
+    if (clips > 0) found.sentence += fmt::format(", {} {}", clips, how);
+  };
+  found.sentence = fmt::format("{} of {} without a fault", judged - beyond.size() - others.size(),
+                               Plural(static_cast<long long>(judged), "clip"));
+  count(beyond.size(), "beyond the limits");
+  count(unjudged.size(), "more not judged");
+  found.sentence += ". etude list faults states what each fault is.";
   // Write the table with at most `most` rows.
   found.table = {.label = "Clips with faults",
                  .columns = {{.head = "Clip", .is_row_head = true},

@@ -16,7 +16,11 @@ std::string CaseXml(const std::string& suite, const JunitCase& c) {
       fmt::format("    <testcase classname=\"etude.{}\" name=\"{}\"", EscapeMarkup(suite), EscapeMarkup(c.name));
   const std::string detail = EscapeMarkup(c.detail);
   std::string body;
-  if (c.outcome == ClaimOutcome::kUnmet) body = fmt::format("<failure message=\"not met\">{}</failure>", detail);
+  if (c.outcome == ClaimOutcome::kUnmet) {
+    // Most readers of JUnit list the message alone.
+    const std::string message = detail.empty() ? "not met" : detail.substr(0, detail.find('\n'));
+    body = fmt::format("<failure message=\"{}\">{}</failure>", message, detail);
+  }
   if (c.outcome == ClaimOutcome::kUndecided) body = fmt::format("<skipped message=\"{}\"/>", detail);
   if (!c.said.empty()) body += fmt::format("<system-out>{}</system-out>", EscapeMarkup(c.said));
   return body.empty() ? head + "/>\n" : head + fmt::format(">{}</testcase>\n", body);

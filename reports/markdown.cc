@@ -89,7 +89,8 @@ std::string WriteMarkdown(const RunData& run) {
   }
   text += FaultyClipsMarkdown(run);
   for (const ScenarioSummary& scenario : run.scenarios) text += ScenarioText(run, scenario);
-  text += fmt::format("\n{}\n\n{}\n", EscapeMarkdown(kSigns), EscapeMarkdown(kComparisonLegend));
+  const bool compares = std::ranges::any_of(run.scenarios, [](const auto& of) { return CountComparisons(of) > 0; });
+  if (compares) text += fmt::format("\n{}\n\n{}\n", EscapeMarkdown(kSigns), EscapeMarkdown(kComparisonLegend));
   text += fmt::format("\nEtude {}, {}.\n", EscapeMarkdown(run.program_version), DescribeWorlds(run));
   return text;
 }

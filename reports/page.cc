@@ -186,18 +186,18 @@ std::string WritePage(const RunData& run, const Media& media, std::span<const Re
   std::vector<ScenarioFindings> findings;
   for (const ScenarioSummary& scenario : run.scenarios) findings.push_back(FindingsOf(run, scenario));
 
-  // Write the header, the answers, and the run's film.
+  // Write the header, the clips with faults, the answers, and the run's film.
   std::string html = Head(run);
   html += fmt::format(
       "<body>{}<a class=\"skip\" href=\"#{}\">Skip to answers</a><main><header><p class=\"eyebrow\">Etude"
       "</p><h1>The {} suite</h1><p class=\"verdict\">{}</p></header>",
       MarkDefsSvg(), CardAnchor(0), EscapeMarkup(run.suite),
       EscapeMarkup(FindingsOf(run).sentence + LeftOutSentence(run)));
+  html += FaultyClipsSection(run);
   html += Answers(run, findings);
   html += fmt::format("{}{}{}", kMediaBegin, FilmElement(media.film, true), kMediaEnd);
   // Write one card per scenario, and the sections about the whole run.
   for (std::size_t i = 0; i < run.scenarios.size(); ++i) html += WriteScenarioCard(run, i, findings[i], media);
-  html += FaultyClipsSection(run);
   html += RealTakesSection(run, real);
   html += HowToRead();
   html += Footer(run);

@@ -281,6 +281,7 @@ std::string RecordedCells(const RunData& run, const ScenarioSummary& scenario) {
 /// Returns the sentence of a finding as HTML, preceded by `begin`. If the verdict is inconclusive, the tooltip says
 /// why.
 std::string AnswerHtml(const MethodFinding& finding, std::string_view begin) {
+  if (finding.sentence.empty()) return "";
   return fmt::format("<p class=\"answer\"{}>{}{}</p>",
                      finding.why_open.empty() ? "" : fmt::format(" title=\"{}\"", EscapeMarkup(finding.why_open)),
                      begin, EscapeMarkup(finding.sentence));
@@ -398,8 +399,7 @@ std::string WriteScenarioCard(const RunData& run, std::size_t index, const Scena
   html += Folded("Pictures", OtherPictures(run, scenario, index));
   html += PosePairsHtml(run, scenario);
   html += Folded("Transitions explained", TransitionsHtml(RecordedRequestsOf(run, scenario)));
-  html += PaperAHtml(scenario);
-  html += PaperBHtml(run, scenario);
+  html += PaperAHtml(scenario) + PaperBHtml(run, scenario);
   return html + Files(run, scenario, index) + "</article>";
 }
 

@@ -16,6 +16,7 @@
 #include "engine/formats/bvh.h"
 #include "engine/formats/text_scanner.h"
 #include "engine/formats/unique_names.h"
+#include "engine/motion/body.h"
 #include "engine/motion/clip.h"
 
 namespace etude {
@@ -337,17 +338,17 @@ double LargestRotation(const std::vector<LocalPose>& frames) {
   return 2 * Degrees(std::asin(std::min(sine, 1.0)));
 }
 
-/// For joints below the root with an offset of 0, takes the positions of the first frame as rest positions. Returns the
-/// number of such joints.
-std::size_t TakeOffsetsFromFrame(const LocalPose& frame, Skeleton& skeleton) {
-  std::size_t taken = 0;
+/// For joints below the root with an offset of 0, takes the positions of the first frame as rest positions. Returns
+/// true if there is such a joint.
+bool TakeOffsetsFromFrame(const LocalPose& frame, Skeleton& skeleton) {
+  bool takes = false;
   for (std::size_t i = 0; i < skeleton.joints.size(); ++i) {
     LocalTransform& rest = skeleton.joints[i].rest;
     if (skeleton.joints[i].parent < 0 || rest.translation != glm::dvec3(0)) continue;
     rest.translation = frame[i].translation;
-    if (rest.translation != glm::dvec3(0)) ++taken;
+    takes |= rest.translation != glm::dvec3(0);
   }
-  return taken;
+  return takes;
 }
 
 }  // namespace
@@ -397,8 +398,10 @@ Result<Clip> ReadBvh(std::string_view bytes, const std::string& file, std::vecto
                     "degrees, which BVH files have",
                     largest));
   }
-  // A joint with positions and an OFFSET of 0 rests at its position in the first frame.
-  if (const std::size_t taken = TakeOffsetsFromFrame(clip.frames.front(), clip.skeleton); taken > 0) {
+  // A joint with positions and an OFFSET of 0 rests at its position in the first frame. Our own bodies have such joints.
+  const bool is_body = std::ranges::none_of(clip.skeleton.joints, [](const Joint& j) { return !FindRole(j.name); });
+  const std::size_t taken = TakeOffsetsFromFrame(clip.frames.front(), clip.skeleton);
+  if (taken > 0 && !is_body) {
     remark(fmt::format(
         "{} joints with positions have an OFFSET of 0: their rest positions are taken from the first frame", taken));
   }

@@ -86,12 +86,19 @@ std::vector<FrameRange> FindFrozen(const BodyMotion& motion) {
     }
     is_still[f] = fastest < fault_limits::kStill_m_s;
   }
-  // A held pose is not a fault if the body comes to rest gently before it and moves gently after it.
+  // A held pose is not a fault if the body comes to rest gently before it and moves gently after it. But a recorded
+  // person never repeats a pose exactly for long.
   std::vector<FrameRange> frozen;
   for (const FrameRange& range : RangesOf(is_still)) {
     if ((range.last - range.first + 1) / motion.rate_hz < fault_limits::kFreeze_s) continue;
     std::vector<double> elsewhere(mean.begin(), mean.begin() + range.first);
     elsewhere.insert(elsewhere.end(), mean.begin() + range.last + 1, mean.end());
+    const auto repeats =
+        static_cast<double>(std::count(mean.begin() + range.first, mean.begin() + range.last + 1, 0.0));
+    if (repeats >= fault_limits::kRepeat_s * motion.rate_hz) {
+      frozen.push_back({range.first, range.last + 1});
+      continue;
+    }
     if (elsewhere.empty()) continue;
     // If the body is never nearly still outside of these frames, use a stricter limit.
     constexpr std::size_t kMinElsewhere = 20;

@@ -39,7 +39,7 @@ struct VelocityStep {
 
 /// The displacements in a motion: changes from frame to frame that no real body makes.
 struct Displacements {
-  std::vector<FrameRange> frozen;    ///< 0.9 s or more in which no joint moves, with an abrupt begin or end
+  std::vector<FrameRange> frozen;    ///< frames that keep the pose of their first frame (FaultRules, "freezes")
   std::vector<Displacement> common;  ///< none where a frozen stretch begins or ends
   std::vector<Pop> pops;             ///< none where a frozen stretch begins or ends
   std::vector<VelocityStep> steps;   ///< none where a frozen stretch begins or ends

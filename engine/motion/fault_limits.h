@@ -34,6 +34,8 @@ inline constexpr double kShortPop_m = 0.36, kShortClipFrames = 45, kPopFrames = 
 
 // Freezes.
 inline constexpr double kStill_m_s = 0.002, kFreeze_s = 0.9, kAbrupt_m_s = 0.03;
+/// Authored clips hold a pose exactly for up to 2 s. In 5000 recorded clips no pose is repeated for half a second.
+inline constexpr double kRepeat_s = 3;
 
 // Limbs.
 inline constexpr double kStretch = 0.03, kStretchTimesUsual = 15, kStretch_s = 0.05;

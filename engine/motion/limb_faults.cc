@@ -120,15 +120,9 @@ void FindStretches(const BodyMotion& motion, const FaultOptions& options, const 
       ++count;
     }
     if (count < kMinFrames || count < fault_limits::kStretch_s * motion.rate_hz) continue;
-    faults.push_back({FaultKind::kStretches, all.first / motion.rate_hz, all.last / motion.rate_hz, limb.end, largest});
+    faults.push_back({FaultKind::kStretches, all.first / motion.rate_hz, all.last / motion.rate_hz, limb.end, largest,
+                      count <= all.last - all.first ? count / motion.rate_hz : 0});
   }
-}
-
-/// Returns KneeOverextension for a leg without toes: the line of the hips serves as the axis of the knee.
-double OverextensionByHips(const BodyPose& pose, Role hip, Role knee, Role ankle) {
-  const glm::dvec3 thigh = pose[knee] - pose[hip], shank = pose[ankle] - pose[knee];
-  const glm::dvec3 left = UnitOr(pose[kLeftHip] - pose[kRightHip], {1, 0, 0});
-  return -Degrees(std::atan2(glm::dot(glm::cross(thigh, shank), left), glm::dot(thigh, shank) + 0.0));
 }
 
 void FindBends(const BodyMotion& motion, std::span<const JointSet> unseen, std::vector<MotionFault>& faults) {
@@ -136,14 +130,8 @@ void FindBends(const BodyMotion& motion, std::span<const JointSet> unseen, std::
     const auto [hip, knee, ankle, foot] = kLegs[side == Side::kLeft ? 0 : 1];
     std::vector<double> angles;
     for (int f = 0; f < static_cast<int>(motion.poses.size()); ++f) {
-      const BodyPose& pose = motion.poses[f];
-      if (!Shows(unseen, f, {hip, knee, ankle})) {
-        angles.push_back(0);
-      } else if (Shows(unseen, f, {foot})) {
-        angles.push_back(KneeOverextension(pose, side));
-      } else {
-        angles.push_back(OverextensionByHips(pose, hip, knee, ankle));
-      }
+      const bool is_seen = Shows(unseen, f, {hip, knee, ankle});
+      angles.push_back(is_seen ? KneeOverextension(motion.poses[f], side, Shows(unseen, f, {foot})) : 0);
     }
     AppendRanges(motion, angles, fault_limits::kBend_deg, fault_limits::kBend_s,
                  {.kind = FaultKind::kBends, .joint = knee}, faults);
@@ -167,15 +155,24 @@ void FindPasses(const BodyMotion& motion, std::span<const JointSet> unseen, std:
 
 }  // namespace
 
-double KneeOverextension(const BodyPose& pose, Side side) {
+std::optional<glm::dvec3> FrontByToes(const BodyPose& pose, Side side) {
+  constexpr double kMinShare = 0.6;  // the toes are at least 37° from the line of the shank
   const auto [hip, knee, ankle, foot] = kLegs[side == Side::kLeft ? 0 : 1];
-  constexpr double kMinToes = 0.03;
-  const glm::dvec3 thigh = pose[knee] - pose[hip], toes = pose[foot] - pose[ankle];
-  const glm::dvec3 shank = UnitOr(pose[ankle] - pose[knee], {0, -1, 0});
+  const glm::dvec3 toes = pose[foot] - pose[ankle], shank = UnitOr(pose[ankle] - pose[knee], {0, -1, 0});
   const glm::dvec3 front = toes - glm::dot(toes, shank) * shank;
-  const double length = glm::length(front);
-  if (length < kMinToes) return 0;
-  return -Degrees(std::atan2(glm::dot(thigh, front) / length, glm::dot(thigh, shank) + 0.0));
+  if (glm::length(front) <= kMinShare * glm::length(toes)) return std::nullopt;
+  return glm::normalize(front);
+}
+
+double KneeOverextension(const BodyPose& pose, Side side, bool sees_toes) {
+  constexpr double kMinBackwards = 0.2;  // a leg turned outwards bends up to 0.1 behind the line of the hips
+  const auto [hip, knee, ankle, foot] = kLegs[side == Side::kLeft ? 0 : 1];
+  const glm::dvec3 thigh = pose[knee] - pose[hip], shank = pose[ankle] - pose[knee], axis = glm::cross(thigh, shank);
+  const double backwards = glm::dot(axis, UnitOr(pose[kRightHip] - pose[kLeftHip], {-1, 0, 0}));
+  if (backwards <= kMinBackwards * glm::length(axis)) return 0;
+  const auto front = sees_toes ? FrontByToes(pose, side) : std::nullopt;
+  if (!front) return Degrees(std::atan2(backwards, glm::dot(thigh, shank)));
+  return std::max(0.0, -Degrees(std::atan2(glm::dot(thigh, *front), glm::dot(thigh, glm::normalize(shank)))));
 }
 
 double SegmentDistance(const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& c, const glm::dvec3& d) {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include "engine/motion/body.h"
@@ -8,9 +9,14 @@
 
 namespace etude {
 
-/// Returns the angle by which a knee is overextended, degrees; negative if it is bent forwards as usual. The toes show
-/// where the front of the shank is; if they point along the shank, the result is 0.
-double KneeOverextension(const BodyPose& pose, Side side);
+/// Returns the direction in front of a shank that the toes show: a unit vector perpendicular to the shank; nothing if
+/// the foot is pointed, because the toes then lie near the line of the shank and do not show where the front is.
+std::optional<glm::dvec3> FrontByToes(const BodyPose& pose, Side side);
+
+/// Returns the angle by which a knee is overextended, degrees; 0 if it is straight or bent forwards. The line of the
+/// hips must show that the knee bends backwards, and so must the toes, unless the foot is pointed or `sees_toes` is
+/// false.
+double KneeOverextension(const BodyPose& pose, Side side, bool sees_toes = true);
 
 /// Returns the smallest distance between the line segments a–b and c–d (Ericson 2005, "Real-Time Collision Detection",
 /// 5.1.9).

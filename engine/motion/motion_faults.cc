@@ -76,8 +76,10 @@ std::string GravitySentence(const MotionFault& fault) {
 
 std::string SentenceOf(const MotionFault& fault, bool is_always) {
   // Prepare the time, the joint and the size, which most sentences contain.
-  const std::string when =
-      is_always ? "in all frames" : fmt::format("from {:.2f} to {:.2f} s", fault.from_s, fault.to_s);
+  const std::string when = fault.lasts_s > 0 ? fmt::format("for {:.2f} s between {:.2f} and {:.2f} s", fault.lasts_s,
+                                                           fault.from_s, fault.to_s)
+                           : is_always       ? "in all frames"
+                                             : fmt::format("from {:.2f} to {:.2f} s", fault.from_s, fault.to_s);
   const std::string joint(fault.joint ? RoleName(*fault.joint) : "");
   const double cm = 100 * fault.size;
   // Write the sentence of the fault's kind.
@@ -162,16 +164,16 @@ std::vector<FaultRule> MakeFaultRules() {
            cm(kShortPop_m), kPopTimesUsual, kPopFrames)},
       {"freezes", "s",
        fmt::format("No joint is faster than {:g} mm/s for {:g} s, and the body stops or starts abruptly (from or to a "
-                   "mean speed of its joints above {}/s).",
-                   1000 * kStill_m_s, kFreeze_s, cm(kAbrupt_m_s))},
+                   "mean speed of its joints above {}/s), or its frames repeat one pose exactly for {:g} s.",
+                   1000 * kStill_m_s, kFreeze_s, cm(kAbrupt_m_s), kRepeat_s)},
       {"stretches", "share",
        fmt::format("The length of an upper arm, forearm, thigh or shank differs from its median by more than {}, for "
                    "{:g} s; between markers on the skin, by more than {:g} times the median deviation.",
                    percent(kStretch), kStretch_s, kStretchTimesUsual)},
       {"bends", "deg",
        fmt::format(
-           "A knee bends backwards by more than {:g}° for {:g} s. The toes show where the front is, or, without "
-           "toes, the line of the hips.",
+           "A knee bends backwards by more than {:g}° for {:g} s. The line of the hips shows where the front is; the "
+           "toes must agree, unless the foot is missing or pointed.",
            kBend_deg, kBend_s)},
       {"torn", "m",
        fmt::format(

@@ -18,7 +18,7 @@ enum class FaultKind {
   kSkates,     ///< standing feet move along the floor; size: their common speed, metres per second
   kJumps,      ///< the whole body is displaced from one frame to the next; size: distance, metres
   kPops,       ///< one joint is displaced alone; size: distance, metres
-  kFreezes,    ///< no joint moves, and the body stops or starts abruptly; size: seconds
+  kFreezes,    ///< no joint moves although the body was in motion, or a pose is repeated exactly; size: seconds
   kStretches,  ///< a limb changes its length; size: share of its median length
   kBends,      ///< a knee bends backwards; size: degrees
   kTorn,       ///< a joint is at a wrong distance from its neighbours, or (without a joint) left and right are
@@ -46,6 +46,7 @@ struct MotionFault {
   double from_s = 0, to_s = 0;     ///< times of the fault's first and last frame
   std::optional<Role> joint = {};  ///< the joint at fault; a limb is named by its far end; absent: the whole body
   double size = 0;                 ///< meaning and unit: see the comment of `kind` in FaultKind
+  double lasts_s = 0;              ///< the fault's duration, if it comes and goes between `from_s` and `to_s`; else 0
   std::string text = {};           ///< a sentence for users: "floats 6 cm from 1.20 to 3.20 s"
 };
 

@@ -215,48 +215,64 @@ class TornFinder {
 
   /// Finds heads below the neck, feet that point backwards, and shoulders or hips that are exchanged or coincide.
   void FindTurned() {
-    constexpr double kAgainst = 0.2, kMinShoulders = 0.08, kMinHips = 0.04;
+    constexpr double kAgainst = 0.2, kFootAgainst = 0.5, kMinShoulders = 0.08, kMinHips = 0.04;
     const auto between = [&](int f, Role a, Role b) { return motion_.poses[f][b] - motion_.poses[f][a]; };
-    const auto is_against = [&](const glm::dvec3& a, const glm::dvec3& b) {
-      return glm::dot(a, b) < -kAgainst * glm::length(a) * glm::length(b);
+    const auto is_against = [&](const glm::dvec3& a, const glm::dvec3& b, double share) {
+      return glm::dot(a, b) < -share * glm::length(a) * glm::length(b);
     };
     const auto shows = [&](int f, std::initializer_list<Role> joints) {
       return std::ranges::all_of(joints, [&](Role joint) { return Shows(f, joint); });
     };
-    const auto median = [&](Role a, Role b) { return MedianOf(Distances(a, b)).value_or(0); };
-    // The head is wrong if it points down the trunk.
-    Add(tears_[kHead], Lasting([&](int f) {
-          return shows(f, {kHead}) &&
-                 is_against(between(f, kShoulderCentre, kHead), between(f, kHipCentre, kShoulderCentre));
-        }),
-        2 * median(kShoulderCentre, kHead));
-    // A foot is wrong if it points behind the shank. If both feet do so at once, the sides are exchanged.
-    const auto points_back = [&](int f, Role knee, Role ankle, Role foot) {
-      const glm::dvec3 front = glm::cross(between(f, kRightHip, kLeftHip), between(f, ankle, knee));
-      return shows(f, {knee, ankle, foot}) && is_against(between(f, ankle, foot), front);
+    const auto largest = [&](const std::vector<bool>& off, auto size_of) {
+      double size = 0;
+      for (int f = 0; f < frames(); ++f) size = off[f] ? std::max(size, size_of(f)) : size;
+      return size;
     };
-    const std::vector<bool> left = Lasting([&](int f) { return points_back(f, kLeftKnee, kLeftAnkle, kLeftFoot); });
-    const std::vector<bool> right = Lasting([&](int f) { return points_back(f, kRightKnee, kRightAnkle, kRightFoot); });
+    // The head is wrong if it points down the trunk. Its mirror image above the neck is right.
+    const auto trunk = [&](int f) { return between(f, kHipCentre, kShoulderCentre); };
+    const auto head = [&](int f) { return between(f, kShoulderCentre, kHead); };
+    const std::vector<bool> down =
+        Lasting([&](int f) { return shows(f, {kHead}) && is_against(head(f), trunk(f), kAgainst); });
+    Add(tears_[kHead], down,
+        largest(down, [&](int f) { return -2 * glm::dot(head(f), trunk(f)) / glm::length(trunk(f)); }));
+    // A foot is wrong if it points behind the shank. If both feet do so at once, the sides are exchanged.
+    const auto points_back = [&](int f, Side side) {
+      const auto on = [side](Role left) { return side == Side::kLeft ? left : Mirrored(left); };
+      const glm::dvec3 front = glm::cross(between(f, kRightHip, kLeftHip), between(f, on(kLeftAnkle), on(kLeftKnee)));
+      const auto by_toes = FrontByToes(motion_.poses[f], side);
+      return shows(f, {on(kLeftKnee), on(kLeftAnkle), on(kLeftFoot)}) && by_toes &&
+             is_against(*by_toes, front, kFootAgainst);
+    };
+    const std::vector<bool> left = Lasting([&](int f) { return points_back(f, Side::kLeft); });
+    const std::vector<bool> right = Lasting([&](int f) { return points_back(f, Side::kRight); });
     const auto both = Lasting([&](int f) { return left[f] && right[f]; });
-    const auto only = [&](const std::vector<bool>& one) { return Lasting([&](int f) { return one[f] && !both[f]; }); };
-    Add(tears_[kLeftFoot], only(left), 2 * median(kLeftAnkle, kLeftFoot));
-    Add(tears_[kRightFoot], only(right), 2 * median(kRightAnkle, kRightFoot));
+    for (const Side side : {Side::kLeft, Side::kRight}) {
+      const Role ankle = side == Side::kLeft ? kLeftAnkle : kRightAnkle;
+      const Role foot = side == Side::kLeft ? kLeftFoot : kRightFoot;
+      const std::vector<bool>& back = side == Side::kLeft ? left : right;
+      const std::vector<bool> alone = Lasting([&](int f) { return back[f] && !both[f]; });
+      Add(tears_[foot], alone, largest(alone, [&](int f) {
+            return 2 * glm::dot(between(f, ankle, foot), *FrontByToes(motion_.poses[f], side));
+          }));
+    }
     // Sides are exchanged if the line of the hips points opposite to the line of the shoulders. Two hips or two
     // shoulders that coincide count as well.
     const auto is_exchanged = [&](int f) {
       const glm::dvec3 hips = between(f, kRightHip, kLeftHip), shoulders = between(f, kRightShoulder, kLeftShoulder);
-      return is_against(hips, shoulders) || glm::length(shoulders) < kMinShoulders * size_ ||
+      return is_against(hips, shoulders, kAgainst) || glm::length(shoulders) < kMinShoulders * size_ ||
              glm::length(hips) < kMinHips * size_;
     };
-    Add(exchanged_, Lasting([&](int f) { return both[f] || is_exchanged(f); }), median(kLeftHip, kRightHip));
+    Add(exchanged_, Lasting([&](int f) { return both[f] || is_exchanged(f); }),
+        MedianOf(Distances(kLeftHip, kRightHip)).value_or(0));
   }
 
   /// Appends one fault that spans all frames of the tear.
   void Append(std::optional<Role> joint, const Tear& tear, std::vector<MotionFault>& faults) const {
     if (tear.frames.empty()) return;
     const std::vector<FrameRange> ranges = RangesOf(tear.frames);
+    const auto count = static_cast<double>(std::ranges::count(tear.frames, true));
     faults.push_back({FaultKind::kTorn, ranges.front().first / motion_.rate_hz, ranges.back().last / motion_.rate_hz,
-                      joint, tear.size});
+                      joint, tear.size, ranges.size() > 1 ? count / motion_.rate_hz : 0});
   }
 
   const BodyMotion& motion_;

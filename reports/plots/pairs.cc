@@ -28,7 +28,7 @@ constexpr const char* kCurves[] = {"mpjpe_unaligned_mm", "mpjpe_root_mm"};
 struct Pair {
   std::string name;
   std::vector<const Row*> cells;
-  double worst_mm = 0;  ///< largest error of any frame and method
+  double worst_mm = 0;  ///< largest value of kCurves[0], the error of the pictures, of any frame and method
 };
 
 /// Returns the indices of the frames with the largest errors, the largest first (non-maximum suppression: frames near a
@@ -46,11 +46,16 @@ std::vector<std::size_t> WorstFrames(const std::vector<double>& errors) {
   return worst;
 }
 
+/// Returns how many frames share one point of a curve.
+std::size_t FramesPerPoint(std::size_t frames) {
+  constexpr std::size_t kMaxDrawn = 80;
+  return (frames + kMaxDrawn - 1) / kMaxDrawn;
+}
+
 /// Reduces a curve to the largest value of each interval of frames, so that no peak is lost if there are more frames
 /// than points.
 PlotCurve PeaksOf(const std::vector<double>& errors, std::size_t style) {
-  constexpr std::size_t kMaxDrawn = 80;
-  const std::size_t stretch = (errors.size() + kMaxDrawn - 1) / kMaxDrawn;
+  const std::size_t stretch = FramesPerPoint(errors.size());
   PlotCurve curve{.style = style, .values = {}, .at = {}};
   for (std::size_t begin = 0; begin < errors.size(); begin += stretch) {
     const auto part = std::span(errors).subspan(begin, std::min(stretch, errors.size() - begin));
@@ -67,17 +72,21 @@ std::string CurvesSvg(const Pair& pair, const CellSeriesIndex& series, const Sce
   // Draw one curve for each method, on an axis from 0 to the largest value.
   std::vector<PlotCurve> curves;
   std::vector<double> all = {0}, frames = {0, 1};
+  std::size_t stretch = 1;
   for (const Row* cell : pair.cells) {
     const std::vector<double>* errors = series.Find(*cell, metric);
     if (errors == nullptr || errors->empty()) continue;
     curves.push_back(PeaksOf(*errors, IndexOf(scenario, cell->method)));
     all.insert(all.end(), errors->begin(), errors->end());
     frames.push_back(static_cast<double>(errors->size()) - 1);
+    stretch = std::max(stretch, FramesPerPoint(errors->size()));
   }
   if (curves.empty()) return "";
   Axis up = AxisOf(all, 0), across = AxisOf(frames, 0);
   up.from = kLower, up.to = kUpper, across.from = kPanelLeft, across.to = kPanelRight;
-  const std::string caption = fmt::format("{}, {}, by frame", WordsFor(metric).label, UnitOf(WordsFor(metric)));
+  const std::string caption =
+      fmt::format("{}, {}, {}", WordsFor(metric).label, UnitOf(WordsFor(metric)),
+                  stretch == 1 ? "by frame" : fmt::format("the largest of every {} frames", stretch));
   std::string svg = BeginPanel(kTall, caption, kPanelWidth, "panel") + VerticalAxisGrid(up) +
                     HorizontalAxisGrid(across, kUpper, kLower);
   for (const PlotCurve& curve : curves) svg += CurveLine(curve, across, up);
@@ -146,10 +155,8 @@ std::vector<Pair> PairsOf(const RunData& run, const ScenarioSummary& scenario, c
     if (is_new) pairs.push_back({.name = row->clip, .cells = {}});
     Pair& pair = pairs[entry->second];
     pair.cells.push_back(row);
-    for (const char* metric : kCurves) {
-      const std::vector<double>* errors = series.Find(*row, metric);
-      if (errors != nullptr && !errors->empty()) pair.worst_mm = std::max(pair.worst_mm, std::ranges::max(*errors));
-    }
+    const std::vector<double>* errors = series.Find(*row, kCurves[0]);
+    if (errors != nullptr && !errors->empty()) pair.worst_mm = std::max(pair.worst_mm, std::ranges::max(*errors));
   }
   std::erase_if(pairs, [&](const Pair& pair) {
     return std::ranges::none_of(pair.cells, [&](const Row* row) { return series.Find(*row, kCurves[0]) != nullptr; });
@@ -179,8 +186,10 @@ std::string PairsHtml(const RunData& run, const ScenarioSummary& scenario) {
       frames += WorstFramesHtml(*cell, series.Find(*cell, kCurves[0]), kept.Find(cell->Id()),
                                 IndexOf(scenario, cell->method));
     }
-    html += fmt::format("<details{}><summary>{}: at worst {} mm</summary><div class=\"panels\">{}</div>{}</details>",
-                        i == 0 ? " open" : "", EscapeMarkup(pair.name), FormatNumber(pair.worst_mm), curves, frames);
+    html +=
+        fmt::format("<details{}><summary>{}: at worst {} mm ({})</summary><div class=\"panels\">{}</div>{}</details>",
+                    i == 0 ? " open" : "", EscapeMarkup(pair.name), FormatNumber(pair.worst_mm),
+                    WordsFor(kCurves[0]).label, curves, frames);
   }
   return html + LeftOutHtml(pairs.size(), kMaxPairs, "pairs", "series/");
 }

@@ -17,7 +17,7 @@ constexpr std::size_t kMaxSuccesses = 12;
 
 std::string ExpectationsSentence(const RunFindings& f) {
   const int all = f.met + f.unmet + f.undecided;
-  if (all == 0) return "This run states no expectations.";
+  if (all == 0) return "";
   std::string text;
   if (f.met == all) {
     text = all == 1 ? "The one expectation was met" : fmt::format("All {} expectations were met", all);
@@ -26,16 +26,17 @@ std::string ExpectationsSentence(const RunFindings& f) {
     if (f.unmet > 0) text += fmt::format(", {} not", f.unmet);
     if (f.undecided > 0) text += fmt::format(", {} could not be decided", f.undecided);
   }
-  return text + ".";
+  return text + ". ";
 }
 
 /// Returns a sentence that says how many cells were measured. (SuccessSentence says how many cells reached the goal.)
 std::string MeasuredSentence(const RunFindings& f) {
-  if (f.cells == 0) return " No cell ran.";
+  if (f.cells == 0) return "No cell ran.";
   const int measured = f.ok + f.unsolved;
-  std::string text = measured == f.cells
-                         ? fmt::format(" All {} were measured", Plural(f.cells, "cell"))
-                         : fmt::format(" {} of {} were measured", FormatCount(measured), Plural(f.cells, "cell"));
+  std::string text = f.cells == 1 ? fmt::format("The one cell was{} measured", measured == 1 ? "" : " not")
+                     : measured == f.cells
+                         ? fmt::format("All {} cells were measured", FormatCount(f.cells))
+                         : fmt::format("{} of {} cells were measured", FormatCount(measured), FormatCount(f.cells));
   if (f.unsolved > 0)
     text += fmt::format(", {} of them unsolved (the method answered, but missed its goal)", FormatCount(f.unsolved));
   if (f.skipped > 0) text += fmt::format(", {} did not apply", FormatCount(f.skipped));
@@ -214,7 +215,9 @@ ScenarioFindings FindingsOf(const RunData& run, const ScenarioSummary& scenario)
   // Compare the method in question with its baseline and with the strongest other method.
   if (asked.empty()) {
     findings.answer.verdict = Verdict::kInconclusive;
-    findings.answer.sentence = "Only one method ran, so there is nothing to compare it with.";
+    // A search for faults needs no second method.
+    if (scenario.task != "plausibility")
+      findings.answer.sentence = "Only one method ran, so there is nothing to compare it with.";
   } else {
     findings.headline = HeadlineOf(scenario, asked, findings.metric);
     findings.answer = CompareInWords(scenario, asked, findings.metric, Against::kBaseline);

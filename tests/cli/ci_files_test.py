@@ -151,10 +151,15 @@ class CiFiles(EtudeCase):
     def test_motions_are_triaged_on_gitlab(self):
         template = yaml.safe_load((CI / "gitlab-ci.yml").read_text())
         job = template[".etude-triage"]
-        (self.repository / "motions").mkdir()
-        self.ends(0, "clip", "convert", "builtin:clap", self.repository / "motions/clap.csv")
+        for folder in "motions", "my clips":
+            (self.repository / folder).mkdir()
+            self.ends(0, "clip", "convert", "builtin:clap", self.repository / folder / "clap.csv")
         result = self.bash("\n".join(job["script"]), job["variables"])
         self.assertEqual(result.returncode, 0, result.stdout + result.stderr)
+        # One pattern a line; folders may have spaces in their names.
+        result = self.bash("\n".join(job["script"]), job["variables"] | {"MOTIONS": "a=my clips/*.csv\nb=motions/*\n"})
+        self.assertEqual(result.returncode, 0, result.stdout + result.stderr)
+        self.assertIn("2 of 2 clips without a fault", result.stdout)
         # The control: a clip a metre above the floor.
         lines = [line.split(",") for line in (self.repository / "motions/clap.csv").read_text().splitlines()]
         for line in lines[1:]:

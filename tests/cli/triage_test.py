@@ -47,6 +47,8 @@ class Triage(EtudeCase):
         """Returns the failed cases of a run's JUnit file, whose count must agree."""
         root = xml.etree.ElementTree.parse(out / "report" / "junit.xml").getroot()
         failed = [case.get("name") for case in root.iter("testcase") if case.find("failure") is not None]
+        for failure in root.iter("failure"):
+            self.assertEqual(failure.get("message"), failure.text.splitlines()[0])
         self.assertEqual(root.get("failures"), str(len(failed)))
         return failed
 
@@ -104,15 +106,22 @@ class Triage(EtudeCase):
         self.popping("m/popping.csv")
         torn = self.folder / "torn"
         said = self.triage(self.folder / "m", "--limits", "recorded", code=1, out=torn)
-        for words in ("1 beyond the limits:", "1 with faults, within the limits:\n  m, popping: left_hand pops", "1 not judged:"):
+        for words in ("1 beyond the limits:", "1 with faults, within the limits:\n  m, popping: left_hand pops", "1 not judged:",
+                      "0 of 2 clips without a fault, 1 more not judged\n"):
             self.assertIn(words, said)
         self.ends(0, "report", torn, "--no-video")
         self.assertEqual(self.failed(torn), ["m, floating", "m, torn"])
         summary = (torn / "report" / "summary.md").read_text()
-        for words in ("2 of 2 clips show what no person does; 1 exceed their limits. 1 further clip could not be judged.",
-                      "| popping | m | 1 |  | left\\_hand pops by 50 cm", "| floating | m | 1 | beyond |", "nothing to compare"):
+        for words in ("0 of 2 clips without a fault, 1 beyond the limits, 1 more not judged.",
+                      "| popping | m | 1 |  | left\\_hand pops by 50 cm", "| floating | m | 1 | beyond |"):
             self.assertIn(words, summary)
-        self.assertNotIn("inconclusive", summary)
+        # Nothing stands before the clips with faults but how many were judged, and nothing is said about comparisons.
+        self.assertTrue(summary.startswith("# evaluate\n\n2 of 3 cells were measured, 1 broke.\n\n\n## Clips with faults"))
+        for words in "inconclusive", "expectation", "nothing to compare", "Holm":
+            self.assertNotIn(words, summary)
+        page = (torn / "report" / "index.html").read_text()
+        self.assertLess(page.index("<h2>Clips with faults</h2>"), page.index('aria-label="Answers"'))
+        self.assertNotIn("nothing to compare", page)
 
     def test_motions_that_are_kept_are_shown_with_the_time_of_each_fault(self):
         self.triage(self.popping("m/popping.csv"), "--keep", "motions")
@@ -161,7 +170,7 @@ class Triage(EtudeCase):
                          {"good": "ok", "nan": "failed", "none": "failed", "short": "failed"})
         for name in "nan", "none":
             self.assertIn(f"{name}.", rows[name]["reason"])
-        self.assertIn("3 frames; a search for faults needs 8 or more", rows["short"]["reason"])
+        self.assertIn("3 of the 8 or more frames that a search for faults needs", rows["short"]["reason"])
         self.assertIn("3 not judged:", said)
 
     def test_bad_input_is_one_line(self):

@@ -55,8 +55,9 @@ TEST(Junit, FailsAScenarioThatLacksARow) {
 TEST(Junit, IsWellFormedWhateverTheNames) {
   RunData run = ExampleRun();
   run.suite = "a\"<b>&'\x01";
-  run.scenarios[0].expectations[0] = {"</testcase>", ClaimOutcome::kUnmet, "]]> & <x>"};
+  run.scenarios[0].expectations[0] = {"</testcase>", ClaimOutcome::kUnmet, "]]> & <x>\nand more"};
   const std::string xml = WriteJunit(run);
+  EXPECT_THAT(xml, HasSubstr("<failure message=\"]]&gt; &amp; &lt;x&gt;\">]]&gt; &amp; &lt;x&gt;\nand more</failure>"));
   EXPECT_TRUE(IsWellFormed(xml)) << xml;
   EXPECT_FALSE(IsWellFormed("<?xml?><a><b></a></b>"));
   EXPECT_FALSE(IsWellFormed("<?xml?><a b=\"<\"/>"));

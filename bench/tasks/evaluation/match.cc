@@ -231,18 +231,22 @@ std::string NoteOnRoots(const RawMotion& truth, const RawMotion& answer) {
 
 std::string NoteOn(const RawMotion& truth, const RawMotion& answer, const std::string& clock,
                    const MatchedMotions& matched) {
-  std::string note = fmt::format("{} joints", matched.joints.size());
+  const auto count = [](auto number, std::string_view thing) {
+    return fmt::format("{} {}{}", number, thing, number == 1 ? "" : "s");
+  };
+  std::string note = count(matched.joints.size(), "joint");
   if (!matched.lacking.empty()) note += fmt::format(" (the truth or the answer lacks {})", SomeOf(matched.lacking));
   note += NoteOnRoots(truth, answer);
   const bool is_resampled = !HaveSameRate(truth, answer) || matched.lag;
-  note += fmt::format(", {} frames at {:g} Hz", matched.pair.truth.FrameCount(), truth.rate_hz);
+  note += fmt::format(", {} at {:g} Hz", count(matched.pair.truth.FrameCount(), "frame"), truth.rate_hz);
   if (is_resampled) note += fmt::format(", the answer was interpolated linearly from {:g} Hz", answer.rate_hz);
   if (matched.lag) note += ", " + NoteOn(*matched.lag);
   if (!clock.empty()) note += ", " + clock;
   // One surplus frame is not mentioned: in motions of equal length, the answer's last frame lies after the truth's last
   // frame if the answer has the higher rate.
   if (matched.surplus > 1) note += fmt::format(", {} frames of the answer outside the truth", matched.surplus);
-  if (matched.uncovered > 0) note += fmt::format(", {} frames of the truth outside the answer", matched.uncovered);
+  if (matched.uncovered > 0)
+    note += fmt::format(", {} of the truth outside the answer", count(matched.uncovered, "frame"));
   for (const RawMotion* motion : {&truth, &answer}) {
     if (motion->notes.empty()) continue;
     note += fmt::format("; {}: {}", motion == &truth ? "truth" : "answer", Join(motion->notes, "; "));

@@ -285,9 +285,10 @@ TransitionRecord PlanPlayed(const MotionLibrary& library, const TransitionReques
   }
   record.candidates =
       ListCandidates(library, request, rules, ranked(best), std::move(others), CandidateOutcome::kWorse);
-  record.why = fmt::format("lowest cost of the transitions tried: {}, joined within {:.2f} s by {}, {:.2f} s in total",
-                           DescribePair(library, request, best.pair.leave, best.pair.enter), preferred.blend_s,
-                           preferred.way == JoinStyle::kFades ? "a fade" : "minimum-jerk movements", best.cost_s);
+  record.why = fmt::format(
+      "lowest cost of the transitions tried, equal to {:.2f} s of waiting: {}, joined within {:.2f} s by {}",
+      best.cost_s, DescribePair(library, request, best.pair.leave, best.pair.enter), preferred.blend_s,
+      preferred.way == JoinStyle::kFades ? "a fade" : "minimum-jerk movements");
   return record;
 }
 

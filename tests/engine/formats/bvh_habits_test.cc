@@ -1,4 +1,5 @@
 // Deviations from the format that exporters write; none may change the motion.
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <string>
@@ -147,7 +148,12 @@ TEST(BvhHabits, IncludePlacesInTheChannelsAlone) {
   EXPECT_EQ(clip->frames[1][1].translation, glm::dvec3(0, 11, 1));
   EXPECT_EQ(remarks,
             (std::vector<std::string>{
-                "1 joints with positions have an OFFSET of 0: their rest positions are taken from the first frame"}));
+                "joints with positions and an OFFSET of 0: their rest positions are taken from the first frame"}));
+  // A body that WriteBvh wrote needs no remark.
+  remarks.clear();
+  const std::string body = Replaced(Replaced(text, "ROOT Hips", "ROOT hip_centre"), "JOINT Arm", "JOINT spine");
+  ASSERT_TRUE(ReadBvh(Replaced(body, "    End Site\n    {\n      OFFSET 0 0 0\n    }\n", ""), "body.bvh", &remarks));
+  EXPECT_THAT(remarks, ::testing::IsEmpty());
 }
 
 TEST(BvhHabits, IncludePlacesRelativeToTheOffset) {

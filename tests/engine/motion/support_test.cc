@@ -16,7 +16,7 @@ namespace {
 using enum Role;
 using Poses = std::vector<BodyPose>;
 
-constexpr double kRate = 30;
+constexpr double kFrameRate_hz = 30;
 constexpr int kFrames = 90, kPoint = 40, kEnd = 80;  // frames of every clip; a transition's first and last frame
 
 JointSet Set(std::initializer_list<Role> roles) {
@@ -64,7 +64,7 @@ int Floating(const Poses& shown, const Poses& left, const Poses& wanted) {
   const std::vector clips = {SupportingClip{.poses = left, .begin = 0, .left_at = kPoint},
                              SupportingClip{.poses = wanted, .begin = kPoint}};
   int run = 0, longest = 0;
-  for (const Support& support : FindSupport(shown, clips, kPoint, kEnd, kRate)) {
+  for (const Support& support : FindSupport(shown, clips, kPoint, kEnd, kFrameRate_hz)) {
     run = support.Holds() ? 0 : run + 1;
     longest = std::max(longest, run);
   }
@@ -80,7 +80,7 @@ double Ramp(int frame, int begin, int end) {
 TEST(FindFootContacts, SeesAStepOfOneFoot) {
   const Poses steps = ClipOf(
       Standing(), [](BodyPose& pose, int f) { pose[kLeftFoot].y = f >= 20 && f < 40 ? 0.2 : 0.0; }, 60);
-  const FootContacts contacts = FindFootContacts(steps, kRate);
+  const FootContacts contacts = FindFootContacts(steps, kFrameRate_hz);
   for (int f = 0; f < 60; ++f) {
     EXPECT_EQ(contacts[0][f], f < 19 || f > 40) << f;  // frames 19 and 40 are moving
     EXPECT_TRUE(contacts[1][f]);
@@ -95,7 +95,7 @@ TEST(FindFootContacts, LetsAFootStandOnItsHeel) {
         pose[kLeftAnkle].y = 0.05;
       },
       9);
-  EXPECT_TRUE(FindFootContacts(heel, kRate)[0][4]);
+  EXPECT_TRUE(FindFootContacts(heel, kFrameRate_hz)[0][4]);
 }
 
 TEST(MassCentre, IsWhereABodyIsThatIsOneEverywhere) {
@@ -123,30 +123,31 @@ TEST(JointVelocities, AreCentralAndOneSidedAtTheEnds) {
         Carry(pose, {0, -0.01 * f * f, 0});
       },
       4);
-  const std::vector<BodyPose> velocities = JointVelocities(falls, kRate);
-  EXPECT_NEAR(velocities[0][kHead].y, kRate * -0.01, 1e-12);
-  EXPECT_NEAR(velocities[1][kHead].y, kRate * -0.02, 1e-12);
-  EXPECT_NEAR(velocities[3][kHead].y, kRate * -0.05, 1e-12);
-  EXPECT_EQ(JointVelocities(std::vector{Standing()}, kRate)[0][kHead], glm::dvec3(0));
+  const std::vector<BodyPose> velocities = JointVelocities(falls, kFrameRate_hz);
+  EXPECT_NEAR(velocities[0][kHead].y, kFrameRate_hz * -0.01, 1e-12);
+  EXPECT_NEAR(velocities[1][kHead].y, kFrameRate_hz * -0.02, 1e-12);
+  EXPECT_NEAR(velocities[3][kHead].y, kFrameRate_hz * -0.05, 1e-12);
+  EXPECT_EQ(JointVelocities(std::vector{Standing()}, kFrameRate_hz)[0][kHead], glm::dvec3(0));
 }
 
 TEST(FindBearing, TakesTheLowestJointsThatRest) {
-  EXPECT_EQ(FindBearing(Still(Standing()), kRate)[10].rests, kFeet);
+  EXPECT_EQ(FindBearing(Still(Standing()), kFrameRate_hz)[10].rests, kFeet);
   BodyPose stork = Standing();
   stork[kLeftFoot].y = stork[kLeftAnkle].y = 0.5;  // at rest, but on nothing
-  EXPECT_EQ(FindBearing(Still(stork), kRate)[10].rests, Set({kRightAnkle, kRightFoot}));
+  EXPECT_EQ(FindBearing(Still(stork), kFrameRate_hz)[10].rests, Set({kRightAnkle, kRightFoot}));
   const BodyPose lying = Tilted(Standing(), -kPi / 2);
-  EXPECT_TRUE(FindBearing(Still(lying), kRate)[10].rests[Index(kHead)]);
-  EXPECT_TRUE(FindBearing(Still(lying), kRate)[10].rests[Index(kHipCentre)]);
+  EXPECT_TRUE(FindBearing(Still(lying), kFrameRate_hz)[10].rests[Index(kHead)]);
+  EXPECT_TRUE(FindBearing(Still(lying), kFrameRate_hz)[10].rests[Index(kHipCentre)]);
 }
 
 TEST(FindBearing, TrustsAClipThatWalksOnTheSpotButNotOneThatGlides) {
   const auto at = [](double hips, double feet) {
     const Poses poses = ClipOf(Standing(), [&](BodyPose& pose, int f) {
-      Carry(pose, {0, 0, hips * f / kRate});
-      for (Role role : {kLeftAnkle, kLeftFoot, kRightAnkle, kRightFoot}) pose[role].z += (feet - hips) * f / kRate;
+      Carry(pose, {0, 0, hips * f / kFrameRate_hz});
+      for (Role role : {kLeftAnkle, kLeftFoot, kRightAnkle, kRightFoot})
+        pose[role].z += (feet - hips) * f / kFrameRate_hz;
     });
-    return FindBearing(poses, kRate)[10];
+    return FindBearing(poses, kFrameRate_hz)[10];
   };
   EXPECT_TRUE(at(0, -1.2).rests.none());
   EXPECT_EQ(at(0, -1.2).bears, kFeet) << "a treadmill";
@@ -158,7 +159,7 @@ TEST(FindSupport, HoldsWhatGoesOnUnbroken) {
   const Poses still = Still(Standing());
   EXPECT_EQ(Floating(still, still), 0);
   const std::vector clips = {SupportingClip{.poses = still}};
-  const std::vector<Support> support = FindSupport(still, clips, kPoint, kEnd, kRate);
+  const std::vector<Support> support = FindSupport(still, clips, kPoint, kEnd, kFrameRate_hz);
   ASSERT_EQ(support.size(), static_cast<std::size_t>(kEnd - kPoint + 1));
   for (const Support& frame : support) EXPECT_EQ(frame.joints, kFeet);
   EXPECT_TRUE(std::ranges::none_of(support, [](const Support& frame) { return frame.flight; }));
@@ -200,7 +201,7 @@ TEST(FindSupport, SeesABodyThatIsLifted) {
 
 TEST(FindSupport, SeesABodyThatGlides) {
   const Poses glides = ClipOf(Standing(), [](BodyPose& pose, int f) {
-    Carry(pose, {std::max(f - kPoint, 0) * 0.6 / kRate, 0, std::max(f - kPoint, 0) * 0.8 / kRate});
+    Carry(pose, {std::max(f - kPoint, 0) * 0.6 / kFrameRate_hz, 0, std::max(f - kPoint, 0) * 0.8 / kFrameRate_hz});
   });
   EXPECT_GE(Floating(glides, Still(Standing())), 30);
   EXPECT_GE(Floating(glides, glides), 30) << "nor is it its own support";
@@ -220,10 +221,10 @@ TEST(FindSupport, SeesABodyThatSquatsInMidAirAndFeetThatAreTuckedAtOnce) {
 /// Crouches, then takes off at frame 45 with this speed, m/s.
 void Push(BodyPose& pose, int f, double speed) {
   constexpr double kPush = 0.8 * 9.81;
-  const double before = (45 - f) / kRate, takes = speed / kPush, depth = 0.5 * speed * takes;
+  const double before = (45 - f) / kFrameRate_hz, takes = speed / kPush, depth = 0.5 * speed * takes;
   if (before <= 0) return;
   const double rises = std::max(takes - before, 0.0);
-  const double drop = depth * Ramp(f, 10, 45 - static_cast<int>(takes * kRate)) - 0.5 * kPush * rises * rises;
+  const double drop = depth * Ramp(f, 10, 45 - static_cast<int>(takes * kFrameRate_hz)) - 0.5 * kPush * rises * rises;
   Tuck(pose, drop);
   Carry(pose, {0, -drop, 0});
 }
@@ -232,7 +233,7 @@ TEST(FindSupport, LetsABodyJumpAsGravityDoesAndNotOtherwise) {
   // In the air from frame 45 to 60: half a second, 30 cm high.
   const auto jump = [](double gravity, bool is_thrown = true) {
     return ClipOf(Standing(), [=](BodyPose& pose, int f) {
-      const double t = (f - 45) / kRate, whole = 15 / kRate;
+      const double t = (f - 45) / kFrameRate_hz, whole = 15 / kFrameRate_hz;
       if (is_thrown) Push(pose, f, gravity / 2 * whole);
       if (t > 0 && t < whole) Carry(pose, {0, gravity / 2 * t * (whole - t), 0});
     });
@@ -252,11 +253,11 @@ TEST(FindSupport, TakesTheTopOfAJumpForNoFloor) {
   // At the top of the jump the feet are slow for three frames, 30 cm up. A body that stays there rests on nothing.
   constexpr int kTop = kPoint;
   const Poses jump = ClipOf(Standing(), [](BodyPose& pose, int f) {
-    const double t = (f - kTop) / kRate, half = 7.5 / kRate;
+    const double t = (f - kTop) / kFrameRate_hz, half = 7.5 / kFrameRate_hz;
     if (std::abs(t) < half) Carry(pose, {0, 9.81 / 2 * (half * half - t * t), 0});
   });
-  for (int f = kTop - 1; f <= kTop + 1; ++f) EXPECT_TRUE(FindBearing(jump, kRate)[f].rests.none()) << f;
-  EXPECT_EQ(FindBearing(jump, kRate)[kTop + 12].rests, kFeet);
+  for (int f = kTop - 1; f <= kTop + 1; ++f) EXPECT_TRUE(FindBearing(jump, kFrameRate_hz)[f].rests.none()) << f;
+  EXPECT_EQ(FindBearing(jump, kFrameRate_hz)[kTop + 12].rests, kFeet);
   EXPECT_EQ(Floating(jump, jump), 0) << "the clip's own";
   const Poses stays = ClipOf(Standing(), [&](BodyPose& pose, int f) { pose = jump[std::min(f, kTop)]; });
   EXPECT_GE(Floating(stays, jump), 35);
@@ -265,7 +266,7 @@ TEST(FindSupport, TakesTheTopOfAJumpForNoFloor) {
 
 TEST(FindSupport, GivesWhoWalksOnTheSpotAFloorToStopOn) {
   const Poses walks = ClipOf(Standing(), [](BodyPose& pose, int f) {
-    for (Role role : {kLeftAnkle, kLeftFoot, kRightAnkle, kRightFoot}) pose[role].z -= 0.9 * f / kRate;
+    for (Role role : {kLeftAnkle, kLeftFoot, kRightAnkle, kRightFoot}) pose[role].z -= 0.9 * f / kFrameRate_hz;
   });
   BodyPose high = Standing();
   Carry(high, {0, 0.3, 0});
@@ -291,7 +292,7 @@ TEST(FindSupport, AsksOfAFlightThatItIsOneParabolaWithATakeOff) {
   const Poses clip = Still(Standing());
   const auto flies = [](double wobble) {
     return ClipOf(Standing(), [=](BodyPose& pose, int f) {
-      const double t = (f - 45) / kRate, whole = 15 / kRate;
+      const double t = (f - 45) / kFrameRate_hz, whole = 15 / kFrameRate_hz;
       Push(pose, f, 9.81 / 2 * whole);
       if (t > 0 && t < whole) Carry(pose, {0, 9.81 / 2 * t * (whole - t) + wobble * std::sin(4 * kPi * t / whole), 0});
     });
@@ -299,7 +300,7 @@ TEST(FindSupport, AsksOfAFlightThatItIsOneParabolaWithATakeOff) {
   EXPECT_EQ(Floating(flies(0.003), clip), 0);
   EXPECT_GE(Floating(flies(0.03), clip), 10) << "it swims in the air";
   const Poses dropped = ClipOf(Standing(), [](BodyPose& pose, int f) {
-    const double t = std::max(f - kPoint, 0) / kRate;  // time constant: a third of a second
+    const double t = std::max(f - kPoint, 0) / kFrameRate_hz;  // time constant: a third of a second
     Carry(pose, {0, std::max(9.81 / 18 - 9.81 / 2 * t * t, 0.0), 0});
   });
   EXPECT_GE(Floating(dropped, clip), 9) << "from where nothing held it";

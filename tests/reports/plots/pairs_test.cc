@@ -2,6 +2,8 @@
 
 #include <gmock/gmock.h>
 
+#include <vector>
+
 #include "bench/model/recording.h"
 #include "bench/recordings/evaluation_extras.h"
 
@@ -65,6 +67,17 @@ TEST(PairsHtml, ShowsTheWorstFramesOfWhatIsRecorded) {
   const std::string told = PairsHtml(run, run.scenarios[0]);
   EXPECT_THAT(told, HasSubstr("not a readable recording"));
   EXPECT_THAT(told, HasSubstr("polyline"));
+}
+
+TEST(PairsHtml, NamesTheErrorOfItsTitleAndTheFramesOfAPoint) {
+  RunData run = MakeRun();
+  std::vector<double> longer(200, 10.0);
+  run.series[0].series = {{"mpjpe_unaligned_mm", "frame", longer}, {"mpjpe_root_mm", "frame", std::vector(200, 400.0)}};
+  const std::string html = PairsHtml(run, run.scenarios[0]);
+  EXPECT_THAT(html, HasSubstr("calm: at worst 10.0 mm (joint error, unaligned)"));
+  EXPECT_THAT(html, HasSubstr("joint error, unaligned, mm, the largest of every 3 frames"));
+  EXPECT_THAT(html, HasSubstr("joint error, unaligned, mm, by frame")) << "of the pair with 20 frames";
+  EXPECT_LT(html.find("wild"), html.find("calm")) << "pairs are ordered by the error of the title";
 }
 
 TEST(PairsHtml, IsEmptyForOtherTasks) {

@@ -168,6 +168,9 @@ TEST(Findings, NeverCallWhatWasMeasuredReached) {
   EXPECT_THAT(FindingsOf(run).sentence, HasSubstr("cells were measured, 6 broke."));
   for (Row& row : run.rows) row.result.status = Status::kOk;
   EXPECT_THAT(FindingsOf(run).sentence, HasSubstr(" cells were measured."));
+  RunData one;
+  one.rows = {run.rows.front()};
+  EXPECT_EQ(FindingsOf(one).sentence, "The one cell was measured.");
   run.rows.front().result.status = Status::kUnsolved;
   EXPECT_THAT(FindingsOf(run).sentence,
               HasSubstr(" cells were measured, 1 of them unsolved (the method answered, but missed its goal)."));

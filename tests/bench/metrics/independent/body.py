@@ -56,15 +56,20 @@ def accelerations(frames, rate):
 
 
 def overextension(pose, side):
+    """Degrees; 0 unless the line of the hips, and toes that are at least 37° off the shank, show a bend backwards."""
     hip, knee, ankle, foot = (pose[f"{side}_{name}"] for name in ("hip", "knee", "ankle", "foot"))
-    thigh, shank = minus(knee, hip), minus(ankle, knee)
-    size = norm(shank)
-    shank = [v / size for v in shank] if size > 1e-9 else [0, -1, 0]
-    toes = minus(foot, ankle)
-    front = minus(toes, [dot(toes, shank) * v for v in shank])
-    if norm(front) < 0.03:
+    thigh, shank, toes = minus(knee, hip), minus(ankle, knee), minus(foot, ankle)
+    hinge = cross(thigh, shank)
+    backwards = dot(hinge, minus(pose["right_hip"], pose["left_hip"])) / norm(minus(pose["right_hip"], pose["left_hip"]))
+    if backwards <= 0.2 * norm(hinge):
         return 0.0
-    return -math.degrees(math.atan2(dot(thigh, front) / norm(front), dot(thigh, shank)))
+    along = dot(toes, shank) / norm(shank)
+    across = math.sqrt(max(dot(toes, toes) - along * along, 0))
+    if across <= 0.6 * norm(toes):
+        return math.degrees(math.atan2(backwards, dot(thigh, shank)))
+    thigh_along = dot(thigh, shank) / norm(shank)
+    ahead = (dot(thigh, toes) - thigh_along * along) / across
+    return max(0.0, -math.degrees(math.atan2(ahead, thigh_along)))
 
 
 def corner(pose, a, b, c):
