@@ -4,6 +4,7 @@
 #include <sys/stat.h>
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <iostream>
 #include <map>
 #include <string_view>
@@ -12,6 +13,7 @@
 #include "bench/run/outside_programs.h"
 #include "bench/run/worker.h"
 #include "cli/commands.h"
+#include "engine/base/names.h"
 #include "engine/base/text.h"
 #include "engine/retargeting/marker_sets.h"
 #include "io/process/pinned_environment.h"
@@ -254,7 +256,7 @@ std::array<CLI::Option*, 9> AddWorldOptions(CLI::App& command, std::optional<std
       command.add_option_function<std::string>(
           "--unit", tell("unit"), "Unit of the clips: m, cm, mm, in, ft, cmu, or metres per unit (default: found)"),
       command.add_option_function<std::string>("--up", tell("up"), "Axis of the clips that points up (default: found)")
-          ->check(CLI::IsMember({"y", "z"})),
+          ->check(OneOf({"y", "z"})),
       command
           .add_option_function<std::string>("--rate", tell("rate"),
                                             "Frames per second of the clips (default: their own rate)")
@@ -265,7 +267,7 @@ std::array<CLI::Option*, 9> AddWorldOptions(CLI::App& command, std::optional<std
       command
           .add_option_function<std::string>("--marker-set", tell("marker_set"),
                                             "Which set of markers is used (default: the best that the clips contain)")
-          ->check(CLI::IsMember(MarkerSetKeys()))};
+          ->check(OneOf(MarkerSetKeys()))};
 }
 
 void AddUnsealed(CLI::App& command, Sealing& sealing) {
@@ -277,6 +279,14 @@ void AddUnsealed(CLI::App& command, Sealing& sealing) {
 void AddOutsideRules(CLI::App& command, OutsideRules& rules) {
   command.add_flag("!--no-fence", rules.is_fenced, "Run outside methods without a fence, to debug them");
   command.add_flag("--allow-exec", rules.allow_exec, "Allow programs that a manifest, a run or a pack names to be run");
+}
+
+CLI::Validator OneOf(const std::vector<std::string>& names) {
+  CLI::Validator check = CLI::IsMember(names);
+  check.operation([names](const std::string& text) {
+    return std::ranges::find(names, text) != names.end() ? "" : UnknownName("value", text, names);
+  });
+  return check;
 }
 
 std::function<std::string(const std::string&)> NumberWithin(double low, double high, const std::string& kind) {

@@ -12,6 +12,7 @@
 namespace CLI {
 class App;
 class Option;
+class Validator;
 }  // namespace CLI
 
 namespace etude {
@@ -63,6 +64,8 @@ void AddUnsealed(CLI::App& command, Sealing& sealing);
 /// Adds --no-fence and --allow-exec, for every command that runs external methods.
 void AddOutsideRules(CLI::App& command, OutsideRules& rules);
 
+/// Returns a check that an option's text is one of `names`, which the help lists. Its complaint names the nearest one.
+CLI::Validator OneOf(const std::vector<std::string>& names);
 /// Returns a function that checks an option's text: that function returns "" for a number from `low` to `high`, else a
 /// complaint. (CLI::Range would accept NaN.) `kind` names the quantity in complaints: "rate in Hz".
 std::function<std::string(const std::string& text)> NumberWithin(double low, double high, const std::string& kind);

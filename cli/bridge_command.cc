@@ -97,7 +97,7 @@ Result<int> CheckTags(const BridgeCommandOptions& options) {
 Result<int> BridgeCommand(const BridgeCommandOptions& options) {
   if (!options.check.empty()) return CheckTags(options);
   if (options.clips.empty()) return Fail({}, "etude bridge needs clips, or --check with a tags file");
-  if (!options.output.empty()) RETURN_IF_ERROR(CheckOutput(options.output, options.overwrite));
+  RETURN_IF_ERROR(CheckOutput(options.output, options.overwrite));
   ASSIGN_OR_RETURN(const auto loaded, LoadLibrary(options));
   if (!options.output.empty()) RETURN_IF_ERROR(WriteTags(loaded, options.output));
   const bool with_pairs = options.with_pairs || loaded.library.names.size() <= kMaxClipsWithPairs;

@@ -53,16 +53,15 @@ Json FactsOf(const Calibrated& rig) {
 Result<int> CalibrateCommand(const CalibrateCommandOptions& asked) {
   const CalibrateOptions& options = asked.calibrate;
   if (!options.print.empty()) {
-    RETURN_IF_ERROR(CheckOutput(options.print, asked.overwrite));
+    RETURN_IF_ERROR(CheckOutput(options.print, asked.overwrite, ".png"));
     RETURN_IF_ERROR(PrintBoard(options));
     return kSuccess;
   }
   if (options.inputs.empty())
     return Fail({}, "nothing to calibrate with; allowed: a file of point pairs, or folders of pictures");
   if (options.output.empty()) return Fail({}, "-o RIG.yaml is missing: it names the file for the rig");
-  for (const std::string* path : {&options.output, &options.picture}) {
-    if (!path->empty()) RETURN_IF_ERROR(CheckOutput(*path, asked.overwrite));
-  }
+  RETURN_IF_ERROR(CheckOutput(options.output, asked.overwrite));
+  RETURN_IF_ERROR(CheckOutput(options.picture, asked.overwrite, ".png"));
   StdoutToStderr aside(asked.as_json);
   ASSIGN_OR_RETURN(const Calibrated rig, CalibrateRig(options));
   aside.End();
@@ -121,18 +120,18 @@ void DefineCalibrate(CLI::App& app, Action& action) {
       ->capture_default_str();
   // Define what is estimated, and in which world frame.
   command->add_option("--method", options->method, "How cameras are computed from point pairs")
-      ->check(CLI::IsMember(CalibrationNames()))
+      ->check(OneOf(CalibrationNames()))
       ->capture_default_str();
   command
       ->add_option("--lens", options->lens, "Lens parameters to find: none; radial2 (k1, k2, p1, p2); radial3 (and k3)")
-      ->check(CLI::IsMember({"none", "radial2", "radial3"}))
+      ->check(OneOf({"none", "radial2", "radial3"}))
       ->capture_default_str();
   command->add_flag(
       "--skew", options->skew,
       "Also find the angle between the picture's axes (as paper B does; that of today's sensors is 90 degrees)");
   command->add_option("--size", options->size, "Size of the pictures, for point pairs as CSV: 1920x1080");
   command->add_option("--world", options->world, "Where the board is in the first picture: on the floor or on a wall")
-      ->check(CLI::IsMember({"floor", "wall"}))
+      ->check(OneOf({"floor", "wall"}))
       ->capture_default_str();
   command
       ->add_option("--every", options->every,
@@ -147,12 +146,12 @@ void DefineCalibrate(CLI::App& app, Action& action) {
       ->capture_default_str();
   // Define further outputs and comparisons.
   command->add_option("--picture", options->picture,
-                      "Also draw the corners that were found, and their residuals (PNG)");
+                      "Also draw the corners that were found, and their residuals (.png)");
   command->add_option("--beside", options->beside,
                       "Another calibration of these cameras, for a comparison of focal lengths, distances and "
                       "residuals; opencv: calibrateCamera, for each camera alone");
   CLI::Option* print =
-      command->add_option("--print", options->print, "Only write the board as a picture (PNG) for printing");
+      command->add_option("--print", options->print, "Only write the board as a picture (.png) for printing");
   AddOverwrite(*command, asked->overwrite);
   AddJson(*command, asked->as_json)->excludes(print);
   command->footer(kCalibrateExamples);

@@ -63,9 +63,12 @@ struct CaptureCommandOptions {
 Result<int> CaptureCommand(const CaptureCommandOptions& options) {
   StdoutToStderr aside(options.as_json);
   const CaptureFilmsOptions& capture = options.capture;
-  for (const std::string* path :
-       {&capture.output, &capture.points, &capture.film, &capture.report, &capture.distances}) {
-    if (!path->empty()) RETURN_IF_ERROR(CheckOutput(*path, options.overwrite));
+  for (const auto& [path, ending] : {std::pair(&capture.output, ""),
+                                     {&capture.points, ".trc"},
+                                     {&capture.film, ".mp4"},
+                                     {&capture.report, ".html"},
+                                     {&capture.distances, ".json"}}) {
+    RETURN_IF_ERROR(CheckOutput(*path, options.overwrite, ending));
   }
   ASSIGN_OR_RETURN(const CapturedFilms captured, CaptureFilms(capture));
   const bool is_refused = !captured.doubt.empty() && !capture.accepts_doubtful;
@@ -142,7 +145,7 @@ void DefineCapture(CLI::App& app, const std::string& command_line, Action& actio
       ->check(NumberWithin(0, 2.5, "stature in m"))
       ->capture_default_str();
   command->add_option("--layout", options->layout, "The order of the keypoints, if their number does not determine it")
-      ->check(CLI::IsMember(KeypointLayoutNames()));
+      ->check(OneOf(KeypointLayoutNames()));
   // Define the outputs, and the reference to compare with.
   command->add_option("-o,--output", options->output, "The motion to write: .bvh, .glb, .trc or .csv")->required();
   command->add_option("--points", options->points, "Also write the triangulated keypoints (.trc)");
@@ -156,7 +159,7 @@ void DefineCapture(CLI::App& app, const std::string& command_line, Action& actio
       ->needs(reference);
   // Define how films, people and time are interpreted.
   command->add_option("--fit", options->fit, "How the rig's pictures were changed into films of another size")
-      ->check(CLI::IsMember({"none", "letterbox", "stretch", "crop"}))
+      ->check(OneOf({"none", "letterbox", "stretch", "crop"}))
       ->capture_default_str();
   command->add_option("--person", options->person, "Number of the person; 1 is the one seen most")
       ->check(CLI::Range(1, 64))
@@ -165,7 +168,7 @@ void DefineCapture(CLI::App& app, const std::string& command_line, Action& actio
       ->add_option(
           "--poses", options->poses,
           "frames: each frame by itself; bundle: one body in smooth motion that explains all keypoints at once")
-      ->check(CLI::IsMember({"frames", "bundle"}))
+      ->check(OneOf({"frames", "bundle"}))
       ->excludes(silhouettes)
       ->capture_default_str();
   command

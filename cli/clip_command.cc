@@ -167,7 +167,7 @@ void DefineConvert(CLI::App& clip, Action& action) {
   command
       ->add_option("--character", options->character,
                    "Retarget to the bear or the mannequin (GLB only); none leaves out the file's meshes")
-      ->check(CLI::IsMember({"bear", "mannequin", "none"}));
+      ->check(OneOf({"bear", "mannequin", "none"}));
   // Define how files are written and read.
   AddOverwrite(*command, options->overwrite);
   AddJson(*command, options->as_json);
@@ -187,7 +187,7 @@ struct ClipContactsOptions {
 };
 
 Result<int> ClipContactsCommand(const ClipContactsOptions& options) {
-  RETURN_IF_ERROR(CheckOutput(options.output, options.overwrite));
+  RETURN_IF_ERROR(CheckOutput(options.output, options.overwrite, ".svg"));
   ASSIGN_OR_RETURN(const auto reading, ReadOptions(options.reading));
   ASSIGN_OR_RETURN(const auto clips, LoadClips({options.clip}, {}, reading));
   if (clips.clips.size() != 1) {
@@ -298,10 +298,8 @@ Result<void> WritePreview(const ClipMapOptions& options, const Clip& clip, const
 }
 
 Result<void> CheckMapOutputs(const ClipMapOptions& options) {
-  if (!options.output.empty()) RETURN_IF_ERROR(CheckOutput(options.output, options.overwrite));
-  if (options.preview.empty()) return {};
-  if (!options.preview.ends_with(".png")) return Fail({options.preview}, "is not the name of a picture; allowed: .png");
-  return CheckOutput(options.preview, options.overwrite);
+  RETURN_IF_ERROR(CheckOutput(options.output, options.overwrite));
+  return CheckOutput(options.preview, options.overwrite, ".png");
 }
 
 Result<int> ClipMapCommand(const ClipMapOptions& options) {

@@ -88,7 +88,7 @@ Json FactsOf(const ClipLibrary& clips, const std::vector<FuzzyMotion>& motions, 
 }
 
 Result<int> ClipGradesCommand(const ClipGradesOptions& options) {
-  if (!options.output.empty()) RETURN_IF_ERROR(CheckOutput(options.output, options.overwrite));
+  RETURN_IF_ERROR(CheckOutput(options.output, options.overwrite, ".csv"));
   ASSIGN_OR_RETURN(const auto system, ReadFuzzy(options.fuzzy));
   ASSIGN_OR_RETURN(const auto reading, ReadOptions(options.reading));
   ASSIGN_OR_RETURN(const auto clips, LoadClips(options.clips, {}, reading));

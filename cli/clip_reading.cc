@@ -16,12 +16,12 @@ void AddClipReading(CLI::App& command, ClipReading& reading, const std::string& 
   command.add_option("--unit", reading.unit,
                      "Unit of the file: m, cm, mm, in, ft, cmu, or metres per unit (default: found by the stature)");
   command.add_option("--up", reading.up, "Axis of the file that points up: y or z (default: found)")
-      ->check(CLI::IsMember({"y", "z"}));
+      ->check(OneOf({"y", "z"}));
   command.add_flag("--keep-floor", reading.keep_floor, "Leave the body at the height of the file");
   command
       .add_option("--marker-set", reading.marker_set,
                   "Which set of markers is used (default: the best that the file contains)")
-      ->check(CLI::IsMember(MarkerSetKeys()));
+      ->check(OneOf(MarkerSetKeys()));
   if (rate.empty()) return;
   command.add_option(rate, reading.rate_hz, "Frames per second of the file (default: its own rate)")
       ->check(NumberWithin(1, 1000, "rate in Hz"));

@@ -134,9 +134,9 @@ void DefineRender(CLI::App& clip, Action& action) {
       ->add_option("--character", options->character,
                    "The figure: own (the file's meshes), mannequin, bear, or body (capsules, left blue and right "
                    "orange)\n(default: own if the file has meshes, otherwise mannequin; bear for built-in clips)")
-      ->check(CLI::IsMember({"own", "mannequin", "bear", "body"}));
+      ->check(OneOf({"own", "mannequin", "bear", "body"}));
   command->add_option("--view", options->view, "View of the first pose: front, three-quarter or side")
-      ->check(CLI::IsMember({"front", "three-quarter", "side"}))
+      ->check(OneOf({"front", "three-quarter", "side"}))
       ->capture_default_str();
   command->add_option("--size", options->size,
                       "Size of the film, or of each picture of a sheet (default: 720x720, 200x260)");

@@ -121,7 +121,7 @@ Result<Lesson> LoadLesson(const CoachCommandOptions& options) {
 
 Result<void> WriteClicks(const CoachCommandOptions& options, const Dance& dance) {
   if (options.click.empty()) return {};
-  RETURN_IF_ERROR(CheckOutput(options.click, options.overwrite));
+  RETURN_IF_ERROR(CheckOutput(options.click, options.overwrite, ".wav"));
   constexpr int kRate = 44100;
   const std::vector<double>& beats = dance.beats_s;
   RETURN_IF_ERROR(WriteFileAtomically(options.click, WriteWav(ClickTrack(beats, beats.back() + 1, kRate), kRate)));
@@ -199,22 +199,22 @@ void DefineCoach(CLI::App& app, Action& action) {
   command
       ->add_option("--recogniser", options->recogniser,
                    "How performances are recognised (default: coached; key-pose if a move has no example)")
-      ->check(CLI::IsMember(RecogniserNames()));
+      ->check(OneOf(RecogniserNames()));
   command
       ->add_option("--right-from", options->right_from,
                    "Lowest evidence that counts as a right performance (default: the recogniser's own)")
       ->check(NumberWithin(0.001, 1, "level of evidence"));
   command->add_option("--policy", options->policy, "When the coach interrupts")
-      ->check(CLI::IsMember(LivePolicyNames()))
+      ->check(OneOf(LivePolicyNames()))
       ->capture_default_str();
   command->add_option("--choice", options->choice, "How the frames of a transition are chosen")
-      ->check(CLI::IsMember(ChoiceNames()))
+      ->check(OneOf(ChoiceNames()))
       ->capture_default_str();
   command->add_option("--join", options->join, "How the two clips are joined at these frames")
-      ->check(CLI::IsMember(JoinNames()))
+      ->check(OneOf(JoinNames()))
       ->capture_default_str();
   command->add_option("--filter", options->filter, "Filter that smooths the skeletons")
-      ->check(CLI::IsMember(FilterNames()))
+      ->check(OneOf(FilterNames()))
       ->capture_default_str();
   // Define how players dance, and how frames are read and printed.
   command->add_flag("--mirror", options->mirror,
@@ -223,7 +223,7 @@ void DefineCoach(CLI::App& app, Action& action) {
   command->add_flag("--brief", options->brief, "Leave out all bodies, and the frames without decisions");
   command->add_flag("--timing", options->timing, "Print at the end how long frames took");
   command->add_option("--format", options->format, "Format of the stream (default: found from the content)")
-      ->check(CLI::IsMember(StreamFormatNames()));
+      ->check(OneOf(StreamFormatNames()));
   command->add_option("--rate", options->rate_hz, "Frame rate of a stream without a clock, Hz (default: 30)")
       ->check(NumberWithin(1, 1000, "rate in Hz"));
   command->add_flag("--reflect", options->reflect, "Negate X, for a mirrored stream");

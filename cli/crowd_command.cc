@@ -163,12 +163,7 @@ Result<int> CrowdCommand(const CrowdCommandOptions& given) {
     return Fail({}, "--seconds: {:g} s at {:g} Hz are {} frames; allowed: {} or more", options.seconds,
                 options.crowd.rate_hz, options.crowd.frames, kMinTrackedFrames);
   }
-  if (!options.output.empty()) {
-    if (std::filesystem::path(options.output).extension() != ".mp4") {
-      return Fail({options.output}, "is not the name of a film; allowed: .mp4");
-    }
-    RETURN_IF_ERROR(CheckOutput(options.output, options.overwrite));
-  }
+  RETURN_IF_ERROR(CheckOutput(options.output, options.overwrite, ".mp4"));
   StdoutToStderr aside(options.as_json);
   ASSIGN_OR_RETURN(Json facts, FollowCrowd(options));
   if (facts.is_null()) return TellStopped();

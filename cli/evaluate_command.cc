@@ -357,7 +357,7 @@ void DefineEvaluate(CLI::App& app, const std::string& command_line, Action& acti
   command
       ->add_option("--lag", options->lag,
                    "find: judge a second time, after the time shift between truth and result was found and removed")
-      ->check(CLI::IsMember({"none", "find"}));
+      ->check(OneOf({"none", "find"}));
   command->add_option("--statistics", options->statistics,
                       "A CSV of means and standard deviations of joints, for the metric L2P");
   command->add_option("--music-beats", options->music_beats,
@@ -373,7 +373,7 @@ void DefineEvaluate(CLI::App& app, const std::string& command_line, Action& acti
       ->add_option_function<std::string>(
           "--keep", [options](const std::string&) { options->keeps_motions = true; },
           "motions: record the motions, for the page's pictures and its viewer")
-      ->check(CLI::IsMember({"motions"}));
+      ->check(OneOf({"motions"}));
   AddJobs(*command, options->jobs);
   AddJson(*command, options->as_json);
   command->callback([=, &action] { action = [=] { return Finish(EvaluateCommand(*options)); }; });

@@ -37,13 +37,13 @@ constexpr const char* kForecastNotes =
     "computed at\n"
     "20 x 20 places at each of ten heights. `etude calibrate --json` has the deviation of focal lengths. The camera "
     "that is\n"
-    "added has the lens of the rig's first one, and the best of 324 positions.";
+    "added has the lens of the rig's first one, and the best of 324 positions within --room.";
 
 struct ForecastCommandOptions {
   ForecastOptions forecast;
   std::vector<double> calibration = {5, 0.1, 0.2};
   std::vector<double> middle;
-  std::vector<double> size = {3, 2, 3};
+  std::vector<double> size = {3, 2, 3}, room;
   bool overwrite = false;
   bool as_json = false;
 };
@@ -96,9 +96,10 @@ Result<int> ForecastCommand(ForecastCommandOptions asked) {
                                 .focal = asked.calibration[2] / kPercent};
   if (!asked.middle.empty()) options.middle_m = glm::dvec2(asked.middle[0], asked.middle[1]);
   options.size_m = {asked.size[0], asked.size[1], asked.size[2]};
-  for (const std::string* path : {&options.picture, &options.table, &options.report}) {
-    if (!path->empty()) RETURN_IF_ERROR(CheckOutput(*path, asked.overwrite));
-  }
+  if (!asked.room.empty()) options.room_m = glm::dvec3(asked.room[0], asked.room[1], asked.room[2]);
+  RETURN_IF_ERROR(CheckOutput(options.picture, asked.overwrite, ".png"));
+  RETURN_IF_ERROR(CheckOutput(options.table, asked.overwrite, ".csv"));
+  RETURN_IF_ERROR(CheckOutput(options.report, asked.overwrite, ".html"));
   StdoutToStderr aside(asked.as_json);
   ASSIGN_OR_RETURN(const RigForecast forecast, ForecastRig(options));
   aside.End();
@@ -137,6 +138,13 @@ void DefineForecast(CLI::App& app, const std::string& command_line, Action& acti
       ->delimiter(',')
       ->expected(2)
       ->check(NumberWithin(-1000, 1000, "place in m"));
+  command
+      ->add_option("--room", asked->room,
+                   "Width (x), height and depth (z) of the room around this middle, m: where one more camera may stand "
+                   "(default: the smallest box with the cameras and the volume)")
+      ->delimiter(',')
+      ->expected(3)
+      ->check(NumberWithin(0.1, 100, "length in m"));
   // Define the errors of keypoints (given, or measured in films) and of the calibration.
   auto* noise =
       command->add_option("--noise-px", options->errors.noise_px, "Standard deviation of keypoints along each axis, px")
@@ -153,11 +161,11 @@ void DefineForecast(CLI::App& app, const std::string& command_line, Action& acti
   command
       ->add_option("--layout", options->take.layout,
                    "... the order of these keypoints, if their number does not determine it")
-      ->check(CLI::IsMember(KeypointLayoutNames()))
+      ->check(OneOf(KeypointLayoutNames()))
       ->needs(keypoints);
   command
       ->add_option("--fit", options->take.fit, "... and how the rig's pictures were changed into films of another size")
-      ->check(CLI::IsMember({"none", "letterbox", "stretch", "crop"}))
+      ->check(OneOf({"none", "letterbox", "stretch", "crop"}))
       ->needs(keypoints)
       ->capture_default_str();
   command->add_option("--dropout", options->errors.dropout, "Share of its pictures in which a camera gives no keypoint")

@@ -80,6 +80,11 @@ int ComplainOfArguments(const CLI::App& app, const CLI::ParseError& error) {
   std::vector<std::string> extras = app.remaining(true);
   extras.erase(std::ranges::find(extras, "--"), extras.end());
   std::string message = error.what();
+  // Tell which values an option needs if their number is wrong.
+  if (const CLI::Option* option = command->get_option_no_throw(message.substr(0, message.find(':')));
+      option != nullptr && error.get_name() == "ArgumentMismatch") {
+    message += fmt::format(": {}", option->get_description());
+  }
   if (!extras.empty()) {
     message =
         UnknownName(extras.front().starts_with("-") ? "option" : "argument", extras.front(), KnownWords(*command));

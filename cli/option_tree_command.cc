@@ -250,7 +250,7 @@ void DefineOptionTree(CLI::App& app, Action& action) {
   auto shell = std::make_shared<std::string>(), folder = std::make_shared<std::string>();
   auto as_page = std::make_shared<bool>(false);
   CLI::App* completion = app.add_subcommand("completion", "Print the completion script of a shell");
-  completion->add_option(kShellArgument, *shell, "bash, zsh or fish")->required()->check(CLI::IsMember(Shells()));
+  completion->add_option(kShellArgument, *shell, "bash, zsh or fish")->required()->check(OneOf(Shells()));
   completion->callback([=, &action] {
     action = [=] {
       fmt::print("{}", *shell == "bash"  ? BashCompletion(*program)

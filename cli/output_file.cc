@@ -8,8 +8,10 @@
 
 namespace etude {
 
-Result<void> CheckOutput(const std::string& path, bool overwrite) {
+Result<void> CheckOutput(const std::string& path, bool overwrite, std::string_view ending) {
   namespace fs = std::filesystem;
+  if (path.empty()) return {};
+  if (!path.ends_with(ending)) return Fail({path, 0, 0}, "is not the name of such a file; allowed: {}", ending);
   std::error_code ignored;
   const fs::file_status there = fs::symlink_status(path, ignored);
   if (!fs::exists(there)) return {};

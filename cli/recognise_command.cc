@@ -288,12 +288,12 @@ void DefineRecognise(CLI::App& app, Action& action) {
       ->add_option(
           "--recogniser", options->recogniser,
           "The recogniser (default: learnt; key-pose if a move has no example; whole-body with --leave-one-person-out)")
-      ->check(CLI::IsMember(RecogniserNames()));
+      ->check(OneOf(RecogniserNames()));
   command->add_option("--filter", options->filter, "Filter that smooths the joints before recognition")
-      ->check(CLI::IsMember(FilterNames()))
+      ->check(OneOf(FilterNames()))
       ->capture_default_str();
   command->add_option("--weights", options->weights, "Weights of the angles: all equal, or by how well they are seen")
-      ->check(CLI::IsMember({"fixed", "adaptive"}))
+      ->check(OneOf({"fixed", "adaptive"}))
       ->capture_default_str();
   command
       ->add_option("--threshold", options->threshold,

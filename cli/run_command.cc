@@ -271,7 +271,7 @@ void DefineRun(CLI::App& app, const std::string& command_line, Action& action) {
                           ->add_option_function<std::string>(
                               "--keep", [options](const std::string&) { options->keeps_motions = true; },
                               "motions: record the motions of every cell (a scenario's key `video` does so for some)")
-                          ->check(CLI::IsMember({"motions"}));
+                          ->check(OneOf({"motions"}));
   auto dry_run = std::make_shared<bool>(false), as_json = std::make_shared<bool>(false);
   const Action act = WithSecretKey(*command, &options->seed, options->key, [=] {
     return *dry_run ? DryRunCommand(*options, *as_json) : RunCommand(*options, *as_json);

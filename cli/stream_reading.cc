@@ -8,7 +8,7 @@ namespace etude {
 
 void AddStreamReading(CLI::App& command, StreamArguments& reading) {
   command.add_option("--format", reading.format, "Format of the recordings (default: found from the content)")
-      ->check(CLI::IsMember(StreamFormatNames()));
+      ->check(OneOf(StreamFormatNames()));
   command
       .add_option("--rate", reading.rate_hz,
                   "Frame rate of recordings without a clock, Hz (default: 30); for clips, it replaces their own rate")
@@ -18,7 +18,7 @@ void AddStreamReading(CLI::App& command, StreamArguments& reading) {
   command
       .add_option("--level", reading.level,
                   "Up axis and floor: auto estimates them from the body, none takes the file's")
-      ->check(CLI::IsMember({"auto", "none"}))
+      ->check(OneOf({"auto", "none"}))
       ->capture_default_str();
   command.add_flag("--reflect", reading.reflect, "Negate X, for mirrored recordings");
   AddClipReading(command, reading.clips, "");

@@ -304,7 +304,7 @@ void DefineTrain(CLI::App& app, Action& action) {
   command->add_option("clips", options->clips, "Clips to learn from and to judge the result")->required();
   command->add_option("-o,--output", options->output, "The file to write (YAML)")->required();
   command->add_option("--method", options->method, "Learning method")
-      ->check(CLI::IsMember({"adaptive", "genetic"}))
+      ->check(OneOf({"adaptive", "genetic"}))
       ->capture_default_str();
   command->add_flag("--memberships", options->memberships, "Also tune the membership functions (genetic)");
   command

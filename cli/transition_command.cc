@@ -94,10 +94,10 @@ void DefineTransition(CLI::App& app, Action& action) {
   command
       ->add_option("--choice", options->choice,
                    "How the frames are chosen at which the first clip is left and the second entered")
-      ->check(CLI::IsMember(ChoiceNames()))
+      ->check(OneOf(ChoiceNames()))
       ->capture_default_str();
   command->add_option("--join", options->join, "How the two clips are joined at these frames")
-      ->check(CLI::IsMember(JoinNames()))
+      ->check(OneOf(JoinNames()))
       ->capture_default_str();
   command->add_option("--library", options->library, "Further clips; one of them may be played in between");
   AddOverwrite(*command, asked->overwrite);

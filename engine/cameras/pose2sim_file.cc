@@ -7,6 +7,7 @@
 #include <glm/gtc/quaternion.hpp>
 #include <map>
 
+#include "engine/base/angles.h"
 #include "engine/base/text.h"
 #include "engine/cameras/opencv_file.h"
 
@@ -83,13 +84,13 @@ std::optional<std::vector<double>> NumbersOf(std::string_view text) {
 
 using Keys = std::map<std::string, std::string, std::less<>>;
 
-// Reads one camera's table, which began at `line`.
-Result<NamedCamera> ReadTable(const std::string& name, const Keys& keys, int line) {
-  const Place place{.file = {}, .line = line, .column = 1};
-  std::map<std::string, std::vector<double>> values;
-  // Parse the required lists of numbers.
-  for (const auto& [key, count] : std::map<std::string, std::size_t>{
-           {"size", 2}, {"matrix", 9}, {"distortions", 0}, {"rotation", 0}, {"translation", 3}}) {
+using Values = std::map<std::string, std::vector<double>>;
+
+/// Parses the lists of numbers that a camera's table must have. A count of 0 allows lists of any length.
+Result<Values> ValuesOf(const std::string& name, const Keys& keys, const std::map<std::string, std::size_t>& counts,
+                        const Place& place) {
+  Values values;
+  for (const auto& [key, count] : counts) {
     const auto found = keys.find(key);
     if (found == keys.end()) return Fail(place, "camera {} has no {}", name, key);
     const auto numbers = NumbersOf(found->second);
@@ -99,6 +100,42 @@ Result<NamedCamera> ReadTable(const std::string& name, const Keys& keys, int lin
     }
     values[key] = *numbers;
   }
+  return values;
+}
+
+/// Reads the table of a planned camera: its lens has no distortion, and its picture is upright.
+Result<OpenCvParameters> ReadPlanned(const std::string& name, const Keys& keys, const Place& place) {
+  ASSIGN_OR_RETURN(Values values,
+                   ValuesOf(name, keys, {{"size", 2}, {"fov_deg", 1}, {"position", 3}, {"look_at", 3}}, place));
+  const auto point = [&](const char* key) {
+    const auto& v = values[key];
+    return glm::transpose(kZUpOfYUp) * glm::dvec3(v[0], v[1], v[2]);
+  };
+  const glm::dvec3 p_WC = point("position"), p_WT = point("look_at");
+  const double fov = values["fov_deg"][0], width = values["size"][0], height = values["size"][1];
+  constexpr double kMinFov = 1, kMaxFov = 170, kVertical = 1e-6;
+  if (!(fov >= kMinFov && fov <= kMaxFov)) {
+    return Fail(place, "camera {}: fov_deg is {:g}; allowed: {:g} to {:g}", name, fov, kMinFov, kMaxFov);
+  }
+  if (!(glm::length(glm::cross(p_WT - p_WC, glm::dvec3(0, 1, 0))) > kVertical)) {
+    return Fail(place, "camera {}: look_at is the position, or straight above or below it", name);
+  }
+  const double focal = width / 2 / std::tan(Radians(fov / 2));
+  const glm::dmat3 R_CW = LookAt({}, p_WC, p_WT).R_CW;
+  // The picture's centre, in OpenCV's pixels.
+  return OpenCvParameters{.width = width,
+                          .height = height,
+                          .camera_matrix = {focal, 0, (width - 1) / 2, 0, focal, (height - 1) / 2, 0, 0, 1},
+                          .R = R_CW,
+                          .T = -(R_CW * p_WC)};
+}
+
+/// Reads the table of a calibrated camera.
+Result<OpenCvParameters> ReadCalibrated(const std::string& name, const Keys& keys, const Place& place) {
+  ASSIGN_OR_RETURN(
+      Values values,
+      ValuesOf(name, keys, {{"size", 2}, {"matrix", 9}, {"distortions", 0}, {"rotation", 0}, {"translation", 3}},
+               place));
   const auto& t = values["translation"];
   const auto fisheye = keys.find("fisheye");
   if (fisheye != keys.end() && fisheye->second != "true" && fisheye->second != "false") {
@@ -106,13 +143,21 @@ Result<NamedCamera> ReadTable(const std::string& name, const Keys& keys, int lin
   }
   const auto R = RotationOf(values["rotation"], "rotation");
   if (!R) return Fail(place, "camera {}: {}", name, R.error().message);
-  const OpenCvParameters p{.width = values["size"][0],
-                           .height = values["size"][1],
-                           .camera_matrix = values["matrix"],
-                           .distortion = values["distortions"],
-                           .R = Orthonormal(*R) * kZUpOfYUp,
-                           .T = {t[0], t[1], t[2]},
-                           .is_fisheye = fisheye != keys.end() && fisheye->second == "true"};
+  return OpenCvParameters{.width = values["size"][0],
+                          .height = values["size"][1],
+                          .camera_matrix = values["matrix"],
+                          .distortion = values["distortions"],
+                          .R = Orthonormal(*R) * kZUpOfYUp,
+                          .T = {t[0], t[1], t[2]},
+                          .is_fisheye = fisheye != keys.end() && fisheye->second == "true"};
+}
+
+// Reads one camera's table, which began at `line`.
+Result<NamedCamera> ReadTable(const std::string& name, const Keys& keys, int line) {
+  const Place place{.file = {}, .line = line, .column = 1};
+  const bool is_planned = keys.contains("look_at");
+  ASSIGN_OR_RETURN(const OpenCvParameters p,
+                   is_planned ? ReadPlanned(name, keys, place) : ReadCalibrated(name, keys, place));
   const auto camera = CameraOf(p);
   if (!camera) return Fail(place, "camera {}: {}", name, camera.error().message);
   // Prefer the name under the table's own key `name`.
@@ -140,7 +185,7 @@ Result<std::vector<NamedCamera>> ReadPose2SimCalibration(std::string_view text) 
   const auto finish = [&]() -> Result<void> {
     const auto ignored = keys.find("ignore");  // a key that Caliscope writes
     const bool is_ignored = ignored != keys.end() && ignored->second == "true";
-    if (!is_ignored && (keys.contains("matrix") || keys.contains("rotation"))) {
+    if (!is_ignored && (keys.contains("matrix") || keys.contains("rotation") || keys.contains("look_at"))) {
       ASSIGN_OR_RETURN(auto camera, ReadTable(name, keys, table_line));
       cameras.push_back(std::move(camera));
     }

@@ -21,7 +21,9 @@ std::string WritePose2SimCalibration(std::span<const NamedCamera> cameras);
 /// with the keys of WritePose2SimCalibration; it is named like `[cam_01]` or `[cameras.1]` (which becomes "cam_1").
 /// `rotation` is Rodrigues' vector or a matrix. A list may continue over several lines. Other tables (`metadata`) and
 /// Caliscope's ignored cameras are skipped. The files contain neither unit nor axes: metres and Pose2Sim's Z up are
-/// assumed. Fails, naming line and camera, if a table lacks one of the keys or its values do not describe a camera.
+/// assumed. A camera that is only planned has `size`, `fov_deg` (horizontal), `position` and `look_at` (the point in
+/// the middle of its picture) instead *(ours)*. Fails, naming line and camera, if a table lacks one of the keys or its
+/// values do not describe a camera.
 Result<std::vector<NamedCamera>> ReadPose2SimCalibration(std::string_view text);
 
 }  // namespace etude

@@ -223,6 +223,40 @@ Result<ChosenUp> UpOf(const RigFile& rig, const glm::dvec3& person, const FoundU
   return ChosenUp{found.up, true, fmt::format("up is found from {}, to within {:.1f}°{}", found.by, within, world)};
 }
 
+/// Tells which axes of the file are ours: "; x is the file's y, z its x, up its z"; "" if they have the same names, or
+/// if one is not an axis of the file.
+std::string AxesTold(const glm::dmat3& R_OF) {
+  std::array<std::string, 3> names;
+  bool is_same = true;
+  for (int i = 0; i < 3; ++i) {
+    constexpr double kAlong = 0.999;
+    const auto axis = std::ranges::find_if(
+        kAxes, [&](const FileAxis& one) { return glm::dot(glm::transpose(R_OF)[i], one.direction) > kAlong; });
+    if (axis == kAxes.end()) return "";
+    names[i] = axis->name;
+    is_same = is_same && axis == kAxes.begin() + i;
+  }
+  return is_same ? "" : fmt::format("; x is the file's {}, z its {}, up its {}", names[0], names[2], names[1]);
+}
+
+/// Refuses lengths in the format's unit that no rig has *(ours)*.
+Result<void> CheckDistances(const RigFile& rig) {
+  constexpr double kMinApart = 0.03, kMaxApart = 100, kMinUsual = 1, kMaxUsual = 30;
+  double apart = 0;
+  for (const NamedCamera& a : rig.cameras) {
+    for (const NamedCamera& b : rig.cameras) apart = std::max(apart, glm::distance(a.camera.p_WC, b.camera.p_WC));
+  }
+  if (apart == 0 || (apart >= kMinApart && apart <= kMaxApart)) return {};
+  std::string usual;
+  for (const LengthUnit& unit : kUnits) {
+    const double metres = unit.metres * apart / rig.unit_m;
+    if (metres < kMinUsual || metres > kMaxUsual) continue;
+    usual += fmt::format("{} {:.3g} m in {}", usual.empty() ? ";" : ",", metres, unit.name);
+  }
+  return Fail({}, "in {} its cameras are {:.4g} m apart; allowed: {:g} to {:g} m, or give the unit by --rig-unit{}",
+              UnitText(rig.unit_m), apart, kMinApart, kMaxApart, usual);
+}
+
 }  // namespace
 
 std::string RigUnits() {
@@ -270,7 +304,7 @@ Result<RigPlacement> PlaceRig(const RigFile& rig, std::span<const LandmarkPositi
     place.shift.y = -place.scale * FloorUnder(FeetAtRest(points, rate_hz, *stature), chosen.up, *stature);
     floor_told = ", the floor under the feet";
   }
-  place.told = unit_told + "; " + chosen.told + floor_told;
+  place.told = unit_told + "; " + chosen.told + floor_told + AxesTold(place.R * rig.R_WF);
   return place;
 }
 
@@ -281,6 +315,8 @@ Result<RigPlacement> PlaceRig(const RigFile& rig, const PlacementOptions& option
     place.scale = *MetresOf(options.unit) / rig.unit_m;
   } else if (!rig.has_unit) {
     return Fail({}, "{}'s lengths have no unit; give the metres in one unit by --rig-unit", rig.format);
+  } else {
+    RETURN_IF_ERROR(CheckDistances(rig));
   }
   if (const FileAxis* axis = AxisOf(options.up)) {
     place.R = Upright(rig.R_WF * axis->direction);
@@ -288,7 +324,11 @@ Result<RigPlacement> PlaceRig(const RigFile& rig, const PlacementOptions& option
     return Fail({}, "the rig does not show which direction is up{}; give the file's axis by --rig-up",
                 camera.empty() ? "" : fmt::format(" in {}'s own frame", camera));
   }
-  if (const auto height = ParseFinite(options.floor)) place.shift.y = -*height;
+  place.told = fmt::format("lengths in {}{}", UnitText(place.scale * rig.unit_m), AxesTold(place.R * rig.R_WF));
+  if (const auto height = ParseFinite(options.floor)) {
+    place.shift.y = -*height;
+    place.told += fmt::format("; the floor at {:g} m of it", *height);
+  }
   return place;
 }
 

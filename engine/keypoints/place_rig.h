@@ -52,7 +52,8 @@ Result<RigPlacement> PlaceRig(const RigFile& rig, std::span<const LandmarkPositi
                               const PlacementOptions& options);
 
 /// Places a rig without a person, by `options` and, for "auto", by the format's conventions. Fails if lengths have no
-/// unit, or if the world is a camera's frame and no up axis is given; the message names the options.
+/// unit, if the format's unit puts the outermost cameras less than 3 cm or more than 100 m apart, or if the world is a
+/// camera's frame and no up axis is given; the message names the options.
 Result<RigPlacement> PlaceRig(const RigFile& rig, const PlacementOptions& options);
 
 /// Transforms a camera into the placed world.

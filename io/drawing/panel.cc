@@ -64,13 +64,20 @@ std::vector<double> Axis::Ticks() const {
 Axis AxisOf(const std::vector<double>& values, double floor) {
   if (values.empty()) return {};
   const auto [low, high] = std::ranges::minmax(values);
-  const double lowest = std::max(low, floor), highest = std::max(high, floor);
-  if (floor > 0 && low >= 0 && highest / lowest > kLogarithmicFrom) {
-    return {.low = std::pow(10, std::floor(std::log10(lowest) + 1e-9)),
-            .high = std::pow(10, std::ceil(std::log10(highest) - 1e-9)),
-            .is_logarithmic = true};
+  double least = high;  // the least value above 0
+  for (const double value : values) least = value > 0 ? std::min(least, value) : least;
+  const double lowest = std::max(least, floor), highest = std::max(high, floor);
+  if (!(floor > 0 && low >= 0 && highest / lowest > kLogarithmicFrom)) return WithMargin(low, high);
+  int first = static_cast<int>(std::floor(std::log10(lowest) + 1e-9));
+  const int last = static_cast<int>(std::ceil(std::log10(highest) - 1e-9));
+  std::string low_label;
+  if (least < std::pow(10, first)) {
+    low_label = "≤" + DecadeText(first);
+  } else if (low == 0) {
+    --first;
+    low_label = "0";
   }
-  return WithMargin(low, high);
+  return {.low = std::pow(10, first), .high = std::pow(10, last), .is_logarithmic = true, .low_label = low_label};
 }
 
 Axis DecadeAxis(const std::vector<double>& values) {
@@ -100,6 +107,7 @@ Axis AxisAroundZero(const std::vector<double>& values) {
 }
 
 std::string Axis::TickText(double value) const {
+  if (value <= low && !low_label.empty()) return low_label;
   return is_logarithmic ? DecadeText(static_cast<int>(std::lround(std::log10(value)))) : etude::TickText(value);
 }
 

@@ -12,6 +12,7 @@ struct Axis {
   double low = 0, high = 1;
   bool is_logarithmic = false;
   double from = 0, to = 1;  ///< the positions of `low` and `high`; `from` may exceed `to`
+  std::string low_label = {};  ///< the label of `low`, where smaller values are drawn; "" = its number
 
   /// Returns the position of a value; a value outside the axis gets the position of the nearer end.
   double At(double value) const;
@@ -21,8 +22,10 @@ struct Axis {
   std::string TickText(double value) const;
 };
 
-/// Makes an axis that holds all values. It is logarithmic if `floor` is above 0 and the values span more than two
-/// decades; values below `floor` are then drawn at the axis's lower end. Without values, the axis is 0…1.
+/// Makes an axis that holds all values. It is logarithmic if `floor` is above 0, no value is below 0, and the values
+/// above 0 and `floor` span more than two decades. Much smaller values than `floor` are then drawn at its lower end,
+/// labelled "≤1e-3"; if all of these are 0, this end is a further decade, labelled "0". Without values, the axis is
+/// 0…1.
 Axis AxisOf(const std::vector<double>& values, double floor);
 
 /// Makes a linear axis that holds all values and zero.

@@ -218,7 +218,8 @@ std::string WhatItDoes(const Beyond& beyond, const LeftOut& extreme, double prac
   if (!matters && std::abs(extreme.difference) >= practical) {
     return fmt::format("this {} hides a difference that matters", OneOf(unit));
   }
-  return fmt::format("the difference does not depend on any single {}", OneOf(unit));
+  return fmt::format("that it {} does not depend on any single {}", matters ? "matters" : "does not matter",
+                     OneOf(unit));
 }
 
 double PracticalOf(const Comparison& c) {

@@ -68,10 +68,14 @@ class Forecast(EtudeCase):
         self.assertEqual(len(rows), 4000)
         self.assertEqual(max(float(row["error_mm"]) for row in rows if row["error_mm"]), told["worst_mm"])
         self.assertEqual(names["map.png"].read_bytes()[:4], b"\x89PNG")
-        self.assertIn("What would help", names["page.html"].read_text())
+        page = names["page.html"].read_text()
+        self.assertIn("What would help", page)
+        self.assertEqual({row["x_m"] for row in rows if row["z_m"] == rows[0]["z_m"]}, {f"{(k - 9.5) * 0.15:.4g}" for k in range(20)})
         # A second call gives the same facts; a third prints them as text.
         self.assertEqual(self.facts("forecast", path), told)
         said = self.etude("forecast", path).stdout
+        self.assertIn("OpenCV's YAML: lengths in m\n  cam0           x 3.00, z 3.00, 1.50 m high\n", said)
+        self.assertIn("OpenCV&#39;s YAML: lengths in m", page)
         self.assertIn(f"A point errs by {told['median_mm']:.1f} mm in the median", said)
         self.assertEqual(self.etude("forecast", path, "--picture", names["map.png"]).returncode, 2)
 
@@ -83,11 +87,25 @@ class Forecast(EtudeCase):
                 ([four, "--noise-px", "nan"], "'nan' is not a deviation in px"),
                 ([four, "--middle", "90,0"], "no place within 3 x 3 m around x 90.00, z 0.00"),
                 ([four, "--calibration", "5,0.1"], "--calibration"),
-                ([self.write("rig.txt", "cameras?")], "rig.txt: not a calibration")):
+                ([self.write("rig.txt", "cameras?")], "rig.txt: not a calibration"),
+                ([self.write("mm.yaml", rig([[1000 * x for x in place] for place in CORNERS]))], "m apart; allowed: 0.03 to 100 m, or give the unit by --rig-unit"),
+                *(([four, f"--{option}", self.folder / "a.jpg"], f"a.jpg: is not the name of such a file; allowed: {ending}")
+                  for option, ending in (("picture", ".png"), ("table", ".csv"), ("report", ".html")))):
             with self.subTest(words):
                 refused = self.etude("forecast", *arguments)
                 self.assertEqual((refused.returncode, refused.stdout, refused.stderr.count("\n")), (2, "", 1), refused.stderr)
                 self.assertIn(words, refused.stderr)
+        self.assertFalse((self.folder / "a.jpg").exists())
+
+    def test_reads_a_plan(self):
+        """The places of two planned cameras in a file with Z up, and the words about axes."""
+        path = self.write("plan.toml", "".join(
+            f"[{name}]\nsize = [1280, 960]\nfov_deg = 70\nposition = [{x}, 3, 2]\nlook_at = [0, 0, 1]\n"
+            for name, x in (("left", -2), ("right", 2))))
+        said = self.etude("forecast", path).stdout
+        self.assertIn("lengths in m; x is the file's y, z its x, up its z\n  left           x 3.00, z -2.00, 2.00 m high\n"
+                      "  right          x 3.00, z 2.00, 2.00 m high\n", said)
+        self.assertEqual(self.facts("forecast", path)["middle_m"], [0, 0])
 
 
 class Transition(EtudeCase):

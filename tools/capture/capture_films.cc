@@ -69,6 +69,7 @@ Result<CapturedFilms> CaptureFilms(const CaptureFilmsOptions& options) {
   if (options.silhouettes && options.keypoints.empty()) {
     const auto place = PlaceRig(session.rig, options.place);
     if (!place) return Fail({options.rig}, "{}", place.error().message);
+    session.told.push_back(fmt::format("rig, {}: {}", session.rig.format, place->told));
     for (FilmedView& view : session.views) {
       if (view.fit.quarter_turns != 0) {
         return Fail({view.path.string()},

@@ -18,8 +18,8 @@ namespace {
 constexpr int kWidth = 1280, kHeight = 580, kMargin = 20;
 constexpr double kPlanSize = 360, kPlanTop = 74;
 constexpr int kPanelsInRow = 5;
-constexpr double kCell = 8, kPanel = kCell * kForecastColumns, kPanelGap = 12, kPanelsLeft = 412, kPanelTitle = 22;
-constexpr double kTitleSize = 18, kTextSize = 13;
+constexpr double kPanel = 160, kPanelGap = 12, kPanelsLeft = 418, kPanelTitle = 22;
+constexpr double kTitleSize = 18, kTextSize = 13, kTickSize = 11;
 constexpr Paint kUnseen{0.25, 0.27, 0.29, 1};
 
 /// The errors at the ends of the colour scale, mm. The upper end is the 95th percentile.
@@ -44,25 +44,43 @@ Paint ColourOf(double share) {
   return {a.r + rest * (b.r - a.r), a.g + rest * (b.g - a.g), a.b + rest * (b.b - a.b), 1};
 }
 
-/// Draws the errors at all places of one height as a map. Like the plan, it is seen from above: x to the right, z
-/// downwards.
-void DrawHeight(Canvas& canvas, const RigForecast& forecast, const Scale& scale, int height, double left, double top) {
+/// Draws the errors at all places of one height as a map, true to scale. Like the plan, it is seen from above: x to the
+/// right, z downwards.
+void DrawHeight(Canvas& canvas, const RigForecast& forecast, const ForecastOptions& options, const Scale& scale,
+                int height, double left, double top) {
   const ForecastPlace* places = &forecast.places[static_cast<std::size_t>(height) * kForecastRows * kForecastColumns];
+  const glm::dvec2 size(options.size_m.x, options.size_m.z), drawn = kPanel / std::max(size.x, size.y) * size;
+  const glm::dvec2 cell = drawn / glm::dvec2(kForecastColumns, kForecastRows);
   canvas.DrawText({left, top - 7}, fmt::format("{:.2f} m high", places->place_m.y), kTextSize, kSoftInk, kPanel);
   for (int z = 0; z < kForecastRows; ++z) {
     for (int x = 0; x < kForecastColumns; ++x) {
       const auto& error = places[z * kForecastColumns + x].error_mm;
       const Paint paint = error ? ColourOf((*error - scale.low) / (scale.high - scale.low)) : kUnseen;
-      canvas.FillBox({left + x * kCell, top + z * kCell, kCell, kCell}, paint);
+      const glm::dvec2 from = glm::round(cell * glm::dvec2(x, z)), to = glm::round(cell * glm::dvec2(x + 1, z + 1));
+      canvas.FillBox({left + from.x, top + from.y, to.x - from.x, to.y - from.y}, paint);
     }
+  }
+  // Label the ends of both axes: of x below, of z at the left of a row's first map.
+  const auto label = [&](const glm::dvec2& at, double share, const char* axis, double metres) {
+    const std::string text = fmt::format("{}{:.1f}", axis, metres);
+    canvas.DrawText({at.x - share * canvas.TextWidth(text, kTickSize), at.y}, text, kTickSize, kSoftInk, kPanel);
+  };
+  const glm::dvec2 low = forecast.middle_m - 0.5 * size, high = forecast.middle_m + 0.5 * size;
+  constexpr double kWide = 80;
+  const double inside = drawn.x < kWide ? 1 : 0;
+  label({left, top + drawn.y + 14}, inside, "x ", low.x);
+  label({left + drawn.x, top + drawn.y + 14}, 1 - inside, "", high.x);
+  if (height % kPanelsInRow == 0) {
+    label({left - 4, top + 9}, 1, "z ", low.y);
+    label({left - 4, top + std::max(drawn.y, 22.0)}, 1, "", high.y);
   }
   const glm::dvec3 off = forecast.worst.place_m - places->place_m;
   if (off.y != 0) return;
   const auto* worst = std::ranges::find(places, places + kForecastRows * kForecastColumns, forecast.worst.place_m,
                                         &ForecastPlace::place_m);
   const auto index = static_cast<int>(worst - places);
-  canvas.DrawRing({left + (index % kForecastColumns + 0.5) * kCell, top + (index / kForecastColumns + 0.5) * kCell},
-                  kCell, 2, kInk);
+  const glm::dvec2 at(index % kForecastColumns, index / kForecastColumns);
+  canvas.DrawRing(glm::dvec2(left, top) + cell * (at + 0.5), 8, 2, kInk);
 }
 
 /// Draws the plan from above: the cameras, the volume, and the best place for one more camera.
@@ -86,17 +104,25 @@ void DrawPlan(Canvas& canvas, const RigForecast& forecast, const ForecastOptions
   canvas.FillBox({kMargin, kPlanTop, kPlanSize, kPlanSize}, {0.13, 0.145, 0.16, 1}, kPanelRadius);
   const glm::dvec2 from = at(forecast.middle_m - half), size = 2.0 * scale * half;
   canvas.FillBox({from.x, from.y, size.x, size.y}, kUnseen);
-  // Draw each camera as a dot with a line in the camera's direction.
+  // Draw each camera as a dot with a line in the camera's direction, and keep the places that are then taken.
+  struct Mark {
+    glm::dvec2 spot;
+    std::string name;
+    bool is_below;  ///< whether the name rather stands below the dot than above
+    Paint paint;
+  };
+  std::vector<Mark> marks;
+  std::vector<Box> taken;
   const auto draw_camera = [&](const glm::dvec3& place, const glm::dvec2& towards, const std::string& name,
                                const Paint& paint) {
     const glm::dvec2 spot = at({place.x, place.z});
     canvas.DrawDot(spot, 6, paint);
     const double length = glm::length(towards);
-    if (length > 0) canvas.DrawLine(spot, spot + 24.0 / length * towards, 2.5, paint);
-    const double width = std::min(canvas.TextWidth(name, kTextSize), 120.0);
-    canvas.DrawText({std::clamp(spot.x - width / 2, kMargin + 4.0, kMargin + kPlanSize - width - 4),
-                     spot.y + (towards.y < 0 ? 22 : -10)},
-                    name, kTextSize, paint, 120);
+    const glm::dvec2 tip = length > 0 ? spot + 24.0 / length * towards : spot;
+    canvas.DrawLine(spot, tip, 2.5, paint);
+    const glm::dvec2 least = glm::min(spot - 6.0, tip), extent = glm::max(spot + 6.0, tip) - least;
+    taken.push_back({least.x, least.y, extent.x, extent.y});
+    marks.push_back({spot, name, towards.y < 0, paint});
   };
   for (const auto& [name, camera] : forecast.cameras) {
     const glm::dvec3 axis = glm::transpose(camera.R_CW)[2];
@@ -107,10 +133,28 @@ void DrawPlan(Canvas& canvas, const RigForecast& forecast, const ForecastOptions
       draw_camera(*worth.added_m, forecast.middle_m - glm::dvec2(worth.added_m->x, worth.added_m->z), "one more",
                   kWarm);
   }
+  // Write each name below or above its dot, at the first height where nothing else stands.
+  for (const Mark& mark : marks) {
+    const double width = std::min(canvas.TextWidth(mark.name, kTextSize), 120.0);
+    const double left = std::clamp(mark.spot.x - width / 2, kMargin + 4.0, kMargin + kPlanSize - width - 4);
+    Box box;
+    for (const double down : {22.0, -10.0, 38.0, -26.0, 54.0, -42.0}) {
+      box = {left, mark.spot.y + (mark.is_below ? down : 12 - down) - kTextSize, width, kTextSize};
+      const auto meets = [&](const Box& other) {
+        return box.x < other.x + other.width && other.x < box.x + box.width && box.y < other.y + other.height &&
+               other.y < box.y + box.height;
+      };
+      if (std::ranges::none_of(taken, meets)) break;
+    }
+    taken.push_back(box);
+    canvas.DrawText({left, box.y + kTextSize}, mark.name, kTextSize, mark.paint, 120);
+  }
 }
 
 void DrawScale(Canvas& canvas, const Scale& scale) {
-  constexpr double kTop = kPlanTop + kPlanSize + 34, kLong = 240, kThick = 14;
+  canvas.DrawText({kMargin, kPlanTop + kPlanSize + 18}, "From above: x to the right, z downwards, in m", kTextSize,
+                  kSoftInk, kPlanSize);
+  constexpr double kTop = kPlanTop + kPlanSize + 50, kLong = 240, kThick = 14;
   canvas.DrawText({kMargin, kTop - 9}, "Root mean square error of a point, mm", kTextSize, kInk, kPlanSize);
   for (int i = 0; i < static_cast<int>(kLong); ++i)
     canvas.FillBox({kMargin + i * 1.0, kTop, 1.0, kThick}, ColourOf(i / kLong));
@@ -121,6 +165,16 @@ void DrawScale(Canvas& canvas, const Scale& scale) {
   canvas.DrawText({kMargin + 22, kTop + 56}, "fewer than two cameras see it", kTextSize, kSoftInk, kPlanSize);
   canvas.DrawRing({kMargin + 7, kTop + 76}, 6, 2, kInk);
   canvas.DrawText({kMargin + 22, kTop + 81}, "the worst place", kTextSize, kSoftInk, kPlanSize);
+}
+
+std::string CamerasHtml(const RigForecast& forecast) {
+  Table table{.label = "Cameras", .columns = {{.head = "Camera", .is_row_head = true}}};
+  for (const char* head : {"x, m", "z, m", "Height, m"}) table.columns.push_back({.head = head, .is_number = true});
+  for (const auto& [name, camera] : forecast.cameras) {
+    const glm::dvec3& p = camera.p_WC;
+    table.rows.push_back({{name, fmt::format("{:.2f}", p.x), fmt::format("{:.2f}", p.z), fmt::format("{:.2f}", p.y)}});
+  }
+  return fmt::format("<p>{}.</p>{}", EscapeMarkup(forecast.placed), TableHtml(table));
 }
 
 std::string JointsHtml(const RigForecast& forecast) {
@@ -173,7 +227,7 @@ std::string ForecastPicture(const RigForecast& forecast, const ForecastOptions& 
   DrawScale(canvas, scale);
   for (int height = 0; height < kForecastHeights; ++height) {
     const int column = height % kPanelsInRow, row = height / kPanelsInRow;
-    DrawHeight(canvas, forecast, scale, height, kPanelsLeft + column * (kPanel + kPanelGap),
+    DrawHeight(canvas, forecast, options, scale, height, kPanelsLeft + column * (kPanel + kPanelGap),
                kPlanTop + kPanelTitle + row * (kPanel + kPanelTitle + 2 * kPanelGap));
   }
   return canvas.Png();
@@ -182,17 +236,18 @@ std::string ForecastPicture(const RigForecast& forecast, const ForecastOptions& 
 std::string ForecastPage(const RigForecast& forecast, const ForecastOptions& options) {
   const std::string picture = fmt::format(
       "<figure class=\"film\"><img width=\"{}\" height=\"{}\" src=\"data:image/png;base64,{}\" alt=\"Heat maps by "
-      "height\"><figcaption>From above: x to the right, z downwards.</figcaption></figure>",
+      "height\"></figure>",
       kWidth, kHeight, Base64(ForecastPicture(forecast, options)));
-  return WriteToolPage(
-      {.kind = "forecast",
-       .title = options.rig,
-       .verdict = FoundWords(forecast) + ".",
-       .version = options.version,
-       .command = options.command_line},
-      fmt::format("<p>{}.</p>{}<section class=\"card\"><h2>What would help</h2>{}</section>\n<section "
-                  "class=\"card\"><h2>A person there</h2>{}</section>\n",
-                  EscapeMarkup(AssumedWords(forecast, options)), picture, WorthsHtml(forecast), JointsHtml(forecast)));
+  return WriteToolPage({.kind = "forecast",
+                        .title = options.rig,
+                        .verdict = FoundWords(forecast) + ".",
+                        .version = options.version,
+                        .command = options.command_line},
+                       fmt::format("<p>{}.</p>{}<section class=\"card\"><h2>What would help</h2>{}</section>\n<section "
+                                   "class=\"card\"><h2>A person there</h2>{}</section>\n<section "
+                                   "class=\"card\"><h2>The cameras</h2>{}</section>\n",
+                                   EscapeMarkup(AssumedWords(forecast, options)), picture, WorthsHtml(forecast),
+                                   JointsHtml(forecast), CamerasHtml(forecast)));
 }
 
 }  // namespace etude

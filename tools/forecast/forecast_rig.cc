@@ -23,8 +23,8 @@ std::vector<Camera> CamerasOf(const std::vector<NamedCamera>& named) {
   return cameras;
 }
 
-/// Returns the cameras of a rig file in the world, metres, Y up.
-Result<std::vector<NamedCamera>> PlacedCameras(const ForecastOptions& options) {
+/// Adds the cameras of the rig file, in the world, metres, Y up.
+Result<void> AddCameras(const ForecastOptions& options, RigForecast& forecast) {
   ASSIGN_OR_RETURN(const RigFile rig, OpenRig(options.rig));
   constexpr std::size_t kMaxCameras = 32;
   const std::size_t most = options.errors.dropout > 0 ? kMaxDroppingCameras : kMaxCameras;
@@ -32,12 +32,12 @@ Result<std::vector<NamedCamera>> PlacedCameras(const ForecastOptions& options) {
     return Fail({options.rig}, "{}; allowed: 2 to {}{}", Plural(static_cast<long long>(rig.cameras.size()), "camera"),
                 most, options.errors.dropout > 0 ? " with --dropout" : "");
   }
-  RETURN_IF_ERROR(CheckPlace(options.place));
-  ASSIGN_OR_RETURN(const RigPlacement place, PlaceRig(rig, options.place));
-  std::vector<NamedCamera> cameras;
+  const auto place = PlaceRig(rig, options.place);
+  if (!place) return Fail({options.rig}, "{}", place.error().message);
+  forecast.placed = fmt::format("{}: {}", rig.format, place->told);
   for (const NamedCamera& named : rig.cameras) {
-    cameras.push_back({named.name, Placed(place, named.camera)});
-    Intrinsics& in = cameras.back().camera.intrinsics;
+    forecast.cameras.push_back({named.name, Placed(*place, named.camera)});
+    Intrinsics& in = forecast.cameras.back().camera.intrinsics;
     if (in.width > 0) continue;
     // The file states no size: assume that the principal point is the picture's centre.
     in.width = static_cast<int>(std::lround(2 * in.cx));
@@ -47,10 +47,10 @@ Result<std::vector<NamedCamera>> PlacedCameras(const ForecastOptions& options) {
         fmt::format("{}: the rig states no size of its pictures; {} x {} is taken, twice its principal point\n",
                     named.name, in.width, in.height));
   }
-  return cameras;
+  return {};
 }
 
-/// Returns the point (x, z) on the floor that lies below the point nearest to all optical axes.
+/// Returns the point (x, z) on the floor that lies below the point nearest to all optical axes, in whole millimetres.
 Result<glm::dvec2> MiddleOf(const std::vector<NamedCamera>& cameras, const std::string& file) {
   glm::dmat3 normal(0);
   glm::dvec3 right(0);
@@ -67,18 +67,19 @@ Result<glm::dvec2> MiddleOf(const std::vector<NamedCamera>& cameras, const std::
     return Fail({file}, "its cameras are parallel, so they have no common middle; give it by --middle X,Z in m");
   }
   const glm::dvec3 middle = glm::inverse(normal) * right;
-  return glm::dvec2(middle.x, middle.z);
+  return glm::round(kMmPerM * glm::dvec2(middle.x, middle.z)) / kMmPerM;
 }
 
 std::vector<ForecastPlace> PlacesOf(const std::vector<Camera>& cameras, const glm::dvec2& middle,
                                     const ForecastOptions& options, const SightingErrors& errors) {
+  constexpr double kMicrometres = 1e6;
   std::vector<ForecastPlace> places;
   const glm::dvec3 low(middle.x - options.size_m.x / 2, 0, middle.y - options.size_m.z / 2);
   for (int h = 0; h < kForecastHeights; ++h) {
     for (int z = 0; z < kForecastRows; ++z) {
       for (int x = 0; x < kForecastColumns; ++x) {
         const glm::dvec3 share((x + 0.5) / kForecastColumns, (h + 0.5) / kForecastHeights, (z + 0.5) / kForecastRows);
-        ForecastPlace place{.place_m = low + share * options.size_m};
+        ForecastPlace place{.place_m = glm::round(kMicrometres * (low + share * options.size_m)) / kMicrometres};
         const PointError error = ExpectedPointError(cameras, place.place_m, errors);
         place.cameras = error.cameras;
         place.lost = error.lost;
@@ -105,10 +106,34 @@ std::vector<double> ErrorsWhere(const std::vector<ForecastPlace>& own, const std
   return errors;
 }
 
+/// The room in which another camera may stand.
+struct Room {
+  glm::dvec3 low, high;
+
+  /// Returns how far the walls are from `place` (x, z), which is in the room, along a unit vector.
+  double DistanceToWall(const glm::dvec2& place, const glm::dvec2& along) const {
+    const auto to = [](double first, double last, double at, double step) {
+      return step == 0 ? INFINITY : ((step > 0 ? last : first) - at) / step;
+    };
+    return std::min(to(low.x, high.x, place.x, along.x), to(low.z, high.z, place.y, along.y));
+  }
+};
+
+Room RoomOf(const std::vector<Camera>& cameras, const glm::dvec2& middle, const ForecastOptions& options) {
+  const glm::dvec3 size = options.room_m.value_or(options.size_m), floor(middle.x, 0, middle.y);
+  Room room{floor - glm::dvec3(size.x / 2, 0, size.z / 2), floor + glm::dvec3(size.x / 2, size.y, size.z / 2)};
+  if (options.room_m) return room;
+  for (const Camera& camera : cameras) {
+    room.low = glm::min(room.low, camera.p_WC);
+    room.high = glm::max(room.high, camera.p_WC);
+  }
+  return room;
+}
+
 /// Finds the best place for one more camera. The new camera has the lens of the first camera and looks at the middle of
 /// the volume. Tries 36 directions, three heights and three distances (0.75, 1 and 1.25 times the median distance of
-/// the rig's cameras). The best place has the largest sum of 1 / error over a coarse grid of places in the volume; a
-/// place that fewer than two cameras see counts 0.
+/// the rig's cameras); those beyond a wall or the ceiling are moved to it. The best place has the largest sum of
+/// 1 / error over a coarse grid of places in the volume; a place that fewer than two cameras see counts 0.
 Camera BestAddition(const std::vector<Camera>& cameras, const std::vector<ForecastPlace>& places,
                     const glm::dvec2& middle, const ForecastOptions& options) {
   // Choose a coarse grid, and compute the rig's median distance from the middle.
@@ -125,6 +150,7 @@ Camera BestAddition(const std::vector<Camera>& cameras, const std::vector<Foreca
   std::ranges::sort(distances);
   const double usual = distances[distances.size() / 2];
   const glm::dvec3 aim(middle.x, options.size_m.y / 2, middle.y);
+  const Room room = RoomOf(cameras, middle, options);
   // Score every candidate.
   std::vector<Camera> more = cameras;
   more.emplace_back();
@@ -133,10 +159,13 @@ Camera BestAddition(const std::vector<Camera>& cameras, const std::vector<Foreca
   constexpr int kDirections = 36;
   for (int k = 0; k < kDirections; ++k) {
     const double angle = 2 * kPi * k / kDirections;
+    const glm::dvec2 along(std::sin(angle), std::cos(angle));
+    const double wall = room.DistanceToWall(middle, along);
     for (const double height : {0.5, 1.5, 2.5}) {
       for (const double distance : {0.75 * usual, usual, 1.25 * usual}) {
-        const glm::dvec3 p_WC(middle.x + distance * std::sin(angle), height, middle.y + distance * std::cos(angle));
-        if (distance < 0.1) continue;  // the candidate would look straight down
+        const glm::dvec2 at = middle + std::min(distance, wall) * along;
+        const glm::dvec3 p_WC(at.x, std::min(height, room.high.y), at.y);
+        if (glm::distance(at, middle) < 0.1) continue;  // the candidate would look straight down
         more.back() = LookAt(cameras.front().intrinsics, p_WC, aim);
         more.back().distortion = cameras.front().distortion;
         double score = 0;
@@ -233,6 +262,15 @@ std::string PlacesCsv(const RigForecast& forecast) {
   return TableCsv(table);
 }
 
+std::string CamerasText(const RigForecast& forecast) {
+  std::string text = forecast.placed + "\n";
+  for (const auto& [name, camera] : forecast.cameras) {
+    const glm::dvec3& p = camera.p_WC;
+    text += fmt::format("  {:<14} x {:.2f}, z {:.2f}, {:.2f} m high\n", name, p.x, p.z, p.y);
+  }
+  return text;
+}
+
 std::string JointsText(const RigForecast& forecast) {
   if (forecast.joints.empty()) return "No place shows all joints of a standing body to two cameras.\n";
   std::string text = fmt::format(
@@ -295,7 +333,7 @@ Result<RigForecast> ForecastRig(const ForecastOptions& asked) {
     ASSIGN_OR_RETURN(forecast.measured, MeasureFilmedNoise(options.take));
     options.errors.noise_px = forecast.measured->all_px;
   }
-  ASSIGN_OR_RETURN(forecast.cameras, PlacedCameras(options));
+  RETURN_IF_ERROR(AddCameras(options, forecast));
   const std::vector<Camera> cameras = CamerasOf(forecast.cameras);
   if (options.middle_m) {
     forecast.middle_m = *options.middle_m;
@@ -321,10 +359,12 @@ Result<RigForecast> ForecastRig(const ForecastOptions& asked) {
   // Compute the errors of a person who stands in the volume, and the gain from each change.
   RETURN_IF_ERROR(AddJoints(cameras, options, forecast));
   AddWorths(cameras, options, forecast);
-  options.listener.print(fmt::format(
-      "{} cameras around x {:.2f}, z {:.2f}, in a volume of {:g} x {:g} m, {:g} m high\n{}\n{}\n{}{}", cameras.size(),
-      forecast.middle_m.x, forecast.middle_m.y, options.size_m.x, options.size_m.z, options.size_m.y,
-      AssumedWords(forecast, options), FoundWords(forecast), JointsText(forecast), WorthsText(forecast)));
+  options.listener.print(
+      fmt::format("{}{} cameras around x {:.2f}, z {:.2f}, in a volume of {:g} m along x, {:g} m along z, {:g} m "
+                  "high\n{}\n{}\n{}{}",
+                  CamerasText(forecast), cameras.size(), forecast.middle_m.x, forecast.middle_m.y, options.size_m.x,
+                  options.size_m.z, options.size_m.y, AssumedWords(forecast, options), FoundWords(forecast),
+                  JointsText(forecast), WorthsText(forecast)));
   const auto write = [&](const std::string& path, const auto& bytes) -> Result<void> {
     if (path.empty()) return {};
     RETURN_IF_ERROR(WriteFileAtomically(path, bytes()));

@@ -27,6 +27,9 @@ struct ForecastOptions {
   glm::dvec3 size_m{3, 2, 3};  ///< the volume in which people move, metres: width (x), height from the floor, depth (z)
   /// The volume's middle on the floor (x, z); absent = below the point that is nearest to all optical axes.
   std::optional<glm::dvec2> middle_m;
+  /// The room around this middle in which another camera may stand, like `size_m`; absent = the smallest box with all
+  /// cameras and the volume.
+  std::optional<glm::dvec3> room_m = {};
   std::string picture;       ///< a PNG of heat maps, "" = none
   std::string table;         ///< a CSV of all places, "" = none
   std::string report;        ///< an HTML page, "" = none
@@ -67,9 +70,10 @@ struct ForecastJoint {
 
 struct RigForecast {
   std::vector<NamedCamera> cameras;   ///< cameras in the world, metres, Y up
+  std::string placed;                 ///< the file's format, its unit and its axes, in words for users
   std::optional<KeypointNoise> measured;  ///< noise measured from the take's keypoints; absent without a take
-  glm::dvec2 middle_m{0};                 ///< middle of the volume on the floor (x, z)
-  std::vector<ForecastPlace> places;  ///< places sorted by height, then z, then x
+  glm::dvec2 middle_m{0};                 ///< middle of the volume on the floor (x, z); a found one in whole mm
+  std::vector<ForecastPlace> places;      ///< places sorted by height, then z, then x; in whole micrometres
   double seen = 0;                    ///< share of places in the pictures of at least two cameras
   double median_mm = 0, p95_mm = 0;   ///< median and 95th percentile of the error over the places that are seen
   ForecastPlace worst;                ///< the place with the largest error among the seen places
@@ -80,8 +84,8 @@ struct RigForecast {
 };
 
 /// Computes the expected errors of a rig, prints them, and writes the files that `options` name. Fails before anything
-/// is written if the rig has fewer than two or too many cameras, if `middle_m` is absent and all optical axes are
-/// parallel, or if two cameras see no place of the volume.
+/// is written if PlaceRig fails, if the rig has fewer than two or too many cameras, if `middle_m` is absent and all
+/// optical axes are parallel, or if two cameras see no place of the volume.
 Result<RigForecast> ForecastRig(const ForecastOptions& options);
 
 /// Draws a heat map for each height and a plan of the cameras. Returns the bytes of a PNG file.

@@ -114,5 +114,30 @@ TEST(Pose2SimFile, ReadsFisheyesMatricesAndListsOverLines) {
   EXPECT_LT(glm::distance(caliscope->front().camera.p_WC, glm::dvec3(0, 0, -2)), 1e-12);
 }
 
+TEST(Pose2SimFile, ReadsPlannedCameras) {
+  // The file has Z up: its (x, y, z) is our (y, z, x).
+  const auto planned = [](const std::string& keys) {
+    return ReadPose2SimCalibration("[a]\nsize = [800, 600]\n" + keys);
+  };
+  const std::string seat = "position = [-3, 1, 2]\nlook_at = [0, 1, 1]\n";
+  ASSERT_OK(back, planned("fov_deg = 90\n" + seat));
+  const Camera& camera = back->front().camera;
+  EXPECT_LT(glm::distance(camera.p_WC, glm::dvec3(1, 2, -3)), 1e-12);
+  // With 90°, the picture's edge is as far aside as the target is away; a point above the target is higher in it.
+  const glm::dvec3 target(1, 1, 0);
+  const double away = glm::distance(camera.p_WC, target);
+  EXPECT_LT(glm::distance(*Project(camera, target), glm::dvec2(400, 300)), 1e-9);
+  EXPECT_LT(glm::distance(*Project(camera, target - glm::dvec3(away, 0, 0)), glm::dvec2(800, 300)), 1e-9);
+  EXPECT_LT(Project(camera, target + glm::dvec3(0, 0.5, 0))->y, 299);
+  for (const auto& [keys, said] :
+       {std::pair("fov_deg = 180\n" + seat, "camera a: fov_deg is 180; allowed: 1 to 170"),
+        {seat, "camera a has no fov_deg"},
+        {"fov_deg = 90\nposition = [0, 1, 2]\nlook_at = [0, 1, 1]\n",
+         "camera a: look_at is the position, or straight above or below it"},
+        {"fov_deg = 90\nposition = [0, 1]\nlook_at = [0, 1, 1]\n", "camera a: position has 2 numbers; allowed: 3"}}) {
+    EXPECT_EQ(planned(keys).error().message, said);
+  }
+}
+
 }  // namespace
 }  // namespace etude

@@ -180,6 +180,32 @@ TEST(PlaceRig, WithoutAPersonTakesWhatIsTold) {
   EXPECT_TRUE(PlaceRig(rig, {.unit = "inch", .up = "y"}));
 }
 
+TEST(PlaceRig, TellsWhichAxesOfTheFileAreOurs) {
+  RigFile rig = SomeRig();
+  rig.R_WF = glm::dmat3(0, 0, 1, 1, 0, 0, 0, 1, 0);  // (x, y, z) of the file is our (y, z, x)
+  EXPECT_EQ(PlaceRig(rig, {})->told, "lengths in m; x is the file's y, z its x, up its z");
+  EXPECT_EQ(PlaceRig(rig, {.unit = "mm", .up = "-y", .floor = "0.2"})->told,
+            "lengths in mm; x is the file's z, z its x, up its -y; the floor at 0.2 m of it");
+  EXPECT_EQ(PlaceRig(SomeRig(), {})->told, "lengths in m") << "the axes are the same";
+  ASSERT_OK(seen, PlaceRig(rig, Stander([](glm::dvec3 p) { return p; }), kPlaceRate, {}));
+  EXPECT_THAT(seen->told, ::testing::EndsWith("the floor as in the file; x is the file's y, z its x, up its z"));
+}
+
+TEST(PlaceRig, RefusesDistancesThatNoRigHas) {
+  const auto apart = [](double metres) {
+    RigFile rig = SomeRig();
+    rig.cameras.push_back(rig.cameras.front());
+    rig.cameras[1].camera.p_WC.x += metres;
+    return rig;
+  };
+  for (const double metres : {0.0, 0.05, 4.0, 90.0}) EXPECT_TRUE(PlaceRig(apart(metres), {})) << metres;
+  EXPECT_EQ(PlaceRig(apart(6122), {}).error().message,
+            "in m its cameras are 6122 m apart; allowed: 0.03 to 100 m, or give the unit by --rig-unit; 6.12 m in mm");
+  EXPECT_THAT(PlaceRig(apart(400), {}).error().message, HasSubstr("--rig-unit; 4 m in cm, 10.2 m in inch"));
+  EXPECT_THAT(PlaceRig(apart(0.004), {}).error().message, ::testing::EndsWith("or give the unit by --rig-unit"));
+  EXPECT_TRUE(PlaceRig(apart(6122), {.unit = "m"})) << "who gives the unit is believed";
+}
+
 TEST(PlaceRig, RefusesWordsThatMeanNothing) {
   EXPECT_TRUE(CheckPlace({.unit = "0.0254", .up = "-x", .floor = "-1.5"}));
   for (const char* unit : {"metre", "0", "-1", "1m", "inf", ""}) {

@@ -31,6 +31,20 @@ TEST(Axis, OfDecadesIsLogarithmicAndHoldsZeroOnItsEnd) {
   EXPECT_FALSE(AxisOf({-1, 5000}, 0.001).is_logarithmic);
 }
 
+TEST(Axis, NamesTheEndWhereSmallerValuesAreDrawn) {
+  EXPECT_FALSE(AxisOf({0, 1, 4}, 0.001).is_logarithmic) << "zero is no decade";
+  const Axis zeros = AxisOf({0, 1, 150}, 0.001);
+  EXPECT_TRUE(zeros.is_logarithmic);
+  EXPECT_LT(zeros.At(0), zeros.At(1));
+  EXPECT_EQ(zeros.TickText(zeros.Ticks().front()), "0");
+  EXPECT_EQ(zeros.TickText(zeros.Ticks().back()), "1k");
+  const Axis tiny = AxisOf({0, 1e-9, 5}, 0.001);
+  EXPECT_EQ(tiny.At(1e-9), tiny.At(0));
+  EXPECT_EQ(tiny.TickText(tiny.Ticks().front()), "≤1e-3");
+  const Axis plain = AxisOf({0.02, 5}, 0.001);
+  EXPECT_EQ(plain.TickText(plain.Ticks().front()), "0.01") << "nothing is smaller";
+}
+
 TEST(Axis, HasAFewRoundTicksWithinItself) {
   for (const std::vector<double>& values :
        {std::vector<double>{0, 1}, {41.7, 66.2}, {-53, 1}, {7, 7}, {0, 0}, {1e-4, 3e-4}}) {
