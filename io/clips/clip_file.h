@@ -8,9 +8,9 @@
 #include <vector>
 
 #include "engine/base/result.h"
-#include "engine/formats/trc.h"
 #include "engine/motion/character.h"
 #include "engine/motion/clip.h"
+#include "engine/motion/raw_motion.h"
 #include "engine/retargeting/joint_map.h"
 #include "engine/retargeting/map_file.h"
 #include "engine/retargeting/to_body.h"
@@ -61,7 +61,7 @@ struct ClipFile {
   std::vector<std::string> remarks = {};  ///< repairs that were made while reading
   std::optional<JointMapOverrides> roles = {};  ///< roles that the bone table of a VRM file assigns
   /// MarkerBody::shown of each clip that was made from markers; filled only if `keeps_shown` is set.
-  std::vector<MarkerMotion> shown = {};
+  std::vector<RawMotion> shown = {};
   bool has_rate = true;  ///< false: the file gives no rate, so a rate was assumed
 };
 
