@@ -239,6 +239,20 @@ CLI::Option* AddOverwrite(CLI::App& command, bool& overwrite, const std::string&
   return command.add_flag("--overwrite", overwrite, help);
 }
 
+CLI::Option* AddUnit(CLI::App& command, const std::string& of, std::string& clip_facts) {
+  return command.add_option_function<std::string>(
+      "--unit", [&clip_facts](const std::string& value) { clip_facts += "unit: " + value + "\n"; },
+      "Unit of the " + of + ": m, cm, mm, in, ft, cmu, or metres per unit (default: found)");
+}
+
+CLI::Option* AddUp(CLI::App& command, const std::string& of, std::string& clip_facts) {
+  return command
+      .add_option_function<std::string>(
+          "--up", [&clip_facts](const std::string& value) { clip_facts += "up: " + value + "\n"; },
+          "Axis of the " + of + " that points up (default: found)")
+      ->check(CLI::IsMember({"y", "z"}));
+}
+
 std::array<CLI::Option*, 9> AddWorldOptions(CLI::App& command, std::optional<std::uint64_t>& seed,
                                             std::optional<int>& trials, std::vector<std::string>& clips,
                                             std::string& joint_map, std::string& clip_facts) {
@@ -253,10 +267,8 @@ std::array<CLI::Option*, 9> AddWorldOptions(CLI::App& command, std::optional<std
       command.add_option("--clips", clips, "Clips instead of the scenarios' own: builtin:NAME, motion files, patterns"),
       command.add_option(kJointMapOption, joint_map,
                          "Joint map: which joints of the clips play which roles (etude clip map writes one)"),
-      command.add_option_function<std::string>(
-          "--unit", tell("unit"), "Unit of the clips: m, cm, mm, in, ft, cmu, or metres per unit (default: found)"),
-      command.add_option_function<std::string>("--up", tell("up"), "Axis of the clips that points up (default: found)")
-          ->check(OneOf({"y", "z"})),
+      AddUnit(command, "clips", clip_facts),
+      AddUp(command, "clips", clip_facts),
       command
           .add_option_function<std::string>("--rate", tell("rate"),
                                             "Frames per second of the clips (default: their own rate)")

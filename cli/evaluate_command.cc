@@ -11,7 +11,6 @@
 
 #include "bench/metrics/catalogue.h"
 #include "bench/results/folder.h"
-#include "bench/results/row_json.h"
 #include "bench/run/run.h"
 #include "bench/scenario/methods.h"
 #include "bench/statistics/agreement.h"
@@ -21,6 +20,7 @@
 #include "cli/evaluate_alone.h"
 #include "cli/facts.h"
 #include "cli/named_results.h"
+#include "cli/pair_notes.h"
 #include "engine/base/names.h"
 #include "engine/retargeting/map_file.h"
 #include "io/files/files.h"
@@ -32,7 +32,7 @@ namespace {
 /// The options of `etude evaluate`.
 struct EvaluateOptions {
   std::vector<std::string> files;  ///< the truth, then results
-  std::string pairs, joints, people, joint_map, lag, statistics, music_beats;
+  std::string pairs, joints, people, joint_map, clip_facts, lag, statistics, music_beats;
   std::vector<std::string> metrics;
   std::string output;
   bool overwrite = false;
@@ -206,43 +206,6 @@ void PrintTable(const ScenarioSummary& summary) {
   }
 }
 
-/// The notes on pairs of files from the rows of a run, as lines "METHOD, PAIR: reason".
-struct PairNotes {
-  std::vector<std::string> judged;      ///< one line per method and condition: what was judged, how answers were
-                                        ///< changed
-  std::vector<std::string> not_judged;  ///< one line for every pair that could not be judged
-};
-
-/// Collects the notes, row by row.
-Result<PairNotes> ReadNotes(const std::filesystem::path& folder) {
-  PairNotes notes;
-  std::vector<std::string> told;
-  RETURN_IF_ERROR(WriteRows(folder, Sealing::kRequired, [&](std::string_view text) -> Result<void> {
-    ASSIGN_OR_RETURN(const auto json, ReadJson(std::string(text), folder.string()));
-    ASSIGN_OR_RETURN(const auto row, DecodeRow(json, {folder.string()}));
-    const std::string under = row.condition.empty() ? "" : ", " + ConditionLabel(row.condition);
-    const std::string line = fmt::format("{}, {}{}: {}", row.method, row.clip, under, row.result.reason);
-    if (row.result.status != Status::kOk) {
-      notes.not_judged.push_back(line);
-    } else if (std::ranges::find(told, row.method + under) == told.end()) {
-      told.push_back(row.method + under);
-      notes.judged.push_back(line);
-    }
-    return {};
-  }));
-  return notes;
-}
-
-void PrintNotes(const PairNotes& notes) {
-  constexpr std::size_t kMaxFailures = 10;
-  for (const std::string& line : notes.judged) fmt::print("  {}\n", line);
-  const std::span all(notes.not_judged);
-  if (all.empty()) return;
-  fmt::print("{} not judged:\n", all.size());
-  for (const std::string& line : all.first(std::min(all.size(), kMaxFailures))) fmt::print("  {}\n", line);
-  if (all.size() > kMaxFailures) fmt::print("  and {} more: etude rows\n", all.size() - kMaxFailures);
-}
-
 constexpr const char* kScenarioFile = "evaluate.yaml";
 
 /// Replaces the place of an error in the generated scenario `text`, which the user did not write, by the command-line
@@ -271,6 +234,7 @@ Result<int> EvaluateCommand(const EvaluateOptions& options) {
   run.scenarios = {kScenarioFile};
   ASSIGN_OR_RETURN(run.text, ScenarioOf(options));
   run.joint_map = options.joint_map;
+  run.clip_facts = options.clip_facts;
   run.output = options.output;
   run.overwrite = options.overwrite;
   run.keeps_motions = options.keeps_motions;
@@ -302,12 +266,12 @@ Result<int> EvaluateCommand(const EvaluateOptions& options) {
   const std::vector<AngleAgreement> angles = AgreementByAngle(data);
   PairNotes notes;
   if (!options.alone.is_alone) {
-    ASSIGN_OR_RETURN(notes, ReadNotes(outcome->folder));
+    ASSIGN_OR_RETURN(notes, ReadPairNotes(outcome->folder));
   }
   if (options.as_json) {
     Json facts = FactsOf(summary, angles, folder);
-    facts["judged"] = notes.judged;
-    facts["not_judged"] = options.alone.is_alone ? triage.not_judged : notes.not_judged;
+    facts["judged"] = notes.judged.Lines();
+    facts["not_judged"] = options.alone.is_alone ? triage.not_judged : notes.every_not_judged;
     if (options.alone.is_alone) facts["with_faults"] = triage.faulty;
     if (triage.has_limits) facts["beyond_limits"] = triage.beyond_limits;
     RETURN_IF_ERROR(PrintFacts("evaluate", std::move(facts)));
@@ -318,7 +282,7 @@ Result<int> EvaluateCommand(const EvaluateOptions& options) {
   } else {
     PrintTable(summary);
     PrintAngles(summary, angles);
-    PrintNotes(notes);
+    PrintPairNotes(notes);
   }
   fmt::print("{} of {} cells ok, all {} metrics in {}\nNext: etude report {}\n", outcome->cells_ok, outcome->cells,
              FindTaskKind(summary.task)->metrics.size(), folder, folder);
@@ -366,6 +330,8 @@ void DefineEvaluate(CLI::App& app, const std::string& command_line, Action& acti
                       "A metric to show in the table; all are measured (etude list metrics)");
   command->add_option(kJointMapOption, options->joint_map,
                       "A file that states which joints play which roles, the unit and the up axis");
+  AddUnit(*command, "files", options->clip_facts);
+  AddUp(*command, "files", options->clip_facts);
   // Define the outputs.
   command->add_option("-o,--output", options->output, "Result folder (default: out/evaluate-1)");
   AddOverwrite(*command, options->overwrite, "Replace a folder that already holds a run");

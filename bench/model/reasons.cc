@@ -4,11 +4,7 @@
 #include <functional>
 
 namespace etude {
-namespace {
-
-/// Returns a reason without numbers and without the place at its beginning, so that reasons of one kind become equal. A
-/// reason with a place is for instance "t/walk.bvh:3:1: found 'x'".
-std::string KindOf(std::string_view reason) {
+std::string KindOfReason(std::string_view reason) {
   const std::size_t colon = reason.find(": ");
   if (colon != std::string_view::npos && reason.substr(0, colon).find(' ') == std::string_view::npos) {
     reason.remove_prefix(colon);
@@ -18,10 +14,8 @@ std::string KindOf(std::string_view reason) {
   return kind;
 }
 
-}  // namespace
-
 void ReasonCounts::Add(std::string_view reason, std::string_view label) {
-  CountedReason& count = counts_[std::string(label) + KindOf(reason)];
+  CountedReason& count = counts_[std::string(label) + KindOfReason(reason)];
   std::string whole = std::string(label) + std::string(reason);
   if (count.cells++ == 0) {
     count.reason = std::move(whole);

@@ -19,6 +19,10 @@ struct CountedReason {
   std::string Words() const { return is_one ? reason : "for example: " + reason; }
 };
 
+/// Returns a reason without numbers and without the place at its beginning, so that reasons of one kind become equal. A
+/// reason with a place is for instance "t/walk.bvh:3:1: found 'x'".
+std::string KindOfReason(std::string_view reason);
+
 /// Counts reasons by kind. Reasons are of one kind if they differ only in their numbers, or in the file name at their
 /// beginning.
 class ReasonCounts {

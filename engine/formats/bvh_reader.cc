@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <filesystem>
 #include <initializer_list>
 #include <optional>
 #include <string>
@@ -289,11 +290,6 @@ Result<void> ReadFrame(TextScanner& scanner, const std::vector<BvhChannel>& chan
   return {};
 }
 
-std::string NameWithoutFolderAndExtension(std::string_view file) {
-  const std::string_view base = file.substr(file.find_last_of('/') + 1);
-  return std::string(base.substr(0, base.find_last_of('.')));
-}
-
 /// Returns true if the position channels of joints below the root are relative to the OFFSETs. Absolute positions stay
 /// around the OFFSET, relative positions around 0. The criterion: in the median frame, most joints with position
 /// channels and an OFFSET are nearer to 0 than a fifth of the OFFSET's length.
@@ -364,7 +360,7 @@ Result<Clip> ReadBvh(std::string_view bytes, const std::string& file, std::vecto
 
   // Read the frames; one more than announced is allowed.
   Clip clip;
-  clip.name = NameWithoutFolderAndExtension(file);
+  clip.name = std::filesystem::path(file).stem().string();
   clip.skeleton = std::move(hierarchy.skeleton);
   clip.rate_hz = header.rate_hz;
   const LocalPose rest = RestPose(clip.skeleton);
@@ -375,7 +371,11 @@ Result<Clip> ReadBvh(std::string_view bytes, const std::string& file, std::vecto
                   header.frames_place.line);
     }
     clip.frames.push_back(rest);
-    RETURN_IF_ERROR(ReadFrame(scanner, hierarchy.channels, clip.frames.size(), clip.frames.back()));
+    if (auto read = ReadFrame(scanner, hierarchy.channels, clip.frames.size(), clip.frames.back()); !read) {
+      const bool ends = !scanner.SkipToText() && clip.frames.size() < announced;
+      if (ends) read.error().message += fmt::format("; the file ends in frame {} of {}", clip.frames.size(), announced);
+      return tl::unexpected(read.error());
+    }
   }
   // Exporters that announce the number of their last frame write one frame more; drop it, as other readers do.
   if (clip.frames.size() == announced + 1) {

@@ -17,7 +17,7 @@ bool EqualsIgnoringCase(std::string_view a, std::string_view b) {
 }  // namespace
 
 int RawMotion::Find(std::string_view joint) const {
-  if (const auto role = FindRole(joint); role && roles[Index(*role)] >= 0) return roles[Index(*role)];
+  if (const auto role = FindRole(joint)) return roles[Index(*role)];
   const auto found =
       std::ranges::find_if(joints, [&](const std::string& other) { return EqualsIgnoringCase(other, joint); });
   return found == joints.end() ? -1 : static_cast<int>(found - joints.begin());

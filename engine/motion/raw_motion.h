@@ -39,8 +39,8 @@ struct RawMotion {
 
   std::size_t FrameCount() const { return joints.empty() ? 0 : positions.size() / joints.size(); }
   const glm::dvec3& At(std::size_t frame, std::size_t joint) const { return positions[frame * joints.size() + joint]; }
-  /// Returns the index of the joint that plays the role named `joint`, otherwise of the joint with that name (case is
-  /// ignored), otherwise −1.
+  /// Returns the index of the joint that plays the role named `joint`; if no role has that name, of the joint with that
+  /// name (case is ignored); otherwise −1.
   int Find(std::string_view joint) const;
 
   static constexpr std::array<int, kRoleCount> NoRoles() {

@@ -4,6 +4,9 @@
 #include <string_view>
 #include <utility>
 
+#include "engine/base/names.h"
+#include "engine/retargeting/limb_finder.h"
+
 namespace etude {
 namespace {
 
@@ -145,7 +148,10 @@ std::vector<std::string> KneeMarkers(const MarkerSet& set) {
 
 }  // namespace
 
-ChosenSet ChooseSet(const MarkerColumns& columns, const std::string& wanted) {
+namespace {
+
+/// Chooses among MarkerSets.
+ChosenSet ChooseKnown(const MarkerColumns& columns, const std::string& wanted) {
   std::vector<std::pair<const MarkerSet*, std::size_t>> complete;
   for (const MarkerSet& set : MarkerSets()) {
     if (!MissingFrom(set, columns).empty()) continue;
@@ -157,13 +163,72 @@ ChosenSet ChooseSet(const MarkerColumns& columns, const std::string& wanted) {
   });
   ChosenSet chosen;
   for (const auto& [set, told] : complete) {
-    if (chosen.set == nullptr && (wanted.empty() || set->key == wanted)) chosen.set = set;
+    if (chosen.known == nullptr && (wanted.empty() || set->key == wanted)) chosen.known = set;
   }
   for (const auto& [set, told] : complete) {
-    const bool is_other = chosen.set != nullptr && KneeMarkers(*set) != KneeMarkers(*chosen.set);
+    const bool is_other = chosen.known != nullptr && KneeMarkers(*set) != KneeMarkers(*chosen.known);
     if (is_other && chosen.other == nullptr) chosen.other = set;
   }
   return chosen;
+}
+
+/// Returns the set that a naming scheme of skeletons makes of the markers; nullopt if it lacks a needed joint.
+std::optional<MarkerSet> SetOfSkeletonNames(const MarkerColumns& columns, std::span<const std::string> names) {
+  // Markers have no parents, so the first scheme that names all joints of a limb is taken.
+  Skeleton points;
+  std::vector<std::string> keys;
+  for (const auto& [key, column] : columns) {
+    points.joints.push_back({.name = names[column], .rest = {}});
+    keys.push_back(key);
+  }
+  const JointNames known(points);
+  const SkeletonTree tree(points);
+  MarkerSet set{.name = "joint names of a skeleton", .key = "", .rules = {}};
+  for (const Limb& limb : kLimbs) {
+    const FoundLimb found = FindLimb(known, tree, limb.is_arm ? ArmSchemes() : LegSchemes(), limb.side, {-1, -1, -1});
+    for (std::size_t i = 0; i < limb.roles.size(); ++i) {
+      if (found.joints[i] < 0) return std::nullopt;
+      set.rules.push_back({limb.roles[i], {keys[static_cast<std::size_t>(found.joints[i])]}});
+    }
+  }
+  return set;
+}
+
+}  // namespace
+
+ChosenSet ChooseSet(const MarkerColumns& columns, std::span<const std::string> names, const std::string& wanted,
+                    const std::map<Role, std::string>& roles) {
+  ChosenSet chosen = ChooseKnown(columns, wanted);
+  if (chosen.known == nullptr && wanted.empty()) chosen.made = SetOfSkeletonNames(columns, names);
+  std::vector<MarkerRule> told;
+  for (const auto& [role, marker] : roles) {
+    if (const auto found = columns.find(MarkerKey(marker)); found != columns.end())
+      told.push_back({role, {found->first}});
+  }
+  if (told.empty()) return chosen;
+  const MarkerSet* base = chosen.set();
+  MarkerSet set = base == nullptr ? MarkerSet{.name = "the joint map", .key = "", .rules = {}} : *base;
+  if (base != nullptr) set.name = "the joint map, and " + base->name;
+  for (const MarkerRule& rule : told) {
+    std::erase_if(set.rules, [&](const MarkerRule& old) { return old.role == rule.role; });
+    set.rules.push_back(rule);
+  }
+  chosen.made = std::move(set);
+  return chosen;
+}
+
+std::string MarkerKey(std::string_view name) {
+  std::string key(name.substr(name.rfind(':') + 1));
+  for (char& c : key) {
+    if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
+  }
+  return key;
+}
+
+std::string NamesOfMarkerSets() {
+  std::vector<std::string> names;
+  for (const MarkerSet& set : MarkerSets()) names.push_back(set.name);
+  return Join(names);
 }
 
 std::vector<std::string> MarkerSetKeys() {

@@ -6,6 +6,7 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "engine/motion/body.h"
@@ -36,11 +37,16 @@ struct MarkerSet {
 /// Lists the supported conventions.
 const std::vector<MarkerSet>& MarkerSets();
 
+/// Lists the names of all sets, as text for users.
+std::string NamesOfMarkerSets();
+
 /// Lists the keys of all sets.
 std::vector<std::string> MarkerSetKeys();
 
 /// Maps each marker's name, in lower case without prefix, to its column, for one person.
 using MarkerColumns = std::map<std::string, std::size_t, std::less<>>;
+/// Returns a marker's name in lower case and without prefix.
+std::string MarkerKey(std::string_view name);
 
 /// The joints that a body needs.
 inline constexpr std::array kNeededJoints = {Role::kLeftShoulder,  Role::kLeftElbow,  Role::kLeftWrist,
@@ -58,13 +64,18 @@ bool Determines(const MarkerSet& set, const MarkerColumns& columns, Role role);
 /// Lists the needed joints that the set does not determine.
 std::vector<std::string> MissingFrom(const MarkerSet& set, const MarkerColumns& columns);
 
-/// The set used for one person, and a second set that the file also contains; each may be null.
+/// The set by which one person's markers are read.
 struct ChosenSet {
-  const MarkerSet* set = nullptr;
-  const MarkerSet* other = nullptr;
+  std::optional<MarkerSet> made = {};  ///< a set made for this person
+  const MarkerSet* known = nullptr;    ///< otherwise one of MarkerSets
+  const MarkerSet* other = nullptr;    ///< a second complete set of MarkerSets that the file also contains
+  const MarkerSet* set() const { return made ? &*made : known; }  ///< null if there is none
 };
-/// Chooses a complete set: the set with key `wanted` if that is not empty, otherwise the set with the highest rank; of
-/// equal ranks, the set that determines the most joints. The sets in the result are null if none is complete.
-ChosenSet ChooseSet(const MarkerColumns& columns, const std::string& wanted);
+/// Chooses the complete set with key `wanted` if that is not empty, otherwise the set with the highest rank; of equal
+/// ranks, the set that determines the most joints. If none is complete, a naming scheme of skeletons (joint_names.h)
+/// that names all needed joints is a set of these joints. `roles`, the user's markers of joints, replace the rules of
+/// the set, or are a set of their own, which may be incomplete. `names` are the file's names of all columns.
+ChosenSet ChooseSet(const MarkerColumns& columns, std::span<const std::string> names, const std::string& wanted,
+                    const std::map<Role, std::string>& roles);
 
 }  // namespace etude

@@ -15,20 +15,13 @@
 #include "engine/retargeting/exchanged_sides.h"
 #include "engine/retargeting/marker_repairs.h"
 #include "engine/retargeting/marker_sets.h"
+#include "engine/retargeting/shown_markers.h"
 #include "engine/retargeting/skin_markers.h"
 
 namespace etude {
 namespace {
 
 constexpr double kMaxGap_s = 1;
-
-std::string LowerCase(std::string_view text) {
-  std::string lower(text);
-  for (char& c : lower) {
-    if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
-  }
-  return lower;
-}
 
 /// Returns each person's markers by name. Markers that no frame shows count as absent.
 std::map<std::string, MarkerColumns> PeopleOf(const MarkerMotion& markers) {
@@ -39,7 +32,7 @@ std::map<std::string, MarkerColumns> PeopleOf(const MarkerMotion& markers) {
     const std::size_t colon = name.rfind(':');
     const std::string prefix = colon == std::string::npos ? "" : name.substr(0, colon);
     // Of several markers with one name, the first is kept.
-    people[prefix].emplace(LowerCase(name.substr(colon == std::string::npos ? 0 : colon + 1)), i);
+    people[prefix].emplace(MarkerKey(name), i);
   }
   return people;
 }
@@ -180,36 +173,6 @@ UpFinding FindUpOf(const std::vector<JointPositions>& frames, double rate_hz, co
   return FindUp(poses, rate_hz, rule);
 }
 
-/// Makes MarkerBody::shown. `seen` holds the joints of every frame; `up` is the direction that becomes Y.
-MarkerMotion AsShown(double scale, const MarkerMotion& markers, const MarkerSet& set, const MarkerColumns& columns,
-                     const std::vector<JointPositions>& seen, const glm::dvec3& up) {
-  MarkerMotion shown{.rate_hz = markers.rate_hz, .names = {}, .frames = {}, .remark = set.name};
-  shown.start_s = markers.start_s;
-  if (scale != 1)
-    shown.remark += fmt::format("; its unit is taken to be {:g} times the file's, by the body's stature", scale);
-  if (!markers.remark.empty()) shown.remark += "; " + markers.remark;
-  std::vector<Role> roles;
-  for (const Role role : AllRoles()) {
-    if (Determines(set, columns, role)) roles.push_back(role);
-  }
-  for (const Role role : roles) shown.names.emplace_back(RoleName(role));
-  std::vector<std::size_t> others;
-  for (const auto& [name, column] : columns) {
-    if (FindRole(name)) continue;
-    shown.names.push_back(name);
-    others.push_back(column);
-  }
-  for (std::size_t t = 0; t < markers.frames.size(); ++t) {
-    std::vector<MarkerPosition>& row = shown.frames.emplace_back();
-    for (const Role role : roles) row.push_back(seen[t][Index(role)]);
-    for (const std::size_t column : others) row.push_back(markers.frames[t][column]);
-    for (std::size_t i = 0; i < row.size(); ++i) {
-      if (row[i]) row[i] = TurnedUp((i < roles.size() ? 1 : scale) * *row[i], up);
-    }
-  }
-  return shown;
-}
-
 /// Returns the longest range of frames in which every needed joint is known, as [first, end).
 std::pair<std::size_t, std::size_t> LongestStretch(const std::vector<JointPositions>& frames) {
   std::pair<std::size_t, std::size_t> best{0, 0};
@@ -312,7 +275,7 @@ std::optional<MarkerBody> BodyAt(double scale, const MarkerMotion& markers, cons
   if (!options.keeps_shown) return body;
   body.shown = AsShown(scale, markers, set, columns, seen, body.up.axis);
   for (const std::string& said : {centres, DescribeTurn(body.up), body.up.doubt}) {
-    if (!said.empty()) body.shown.remark += "; " + said;
+    if (!said.empty()) body.shown.notes[0] += "; " + said;
   }
   return body;
 }
@@ -356,25 +319,45 @@ Result<std::optional<MarkerBody>> BodyOf(const MarkerMotion& markers, const Mark
               kMinStature, kMaxStature);
 }
 
+/// Returns true if the set determines every needed joint.
+bool IsComplete(const ChosenSet& chosen, const MarkerColumns& columns) {
+  return chosen.set() != nullptr && MissingFrom(*chosen.set(), columns).empty();
+}
+
 }  // namespace
+
+std::string DescribeUnknownMarkers(const MarkerMotion& markers, const MarkerOptions& options) {
+  std::string nearest = "";
+  std::size_t fewest = kNeededJoints.size() + 1;
+  for (const auto& [prefix, columns] : PeopleOf(markers)) {
+    const ChosenSet chosen = ChooseSet(columns, markers.names, options.set, options.roles);
+    if (IsComplete(chosen, columns)) return "";
+    const auto compare = [&, &columns = columns](const MarkerSet& set) {
+      const auto lacks = MissingFrom(set, columns);
+      if (lacks.size() >= fewest || (!options.set.empty() && set.key != options.set)) return;
+      fewest = lacks.size();
+      nearest = fmt::format("{} lacks {}", set.name, Join(lacks));
+    };
+    if (chosen.made) compare(*chosen.made);
+    for (const MarkerSet& set : MarkerSets()) compare(set);
+  }
+  const std::size_t shown = std::min<std::size_t>(markers.names.size(), 12);
+  return fmt::format(
+      "its markers ({}{}) are not of a known set (nearest: {}); known: {}, the joint names of skeletons{}{}; a joint "
+      "map (--joint-map) states which markers are the joints",
+      Join(std::span(markers.names).first(shown)), markers.names.size() > shown ? ", …" : "", nearest,
+      NamesOfMarkerSets(), markers.remark.empty() ? "" : "; ", markers.remark);
+}
 
 Result<std::vector<MarkerBody>> FindMarkerBodies(MarkerMotion markers, const std::string& file,
                                                  const MarkerOptions& options) {
   RepairMarkers(markers);
   // Choose the marker set of each person, and make the body from it.
   std::vector<MarkerBody> bodies;
-  std::string nearest = "";
-  std::size_t fewest = kNeededJoints.size() + 1;
   for (const auto& [prefix, columns] : PeopleOf(markers)) {
-    for (const MarkerSet& set : MarkerSets()) {
-      const auto lacks = MissingFrom(set, columns);
-      if (lacks.size() >= fewest || (!options.set.empty() && set.key != options.set)) continue;
-      fewest = lacks.size();
-      nearest = fmt::format("{} lacks {}", set.name, Join(lacks));
-    }
-    const ChosenSet chosen = ChooseSet(columns, options.set);
-    if (chosen.set == nullptr) continue;
-    ASSIGN_OR_RETURN(auto body, BodyOf(markers, *chosen.set, columns, options, file));
+    const ChosenSet chosen = ChooseSet(columns, markers.names, options.set, options.roles);
+    if (!IsComplete(chosen, columns)) continue;
+    ASSIGN_OR_RETURN(auto body, BodyOf(markers, *chosen.set(), columns, options, file));
     if (!body) continue;
     body->name = prefix;
     if (chosen.other != nullptr) {
@@ -385,15 +368,8 @@ Result<std::vector<MarkerBody>> FindMarkerBodies(MarkerMotion markers, const std
   }
   // Explain why there is no body.
   if (!bodies.empty()) return bodies;
-  if (fewest == 0) return Fail({file}, "no frame shows all joints of a body at once");
-  std::vector<std::string> names(markers.names.begin(),
-                                 markers.names.begin() + std::min<std::size_t>(markers.names.size(), 12));
-  return Fail(
-      {file},
-      "its markers ({}{}) are not of a known set (nearest: {}); known: Etude's joints, OpenPose BODY_25, HALPE_26, "
-      "COCO, Motive's and HumanIK's bones, OpenCap's augmented markers, Plug-in Gait{}{}",
-      Join(names), markers.names.size() > names.size() ? ", …" : "", nearest, markers.remark.empty() ? "" : "; ",
-      markers.remark);
+  const std::string unknown = DescribeUnknownMarkers(markers, options);
+  return Fail({file}, "{}", unknown.empty() ? "no frame shows all joints of a body at once" : unknown);
 }
 
 }  // namespace etude

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <map>
 #include <optional>
 #include <string>
 #include <vector>
@@ -8,6 +9,7 @@
 #include "engine/base/result.h"
 #include "engine/formats/trc.h"
 #include "engine/motion/body.h"
+#include "engine/motion/raw_motion.h"
 #include "engine/retargeting/up_axis.h"
 
 namespace etude {
@@ -18,6 +20,7 @@ struct MarkerOptions {
   bool keep_floor = false;                                ///< true: the file's floor is not moved to 0
   std::optional<double> metres_per_unit = std::nullopt;  ///< given by the user; replaces the file's unit
   std::string set = "";                                  ///< a key of MarkerSets; "" = chosen by rank
+  std::map<Role, std::string> roles = {};                ///< the markers that play roles, as given by the user
   bool keeps_shown = false;                              ///< true: MarkerBody::shown is filled
 };
 
@@ -30,20 +33,22 @@ struct MarkerBody {
   std::size_t first_frame = 0;  ///< the file's index of the first kept frame
   /// The name of the marker set, then a text for users about each correction of the file's data.
   std::vector<std::string> changes;
-  /// The joints exactly as the markers show them, in all frames of the file: gaps are not filled, no joint is placed by
-  /// a rule, and the floor is not moved. First come the joints that the set determines, named by role, then the
-  /// person's other markers under their own names in lower case. Metres, Y up. The motion's remark names the set and
-  /// the assumptions. The motion has no frames unless MarkerOptions::keeps_shown is set.
-  MarkerMotion shown = {};
+  /// The markers exactly as the file shows them, in all its frames: gaps are not filled, no joint is placed by a rule,
+  /// and the floor is not moved. First come the person's markers under their own names without prefix; then, as added
+  /// joints named by role, the joints that the set computes from several markers. Metres, Y up. Its note names the set
+  /// and the assumptions. The motion has no frames unless MarkerOptions::keeps_shown is set.
+  RawMotion shown = {};
 
   /// Returns `changes` as one line, separated by semicolons.
   std::string Note() const { return Join(changes, "; "); }
 };
 
 /// Finds the bodies of a marker recording by the markers' names. Known sets: Etude's own joints, OpenPose's BODY_25,
-/// COCO, HALPE_26, the bones of Motive and HumanIK, the augmented markers of OpenCap and Pose2Sim, Plug-in Gait. Case
-/// is ignored. The text before the last ':' is a prefix, and each prefix is one person. Joint centres are found by
-/// these rules, which are ours where no source is named:
+/// COCO, HALPE_26, the bones of Motive and HumanIK, the augmented markers of OpenCap and Pose2Sim, Plug-in Gait; if
+/// none is complete, a naming scheme of skeletons (SetOfSkeletonNames). `options.roles` replaces the set's rules of
+/// these roles for each person who has the markers, or is a set of its own. Case is ignored. The text before the last
+/// ':' is a prefix, and each prefix is one person. Joint centres are found by these rules, which are ours where no
+/// source is named:
 /// - the mean of the markers on both sides of a joint, if a set has both;
 /// - hips from the four markers of the pelvis (or its two front markers and one on the sacrum) by the regression of
 ///   Harrington et al. (2007);
@@ -65,5 +70,9 @@ struct MarkerBody {
 /// the missing joints of the best set), or if no unit gives a plausible size.
 Result<std::vector<MarkerBody>> FindMarkerBodies(MarkerMotion markers, const std::string& file,
                                                  const MarkerOptions& options = {});
+
+/// Returns, for users, which joints the nearest set lacks; "" if a person's markers are a complete set, so that
+/// FindMarkerBodies finds a body or fails for another reason.
+std::string DescribeUnknownMarkers(const MarkerMotion& markers, const MarkerOptions& options);
 
 }  // namespace etude

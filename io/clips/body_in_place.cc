@@ -15,13 +15,12 @@ std::vector<JointSet> UnseenIn(const OpenedClip& opened) {
     for (JointSet& joints : unseen) joints.set(Index(role));
   }
   const std::size_t first = opened.source.made ? opened.source.made->first_frame : 0;
-  const MarkerMotion* shown = opened.source.shown.get();
-  if (shown != nullptr && shown->frames.size() >= first + frames) {
+  const RawMotion* shown = opened.source.shown.get();
+  if (shown != nullptr && shown->FrameCount() >= first + frames) {
     for (const Role role : AllRoles()) {
-      const auto name = std::ranges::find(shown->names, RoleName(role));
-      const auto at = static_cast<std::size_t>(name - shown->names.begin());
+      const int at = shown->roles[Index(role)];
       for (std::size_t f = 0; f < frames; ++f) {
-        if (name == shown->names.end() || !shown->frames[first + f][at]) unseen[f].set(Index(role));
+        if (at < 0 || !IsSeen(shown->At(first + f, static_cast<std::size_t>(at)))) unseen[f].set(Index(role));
       }
     }
   }
@@ -47,9 +46,9 @@ Result<BodyInPlace> BodyInPlaceOf(SourceClip clip, const OpenOptions& options) {
   std::vector<JointSet> unseen = UnseenIn(opened);
   const ClipFormat format = opened.source.format;
   const bool is_of_markers = format == ClipFormat::kC3d || format == ClipFormat::kTrc || format == ClipFormat::kMotive;
-  const MarkerMotion* shown = opened.source.shown.get();
+  const RawMotion* shown = opened.source.shown.get();
   const std::size_t frames = body.motion.poses.size() + before;
-  const std::size_t behind = shown == nullptr || shown->frames.size() < frames ? 0 : shown->frames.size() - frames;
+  const std::size_t behind = shown == nullptr || shown->FrameCount() < frames ? 0 : shown->FrameCount() - frames;
   const double lost_after_s = static_cast<double>(behind) / body.motion.rate_hz;
   const double lost_before_s = static_cast<double>(before) / body.motion.rate_hz;
   return BodyInPlace{std::move(body.motion), begin_s,       lost_after_s,           lost_before_s,

@@ -233,7 +233,13 @@ Result<ClipFile> ReadClipFile(const std::string& path, const std::optional<std::
     return FileOfMarkers(ClipFormat::kBids, std::move(joints), path, options, ArrayUp());
   }
   // Try markers, and recordings of runs.
-  if (auto markers = ReadMarkers(bytes, path, options)) return *std::move(markers);
+  if (auto read = ReadMarkers(bytes, path)) {
+    ASSIGN_OR_RETURN(auto markers, *std::move(read));
+    ASSIGN_OR_RETURN(file,
+                     FileOfMarkers(markers.format, std::move(markers.markers), path, options, std::move(markers.rule)));
+    file.has_rate = markers.has_rate;
+    return file;
+  }
   if (options.recorded != nullptr && options.recorded->IsRecording(bytes))
     return options.recorded->Read(bytes, path, options);
   // Try text formats of bodies: OpenSim's angles and DeepMimic's motions.

@@ -7,9 +7,9 @@
 #include <vector>
 
 #include "engine/base/result.h"
-#include "engine/formats/trc.h"
 #include "engine/motion/character.h"
 #include "engine/motion/clip.h"
+#include "engine/motion/raw_motion.h"
 #include "engine/retargeting/joint_map.h"
 #include "engine/retargeting/map_file.h"
 #include "engine/retargeting/to_body.h"
@@ -61,7 +61,7 @@ struct ClipFile {
   std::optional<JointMapOverrides> roles = {};  ///< roles that the bone table of a VRM file assigns
   /// For each clip that was made from markers, the joints and markers in the file (MarkerBody::shown); empty unless
   /// OpenOptions::keeps_shown is set.
-  std::vector<MarkerMotion> shown = {};
+  std::vector<RawMotion> shown = {};
   bool has_rate = true;  ///< false: the file gives no rate, so a rate was assumed
 };
 

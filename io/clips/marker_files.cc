@@ -9,7 +9,6 @@
 #include "engine/formats/motive_csv.h"
 #include "engine/formats/row_clock.h"
 #include "engine/retargeting/joint_arrays.h"
-#include "engine/retargeting/markers.h"
 #include "engine/retargeting/rig.h"
 #include "sim/choreography/canonical_body.h"
 
@@ -31,15 +30,22 @@ ArrayOptions ToldOfArrays(const OpenOptions& options) {
           .up = ToldUp(options)};
 }
 
-Result<ClipFile> FileOfMarkers(ClipFormat format, MarkerMotion markers, const std::string& path,
-                               const OpenOptions& options, UpRule rule) {
+MarkerOptions ToldOfMarkers(const OpenOptions& options, UpRule rule) {
   if (const auto up = ToldUp(options)) rule = {.axis = AxisOf(*up), .evidence = UpEvidence::kTold, .source = "told"};
-  const MarkerOptions told{
+  MarkerOptions told{
       .up = std::move(rule),
       .keep_floor = KeepsFloor(options),
       .metres_per_unit = ToldUnit(options),
       .set = options.roles && options.marker_set.empty() ? options.roles->marker_set : options.marker_set,
       .keeps_shown = options.keeps_shown};
+  if (!options.roles) return told;
+  for (const auto& [role, joint] : options.roles->joints) told.roles[role] = joint.name;
+  return told;
+}
+
+Result<ClipFile> FileOfMarkers(ClipFormat format, MarkerMotion markers, const std::string& path,
+                               const OpenOptions& options, UpRule rule) {
+  const MarkerOptions told = ToldOfMarkers(options, std::move(rule));
   ASSIGN_OR_RETURN(auto bodies, FindMarkerBodies(std::move(markers), path, told));
   ClipFile file{.format = format, .figure = {.name = "", .skeleton = {}, .materials = {}, .meshes = {}}, .clips = {}};
   for (MarkerBody& body : bodies) {
@@ -58,44 +64,38 @@ Result<ClipFile> FileOfJoints(ClipFormat format, const RawMotion& motion, const 
   options.body.metres_per_unit = 1;
   options.body.keep_floor = true;
   ASSIGN_OR_RETURN(auto file, FileOfMarkers(format, MarkersOf(motion), path, options, RawArraysUp()));
-  for (MadeBody& body : file.bodies) {
-    body.changes.insert(body.changes.end(), motion.notes.begin(), motion.notes.end());
-  }
+  const auto add_notes = [&](std::vector<std::string>& said) {
+    said.insert(said.end(), motion.notes.begin(), motion.notes.end());
+  };
+  for (MadeBody& body : file.bodies) add_notes(body.changes);
+  for (RawMotion& shown : file.shown) add_notes(shown.notes);
   return file;
 }
 
 namespace {
 
-Result<ClipFile> ReadJointTable(std::string_view text, const std::string& path, const OpenOptions& options) {
+Result<MarkerFile> ReadJointTable(std::string_view text, const std::string& path) {
   ASSIGN_OR_RETURN(const auto csv, ReadJointCsv(text, path));
   ASSIGN_OR_RETURN(auto markers, LayOnClock(csv, path));
-  ASSIGN_OR_RETURN(auto file, FileOfMarkers(ClipFormat::kCsv, std::move(markers), path, options, JointCsvUp()));
-  file.has_rate = csv.rate_hz.has_value();
-  return file;
+  return MarkerFile{ClipFormat::kCsv, std::move(markers), JointCsvUp(), csv.rate_hz.has_value()};
 }
 
 }  // namespace
 
-std::optional<Result<ClipFile>> ReadMarkers(std::string_view bytes, const std::string& path,
-                                            const OpenOptions& options) {
+std::optional<Result<MarkerFile>> ReadMarkers(std::string_view bytes, const std::string& path) {
+  const auto with = [](ClipFormat format, Result<MarkerMotion> read, UpRule rule) -> Result<MarkerFile> {
+    if (!read) return tl::unexpected(read.error());
+    return MarkerFile{format, *std::move(read), std::move(rule)};
+  };
   if (IsC3d(bytes)) {
     auto read = ReadC3d(bytes, path);
     if (!read) return tl::unexpected(read.error());
-    const UpRule rule = C3dUp(read->up, read->is_up_negative);
-    return FileOfMarkers(ClipFormat::kC3d, std::move(read->markers), path, options, rule);
+    return MarkerFile{ClipFormat::kC3d, std::move(read->markers), C3dUp(read->up, read->is_up_negative)};
   }
-  if (IsMotiveCsv(bytes)) {
-    auto read = ReadMotiveCsv(bytes, path);
-    if (!read) return tl::unexpected(read.error());
-    return FileOfMarkers(ClipFormat::kMotive, *std::move(read), path, options, MotiveUp());
-  }
+  if (IsMotiveCsv(bytes)) return with(ClipFormat::kMotive, ReadMotiveCsv(bytes, path), MotiveUp());
   const std::string_view heading = bytes.substr(0, bytes.find('\n'));
-  if (heading.starts_with("PathFileType")) {
-    auto read = ReadTrc(bytes, path);
-    if (!read) return tl::unexpected(read.error());
-    return FileOfMarkers(ClipFormat::kTrc, *std::move(read), path, options, TrcUp());
-  }
-  if (heading.find("_x_m") != std::string_view::npos) return ReadJointTable(bytes, path, options);
+  if (heading.starts_with("PathFileType")) return with(ClipFormat::kTrc, ReadTrc(bytes, path), TrcUp());
+  if (heading.find("_x_m") != std::string_view::npos) return ReadJointTable(bytes, path);
   return std::nullopt;
 }
 

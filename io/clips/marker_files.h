@@ -8,6 +8,7 @@
 #include "engine/formats/trc.h"
 #include "engine/motion/raw_motion.h"
 #include "engine/retargeting/joint_arrays.h"
+#include "engine/retargeting/markers.h"
 #include "io/clips/clip_file.h"
 
 namespace etude {
@@ -26,6 +27,9 @@ std::optional<UpRule> UpRuleOf(ClipFormat format);
 /// Returns true for the formats of markers, and for files of joint positions that are read like markers.
 bool IsOfMarkers(ClipFormat format);
 
+/// Returns the user's options for markers; `rule` determines the up axis if the user gives none.
+MarkerOptions ToldOfMarkers(const OpenOptions& options, UpRule rule);
+
 /// Finds every body that the markers show, and makes a clip of each. `rule` determines the up axis if the user gives
 /// none.
 Result<ClipFile> FileOfMarkers(ClipFormat format, MarkerMotion markers, const std::string& path,
@@ -36,8 +40,14 @@ Result<ClipFile> FileOfMarkers(ClipFormat format, MarkerMotion markers, const st
 /// applied them. The notes of `motion` are added to the clip's changes.
 Result<ClipFile> FileOfJoints(ClipFormat format, const RawMotion& motion, const std::string& path, OpenOptions options);
 
+/// The markers of a file, before any body is searched.
+struct MarkerFile {
+  ClipFormat format = ClipFormat::kTrc;
+  MarkerMotion markers;
+  UpRule rule;
+  bool has_rate = true;
+};
 /// Reads a file of markers (C3D, TRC, Motive's CSV, joint CSV); returns nullopt if the file is of another kind.
-std::optional<Result<ClipFile>> ReadMarkers(std::string_view bytes, const std::string& path,
-                                            const OpenOptions& options);
+std::optional<Result<MarkerFile>> ReadMarkers(std::string_view bytes, const std::string& path);
 
 }  // namespace etude

@@ -207,7 +207,7 @@ Result<std::vector<SourceClip>> ReadClips(const std::string& reference, const Op
   if (!is_recording && options.roles && options.roles->rate_hz) {
     for (Clip& clip : file.clips) clip.rate_hz = *options.roles->rate_hz;
     for (MadeBody& body : file.bodies) body.start_s.reset();
-    for (MarkerMotion& shown : file.shown) {
+    for (RawMotion& shown : file.shown) {
       shown.rate_hz = *options.roles->rate_hz;
       shown.start_s.reset();  // the file's clock has another rate
     }
@@ -220,7 +220,7 @@ Result<std::vector<SourceClip>> ReadClips(const std::string& reference, const Op
   }
   if (is_recording && wanted.animation == "") wanted.animation = options.recorded->OwnTrack(file.clips);
   const auto shown_of = [&](std::size_t i) {
-    return file.shown.empty() ? nullptr : std::make_shared<const MarkerMotion>(std::move(file.shown[i]));
+    return file.shown.empty() ? nullptr : std::make_shared<const RawMotion>(std::move(file.shown[i]));
   };
   // If the format holds one motion, '#' in the reference has no meaning, except for the layout of an .npy array.
   const bool has_animations =
@@ -241,7 +241,7 @@ Result<std::vector<SourceClip>> ReadClips(const std::string& reference, const Op
   // If the file holds several clips, undo scales and find the ground that all clips share, before one clip is chosen.
   std::map<std::string, MadeBody> bodies;
   for (std::size_t i = 0; i < file.bodies.size(); ++i) bodies[file.clips[i].name] = file.bodies[i];
-  std::map<std::string, std::shared_ptr<const MarkerMotion>> shown;
+  std::map<std::string, std::shared_ptr<const RawMotion>> shown;
   for (std::size_t i = 0; i < file.shown.size(); ++i) shown[file.clips[i].name] = shown_of(i);
   TakeScalesOut(file, wanted.path, options);
   const std::optional<Ground> ground = GroundOf(file, wanted.path, options);

@@ -29,7 +29,7 @@ struct SourceClip {
   /// Repairs made while reading the file; UnderstandClip appends them to BodyConversion::changes.
   std::vector<std::string> remarks = {};
   std::optional<JointMapOverrides> roles = {};     ///< roles that the file assigns; OpenOptions::roles has priority
-  std::shared_ptr<const MarkerMotion> shown = {};  ///< this clip's entry of ClipFile::shown; null if there is none
+  std::shared_ptr<const RawMotion> shown = {};     ///< this clip's entry of ClipFile::shown; null if there is none
 };
 
 /// Reads the clips of one file or built-in name (as ExpandReference returns them): the one clip of a BVH, all

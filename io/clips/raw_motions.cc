@@ -1,13 +1,17 @@
 #include "io/clips/raw_motions.h"
 
 #include <algorithm>
+#include <filesystem>
 #include <fstream>
 
 #include "engine/base/digest.h"
 #include "engine/base/names.h"
+#include "engine/base/utf8.h"
 #include "engine/formats/kimodo.h"
 #include "engine/formats/npz.h"
 #include "engine/retargeting/joint_arrays.h"
+#include "engine/retargeting/marker_repairs.h"
+#include "engine/retargeting/marker_sets.h"
 #include "engine/retargeting/orientation.h"
 #include "io/clips/marker_files.h"
 #include "io/clips/references.h"
@@ -15,23 +19,6 @@
 
 namespace etude {
 namespace {
-
-RawMotion OfMarkers(const MarkerMotion& shown) {
-  RawMotion raw;
-  raw.rate_hz = shown.rate_hz;
-  raw.start_s = shown.start_s;
-  raw.joints = shown.names;
-  for (const Role role : AllRoles()) {
-    const auto found = std::ranges::find(shown.names, RoleName(role));
-    if (found != shown.names.end()) raw.roles[Index(role)] = static_cast<int>(found - shown.names.begin());
-  }
-  raw.positions.reserve(shown.frames.size() * shown.names.size());
-  for (const auto& frame : shown.frames) {
-    for (const auto& place : frame) raw.positions.push_back(place.value_or(NotSeen()));
-  }
-  raw.notes.push_back("markers: " + shown.remark);
-  return raw;
-}
 
 /// Returns the rotation part of a matrix of axes that may be scaled.
 glm::dquat RotationOf(const glm::dmat3& axes) {
@@ -122,7 +109,7 @@ Result<RawMotion> RawMotionOf(SourceClip source, const OpenOptions& options, boo
   const ClipFormat format = source.format;
   RawMotion raw;
   if (source.shown != nullptr) {
-    raw = OfMarkers(*source.shown);
+    raw = *source.shown;
   } else {
     // UnderstandClip finds roles, unit and up axis; the resampled motion and the floor that it computes are not used
     // here.
@@ -166,6 +153,40 @@ bool BeginsAsZip(const std::string& reference) {
   return file.read(head.data(), static_cast<std::streamsize>(head.size())) && IsZip(head);
 }
 
+/// Returns true if the roles that the joints' names state are all that the names can tell: every needed joint plays its
+/// role, and the user's joint map names none of the joints.
+bool HasTheRoles(const RawMotion& raw, const OpenOptions& options) {
+  const auto is_told = [&](const std::string& joint) {
+    const auto names = [&](const auto& told) { return MarkerKey(told.second.name) == MarkerKey(joint); };
+    return options.roles && std::ranges::any_of(options.roles->joints, names);
+  };
+  return std::ranges::none_of(kNeededJoints, [&](Role role) { return raw.roles[Index(role)] < 0; }) &&
+         std::ranges::none_of(raw.joints, is_told);
+}
+
+/// Converts markers that no set explains: joints without roles, with the unit and the up axis that the file states.
+RawMotion OfUnknownMarkers(const MarkerFile& file, const std::string& reference, const OpenOptions& options,
+                           const std::string& why) {
+  const MarkerOptions told = ToldOfMarkers(options, file.rule);
+  const double scale = told.metres_per_unit.value_or(file.markers.metres_per_unit) / file.markers.metres_per_unit;
+  RawMotion raw;
+  raw.name = reference;
+  raw.rate_hz = file.markers.rate_hz;
+  raw.start_s = file.markers.start_s;
+  if (options.roles && options.roles->rate_hz) {
+    raw.rate_hz = *options.roles->rate_hz;
+    raw.start_s.reset();
+  }
+  raw.joints = file.markers.names;
+  for (const auto& frame : file.markers.frames) {
+    for (const MarkerPosition& place : frame) {
+      raw.positions.push_back(place ? TurnedUp(scale * *place, told.up.axis) : NotSeen());
+    }
+  }
+  raw.notes = {why, fmt::format("{} is up ({})", AxisName(told.up.axis), told.up.source)};
+  return raw;
+}
+
 /// Converts arrays of positions directly, without a skeleton.
 Result<RawMotion> OfArrays(const Npz& arrays, const std::string& reference, const OpenOptions& options) {
   ASSIGN_OR_RETURN(auto raw, ReadRawNpz(arrays, reference, ToldOfArrays(options)));
@@ -189,15 +210,33 @@ Result<std::string> DigestOfFile(const std::string& reference, const OpenOptions
 }
 
 Result<RawMotion> OpenRawMotion(const std::string& reference, const OpenOptions& options, bool keeps_rig) {
+  OpenOptions how = options;
+  how.keeps_shown = true;
   if (BeginsAsZip(reference)) {
     ASSIGN_OR_RETURN(const auto bytes, ReadWholeFile(reference, kMaxClipFileBytes));
     ASSIGN_OR_RETURN(const auto arrays, ReadNpz(bytes, reference));
-    if (IsBodyNpz(arrays)) return OfArrays(arrays, reference, options);
+    if (IsBodyNpz(arrays)) {
+      ASSIGN_OR_RETURN(auto raw, OfArrays(arrays, reference, options));
+      if (HasTheRoles(raw, options)) return raw;
+      // The joints' names may be those of markers or of a skeleton, which also name the joints of a body.
+      auto clip = ReadOneClip(reference, how);
+      return clip ? RawMotionOf(*std::move(clip), options) : raw;
+    }
   }
-  OpenOptions how = options;
-  how.keeps_shown = true;
-  ASSIGN_OR_RETURN(auto clip, ReadOneClip(reference, how));
-  return RawMotionOf(std::move(clip), options, keeps_rig);
+  auto clip = ReadOneClip(reference, how);
+  if (clip) return RawMotionOf(*std::move(clip), options, keeps_rig);
+  // Markers that no set explains can still be compared by their names.
+  const std::string path = FileOf(Split(reference).path);
+  std::error_code none;
+  if (!std::filesystem::is_regular_file(path, none)) return tl::unexpected(clip.error());
+  ASSIGN_OR_RETURN(const auto bytes, ReadWholeFile(path, kMaxClipFileBytes));
+  const auto read = ReadMarkers(WithoutByteOrderMark(bytes), path);
+  if (!read || !*read) return tl::unexpected(clip.error());
+  MarkerFile file = **read;
+  RepairMarkers(file.markers);
+  const std::string why = DescribeUnknownMarkers(file.markers, ToldOfMarkers(options, file.rule));
+  if (why.empty()) return tl::unexpected(clip.error());
+  return OfUnknownMarkers(file, reference, options, why);
 }
 
 }  // namespace etude

@@ -9,8 +9,8 @@
 namespace etude {
 
 /// Returns the motion as the file of a clip holds it: every frame at the file's own rate, on the file's own floor, with
-/// its gaps, in metres and Y up. A leading T-pose stays. A skeleton gives all its joints; markers give the joints that
-/// the marker set determines, and all other markers. Joints that a reader only estimates by a rule are left out. The
+/// its gaps, in metres and Y up. A leading T-pose stays. A skeleton gives all its joints; markers give all
+/// markers, and the joints that the marker set determines (MarkerBody::shown). Joints that a reader only estimates by a rule are left out. The
 /// hip centre is the joint from which both hips branch if the user's roles name a hip centre, if this joint has the
 /// name of a pelvis, or if it lies within 0.4 thigh lengths of the hips' middle at rest. Otherwise, as for an OpenNI
 /// torso, the hip centre is midway between the hips (AddMidwayHips). Contacts are read from an .npz that has them
@@ -23,8 +23,9 @@ Result<RawMotion> RawMotionOf(SourceClip source, const OpenOptions& options, boo
 /// read.
 Result<std::string> DigestOfFile(const std::string& reference, const OpenOptions& options);
 
-/// Reads one motion: arrays of positions by ReadRawNpz, any other motion as ReadOneClip does. `keeps_rig` has the same
-/// meaning as in RawMotionOf.
+/// Reads one motion as ReadOneClip does, but arrays of positions by ReadRawNpz if their joints' names state the roles
+/// of all needed joints, or if ReadOneClip finds no body in them. Markers of no known set become joints without roles,
+/// and the notes state why. `keeps_rig` has the same meaning as in RawMotionOf.
 Result<RawMotion> OpenRawMotion(const std::string& reference, const OpenOptions& options, bool keeps_rig = false);
 
 }  // namespace etude

@@ -21,8 +21,9 @@ def evaluate(truth=None, *, names=None, rate_hz=None, pairs=None, joints=None, p
 
     truth, and each answer by its method's name: a motion file, a folder or a pattern; or an array of positions, frames
     × joints × 3 in metres with Y up, NaN where a joint was not seen. Arrays need `names` of their joints and `rate_hz`;
-    a joint with the name of a role plays that role; give `unit` ("cm") if arrays are not in metres, and `up` ("z") if Y
-    does not point up. Arrays are kept as .npz files in the folder `output` + ".motions". pairs: a CSV file of pairs,
+    the names state the roles, as those of markers in a file do; give `unit` ("cm") if arrays are not in metres, and
+    `up` ("z") if Y does not point up; without arrays, both are about all files. Arrays are kept as .npz files in the
+    folder `output` + ".motions". pairs: a CSV file of pairs,
     given instead of truth and answers. joints, people, lag, statistics, music_beats, metrics: as the options of `etude
     evaluate`. alone: there is no truth; floor and limits are then the options of `etude evaluate --alone`, and the
     metric within_limits says which clips keep the limits. output: the result folder; by default the first free folder
@@ -59,6 +60,9 @@ def evaluate(truth=None, *, names=None, rate_hz=None, pairs=None, joints=None, p
                         ("--people", people), ("--lag", lag), ("--statistics", statistics),
                         ("--music-beats", music_beats), ("--jobs", jobs)):
         arguments += [flag, os.fspath(value) if isinstance(value, os.PathLike) else str(value)] if value is not None else []
+    if not any(motion is not None and not isinstance(motion, (str, os.PathLike)) for motion in (truth, *answers.values())):
+        for flag, value in (("--unit", unit), ("--up", up)):
+            arguments += [flag, str(value)] if value is not None else []
     for metric in metrics:
         arguments += ["--metric", metric]
     arguments += ["-o", str(output)] + ["--overwrite"] * overwrite
@@ -87,10 +91,17 @@ def _free_folder(overwrite):
             return folder
 
 
+def _shape(nested):
+    """Returns the lengths of nested lists, along their first items."""
+    return (len(nested), *_shape(nested[0])) if hasattr(nested, "__len__") and len(nested) else ()
+
+
 def _npz(positions, names, rate_hz, said, title):
     """Returns positions, names and rate as the bytes of an .npz file, with every digit."""
     if not len(positions) or any(len(frame) != len(names) or any(len(point) != 3 for point in frame) for frame in positions):
-        raise ValueError(f"the array of {title} must be frames × {len(names)} joints × 3")
+        shape = getattr(positions, "shape", None) or _shape(positions)
+        raise ValueError(f"the array of {title} must be frames × {len(names)} joints (the number of names) × 3, not "
+                         + " × ".join(map(str, shape)))
     frames = len(positions)
     numbers = array.array("d", (x for frame in positions for point in frame for x in point))
     texts = []

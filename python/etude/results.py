@@ -114,7 +114,8 @@ class Pairs:
 
 @dataclass(frozen=True)
 class Motion:
-    """A recorded motion. positions_m: frames × joints × 3 in metres, Y up; an array if numpy is installed, else lists.
+    """A recorded motion. positions_m: frames × joints × 3 in metres, Y up, NaN where a joint was not seen; an array if
+    numpy is installed, else lists.
     joints: names. parents: for each joint, the name of the joint above it (None for the first)."""
     cell: str
     name: str
@@ -265,8 +266,8 @@ class Run:
     def motion(self, cell, name="truth"):
         """Returns a motion from a cell's recording.
 
-        cell: a row, or the name of a cell. name: "truth", another track of the recording ("sensed", "solution", …), or
-        a method, for this method's motion in the same world. Raises EtudeError that lists the existing names.
+        cell: a row, or the name of a cell. name: "truth", another track of the recording ("sensed", "solution", …; of
+        a compared pair of files "answer"), or a method, for this method's motion in the same world. Raises EtudeError that lists the existing names.
         """
         cell = cell["cell"] if isinstance(cell, dict) else cell
         recorded = self.recorded()
@@ -275,7 +276,7 @@ class Run:
         if name in methods and name != own:
             cell, own = f"{world}/{name}", name
         if cell not in recorded:
-            raise EtudeError(f"cell '{cell}' left no recording: the scenario's key `video` says which do"
+            raise EtudeError(f"cell '{cell}' left no recording: the scenario's key `video`, or --keep motions, says which do"
                              f"{nearest(cell, recorded)}; there are {', '.join(recorded) or 'none'}")
         path = self.folder / "recordings" / (cell.replace("/", "~") + ".json")
         told = json.loads(path.read_text(encoding="utf-8"))
@@ -283,12 +284,19 @@ class Run:
             raise EtudeError(f"{path}: a recording of version {told.get('recording', 1)}; this package reads version 2, "
                              "which names its joints: repeat the run")
         tracks = {track["name"]: track for track in told["tracks"]}
+        joints = [(joint, dict(self._joints)[joint]) for joint in told["joints"]]
+        extras = told.get("extras") or {}
+        if not tracks and {"truth", "answer"} <= set(extras):  # a pair of files has the joints that were compared
+            tracks = {track: {"name": track, "rate_hz": extras["rate_hz"], "poses": extras[track]}
+                      for track in ("truth", "answer")}
+            joints = [(joint, extras["joints"][above] if above >= 0 else None)
+                      for joint, above in zip(extras["joints"], extras["parents"])]
         if name == own:
-            name = next((each for each in ("recovered", "solution", "coach", "sensed") if each in tracks), name)
+            name = next((each for each in ("recovered", "solution", "coach", "sensed", "answer") if each in tracks), name)
         if name not in tracks:
             raise EtudeError(f"cell '{cell}' recorded no '{name}'{nearest(name, tracks)}; there are "
                              f"{', '.join(tracks)}")
-        return _motion(cell, tracks[name], [(joint, dict(self._joints)[joint]) for joint in told["joints"]])
+        return _motion(cell, tracks[name], joints)
 
     def series(self, name=None, *, scenario=None, method=None, condition=None, trial=None):
         """Yields the cells' curves with this name; all curves if `name` is None."""
@@ -339,7 +347,8 @@ def _motion(cell, track, joints):
     if numpy:
         positions = numpy.array(track["poses"], dtype=float).reshape(len(track["poses"]), len(names), 3)
     else:
-        positions = [[pose[3 * i:3 * i + 3] for i in range(len(names))] for pose in track["poses"]]
+        positions = [[[math.nan if x is None else x for x in pose[3 * i:3 * i + 3]] for i in range(len(names))]
+                     for pose in track["poses"]]
     return Motion(cell, track["name"], track["rate_hz"], names, above, positions)
 
 

@@ -64,10 +64,11 @@ class Table:
     although `columns` leaves them out.
     """
 
-    def __init__(self, scenario, task, length, readers, null_columns, metrics, reasons, digests=()):
+    def __init__(self, scenario, task, length, readers, null_columns, metrics, reasons, digests=(), whole=None):
         self.scenario, self.task = scenario, task
         self._length, self._readers, self._metrics, self._reasons = length, readers, metrics, reasons
         self.null_columns, self._read = dict(null_columns), {}
+        self._whole = whole or self  # the table from which this one was taken
         self.columns = [name for name in readers if name not in digests]
 
     def __len__(self):
@@ -99,15 +100,21 @@ class Table:
             yield dict(zip(self.columns, values))
 
     def where(self, **wanted):
-        """Returns the cells whose columns have these values: `table.where(method="adaptive", joint_noise_deg=15)`."""
+        """Returns the cells whose columns have these values: `table.where(method="adaptive", joint_noise_deg=15)`.
+        Raises EtudeError if the scenario has no such method, condition or setting."""
         kept = range(len(self))
         for name, value in wanted.items():
             values = list(self[name])
+            is_choice = name in ("method", "condition") or name not in IDENTITY and name not in self._metrics
+            if is_choice and value not in values and value not in list(self._whole[name]):
+                known = list(dict.fromkeys(map(str, self._whole[name])))
+                raise EtudeError(f"{self.scenario}: no {name} '{value}'{nearest(str(value), known)}; there are "
+                                 + ", ".join(known[:20]) + ", …" * (len(known) > 20))
             kept = [i for i in kept if values[i] == value]
         readers = {name: (lambda name=name: _take(self[name].values, kept)) for name in self._readers}
         digests = [name for name in self._readers if name not in self.columns]
         return Table(self.scenario, self.task, len(kept), readers, self.null_columns, self._metrics,
-                     lambda name: (lambda why: lambda i: why(kept[i]))(self._reasons(name)), digests)
+                     lambda name: (lambda why: lambda i: why(kept[i]))(self._reasons(name)), digests, self._whole)
 
     def to_pandas(self):
         """Returns a DataFrame; its `attrs` hold the `units` and `definitions` of the metrics' columns."""

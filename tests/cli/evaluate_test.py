@@ -208,7 +208,7 @@ class Evaluate(EtudeCase):
             return path
         truth = from_ten("t/clap.trc", self.frames)
         for name, answer, error, words in (
-                ("cut", from_ten("cut.trc", self.frames[20:], 20 / 30), 0, "the answer begins at 10.667 s: judged by these clocks, 20 frames of"),
+                ("cut", from_ten("cut.trc", self.frames[20:], 20 / 30), 0, "the answer begins at 10.667 s: judged by these clocks (--lag find searches the lag), 20 frames of"),
                 ("bvh", self.shared / "clap.bvh", 1, "the truth begins at 10 s, the answer states no clock: their first frames"),
                 ("same", from_ten("same.trc", self.frames), 0, "")):
             self.evaluate(truth, answer, out=self.folder / name)
@@ -281,8 +281,57 @@ class Evaluate(EtudeCase):
                    for method in facts["methods"] for metric in method["metrics"]}
         self.assertAlmostEqual(medians["mine", "mpjpe_unaligned_mm"], 30, 3)
         self.assertEqual([method["pairs_judged"] for method in facts["methods"]], [2, 1])
-        self.assertEqual([line.split(":")[0] for line in facts["judged"]], ["mine, first", "none, second"])
+        self.assertEqual([line.split(":")[0] for line in facts["judged"]], ["mine, first", "mine, second", "none, second"],
+                         "the two truths have different notes")
         self.assertEqual(facts["not_judged"], ["none, first: the method has no answer of this name"])
+
+    def test_each_kind_of_note_is_said_once(self):
+        bent = [frame[:] for frame in self.frames]
+        head = self.names.index("head")
+        for name in "abc":
+            self.trc_file(f"t/{name}.trc", self.frames)
+            self.trc_file(f"m/{name}.trc", [[[x, y + 0.1 * (j == head and name == "b"), z] for j, (x, y, z) in enumerate(frame)]
+                                            for frame in bent])
+        said = self.evaluate(self.folder / "t", f"m={self.folder}/m").stdout
+        self.assertIn("m, a: 20 joints, root hip_centre", said)
+        self.assertEqual(said.count("(and 1 more like it)"), 1, said)
+        self.assertIn("m, b: 20 joints, root hip_centre, head 100 mm away, all frames alike", said)
+        # The same holds for pairs that are not judged; programs get every line.
+        for name in "abc":
+            (self.folder / "m" / f"{name}.trc").write_text("no motion")
+        facts = json.loads(self.ends(1, "evaluate", self.folder / "t", f"m={self.folder}/m", "-o", self.out, "--overwrite",
+                                     "--json").stdout)
+        self.assertEqual([line.split(":")[0] for line in facts["not_judged"]], ["m, a", "m, b", "m, c"])
+        said = self.evaluate(self.folder / "t", f"m={self.folder}/m", "--overwrite", code=1).stdout
+        self.assertIn("3 not judged:\n  m, a: ", said)
+        self.assertIn("(and 2 more like it)", said)
+        self.assertNotIn("m, b:", said)
+
+    def test_a_unit_is_that_of_all_files(self):
+        shifted = [[[x + 0.01, y, z] for x, y, z in frame] for frame in self.frames]
+        self.evaluate(self.trc_file("t.trc", self.frames), self.trc_file("m.trc", shifted), "--unit", "0.0009")
+        self.assertAlmostEqual(self.rows()[0]["mpjpe_unaligned_mm"], 9, 6)
+
+    def test_a_heading_without_truth_is_refused_with_its_columns(self):
+        table = self.write("pairs.csv", f"Truth,mine\n{self.shared}/clap.npz,{self.shared}/clap.bvh\n")
+        self.refusal("evaluate", "--pairs", table, "-o", self.out, says=["has no column 'truth', but Truth, mine"])
+
+    def test_markers_of_no_known_set_are_compared_by_their_names(self):
+        odd = trc([f"Q{j}" for j in range(len(self.names))], self.frames, 30)
+        truth, answer = self.write("truth.trc", odd), self.write("answer.trc", odd.replace("mine.trc", "other.trc"))
+        said = self.evaluate(truth, answer, code=1).stdout
+        self.assertIn("are not of a known set", said)
+        self.assertIn("a joint map (--joint-map) states their roles, and --joints same compares equal names", said)
+        self.evaluate(truth, answer, "--joints", "same", "--overwrite")
+        row, = self.rows()
+        self.assertEqual((row["mpjpe_unaligned_mm"], row["seen_share"]), (0, 1))
+        self.assertIsNone(row["mpjpe_root_mm"])
+        # With a joint map, the same files have roles.
+        roles = "".join(f"  {name}: Q{j}\n" for j, name in enumerate(self.names))
+        self.evaluate(truth, answer, "--joint-map", self.write("map.yaml", "roles:\n" + roles), "--overwrite")
+        row, = self.rows()
+        self.assertEqual(row["mpjpe_root_mm"], 0)
+        self.assertIn("20 joints, root Q", row["reason"])
 
     def test_a_run_is_an_answer_like_any_file(self):
         run = self.folder / "run"

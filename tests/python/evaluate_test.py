@@ -8,6 +8,7 @@ from python_case import PythonCase
 
 import etude
 from etude.evaluation import _npz
+from etude.program import call
 
 NAMES = ["hip_centre", "shoulder_centre", "head", *(f"{side}_{joint}" for side in ("left", "right") for joint in (
     "shoulder", "elbow", "wrist", "hip", "knee", "ankle", "foot"))]
@@ -85,6 +86,40 @@ class Evaluate(PythonCase):
         row, = run["evaluate"].rows()
         self.assertAlmostEqual(row["floating_mm"], 50, 9, "the toes are 5 cm high")
         self.assertIn("1 unit = 1 cm; turned upright from Z up", row["reason"])
+
+    def test_files_have_the_unit_that_is_told(self):
+        for name, across in ("truth", 0), ("mine", 0.01):
+            (self.folder / f"{name}.npz").write_bytes(_npz(standing(9, across), NAMES, 30, {}, name))
+        for unit, error in (None, 10), ("0.9", 9):
+            run = etude.evaluate(self.folder / "truth.npz", mine=self.folder / "mine.npz", unit=unit,
+                                 output=self.folder / f"in {unit}", progress=False)
+            self.assertAlmostEqual(run["evaluate"]["mpjpe_unaligned_mm"][0], error, 9)
+
+    def test_both_motions_of_a_pair_are_had(self):
+        for name, across in ("truth", 0), ("mine", 0.01):
+            motion = standing(9, across)
+            motion[4][2] = [math.nan] * 3 if across else motion[4][2]
+            (self.folder / f"{name}.npz").write_bytes(_npz(motion, NAMES, 30, {}, name))
+        call("evaluate", self.folder / "truth.npz", self.folder / "mine.npz", "--keep", "motions", "-o", self.folder / "kept")
+        run = etude.load(self.folder / "kept")
+        row, = run["evaluate"].rows()
+        truth, mine = run.motion(row), run.motion(row, "mine")
+        self.assertEqual((mine.name, run.motion(row, "answer").name, mine.rate_hz), ("answer", "answer", 30))
+        self.assertEqual(set(mine.joints), set(NAMES))
+        self.assertEqual(dict(zip(mine.joints, mine.parents))["left_wrist"], "left_elbow")
+        # Each joint's mean error, in millimetres.
+        for j, joint in enumerate(mine.joints):
+            off = [math.dist(a[j], b[j]) for a, b in zip(truth.positions_m, mine.positions_m) if a[j][0] == a[j][0]
+                   and b[j][0] == b[j][0]]
+            self.assertEqual(len(off), 8 if joint == "head" else 9)
+            self.assertAlmostEqual(1000 * sum(off) / len(off), 10, 6, joint)
+        with self.assertRaisesRegex(etude.EtudeError, "there are truth, answer"):
+            run.motion(row, "solution")
+
+    def test_an_array_of_another_shape_is_refused_with_its_shape(self):
+        with self.assertRaisesRegex(ValueError, "frames × 17 joints .* × 3, not 3 × 16 × 3"):
+            etude.evaluate([frame[1:] for frame in standing(3)], mine=standing(3), names=NAMES, rate_hz=30,
+                           output=self.folder / "none", progress=False)
 
     def test_pairs_that_are_not_judged_warn(self):
         for folder, names in ("t", "ab"), ("m", "a"):

@@ -69,6 +69,8 @@ class Results(PythonCase):
         self.assertEqual([row["cell"] for row in table.rows()], [row["cell"] for row in wanted])
         moody_table = self.run_["ik"].where(method="moody")
         self.assertIn("not in the mood", "".join(filter(None, moody_table.reasons("orientation_error_deg"))))
+        # What no cell of a part has is no mistake if other cells have it.
+        self.assertEqual(len(table.where(status="crashed").where(method="moody")), 0)
 
     def test_verdicts_are_those_of_the_page(self):
         with open(self.out / "report/tables/ik-comparisons.csv", newline="") as file:
@@ -144,6 +146,8 @@ class Results(PythonCase):
     def test_what_is_not_there_is_told_with_what_is(self):
         for ask, says in ((lambda: self.run_["ki"], "there are ik"),
                           (lambda: self.run_["ik"]["orientation_error"], "did you mean 'orientation_error_deg'"),
+                          (lambda: self.run_["ik"].where(method="adaptve"), "no method 'adaptve'; did you mean 'adaptive'?"),
+                          (lambda: self.run_["ik"].where(joint_noise_deg=16), "no joint_noise_deg '16'; there are 5"),
                           (lambda: self.run_.pairs("adaptive", "fixd"), "no scenario has both"),
                           (lambda: self.run_.pairs("adaptive", "fixed", condition="x=1"), "there are joint_noise_deg=5"),
                           (lambda: self.run_.motion("ik/joint_noise_deg=15/001/fixed"), "the scenario's key `video`"),

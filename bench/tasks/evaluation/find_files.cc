@@ -144,7 +144,7 @@ Result<PairColumns> ReadHeading(const std::vector<std::string>& heading, std::sp
     if (std::ranges::count(heading, cell) > 1) return Fail(place, "two columns {}", Quote(cell));
   }
   const auto truth = column_of("truth");
-  if (!truth) return Fail(place, "has no column 'truth'; allowed: a heading such as truth,{}", methods.front().name);
+  if (!truth) return Fail(place, "has no column 'truth', but {}", Join(heading));
   columns.truth = *truth;
   columns.name = column_of("name");
   for (const EvaluationMethod& method : methods) {

@@ -5,43 +5,12 @@
 #include <algorithm>
 #include <cmath>
 
-#include "bench/tasks/evaluation/options.h"
+#include "bench/tasks/evaluation/common_joints.h"
 #include "engine/base/names.h"
+#include "engine/base/order_statistics.h"
 
 namespace etude {
 namespace {
-
-/// A joint that both motions have, by the joint's index in each motion.
-struct CommonJoint {
-  std::string name;
-  int truth = -1, answer = -1;
-};
-
-/// Returns the joints of the set that both motions have. Adds the others to `lacking`.
-std::vector<CommonJoint> FindCommon(const RawMotion& truth, const RawMotion& answer, std::string_view set,
-                                    std::vector<std::string>& lacking) {
-  std::vector<std::string> names;
-  if (set == "same") {
-    for (std::size_t j = 0; j < truth.joints.size(); ++j) {
-      if (std::ranges::find(truth.added, static_cast<int>(j)) == truth.added.end()) names.push_back(truth.joints[j]);
-    }
-  } else if (set == "roles") {
-    for (const Role role : AllRoles()) names.emplace_back(RoleName(role));
-  } else {
-    names = JointsOfSet(set);
-  }
-  std::vector<CommonJoint> common;
-  for (const std::string& name : names) {
-    const auto index_in = [&](const RawMotion& motion) {
-      if (set != "same") return motion.Find(name);
-      const auto found = std::ranges::find(motion.joints, name);
-      return found == motion.joints.end() ? -1 : static_cast<int>(found - motion.joints.begin());
-    };
-    const CommonJoint joint{name, index_in(truth), index_in(answer)};
-    joint.truth >= 0 && joint.answer >= 0 ? common.push_back(joint) : lacking.push_back(name);
-  }
-  return common;
-}
 
 /// Returns the positions of these joints in the first `frames` frames.
 PointTracks Columns(const RawMotion& motion, const std::vector<int>& joints, std::size_t frames) {
@@ -76,15 +45,6 @@ PointTracks RoleColumns(const RawMotion& motion, std::initializer_list<Role> rol
   for (const Role role : roles) joints.push_back(motion.roles[Index(role)]);
   const bool has_all = std::ranges::none_of(joints, [](int joint) { return joint < 0; });
   return has_all ? Columns(motion, joints, frames) : PointTracks{};
-}
-
-/// Returns the motion with a root that the other motion has too: its own root if both files have one, otherwise the
-/// midpoint of the hips. `changed` holds the result if it differs from `motion`.
-const RawMotion& WithCommonRoot(const RawMotion& motion, const RawMotion& other, RawMotion& changed) {
-  if (!HasOwnRoot(motion) || HasOwnRoot(other)) return motion;
-  changed = motion;
-  AddMidwayHips(changed);
-  return changed;
 }
 
 /// Finds the knees and elbows for which all three joints (above, middle, below) are among the judged joints.
@@ -162,13 +122,6 @@ std::vector<int> FindParents(const std::vector<CommonJoint>& joints, const RawMo
   return parents;
 }
 
-/// Returns the names of the first eight joints as text.
-std::string SomeOf(const std::vector<std::string>& names) {
-  constexpr std::size_t kMost = 8;
-  const std::size_t count = std::min(names.size(), kMost);
-  return Join(std::span(names).first(count)) + (count < names.size() ? ", …" : "");
-}
-
 /// Returns true if the rates, which files state with rounding, drift apart by less than a hundredth of a frame over the
 /// length of the truth.
 bool HaveSameRate(const RawMotion& truth, const RawMotion& answer) {
@@ -186,6 +139,7 @@ struct ClockOffset {
 /// first frames count as simultaneous. If the offset differs from whole frames by less than a tenth of a frame, it is
 /// rounded.
 ClockOffset OffsetOf(const RawMotion& truth, const RawMotion& answer) {
+  constexpr const char* kByClocks = ": judged by these clocks (--lag find searches the lag)";
   constexpr double kSame = 0.1;  // tolerance, frames
   const double truth_s = truth.start_s.value_or(0), answer_s = answer.start_s.value_or(0);
   const double frames = (answer_s - truth_s) * truth.rate_hz;
@@ -201,10 +155,10 @@ ClockOffset OffsetOf(const RawMotion& truth, const RawMotion& answer) {
   };
   const bool overlap = answer_s <= end_of(truth, truth_s) && truth_s <= end_of(answer, answer_s);
   if (!truth.start_s || !answer.start_s || !overlap)
-    return {0, both + ": their first frames are taken as simultaneous"};
+    return {0, both + ": their first frames are taken as simultaneous (--lag find searches the lag)"};
   const bool is_whole = HaveSameRate(truth, answer) && std::abs(frames - std::round(frames)) < kSame;
-  if (is_whole) return {std::round(frames) / answer.rate_hz, both + ": judged by these clocks"};
-  return {frames / truth.rate_hz, both + ": judged by these clocks, and the answer is interpolated linearly"};
+  if (is_whole) return {std::round(frames) / answer.rate_hz, both + kByClocks};
+  return {frames / truth.rate_hz, both + kByClocks + ", and the answer is interpolated linearly"};
 }
 
 /// Describes the lag, e.g. "the answer is 40.20 ms late (95 %: 39.80 to 40.60), which was removed".
@@ -229,6 +183,35 @@ std::string NoteOnRoots(const RawMotion& truth, const RawMotion& answer) {
   return a == b ? ", root " + a : fmt::format(", root {} of the truth, {} of the answer", a, b);
 }
 
+/// Returns a note on joints that stay at one distance from the truth, far beyond the error of the others: they may be
+/// different points of the body. "" if there are none.
+std::string NoteOnStrangers(const MatchedMotions& matched) {
+  constexpr double kMin_m = 0.05, kTimes = 4, kSteady = 0.25;  // tolerances (ours)
+  const std::size_t joints = matched.joints.size();
+  std::vector<double> means, spreads;
+  for (std::size_t j = 0; j < joints; ++j) {
+    double count = 0, sum = 0, squares = 0;
+    for (std::size_t at = j; at < matched.pair.truth.positions.size(); at += joints) {
+      const double error = glm::distance(matched.pair.truth.positions[at], matched.pair.found.positions[at]);
+      if (std::isnan(error)) continue;
+      count += 1;
+      sum += error;
+      squares += error * error;
+    }
+    means.push_back(count > 0 ? sum / count : 0);
+    spreads.push_back(count > 0 ? std::sqrt(std::max(squares / count - means.back() * means.back(), 0.0)) : 0);
+  }
+  const double median = Median(means);
+  std::vector<std::string> strangers;
+  for (std::size_t j = 0; j < joints; ++j) {
+    if (means[j] < std::max(kMin_m, kTimes * median) || spreads[j] > kSteady * means[j]) continue;
+    strangers.push_back(fmt::format("{} {:.0f} mm", matched.joints[j], 1000 * means[j]));
+  }
+  if (strangers.empty()) return "";
+  return fmt::format(", {} away, all frames alike (median joint {:.1f} mm): the same point in both files?",
+                     SomeOf(strangers), 1000 * median);
+}
+
 std::string NoteOn(const RawMotion& truth, const RawMotion& answer, const std::string& clock,
                    const MatchedMotions& matched) {
   const auto count = [](auto number, std::string_view thing) {
@@ -236,7 +219,7 @@ std::string NoteOn(const RawMotion& truth, const RawMotion& answer, const std::s
   };
   std::string note = count(matched.joints.size(), "joint");
   if (!matched.lacking.empty()) note += fmt::format(" (the truth or the answer lacks {})", SomeOf(matched.lacking));
-  note += NoteOnRoots(truth, answer);
+  note += NoteOnRoots(truth, answer) + NoteOnStrangers(matched);
   const bool is_resampled = !HaveSameRate(truth, answer) || matched.lag;
   note += fmt::format(", {} at {:g} Hz", count(matched.pair.truth.FrameCount(), "frame"), truth.rate_hz);
   if (is_resampled) note += fmt::format(", the answer was interpolated linearly from {:g} Hz", answer.rate_hz);
@@ -259,14 +242,11 @@ std::string NoteOn(const RawMotion& truth, const RawMotion& answer, const std::s
 Result<MatchedMotions> Match(const RawMotion& given_truth, const RawMotion& given_answer, std::string_view set,
                              Lag lag) {
   RawMotion changed_truth, changed_answer;
-  const RawMotion& truth = WithCommonRoot(given_truth, given_answer, changed_truth);
-  const RawMotion& answer = WithCommonRoot(given_answer, given_truth, changed_answer);
+  const auto both = WithCommonRoles(given_truth, given_answer, changed_truth, changed_answer);
+  const RawMotion &truth = both.first, &answer = both.second;
   MatchedMotions matched;
   const std::vector<CommonJoint> common = FindCommon(truth, answer, set, matched.lacking);
-  if (common.empty()) {
-    return Fail({answer.name}, "has no joint in common with '{}' (joints: {}): {} and {}", truth.name, set,
-                SomeOf(answer.joints), SomeOf(truth.joints));
-  }
+  RETURN_IF_ERROR(CheckCommon(truth, answer, common.size(), set));
   std::vector<int> of_truth, of_answer;
   for (const CommonJoint& joint : common) {
     matched.joints.push_back(joint.name);

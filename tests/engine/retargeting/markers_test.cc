@@ -596,6 +596,50 @@ TEST(Markers, OfNoKnownSetAreRefusedWithWhatIsLacking) {
               HasSubstr("are not of a known set (nearest: Etude's joints lacks left_knee); known: "));
 }
 
+/// Markers with names of a skeleton of Bandai-Namco; the neck is no needed joint.
+const std::vector<Placed> kOfASkeleton = {
+    {"UpperArm_L", Role::kLeftShoulder},  {"LowerArm_L", Role::kLeftElbow},  {"Hand_L", Role::kLeftWrist},
+    {"UpperLeg_L", Role::kLeftHip},       {"LowerLeg_L", Role::kLeftKnee},   {"Foot_L", Role::kLeftAnkle},
+    {"UpperArm_R", Role::kRightShoulder}, {"LowerArm_R", Role::kRightElbow}, {"Hand_R", Role::kRightWrist},
+    {"UpperLeg_R", Role::kRightHip},      {"LowerLeg_R", Role::kRightKnee},  {"Foot_R", Role::kRightAnkle},
+    {"Neck", Role::kShoulderCentre}};
+
+TEST(Markers, WithTheNamesOfASkeletonsJointsAreABody) {
+  ASSERT_OK(bodies, FindMarkerBodies(Take(kOfASkeleton), "a.trc", {.keeps_shown = true}));
+  const MarkerBody& body = bodies->front();
+  EXPECT_THAT(body.Note(), HasSubstr("joint names of a skeleton; placed by rule: hip_centre, spine, shoulder_centre"));
+  for (const Role role : kNeededJoints) {
+    EXPECT_NEAR(body.motion.poses[7][role].x, StandingAt(7)[role].x, 1e-12);
+    EXPECT_EQ(body.shown.At(7, body.shown.roles[Index(role)]), StandingAt(7)[role]);
+  }
+  EXPECT_EQ(body.shown.joints[body.shown.roles[Index(Role::kLeftElbow)]], "LowerArm_L") << "its own name";
+  EXPECT_EQ(body.shown.roles[Index(Role::kShoulderCentre)], -1);
+}
+
+TEST(Markers, PlayTheRolesThatTheUserGives) {
+  std::vector<Placed> odd = kOfASkeleton;
+  MarkerOptions options{.keeps_shown = true};
+  for (Placed& one : odd) {
+    one.name = "Q" + std::to_string(options.roles.size());
+    options.roles[one.role] = one.name;
+  }
+  EXPECT_THAT(testing::Refusal(FindMarkerBodies(Take(odd), "a.trc")),
+              HasSubstr("a joint map (--joint-map) states which"));
+  ASSERT_OK(bodies, FindMarkerBodies(Take(odd), "a.trc", options));
+  EXPECT_THAT(bodies->front().Note(), HasSubstr("the joint map; placed by rule: hip_centre, spine, head"));
+  EXPECT_EQ(bodies->front().shown.At(7, bodies->front().shown.roles[Index(Role::kShoulderCentre)]),
+            StandingAt(7)[Role::kShoulderCentre]);
+  // The user's role replaces that of a known set, whose other rules remain. Names that the file lacks are another's.
+  ASSERT_OK(known, FindMarkerBodies(Take(kOfASkeleton), "a.trc",
+                                    {.roles = {{Role::kLeftWrist, "LowerArm_L"}, {Role::kHead, "no such"}}}));
+  EXPECT_THAT(known->front().Note(), HasSubstr("the joint map, and joint names of a skeleton"));
+  EXPECT_EQ(known->front().motion.poses[7][Role::kLeftWrist], known->front().motion.poses[7][Role::kLeftElbow]);
+  // An incomplete map is refused with what it lacks.
+  options.roles.erase(Role::kLeftKnee);
+  EXPECT_THAT(testing::Refusal(FindMarkerBodies(Take(odd), "a.trc", options)),
+              HasSubstr("(nearest: the joint map lacks left_knee)"));
+}
+
 TEST(Markers, ThatLieOnEachOtherGiveNoNumberThatIsNone) {
   auto take = OwnJoints();
   for (auto& frame : take.frames) {

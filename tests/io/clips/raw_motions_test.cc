@@ -104,6 +104,96 @@ TEST_F(RawMotionsTest, ArraysOfAnyJointsAreABodyByTheirNames) {
   EXPECT_NEAR(glm::distance(smaller->motion.poses[7][Role::kHead], 0.9 * body->motion.poses[7][Role::kHead]), 0, 1e-9);
 }
 
+/// A recording in the names of HALPE_26, as markers in metres; the head is the middle of nose and crown.
+MarkerMotion Keypoints() {
+  const BodyPose pose = StandingPose();
+  MarkerMotion markers{.rate_hz = 60, .names = {"Nose", "Head", "Neck", "Hip"}, .frames = {}};
+  const glm::dvec3 up(0, 0.1, 0);
+  std::vector<std::optional<glm::dvec3>> row = {pose[Role::kHead] - up, pose[Role::kHead] + up,
+                                                pose[Role::kShoulderCentre], pose[Role::kHipCentre]};
+  using enum Role;
+  for (const auto& [name, role] : {std::pair("Shoulder", kLeftShoulder),
+                                   {"Elbow", kLeftElbow},
+                                   {"Wrist", kLeftWrist},
+                                   {"Hip", kLeftHip},
+                                   {"Knee", kLeftKnee},
+                                   {"Ankle", kLeftAnkle}}) {
+    for (const bool is_left : {true, false}) {
+      markers.names.push_back((is_left ? "L" : "R") + std::string(name));
+      row.emplace_back(pose[is_left ? role : Mirrored(role)]);
+    }
+  }
+  markers.frames.assign(5, row);
+  return markers;
+}
+
+std::string NpzOf(const MarkerMotion& markers) {
+  NumberArray positions{.shape = {markers.frames.size(), markers.names.size(), 3}, .values = {}};
+  for (const auto& frame : markers.frames) {
+    for (const auto& place : frame) positions.values.insert(positions.values.end(), {place->x, place->y, place->z});
+  }
+  return WriteNpz({{"positions", positions}, {"rate_hz", {.shape = {}, .values = {markers.rate_hz}}}},
+                  {{"names", markers.names}});
+}
+
+TEST_F(RawMotionsTest, ArraysAndMarkersOfTheSameNamesAreTheSameJoints) {
+  const RawMotion trc = Opened(Write("a.trc", WriteTrc(Keypoints(), "a")));
+  const RawMotion npz = Opened(Write("a.npz", NpzOf(Keypoints())));
+  const BodyPose pose = StandingPose();
+  for (const RawMotion& raw : {trc, npz}) {
+    EXPECT_EQ(raw.rate_hz, 60);
+    EXPECT_THAT(raw.notes.front(), HasSubstr("markers: HALPE_26"));
+    for (const Role role : {Role::kHead, Role::kShoulderCentre, Role::kLeftKnee, Role::kRightWrist}) {
+      EXPECT_NEAR(glm::distance(raw.At(3, raw.roles[Index(role)]), pose[role]), 0, 1e-5) << RoleName(role);
+    }
+    EXPECT_EQ(raw.roles[Index(Role::kSpine)], -1);
+    // The file's own joints keep their names, for `joints: same`; only the head is computed.
+    for (const std::string& name : Keypoints().names) EXPECT_EQ(std::ranges::count(raw.joints, name), 1) << name;
+    ASSERT_EQ(raw.added.size(), 1u);
+    EXPECT_EQ(raw.added.front(), raw.roles[Index(Role::kHead)]);
+  }
+}
+
+TEST_F(RawMotionsTest, MarkersOfNoKnownSetHaveNoRolesUnlessAJointMapNamesThem) {
+  MarkerMotion odd = Keypoints();
+  for (std::string& name : odd.names) name = "Q " + name;
+  for (auto& frame : odd.frames) {
+    for (auto& place : frame) *place = {place->x, -place->z, place->y};  // Z up
+  }
+  const std::string trc = Write("a.trc", WriteTrc(odd, "a"));
+  OpenOptions told;
+  told.body.up = UpAxis::kZ;
+  auto raw = OpenRawMotion(trc, told);
+  ASSERT_TRUE(raw) << ToString(raw.error());
+  EXPECT_EQ(raw->roles, RawMotion::NoRoles());
+  EXPECT_EQ(raw->joints, odd.names);
+  EXPECT_NEAR(glm::distance(raw->At(2, 2), StandingPose()[Role::kShoulderCentre]), 0, 1e-5) << "metres, Y up";
+  ASSERT_EQ(raw->notes.size(), 2u);
+  EXPECT_THAT(raw->notes[0], HasSubstr("its markers (Q Nose, Q Head, "));
+  EXPECT_EQ(raw->notes[1], "Z is up (told)");
+  // For any use but a comparison, they are no body.
+  EXPECT_THAT(testing::Refusal(OpenBodyInPlace(trc, told)), HasSubstr("are not of a known set"));
+  // A map of the needed joints makes them one, in a marker file as in an array.
+  told.roles.emplace();
+  using enum Role;
+  for (const auto& [name, role] : {std::pair("Shoulder", kLeftShoulder),
+                                   {"Elbow", kLeftElbow},
+                                   {"Wrist", kLeftWrist},
+                                   {"Hip", kLeftHip},
+                                   {"Knee", kLeftKnee},
+                                   {"Ankle", kLeftAnkle}}) {
+    told.roles->joints[role] = {"Q L" + std::string(name), {}};
+    told.roles->joints[Mirrored(role)] = {"Q R" + std::string(name), {}};
+  }
+  for (const std::string& file : {trc, Write("a.npz", NpzOf(odd))}) {
+    const auto mapped = OpenRawMotion(file, told);
+    ASSERT_TRUE(mapped) << ToString(mapped.error());
+    EXPECT_NEAR(glm::distance(mapped->At(1, mapped->roles[Index(kLeftKnee)]), StandingPose()[kLeftKnee]), 0, 1e-5);
+    EXPECT_THAT(mapped->notes.front(), HasSubstr("markers: the joint map"));
+    EXPECT_TRUE(OpenBodyInPlace(file, told));
+  }
+}
+
 TEST_F(RawMotionsTest, JointsPlacedByRulePlayNoRole) {
   MarkerMotion markers{.rate_hz = 30, .names = {}, .frames = {std::vector<std::optional<glm::dvec3>>()}};
   const BodyPose pose = StandingPose();

@@ -8,6 +8,7 @@
 #include "bench/tasks/evaluation/options.h"
 #include "bench/tasks/evaluation/run.h"
 #include "sim/choreography/canonical_body.h"
+#include "tests/support/results.h"
 
 namespace etude {
 namespace {
@@ -148,6 +149,86 @@ TEST(Match, TheRootIsTheFilesOwnIfBothHaveOneElseTheMiddleOfTheHips) {
   }
 }
 
+/// Returns the motion as a skeleton of a file with names of its own: the role spine is played by "Chest", the head's
+/// joint is another than the crown, and further joints play no role.
+RawMotion AsSkeleton(const RawMotion& motion) {
+  RawMotion own = motion;
+  for (const Role role : AllRoles()) own.joints[Index(role)] = "bone " + std::to_string(Index(role));
+  own.joints[Index(Role::kSpine)] = "Chest";
+  own.joints[Index(Role::kHead)] = "Head_End";
+  own.parents.assign(own.joints.size(), 0);
+  own.parents[0] = -1;
+  own.added = {static_cast<int>(Index(Role::kHead))};
+  return own;
+}
+
+TEST(Match, MarkersNamedAsASkeletonsJointsHaveTheirRoles) {
+  const RawMotion truth = AsSkeleton(Gliding(30, 5));
+  // The same points without the End Site. A joint called "spine" is another than the skeleton's spine, by 40 cm.
+  RawMotion answer = truth;
+  answer.parents.clear();
+  answer.added.clear();
+  answer.joints[Index(Role::kHead)] = "spine";
+  answer.roles = RawMotion::NoRoles();
+  answer.roles[Index(Role::kSpine)] = static_cast<int>(Index(Role::kHead));
+  for (glm::dvec3& p : answer.positions) p.x += 0.012;
+  for (const auto& [a, b] : {std::pair(truth, answer), {answer, truth}}) {
+    const CellResult result = Judged(a, b);
+    EXPECT_NEAR(ValueIn(result, "mpjpe_unaligned_mm"), 12, 1e-9);
+    EXPECT_NEAR(ValueIn(result, "mpjpe_root_mm"), 0, 1e-9);
+    EXPECT_THAT(result.reason, HasSubstr("19 joints (the truth or the answer lacks head), root bone 0"));
+  }
+  // If one needed joint has no namesake, the names are not those of the skeleton: the lone spine is refused.
+  answer.joints[Index(Role::kLeftKnee)] = "knee";
+  EXPECT_THAT(testing::Refusal(Match(truth, answer, "roles", Lag::kNone)),
+              HasSubstr("has 1 joint in common with the truth (joints: roles), but its joints are bone 0, Chest, "));
+}
+
+TEST(Match, FewJointsAreRefusedIfTheFilesNameManyMore) {
+  const RawMotion truth = Gliding(30, 5);
+  const auto only = [&](std::size_t with_role, std::size_t without) {
+    RawMotion motion = truth;
+    for (std::size_t i = with_role; i < kRoleCount; ++i) motion.roles[i] = -1;
+    std::vector<glm::dvec3> kept;
+    for (std::size_t f = 0; f < 5; ++f) {
+      for (std::size_t i = 0; i < with_role + without; ++i) kept.push_back(truth.At(f, i));
+    }
+    motion.joints.resize(with_role + without);
+    motion.positions = kept;
+    return motion;
+  };
+  EXPECT_EQ(Match(truth, only(3, 0), "roles", Lag::kNone)->joints.size(), 3u) << "head and hands, say";
+  EXPECT_EQ(Match(truth, only(3, 3), "roles", Lag::kNone)->joints.size(), 3u) << "half of the names";
+  EXPECT_EQ(Match(truth, only(12, 8), "roles", Lag::kNone)->joints.size(), 12u);
+  EXPECT_THAT(testing::Refusal(Match(truth, only(3, 4), "roles", Lag::kNone)),
+              HasSubstr("only 3 joints in common with the truth (joints: roles), but its joints are hip_centre, "));
+  EXPECT_THAT(testing::Refusal(Match(only(3, 4), truth, "roles", Lag::kNone)),
+              HasSubstr("only 3 joints in common with the answer (joints: roles)"));
+  EXPECT_EQ(Match(truth, only(3, 4), "same", Lag::kNone)->joints.size(), 7u) << "by name, all take part";
+}
+
+TEST(Match, AJointThatIsAnotherPointOfTheBodyIsNamed) {
+  const auto off_by = [](Role role, double metres, double all) {
+    RawMotion motion = Gliding(30, 30);
+    unsigned state = 7;
+    for (std::size_t at = 0; at < motion.positions.size(); ++at) {
+      state = state * 1664525u + 1013904223u;
+      motion.positions[at].x += all * (0.5 + static_cast<double>(state >> 8) / 16777216.0);
+      if (at % kRoleCount == static_cast<std::size_t>(Index(role))) motion.positions[at].y += metres;
+    }
+    return motion;
+  };
+  const auto said =
+      HasSubstr("head 101 mm away, all frames alike (median joint 9.9 mm): the same point in both files?");
+  EXPECT_THAT(Judged(Gliding(30, 30), off_by(Role::kHead, 0.1, 0.01)).reason, said);
+  // Not if the whole body is away, or if the joint comes and goes.
+  const auto silent = ::testing::Not(HasSubstr("the same point"));
+  EXPECT_THAT(Judged(Gliding(30, 30), off_by(Role::kHead, 0.1, 0.1)).reason, silent);
+  RawMotion flickering = off_by(Role::kHead, 0, 0.01);
+  for (std::size_t f = 0; f < 30; f += 2) flickering.positions[f * kRoleCount + Index(Role::kHead)].y += 0.4;
+  EXPECT_THAT(Judged(Gliding(30, 30), flickering).reason, silent);
+}
+
 TEST(Match, FailsWithoutACommonJointOrAnySeen) {
   RawMotion others = Gliding(30, 3);
   others.roles = RawMotion::NoRoles();
@@ -283,15 +364,16 @@ TEST(Match, TimesOfOneClockBelongTogether) {
   EXPECT_NEAR(ValueIn(later, "mpjpe_unaligned_mm"), 0, 1e-9);
   EXPECT_EQ(ValueIn(later, "seen_share"), 0.5);
   EXPECT_THAT(later.reason,
-              HasSubstr("the truth begins at 10 s, the answer begins at 11 s: judged by these clocks, 30 frames of "
-                        "the truth outside the answer"));
+              HasSubstr("the truth begins at 10 s, the answer begins at 11 s: judged by these clocks (--lag find "
+                        "searches the lag), 30 frames of the truth outside the answer"));
   EXPECT_THAT(Judged(begins(1.7e9, 60), begins(1.7e9 + 1.25, 30)).reason,
               HasSubstr("the truth begins at 1700000000 s, the answer begins at 1700000001.25 s: judged by"));
   // The answer begins before the truth by a fraction of a frame, and has another rate.
   EXPECT_NEAR(ValueIn(Judged(truth, moved(begins(9.5, 90), -0.5)), "mpjpe_unaligned_mm"), 0, 1e-9);
   const CellResult between = Judged(truth, moved(begins(10.01, 60), 0.01));
   EXPECT_NEAR(ValueIn(between, "mpjpe_unaligned_mm"), 0, 1e-9);
-  EXPECT_THAT(between.reason, HasSubstr("by these clocks, and the answer is interpolated linearly"));
+  EXPECT_THAT(between.reason,
+              HasSubstr("by these clocks (--lag find searches the lag), and the answer is interpolated linearly"));
   EXPECT_NEAR(ValueIn(Judged(truth, moved(begins(10.5, 50, 50), 0.5)), "mpjpe_unaligned_mm"), 0, 1e-9);
   // If a clock is missing, or the two have no time in common, the first frames are matched.
   const CellResult none = Judged(truth, Gliding(30, 60));

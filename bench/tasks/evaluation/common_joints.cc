@@ -1,0 +1,110 @@
+#include "bench/tasks/evaluation/common_joints.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <span>
+
+#include "bench/tasks/evaluation/options.h"
+#include "engine/base/names.h"
+#include "engine/retargeting/marker_sets.h"
+
+namespace etude {
+
+std::vector<CommonJoint> FindCommon(const RawMotion& truth, const RawMotion& answer, std::string_view set,
+                                    std::vector<std::string>& lacking) {
+  std::vector<std::string> names;
+  if (set == "same") {
+    for (std::size_t j = 0; j < truth.joints.size(); ++j) {
+      if (std::ranges::find(truth.added, static_cast<int>(j)) == truth.added.end()) names.push_back(truth.joints[j]);
+    }
+  } else if (set == "roles") {
+    for (const Role role : AllRoles()) names.emplace_back(RoleName(role));
+  } else {
+    names = JointsOfSet(set);
+  }
+  std::vector<CommonJoint> common;
+  for (const std::string& name : names) {
+    const auto index_in = [&](const RawMotion& motion) {
+      if (set != "same") return motion.Find(name);
+      const auto found = std::ranges::find(motion.joints, name);
+      return found == motion.joints.end() ? -1 : static_cast<int>(found - motion.joints.begin());
+    };
+    const CommonJoint joint{name, index_in(truth), index_in(answer)};
+    joint.truth >= 0 && joint.answer >= 0 ? common.push_back(joint) : lacking.push_back(name);
+  }
+  return common;
+}
+
+std::string SomeOf(const std::vector<std::string>& names) {
+  constexpr std::size_t kMost = 8;
+  const std::size_t count = std::min(names.size(), kMost);
+  return Join(std::span(names).first(count)) + (count < names.size() ? ", …" : "");
+}
+
+Result<void> CheckCommon(const RawMotion& truth, const RawMotion& answer, std::size_t common, std::string_view set) {
+  const auto own = [](const RawMotion& motion) { return motion.joints.size() - motion.added.size(); };
+  const bool is_few = set != "same" && common < kNeededJoints.size() && 2 * common < std::min(own(truth), own(answer));
+  if (common > 0 && !is_few) return {};
+  if (set == "same") {
+    return Fail({answer.name}, "has no joint in common with the truth (joints: same): {} and {}", SomeOf(answer.joints),
+                SomeOf(truth.joints));
+  }
+  const auto with_role = [](const RawMotion& motion) {
+    return std::ranges::count_if(motion.roles, [](int joint) { return joint >= 0; });
+  };
+  const bool is_of_answer = with_role(answer) <= with_role(truth);
+  const RawMotion& unknown = is_of_answer ? answer : truth;
+  return Fail({unknown.name},
+              "has {} common with the {} (joints: {}), but its joints are {}; a joint map (--joint-map) states their "
+              "roles, and --joints same compares equal names{}{}",
+              common == 0   ? "no joint in"
+              : common == 1 ? "1 joint in"
+                            : fmt::format("only {} joints in", common),
+              is_of_answer ? "truth" : "answer", set, SomeOf(unknown.joints), unknown.notes.empty() ? "" : "; ",
+              Join(unknown.notes, "; "));
+}
+
+namespace {
+
+/// Returns the motion with the other's roles if only the other has a skeleton and its needed joints all have namesakes.
+/// `changed` holds the result if it differs from `motion`.
+const RawMotion& WithRolesOfNamesakes(const RawMotion& motion, const RawMotion& other, RawMotion& changed) {
+  if (!motion.parents.empty() || other.parents.empty()) return motion;
+  auto roles = RawMotion::NoRoles();
+  for (const Role role : AllRoles()) {
+    const int theirs = other.roles[Index(role)];
+    if (theirs < 0) continue;
+    const auto mine = std::ranges::find(motion.joints, other.joints[static_cast<std::size_t>(theirs)]);
+    if (mine != motion.joints.end()) roles[Index(role)] = static_cast<int>(mine - motion.joints.begin());
+  }
+  if (std::ranges::any_of(kNeededJoints, [&](Role role) { return roles[Index(role)] < 0; })) return motion;
+  if (roles == motion.roles) return motion;
+  changed = motion;
+  changed.roles = roles;
+  if (roles[Index(Role::kHipCentre)] < 0) AddMidwayHips(changed);
+  changed.notes.push_back("with the roles of the skeleton's joints of the same names");
+  return changed;
+}
+
+/// Returns the motion with the midpoint of the hips as its root. `changed` holds the result if it differs from
+/// `motion`.
+const RawMotion& WithMidwayRoot(const RawMotion& motion, RawMotion& changed) {
+  if (!HasOwnRoot(motion)) return motion;
+  if (&motion != &changed) changed = motion;
+  AddMidwayHips(changed);
+  return changed;
+}
+
+}  // namespace
+
+std::pair<const RawMotion&, const RawMotion&> WithCommonRoles(const RawMotion& truth, const RawMotion& answer,
+                                                              RawMotion& changed_truth, RawMotion& changed_answer) {
+  const RawMotion& true_roles = WithRolesOfNamesakes(truth, answer, changed_truth);
+  const RawMotion& found_roles = WithRolesOfNamesakes(answer, truth, changed_answer);
+  const bool has_truth = HasOwnRoot(true_roles), has_answer = HasOwnRoot(found_roles);
+  return {has_answer ? true_roles : WithMidwayRoot(true_roles, changed_truth),
+          has_truth ? found_roles : WithMidwayRoot(found_roles, changed_answer)};
+}
+
+}  // namespace etude

@@ -1,0 +1,57 @@
+#include "cli/pair_notes.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <span>
+#include <string_view>
+
+#include "bench/model/reasons.h"
+#include "bench/results/folder.h"
+#include "bench/results/row_json.h"
+#include "io/files/json.h"
+
+namespace etude {
+
+void NoteKinds::Add(const std::string& method, const std::string& head, const std::string& reason) {
+  const auto [place, is_new] = places_.emplace(method + ": " + KindOfReason(reason), kinds_.size());
+  if (is_new) kinds_.emplace_back(head + ": " + reason, 0);
+  ++kinds_[place->second].second;
+}
+
+std::vector<std::string> NoteKinds::Lines() const {
+  std::vector<std::string> lines;
+  for (const auto& [line, count] : kinds_) {
+    lines.push_back(count == 1 ? line : fmt::format("{} (and {} more like it)", line, count - 1));
+  }
+  return lines;
+}
+
+Result<PairNotes> ReadPairNotes(const std::filesystem::path& folder) {
+  PairNotes notes;
+  RETURN_IF_ERROR(WriteRows(folder, Sealing::kRequired, [&](std::string_view text) -> Result<void> {
+    ASSIGN_OR_RETURN(const auto json, ReadJson(std::string(text), folder.string()));
+    ASSIGN_OR_RETURN(const auto row, DecodeRow(json, {folder.string()}));
+    const std::string under = row.condition.empty() ? "" : ", " + ConditionLabel(row.condition);
+    const std::string head = fmt::format("{}, {}{}", row.method, row.clip, under);
+    const bool is_judged = row.result.status == Status::kOk;
+    (is_judged ? notes.judged : notes.not_judged).Add(row.method + under, head, row.result.reason);
+    if (!is_judged) notes.every_not_judged.push_back(head + ": " + row.result.reason);
+    return {};
+  }));
+  return notes;
+}
+
+void PrintPairNotes(const PairNotes& notes) {
+  const auto print = [](const std::vector<std::string>& lines) {
+    constexpr std::size_t kMaxLines = 10;
+    for (const std::string& line : std::span(lines).first(std::min(lines.size(), kMaxLines)))
+      fmt::print("  {}\n", line);
+    if (lines.size() > kMaxLines) fmt::print("  and {} more kinds of notes: etude rows\n", lines.size() - kMaxLines);
+  };
+  print(notes.judged.Lines());
+  if (!notes.every_not_judged.empty()) fmt::print("{} not judged:\n", notes.every_not_judged.size());
+  print(notes.not_judged.Lines());
+}
+
+}  // namespace etude

@@ -1,0 +1,38 @@
+#pragma once
+
+#include <filesystem>
+#include <map>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "engine/base/result.h"
+
+namespace etude {
+
+/// Notes by their kind (KindOfReason).
+class NoteKinds {
+ public:
+  /// Adds the note "`head`: `reason`". Notes of different methods are of different kinds.
+  void Add(const std::string& method, const std::string& head, const std::string& reason);
+  /// Returns the first note of each kind as "METHOD, PAIR: reason", with the number of the others.
+  std::vector<std::string> Lines() const;
+
+ private:
+  std::vector<std::pair<std::string, std::size_t>> kinds_;
+  std::map<std::string, std::size_t> places_;  ///< the index in `kinds_` of each kind
+};
+
+/// The notes in a run's rows on pairs of files.
+struct PairNotes {
+  NoteKinds judged;                           ///< what was judged, and how answers were changed
+  NoteKinds not_judged;                       ///< why pairs could not be judged
+  std::vector<std::string> every_not_judged;  ///< one line "METHOD, PAIR: reason" for each such pair
+};
+
+/// Collects the notes of a run, row by row.
+Result<PairNotes> ReadPairNotes(const std::filesystem::path& folder);
+/// Prints at most ten kinds of notes on judged pairs, then of notes on others.
+void PrintPairNotes(const PairNotes& notes);
+
+}  // namespace etude
