@@ -250,7 +250,7 @@ CLI::Option* AddUp(CLI::App& command, const std::string& of, std::string& clip_f
       .add_option_function<std::string>(
           "--up", [&clip_facts](const std::string& value) { clip_facts += "up: " + value + "\n"; },
           "Axis of the " + of + " that points up (default: found)")
-      ->check(CLI::IsMember({"y", "z"}));
+      ->check(OneOf({"y", "z"}));
 }
 
 std::array<CLI::Option*, 9> AddWorldOptions(CLI::App& command, std::optional<std::uint64_t>& seed,

@@ -117,6 +117,8 @@ void PrintSpotting(const Spotting& spotting, const Taught& taught, double rate_h
   std::fflush(stdout);
 }
 
+void TellNothing() { fmt::print(stderr, "no move was spotted\n"); }
+
 /// Recognises moves in the skeletons that standard input delivers line by line, until the input ends.
 Result<int> RecogniseLive(const RecogniseCommandOptions& options, const Taught& taught) {
   // Set up the reader of lines, and the watcher that recognises moves.
@@ -124,6 +126,7 @@ Result<int> RecogniseLive(const RecogniseCommandOptions& options, const Taught& 
   LiveStream live("standard input", options.reading.Reading(), making);
   StreamWatcher watcher(*taught.recogniser, taught.moves.size(), taught.watch, making.rate_hz);
   bool has_begun = false;
+  std::size_t spotted = 0;
   // Report the reader's remark once, and every move that is spotted.
   const auto take = [&](const std::vector<SensedFrame>& frames) {
     if (!has_begun && !frames.empty()) {
@@ -132,6 +135,7 @@ Result<int> RecogniseLive(const RecogniseCommandOptions& options, const Taught& 
     }
     for (const SensedFrame& frame : frames) {
       for (const Spotting& spotting : watcher.Take(frame)) {
+        ++spotted;
         PrintSpotting(spotting, taught, making.rate_hz, "");
       }
     }
@@ -147,6 +151,7 @@ Result<int> RecogniseLive(const RecogniseCommandOptions& options, const Taught& 
   const auto finished = live.Finish(frames);
   take(frames);
   RETURN_IF_ERROR(finished);
+  if (spotted == 0) TellNothing();
   return kSuccess;
 }
 
@@ -158,7 +163,13 @@ Result<void> Print(const LabelScores& scores, bool as_json) {
   const std::vector<JudgedEvent>& performances = scores.Performances();
   const Confusion confusion = CountConfusion(performances);
   if (scores.Untaught() > 0) fmt::print(stderr, "{} labels of moves that were not taught\n", scores.Untaught());
-  if (!performances.empty()) {
+  const auto right = std::ranges::count_if(performances, &JudgedEvent::is_right);
+  const auto called = std::ranges::count_if(performances, &JudgedEvent::called_right);
+  if (right == 0 || right == std::ssize(performances)) {
+    // Without right or without wrong performances, F1, precision and AUC say nothing.
+    fmt::print(stderr, "{} performances, {} right by the labels: {} called right\n", performances.size(),
+               right == 0 ? "none" : "all", called);
+  } else {
     fmt::print(stderr, "{} performances: F1 {}, precision {}, recall {}, AUC {}\n", performances.size(),
                Percent(F1(confusion)), Percent(PrecisionOf(confusion)), Percent(RecallOf(confusion)),
                Percent(RocAuc(performances)));
@@ -184,22 +195,18 @@ Result<LoadedStreams> Load(const RecogniseCommandOptions& options) {
   return loaded;
 }
 
-Result<std::vector<LabelledPart>> PartsOf(const RecogniseCommandOptions& options, const LoadedStreams& loaded) {
-  if (options.labels.empty()) return WholeStreams(loaded.streams);
-  ASSIGN_OR_RETURN(const auto labels, LoadLabels(options.labels));
-  return MatchLabels(labels, options.labels, loaded.streams);
-}
-
 Result<int> RecogniseFiles(const RecogniseCommandOptions& options, const Taught& taught) {
   ASSIGN_OR_RETURN(const LoadedStreams loaded, Load(options));
   std::vector<LabelledPart> parts;
   if (!options.labels.empty()) {
-    ASSIGN_OR_RETURN(parts, PartsOf(options, loaded));
+    ASSIGN_OR_RETURN(parts, LoadParts(options.labels, loaded.streams));
   }
+  std::size_t spotted = 0;
   LabelScores scores(taught.moves, *taught.recogniser, taught.watch);
   for (std::size_t s = 0; s < loaded.streams.size(); ++s) {
     const NamedStream& stream = loaded.streams[s];
     const auto spottings = Watch(stream.stream, *taught.recogniser, taught.moves.size(), taught.watch);
+    spotted += spottings.size();
     for (const Spotting& spotting : spottings) {
       PrintSpotting(spotting, taught, stream.stream.rate_hz, loaded.streams.size() > 1 ? stream.name : "");
     }
@@ -207,6 +214,7 @@ Result<int> RecogniseFiles(const RecogniseCommandOptions& options, const Taught&
     std::ranges::copy_if(parts, std::back_inserter(own), [&](const LabelledPart& p) { return p.stream == s; });
     scores.Add(stream, own, spottings);
   }
+  if (spotted == 0) TellNothing();
   if (!options.labels.empty()) RETURN_IF_ERROR(Print(scores, options.as_json));
   return kSuccess;
 }
@@ -231,7 +239,7 @@ Result<int> RecogniseLeavingOneOut(const RecogniseCommandOptions& options) {
   ASSIGN_OR_RETURN(const WatchOptions watch, OptionsOf(options, *FindRecogniser("whole-body")));
   // Load the recordings. Classify each person's recordings with the moves that the other people taught.
   ASSIGN_OR_RETURN(const LoadedStreams loaded, Load(options));
-  ASSIGN_OR_RETURN(const auto parts, PartsOf(options, loaded));
+  ASSIGN_OR_RETURN(const auto parts, LoadParts(options.labels, loaded.streams));
   ASSIGN_OR_RETURN(
       const LeaveOneOut out,
       LeaveOnePersonOut(loaded.streams, parts, options.labels.empty() ? "the recordings" : options.labels, watch));
@@ -287,7 +295,8 @@ void DefineRecognise(CLI::App& app, Action& action) {
   command
       ->add_option(
           "--recogniser", options->recogniser,
-          "The recogniser (default: learnt; key-pose if a move has no example; whole-body with --leave-one-person-out)")
+          "The recogniser (default: whole-body if each move has three examples, and with --leave-one-person-out; "
+          "else learnt; key-pose if a move has no example)")
       ->check(OneOf(RecogniserNames()));
   command->add_option("--filter", options->filter, "Filter that smooths the joints before recognition")
       ->check(OneOf(FilterNames()))

@@ -1,5 +1,7 @@
 #include "cli/stream_reading.h"
 
+#include <fmt/core.h>
+
 #include <CLI/CLI.hpp>
 
 #include "cli/arguments.h"
@@ -22,6 +24,14 @@ void AddStreamReading(CLI::App& command, StreamArguments& reading) {
       ->capture_default_str();
   command.add_flag("--reflect", reading.reflect, "Negate X, for mirrored recordings");
   AddClipReading(command, reading.clips, "");
+}
+
+Result<std::vector<LabelledPart>> LoadParts(const std::string& labels, const std::vector<NamedStream>& streams) {
+  if (labels.empty()) return WholeStreams(streams);
+  ASSIGN_OR_RETURN(const auto loaded, LoadLabels(labels));
+  ASSIGN_OR_RETURN(auto parts, MatchLabels(loaded, labels, streams));
+  for (const std::string& line : DescribeLabels(loaded, labels, streams)) fmt::print(stderr, "{}\n", line);
+  return parts;
 }
 
 StreamReading StreamArguments::Reading() const {

@@ -2,6 +2,7 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
+#include <cmath>
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <set>
@@ -44,11 +45,7 @@ Result<std::vector<TaughtMove>> Teach(const TeachCommandOptions& options) {
   for (const Error& refused : loaded.refused) fmt::print(stderr, "left out: {}\n", ToString(refused));
   for (const NamedStream& stream : loaded.streams)
     fmt::print(stderr, "{}\n", ToString(Error{{stream.source}, stream.description}));
-  std::vector<LabelledPart> parts = WholeStreams(loaded.streams);
-  if (!options.labels.empty()) {
-    ASSIGN_OR_RETURN(const auto labels, LoadLabels(options.labels));
-    ASSIGN_OR_RETURN(parts, MatchLabels(labels, options.labels, loaded.streams));
-  }
+  ASSIGN_OR_RETURN(const auto parts, LoadParts(options.labels, loaded.streams));
   // Leave out the moves that --without names; each of these moves must exist.
   std::set<std::string> moves;
   for (const LabelledPart& part : parts) moves.insert(part.move);
@@ -59,14 +56,18 @@ Result<std::vector<TaughtMove>> Teach(const TeachCommandOptions& options) {
   const auto takes = [&](const LabelledPart& part) {
     return std::ranges::find(options.without, part.move) == options.without.end();
   };
-  return TeachMoves(loaded.streams, parts, takes, true);
+  auto taught = TeachMoves(loaded.streams, parts, takes, true);
+  // Files show whole milliseconds: 3.9, not 3.9000000000000004.
+  constexpr double kMs = 1000;
+  for (TaughtMove& move : taught ? *taught : std::vector<TaughtMove>{}) move.span_s = std::round(kMs * move.span_s) / kMs;
+  return taught;
 }
 
 std::string TargetsText(const TaughtPose& pose) {
   std::vector<std::string> targets;
   for (const PoseTarget& target : pose.targets) {
     targets.push_back(
-        fmt::format("{} {:.0f}±{:.0f}", FeatureName(target.feature), target.degrees, target.tolerance_deg));
+        fmt::format("{} {:.0f}° ± {:.0f}°", FeatureName(target.feature), target.degrees, target.tolerance_deg));
   }
   return Join(targets);
 }

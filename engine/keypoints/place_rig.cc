@@ -78,6 +78,8 @@ std::string CameraOfTheWorld(const RigFile& rig) {
   return {};
 }
 
+constexpr double kStatureOfLeg = 2.0;  // Drillis and Contini 1966: hip 0.53, ankle 0.039 of the stature
+
 /// Returns the stature in the rig's lengths, estimated as twice the median leg (hip to knee to ankle); nullopt if no
 /// frame shows a leg.
 std::optional<double> StatureOf(std::span<const LandmarkPositions> points) {
@@ -91,7 +93,6 @@ std::optional<double> StatureOf(std::span<const LandmarkPositions> points) {
     }
   }
   if (thighs.empty() || shanks.empty()) return std::nullopt;
-  constexpr double kStatureOfLeg = 2.0;  // Drillis and Contini 1966: hip 0.53, ankle 0.039 of the stature
   return kStatureOfLeg * (UpperMedian(thighs) + UpperMedian(shanks));
 }
 
@@ -121,42 +122,47 @@ const LengthUnit* LikelyUnit(double file_units) {
   return nullptr;
 }
 
-constexpr double kUsualStature = 1.7;
+/// Returns words for the legs of a person of this stature. Keypoints of hips and ankles lie inside the limbs' ends, and
+/// people differ, so the legs do not tell the stature to 10 %; only the legs were measured.
+std::string LegsText(double stature) { return fmt::format("legs of {:.3g} m from hip to ankle", stature / kStatureOfLeg); }
 
+/// @param file_units the person's stature, estimated from the legs, in the file's lengths
 Result<double> UnitOf(const RigFile& rig, double file_units, const PlacementOptions& options, std::string& told) {
-  const double factor = kUsualStature / file_units;
+  constexpr double kUsualStature = 1.7;
+  const LengthUnit* likely = rig.has_unit ? LikelyUnit(file_units) : nullptr;
+  const std::string advice =
+      likely != nullptr ? fmt::format("--rig-unit {} makes them {:.3g} m", likely->name,
+                                      likely->metres * file_units / kStatureOfLeg)
+                        : fmt::format("for a person of {:g} m: about --rig-unit {:.2g}", kUsualStature,
+                                      kUsualStature / file_units);
   // A requested unit must give a plausible stature.
   if (options.unit != "auto") {
     const double metres = *MetresOf(options.unit);
     const double stature = metres * file_units;
     if (stature < kMinStature || stature > kMaxStature) {
-      return Fail(
-          {}, "in {} the person would be {:.3g} m tall; allowed: {:g} to {:g} m; for one of {:g} m: --rig-unit {:.4g}",
-          UnitText(metres), stature, kMinStature, kMaxStature, kUsualStature, factor);
+      return Fail({}, "in {} the person would have {}; allowed: {:g} to {:g} m; {}", UnitText(metres),
+                  LegsText(stature), kMinStature / kStatureOfLeg, kMaxStature / kStatureOfLeg, advice);
     }
-    told = fmt::format("lengths in {} (as given; by the legs, a person of about {:.2f} m)", UnitText(metres), stature);
+    told = fmt::format("lengths in {} (as given; {})", UnitText(metres), LegsText(stature));
     return metres;
   }
   if (!rig.has_unit) {
-    return Fail({}, "{}'s lengths have no unit; give one by --rig-unit: for a person of {:g} m it is {:.4g} m",
-                rig.format, kUsualStature, factor);
+    return Fail({}, "{}'s lengths have no unit; give one by --rig-unit: for a person of {:g} m it is about {:.2g} m",
+                rig.format, kUsualStature, kUsualStature / file_units);
   }
   // Keep the format's unit if it gives a plausible stature.
   const double usual = rig.unit_m * file_units;
   if (usual >= kMinStature && usual <= kMaxStature) {
-    told = fmt::format("lengths in {} (by the legs, a person of about {:.2f} m)", UnitText(rig.unit_m), usual);
+    told = fmt::format("lengths in {} ({})", UnitText(rig.unit_m), LegsText(usual));
     return rig.unit_m;
   }
   // Otherwise look for a unit that gives a plausible stature.
-  const LengthUnit* likely = LikelyUnit(file_units);
   if (likely == nullptr) {
-    return Fail({},
-                "the person is {:.4g} units tall, which is not a person's height in m, cm, mm, inch or foot; for one "
-                "of {:g} m use --rig-unit {:.4g}",
-                file_units, kUsualStature, factor);
+    return Fail({}, "the legs are {:.3g} units long from hip to ankle, which no person's are in {}; {}",
+                file_units / kStatureOfLeg, RigUnits(), advice);
   }
-  told = fmt::format("lengths in {} (found: by the legs, a person of about {:.2f} m; in {} it would be {:.4g} m)", likely->name,
-                     likely->metres * file_units, UnitText(rig.unit_m), usual);
+  told = fmt::format("lengths in {} (found: {}; in {} {:.3g} m)", likely->name, LegsText(likely->metres * file_units),
+                     UnitText(rig.unit_m), usual / kStatureOfLeg);
   return likely->metres;
 }
 
@@ -284,7 +290,8 @@ Result<RigPlacement> PlaceRig(const RigFile& rig, std::span<const LandmarkPositi
   const auto stature = StatureOf(points);
   const auto person = PersonsUp(points);
   if (!stature || !person)
-    return Fail({}, "no frame shows hips, knees, ankles and shoulders, so the rig's unit and up axis cannot be found");
+    return Fail({"keypoints"},
+                "no frame shows hips, knees, ankles and shoulders, so the rig's unit and up axis cannot be found");
   RigPlacement place;
   // Choose the unit, then the up axis.
   std::string unit_told;

@@ -32,7 +32,7 @@ struct RigPlacement {
   double scale = 1;
   glm::dmat3 R{1};
   glm::dvec3 shift{0};
-  double stature_m = 0;  ///< the person's stature, from legs and trunk; 0 if no person was used
+  double stature_m = 0;  ///< the person's stature, from the legs, to within 15 %; 0 if no person was used
   std::string told;      ///< explanation for people: "lengths in mm (…), up is -y (…)"
 
   glm::dvec3 operator()(const glm::dvec3& p) const { return scale * (R * p) + shift; }
@@ -45,8 +45,8 @@ struct RigPlacement {
 /// The format's up axis is kept if it is within 35° of the result of `FindUp` and the world is not a camera's frame.
 /// Otherwise the up axis is the axis of the file within 4° of that result (10° if the result is not more accurate), or
 /// else the result itself; `told` then gives its 95 % angle. Fails if no unit gives a plausible stature (the message
-/// names the factor that would), if lengths have no unit, if the up direction is uncertain by more than 35°, and if a
-/// requested axis puts cameras and person upside down.
+/// names the factor that would), if lengths have no unit, if the up direction is uncertain by more than 35°, if a
+/// requested axis puts cameras and person upside down, and, at the place "keypoints", if no frame shows enough.
 /// @param points the points of the person, triangulated with the rig as in its file
 Result<RigPlacement> PlaceRig(const RigFile& rig, std::span<const LandmarkPositions> points, double rate_hz,
                               const PlacementOptions& options);

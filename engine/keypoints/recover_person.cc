@@ -38,8 +38,8 @@ std::optional<double> MedianBone(std::span<const RoleVectors> frames, const Bone
   return (is_below ? kSpineShare : 1 - kSpineShare) * *trunk;
 }
 
-/// Adds a joint named "head" to the clip's skeleton: readers of clips look for one, and in BVH the end of a branch has
-/// no name.
+}  // namespace
+
 void NameHead(CaptureBody& body) {
   const auto head = std::ranges::find(body.skeleton, "head_end", &CaptureBody::ClipJoint::name);
   if (head == body.skeleton.end()) return;
@@ -50,6 +50,8 @@ void NameHead(CaptureBody& body) {
   head->is_end = false;
   body.skeleton.push_back(end);
 }
+
+namespace {
 
 PoseTargets TargetsOf(const RoleVectors& joints, const BodyPose& completed) {
   PoseTargets wanted{.places = completed, .weights = {}};

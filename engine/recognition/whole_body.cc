@@ -19,7 +19,7 @@ constexpr double kInfinity = std::numeric_limits<double>::infinity();
 /// these units.
 constexpr double kJointUnit = 0.08, kLimbUnit = 0.15;
 /// The number of nearest examples whose distances are averaged, because a single example may be unusual.
-constexpr std::size_t kNearestExamples = 3;
+constexpr std::size_t kNearestExamples = kExamplesOfWholeBody;
 
 /// A body in one step: joint positions and limb directions in one array, with a weight per number.
 struct WholePose {

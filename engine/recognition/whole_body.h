@@ -8,6 +8,9 @@
 
 namespace etude {
 
+/// The number of examples of every move from which a whole-body recogniser uses the spread between them.
+inline constexpr std::size_t kExamplesOfWholeBody = 3;
+
 /// Makes a recogniser for recordings of people (ours). It aligns whole bodies with every example and its mirror image
 /// by dynamic time warping. Distances of joints and of limbs are in units of the usual difference between two people
 /// who do the same move. The distance of a move is the mean distance of its three nearest examples. The distances are

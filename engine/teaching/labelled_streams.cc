@@ -4,9 +4,11 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <map>
 #include <regex>
 #include <set>
 
+#include "engine/base/names.h"
 #include "engine/recognition/recognise.h"
 
 namespace etude {
@@ -73,6 +75,53 @@ Result<std::vector<LabelledPart>> MatchLabels(const std::vector<Label>& labels, 
     return a.stream != b.stream ? a.stream < b.stream : a.begin < b.begin;
   });
   return parts;
+}
+
+std::vector<std::string> DescribeLabels(const std::vector<Label>& labels, const std::string& file,
+                                        const std::vector<NamedStream>& streams) {
+  // Find the recordings without a label and the labels without a recording; count the values of `truth`.
+  std::vector<std::string> bare;
+  for (const NamedStream& stream : streams) {
+    if (std::ranges::none_of(labels, [&](const Label& label) { return IsLabelOf(label, stream.name); })) {
+      bare.push_back(stream.name);
+    }
+  }
+  std::map<std::string, int> faults;
+  int right = 0;
+  std::vector<const Label*> lost;
+  for (const Label& label : labels) {
+    const bool is_given =
+        std::ranges::any_of(streams, [&](const NamedStream& stream) { return IsLabelOf(label, stream.name); });
+    if (!is_given) lost.push_back(&label);
+    if (is_given) ++(label.IsRight() ? right : faults[label.fault]);
+  }
+  // Write one line for each kind; of the lost labels, show the first that seems to be a typing error.
+  std::vector<std::string> lines;
+  if (!lost.empty()) {
+    const auto nearest = [&](const Label* label) { return NearestName(label->clip, bare); };
+    const auto typo = std::ranges::find_if(lost, [&](const Label* label) { return !nearest(label).empty(); });
+    const Label* shown = typo == lost.end() ? lost.front() : *typo;
+    std::string line = ToString(Error{{file, shown->line}, fmt::format("no recording {} is given", shown->clip)});
+    if (typo != lost.end()) line += fmt::format("; did you mean {}?", nearest(shown));
+    if (lost.size() > 1) line += fmt::format("; {} such labels are left out", lost.size());
+    lines.push_back(std::move(line));
+  }
+  if (!bare.empty()) {
+    constexpr std::size_t kShown = 3;
+    const std::size_t shown = std::min(kShown, bare.size());
+    lines.push_back(fmt::format("{}: no label for {}{}", file, Join(std::span(bare).first(shown)),
+                                bare.size() > shown ? fmt::format(" and {} more", bare.size() - shown) : ""));
+  }
+  if (!faults.empty()) {
+    std::vector<std::string> truths{fmt::format("right {}", right)};
+    const std::vector<std::string> known{"right"};
+    for (const auto& [fault, count] : faults) {
+      truths.push_back(fmt::format("{} {}{}", fault, count,
+                                   NearestName(fault, known).empty() ? "" : " (a fault; did you mean right?)"));
+    }
+    lines.push_back(fmt::format("{}: truth: {}", file, Join(truths)));
+  }
+  return lines;
 }
 
 std::vector<LabelledPart> WholeStreams(const std::vector<NamedStream>& streams) {

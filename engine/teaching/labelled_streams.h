@@ -45,6 +45,12 @@ struct LabelledPart {
 Result<std::vector<LabelledPart>> MatchLabels(const std::vector<Label>& labels, const std::string& file,
                                               const std::vector<NamedStream>& streams);
 
+/// Describes what `MatchLabels` passes over, one line each: labels of recordings that were not given, with the nearest
+/// name of a recording without a label; recordings without a label; and, if a performance is wrong, how often each
+/// value of `truth` occurs. Empty if there is nothing to tell.
+std::vector<std::string> DescribeLabels(const std::vector<Label>& labels, const std::string& file,
+                                        const std::vector<NamedStream>& streams);
+
 /// For streams without labels: returns one right performance for each stream, which spans the whole stream. The move
 /// has the file's name; for NTU's files it is the action ("A013").
 std::vector<LabelledPart> WholeStreams(const std::vector<NamedStream>& streams);

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "engine/capture/fit_pose.h"
+#include "engine/keypoints/recover_person.h"
 #include "engine/kinematics/capture_body.h"
 #include "engine/motion/rest_body.h"
 #include "engine/silhouettes/silhouette_cost.h"
@@ -283,7 +284,8 @@ class Recovery {
     }
     result.cost /= static_cast<double>((track.frames.size() - result.held) * matrices_.size());
     // Fit a skeleton to the poses, for the clip.
-    ASSIGN_OR_RETURN(const CaptureBody body, FittedBody(RestBodyOf(result.motion.poses)));
+    ASSIGN_OR_RETURN(CaptureBody body, FittedBody(RestBodyOf(result.motion.poses)));
+    NameHead(body);
     std::vector<TreeState> states;
     const PoseFitter fitter(body);
     std::optional<PoseFit> last_fit;

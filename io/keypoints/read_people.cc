@@ -1,7 +1,8 @@
 #include "io/keypoints/read_people.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
-#include <array>
 #include <cctype>
 #include <cmath>
 #include <iterator>
@@ -110,56 +111,10 @@ Result<std::vector<SeenPerson>> ReadFrame(const fs::path& file, const std::strin
   return frame;
 }
 
-/// Counts those people in a file who have 25 keypoints: in `between` if the ninth keypoint lies midway between the
-/// tenth and the thirteenth, otherwise in `elsewhere`. In `body_25` these three are the mid-hip and the hips; in
-/// `body_25b` they are the right elbow, the left wrist and the right hip.
-void CountMidHips(const Json& json, const Place& place, int& between, int& elsewhere) {
-  constexpr std::size_t kCount = 25, kMidHip = 8, kRightHip = 9, kLeftHip = 12;
-  constexpr double kMaxShare = 0.03;  // tolerance as a share of the person's height
-  const Json* people = json.is_object() ? Member(json, "people") : nullptr;
-  if (people == nullptr || !people->is_array()) return;
-  for (const Json& person : *people) {
-    const auto points = Triples(Member(person, "pose_keypoints_2d"), place);
-    if (!points || points->size() != kCount) continue;
-    const auto& list = *points;
-    double low = kMaxPixel, high = -kMaxPixel;
-    for (const Keypoint& point : list) {
-      if (point.confidence <= 0) continue;
-      low = std::min(low, point.pixel.y);
-      high = std::max(high, point.pixel.y);
-    }
-    const bool is_told = std::ranges::all_of(std::array{kMidHip, kRightHip, kLeftHip},
-                                             [&](std::size_t i) { return list[i].confidence > 0; });
-    if (!is_told || high <= low) continue;
-    const glm::dvec2 middle = 0.5 * (list[kRightHip].pixel + list[kLeftHip].pixel);
-    ++(glm::distance(list[kMidHip].pixel, middle) <= kMaxShare * (high - low) ? between : elsewhere);
-  }
-}
-
-/// Returns "body_25" if the first people of these files have 25 keypoints in the order of body_25; the position of the
-/// mid-hip shows the order. Otherwise returns "".
-Result<std::string> LayoutOf(std::span<const fs::path> files) {
-  constexpr int kEnoughPeople = 50, kMinPeople = 3;
-  constexpr double kMinShare = 0.9;
-  int between = 0, elsewhere = 0;
-  for (const fs::path& file : files) {
-    ASSIGN_OR_RETURN(const std::string text, ReadWholeFile(file));
-    ASSIGN_OR_RETURN(const Json json, ReadJson(WithNullForNan(text), file.string()));
-    CountMidHips(json, {file.string()}, between, elsewhere);
-    if (between + elsewhere >= kEnoughPeople) break;
-  }
-  const int people = between + elsewhere;
-  return people >= kMinPeople && between >= kMinShare * people ? "body_25" : "";
-}
-
-Result<PeopleOfFilm> ReadFolder(const fs::path& folder, std::string layout, const FilmOfKeypoints& of) {
+Result<PeopleOfFilm> ReadFolder(const fs::path& folder, const std::string& layout, const FilmOfKeypoints& of) {
   ASSIGN_OR_RETURN(const auto files, FilesIn(folder, ".json"));
   PeopleOfFilm film;
   std::vector<std::string> names;
-  if (layout.empty()) {
-    ASSIGN_OR_RETURN(layout, LayoutOf(files));
-    if (!layout.empty()) film.told = "25 keypoints per person, one of them between the hips: layout body_25";
-  }
   for (const fs::path& file : files) {
     ASSIGN_OR_RETURN(auto frame, ReadFrame(file, layout));
     film.frames.push_back(std::move(frame));
@@ -279,12 +234,75 @@ Result<PeopleOfFilm> ReadFile(const fs::path& file, const std::string& layout, c
   return IsKeypointList(json) ? ReadKeypointList(json, layout, of, place) : ReadCoco(json, layout, of, place);
 }
 
+Result<PeopleOfFilm> ReadAs(const fs::path& path, const std::string& layout, const FilmOfKeypoints& of) {
+  return fs::is_directory(path) ? ReadFolder(path, layout, of) : ReadFile(path, layout, of);
+}
+
+/// The people who show three landmarks, and those of them whose landmark `middle` lies midway between the two others.
+struct Midway {
+  int between = 0, people = 0;
+  bool Are() const { return IsEnough() && between >= kMostly * people; }
+  bool AreNot() const { return IsEnough() && between <= (1 - kMostly) * people; }
+
+ private:
+  static constexpr double kMostly = 0.9;
+  static constexpr int kMinPeople = 3;
+  bool IsEnough() const { return people >= kMinPeople; }
+};
+
+Midway CountMidway(const SeenPeople& frames, Landmark middle, Landmark a, Landmark b) {
+  constexpr double kMaxShare = 0.03;  // tolerance as a share of the person's height
+  Midway count;
+  for (const auto& frame : frames) {
+    for (const SeenPerson& person : frame) {
+      const double height = HeightPx(person);
+      const bool shows_all = std::min({person[middle].confidence, person[a].confidence, person[b].confidence}) > 0;
+      if (!shows_all || height <= 0) continue;
+      ++count.people;
+      const glm::dvec2 wanted = 0.5 * (person[a].pixel + person[b].pixel);
+      if (glm::distance(person[middle].pixel, wanted) <= kMaxShare * height) ++count.between;
+    }
+  }
+  return count;
+}
+
+Midway MidHipsOfBody25(const SeenPeople& frames) {
+  return CountMidway(frames, Landmark::kMidHip, Landmark::kLeftHip, Landmark::kRightHip);
+}
+
+/// Returns the reason why the people of this layout seem to have the other layout of 25 keypoints; "" if there is none.
+std::string DoubtOf(const std::string& layout, const SeenPeople& frames) {
+  if (layout == "body_25") {
+    const Midway hips = MidHipsOfBody25(frames);
+    if (!hips.AreNot()) return "";
+    return fmt::format("in layout body_25 the mid-hip lies between the hips in {} of {} people; body_25b would fit",
+                       hips.between, hips.people);
+  }
+  if (layout != "body_25b") return "";
+  // In body_25b these are the landmarks with the indices that body_25 gives to the mid-hip and the hips.
+  const Midway hips = CountMidway(frames, Landmark::kRightElbow, Landmark::kLeftWrist, Landmark::kRightHip);
+  if (!hips.Are()) return "";
+  return fmt::format("in layout body_25b the right elbow lies between left wrist and right hip in {} of {} people; "
+                     "body_25 would fit",
+                     hips.between, hips.people);
+}
+
 }  // namespace
 
 Result<PeopleOfFilm> ReadKeypoints(const fs::path& path, const std::string& layout, const FilmOfKeypoints& of) {
-  ASSIGN_OR_RETURN(PeopleOfFilm film,
-                   fs::is_directory(path) ? ReadFolder(path, layout, of) : ReadFile(path, layout, of));
-  Denormalise(of, film);
+  Result<PeopleOfFilm> film = ReadAs(path, layout, of);
+  if (!film && layout.empty()) {
+    // The number of keypoints may fit two layouts, which the mid-hip tells apart.
+    auto other = ReadAs(path, "body_25", of);
+    if (other && MidHipsOfBody25(other->frames).Are()) {
+      other->told += other->told.empty() ? "" : "; ";
+      other->told += "25 keypoints per person, one of them between the hips: layout body_25";
+      film = std::move(other);
+    }
+  }
+  if (!film) return film;
+  film->doubt = DoubtOf(layout, film->frames);
+  Denormalise(of, *film);
   return film;
 }
 

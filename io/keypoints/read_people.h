@@ -13,6 +13,7 @@ struct PeopleOfFilm {
   SeenPeople frames;
   int width = 0, height = 0;  ///< size of the pictures, pixels; 0 if the files do not state it
   std::string told;           ///< a note about assumptions that were made, "" if none
+  std::string doubt;          ///< the reason why `layout` seems to be wrong, "" if none
 };
 
 /// The film that keypoints belong to. A zero means that the value is not known.
@@ -26,12 +27,13 @@ struct FilmOfKeypoints {
 /// landmarks (`keypoint_lists.h`). In these files pixel centres are whole numbers; in the result they end in .5. COCO's
 /// v is 2 for a visible and 1 for a hidden keypoint (confidence 1 and 0.5), or a score within 0…1. If all keypoints lie
 /// within 0…1 (with a tolerance of 0.1) and the film is known to be larger, they are shares of its width and height,
-/// and `told` says so. The number of keypoints, or the names in the file, give their order. If the people in the files
-/// of a folder have 25 keypoints and the mid-hip lies between the hips, the order is `body_25`, and `told` says so.
-/// Fails if there are no frames or if numbers are not finite. With an empty `layout`, also fails if no layout, or more
-/// than one, has that number of keypoints. The error states the file, what was found, and what is allowed. @param
-/// layout a name of KeypointLayouts(), or "" to choose it by the number of keypoints @param film gives the number of
-/// frames if a file lists only frames with people
+/// and `told` says so. The number of keypoints, or the names in the file, give their order. 25 keypoints are taken as
+/// `body_25` if the mid-hip lies between the hips, and `told` says so; `doubt` says if the position of the mid-hip
+/// contradicts a `layout` of 25 keypoints. Fails if there are no frames or if numbers are not finite. With an empty
+/// `layout`, also fails if no layout, or more than one, has that number of keypoints. The error states the file, what
+/// was found, and what is allowed.
+/// @param layout a name of KeypointLayouts(), or "" to choose it by the number of keypoints
+/// @param film gives the number of frames if a file lists only frames with people
 Result<PeopleOfFilm> ReadKeypoints(const std::filesystem::path& path, const std::string& layout,
                                    const FilmOfKeypoints& film = {});
 

@@ -691,7 +691,7 @@ class Mistakes(EtudeCase):
     def test_what_is_no_person_is_refused_with_the_factor(self):
         told, errors, _ = self.capture("Pose2Sim", more=("--rig-unit", "cm"))
         self.assertIsNone(errors)
-        self.assertRegex(told, r"in cm the person would be 0\.01\d* m tall; .* --rig-unit 1\b")
+        self.assertRegex(told, r"in cm the person would have legs of 0\.008\d* m from hip to ankle; .*; --rig-unit m makes them 0\.8\d* m")
         told, errors, _ = self.capture("Pose2Sim", more=("--rig-up", "-z"))
         self.assertIsNone(errors)
         self.assertIn("with -z up, everything would be upside down", told)

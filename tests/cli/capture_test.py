@@ -1,5 +1,6 @@
 """Tests `etude calibrate` and `etude capture`: from measured points to a rig, and from films and keypoints to a
 motion."""
+import base64
 import json
 import math
 import random
@@ -266,7 +267,9 @@ class Capture(EtudeCase):
 
     def test_draws_the_skeleton_over_the_films(self):
         film = self.folder / "overlay.mp4"
-        self.ends(0, *self.capture("-o", self.folder / "m.csv", "--film", film))
+        page = self.folder / "page.html"
+        self.ends(0, *self.capture("-o", self.folder / "m.csv", "--film", film, "--report", page))
+        self.assertIn(base64.b64encode(film.read_bytes()).decode(), page.read_text(), "the page has the same film")
         told = subprocess.run(["ffprobe", "-v", "error", "-count_packets", "-show_entries",
                                "stream=width,height,nb_read_packets", "-of", "csv=p=0", str(film)],
                               capture_output=True, text=True, timeout=60).stdout.strip()
@@ -284,7 +287,7 @@ class Capture(EtudeCase):
             return [make_film(self.folder / name / "left.mp4", size, rate, frames, coding=()), *self.films[1:]]
 
         small = self.refusal(*self.capture("-o", out, films=film("small", "160x120", RATE, FRAMES)))
-        self.assertIn("160 x 120 pixels, but the rig's camera has 320 x 240; state how they were fitted (--fit)", small)
+        self.assertIn("160 x 120 pixels, but the rig's camera has 320 x 240; state how they were fitted (--fit letterbox, stretch or crop)", small)
         self.assertIn("30 frames a second", self.refusal(*self.capture("-o", out, films=film("slow", "320x240", 25, FRAMES))))
         self.assertIn("20 frames", self.refusal(*self.capture("-o", out, films=film("short", "320x240", RATE, 18))))
         (self.keypoints / "left_json" / "left_19.json").unlink()

@@ -52,6 +52,11 @@ class Recognise(EtudeCase):
             found = [event["move"] for event in self.events(take, "--moves", moves, "--recogniser", recogniser)]
             self.assertEqual(found, ["raise", "left"], recogniser)
         self.assertEqual(self.events(self.write("half.txt", kinect(arms(40))), "--moves", moves), [])
+        for still, stdin in ((self.folder / "half.txt", None), ("-", kinect(arms(40)))):
+            silent = subprocess.run([ETUDE, "recognise", still, "--moves", moves, "--recogniser", "key-pose"],
+                                    capture_output=True, text=True, timeout=120, input=stdin)
+            self.assertIn("no move was spotted\n", silent.stderr)
+        self.assertNotIn("no move", self.etude("recognise", take, "--moves", moves, "--recogniser", "key-pose").stderr)
 
     def test_live_says_the_same_as_recorded(self):
         moves = self.two_moves()
@@ -70,6 +75,11 @@ class Recognise(EtudeCase):
         self.assertEqual((default.returncode, default.stdout), (0, learnt.stdout))
         self.assertIn("recogniser learnt, recommended for these moves; --recogniser selects another one\n", default.stderr)
         self.assertNotIn("recommended", learnt.stderr)
+        # Three examples of each move show how people differ.
+        several = self.teach(self.write("three.txt", kinect(3 * arms(100))), "--labels",
+                             self.write("three.csv", "clip,from_s,to_s,move,truth\n" + "".join(
+                                 f"three,{3 * i},{3 * i + 3},raise,right\n" for i in range(3))))
+        self.assertIn("recogniser whole-body, recommended for these moves", told(several).stderr)
         # Moves with key poses only give nothing to learn from.
         poses = re.sub(r"(?m)^    right:\n(      .*\n|        .*\n)*", "    right: []\n", moves.read_text())
         written = self.write("poses.yaml", poses)
@@ -121,6 +131,16 @@ class Recognise(EtudeCase):
         scores = lines[-1]["scores"]
         self.assertEqual(scores["performances"], 4)
         self.assertEqual(scores["f1"], 1)
+        def told(rows):
+            path = self.write("some.csv", "clip,from_s,to_s,move,truth\n" + rows)
+            return self.ends(0, "recognise", take, "--moves", moves, "--labels", path, "--recogniser", "key-pose").stderr
+        right = "take,0,3,raise,right\ntake,3,6,left,right\n"
+        self.assertIn("\n2 performances, all right by the labels: 2 called right\n", told(right))
+        self.assertNotIn("F1", told(right), "without a wrong performance it would say nothing")
+        mixed = told(right + "take,9,12,raise,rihgt\ntaek,0,1,left,right\n")
+        self.assertIn("F1 100.0 %, precision 100.0 %, recall 100.0 %, AUC 100.0 %", mixed)
+        self.assertIn("truth: right 2, rihgt 1 (a fault; did you mean right?)\n", mixed)
+        self.assertIn("some.csv:5: no recording taek is given\n", mixed)
         self.assertEqual(scores["false_alarms_per_min"], 0)
 
     def test_one_person_left_out(self):

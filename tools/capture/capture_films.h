@@ -27,7 +27,7 @@ struct CaptureFilmsOptions {
   std::string masks;
   std::optional<int> mask_id;        ///< the value of the person's pixels; absent = all but the background's value
   double stature_m = 0;              ///< for silhouettes: the person's height, metres; 0 = estimated
-  std::string output;                ///< BVH, GLB, TRC or CSV, chosen by the extension
+  std::string output;                ///< in a format of FormatOfName, chosen by the extension
   std::string points;                ///< a TRC of the triangulated keypoints, "" = none
   std::string report;                ///< an HTML page with all findings, "" = none
   std::string film;                  ///< an MP4 of the skeleton over the films, "" = none

@@ -56,7 +56,9 @@ std::string PeopleText(const RecoveredPerson& person, const std::vector<FilmedVi
     text += fmt::format("person {}: seen by {}; rays miss each other by {:.1f} % of the height\n", ++number, by,
                         100 * one.error);
   }
-  if (alone > 0) text += fmt::format("{} tracks that only one camera saw: other people, or errors\n", alone);
+  if (alone > 0) {
+    text += fmt::format("{} track{} that only one camera saw: other people, or errors\n", alone, alone == 1 ? "" : "s");
+  }
   return text;
 }
 
@@ -127,6 +129,13 @@ Result<UnmarkedMotion> WithOutlines(const RecoveredPerson& person, std::size_t c
                            {.person = &person.people[chosen], .lengths = person.body.lengths});
 }
 
+/// Returns the first doubt about the keypoints' layout, which explains why nobody was found, for the end of a message.
+std::string DoubtOfLayout(const SeenFilms& films) {
+  const auto doubt = std::ranges::find_if(
+      films.told.lines, [](const std::string& line) { return line.starts_with("doubtful: ") && line.find("layout") != line.npos; });
+  return doubt == films.told.lines.end() ? "" : "; " + doubt->substr(doubt->find(' ') + 1);
+}
+
 AdjustPersonOptions AdjustOf(const RecoverPersonOptions& recover) {
   return {.rate_hz = recover.rate_hz, .min_confidence = recover.triangulate.min_confidence};
 }
@@ -183,9 +192,9 @@ std::vector<ComparedColumn> CompareWithReference(const MarkerMotion& reference, 
 }  // namespace
 
 Result<bool> WriteFilm(const CaptureFilmsOptions& options, const std::vector<OverlayView>& overlays,
-                       const BodyMotion& motion) {
+                       const BodyMotion& motion, Picture* middle) {
   auto is_whole = options.listener.film(
-      [&](const FilmWatch& watch) { return WriteOverlayFilm(options.film, overlays, motion, watch); });
+      [&](const FilmWatch& watch) { return WriteOverlayFilm(options.film, overlays, motion, watch, middle); });
   if (is_whole && *is_whole) TellWritten(options.listener, options.film);
   return is_whole;
 }
@@ -242,13 +251,19 @@ Result<bool> CaptureKeypoints(const CaptureFilmsOptions& options, FilmedSession 
   // Read the keypoints and triangulate the person in the rig's coordinates.
   const RecoverPersonOptions recover = RecoverOptionsOf(options, views);
   ASSIGN_OR_RETURN(SeenFilms films, SeeFilms(options, recover, session));
-  ASSIGN_OR_RETURN(RecoveredPerson located, LocatePerson(films.cameras, films.people, recover));
+  auto found = LocatePerson(films.cameras, films.people, recover);
+  if (!found) return Fail(found.error().place, "{}{}", found.error().message, DoubtOfLayout(films));
+  RecoveredPerson located = *std::move(found);
   // Move the rig and the points into the world: metres, Y up, with the floor that the options define.
   for (const FilmedView& view : views) {  // `SeeFilms` may have exchanged or corrected the cameras in `views`
     const auto same = std::ranges::find(session.rig.cameras, view.camera.name, &NamedCamera::name);
     if (same != session.rig.cameras.end()) same->camera = view.camera.camera;
   }
   const auto place = PlaceRig(session.rig, located.landmarks, recover.rate_hz, options.place);
+  if (!place && !place.error().place.file.empty()) {
+    return Fail({options.marks.empty() ? options.keypoints : options.marks}, "{}{}", place.error().message,
+                DoubtOfLayout(films));
+  }
   if (!place) return Fail({options.rig}, "{}", place.error().message);
   films.told.Tell(fmt::format("rig, {}: {}", session.rig.format, place->told));
   if (!place->IsNone()) {
@@ -288,9 +303,8 @@ Result<bool> CaptureKeypoints(const CaptureFilmsOptions& options, FilmedSession 
     ASSIGN_OR_RETURN(both, WithOutlines(person, chosen, take, options));
     facts["silhouettes"] = {{"stature_m", both->stature_m}, {"cost", both->cost}, {"held_frames", both->held}};
     if (JoinOutlines(films.cameras, person.people[chosen], both->motion, AdjustOf(recover), person)) {
-      films.told.Tell(fmt::format(
-          "the cost of the outlines is {:.0f} per picture; the joints follow from keypoints and outlines together",
-          both->cost));
+      films.told.Tell(fmt::format("{}; the joints follow from keypoints and outlines together",
+                                  OutlinesText(views, *both)));
     } else {
       films.told.Tell(
           "doubtful: no motion fits keypoints and outlines at once; the joints follow from the keypoints alone");
@@ -320,13 +334,9 @@ Result<bool> CaptureKeypoints(const CaptureFilmsOptions& options, FilmedSession 
                                 columns, views, options));
   }
   // Write the film and the page.
-  if (!options.film.empty()) {
-    ASSIGN_OR_RETURN(const bool is_whole,
-                     WriteFilm(options, OverlaysOf(views, person, chosen, films.clocks), person.motion));
-    if (!is_whole) return false;
-  }
-  if (options.report.empty()) return true;
-  return WriteReport(options, views, person, chosen, films, both ? &*both : nullptr);
+  if (!options.report.empty()) return WriteReport(options, views, person, chosen, films, both ? &*both : nullptr);
+  if (options.film.empty()) return true;
+  return WriteFilm(options, OverlaysOf(views, person, chosen, films.clocks), person.motion);
 }
 
 }  // namespace etude

@@ -71,13 +71,16 @@ CapturePage BeginPage(const CaptureFilmsOptions& options, const BodyMotion& moti
                       const std::vector<std::string>& told);
 /// Returns a phrase with the number of doubtful lines in `told`.
 std::string DoubtsOf(const std::vector<std::string>& told);
-/// Puts the overlay film into the page and writes the page. Returns false if Ctrl-C interrupted the film.
+/// Writes the film of `--film`, if there is one, puts it into the page and writes the page. Without `--film` the page has
+/// a film, too. Returns false if Ctrl-C interrupted the film.
 Result<bool> WritePage(const CaptureFilmsOptions& options, CapturePage page, const std::vector<OverlayView>& overlays,
                        const BodyMotion& motion);
 /// Measures the difference between body and silhouette in each camera, per cent.
 CameraResiduals ResidualsOfOutlines(const std::vector<FilmedView>& views, const UnmarkedMotion& person);
 /// Returns the median over cameras and frames; 100 if there is no value.
 double MedianOf(const CameraResiduals& residuals);
+/// Returns "body and outlines differ by 7 % in the median".
+std::string OutlinesText(const std::vector<FilmedView>& views, const UnmarkedMotion& person);
 /// Writes the page of a capture from keypoints or marks.
 /// @param views the films, with cameras in world coordinates
 /// @param chosen index into the person's `people`
@@ -91,8 +94,9 @@ std::vector<OverlayView> OverlaysOf(const std::vector<FilmedView>& views, const 
                                     std::size_t chosen, const std::vector<FilmClock>& clocks);
 
 /// Writes the film of `--film`. Returns false if Ctrl-C interrupted the film.
+/// @param middle if not null, receives the middle frame
 Result<bool> WriteFilm(const CaptureFilmsOptions& options, const std::vector<OverlayView>& overlays,
-                       const BodyMotion& motion);
+                       const BodyMotion& motion, Picture* middle = nullptr);
 
 /// Writes a motion to `options.output` in the format that its extension names: writes `clip` if the format holds a
 /// skeleton, else `motion`, which is the same motion as twenty joints.

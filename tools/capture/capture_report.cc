@@ -72,7 +72,7 @@ CapturePage PageOf(const CaptureFilmsOptions& options, const std::vector<FilmedV
   page.residuals.push_back(ResidualsOf(views, person, chosen, films));
   if (both != nullptr) {
     page.residuals.push_back(ResidualsOfOutlines(views, *both));
-    page.verdict += fmt::format("; body and outlines differ by {:.0f} %", MedianOf(page.residuals.back()));
+    page.verdict += "; " + OutlinesText(views, *both);
   }
   page.verdict += fmt::format("; {}.", DoubtsOf(films.told.lines));
   // Write the limb lengths and the fit of the skeleton.
@@ -142,6 +142,10 @@ double MedianOf(const CameraResiduals& residuals) {
   return all.empty() ? kNothingAlike : UpperMedian(std::move(all));
 }
 
+std::string OutlinesText(const std::vector<FilmedView>& views, const UnmarkedMotion& person) {
+  return fmt::format("body and outlines differ by {:.0f} % in the median", MedianOf(ResidualsOfOutlines(views, person)));
+}
+
 std::string DoubtsOf(const std::vector<std::string>& told) {
   const auto doubts = std::ranges::count_if(told, [](const std::string& s) { return s.starts_with("doubtful"); });
   return doubts == 0 ? "nothing is doubtful" : fmt::format("{} marked below as doubtful", doubts);
@@ -150,10 +154,13 @@ std::string DoubtsOf(const std::vector<std::string>& told) {
 Result<bool> WritePage(const CaptureFilmsOptions& options, CapturePage page, const std::vector<OverlayView>& overlays,
                        const BodyMotion& motion) {
   ASSIGN_OR_RETURN(const TemporaryFolder folder, TemporaryFolder::Make("capture-report"));
-  const fs::path film = folder.path() / "overlay.mp4";
-  ASSIGN_OR_RETURN(const bool is_whole, options.listener.film([&](const FilmWatch& watch) {
-    return WriteOverlayFilm(film, overlays, motion, watch, &page.still);
-  }));
+  // The film of --film, or else a temporary one.
+  const fs::path film = options.film.empty() ? folder.path() / "overlay.mp4" : fs::path(options.film);
+  ASSIGN_OR_RETURN(const bool is_whole, options.film.empty()
+                                            ? options.listener.film([&](const FilmWatch& watch) {
+                                                return WriteOverlayFilm(film, overlays, motion, watch, &page.still);
+                                              })
+                                            : WriteFilm(options, overlays, motion, &page.still));
   if (!is_whole) return false;
   constexpr std::uintmax_t kMaxFilmBytes = 16'000'000;
   std::error_code unreadable;

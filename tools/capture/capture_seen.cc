@@ -17,13 +17,14 @@ namespace fs = std::filesystem;
 
 /// Reads the people of a film, in pixels of the keypoint file. Sets `view.is_sized` if the file states the size of the
 /// pictures.
-Result<SeenPeople> ReadPeople(const CaptureFilmsOptions& options, FilmedView& view) {
+Result<SeenPeople> ReadPeople(const CaptureFilmsOptions& options, FilmedView& view, MessageLog& told) {
   const bool is_marks = !options.marks.empty();
   ASSIGN_OR_RETURN(const fs::path entry,
                    EntryOfFilm(is_marks ? options.marks : options.keypoints, view.path.stem().string()));
   const FilmOfKeypoints of{view.facts.width, view.facts.height, static_cast<std::size_t>(view.facts.frames)};
   ASSIGN_OR_RETURN(PeopleOfFilm film, is_marks ? ReadMarkedPictures(entry) : ReadKeypoints(entry, options.layout, of));
   if (!film.told.empty()) options.listener.print(fmt::format("{}: {}\n", entry.filename().string(), film.told));
+  if (!film.doubt.empty()) told.Tell(fmt::format("doubtful: {}: {}", entry.filename().string(), film.doubt));
   // Check that the file has the film's number of frames and, up to a rotation by 90°, the film's picture size.
   if (film.frames.size() != static_cast<std::size_t>(view.facts.frames)) {
     return Fail({entry.string()}, "{} frames, the film {} {}", film.frames.size(), view.path.string(),
@@ -213,7 +214,7 @@ Result<SeenFilms> SeeFilms(const CaptureFilmsOptions& options, const RecoverPers
   films.clocks.resize(views.size());
   // Read the keypoints, map them to the rig's pictures and remove the lens distortion.
   for (FilmedView& view : views) {
-    ASSIGN_OR_RETURN(SeenPeople people, ReadPeople(options, view));
+    ASSIGN_OR_RETURN(SeenPeople people, ReadPeople(options, view, films.told));
     films.people.push_back(std::move(people));
   }
   FitPeople(session.rig, views, films.people, recover.triangulate.min_confidence, films.told);

@@ -198,8 +198,8 @@ constexpr double kPercent = 100;
 std::string TellUnmarked(const CaptureFilmsOptions& options, const std::vector<FilmedView>& views,
                          const UnmarkedMotion& person, MessageLog& told) {
   // Report the stature and the frames without a pose of their own.
-  told.Tell(fmt::format("stature: {:.2f} m{}; the cost of the outlines is {:.0f} per picture", person.stature_m,
-                        options.stature_m > 0 ? "" : ", found from the outlines", person.cost));
+  told.Tell(fmt::format("stature: {:.2f} m{}; {}", person.stature_m,
+                        options.stature_m > 0 ? "" : ", found from the outlines", OutlinesText(views, person)));
   if (person.held > 0) {
     told.Tell(fmt::format("doubtful: {} frames show the person in fewer than two cameras and repeat the last pose",
                           person.held));
@@ -232,9 +232,8 @@ Result<bool> WriteUnmarkedReport(const CaptureFilmsOptions& options, const std::
                                  const std::vector<std::string>& told) {
   CapturePage page = BeginPage(options, person.motion, MeasureLimbLengths(person.motion.poses), told);
   page.residuals.push_back(ResidualsOfOutlines(views, person));
-  page.verdict = fmt::format(
-      "{} cameras, {} frames at {:g} Hz: body and outlines differ by {:.0f} % in the median; {}.", views.size(),
-      person.motion.poses.size(), person.motion.rate_hz, MedianOf(page.residuals.back()), DoubtsOf(told));
+  page.verdict = fmt::format("{} cameras, {} frames at {:g} Hz: {}; {}.", views.size(), person.motion.poses.size(),
+                             person.motion.rate_hz, OutlinesText(views, person), DoubtsOf(told));
   page.limbs = "Limbs are an adult's, scaled to the stature.";
   page.still.caption = "The skeleton as each camera would show it (lines; left blue, right orange).";
   return WritePage(options, std::move(page), OverlaysOf(views, clocks, person.motion.poses.size()), person.motion);
@@ -258,13 +257,8 @@ Result<bool> CaptureUnmarked(const CaptureFilmsOptions& options, const FilmedSes
     facts["doubt"] = doubt;
     if (!options.accepts_doubtful) return true;
   }
-  // Write the motion, the film, the comparison and the page.
+  // Write the motion, the comparison, the film and the page.
   RETURN_IF_ERROR(WriteMotion(options, person.clip, person.motion));
-  if (!options.film.empty()) {
-    ASSIGN_OR_RETURN(const bool is_whole,
-                     WriteFilm(options, OverlaysOf(views, clocks, person.motion.poses.size()), person.motion));
-    if (!is_whole) return false;
-  }
   if (reference) {
     ASSIGN_OR_RETURN(const auto columns, CompareWithReference(*reference, person, take, options, told));
     RETURN_IF_ERROR(TellColumns(
@@ -273,7 +267,9 @@ Result<bool> CaptureUnmarked(const CaptureFilmsOptions& options, const FilmedSes
             options.reference),
         columns, views, options));
   }
-  return options.report.empty() ? true : WriteUnmarkedReport(options, views, person, clocks, told.lines);
+  if (!options.report.empty()) return WriteUnmarkedReport(options, views, person, clocks, told.lines);
+  if (options.film.empty()) return true;
+  return WriteFilm(options, OverlaysOf(views, clocks, person.motion.poses.size()), person.motion);
 }
 
 }  // namespace etude

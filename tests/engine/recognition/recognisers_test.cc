@@ -140,6 +140,20 @@ TEST(RuleStrength, IsOneWhereTaughtAndTheLeastOverlapElsewhere) {
   EXPECT_EQ(RuleStrength(frame, pose, {}, PaperMemberships()), 0.0) << "the least counts";
 }
 
+TEST(RecommendedRecogniser, FollowsTheNumberOfExamples) {
+  const auto taught = [](std::size_t first, std::size_t second) {
+    std::vector<TaughtMove> moves = Taught();
+    const SkeletonStream example = moves[0].examples[0];
+    moves[0].examples.assign(first, example);
+    moves[1].examples.assign(second, example);
+    return moves;
+  };
+  EXPECT_EQ(RecommendedRecogniser(taught(3, 3)).name, "whole-body");
+  EXPECT_EQ(RecommendedRecogniser(taught(3, 2)).name, "learnt");
+  EXPECT_EQ(RecommendedRecogniser(taught(3, 0)).name, "key-pose");
+  EXPECT_EQ(RecommendedRecogniser(taught(3, 3), /*by_a_coach=*/true).name, "coached");
+}
+
 TEST(MakeRecogniser, AsksForExamplesWhereItNeedsThem) {
   std::vector<TaughtMove> taught = Taught();
   taught[1].examples.clear();

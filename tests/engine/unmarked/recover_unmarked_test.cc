@@ -91,6 +91,8 @@ TEST(RecoverUnmarked, FindsThePersonTheStatureAndTheRoomInFilmsAlone) {
   EXPECT_EQ(found->silhouettes[2].size(), static_cast<std::size_t>(kUnmarkedFrames));
   // The clip has the same motion.
   EXPECT_EQ(found->clip.frames.size(), static_cast<std::size_t>(kUnmarkedFrames));
+  // Its skeleton has the joints of one that is made from keypoints; BVH gives no name to the end of a branch.
+  EXPECT_TRUE(found->clip.skeleton.Find("head") >= 0);
 }
 
 TEST(RecoverUnmarked, IsToldRoomsAndStature) {

@@ -163,6 +163,15 @@ TEST_F(ReadPeople, KnowsTheOrderOfOpenPosesBody25ByItsMidHip) {
   EXPECT_EQ(film->frames[0][0][Landmark::kRightHip].pixel, glm::dvec2(90.5, 100.5));
   EXPECT_THAT(Reason(folder_.path() / "b"), HasSubstr("choose one by --layout"));
   EXPECT_EQ(Reason(folder_.path() / "a", "body_25b"), "accepted") << "what is said counts";
+  // A layout that the keypoints contradict is doubted; the other one is not.
+  const auto doubt = [&](const char* people_in, const char* layout) {
+    return ReadKeypoints(folder_.path() / people_in, layout).value().doubt;
+  };
+  EXPECT_EQ(doubt("a", "body_25b"),
+            "in layout body_25b the right elbow lies between left wrist and right hip in 4 of 4 people; body_25 would fit");
+  EXPECT_EQ(doubt("b", "body_25"),
+            "in layout body_25 the mid-hip lies between the hips in 0 of 4 people; body_25b would fit");
+  EXPECT_EQ(doubt("a", "body_25") + doubt("b", "body_25b") + doubt("a", ""), "");
 }
 
 TEST_F(ReadPeople, ReadsCocoWithFlagsOrScores) {

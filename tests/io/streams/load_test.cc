@@ -62,6 +62,23 @@ TEST(MatchLabels, RefusesTimesOutsideAndLabelsOfNothing) {
             "l: none of the labels belongs to a recording that was given, such as a");
 }
 
+TEST(DescribeLabels, TellsWhatLabelsAndRecordingsDoNotShare) {
+  std::vector<NamedStream> streams = TwoStreams();
+  streams[0].name = "ah_clap1";
+  streams[1].name = "ah_hammer1";
+  const auto lines = [&](const std::string& rows) {
+    return DescribeLabels(*ReadLabels("clip,from_s,to_s,move,truth\n" + rows, "l"), "l", streams);
+  };
+  using Lines = std::vector<std::string>;
+  EXPECT_EQ(lines("ah_clap1,,,clap,right\nah_hammer1,,,hammer,right\n"), Lines{});
+  EXPECT_EQ(lines("zz,,,wave,right\nah_clap1,,,clap,right\nah_hamer1,,,hammer,right\n"),
+            (Lines{"l:4: no recording ah_hamer1 is given; did you mean ah_hammer1?; 2 such labels are left out",
+                   "l: no label for ah_hammer1"}));
+  EXPECT_EQ(lines("ah_clap1,,,clap,rihgt\nah_hammer1,,,hammer,right\nah_hammer1,1,2,hammer,half\nzz,,,wave,odd\n"),
+            (Lines{"l:5: no recording zz is given",
+                   "l: truth: right 1, half 1, rihgt 1 (a fault; did you mean right?)"}));
+}
+
 TEST(PerformancesOf, AnActionPointIsTheTimeAroundIt) {
   std::vector<NamedStream> streams = TwoStreams();
   streams[0].stream.frames.resize(400);
