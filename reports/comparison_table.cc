@@ -47,7 +47,7 @@ std::string Notes(const Comparison& c) {
 
 std::string BothNotes(const Comparison& c, SamplingUnit unit) {
   std::string text = Notes(c);
-  // If every world is its own sampling unit, `Notes` has already written why the verdict is inconclusive.
+  // If every world is its own sampling unit, `Notes` has already written why the verdict is undecided.
   if (c.beyond.why_open.empty() || WorldsAreUnits(unit)) return text;
   return text + fmt::format("{}for {}: {}", text.empty() ? "" : "; ", OtherUnits(unit), c.beyond.why_open);
 }
@@ -176,7 +176,7 @@ std::string WhatHolds(const AcrossVerdict& across) {
   for (const AcrossVerdict::Each& each : across.each) {
     if (std::ranges::find(said, each.verdict) == said.end()) said.push_back(each.verdict);
   }
-  if (said.size() == 1) return "inconclusive everywhere";
+  if (said.size() == 1) return "undecided everywhere";
   const auto says = [&](Verdict verdict) { return std::ranges::find(said, verdict) != said.end(); };
   return says(Verdict::kBetter) && says(Verdict::kWorse) ? "better under some, worse under others"
                                                          : "does not hold everywhere";

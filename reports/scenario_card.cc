@@ -278,7 +278,7 @@ std::string RecordedCells(const RunData& run, const ScenarioSummary& scenario) {
   return cells.dump(-1, ' ', false, Json::error_handler_t::replace);
 }
 
-/// Returns the sentence of a finding as HTML, preceded by `begin`. If the verdict is inconclusive, the tooltip says
+/// Returns the sentence of a finding as HTML, preceded by `begin`. If the verdict is undecided, the tooltip says
 /// why.
 std::string AnswerHtml(const MethodFinding& finding, std::string_view begin) {
   return fmt::format("<p class=\"answer\"{}>{}{}</p>",

@@ -196,19 +196,19 @@ void Decide(Answer& answer, const Comparison* value) {
   // No step decides. The answer is "no difference" only if the verdict on the value is "no difference" and the verdict
   // on success is not open.
   const auto is_open = [](const std::optional<Comparison>& step) {
-    return step && step->verdict == Verdict::kInconclusive && (step->differing > 0 || step->pairs < kMinSample);
+    return step && step->verdict == Verdict::kUndecided && (step->differing > 0 || step->pairs < kMinSample);
   };
   const Verdict of_value = value != nullptr ? value->verdict
                            : answer.success ? answer.success->verdict
-                                            : Verdict::kInconclusive;
+                                            : Verdict::kUndecided;
   const bool open = contradicts || is_open(answer.success) || of_value != Verdict::kNoDifference;
-  decide(AnswerStep::kNone, open ? Verdict::kInconclusive : Verdict::kNoDifference,
+  decide(AnswerStep::kNone, open ? Verdict::kUndecided : Verdict::kNoDifference,
          value != nullptr ? value->beyond.verdict
          : answer.success ? answer.success->beyond.verdict
                           : std::nullopt);
   // The answer for other units must not claim more than the answer for these worlds. "Better" and "worse" therefore
-  // become inconclusive. If the answer for these worlds is open, so is the answer for other units.
-  if (answer.beyond && (open || IsDecided(*answer.beyond))) answer.beyond = Verdict::kInconclusive;
+  // become undecided. If the answer for these worlds is open, so is the answer for other units.
+  if (answer.beyond && (open || IsDecided(*answer.beyond))) answer.beyond = Verdict::kUndecided;
 }
 
 /// Judges the answers of all conditions, either those against the baselines or those against the rivals.

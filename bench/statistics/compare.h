@@ -47,12 +47,12 @@ bool SeesTooFewDiffer(const Comparison& comparison, const MetricInfo& metric);
 ///                    interval is bootstrapped, at least kMinSample pairs must differ, because a bootstrap cannot see
 ///                    rare differences
 ///   better / worse   if p_holm ≤ alpha, the interval lies on one side of zero, and |difference| ≥ threshold
-///   inconclusive     otherwise, and always with fewer than kMinSample pairs
+///   undecided        otherwise, and always with fewer than kMinSample pairs
 Verdict VerdictOf(const Comparison& comparison, const MetricInfo& metric, double confidence = kConfidence);
 
 /// Judges a comparison without and with failures. If `with_failures` is given, the comparison's p becomes the p with
 /// failures counted. If the verdicts without and with failures are equal, this becomes the comparison's verdict, else
-/// kInconclusive. Both inputs must have their own `p_holm`. Returns the verdict without failures.
+/// kUndecided. Both inputs must have their own `p_holm`. Returns the verdict without failures.
 Verdict JudgeBothWays(Comparison& comparison, const std::optional<Comparison>& with_failures, const MetricInfo& metric,
                       double confidence = kConfidence);
 

@@ -51,7 +51,7 @@ std::string DescribeWhatMedianHides(const Comparison& c) {
 /// Returns the reason why the verdict is open; if several reasons hold, the first in the order in which a reader would
 /// check them. Returns "" if the verdict is clear.
 std::string WhyOpen(const Comparison& c, const MetricInfo& metric, int comparisons) {
-  if (c.verdict != Verdict::kInconclusive) return "";
+  if (c.verdict != Verdict::kUndecided) return "";
   if (c.pairs == 0) return "no world has both values";
   // The interval lies within ± threshold, but relevant differences may exist that the interval cannot show.
   const int needed = PairsNeeded(comparisons, kAlpha);
@@ -126,7 +126,7 @@ void JudgeOnTheseWorlds(std::span<Question* const> family) {
     const Verdict of_pairs = JudgeBothWays(comparison, family[i]->with_failures, metric);
     if (comparison.verdict == of_pairs) {
       comparison.why_open = WhyOpen(comparison, metric, static_cast<int>(family.size()));
-    } else if (comparison.verdict == Verdict::kInconclusive) {
+    } else if (comparison.verdict == Verdict::kUndecided) {
       comparison.why_open = NotWithFailures(of_pairs);
     }
     for (const std::string& note : {NoteOnMissing(comparison), NoteOnMean(comparison, metric)}) {
@@ -177,8 +177,8 @@ void JudgeBeyond(std::span<Question* const> family, SamplingUnit unit) {
     const Verdict of_pairs = *beyond.verdict;
     const auto with_their_p = VerdictBeyond(beyond, metric);
     if (with_their_p == of_pairs && VerdictBeyond(with_failures, metric) == of_pairs) continue;
-    beyond.verdict = Verdict::kInconclusive;
-    if (of_pairs != Verdict::kInconclusive) beyond.why_open = NotWithFailures(of_pairs);
+    beyond.verdict = Verdict::kUndecided;
+    if (of_pairs != Verdict::kUndecided) beyond.why_open = NotWithFailures(of_pairs);
   }
 }
 
@@ -247,7 +247,7 @@ Finding JudgeComparison(const Expectation& expectation, const ConditionTable& ta
   if (!found.ci_low)
     return {ClaimOutcome::kUndecided, fmt::format("only {} worlds have both values{}", found.pairs, missing)};
   const ClaimOutcome outcome = found.verdict == Verdict::kBetter         ? ClaimOutcome::kMet
-                               : found.verdict == Verdict::kInconclusive ? ClaimOutcome::kUndecided
+                               : found.verdict == Verdict::kUndecided ? ClaimOutcome::kUndecided
                                                                          : ClaimOutcome::kUnmet;
   // Describe the figures that decided the outcome.
   const std::string unit = metric.unit.empty() ? "" : " " + metric.unit;
@@ -333,7 +333,7 @@ std::vector<AcrossVerdict> JudgeAcross(const Study& study, const std::vector<Con
                                         .verdict = comparison.verdict});
       }
       found->each.push_back({ConditionLabel(split.across), comparison.verdict, comparison.difference});
-      if (found->verdict != comparison.verdict) found->verdict = Verdict::kInconclusive;
+      if (found->verdict != comparison.verdict) found->verdict = Verdict::kUndecided;
     }
   }
   return verdicts;

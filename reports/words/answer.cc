@@ -55,7 +55,7 @@ std::string SentenceFor(const Comparison& c, const std::string& other, const Met
   // Write the difference, and the mean difference if the mean lies outside the interval.
   std::string figures =
       fmt::format("{} (95 % CI {})", Amount(*c.difference, words), FormatInterval(c.ci_low, c.ci_high, words));
-  if (c.verdict == Verdict::kInconclusive && MeanTellsMore(c)) {
+  if (c.verdict == Verdict::kUndecided && MeanTellsMore(c)) {
     figures = fmt::format("median {}, mean {} ({})", figures, Amount(*c.mean, words),
                           FormatInterval(c.mean_low, c.mean_high, words));
   }
@@ -68,7 +68,7 @@ std::string SentenceFor(const Comparison& c, const std::string& other, const Met
     case Verdict::kNoDifference:
       return fmt::format("“{}” makes no difference that matters to the {} against {}: {}", c.method, words.label, other,
                          figures);
-    case Verdict::kInconclusive:
+    case Verdict::kUndecided:
       break;
   }
   return fmt::format("It is undecided whether “{}” changes the {} against {}: {}", c.method, words.label, other,
@@ -114,7 +114,7 @@ std::string SentenceOverConditions(const std::vector<Judged>& judged, const Metr
     return fmt::format("“{}” makes no difference that matters to the {} against {}{}{}", first.method, words.label,
                        others, under, range);
   }
-  if (verdict == Verdict::kInconclusive) {
+  if (verdict == Verdict::kUndecided) {
     return fmt::format("It is undecided whether “{}” changes the {} against {}{}{}", first.method, words.label, others,
                        under, range);
   }
@@ -190,7 +190,7 @@ std::string VerdictPhrase(const std::vector<Judged>& judged) {
       return "worse than " + others;
     case Verdict::kNoDifference:
       return "no different from " + others;
-    case Verdict::kInconclusive:
+    case Verdict::kUndecided:
       break;
   }
   return "undecided against " + others;
@@ -210,7 +210,7 @@ std::string ChangeOf(const std::vector<Judged>& judged, std::string_view what) {
   if (!low) return "";
   const MetricWords words = WordsFor(judged.front().comparison->metric);
   const Comparison& first = *judged.front().comparison;
-  if (judged.size() == 1 && first.verdict == Verdict::kInconclusive && MeanTellsMore(first)) {
+  if (judged.size() == 1 && first.verdict == Verdict::kUndecided && MeanTellsMore(first)) {
     return fmt::format(" ({}median {}, mean {})", what, FormatNumber(*low * words.scale), Amount(*first.mean, words));
   }
   const std::string range = *low == *high ? FormatNumber(*low * words.scale) : FormatInterval(low, high, words);
@@ -285,9 +285,9 @@ std::string FurtherSteps(const Judged& judged) {
     text = fmt::format(" Where both succeed ({}): {} {}{}.", Plural(both->pairs, "world"), words.label,
                        Amount(*both->difference, words), interval);
   }
-  const bool open = answer->decided_by == AnswerStep::kNone && answer->verdict == Verdict::kInconclusive;
+  const bool open = answer->decided_by == AnswerStep::kNone && answer->verdict == Verdict::kUndecided;
   if (const auto& success = answer->success;
-      open && success && success->difference && success->ci_low && success->verdict == Verdict::kInconclusive) {
+      open && success && success->difference && success->ci_low && success->verdict == Verdict::kUndecided) {
     const MetricWords words = WordsFor(success->metric);
     text += fmt::format(" It is undecided whether success differs: {} {} ({}).", words.label,
                         Amount(*success->difference, words), FormatInterval(success->ci_low, success->ci_high, words));
@@ -354,7 +354,7 @@ MethodFinding CompareInWords(const ScenarioSummary& scenario, const std::string&
       IsAnswer(scenario, metric) ? AnswersOf(scenario, method, against) : JudgedOf(scenario, method, metric, against);
   if (judged.empty()) {
     MethodFinding finding{.method = method, .baseline = scenario.methods.front(), .unit = scenario.unit};
-    finding.verdict = Verdict::kInconclusive;
+    finding.verdict = Verdict::kUndecided;
     finding.sentence = fmt::format("“{}” was not compared by {}.", method, WordsFor(metric).label);
     return finding;
   }

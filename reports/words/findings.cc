@@ -213,7 +213,7 @@ ScenarioFindings FindingsOf(const RunData& run, const ScenarioSummary& scenario)
   const std::string asked = MethodInQuestion(scenario);
   // Compare the method in question with its baseline and with the strongest other method.
   if (asked.empty()) {
-    findings.answer.verdict = Verdict::kInconclusive;
+    findings.answer.verdict = Verdict::kUndecided;
     findings.answer.sentence = "Only one method ran, so there is nothing to compare it with.";
   } else {
     findings.headline = HeadlineOf(scenario, asked, findings.metric);

@@ -32,11 +32,11 @@ struct MethodFinding {
   BeyondFinding beyond = {};            ///< verdicts generalised to other clips, people or libraries
   std::string others = {};    ///< all methods with which `method` is compared under any condition: “a” or “b”
   std::string sentence = {};  ///< states the comparison in words, with the numbers behind the verdicts
-  std::string why_open = {};  ///< why the verdict is inconclusive; set only if there is one condition
+  std::string why_open = {};  ///< why the verdict is undecided; set only if there is one condition
 
   /// Returns the verdict in words: "better on these clips".
   std::string Words() const { return fmt::format("{} on {}", VerdictWords(verdict), TheseUnits(unit)); }
-  /// Returns both verdicts: "better on these clips, inconclusive for other clips".
+  /// Returns both verdicts: "better on these clips, undecided for other clips".
   std::string BothVerdicts() const;
 };
 

@@ -56,7 +56,7 @@ std::string VerdictsInWords(const std::vector<Judged>& judged, const std::vector
   }
   const Beyond& beyond = judged.front().comparison->beyond;
   const std::string why =
-      verdicts.front() == Verdict::kInconclusive && !beyond.why_open.empty() ? ": " + beyond.why_open : std::string();
+      verdicts.front() == Verdict::kUndecided && !beyond.why_open.empty() ? ": " + beyond.why_open : std::string();
   return fmt::format("{} ({}){}", VerdictName(verdicts.front()),
                      FiguresOf(beyond, WordsFor(judged.front().comparison->metric), unit), why);
 }
@@ -137,7 +137,7 @@ std::string AllConditions(std::size_t count) {
 
 std::string CountVerdicts(const std::vector<Verdict>& verdicts, std::size_t conditions) {
   std::string text;
-  for (const Verdict verdict : {Verdict::kBetter, Verdict::kWorse, Verdict::kNoDifference, Verdict::kInconclusive}) {
+  for (const Verdict verdict : {Verdict::kBetter, Verdict::kWorse, Verdict::kNoDifference, Verdict::kUndecided}) {
     const auto count = static_cast<std::size_t>(std::ranges::count(verdicts, verdict));
     if (count == 0) continue;
     if (!text.empty()) text += ", ";

@@ -53,7 +53,7 @@ std::optional<Verdict> CommonVerdict(const std::vector<Judged>& judged);
 /// Returns the words for a number of conditions: "both conditions", "all 4 conditions".
 std::string AllConditions(std::size_t count);
 
-/// Counts equal verdicts in words: "better under 3 of 4, inconclusive under 1 of 4", "worse under all 4 conditions"; ""
+/// Counts equal verdicts in words: "better under 3 of 4, undecided under 1 of 4", "worse under all 4 conditions"; ""
 /// for no verdicts.
 std::string CountVerdicts(const std::vector<Verdict>& verdicts, std::size_t conditions);
 

@@ -129,12 +129,12 @@ TEST(Answer, IsNotLeftOpenByASuccessThatNeverDiffers) {
     };
   };
   const Answer answer = AnswerOf(IkStudy(16), world_with(0));
-  EXPECT_EQ(answer.success->verdict, Verdict::kInconclusive);
+  EXPECT_EQ(answer.success->verdict, Verdict::kUndecided);
   EXPECT_EQ(answer.verdict, Verdict::kNoDifference);
   // The control: one world is lost. Then the verdict stays open.
   const Answer open = AnswerOf(IkStudy(16), world_with(1));
-  EXPECT_EQ(open.verdict, Verdict::kInconclusive);
-  EXPECT_EQ(open.beyond, Verdict::kInconclusive);
+  EXPECT_EQ(open.verdict, Verdict::kUndecided);
+  EXPECT_EQ(open.beyond, Verdict::kUndecided);
 }
 
 TEST(Answer, IsAboutSuccessAloneWhereThatIsGradedAndComesFirst) {
@@ -170,9 +170,9 @@ TEST(Answer, IsOpenWhereTheValueIsOppositeAmongThoseThatSucceed) {
   const ConditionSummary& condition = summary.conditions.front();
   EXPECT_EQ(condition.comparisons.front().verdict, Verdict::kBetter);
   const Answer& answer = condition.answers.front();
-  EXPECT_EQ(answer.success->verdict, Verdict::kInconclusive);
+  EXPECT_EQ(answer.success->verdict, Verdict::kUndecided);
   EXPECT_EQ(answer.both_succeed->verdict, Verdict::kWorse);
-  EXPECT_EQ(answer.verdict, Verdict::kInconclusive);
+  EXPECT_EQ(answer.verdict, Verdict::kUndecided);
   EXPECT_EQ(answer.decided_by, AnswerStep::kNone);
 }
 

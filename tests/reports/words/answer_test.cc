@@ -74,7 +74,7 @@ ScenarioSummary AnsweredSummary() {
   of_rival.success->ci_low = -0.70;
   of_rival.success->ci_high = -0.44;
   of_rival.success->worse = 12;
-  of_rival.both_succeed = Compared("orientation_error_deg", "gauss-newton", Verdict::kInconclusive);
+  of_rival.both_succeed = Compared("orientation_error_deg", "gauss-newton", Verdict::kUndecided);
   of_rival.both_succeed->pairs = 8;
   condition.answers = {of_baseline};
   condition.rival_answers = {of_rival};
@@ -144,7 +144,7 @@ TEST(Headline, GivesTheLeastAndTheLargestDifferenceOverConditions) {
 
 TEST(Headline, SaysThatNothingIsDecided) {
   ScenarioSummary scenario = SolverSummary();
-  scenario.conditions[0].rivals = {Compared("orientation_error_deg", "gauss-newton", Verdict::kInconclusive)};
+  scenario.conditions[0].rivals = {Compared("orientation_error_deg", "gauss-newton", Verdict::kUndecided)};
   const std::string headline = HeadlineOfSolvers(scenario);
   EXPECT_THAT(headline, HasSubstr("; undecided against “gauss-newton”"));
   EXPECT_THAT(headline, Not(HasSubstr("no different")));

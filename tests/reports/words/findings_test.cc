@@ -54,7 +54,7 @@ TEST(Answer, CountsTheWorldsLostWhenWorse) {
 }
 
 TEST(Answer, ClaimsNothingThatIsNotSettled) {
-  const std::string open = AnswerTo(Figures(20, -0.2, -0.9, 0.5, 0.5, Verdict::kInconclusive));
+  const std::string open = AnswerTo(Figures(20, -0.2, -0.9, 0.5, 0.5, Verdict::kUndecided));
   EXPECT_THAT(open, HasSubstr("It is undecided whether"));
   EXPECT_THAT(open, Not(HasSubstr("lowers")));
   const std::string same = AnswerTo(Figures(20, 0.01, -0.02, 0.03, 0.5, Verdict::kNoDifference));
@@ -62,7 +62,7 @@ TEST(Answer, ClaimsNothingThatIsNotSettled) {
 }
 
 TEST(Answer, NamesTheMeanThatTheMedianHides) {
-  Comparison rare = Figures(120, 0, 0, 0, 0.4, Verdict::kInconclusive);
+  Comparison rare = Figures(120, 0, 0, 0, 0.4, Verdict::kUndecided);
   rare.mean = 6.3, rare.mean_low = 3.19, rare.mean_high = 9.61;
   EXPECT_THAT(AnswerTo(rare), HasSubstr("median 0° (95 % CI 0–0), mean 6.30° (3.19–9.61) on 120 worlds"));
   rare.verdict = Verdict::kNoDifference;
@@ -70,7 +70,7 @@ TEST(Answer, NamesTheMeanThatTheMedianHides) {
 }
 
 TEST(Answer, SaysWhyItIsOpen) {
-  Comparison open = Figures(8, -4.7, -6.0, -1.1, 0.9, Verdict::kInconclusive);
+  Comparison open = Figures(8, -4.7, -6.0, -1.1, 0.9, Verdict::kUndecided);
   open.why_open = "too few worlds";
   EXPECT_THAT(AnswerTo(open), HasSubstr("on 8 worlds."));
   EXPECT_EQ(FindingsOf(RunData{}, OneComparison(open)).answer.why_open, "too few worlds");
@@ -88,7 +88,7 @@ TEST(Answer, TellsOfTheWorldsThatOnlyOneSurvived) {
 }
 
 TEST(Answer, AdmitsThatNothingCouldBeCompared) {
-  EXPECT_THAT(AnswerTo(Figures(0, std::nullopt, std::nullopt, std::nullopt, 0, Verdict::kInconclusive)),
+  EXPECT_THAT(AnswerTo(Figures(0, std::nullopt, std::nullopt, std::nullopt, 0, Verdict::kUndecided)),
               HasSubstr("no world has both values"));
 }
 
