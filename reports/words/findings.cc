@@ -186,7 +186,7 @@ KeyFigures KeyFiguresOf(const ScenarioSummary& scenario, const std::string& aske
   if (times.MedianOf(asked)) {
     add("processor time", [&](const std::string& method) { return TimeText(times.MedianOf(method)); });
   }
-  add(fmt::format("worlds in which “{}” is better by a difference that matters", asked),
+  add(fmt::format("worlds in which “{}” is better", asked),
       [&](const std::string& method) { return method == asked ? "" : WorldsLostTo(scenario, asked, method, metric); });
   return figures;
 }

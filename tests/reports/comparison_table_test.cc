@@ -45,7 +45,7 @@ TEST(ComparisonTable, SaysWhyAVerdictIsOpenAndMarksAnIntervalThatIsNoBca) {
   comparison.why_open = "too few worlds";
   comparison.interval = IntervalKind::kPercentile;
   const std::string html = ComparisonTableHtml(scenario);
-  EXPECT_THAT(html, HasSubstr("too few worlds"));
+  EXPECT_THAT(html, HasSubstr("</span><small>too few worlds</small></td>")) << "beside the verdict, not in a tooltip";
   EXPECT_THAT(html, HasSubstr(" †</td>"));
   EXPECT_THAT(ComparisonTableHtml(ComparedTransition()), Not(HasSubstr(" †</td>")));
   EXPECT_THAT(ComparisonTableMarkdown(scenario), HasSubstr("too few worlds"));
@@ -88,7 +88,7 @@ TEST(ComparisonTable, GivesBothVerdictsAndTheStrongestOtherMethod) {
   const RunData run = UnitRun();
   const std::string html = ComparisonTableHtml(run.scenarios[3]);
   EXPECT_THAT(html, HasSubstr("<th scope=\"col\">On these clips</th><th scope=\"col\">For other clips</th>"));
-  EXPECT_THAT(html, HasSubstr("for other clips: 4 clips, 6 are needed"));
+  EXPECT_THAT(html, HasSubstr("<td>—<small>4 clips, 6 are needed</small></td>"));
   const std::string csv = ComparisonTableCsv(run.scenarios[0]);
   EXPECT_THAT(csv, HasSubstr(",rival,clip-pair,8,"));
   EXPECT_THAT(ComparisonTableMarkdown(run.scenarios[0]), HasSubstr("(strongest other) |"));
