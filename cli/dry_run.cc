@@ -12,9 +12,11 @@
 #include "bench/statistics/beyond.h"
 #include "bench/statistics/bootstrap.h"
 #include "bench/statistics/distributions.h"
+#include "bench/statistics/paired_tests.h"
 #include "cli/commands.h"
 #include "cli/facts.h"
 #include "engine/base/names.h"
+#include "reports/words/figures.h"
 
 namespace etude {
 namespace {
@@ -36,34 +38,42 @@ std::string CountOf(std::size_t count, std::string_view what) {
 std::string InUnit(const ScenarioForecast& one, double deviations) {
   const MetricInfo* metric = FindMetric(one.metric);
   if (metric == nullptr || one.spread <= 0) return "";
-  const std::string unit = metric->unit.empty() ? "" : " " + metric->unit;
-  return fmt::format(", about {:.2g}{} of {} ({:g} matters)", deviations * one.spread, unit, metric->label,
-                     metric->practical);
+  const MetricWords words = WordsFor(one.metric);
+  return fmt::format(", about {} of {} ({:g}{} matters)", ShortDifference(deviations * one.spread, words), words.label,
+                     metric->practical * words.scale, words.is_share ? " pp" : words.difference_suffix);
 }
 
-void Print(const ScenarioForecast& one) {
+/// Prints a forecast. Returns true if it names a difference that the run would find.
+bool Print(const ScenarioForecast& one) {
   fmt::print("{} ({}): {} × {} × {} = {} cells, {:.2g} s a world{}\n", one.name, one.task,
              CountOf(one.conditions, "condition"), CountOf(one.worlds, "world"), CountOf(one.methods, "method"),
              one.conditions * one.worlds * one.methods, one.seconds_per_world,
              one.is_kept ? "" : ", measured on the first worlds");
-  if (one.comparisons == 0) return;
+  if (one.comparisons == 0) return false;
   const int worlds = static_cast<int>(one.worlds);
+  const SamplingUnit world = one.unit == SamplingUnit::kPerson ? one.unit : SamplingUnit::kWorld;
   const std::string among = one.comparisons == 1 ? "1 comparison" : fmt::format("{} comparisons", one.comparisons);
-  if (worlds < kMinSample) {
-    fmt::print("  on these worlds: no verdict; at least {} are needed\n", kMinSample);
+  const int for_values = PairsNeeded(one.comparisons, kAlpha);
+  if (worlds < one.needed) {
+    fmt::print("  on these worlds: neither better nor worse is possible with fewer than {}; there are {}\n",
+               CountUnits(one.needed, world), worlds);
+  } else if (worlds < for_values) {
+    fmt::print("  on these worlds: with fewer than {}, none of {} can be better or worse; success or the tail can\n",
+               CountUnits(for_values, world), among);
   } else {
     const double least = MinDetectableDifference(worlds, one.comparisons);
     fmt::print(
         "  on these worlds: {} {} a mean difference of {:.2f} or more standard deviations of the worlds' differences{}\n",
         among, one.comparisons == 1 ? "shows" : "show", least, InUnit(one, least));
   }
-  if (WorldsAreUnits(one.unit)) return;
+  if (WorldsAreUnits(one.unit)) return worlds >= for_values;
   if (one.units < kMinUnits) {
     fmt::print("  for others: no verdict: {}; at least {} are needed\n", CountUnits(one.units, one.unit), kMinUnits);
-    return;
+    return worlds >= for_values;
   }
   fmt::print("  for others: a difference of {:.2f} or more standard deviations of the mean differences of {}\n",
              MinDetectableDifference(one.units, one.comparisons), CountUnits(one.units, one.unit));
+  return true;
 }
 
 Json FactsOf(const Forecast& forecast, const Shard& shard) {
@@ -73,6 +83,7 @@ Json FactsOf(const Forecast& forecast, const Shard& shard) {
                          {"task", one.task},
                          {"conditions", one.conditions},
                          {"worlds", one.worlds},
+                         {"worlds_needed", one.needed},
                          {"methods", one.methods},
                          {"comparisons", one.comparisons},
                          {"units", one.units},
@@ -100,17 +111,18 @@ int DryRunCommand(const RunOptions& options, bool as_json) {
     return printed ? kSuccess : Complain(printed.error());
   }
   std::size_t all = 0;
+  bool shows_differences = false;
   std::vector<std::string> guessed;
   for (const ScenarioForecast& one : forecast->scenarios) {
-    Print(one);
+    shows_differences = Print(one) || shows_differences;
     all += one.conditions * one.worlds * one.methods;
     if (!one.is_kept) guessed.push_back(one.name);
   }
   if (!options.shard.IsWhole())
     fmt::print("Shard {}: {} of {} cells.\n", ToString(options.shard), forecast->cells, all);
-  fmt::print(
-      "{} cells, about {} on {}. The differences above are found with a probability of 80 %. Nothing was written.\n",
-      forecast->cells, Duration(forecast->seconds), CountOf(static_cast<std::size_t>(forecast->workers), "worker"));
+  fmt::print("{} cells, about {} on {}.{} Nothing was written.\n", forecast->cells, Duration(forecast->seconds),
+             CountOf(static_cast<std::size_t>(forecast->workers), "worker"),
+             shows_differences ? " The differences above are found with a probability of 80 %." : "");
   if (!guessed.empty()) {
     fmt::print("The time is an estimate: the costs of {} are not known, so its first worlds were measured just now.\n",
                Join(guessed, ", "));

@@ -78,7 +78,9 @@ void PrintReport(const GateReport& report) {
   PrintList("Methods without an answer:", report.silent);
   PrintList("Incomplete:", report.incomplete);
   for (const std::string& sentence : GateSentences(report)) fmt::print("{}\n", sentence);
-  fmt::print("Gate: {}{}\n", GateVerdictWords(GateVerdictOf(report)),
+  const std::vector<std::string> reversed = FallenLines(report, true);
+  fmt::print("Gate: {}{}{}\n", GateVerdictWords(GateVerdictOf(report)),
+             reversed.empty() ? "" : fmt::format(" ({})", Join(reversed, "; ")),
              report.baseline_file.empty() ? ", without a baseline (--baseline FILE --update makes one)" : "");
 }
 

@@ -10,7 +10,6 @@
 
 #include "bench/finished_runs/finished_runs.h"
 #include "bench/gate/gate.h"
-#include "bench/metrics/catalogue.h"
 #include "bench/results/folder.h"
 #include "bench/run/run.h"
 #include "bench/run/shipped.h"
@@ -20,17 +19,18 @@
 #include "cli/interrupt.h"
 #include "cli/output_file.h"
 #include "cli/progress_bar.h"
+#include "engine/base/names.h"
+#include "reports/words/answer.h"
+#include "reports/words/figures.h"
+#include "reports/words/findings.h"
+#include "reports/words/judged.h"
 
 namespace etude {
 namespace {
 
-std::string Value(const MethodSummary& method, const MetricInfo& metric) {
-  for (const MetricSummary& summary : method.metrics) {
-    if (summary.id != metric.id) continue;
-    const auto& value = metric.aggregate == Aggregate::kMedian ? summary.median : summary.mean;
-    return value ? fmt::format("{:.3g}", *value) : "-";
-  }
-  return "-";
+std::string Value(const MethodSummary& method, const std::string& metric, const MetricWords& words) {
+  const MetricSummary* summary = FindSummary(method, metric);
+  return FormatValue(summary == nullptr ? std::nullopt : TypicalValue(*summary, words), words);
 }
 
 bool IsSkipped(const ConditionSummary& condition) {
@@ -48,13 +48,28 @@ std::string WhySkipped(const ConditionSummary& condition, const std::string& sce
   return row == rows.end() ? "" : row->result.reason;
 }
 
-/// Prints one small table per condition, with methods as rows and headline metrics as columns.
+/// Returns the number of characters of a UTF-8 text.
+std::size_t CountCharacters(std::string_view text) {
+  return static_cast<std::size_t>(std::ranges::count_if(text, [](char c) { return (c & 0xC0) != 0x80; }));
+}
+
+std::string_view ArrowOf(Direction direction) {
+  return direction == Direction::kNeither ? "" : direction == Direction::kLowerIsBetter ? " ↓" : " ↑";
+}
+
+/// Prints one small table per condition, with methods as rows and headline metrics as columns. An arrow shows whether
+/// lower or higher values are better.
 void PrintTables(const ScenarioSummary& scenario, const std::vector<Row>& rows) {
   constexpr std::size_t kShownMetrics = 4;
-  std::vector<const MetricInfo*> metrics;
-  for (const std::string& id : scenario.headline_metrics) {
-    if (metrics.size() < kShownMetrics) metrics.push_back(FindMetric(id));
+  const std::span<const std::string> metrics =
+      std::span(scenario.headline_metrics).first(std::min(kShownMetrics, scenario.headline_metrics.size()));
+  std::vector<MetricWords> words;
+  std::vector<std::string> heads;
+  for (const std::string& metric : metrics) {
+    words.push_back(WordsFor(metric));
+    heads.push_back(fmt::format("{}{}", words.back().label, ArrowOf(words.back().direction)));
   }
+  const auto width_of = [&](std::size_t i) { return std::max<std::size_t>(10, CountCharacters(heads[i])); };
   std::size_t width = 6;
   for (const std::string& method : scenario.methods) width = std::max(width, method.size());
   for (const ConditionSummary& condition : scenario.conditions) {
@@ -64,14 +79,40 @@ void PrintTables(const ScenarioSummary& scenario, const std::vector<Row>& rows) 
       continue;
     }
     fmt::print("  {:<{}}", ConditionLabel(condition.condition), width + 2);
-    for (const MetricInfo* metric : metrics) fmt::print("  {:>24}", metric->id);
+    for (std::size_t i = 0; i < heads.size(); ++i) fmt::print("  {:>{}}", heads[i], width_of(i));
     fmt::print("\n");
     for (const MethodSummary& method : condition.methods) {
       fmt::print("    {:<{}}", method.method, width);
-      for (const MetricInfo* metric : metrics) fmt::print("  {:>24}", Value(method, *metric));
+      for (std::size_t i = 0; i < heads.size(); ++i) {
+        fmt::print("  {:>{}}", Value(method, metrics[i], words[i]), width_of(i));
+      }
       fmt::print("\n");
     }
   }
+}
+
+/// Prints the answers, as the report's page begins with them.
+void PrintAnswers(const RunData& run) {
+  std::vector<std::string> answers;
+  for (const ScenarioSummary& scenario : run.scenarios) {
+    if (scenario.headline_metrics.empty()) continue;
+    const std::string headline = HeadlineOf(scenario, MethodInQuestion(scenario), scenario.headline_metrics.front());
+    if (!headline.empty()) answers.push_back(fmt::format("{}: {}", scenario.name, headline));
+  }
+  PrintList("\nAnswers:", answers);
+}
+
+/// Returns ", 191 unsolved (the method answered, but missed its goal)"; "" if no cell is unsolved.
+std::string UnsolvedInWords(const RunData& run) {
+  int unsolved = 0;
+  for (const ScenarioSummary& scenario : run.scenarios) {
+    for (const ConditionSummary& condition : scenario.conditions) {
+      for (const MethodSummary& method : condition.methods) {
+        for (const auto& [status, count] : method.statuses) unsolved += status == Status::kUnsolved ? count : 0;
+      }
+    }
+  }
+  return unsolved == 0 ? "" : fmt::format(", {} unsolved (the method answered, but missed its goal)", unsolved);
 }
 
 void PrintSummary(const RunData& run) {
@@ -143,8 +184,9 @@ int ShowOutcome(const RunOutcome& outcome) {
     if (!finished) return Complain(finished.error());
     PrintList("\nMethods without an answer:", DescribeSilentMethods(*finished));
   }
-  fmt::print("\n{} of {} cells ok in {:.1f} s: {}\nNext: etude report {}\n", outcome.cells_ok, outcome.cells,
-             outcome.seconds, folder, folder);
+  PrintAnswers(*run);
+  fmt::print("\n{} of {} cells ok{} in {:.1f} s: {}\nNext: etude report {}\n", outcome.cells_ok, outcome.cells,
+             UnsolvedInWords(*run), outcome.seconds, folder, folder);
   return outcome.cells_ok > 0 && !has_silent ? kSuccess : kNothingWorked;
 }
 

@@ -14,9 +14,9 @@ std::string_view VerdictClass(const std::optional<Verdict>& verdict) {
   return verdict ? kClasses[static_cast<std::size_t>(*verdict)] : "mixed";
 }
 
-/// Returns true if the verdict on the worlds of this run is not inconclusive but does not generalise: the verdict for
+/// Returns true if the verdict on the worlds of this run is not undecided but does not generalise: the verdict for
 /// other clips or people differs or is missing.
-bool HoldsHereOnly(const Comparison& c) { return c.verdict != Verdict::kInconclusive && c.beyond.verdict != c.verdict; }
+bool HoldsHereOnly(const Comparison& c) { return c.verdict != Verdict::kUndecided && c.beyond.verdict != c.verdict; }
 
 }  // namespace
 
@@ -38,7 +38,7 @@ std::string ComparisonMark(const Comparison& comparison, SamplingUnit unit) {
 
 std::string FindingBadge(const MethodFinding& finding, std::string_view words) {
   if (!finding.is_compared) return "";
-  const bool here_only = finding.verdict != Verdict::kInconclusive && !finding.beyond.as_on_these;
+  const bool here_only = finding.verdict != Verdict::kUndecided && !finding.beyond.as_on_these;
   const std::string_view sign = VerdictSign(finding.verdict);
   return fmt::format("<span class=\"badge {}\" title=\"{}\"><span role=\"img\" aria-label=\"{}\">{}</span> {}</span>",
                      VerdictClass(finding.verdict), EscapeMarkup(finding.sentence), finding.Words(),

@@ -18,7 +18,7 @@ std::string VerdictBadge(const std::optional<Verdict>& verdict);
 /// label for the two verdicts.
 std::string VerdictBadges(const MethodFinding& finding);
 
-/// Returns the symbol of a verdict: "▲" better, "▼" worse, "=" equivalent, "?" inconclusive, "±" if the verdict depends
+/// Returns the symbol of a verdict: "▲" better, "▼" worse, "=" equivalent, "?" undecided, "±" if the verdict depends
 /// on the condition.
 std::string_view VerdictSign(const std::optional<Verdict>& verdict);
 

@@ -46,7 +46,7 @@ std::string Notes(const Comparison& c) {
 
 std::string BothNotes(const Comparison& c, SamplingUnit unit) {
   std::string text = Notes(c);
-  // If every world is its own sampling unit, `Notes` has already written why the verdict is inconclusive.
+  // If every world is its own sampling unit, `Notes` has already written why the verdict is undecided.
   if (c.beyond.why_open.empty() || WorldsAreUnits(unit)) return text;
   return text + fmt::format("{}for {}: {}", text.empty() ? "" : "; ", OtherUnits(unit), c.beyond.why_open);
 }
@@ -69,23 +69,30 @@ Line LineOf(const ConditionSummary& condition, const Comparison& c, SamplingUnit
   return line;
 }
 
+/// Returns a verdict as a label, with the reason below it if there is none, if it is undecided or if the tail decided
+/// it.
+std::string BadgeWithReason(const std::optional<Verdict>& verdict, const std::string& why) {
+  return (verdict ? VerdictBadge(verdict) : std::string(kNoValue)) +
+         (why.empty() ? "" : fmt::format("<small>{}</small>", EscapeMarkup(why)));
+}
+
 TableRow RowOf(const ScenarioSummary& scenario, const Shown& shown, bool swept) {
-  const Comparison& c = *shown.comparison;
+  const Comparison c = AsAnswered(*shown.condition, *shown.comparison);
   const Line line = LineOf(*shown.condition, c, scenario.unit);
   const std::string place = fmt::format("{}/{}/000/", scenario.name, CompactLabel(shown.condition->condition));
   std::string cells = place + c.method;  // IDs of the cells of all compared methods in trial 0, one per line
   for (const std::string& baseline : BaselinesOf({&c, shown.condition})) cells += "\n" + place + baseline;
-  const auto& beyond = c.beyond.verdict;
+  const std::string why_beyond = WorldsAreUnits(scenario.unit) ? "" : c.beyond.why_open;
   TableRow row{.cells = {line.methods}, .attributes = fmt::format(" data-ids=\"{}\"", EscapeMarkup(cells))};
   if (swept) row.cells.emplace_back(line.condition);
   row.cells.insert(row.cells.end(), {{line.difference, c.difference},
                                      {line.interval, c.ci_low},
-                                     {"", {}, VerdictBadge(c.verdict)},
-                                     {"", {}, beyond ? VerdictBadge(*beyond) : std::string(kNoValue)},
+                                     {"", {}, BadgeWithReason(c.verdict, c.why_open)},
+                                     {"", {}, BadgeWithReason(c.beyond.verdict, why_beyond)},
                                      {line.pairs, c.pairs},
                                      {line.p, c.p_holm},
                                      {line.effect, c.effect_size},
-                                     line.notes});
+                                     fmt::format("{}", fmt::join(c.notes, "; "))});
   return row;
 }
 
@@ -175,7 +182,7 @@ std::string WhatHolds(const AcrossVerdict& across) {
   for (const AcrossVerdict::Each& each : across.each) {
     if (std::ranges::find(said, each.verdict) == said.end()) said.push_back(each.verdict);
   }
-  if (said.size() == 1) return "inconclusive everywhere";
+  if (said.size() == 1) return "undecided everywhere";
   const auto says = [&](Verdict verdict) { return std::ranges::find(said, verdict) != said.end(); };
   return says(Verdict::kBetter) && says(Verdict::kWorse) ? "better under some, worse under others"
                                                          : "does not hold everywhere";
@@ -208,10 +215,6 @@ Table AcrossTable(const ScenarioSummary& scenario) {
 }
 
 }  // namespace
-
-std::string ShortDifference(double difference, const MetricWords& words) {
-  return FormatNumber(difference * words.scale) + (words.is_share ? " pp" : words.difference_suffix);
-}
 
 std::string MetricHeading(const std::string& metric) {
   const MetricWords words = WordsFor(metric);
@@ -255,11 +258,11 @@ std::string ComparisonTableMarkdown(const ScenarioSummary& scenario) {
                           {"effect"},
                           {"notes"}}};
   for (const Shown& shown : std::span(all).first(std::min(all.size(), kMaxTableRows))) {
-    const Line line = LineOf(*shown.condition, *shown.comparison, scenario.unit);
-    table.rows.push_back(
-        {{line.metric, line.methods + (shown.against == Against::kRival ? " (strongest other)" : ""), line.condition,
-          fmt::format("{} ({})", line.difference, line.interval), VerdictName(shown.comparison->verdict), line.beyond,
-          line.pairs, line.p, line.effect, line.notes}});
+    const Comparison c = AsAnswered(*shown.condition, *shown.comparison);
+    const Line line = LineOf(*shown.condition, c, scenario.unit);
+    table.rows.push_back({{line.metric, line.methods + (shown.against == Against::kRival ? " (strongest other)" : ""),
+                           line.condition, fmt::format("{} ({})", line.difference, line.interval),
+                           VerdictName(c.verdict), line.beyond, line.pairs, line.p, line.effect, line.notes}});
   }
   const std::string rest = LeftOutWords(all.size(), kMaxTableRows, "comparisons", kAllComparisons);
   return fmt::format("\n<details><summary>Every comparison ({})</summary>\n{}{}\n{}\n\n</details>\n", all.size(),

@@ -12,9 +12,6 @@ namespace etude {
 /// Returns the heading of a group of rows: "orientation error (lower is better, 0.1° matters)".
 std::string MetricHeading(const std::string& metric);
 
-/// Returns a difference with a short unit ("pp" for percentage points), because tables have little room.
-std::string ShortDifference(double difference, const MetricWords& words);
-
 /// Explains the columns of the tables below.
 inline constexpr std::string_view kComparisonLegend =
     "A difference is method − baseline in the same world. The table shows its median over worlds (for shares and "

@@ -52,7 +52,7 @@ std::string WorldsText(const MetricMove& move) {
 /// Returns how many changes of metrics have each outcome, without zeros: "2 worse, 3 better, 165 same".
 std::string MovementCounts(const std::vector<MetricMove>& moves) {
   std::string text;
-  for (Movement movement : {Movement::kWorse, Movement::kChanged, Movement::kBetter, Movement::kUnclear,
+  for (Movement movement : {Movement::kWorse, Movement::kChanged, Movement::kBetter, Movement::kUndecided,
                             Movement::kNoMatter, Movement::kSame}) {
     const auto count =
         std::count_if(moves.begin(), moves.end(), [&](const MetricMove& move) { return move.movement == movement; });
@@ -112,7 +112,7 @@ GateTableRow GateRowOf(const MetricMove& move) {
 }
 
 std::vector<GateTableRow> MovedRows(const SnapshotComparison& comparison) {
-  constexpr std::array kOrder = {Movement::kWorse, Movement::kChanged, Movement::kBetter, Movement::kUnclear,
+  constexpr std::array kOrder = {Movement::kWorse, Movement::kChanged, Movement::kBetter, Movement::kUndecided,
                                  Movement::kNoMatter};
   std::vector<GateTableRow> rows;
   for (Movement movement : kOrder) {
@@ -273,9 +273,8 @@ std::string AnswerTable(const std::vector<GateAnswer>& answers) {
   Table table{.columns = {{"scenario"}, {"condition"}, {"method"}, {"against"}, {"answer"}, {"decided by"}}};
   for (std::size_t i = 0; i < std::min(kMaxRows, answers.size()); ++i) {
     const auto& [scenario, condition, answer] = answers[i];
-    const std::string verdict(answer.verdict == Verdict::kInconclusive ? "undecided" : VerdictName(answer.verdict));
     const std::string step(NameOfValue(kAnswerSteps, answer.decided_by));
-    table.rows.push_back({{scenario, condition, answer.method, answer.baseline, verdict, step}});
+    table.rows.push_back({{scenario, condition, answer.method, answer.baseline, VerdictName(answer.verdict), step}});
   }
   return TableMarkdown(table);
 }
@@ -311,7 +310,7 @@ std::vector<std::string> ClaimsThatAre(const GateReport& report, ClaimOutcome ou
 
 ClaimOutcome OutcomeOf(const MetricMove& move) {
   if (IsRegression(move)) return ClaimOutcome::kUnmet;
-  return move.movement == Movement::kUnclear ? ClaimOutcome::kUndecided : ClaimOutcome::kMet;
+  return move.movement == Movement::kUndecided ? ClaimOutcome::kUndecided : ClaimOutcome::kMet;
 }
 
 constexpr std::size_t kMaxWorldsOfCase = 20;

@@ -64,7 +64,6 @@ JunitCase TheAnswer(const ScenarioFindings& findings) {
   for (const MethodFinding* finding : {&findings.answer, &findings.rival}) {
     if (!finding->is_compared || (finding == &findings.rival && !HasOtherRival(findings))) continue;
     said += fmt::format("{}{}: {}", said.empty() ? "" : "\n", finding->BothVerdicts(), finding->sentence);
-    if (!finding->why_open.empty()) said += fmt::format(" Open: {}.", finding->why_open);
   }
   return {"the question has an answer", MetWhen(true), "", std::move(said)};
 }

@@ -22,8 +22,7 @@ namespace {
 
 std::string FindingText(const MethodFinding& finding) {
   if (!finding.is_compared) return EscapeMarkdown(finding.sentence);
-  return fmt::format("**{}**: {}{}", finding.BothVerdicts(), EscapeMarkdown(finding.sentence),
-                     finding.why_open.empty() ? "" : EscapeMarkdown(fmt::format(" Open: {}.", finding.why_open)));
+  return fmt::format("**{}**: {}", finding.BothVerdicts(), EscapeMarkdown(finding.sentence));
 }
 
 /// Returns the method's answer against the baseline. If the strongest other method is not the baseline, adds the answer

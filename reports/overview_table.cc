@@ -25,10 +25,10 @@ struct OverviewCell {
   std::string interval = {};             ///< interval of `value`; "" if the value has no interval
   std::string counted = {};              ///< number of cells with a value, "10 of 12"; "" if every cell has a value
   std::optional<double> sorted_by = {};  ///< the median or mean in `value` as a number, by which the page sorts
-  const Comparison* baseline = nullptr;  ///< comparison with the baseline; may be null
-  const Comparison* rival = nullptr;     ///< comparison with the strongest other method; may be null
+  std::optional<Comparison> baseline = {},
+                            rival = {};  ///< comparisons with the baseline and the strongest other method
 
-  bool IsCompared() const { return baseline != nullptr || rival != nullptr; }
+  bool IsCompared() const { return baseline || rival; }
 };
 
 struct OverviewRow {
@@ -39,11 +39,11 @@ struct OverviewRow {
   bool is_yardstick = false;
 };
 
-const Comparison* FindPaired(const std::vector<Comparison>& comparisons, const std::string& method,
-                             const std::string& metric) {
+std::optional<Comparison> FindPaired(const ConditionSummary& condition, const std::vector<Comparison>& comparisons,
+                                     const std::string& method, const std::string& metric) {
   const auto found = std::ranges::find_if(
       comparisons, [&](const Comparison& c) { return c.method == method && c.metric == metric && c.pairs > 0; });
-  return found == comparisons.end() ? nullptr : &*found;
+  return found == comparisons.end() ? std::nullopt : std::optional(AsAnswered(condition, *found));
 }
 
 OverviewCell CellOf(const ConditionSummary& condition, const MethodSummary& method, const std::string& metric) {
@@ -56,8 +56,8 @@ OverviewCell CellOf(const ConditionSummary& condition, const MethodSummary& meth
     const int all = summary->present + summary->missing;
     if (summary->missing > 0) cell.counted = fmt::format("{} of {}", FormatCount(summary->present), FormatCount(all));
   }
-  cell.baseline = FindPaired(condition.comparisons, method.method, metric);
-  cell.rival = FindPaired(condition.rivals, method.method, metric);
+  cell.baseline = FindPaired(condition, condition.comparisons, method.method, metric);
+  cell.rival = FindPaired(condition, condition.rivals, method.method, metric);
   return cell;
 }
 
@@ -126,8 +126,8 @@ std::string_view ArrowOf(Direction direction) {
 TableCell TableCellOf(const OverviewCell& cell, bool has_rivals, SamplingUnit unit) {
   std::string text = cell.value, html = EscapeMarkup(cell.value);
   if (cell.IsCompared()) {
-    const auto sign = [](const Comparison* c) { return c == nullptr ? "·" : ComparisonSign(*c); };
-    const auto mark = [&](const Comparison* c) { return c == nullptr ? "·" : ComparisonMark(*c, unit); };
+    const auto sign = [](const std::optional<Comparison>& c) { return c ? ComparisonSign(*c) : "·"; };
+    const auto mark = [&](const std::optional<Comparison>& c) { return c ? ComparisonMark(*c, unit) : "·"; };
     text += " " + sign(cell.baseline) + (has_rivals ? " " + sign(cell.rival) : "");
     html += fmt::format(" <span class=\"mark\">{}</span>", mark(cell.baseline));
     if (has_rivals) html += fmt::format(" <span class=\"mark\">{}</span>", mark(cell.rival));

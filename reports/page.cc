@@ -106,7 +106,7 @@ constexpr std::string_view kHowToRead =
 differences are computed world by world. In pictures a dot is a world, a thick line the median (for shares the mean),
 and a box covers the middle half of the worlds. <b>Better</b> and <b>worse</b> mean that the interval of the
 difference excludes zero and that the difference matters in practice; <b>no difference</b>, that the interval contains
-only differences that do not matter; <b>inconclusive</b>, that the data do not decide, which never means that there is
+only differences that do not matter; <b>undecided</b>, that the data do not decide, which never means that there is
 no difference.</p>
 <p>An <b>answer</b> first compares <b>success</b>: which method solves, finds or recovers more. A difference of 5
 percentage points matters, and a failure counts as no success. If success does not decide, the first headline metric

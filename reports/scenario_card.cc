@@ -278,13 +278,10 @@ std::string RecordedCells(const RunData& run, const ScenarioSummary& scenario) {
   return cells.dump(-1, ' ', false, Json::error_handler_t::replace);
 }
 
-/// Returns the sentence of a finding as HTML, preceded by `begin`. If the verdict is inconclusive, the tooltip says
-/// why.
+/// Returns the sentence of a finding as HTML, preceded by `begin`.
 std::string AnswerHtml(const MethodFinding& finding, std::string_view begin) {
   if (finding.sentence.empty()) return "";
-  return fmt::format("<p class=\"answer\"{}>{}{}</p>",
-                     finding.why_open.empty() ? "" : fmt::format(" title=\"{}\"", EscapeMarkup(finding.why_open)),
-                     begin, EscapeMarkup(finding.sentence));
+  return fmt::format("<p class=\"answer\">{}{}</p>", begin, EscapeMarkup(finding.sentence));
 }
 
 /// Returns the verdicts and the sentence about the comparison with the baseline. If the strongest other method is not

@@ -50,7 +50,9 @@ Group EndedOk(const ScenarioSummary& scenario, const ConditionSummary& condition
   return group;
 }
 
-std::vector<TableCell> ComparisonCells(const Comparison& c, const MetricWords& words) {
+std::vector<TableCell> ComparisonCells(const ConditionSummary& condition, const Comparison& as_measured,
+                                       const MetricWords& words) {
+  const Comparison c = AsAnswered(condition, as_measured);
   const std::string difference = c.difference ? ShortDifference(*c.difference, words) : std::string(kNoValue);
   std::vector<TableCell> cells = {c.baseline, WithInterval(difference, c.ci_low, c.ci_high, words), FormatP(c.p_holm),
                                   VerdictName(c.verdict), c.beyond.verdict ? VerdictName(*c.beyond.verdict) : ""};
@@ -85,7 +87,7 @@ Group OfMetric(const ScenarioSummary& scenario, const ConditionSummary& conditio
         WithInterval(FormatValue(TypicalValue(*summary, words), words), summary->ci_low, summary->ci_high, words)};
     const std::vector<const Comparison*> comparisons = ComparisonsOf(condition, method.method, metric);
     for (const Comparison* c : comparisons) {
-      std::ranges::move(ComparisonCells(*c, words), std::back_inserter(cells));
+      std::ranges::move(ComparisonCells(condition, *c, words), std::back_inserter(cells));
       group.push_back({std::move(cells)});
       cells = {"", "", ""};  // only the method's first row shows the method's own figures
     }

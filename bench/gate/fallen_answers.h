@@ -14,7 +14,7 @@ namespace etude {
 struct FallenAnswer {
   std::string scenario, condition;  ///< the condition as a CompactLabel
   std::string method, baseline;
-  Verdict before = Verdict::kInconclusive, after = Verdict::kInconclusive;  ///< verdict on the worlds of each snapshot
+  Verdict before = Verdict::kUndecided, after = Verdict::kUndecided;  ///< verdict on the worlds of each snapshot
 
   /// Returns true if the verdict changed from "better" to "worse". Only such a change is a regression: near a practical
   /// threshold, a tiny change of the values turns "better" into "no difference".
@@ -23,7 +23,7 @@ struct FallenAnswer {
 
 /// Returns the answers whose verdict fell from "better" to "no difference" or "worse", or from "no difference" to
 /// "worse". An answer may fall although neither method's values moved by a practical threshold: the method became a
-/// little worse, and its baseline method a little better. An answer that is inconclusive in either snapshot has not
+/// little worse, and its baseline method a little better. An answer that is undecided in either snapshot has not
 /// fallen.
 std::vector<FallenAnswer> FindFallenAnswers(const FinishedRun& run, const Snapshot& before, const Snapshot& after,
                                             std::span<const MetricMove> moves);

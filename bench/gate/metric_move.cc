@@ -31,16 +31,16 @@ Movement MovementOf(const Comparison& comparison, const MetricInfo& metric) {
       return Movement::kWorse;
     case Verdict::kNoDifference:
       return Movement::kNoMatter;
-    case Verdict::kInconclusive:
+    case Verdict::kUndecided:
       break;
   }
-  return Movement::kUnclear;
+  return Movement::kUndecided;
 }
 
-/// Returns the result that comes first in the order worse, better, unclear. Both results are about the same metric.
+/// Returns the result that comes first in the order worse, better, undecided. Both results are about the same metric.
 /// Returns kNoMatter if neither `a` nor `b` is one of these.
 Movement MoreImportant(Movement a, Movement b) {
-  for (Movement movement : {Movement::kWorse, Movement::kBetter, Movement::kUnclear}) {
+  for (Movement movement : {Movement::kWorse, Movement::kBetter, Movement::kUndecided}) {
     if (a == movement || b == movement) return movement;
   }
   return Movement::kNoMatter;
@@ -117,8 +117,8 @@ const MetricInfo* FindGateMetric(std::string_view id) {
 }
 
 std::string_view MovementWords(Movement movement) {
-  constexpr std::array<std::string_view, 6> kWords = {"same",    "better", "worse", "too small to matter",
-                                                      "unclear", "changed"};
+  constexpr std::array<std::string_view, 6> kWords = {"same",      "better", "worse", "too small to matter",
+                                                      "undecided", "changed"};
   return kWords[static_cast<std::size_t>(movement)];
 }
 

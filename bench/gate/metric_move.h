@@ -21,14 +21,14 @@ constexpr const char* kOkShare = "ok_share";
 const MetricInfo* FindGateMetric(std::string_view id);
 
 enum class Movement {
-  kSame,      ///< all values are the same in both snapshots
-  kBetter,    ///< the value is clearly better, by at least the practical threshold
-  kWorse,     ///< the value is clearly worse, by at least the practical threshold
-  kNoMatter,  ///< the difference is clearly below the practical threshold
-  kUnclear,   ///< values differ, but the test supports none of the results above; or the metric has no direction
-  kChanged,   ///< values differ in a scenario whose gate rule is `exact`
+  kSame,       ///< all values are the same in both snapshots
+  kBetter,     ///< the value is clearly better, by at least the practical threshold
+  kWorse,      ///< the value is clearly worse, by at least the practical threshold
+  kNoMatter,   ///< the difference is clearly below the practical threshold
+  kUndecided,  ///< values differ, but the test supports none of the results above; or the metric has no direction
+  kChanged,    ///< values differ in a scenario whose gate rule is `exact`
 };
-/// Returns "same", "better", "worse", "too small to matter", "unclear" or "changed".
+/// Returns "same", "better", "worse", "too small to matter", "undecided" or "changed".
 std::string_view MovementWords(Movement movement);
 
 struct MoveIdentity {

@@ -52,11 +52,11 @@ struct MethodSummary {
   std::optional<double> ok_low, ok_high;  ///< 95 % Wilson interval of ok / attempted
 };
 
-enum class Verdict { kBetter, kWorse, kNoDifference, kInconclusive };
+enum class Verdict { kBetter, kWorse, kNoDifference, kUndecided };
 inline constexpr std::array<Named<Verdict>, 4> kVerdicts = {{{"better", Verdict::kBetter},
                                                              {"worse", Verdict::kWorse},
                                                              {"no difference", Verdict::kNoDifference},
-                                                             {"inconclusive", Verdict::kInconclusive}}};
+                                                             {"undecided", Verdict::kUndecided}}};
 std::string_view VerdictName(Verdict verdict);
 
 /// A test of paired differences (bench/statistics/paired_tests.h).
@@ -83,7 +83,7 @@ struct Beyond {
   PairedTest test;                 ///< the test of the units' mean differences that decides the verdict
   std::optional<double> p_holm;    ///< p-value of `test` after Holm's correction over the scenario's comparisons
   std::optional<Verdict> verdict;  ///< verdict for units that were not run; nullopt = too few units in this run
-  std::string why_open;            ///< why there is no verdict, or why the verdict is inconclusive
+  std::string why_open;            ///< why there is no verdict, or why the verdict is undecided
   std::vector<LeftOut> left_out;   ///< one entry per unit, in the order of names; empty if every world is its own unit
 };
 
@@ -112,8 +112,8 @@ struct Comparison {
   /// Rank-biserial correlation, −1…1. It is positive if `method` is better or, for a metric without a direction, if the
   /// method's values are larger.
   std::optional<double> effect_size;
-  Verdict verdict = Verdict::kInconclusive;  ///< the verdict on the worlds of this run
-  std::string why_open;                      ///< why the verdict is inconclusive, if a reason is known
+  Verdict verdict = Verdict::kUndecided;     ///< the verdict on the worlds of this run
+  std::string why_open;                      ///< why the verdict is undecided, if a reason is known
   std::vector<std::string> notes;            ///< warnings for readers of the numbers
   Beyond beyond;                             ///< the result generalised to sampling units that were not run
 };
@@ -133,7 +133,7 @@ struct Answer {
   /// The other method of the comparison: the scenario's baseline, or the strongest other method.
   std::string baseline = {};
   std::string value_metric = {};             ///< the metric that ValueMetricOf returns; "" if there is none
-  Verdict verdict = Verdict::kInconclusive;  ///< the verdict on the worlds of this run
+  Verdict verdict = Verdict::kUndecided;     ///< the verdict on the worlds of this run
   AnswerStep decided_by = AnswerStep::kNone;
   /// The verdict of the comparison that decided, generalised to other sampling units; nullopt = too few units.
   std::optional<Verdict> beyond = {};
@@ -190,13 +190,13 @@ struct AcrossVerdict {
   std::string method;
   struct Each {
     std::string value;  ///< the values of the parameters that `across` names, e.g. "learning=power"
-    Verdict verdict = Verdict::kInconclusive;
+    Verdict verdict = Verdict::kUndecided;
     std::optional<double> difference;
   };
   std::vector<Each> each;
-  Verdict verdict = Verdict::kInconclusive;  ///< the verdict under all values, or inconclusive if they differ
+  Verdict verdict = Verdict::kUndecided;  ///< the verdict under all values, or undecided if they differ
 
-  bool Holds() const { return verdict != Verdict::kInconclusive; }
+  bool Holds() const { return verdict != Verdict::kUndecided; }
 };
 
 /// The result of judging a claim: an expectation or a time rule.

@@ -11,6 +11,7 @@ std::string CountUnits(int count, SamplingUnit unit) {
     case SamplingUnit::kWorld:
       return fmt::format("{} world{}", count, count == 1 ? "" : "s");
     case SamplingUnit::kPerson:
+    case SamplingUnit::kRecordedPerson:
       return fmt::format("{} {}", count, count == 1 ? "person" : "people");
     case SamplingUnit::kLibrary:
       return fmt::format("{} librar{}", count, count == 1 ? "y" : "ies");

@@ -166,6 +166,9 @@ std::span<const Named<Verdict>> NamesOf(Verdict) { return kVerdicts; }
 template <typename Enum>
 Enum ByName(const std::string& name) {
   if (const auto value = FindValue(NamesOf(Enum{}), name)) return *value;
+  if constexpr (std::is_same_v<Enum, Verdict>) {
+    if (name == "inconclusive") return Verdict::kUndecided;  // the name in results of earlier builds
+  }
   const char* what = std::is_same_v<Enum, SamplingUnit> ? "unit" : "name";
   throw Json::other_error::create(501, fmt::format("unknown {} '{}'", what, name), nullptr);
 }

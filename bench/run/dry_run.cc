@@ -204,6 +204,7 @@ Result<Forecast> DryRun(const RunOptions& options, double sample_seconds) {
       one.spread = SpreadOf(study, table, one.metric);
     }
     one.comparisons = CountComparisons(study);
+    one.needed = WorldsNeeded(study);
     total += one.seconds_per_world * worlds;
     forecast.scenarios.push_back(std::move(one));
   }

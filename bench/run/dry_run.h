@@ -21,6 +21,7 @@ struct ScenarioForecast {
   bool is_kept = false;
   double seconds_per_world = 0;  ///< wall time of a world with all methods, on one worker
   int comparisons = 0;           ///< number of comparisons to which one Holm correction applies together
+  int needed = 0;                ///< number of worlds per condition below which no verdict is possible (WorldsNeeded)
   SamplingUnit unit = SamplingUnit::kWorld;
   /// Number of sampling units in the first condition; equals the number of worlds if each world is its own unit.
   int units = 0;

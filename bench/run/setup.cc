@@ -311,6 +311,11 @@ Result<PreparedScenario> Prepare(const SuiteSetup& suite, const ScenarioSetup& s
   ASSIGN_OR_RETURN(auto tasks, MakeTasks(prepared.scenario_, clips_of, suite.sources, prepared.recordings(), setup,
                                          *prepared.opening_));
   prepared.tasks_ = std::move(tasks);
+  // With the key `people`, several files may show the same person. The sampling unit is the person, not the file.
+  const auto has_person = [](const auto& file) { return !file.unit.empty(); };
+  if (prepared.scenario_.unit == SamplingUnit::kClip && std::ranges::any_of(setup.files, has_person)) {
+    prepared.scenario_.unit = SamplingUnit::kRecordedPerson;
+  }
   prepared.dice_names_ = NameDice(prepared.scenario_, setup.seed);
   if (suite.scored) {
     RETURN_IF_ERROR(AddScoredMethod(*suite.scored, prepared.scenario_));
@@ -368,10 +373,7 @@ Row PreparedScenario::IdentityOf(int condition, int trial, std::size_t method) c
   row.trial = trial;
   if (!clips.empty()) row.clip = clips.front();
   row.units = UnitsOf(clips, scenario_.unit, ClipsOf(scenario_.conditions[condition]));
-  // Several files may show the same person. The sampling unit is the person, not the file.
-  if (!setup_.files.empty() && !row.units.empty() && !setup_.files[trial].unit.empty()) {
-    row.units = {setup_.files[trial].unit};
-  }
+  if (scenario_.unit == SamplingUnit::kRecordedPerson) row.units = {setup_.files[trial].unit};
   row.method = scenario_.methods[method].name;
   return row;
 }

@@ -8,9 +8,20 @@
 #include "bench/statistics/compare.h"
 #include "bench/statistics/distributions.h"
 #include "bench/statistics/judging.h"
+#include "bench/statistics/paired_tests.h"
+#include "bench/statistics/summary.h"
+#include "engine/base/order_statistics.h"
 
 namespace etude {
 namespace {
+
+/// Returns the size of a family of answers, whose p-values are corrected together: the number of answers that compare a
+/// method with its baseline. The family of comparisons with rivals has about the same size.
+int CountAnswers(const Study& study) {
+  const auto compared =
+      std::ranges::count_if(study.methods, [](const ComparedMethod& method) { return method.name != method.against; });
+  return static_cast<int>(compared) * static_cast<int>(study.conditions.size());
+}
 
 bool IsDecided(Verdict verdict) { return verdict == Verdict::kBetter || verdict == Verdict::kWorse; }
 
@@ -92,9 +103,10 @@ class Measurer {
         return static_cast<int>(std::ranges::count_if(
             worlds.pairs, [&](const Pair& pair) { return sign * (pair.method - pair.baseline) > 0; }));
       };
-      found.sign_flip = {McNemarMidP(count(1), count(-1)), "McNemar's mid-p"};
+      found.sign_flip = {McNemarMidP(count(1), count(-1)), kMidP};
     }
-    if (!WorldsAreUnits(study_.unit)) found.beyond = MeasureBeyond(UnitsOf(worlds, table_, metric), CountAnswers());
+    if (!WorldsAreUnits(study_.unit))
+      found.beyond = MeasureBeyond(UnitsOf(worlds, table_, metric), CountAnswers(study_));
     return found;
   }
 
@@ -135,14 +147,6 @@ class Measurer {
     return answer;
   }
 
-  /// Returns the size of a family of answers, whose p-values are corrected together: the number of answers that compare
-  /// a method with its baseline. The family of comparisons with rivals has about the same size.
-  int CountAnswers() const {
-    const auto compared = std::ranges::count_if(
-        study_.methods, [](const ComparedMethod& method) { return method.name != method.against; });
-    return static_cast<int>(compared) * static_cast<int>(study_.conditions.size());
-  }
-
   const Study& study_;
   const ConditionTable& table_;
   const std::uint64_t seed_;
@@ -169,9 +173,13 @@ void JudgeStep(const std::vector<Answer*>& family, std::optional<Comparison> Ans
     Comparison& comparison = *judged[i];
     comparison.p_holm = here[i];
     comparison.verdict = VerdictOf(comparison, metric);
+    const int comparisons = static_cast<int>(judged.size());
+    comparison.why_open = WhyOpen(comparison, metric, comparisons, unit);
     comparison.beyond.p_holm = beyond[i++];
     comparison.beyond.verdict =
         WorldsAreUnits(unit) ? std::optional(comparison.verdict) : VerdictBeyond(comparison.beyond, metric);
+    comparison.beyond.why_open =
+        WorldsAreUnits(unit) ? comparison.why_open : WhyOpenBeyond(comparison.beyond, metric, unit, comparisons);
   }
 }
 
@@ -196,19 +204,19 @@ void Decide(Answer& answer, const Comparison* value) {
   // No step decides. The answer is "no difference" only if the verdict on the value is "no difference" and the verdict
   // on success is not open.
   const auto is_open = [](const std::optional<Comparison>& step) {
-    return step && step->verdict == Verdict::kInconclusive && (step->differing > 0 || step->pairs < kMinSample);
+    return step && step->verdict == Verdict::kUndecided && (step->differing > 0 || step->pairs < kMinSample);
   };
   const Verdict of_value = value != nullptr ? value->verdict
                            : answer.success ? answer.success->verdict
-                                            : Verdict::kInconclusive;
+                                            : Verdict::kUndecided;
   const bool open = contradicts || is_open(answer.success) || of_value != Verdict::kNoDifference;
-  decide(AnswerStep::kNone, open ? Verdict::kInconclusive : Verdict::kNoDifference,
-         value != nullptr ? value->beyond.verdict
-         : answer.success ? answer.success->beyond.verdict
-                          : std::nullopt);
+  decide(AnswerStep::kNone, open ? Verdict::kUndecided : Verdict::kNoDifference,
+         value != nullptr && value->pairs > 0 ? value->beyond.verdict
+         : answer.success                     ? answer.success->beyond.verdict
+                                              : std::nullopt);
   // The answer for other units must not claim more than the answer for these worlds. "Better" and "worse" therefore
-  // become inconclusive. If the answer for these worlds is open, so is the answer for other units.
-  if (answer.beyond && (open || IsDecided(*answer.beyond))) answer.beyond = Verdict::kInconclusive;
+  // become undecided. If the answer for these worlds is open, so is the answer for other units.
+  if (answer.beyond && (open || IsDecided(*answer.beyond))) answer.beyond = Verdict::kUndecided;
 }
 
 /// Judges the answers of all conditions, either those against the baselines or those against the rivals.
@@ -250,6 +258,20 @@ std::optional<Comparison> CompareSuccess(const Study& study, const ConditionTabl
   if (worlds.pairs.empty()) return std::nullopt;
   return ComparePaired(worlds.pairs, ShareMetric(study, study.success), seed,
                        PurposeOf(study.scenario, table.condition, "success", other, method));
+}
+
+int WorldsNeeded(const Study& study) {
+  const MetricInfo *success = FindMetric(study.success), *value = FindMetric(ValueMetricOf(study));
+  int needed = PairsNeeded(CountComparisons(study), kAlpha);
+  // McNemar's mid-p, which judges shares and tails, is at least half of the smallest p of the other tests.
+  if (success != nullptr) {
+    needed =
+        std::min(needed, PairsNeeded(CountAnswers(study), success->reading == Reading::kScore ? kAlpha : 2 * kAlpha));
+  }
+  if (value != nullptr && value->direction != Direction::kNeither && value->reading == Reading::kAmount) {
+    needed = std::min(needed, PairsNeeded(CountAnswers(study), 2 * kAlpha));
+  }
+  return std::max(needed, kMinSample);
 }
 
 double McNemarMidP(int gained, int lost) {

@@ -9,6 +9,9 @@
 
 namespace etude {
 
+/// PairedTest::how of McNemarMidP.
+inline constexpr const char* kMidP = "McNemar's mid-p";
+
 /// Returns McNemar's mid-p value (Fagerland, Lydersen & Laake 2013). `gained` and `lost` are the numbers of worlds in
 /// which only one of two methods succeeded. The p is two-sided: 2 · P(B ≥ larger) − P(B = larger) with B ~
 /// Binomial(gained + lost, ½), at most 1. It is 1 if both numbers are 0.
@@ -34,6 +37,10 @@ std::optional<Answer> MeasureAnswerAgainstRival(const Study& study, const Condit
 /// Returns "" if there is none, or if the first headline metric is success and not a yes-or-no value; the answer then
 /// compares success alone.
 std::string ValueMetricOf(const Study& study);
+
+/// Returns the number of worlds below which no answer of a study can have the verdict "better" or "worse", whatever the
+/// values: the smallest p of every step, corrected over its family (Holm), is above 5 %. At least kMinSample.
+int WorldsNeeded(const Study& study);
 
 /// Compares the success of two methods under one condition, and judges this comparison as if it were the only one.
 /// Returns nothing if no cell has a value of the success metric.

@@ -160,12 +160,12 @@ std::optional<Verdict> VerdictBeyond(const Beyond& beyond, const MetricInfo& met
   const auto is_within = [&](double low, double high) { return low >= -metric.practical && high <= metric.practical; };
   if (is_within(*beyond.low, *beyond.high)) {
     const bool holds = is_within(*beyond.mean_low, *beyond.mean_high) && beyond.differing >= kMinUnits;
-    return holds ? Verdict::kNoDifference : Verdict::kInconclusive;
+    return holds ? Verdict::kNoDifference : Verdict::kUndecided;
   }
   // Otherwise, "better" and "worse" require the interval, the test and the threshold.
   if (!IsOnOneSide(beyond) || !MeanAgrees(beyond) || *beyond.p_holm > kAlpha ||
       std::abs(*beyond.difference) < metric.practical || metric.direction == Direction::kNeither) {
-    return Verdict::kInconclusive;
+    return Verdict::kUndecided;
   }
   const bool lower = *beyond.difference < 0;
   return lower == (metric.direction == Direction::kLowerIsBetter) ? Verdict::kBetter : Verdict::kWorse;
@@ -176,7 +176,7 @@ std::string WhyOpenBeyond(const Beyond& beyond, const MetricInfo& metric, Sampli
     return fmt::format("{}: no verdict for others; at least {} are needed", CountUnits(beyond.units, unit), kMinUnits);
   }
   if (!beyond.low) return "all worlds show the same clip: no verdict for other clips";
-  if (beyond.verdict != Verdict::kInconclusive) return "";
+  if (beyond.verdict != Verdict::kUndecided) return "";
   const bool within = *beyond.low >= -metric.practical && *beyond.high <= metric.practical;
   if (within && beyond.differing < kMinUnits) {
     return fmt::format("{} of {} differ: too few to exclude rare differences", beyond.differing,

@@ -50,10 +50,10 @@ Beyond MeasureBeyond(const UnitSample& sample, int comparisons);
 ///                    differ
 ///   better / worse   if p_holm ≤ alpha, the interval of the pseudo-median lies on one side of zero, the pseudo-median
 ///                    is at least as large as the threshold, and the mean has the same sign
-///   inconclusive     otherwise
+///   undecided        otherwise
 std::optional<Verdict> VerdictBeyond(const Beyond& beyond, const MetricInfo& metric);
 
-/// Returns a sentence that says why there is no verdict or an inconclusive one; "" if the verdict is clear.
+/// Returns a sentence that says why there is no verdict or an undecided one; "" if the verdict is clear.
 /// `comparisons` is the number of comparisons that were made together (Holm).
 std::string WhyOpenBeyond(const Beyond& beyond, const MetricInfo& metric, SamplingUnit unit, int comparisons);
 

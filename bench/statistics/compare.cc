@@ -101,19 +101,19 @@ bool SeesTooFewDiffer(const Comparison& comparison, const MetricInfo& metric) {
 }
 
 Verdict VerdictOf(const Comparison& comparison, const MetricInfo& metric, double confidence) {
-  if (!comparison.ci_low || !comparison.p_holm) return Verdict::kInconclusive;
+  if (!comparison.ci_low || !comparison.p_holm) return Verdict::kUndecided;
   const double low = *comparison.ci_low, high = *comparison.ci_high, difference = *comparison.difference;
   // "No difference" requires that the intervals of the aggregate and of the mean lie within ± threshold.
   const auto is_within = [&](double from, double to) { return from >= -metric.practical && to <= metric.practical; };
   if (is_within(low, high)) {
     const bool holds = is_within(*comparison.mean_low, *comparison.mean_high) && !SeesTooFewDiffer(comparison, metric);
-    return holds ? Verdict::kNoDifference : Verdict::kInconclusive;
+    return holds ? Verdict::kNoDifference : Verdict::kUndecided;
   }
   // Otherwise, "better" and "worse" require the interval, the test and the threshold.
   const bool beyond_zero = low > 0 || high < 0;
   const bool significant = *comparison.p_holm <= 1 - confidence;
-  if (!beyond_zero || !significant || std::abs(difference) < metric.practical) return Verdict::kInconclusive;
-  if (metric.direction == Direction::kNeither) return Verdict::kInconclusive;
+  if (!beyond_zero || !significant || std::abs(difference) < metric.practical) return Verdict::kUndecided;
+  if (metric.direction == Direction::kNeither) return Verdict::kUndecided;
   return (difference < 0) == (metric.direction == Direction::kLowerIsBetter) ? Verdict::kBetter : Verdict::kWorse;
 }
 
@@ -124,9 +124,9 @@ Verdict JudgeBothWays(Comparison& comparison, const std::optional<Comparison>& w
   if (!with_failures) return of_pairs;
   comparison.p_holm = with_failures->p_holm;
   const Verdict with_their_p = VerdictOf(comparison, metric, confidence);
-  if (of_pairs == Verdict::kInconclusive) of_pairs = with_their_p;
+  if (of_pairs == Verdict::kUndecided) of_pairs = with_their_p;
   const bool agree = with_their_p == VerdictOf(*with_failures, metric, confidence);
-  comparison.verdict = agree ? with_their_p : Verdict::kInconclusive;
+  comparison.verdict = agree ? with_their_p : Verdict::kUndecided;
   return of_pairs;
 }
 

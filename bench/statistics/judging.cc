@@ -48,48 +48,6 @@ std::string DescribeWhatMedianHides(const Comparison& c) {
       better, c.pairs, c.differing - better);
 }
 
-/// Returns the reason why the verdict is open; if several reasons hold, the first in the order in which a reader would
-/// check them. Returns "" if the verdict is clear.
-std::string WhyOpen(const Comparison& c, const MetricInfo& metric, int comparisons) {
-  if (c.verdict != Verdict::kInconclusive) return "";
-  if (c.pairs == 0) return "no world has both values";
-  // The interval lies within ± threshold, but relevant differences may exist that the interval cannot show.
-  const int needed = PairsNeeded(comparisons, kAlpha);
-  const bool within = c.ci_low && *c.ci_low >= -metric.practical && *c.ci_high <= metric.practical;
-  if (within && SeesTooFewDiffer(c, metric)) {
-    return fmt::format("{} of {} pairs differ: too few to exclude rare differences that would move the mean",
-                       c.differing, c.pairs);
-  }
-  if (within && metric.aggregate == Aggregate::kMedian) return DescribeWhatMedianHides(c);
-  if (c.differing == 0 && c.ci_low) {
-    return fmt::format("no pair differs, but {} worlds are too few to exclude a difference that matters", c.pairs);
-  }
-  // There are too few worlds for the test or the interval.
-  if (*c.p_holm > kAlpha && c.differing < needed) {
-    return fmt::format("too few worlds: {} of {} pairs differ, so p ≥ {:.2g}; {} needs at least {}", c.differing,
-                       c.pairs, SmallestP(c.differing),
-                       comparisons == 1 ? "one comparison" : fmt::format("one of {} comparisons (Holm)", comparisons),
-                       needed);
-  }
-  if (!c.ci_low) return fmt::format("too few worlds: fewer than {} pairs give no interval", kMinSample);
-  // The interval and the test disagree.
-  const bool beyond_zero = *c.ci_low > 0 || *c.ci_high < 0;
-  if (!beyond_zero && *c.p_holm > kAlpha) return "the interval contains zero and differences that matter";
-  if (!beyond_zero) {
-    return fmt::format("the test finds a difference (p = {:.2g} among {}), but the interval of its {} reaches zero",
-                       *c.p_holm, comparisons, metric.aggregate == Aggregate::kMedian ? "median" : "mean");
-  }
-  const double p = *DecidingP(c, metric);
-  if (*c.p_holm > kAlpha) {
-    if (p > kAlpha) return fmt::format("the interval excludes zero, but the test does not confirm it (p = {:.2g})", p);
-    return fmt::format("p = {:.2g} is significant alone, but not among {} comparisons (Holm)", p, comparisons);
-  }
-  // The interval and the test both find a difference, but it is too small, or the metric has no direction.
-  if (std::abs(*c.difference) < metric.practical)
-    return "there is a difference, but it is undecided whether it is large enough to matter";
-  return "there is a difference, but neither direction is better";
-}
-
 /// Returns a note if the mean difference exceeds the threshold and the median difference does not; otherwise "".
 std::string NoteOnMean(const Comparison& c, const MetricInfo& metric) {
   if (metric.aggregate != Aggregate::kMedian || !c.mean_low) return "";
@@ -108,7 +66,7 @@ std::string NoteOnMean(const Comparison& c, const MetricInfo& metric) {
 
 /// Corrects the p-values of a family of comparisons, without and with failures, judges every comparison and adds its
 /// notes.
-void JudgeOnTheseWorlds(std::span<Question* const> family) {
+void JudgeOnTheseWorlds(std::span<Question* const> family, SamplingUnit unit) {
   // Apply Holm's correction to the p-values without failures, and to those with failures counted as losses.
   std::vector<std::optional<double>> pairs_alone, all_worlds;
   for (const Question* question : family) {
@@ -125,8 +83,8 @@ void JudgeOnTheseWorlds(std::span<Question* const> family) {
     if (family[i]->with_failures) family[i]->with_failures->p_holm = corrected[i];
     const Verdict of_pairs = JudgeBothWays(comparison, family[i]->with_failures, metric);
     if (comparison.verdict == of_pairs) {
-      comparison.why_open = WhyOpen(comparison, metric, static_cast<int>(family.size()));
-    } else if (comparison.verdict == Verdict::kInconclusive) {
+      comparison.why_open = WhyOpen(comparison, metric, static_cast<int>(family.size()), unit);
+    } else if (comparison.verdict == Verdict::kUndecided) {
       comparison.why_open = NotWithFailures(of_pairs);
     }
     for (const std::string& note : {NoteOnMissing(comparison), NoteOnMean(comparison, metric)}) {
@@ -177,8 +135,8 @@ void JudgeBeyond(std::span<Question* const> family, SamplingUnit unit) {
     const Verdict of_pairs = *beyond.verdict;
     const auto with_their_p = VerdictBeyond(beyond, metric);
     if (with_their_p == of_pairs && VerdictBeyond(with_failures, metric) == of_pairs) continue;
-    beyond.verdict = Verdict::kInconclusive;
-    if (of_pairs != Verdict::kInconclusive) beyond.why_open = NotWithFailures(of_pairs);
+    beyond.verdict = Verdict::kUndecided;
+    if (of_pairs != Verdict::kUndecided) beyond.why_open = NotWithFailures(of_pairs);
   }
 }
 
@@ -246,9 +204,9 @@ Finding JudgeComparison(const Expectation& expectation, const ConditionTable& ta
   const std::string missing = without == 0 ? "" : fmt::format(", {} more do not have both values", without);
   if (!found.ci_low)
     return {ClaimOutcome::kUndecided, fmt::format("only {} worlds have both values{}", found.pairs, missing)};
-  const ClaimOutcome outcome = found.verdict == Verdict::kBetter         ? ClaimOutcome::kMet
-                               : found.verdict == Verdict::kInconclusive ? ClaimOutcome::kUndecided
-                                                                         : ClaimOutcome::kUnmet;
+  const ClaimOutcome outcome = found.verdict == Verdict::kBetter      ? ClaimOutcome::kMet
+                               : found.verdict == Verdict::kUndecided ? ClaimOutcome::kUndecided
+                                                                      : ClaimOutcome::kUnmet;
   // Describe the figures that decided the outcome.
   const std::string unit = metric.unit.empty() ? "" : " " + metric.unit;
   std::string detail = fmt::format(
@@ -293,6 +251,49 @@ Finding JudgeBound(const Expectation& expectation, const ConditionTable& table) 
 
 }  // namespace
 
+std::string WhyOpen(const Comparison& c, const MetricInfo& metric, int comparisons, SamplingUnit unit) {
+  if (c.verdict != Verdict::kUndecided) return "";
+  const std::string_view worlds = unit == SamplingUnit::kPerson ? "people" : "worlds";
+  if (c.pairs == 0) return "no world has both values";
+  // McNemar's mid-p of n differing pairs is at least 1 / 2ⁿ, half of the smallest p of the other tests.
+  const double sharper = c.sign_flip.how == kMidP ? 2 : 1;
+  const int needed = PairsNeeded(comparisons, sharper * kAlpha);
+  // The interval lies within ± threshold, but relevant differences may exist that the interval cannot show.
+  const bool within = c.ci_low && *c.ci_low >= -metric.practical && *c.ci_high <= metric.practical;
+  if (within && SeesTooFewDiffer(c, metric)) {
+    return fmt::format("{} of {} pairs differ: too few to exclude rare differences that would move the mean",
+                       c.differing, c.pairs);
+  }
+  if (within && metric.aggregate == Aggregate::kMedian) return DescribeWhatMedianHides(c);
+  if (c.differing == 0 && c.ci_low) {
+    return fmt::format("no pair differs, but {} {} are too few to exclude a difference that matters", c.pairs, worlds);
+  }
+  // There are too few worlds for the test or the interval.
+  if (*c.p_holm > kAlpha && c.differing < needed) {
+    return fmt::format("too few {}: {} of {} pairs differ, so p ≥ {:.2g}; {} needs at least {}", worlds, c.differing,
+                       c.pairs, SmallestP(c.differing) / sharper,
+                       comparisons == 1 ? "one comparison" : fmt::format("one of {} comparisons (Holm)", comparisons),
+                       needed);
+  }
+  if (!c.ci_low) return fmt::format("too few {}: fewer than {} pairs give no interval", worlds, kMinSample);
+  // The interval and the test disagree.
+  const bool beyond_zero = *c.ci_low > 0 || *c.ci_high < 0;
+  if (!beyond_zero && *c.p_holm > kAlpha) return "the interval contains zero and differences that matter";
+  if (!beyond_zero) {
+    return fmt::format("the test finds a difference (p = {:.2g} among {}), but the interval of its {} reaches zero",
+                       *c.p_holm, comparisons, metric.aggregate == Aggregate::kMedian ? "median" : "mean");
+  }
+  const double p = *DecidingP(c, metric);
+  if (*c.p_holm > kAlpha) {
+    if (p > kAlpha) return fmt::format("the interval excludes zero, but the test does not confirm it (p = {:.2g})", p);
+    return fmt::format("p = {:.2g} is significant alone, but not among {} comparisons (Holm)", p, comparisons);
+  }
+  // The interval and the test both find a difference, but it is too small, or the metric has no direction.
+  if (std::abs(*c.difference) < metric.practical)
+    return "there is a difference, but it is undecided whether it is large enough to matter";
+  return "there is a difference, but neither direction is better";
+}
+
 std::vector<std::optional<double>> HolmCorrected(std::span<const std::optional<double>> p_values) {
   std::vector<std::size_t> order;
   for (std::size_t i = 0; i < p_values.size(); ++i) {
@@ -312,7 +313,7 @@ std::vector<std::optional<double>> HolmCorrected(std::span<const std::optional<d
 }
 
 void JudgeFamily(std::span<Question* const> family, SamplingUnit unit) {
-  JudgeOnTheseWorlds(family);
+  JudgeOnTheseWorlds(family, unit);
   if (!WorldsAreUnits(unit)) return JudgeBeyond(family, unit);
   for (Question* question : family) CopyVerdictsBeyond(question->comparison);
 }
@@ -334,7 +335,7 @@ std::vector<AcrossVerdict> JudgeAcross(const Study& study, const std::vector<Con
                                         .verdict = comparison.verdict});
       }
       found->each.push_back({ConditionLabel(split.across), comparison.verdict, comparison.difference});
-      if (found->verdict != comparison.verdict) found->verdict = Verdict::kInconclusive;
+      if (found->verdict != comparison.verdict) found->verdict = Verdict::kUndecided;
     }
   }
   return verdicts;

@@ -2,6 +2,7 @@
 
 #include <optional>
 #include <span>
+#include <string>
 #include <vector>
 
 #include "bench/model/study.h"
@@ -13,6 +14,11 @@ namespace etude {
 /// Returns the p-values after Holm's step-down correction (1979). If each is compared with alpha, the probability of at
 /// least one false rejection among all of them is at most alpha. A missing p counts as a comparison but stays missing.
 std::vector<std::optional<double>> HolmCorrected(std::span<const std::optional<double>> p_values);
+
+/// Returns the reason why the verdict is undecided; if several reasons hold, the first in the order in which a reader
+/// would check them. Returns "" if the verdict is clear. `comparisons` is the number of comparisons that were judged
+/// together (Holm); each of them compares worlds, or people if `unit` says so.
+std::string WhyOpen(const Comparison& c, const MetricInfo& metric, int comparisons, SamplingUnit unit);
 
 /// A comparison to be judged, and the same comparison with failures counted as losses (WithFailures).
 struct Question {

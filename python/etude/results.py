@@ -33,7 +33,7 @@ def load(folder, *, unsealed=False, program=None):
 class Verdict:
     """A paired comparison of the summary: method − baseline in the same worlds.
 
-    verdict: the verdict on these worlds: "better", "worse", "no difference", "inconclusive" or "untested". beyond: the
+    verdict: the verdict on these worlds: "better", "worse", "no difference", "undecided" or "untested". beyond: the
     verdict generalised to other worlds like them; None if there are too few units. against: "baseline", or "rival" for
     the strongest other method. details: the summary's whole entry.
     """

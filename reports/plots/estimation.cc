@@ -113,6 +113,7 @@ class Plot {
   }
   bool ShowsUnits() const { return !pairs_.units.empty(); }
   std::string_view UnitsWords() const {
+    if (scenario_.unit == SamplingUnit::kRecordedPerson) return "over people";
     return scenario_.unit == SamplingUnit::kLibrary ? "over libraries" : "over clips";
   }
 
@@ -204,7 +205,10 @@ const LeftOut& Extreme(const Beyond& beyond, double practical) {
   });
 }
 
-std::string_view OneOf(SamplingUnit unit) { return unit == SamplingUnit::kLibrary ? "library" : "clip"; }
+std::string_view OneOf(SamplingUnit unit) {
+  if (unit == SamplingUnit::kRecordedPerson) return "person";
+  return unit == SamplingUnit::kLibrary ? "library" : "clip";
+}
 
 std::string Amount(double difference, const MetricWords& words) {
   return FormatNumber(difference * words.scale) + words.difference_suffix;

@@ -60,6 +60,10 @@ std::string FormatValue(std::optional<double> value, const MetricWords& words) {
   return FormatNumber(*value * words.scale) + words.suffix;
 }
 
+std::string ShortDifference(double difference, const MetricWords& words) {
+  return FormatNumber(difference * words.scale) + (words.is_share ? " pp" : words.difference_suffix);
+}
+
 std::string FormatInterval(std::optional<double> low, std::optional<double> high, const MetricWords& words) {
   if (!low || !high || !std::isfinite(*low) || !std::isfinite(*high)) return std::string(kNoValue);
   const double from = *low * words.scale, to = *high * words.scale;

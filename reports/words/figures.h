@@ -33,6 +33,8 @@ std::string UnitOf(const MetricWords& words);
 std::optional<double> TypicalValue(const MetricSummary& summary, const MetricWords& words);
 /// Returns a value as text: "12.3°", "98 %"; kNoValue if there is none.
 std::string FormatValue(std::optional<double> value, const MetricWords& words);
+/// Returns a difference with its unit, which is "pp" for percentage points: "−0.949 mm", "41.7 pp".
+std::string ShortDifference(double difference, const MetricWords& words);
 
 /// Returns an interval as text: "10.1–14.0" or "−1.2 to 0.4". Both ends have equally many digits, except that an end
 /// that would be shown as 0 has more digits: "−0.0031 to 30.4". Returns kNoValue if there is no interval.

@@ -187,7 +187,7 @@ KeyFigures KeyFiguresOf(const ScenarioSummary& scenario, const std::string& aske
   if (times.MedianOf(asked)) {
     add("processor time", [&](const std::string& method) { return TimeText(times.MedianOf(method)); });
   }
-  add(fmt::format("worlds in which “{}” is better by a difference that matters", asked),
+  add(fmt::format("worlds in which “{}” is better", asked),
       [&](const std::string& method) { return method == asked ? "" : WorldsLostTo(scenario, asked, method, metric); });
   return figures;
 }
@@ -214,7 +214,7 @@ ScenarioFindings FindingsOf(const RunData& run, const ScenarioSummary& scenario)
   const std::string asked = MethodInQuestion(scenario);
   // Compare the method in question with its baseline and with the strongest other method.
   if (asked.empty()) {
-    findings.answer.verdict = Verdict::kInconclusive;
+    findings.answer.verdict = Verdict::kUndecided;
     // A search for faults needs no second method.
     if (scenario.task != "plausibility")
       findings.answer.sentence = "Only one method ran, so there is nothing to compare it with.";

@@ -15,9 +15,9 @@
 
 namespace etude {
 
-/// Returns the name of a verdict; "it depends" if the verdict differs between conditions (nullopt).
+/// Returns the name of a verdict; "differs by condition" if the verdict differs between conditions (nullopt).
 inline std::string_view VerdictWords(const std::optional<Verdict>& verdict) {
-  return verdict ? VerdictName(*verdict) : "it depends";
+  return verdict ? VerdictName(*verdict) : "differs by condition";
 }
 
 /// The comparison of `method` with another method by one metric, over all conditions.
@@ -31,12 +31,13 @@ struct MethodFinding {
   std::optional<Verdict> verdict = {};  ///< verdict on the run's worlds; nullopt if it differs between conditions
   BeyondFinding beyond = {};            ///< verdicts generalised to other clips, people or libraries
   std::string others = {};    ///< all methods with which `method` is compared under any condition: “a” or “b”
-  std::string sentence = {};  ///< states the comparison in words, with the numbers behind the verdicts
-  std::string why_open = {};  ///< why the verdict is inconclusive; set only if there is one condition
+  /// States the comparison in words, with the numbers behind the verdicts and, under one condition, the reason if it is
+  /// undecided.
+  std::string sentence = {};
 
   /// Returns the verdict in words: "better on these clips".
   std::string Words() const { return fmt::format("{} on {}", VerdictWords(verdict), TheseUnits(unit)); }
-  /// Returns both verdicts: "better on these clips, inconclusive for other clips".
+  /// Returns both verdicts: "better on these clips, undecided for other clips".
   std::string BothVerdicts() const;
 };
 

@@ -17,7 +17,8 @@ constexpr std::array<std::array<std::string_view, 2>, kSamplingUnits.size()> kUn
      {"these people", "other people"},
      {"these clips", "other clips"},
      {"these clips", "other clips"},
-     {"these libraries", "other libraries"}}};
+     {"these libraries", "other libraries"},
+     {"these people", "other people"}}};
 
 /// Returns the numbers behind a generalised verdict, which are the typical (pseudo-median) difference over sampling
 /// units and the interval of this difference: "pseudo-median of 12 clips: −4.50 mm, 95 % CI −6.00 to −3.00".
@@ -56,7 +57,7 @@ std::string VerdictsInWords(const std::vector<Judged>& judged, const std::vector
   }
   const Beyond& beyond = judged.front().comparison->beyond;
   const std::string why =
-      verdicts.front() == Verdict::kInconclusive && !beyond.why_open.empty() ? ": " + beyond.why_open : std::string();
+      verdicts.front() == Verdict::kUndecided && !beyond.why_open.empty() ? ": " + beyond.why_open : std::string();
   return fmt::format("{} ({}){}", VerdictName(verdicts.front()),
                      FiguresOf(beyond, WordsFor(judged.front().comparison->metric), unit), why);
 }
@@ -83,14 +84,70 @@ std::vector<Judged> AnswersOf(const ScenarioSummary& scenario, const std::string
       const std::vector<Comparison>& values = is_rival ? condition.rivals : condition.comparisons;
       const auto value = std::ranges::find_if(
           values, [&](const Comparison& c) { return c.method == method && c.metric == answer.value_metric; });
-      const bool by_success = answer.success && (answer.decided_by == AnswerStep::kSuccess || value == values.end());
-      if (by_success || value != values.end()) {
-        found.push_back({by_success ? &*answer.success : &*value, &condition, &answer});
-      }
+      const bool by_success =
+          answer.success && (answer.decided_by == AnswerStep::kSuccess || value == values.end() || value->pairs == 0);
+      if (!by_success && value == values.end()) continue;
+      const Comparison& judged = by_success ? *answer.success : *value;
+      // The two intervals of one difference come from different random numbers; show only one of them.
+      const auto same = std::ranges::find_if(values, [&](const Comparison& c) {
+        return c.method == judged.method && c.metric == judged.metric && c.pairs == judged.pairs &&
+               c.difference == judged.difference;
+      });
+      found.push_back({same == values.end() ? &judged : &*same, &condition, &answer});
     }
   }
   if (!found.empty() || scenario.headline_metrics.empty()) return found;
   return JudgedOf(scenario, method, scenario.headline_metrics.front(), against);
+}
+
+std::vector<Judged> QuestionOf(const ScenarioSummary& scenario, const std::string& method, const std::string& metric,
+                               Against against) {
+  const bool is_answer = !scenario.headline_metrics.empty() && scenario.headline_metrics.front() == metric;
+  return is_answer ? AnswersOf(scenario, method, against) : JudgedOf(scenario, method, metric, against);
+}
+
+std::vector<Judged> ValuesBeside(const ScenarioSummary& scenario, const std::vector<Judged>& judged, Against against) {
+  const Answer* answer = judged.front().answer;
+  if (answer == nullptr || answer->decided_by != AnswerStep::kSuccess || answer->value_metric.empty()) return {};
+  return JudgedOf(scenario, answer->method, answer->value_metric, against);
+}
+
+bool IsDecidedByTail(const Judged& judged) {
+  return judged.answer != nullptr && judged.answer->decided_by == AnswerStep::kTail;
+}
+
+bool MeanTellsMore(const Comparison& c) {
+  return c.mean && c.ci_low && c.ci_high && (*c.mean < *c.ci_low || *c.mean > *c.ci_high);
+}
+
+const Answer* FindTailAnswer(const ConditionSummary& condition, const Comparison& comparison) {
+  for (const auto* answers : {&condition.answers, &condition.rival_answers}) {
+    for (const Answer& answer : *answers) {
+      if (answer.decided_by == AnswerStep::kTail && answer.value_metric == comparison.metric &&
+          answer.method == comparison.method && answer.baseline == comparison.baseline) {
+        return &answer;
+      }
+    }
+  }
+  return nullptr;
+}
+
+Comparison AsAnswered(const ConditionSummary& condition, const Comparison& comparison) {
+  const Answer* answer = FindTailAnswer(condition, comparison);
+  if (answer == nullptr) return comparison;
+  Comparison shown = comparison;
+  shown.verdict = answer->verdict;
+  shown.why_open = "the tail decides: " + TailInWords(*answer);
+  shown.beyond.verdict = answer->beyond;
+  shown.beyond.why_open = answer->tail->beyond.why_open;
+  return shown;
+}
+
+std::string TailInWords(const Answer& answer) {
+  const Comparison& tail = *answer.tail;
+  const bool worse = answer.verdict == Verdict::kWorse;
+  return fmt::format("far {} in {} of {}, far {} in {}", worse ? "worse" : "better", worse ? tail.worse : tail.better,
+                     Plural(tail.pairs, "world"), worse ? "better" : "worse", worse ? tail.better : tail.worse);
 }
 
 bool HaveOneMetric(const std::vector<Judged>& judged) {
@@ -137,7 +194,7 @@ std::string AllConditions(std::size_t count) {
 
 std::string CountVerdicts(const std::vector<Verdict>& verdicts, std::size_t conditions) {
   std::string text;
-  for (const Verdict verdict : {Verdict::kBetter, Verdict::kWorse, Verdict::kNoDifference, Verdict::kInconclusive}) {
+  for (const Verdict verdict : {Verdict::kBetter, Verdict::kWorse, Verdict::kNoDifference, Verdict::kUndecided}) {
     const auto count = static_cast<std::size_t>(std::ranges::count(verdicts, verdict));
     if (count == 0) continue;
     if (!text.empty()) text += ", ";

@@ -31,9 +31,35 @@ std::vector<Judged> JudgedOf(const ScenarioSummary& scenario, const std::string&
                              Against against);
 
 /// Returns the answers about a method, one per condition. Each answer comes with the comparison that decides it: the
-/// comparison of success, or else the comparison of the value metric. If the summary has no answers, returns the
-/// comparisons by the first headline metric.
+/// comparison of success if success decided or no world has both values, or else the comparison of the value metric. If
+/// success is a headline metric, too, and no cell failed, this is the headline metric's comparison, whose interval the
+/// tables show. If the summary has no answers, returns the comparisons by the first headline metric.
 std::vector<Judged> AnswersOf(const ScenarioSummary& scenario, const std::string& method, Against against);
+
+/// Returns the answers about a method if `metric` is the scenario's first headline metric, which its question is about;
+/// else its comparisons by `metric`.
+std::vector<Judged> QuestionOf(const ScenarioSummary& scenario, const std::string& method, const std::string& metric,
+                               Against against);
+
+/// If success decided an answer, returns the comparisons of the value that the question is about; else nothing.
+std::vector<Judged> ValuesBeside(const ScenarioSummary& scenario, const std::vector<Judged>& judged, Against against);
+
+/// Returns true if the far better and far worse worlds (the tail) decided the answer.
+bool IsDecidedByTail(const Judged& judged);
+
+/// Returns true if the mean difference lies outside the interval of the median difference. The sentence then also
+/// states the mean.
+bool MeanTellsMore(const Comparison& c);
+
+/// Returns the answer of a condition that the tail of this comparison's metric decided; null if there is none.
+const Answer* FindTailAnswer(const ConditionSummary& condition, const Comparison& comparison);
+
+/// Returns the comparison as tables show it. If the tail of its metric decided the answer, its verdicts are those of
+/// the answer, and its reason says so: a table must not contradict the answer.
+Comparison AsAnswered(const ConditionSummary& condition, const Comparison& comparison);
+
+/// Returns the numbers of worlds by which a tail decided an answer: "far worse in 23 of 120 worlds, far better in 3".
+std::string TailInWords(const Answer& answer);
 
 /// Returns true if all these comparisons are by the same metric.
 bool HaveOneMetric(const std::vector<Judged>& judged);
@@ -53,7 +79,7 @@ std::optional<Verdict> CommonVerdict(const std::vector<Judged>& judged);
 /// Returns the words for a number of conditions: "both conditions", "all 4 conditions".
 std::string AllConditions(std::size_t count);
 
-/// Counts equal verdicts in words: "better under 3 of 4, inconclusive under 1 of 4", "worse under all 4 conditions"; ""
+/// Counts equal verdicts in words: "better under 3 of 4, undecided under 1 of 4", "worse under all 4 conditions"; ""
 /// for no verdicts.
 std::string CountVerdicts(const std::vector<Verdict>& verdicts, std::size_t conditions);
 

@@ -2,6 +2,7 @@
 
 import json
 import pathlib
+import re
 import unittest
 
 from etude_case import EtudeCase
@@ -99,7 +100,21 @@ class DryRun(EtudeCase):
     def test_tells_the_least_difference_in_the_unit_of_the_metric(self):
         spread = self.facts("quick/ik", "--trials", 14)["scenarios"][0]["spread"]
         told = self.etude("run", "quick/ik", "--trials", 14, "--dry-run").stdout
-        self.assertIn(f"of 1.36 or more standard deviations of the worlds' differences, about {1.364 * spread:.2g} deg of effector", told)
+        self.assertIn("of 1.36 or more standard deviations of the worlds' differences, about ", told)
+        amount, = re.findall(r", about ([\d.]+)° of effector orientation error \(0\.1° matters\)", told)
+        self.assertAlmostEqual(float(amount), 1.364 * spread, delta=0.01 * spread)
+
+    def test_promises_nothing_where_no_p_can_reach_the_level(self):
+        # Ten answers by success (shares): 1 / 2ⁿ ≤ 0.05 / 10 needs 8 worlds.
+        told = self.etude("run", "quick/ik", "--trials", 7, "--dry-run").stdout
+        self.assertIn("neither better nor worse is possible with fewer than 8 worlds; there are 7", told)
+        self.assertNotIn("standard deviations", told)
+        self.assertNotIn("80 %", told)
+        self.assertEqual(self.facts("quick/ik", "--trials", 7)["scenarios"][0]["worlds_needed"], 8)
+        # The control: with 14 worlds every one of 50 comparisons can: 2 / 2ⁿ ≤ 0.05 / 50 needs 11.
+        self.assertNotIn("possible", self.etude("run", "quick/ik", "--trials", 14, "--dry-run").stdout)
+        self.assertIn("with fewer than 11 worlds, none of 50 comparisons can be better or worse",
+                      self.etude("run", "quick/ik", "--trials", 9, "--dry-run").stdout)
 
 
 if __name__ == "__main__":

@@ -271,6 +271,10 @@ class Evaluate(EtudeCase):
             self.trc_file(f"t/{name}.trc", self.frames)
         self.evaluate(self.folder / "t", f"m={self.folder}/t", "--people", "{person}_*")
         self.assertEqual([row["units"] for row in self.rows()], [["p1"], ["p1"], ["p2"]])
+        unit = lambda: json.loads((self.out / "summary.json").read_text())["scenarios"][0]["unit"]
+        self.assertEqual(unit(), "recorded-person")
+        self.evaluate(self.folder / "t", f"m={self.folder}/t", "--overwrite")
+        self.assertEqual(unit(), "clip", "the control: without people")
 
     def test_a_table_of_pairs_and_facts_for_programs(self):
         answer = self.trc_file("x.trc", [[[p[0], p[1] + 0.03, p[2]] for p in frame] for frame in self.frames])

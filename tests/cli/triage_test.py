@@ -117,7 +117,7 @@ class Triage(EtudeCase):
             self.assertIn(words, summary)
         # Nothing stands before the clips with faults but how many were judged, and nothing is said about comparisons.
         self.assertTrue(summary.startswith("# evaluate\n\n2 of 3 cells were measured, 1 broke.\n\n\n## Clips with faults"))
-        for words in "inconclusive", "expectation", "nothing to compare", "Holm":
+        for words in "undecided", "expectation", "nothing to compare", "Holm":
             self.assertNotIn(words, summary)
         page = (torn / "report" / "index.html").read_text()
         self.assertLess(page.index("<h2>Clips with faults</h2>"), page.index('aria-label="Answers"'))

@@ -128,11 +128,11 @@ def verdict(found, p_holm, matters, lower_is_better):
     low, high = found["ci95_low"], found["ci95_high"]
     if -matters <= low and high <= matters:
         inside = -matters <= found["mean_ci95_low"] and found["mean_ci95_high"] <= matters
-        return "no difference" if inside and found["differing"] >= 6 else "inconclusive"
+        return "no difference" if inside and found["differing"] >= 6 else "undecided"
     middle = found["difference"]
     one_side = (low >= 0 and middle > 0) or (high <= 0 and middle < 0)
     if not one_side or middle * found["mean"] <= 0 or p_holm > 0.05 or abs(middle) < matters:
-        return "inconclusive"
+        return "undecided"
     return "better" if (middle < 0) == lower_is_better else "worse"
 
 

@@ -19,11 +19,11 @@ MethodFinding Found(SamplingUnit unit, bool here_only, std::optional<Verdict> be
 }
 
 TEST(Badges, NameBothVerdicts) {
-  const std::string differ = VerdictBadges(Found(SamplingUnit::kClip, false, Verdict::kInconclusive));
+  const std::string differ = VerdictBadges(Found(SamplingUnit::kClip, false, Verdict::kUndecided));
   EXPECT_THAT(differ, HasSubstr("badge better"));
   EXPECT_THAT(differ, HasSubstr("</span> better on these clips</span>"));
   EXPECT_THAT(differ, HasSubstr("badge open"));
-  EXPECT_THAT(differ, HasSubstr("</span> inconclusive for other clips</span>"));
+  EXPECT_THAT(differ, HasSubstr("</span> undecided for other clips</span>"));
   EXPECT_THAT(VerdictBadges(Found(SamplingUnit::kClip, true, std::nullopt)), HasSubstr("no verdict for other clips"));
   EXPECT_THAT(VerdictBadges(Found(SamplingUnit::kWorld, false, Verdict::kBetter)),
               HasSubstr("better on these worlds and others"));
@@ -37,11 +37,11 @@ TEST(Badges, PutWhatHoldsHereOnlyInBrackets) {
   c.verdict = Verdict::kBetter;
   EXPECT_EQ(ComparisonSign(c), "(▲)");
   EXPECT_THAT(ComparisonMark(c, SamplingUnit::kClip), HasSubstr("aria-label=\"better, on these clips only\""));
-  c.beyond.verdict = Verdict::kInconclusive;
+  c.beyond.verdict = Verdict::kUndecided;
   EXPECT_EQ(ComparisonSign(c), "(▲)");
   c.beyond.verdict = Verdict::kBetter;
   EXPECT_EQ(ComparisonSign(c), "▲");
-  c.verdict = Verdict::kInconclusive;
+  c.verdict = Verdict::kUndecided;
   EXPECT_EQ(ComparisonSign(c), "?");
   EXPECT_THAT(FindingBadge(Found(SamplingUnit::kClip, true, std::nullopt), "baseline"),
               HasSubstr(">(▲)</span> baseline"));
@@ -51,7 +51,7 @@ TEST(Badges, PutWhatHoldsHereOnlyInBrackets) {
 }
 
 TEST(Badges, NeverShowUndecidedAsNoDifference) {
-  for (const auto& verdict : {std::optional(Verdict::kInconclusive), std::optional<Verdict>()}) {
+  for (const auto& verdict : {std::optional(Verdict::kUndecided), std::optional<Verdict>()}) {
     EXPECT_NE(VerdictSign(verdict), VerdictSign(Verdict::kNoDifference));
     EXPECT_THAT(VerdictBadge(verdict), Not(HasSubstr("badge same")));
   }

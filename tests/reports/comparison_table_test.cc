@@ -45,7 +45,7 @@ TEST(ComparisonTable, SaysWhyAVerdictIsOpenAndMarksAnIntervalThatIsNoBca) {
   comparison.why_open = "too few worlds";
   comparison.interval = IntervalKind::kPercentile;
   const std::string html = ComparisonTableHtml(scenario);
-  EXPECT_THAT(html, HasSubstr("too few worlds"));
+  EXPECT_THAT(html, HasSubstr("</span><small>too few worlds</small></td>")) << "beside the verdict, not in a tooltip";
   EXPECT_THAT(html, HasSubstr(" †</td>"));
   EXPECT_THAT(ComparisonTableHtml(ComparedTransition()), Not(HasSubstr(" †</td>")));
   EXPECT_THAT(ComparisonTableMarkdown(scenario), HasSubstr("too few worlds"));
@@ -61,7 +61,7 @@ TEST(ComparisonTable, PutsADashWhereNothingCouldBeCompared) {
   scenario.conditions[0].comparisons = {nothing};
   EXPECT_THAT(ComparisonTableHtml(scenario), HasSubstr("data-v=\"\">—</td><td class=\"n\" data-v=\"\">—</td>"));
   EXPECT_THAT(ComparisonTableCsv(scenario),
-              HasSubstr("fuzzy-bridge,0,0,0,0,12,,,,none,,,,,,,,,,,inconclusive,,baseline,clip-pair,0,,,,,,,,\n"));
+              HasSubstr("fuzzy-bridge,0,0,0,0,12,,,,none,,,,,,,,,,,undecided,,baseline,clip-pair,0,,,,,,,,\n"));
   scenario.conditions[0].comparisons.clear();
   EXPECT_EQ(ComparisonTableHtml(scenario), "");
   EXPECT_EQ(ComparisonTableMarkdown(scenario), "");
@@ -88,7 +88,7 @@ TEST(ComparisonTable, GivesBothVerdictsAndTheStrongestOtherMethod) {
   const RunData run = UnitRun();
   const std::string html = ComparisonTableHtml(run.scenarios[3]);
   EXPECT_THAT(html, HasSubstr("<th scope=\"col\">On these clips</th><th scope=\"col\">For other clips</th>"));
-  EXPECT_THAT(html, HasSubstr("for other clips: 4 clips, 6 are needed"));
+  EXPECT_THAT(html, HasSubstr("<td>—<small>4 clips, 6 are needed</small></td>"));
   const std::string csv = ComparisonTableCsv(run.scenarios[0]);
   EXPECT_THAT(csv, HasSubstr(",rival,clip-pair,8,"));
   EXPECT_THAT(ComparisonTableMarkdown(run.scenarios[0]), HasSubstr("(strongest other) |"));
@@ -138,16 +138,16 @@ TEST(AcrossTable, TellsWhatHoldsAndElseWhyNot) {
   };
   EXPECT_THAT(text(kBetter, kBetter, kBetter), HasSubstr("better: holds |"));
   EXPECT_THAT(text(kNoDifference, kNoDifference, kNoDifference), HasSubstr("no difference: holds |"));
-  EXPECT_THAT(text(kBetter, kWorse, kInconclusive), HasSubstr("inconclusive: better under some, worse under others |"));
-  EXPECT_THAT(text(kBetter, kInconclusive, kInconclusive), HasSubstr("inconclusive: does not hold everywhere |"));
-  EXPECT_THAT(text(kInconclusive, kInconclusive, kInconclusive), HasSubstr("inconclusive everywhere |"));
+  EXPECT_THAT(text(kBetter, kWorse, kUndecided), HasSubstr("undecided: better under some, worse under others |"));
+  EXPECT_THAT(text(kBetter, kUndecided, kUndecided), HasSubstr("undecided: does not hold everywhere |"));
+  EXPECT_THAT(text(kUndecided, kUndecided, kUndecided), HasSubstr("undecided everywhere |"));
 }
 
 TEST(AcrossTable, NamesEveryLawWithItsDifferenceWhereThereIsOne) {
   const std::string html =
-      AcrossTableHtml(ScenarioOf({Said(Verdict::kBetter, Verdict::kInconclusive, Verdict::kInconclusive)}));
+      AcrossTableHtml(ScenarioOf({Said(Verdict::kBetter, Verdict::kUndecided, Verdict::kUndecided)}));
   EXPECT_THAT(html, HasSubstr("<th scope=\"col\">learning=power</th><th scope=\"col\">learning=two-rate</th>"));
-  EXPECT_THAT(html, HasSubstr("<td>3.10 pp better</td><td>inconclusive</td>"));
+  EXPECT_THAT(html, HasSubstr("<td>3.10 pp better</td><td>undecided</td>"));
   EXPECT_THAT(html, HasSubstr("<td>oracle − a&lt;b</td>"));
   EXPECT_THAT(html, Not(HasSubstr("a<b")));
 }

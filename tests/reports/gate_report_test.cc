@@ -29,7 +29,7 @@ GateReport Example() {
   report.comparison.moves = {MoveOf("fixed", "position_error_cm", Movement::kSame, 1, 1),
                              MoveOf("fixed", "iterations", Movement::kBetter, 90, 60),
                              MoveOf("adaptive", "orientation_error_deg", Movement::kWorse, 2, 5),
-                             MoveOf("adaptive", kOkShare, Movement::kUnclear, 0.5, 0.4)};
+                             MoveOf("adaptive", kOkShare, Movement::kUndecided, 0.5, 0.4)};
   report.expectations = {{"ik-weights", {"a below b", ClaimOutcome::kMet, "fine"}},
                          {"ik-weights", {"b below c", ClaimOutcome::kUnmet, "0.3 too much"}}};
   report.ratios = {{"ik-weights", {"adaptive", "fixed", 1.5, {}}, 60, 1.2, 1.1, 1.3, ClaimOutcome::kMet}};
@@ -44,7 +44,7 @@ GateReport Nothing() {
 TEST(GateMarkdown, ShowsAReviewerWhatFailsBeforeWhatElseMoved) {
   const std::string text = WriteGateMarkdown(Example());
   EXPECT_THAT(text, HasSubstr("## Etude gate of quick: regression\n"));
-  EXPECT_THAT(text, HasSubstr("- against the baseline, 4 comparisons: 1 worse, 1 better, 1 unclear, 1 same\n"));
+  EXPECT_THAT(text, HasSubstr("- against the baseline, 4 comparisons: 1 worse, 1 better, 1 undecided, 1 same\n"));
   EXPECT_THAT(text, HasSubstr("- 2 expectations: 1 unmet, 1 met\n"));
   EXPECT_THAT(text, HasSubstr("- ik-weights: b below c (0.3 too much)\n"));
   EXPECT_THAT(text,
@@ -107,7 +107,7 @@ TEST(GateTail, TellsAWorldOnceHoweverManyMetricsAreFarWorse) {
 
 TEST(GateMarkdown, ShowsFarWorseWorldsThatAreTooFewToFailAmongWhatElseMoved) {
   GateReport report = Example();
-  report.comparison.moves = {TailMove(Movement::kUnclear)};
+  report.comparison.moves = {TailMove(Movement::kUndecided)};
   const std::string text = WriteGateMarkdown(report);
   EXPECT_THAT(text, Not(HasSubstr("**Worlds that are far worse:**")));
   EXPECT_LT(text.find("<details>"), text.find("Single worlds that are far worse, but too few to fail:"));

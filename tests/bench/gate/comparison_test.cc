@@ -90,7 +90,7 @@ TEST(Snapshots, TellAClearDifferenceThatMattersFromOneThatDoesNot) {
 
 TEST(Snapshots, CallADifferenceUnclearThatTheWorldsDoNotSettle) {
   const auto torn = Shifted([](int trial) { return trial % 2 == 0 ? 3.0 : -3.1; });
-  EXPECT_EQ(MoveOf(torn, "position_error_cm", {}, kNoTails).movement, Movement::kUnclear);
+  EXPECT_EQ(MoveOf(torn, "position_error_cm", {}, kNoTails).movement, Movement::kUndecided);
   EXPECT_EQ(MoveOf(torn, "position_error_cm").movement, Movement::kWorse);  // twelve worlds are far worse
 }
 
@@ -103,7 +103,7 @@ TEST(Snapshots, SeeARegressionInFewerThanHalfOfTheWorlds) {
   EXPECT_TRUE(move.by_mean);
   // A test of very few worlds has no power: the change must not be called too small to matter.
   const auto once = Shifted([](int trial) { return trial == 7 ? 50.0 : 0.0; });
-  EXPECT_EQ(MoveOf(once, "position_error_cm").movement, Movement::kUnclear);
+  EXPECT_EQ(MoveOf(once, "position_error_cm").movement, Movement::kUndecided);
 }
 
 TEST(Snapshots, DifferByTheLastDigitUnderTheExactRuleInEitherDirection) {
@@ -137,10 +137,10 @@ TEST(Snapshots, CountFailuresAndLostValuesAgainstTheMethod) {
   }
   for (Status status : {Status::kFailed, Status::kUnsolved}) {  // kUnsolved loses its value here, too
     EXPECT_EQ(MoveOf(Ending(status, 1), "position_error_cm").movement, Movement::kWorse);
-    EXPECT_EQ(MoveOf(Ending(status, 1), "position_error_cm", {}, kNoTails).movement, Movement::kUnclear);
+    EXPECT_EQ(MoveOf(Ending(status, 1), "position_error_cm", {}, kNoTails).movement, Movement::kUndecided);
   }
   EXPECT_EQ(MoveOf(Ending(Status::kFailed, 1), kOkShare).movement, Movement::kWorse);
-  EXPECT_EQ(MoveOf(Ending(Status::kUnsolved, 1), kOkShare).movement, Movement::kUnclear);
+  EXPECT_EQ(MoveOf(Ending(Status::kUnsolved, 1), kOkShare).movement, Movement::kUndecided);
   EXPECT_EQ(MoveOf(Ending(Status::kFailed, 1), "position_error_cm", {"s"}).movement, Movement::kChanged);
 }
 

@@ -136,7 +136,7 @@ TEST(GateOfThirtyWorlds, FailsWhereFiveAreWorseBySixtyDegrees) {
   // The control: without the tail rule the gate passes.
   const GateReport without = ThirtyWorlds(5, "gate: {tail: {worlds: 0}}\n");
   EXPECT_EQ(GateVerdictOf(without), GateVerdict::kPassed);
-  EXPECT_EQ(FirstOf(without, "orientation_error_deg").movement, Movement::kUnclear);
+  EXPECT_EQ(FirstOf(without, "orientation_error_deg").movement, Movement::kUndecided);
 }
 
 TEST(GateOfThirtyWorlds, FollowsTheKeysOfItsScenario) {

@@ -79,6 +79,7 @@ TEST(Payload, OwnsItsJson) {
 }
 
 TEST(SamplingUnits, AreCountedInPlainEnglish) {
+  EXPECT_EQ(CountUnits(2, SamplingUnit::kRecordedPerson), "2 people");
   EXPECT_EQ(CountUnits(1, SamplingUnit::kWorld), "1 world");
   EXPECT_EQ(CountUnits(12, SamplingUnit::kWorld), "12 worlds");
   EXPECT_EQ(CountUnits(1, SamplingUnit::kPerson), "1 person");

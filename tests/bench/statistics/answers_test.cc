@@ -2,8 +2,10 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <functional>
+#include <iterator>
 #include <limits>
 
 #include "bench/statistics/summary.h"
@@ -32,8 +34,10 @@ Study IkStudy(int trials) {
 ScenarioSummary SummaryOf(const Study& study, const WorldOf& world) {
   ScenarioTable table(study);
   for (int trial = 0; trial < study.trials; ++trial) {
-    const std::array<CellValues, 3> cells = world(trial);
-    for (std::size_t m = 0; m < cells.size(); ++m) {
+    std::vector<CellValues> cells;
+    std::ranges::copy(world(trial), std::back_inserter(cells));
+    cells.resize(study.methods.size(), cells.back());  // further methods do what c does
+    for (std::size_t m = 0; m < study.methods.size(); ++m) {
       Row row{"s", "ik", {}, trial, "", {}, study.methods[m].name, {}};
       if (std::isnan(cells[m].error_cm)) {
         row.result = CellResult::Ended(Status::kCrashed, "its worker ended");
@@ -60,6 +64,44 @@ TEST(McNemarMidP, AgreesWithFagerlandLydersenAndLaake) {
   EXPECT_EQ(McNemarMidP(0, 0), 1);
   EXPECT_EQ(McNemarMidP(4, 4), 1);
   EXPECT_DOUBLE_EQ(McNemarMidP(5, 0), 1.0 / 32);
+}
+
+TEST(WorldsNeeded, IsWhereTheLargestDifferenceIsDecided) {
+  // b is better by more in each world, and c is the same as a: nothing speaks against b but the number of worlds.
+  const auto verdict_on = [](Study study, double a_solves) {
+    return AnswerOf(study, [&](int trial) -> std::array<CellValues, 3> {
+      return {{{a_solves, 9.0 + trial}, {1, 1}, {a_solves, 9.0 + trial}}};
+    });
+  };
+  const auto least = [&](Study study, double a_solves) {
+    for (study.trials = 2; verdict_on(study, a_solves).verdict != Verdict::kBetter;) ++study.trials;
+    return study.trials;
+  };
+  EXPECT_EQ(WorldsNeeded(IkStudy(4)), 6);
+  EXPECT_EQ(least(IkStudy(4), 0), 6) << "by success; McNemar's mid-p is 1 / 64";
+  Study graded = IkStudy(4);  // a score, two comparisons: 2 / 2ⁿ ≤ 0.025
+  graded.task = "detection";
+  graded.success = "f1";
+  graded.metrics = {"f1", "precision"};
+  EXPECT_EQ(WorldsNeeded(graded), 7);
+  Study many = IkStudy(4);
+  for (const char* more : {"d", "e", "f", "g"}) many.methods.push_back({more, "a"});
+  EXPECT_EQ(WorldsNeeded(many), 7) << "six answers: 1 / 2⁷ ≤ 0.05 / 6";
+  EXPECT_EQ(least(many, 0), 7);
+}
+
+TEST(Answer, SaysWhyAStepIsUndecided) {
+  Study study = IkStudy(6);
+  for (const char* more : {"d", "e", "f", "g"}) study.methods.push_back({more, "a"});
+  const auto answer = [&] {
+    return AnswerOf(study, [](int) -> std::array<CellValues, 3> { return {{{0, 9}, {1, 1}, {0, 9}}}; });
+  };
+  EXPECT_EQ(answer().success->why_open,
+            "too few worlds: 6 of 6 pairs differ, so p ≥ 0.016; one of 6 comparisons (Holm) needs at least 7");
+  study.unit = SamplingUnit::kPerson;
+  EXPECT_TRUE(answer().success->why_open.starts_with("too few people: ")) << answer().success->why_open;
+  study.trials = 7;
+  EXPECT_EQ(answer().success->why_open, "") << "the control: 7 are enough";
 }
 
 TEST(Answer, IsAboutSuccessBeforeAnyValue) {
@@ -128,12 +170,12 @@ TEST(Answer, IsNotLeftOpenByASuccessThatNeverDiffers) {
     };
   };
   const Answer answer = AnswerOf(IkStudy(16), world_with(0));
-  EXPECT_EQ(answer.success->verdict, Verdict::kInconclusive);
+  EXPECT_EQ(answer.success->verdict, Verdict::kUndecided);
   EXPECT_EQ(answer.verdict, Verdict::kNoDifference);
   // The control: one world is lost. Then the verdict stays open.
   const Answer open = AnswerOf(IkStudy(16), world_with(1));
-  EXPECT_EQ(open.verdict, Verdict::kInconclusive);
-  EXPECT_EQ(open.beyond, Verdict::kInconclusive);
+  EXPECT_EQ(open.verdict, Verdict::kUndecided);
+  EXPECT_EQ(open.beyond, Verdict::kUndecided);
 }
 
 TEST(Answer, IsAboutSuccessAloneWhereThatIsGradedAndComesFirst) {
@@ -169,9 +211,9 @@ TEST(Answer, IsOpenWhereTheValueIsOppositeAmongThoseThatSucceed) {
   const ConditionSummary& condition = summary.conditions.front();
   EXPECT_EQ(condition.comparisons.front().verdict, Verdict::kBetter);
   const Answer& answer = condition.answers.front();
-  EXPECT_EQ(answer.success->verdict, Verdict::kInconclusive);
+  EXPECT_EQ(answer.success->verdict, Verdict::kUndecided);
   EXPECT_EQ(answer.both_succeed->verdict, Verdict::kWorse);
-  EXPECT_EQ(answer.verdict, Verdict::kInconclusive);
+  EXPECT_EQ(answer.verdict, Verdict::kUndecided);
   EXPECT_EQ(answer.decided_by, AnswerStep::kNone);
 }
 

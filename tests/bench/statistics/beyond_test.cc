@@ -76,7 +76,7 @@ TEST(MeasureBeyond, ShowsWhichUnitCarriesTheDifference) {
   EXPECT_DOUBLE_EQ(beyond.left_out[0].difference, -12);
   EXPECT_EQ(beyond.left_out[5].unit, "clip-f");
   EXPECT_DOUBLE_EQ(beyond.left_out[5].difference, 0);
-  EXPECT_EQ(beyond.verdict, Verdict::kInconclusive);
+  EXPECT_EQ(beyond.verdict, Verdict::kUndecided);
 }
 
 TEST(MeasureBeyond, ClaimsNothingThatTheMeanContradicts) {
@@ -88,14 +88,14 @@ TEST(MeasureBeyond, ClaimsNothingThatTheMeanContradicts) {
   EXPECT_LT(*beyond.high, -1);
   EXPECT_LE(*beyond.test.p, 0.01);
   EXPECT_GT(*beyond.mean, 0);
-  EXPECT_EQ(beyond.verdict, Verdict::kInconclusive);
+  EXPECT_EQ(beyond.verdict, Verdict::kUndecided);
   EXPECT_THAT(beyond.why_open, HasSubstr("few outweigh the others"));
 }
 
 TEST(MeasureBeyond, SaysNoDifferenceOnlyOfUnitsThatDiffer) {
   EXPECT_EQ(Judged(OneWay({0.1, -0.1, 0.2, -0.2, 0.1, -0.1, 0.05})).verdict, Verdict::kNoDifference);
   const Beyond equal = Judged(OneWay({0, 0, 0, 0, 0, 0, 0, 0}));
-  EXPECT_EQ(equal.verdict, Verdict::kInconclusive);
+  EXPECT_EQ(equal.verdict, Verdict::kUndecided);
   EXPECT_THAT(equal.why_open, HasSubstr("0 of 8 clips differ"));
   // The adjusted Wald interval is for shares, so it does not apply to millimetres.
   EXPECT_EQ(std::pair(*equal.low, *equal.high), std::pair(0.0, 0.0));

@@ -43,11 +43,11 @@ TEST(ComparePaired, CallsAnEffectBelowThePracticalThresholdNoDifference) {
   EXPECT_EQ(VerdictOf(identical, Metric(Direction::kLowerIsBetter, 0)), Verdict::kNoDifference);
 }
 
-TEST(ComparePaired, IsInconclusiveWhenNoiseHidesTheEffectOrPairsAreFew) {
-  EXPECT_EQ(VerdictOf(PairsWithEffect(0, 5, 40), Metric(Direction::kLowerIsBetter, 0.1)), Verdict::kInconclusive);
-  EXPECT_EQ(VerdictOf(PairsWithEffect(-9, 0.1, 5), Metric(Direction::kLowerIsBetter, 0.1)), Verdict::kInconclusive);
+TEST(ComparePaired, IsUndecidedWhenNoiseHidesTheEffectOrPairsAreFew) {
+  EXPECT_EQ(VerdictOf(PairsWithEffect(0, 5, 40), Metric(Direction::kLowerIsBetter, 0.1)), Verdict::kUndecided);
+  EXPECT_EQ(VerdictOf(PairsWithEffect(-9, 0.1, 5), Metric(Direction::kLowerIsBetter, 0.1)), Verdict::kUndecided);
   const Comparison none = ComparePaired({}, Metric(Direction::kLowerIsBetter, 0.1), 1, "x");
-  EXPECT_EQ(none.verdict, Verdict::kInconclusive);
+  EXPECT_EQ(none.verdict, Verdict::kUndecided);
   EXPECT_FALSE(none.difference);
 }
 
@@ -72,13 +72,13 @@ TEST(ComparePaired, GivesSharesAnIntervalThatDoubtsAFewEqualWorlds) {
   share.aggregate = Aggregate::kMean;
   share.reading = Reading::kYesNo;
   const std::vector<Pair> few(12, Pair{1, 1}), many(400, Pair{1, 1});
-  EXPECT_EQ(VerdictOf(few, share), Verdict::kInconclusive);
+  EXPECT_EQ(VerdictOf(few, share), Verdict::kUndecided);
   EXPECT_EQ(VerdictOf(many, share), Verdict::kNoDifference);
   EXPECT_EQ(ComparePaired(few, share, 1, "x").interval, IntervalKind::kAdjustedWald);
 }
 
 TEST(ComparePaired, NeverPrefersWithoutADirection) {
-  EXPECT_EQ(VerdictOf(PairsWithEffect(-1, 0.5, 40), Metric(Direction::kNeither, 0.1)), Verdict::kInconclusive);
+  EXPECT_EQ(VerdictOf(PairsWithEffect(-1, 0.5, 40), Metric(Direction::kNeither, 0.1)), Verdict::kUndecided);
   EXPECT_EQ(VerdictOf(PairsWithEffect(-1, 0.5, 40), Metric(Direction::kNeither, 3)), Verdict::kNoDifference);
 }
 

@@ -75,7 +75,7 @@ TEST(JudgeFamily, TakesBackWhatManyQuestionsWouldFindByChance) {
   const Comparison seven = Compared(Falling(7));  // p = 2 / 128
   EXPECT_EQ(JudgedAmong(1, seven).verdict, Verdict::kBetter);
   EXPECT_EQ(JudgedAmong(3, seven).verdict, Verdict::kBetter);
-  EXPECT_EQ(JudgedAmong(4, seven).verdict, Verdict::kInconclusive);
+  EXPECT_EQ(JudgedAmong(4, seven).verdict, Verdict::kUndecided);
   EXPECT_DOUBLE_EQ(*JudgedAmong(4, seven).p_holm, 8.0 / 128);
 }
 
@@ -100,7 +100,7 @@ TEST(JudgeFamily, SaysWhyADifferenceIsNotYetAVerdict) {
   std::vector<double> small(40);
   for (double& difference : small) difference = dice.Normal(-0.95, 0.6);
   const Comparison open = JudgedAmong(1, Compared(small, "jump_cm"));
-  EXPECT_EQ(open.verdict, Verdict::kInconclusive);
+  EXPECT_EQ(open.verdict, Verdict::kUndecided);
   EXPECT_EQ(open.why_open, "there is a difference, but it is undecided whether it is large enough to matter");
 }
 
@@ -109,7 +109,7 @@ TEST(JudgeFamily, TellsATestThatFoundSomethingFromOneThatDidNot) {
   std::vector<double> steps(24, 0.0);
   for (int i = 0; i < 13; ++i) steps[i] = -1 - 0.01 * i;
   const Comparison found = JudgedAmong(2, Compared(steps));
-  EXPECT_EQ(found.verdict, Verdict::kInconclusive);
+  EXPECT_EQ(found.verdict, Verdict::kUndecided);
   EXPECT_THAT(found.why_open, HasSubstr("the test finds a difference (p = 0.00049 among 2), but the interval of its "
                                         "median reaches zero"));
   // Twelve equal worlds of a share: no pair differs, but the interval is wide.
@@ -147,7 +147,7 @@ TEST(JudgeFamily, FindsNobodyBetterWhoFailsWhereTheOtherDoesNot) {
   EXPECT_EQ(judged(0, 2).verdict, Verdict::kBetter);
   EXPECT_EQ(judged(20, 0).verdict, Verdict::kBetter);
   const Comparison open = judged(0, 12);
-  EXPECT_EQ(open.verdict, Verdict::kInconclusive);
+  EXPECT_EQ(open.verdict, Verdict::kUndecided);
   EXPECT_EQ(open.why_open, "“better” in worlds in which both have a value, but not if a failure counts as a loss");
   EXPECT_GT(*open.p_holm, 0.05);
   EXPECT_DOUBLE_EQ(*open.difference, *Compared(Falling(20)).difference);
@@ -157,7 +157,7 @@ TEST(JudgeFamily, CallsAMeanEqualOnlyWhenEnoughPairsDiffer) {
   std::vector<double> steps(40, 0.0);
   for (int i = 0; i < 5; ++i) steps[i] = 2;
   const Comparison few = JudgedAmong(1, Compared(steps, "iterations_par2"));
-  EXPECT_EQ(few.verdict, Verdict::kInconclusive);
+  EXPECT_EQ(few.verdict, Verdict::kUndecided);
   EXPECT_EQ(few.why_open, "5 of 40 pairs differ: too few to exclude rare differences that would move the mean");
   steps[5] = 2;
   EXPECT_EQ(JudgedAmong(1, Compared(steps, "iterations_par2")).verdict, Verdict::kNoDifference);
@@ -168,7 +168,7 @@ TEST(JudgeFamily, CallsNothingEqualOfWhichTheMedianHidesWhatFewWorldsShow) {
   std::vector<double> rare(40, 0.0);
   for (int i = 0; i < 12; ++i) rare[i] = 50 + i;
   const Comparison judged = JudgedAmong(1, Compared(rare));
-  EXPECT_EQ(judged.verdict, Verdict::kInconclusive);
+  EXPECT_EQ(judged.verdict, Verdict::kUndecided);
   EXPECT_EQ(*judged.ci_high, 0);
   EXPECT_THAT(judged.why_open, HasSubstr("in most worlds the same, in 0 of 40 better, in 12 worse"));
   EXPECT_THAT(judged.notes, ElementsAre(HasSubstr("which the median does not show")));
@@ -240,10 +240,10 @@ TEST(Across, AVerdictHoldsWhereItIsTheSameUnderEveryValue) {
 
 TEST(Across, OneLawThatSaysNothingIsEnoughToSayNothing) {
   const auto verdicts = JudgeAcross(Asking({"learning"}), {Under("power", "0", Verdict::kBetter, 0.1),
-                                                           Under("two-rate", "0", Verdict::kInconclusive, 0.0),
+                                                           Under("two-rate", "0", Verdict::kUndecided, 0.0),
                                                            Under("exponential", "0", Verdict::kBetter, 0.1)});
   ASSERT_EQ(verdicts.size(), 1u);
-  EXPECT_EQ(verdicts[0].verdict, Verdict::kInconclusive);
+  EXPECT_EQ(verdicts[0].verdict, Verdict::kUndecided);
 }
 
 TEST(Across, NoDifferenceHoldsToo) {

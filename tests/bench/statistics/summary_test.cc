@@ -191,7 +191,7 @@ TEST_F(SummaryTest, PairsByWorldAgainstTheFirstMethod) {
   EXPECT_EQ(comparison.pairs, 9);
   EXPECT_DOUBLE_EQ(*comparison.difference, -2);
   EXPECT_DOUBLE_EQ(comparison.share_better, 1);
-  EXPECT_EQ(comparison.verdict, Verdict::kInconclusive);
+  EXPECT_EQ(comparison.verdict, Verdict::kUndecided);
   EXPECT_EQ(comparison.why_open,
             "“better” in worlds in which both have a value, but not if a failure counts as a loss");
   for (Row& row : rows) {
@@ -223,7 +223,7 @@ TEST_F(SummaryTest, TakesAFailureForALossAndAMetricThatDoesNotApplyForNone) {
     const ScenarioSummary judged = Summarise(alone, Tabulate(alone, std::span(fewer).first(20)), 1);
     return std::pair(judged.conditions[0].comparisons[0].verdict, judged.expectations[0].outcome);
   };
-  EXPECT_EQ(verdict_when_b_ends(Status::kFailed), std::pair(Verdict::kInconclusive, ClaimOutcome::kUndecided));
+  EXPECT_EQ(verdict_when_b_ends(Status::kFailed), std::pair(Verdict::kUndecided, ClaimOutcome::kUndecided));
   EXPECT_EQ(verdict_when_b_ends(Status::kOk), std::pair(Verdict::kBetter, ClaimOutcome::kMet));
 }
 

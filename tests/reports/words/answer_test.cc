@@ -74,7 +74,7 @@ ScenarioSummary AnsweredSummary() {
   of_rival.success->ci_low = -0.70;
   of_rival.success->ci_high = -0.44;
   of_rival.success->worse = 12;
-  of_rival.both_succeed = Compared("orientation_error_deg", "gauss-newton", Verdict::kInconclusive);
+  of_rival.both_succeed = Compared("orientation_error_deg", "gauss-newton", Verdict::kUndecided);
   of_rival.both_succeed->pairs = 8;
   condition.answers = {of_baseline};
   condition.rival_answers = {of_rival};
@@ -88,6 +88,7 @@ TEST(Headline, IsAboutSuccessWhereThatDecides) {
   const MethodFinding found = CompareInWords(AnsweredSummary(), "adaptive", "orientation_error_deg", Against::kRival);
   EXPECT_EQ(found.verdict, Verdict::kWorse);
   EXPECT_THAT(found.sentence, HasSubstr("the difference matters in 12 of 20 worlds"));
+  EXPECT_THAT(found.sentence, HasSubstr("Difference in effector orientation error: 1.00° on 20 worlds."));
   EXPECT_THAT(found.sentence, HasSubstr("Where both succeed (8 worlds): effector orientation error 1.00°."));
   // The control: for a metric other than the question's, the comparison's own verdict counts.
   EXPECT_EQ(CompareInWords(AnsweredSummary(), "adaptive", "iterations", Against::kBaseline).verdict,
@@ -97,7 +98,10 @@ TEST(Headline, IsAboutSuccessWhereThatDecides) {
 TEST(Headline, TellsOfATailThatDecides) {
   ScenarioSummary scenario = AnsweredSummary();
   Answer& answer = scenario.conditions[0].answers[0];
-  scenario.conditions[0].comparisons[0].verdict = Verdict::kNoDifference;
+  Comparison& value = scenario.conditions[0].comparisons[0];
+  value.verdict = Verdict::kUndecided;
+  value.difference = value.ci_low = value.ci_high = 0;
+  value.mean = 6.3, value.mean_low = 3.19, value.mean_high = 9.61;
   answer.verdict = Verdict::kWorse;
   answer.decided_by = AnswerStep::kTail;
   answer.tail = Compared("orientation_error_deg", "fixed", Verdict::kWorse);
@@ -105,7 +109,72 @@ TEST(Headline, TellsOfATailThatDecides) {
   answer.tail->worse = 7;
   const MethodFinding found = CompareInWords(scenario, "adaptive", "orientation_error_deg", Against::kBaseline);
   EXPECT_EQ(found.verdict, Verdict::kWorse);
-  EXPECT_THAT(found.sentence, HasSubstr("The tail decides: far better in 1, far worse in 7 of 20 worlds."));
+  EXPECT_EQ(found.sentence,
+            "“adaptive” is worse than “fixed”: far worse in 7 of 20 worlds, far better in 1; effector orientation "
+            "error, median 0° (95 % CI 0–0), mean 6.30° (3.19–9.61) on 20 worlds.");
+  EXPECT_THAT(HeadlineOfSolvers(scenario),
+              HasSubstr("(effector orientation error far worse in 7 of 20 worlds, far better in 1)"));
+  const ConditionSummary& condition = scenario.conditions[0];
+  EXPECT_EQ(AsAnswered(condition, value).verdict, Verdict::kWorse);
+  EXPECT_EQ(AsAnswered(condition, value).why_open, "the tail decides: far worse in 7 of 20 worlds, far better in 1");
+  // The control: another metric, and an answer that the tail did not decide, keep the comparison's verdict.
+  EXPECT_EQ(AsAnswered(condition, condition.comparisons[1]).verdict, Verdict::kNoDifference);
+  answer.decided_by = AnswerStep::kNone;
+  EXPECT_EQ(AsAnswered(condition, value).verdict, Verdict::kUndecided);
+}
+
+TEST(Answer, OfWorldsWithoutTheValueIsAboutSuccessWithItsReason) {
+  ScenarioSummary scenario = AnsweredSummary();
+  scenario.unit = SamplingUnit::kPerson;
+  ConditionSummary& condition = scenario.conditions[0];
+  Answer& answer = condition.answers[0];
+  answer.verdict = Verdict::kUndecided;
+  answer.beyond = Verdict::kUndecided;
+  answer.decided_by = AnswerStep::kNone;
+  answer.success = Compared("f1", "fixed", Verdict::kUndecided);
+  answer.success->difference = answer.success->mean = -0.706, answer.success->ci_low = -0.835,
+  answer.success->ci_high = -0.616;
+  answer.success->why_open = "too few people";
+  condition.comparisons[0].pairs = 0;
+  condition.comparisons[0].only_baseline = 6;
+  const auto sentence = [&] {
+    return CompareInWords(scenario, "adaptive", "orientation_error_deg", Against::kBaseline).sentence;
+  };
+  EXPECT_EQ(sentence(),
+            "It is undecided whether “adaptive” changes the mean F1 against “fixed”: −70.6 pp (95 % CI "
+            "−83.5 to −61.6) on 20 worlds. Why: too few people.");
+  EXPECT_THAT(HeadlineOfSolvers(scenario), HasSubstr("undecided against “fixed” (mean F1 −70.6 pp)"));
+  // The control: with values, the sentence is about the value, and success follows.
+  condition.comparisons[0] = Compared("orientation_error_deg", "fixed", Verdict::kUndecided);
+  EXPECT_THAT(sentence(), HasSubstr("the effector orientation error"));
+  EXPECT_THAT(sentence(),
+              HasSubstr("It is undecided whether success differs: mean F1 −70.6 pp (−83.5 to −61.6); too few"));
+}
+
+TEST(Answer, ThatIsOpenSaysSoBeforeAValueThatIsNot) {
+  ScenarioSummary scenario = AnsweredSummary();
+  Comparison& value = scenario.conditions[0].comparisons[0];
+  value.ci_low = -2, value.ci_high = -0.5;
+  const auto sentence = [&] {
+    return CompareInWords(scenario, "adaptive", "orientation_error_deg", Against::kBaseline).sentence;
+  };
+  EXPECT_THAT(sentence(), ::testing::StartsWith("“adaptive” lowers the effector orientation error by 1.00°"));
+  scenario.conditions[0].answers[0].verdict = Verdict::kUndecided;
+  scenario.conditions[0].answers[0].decided_by = AnswerStep::kNone;
+  EXPECT_THAT(sentence(),
+              ::testing::StartsWith("Undecided: “adaptive” lowers the effector orientation error by 1.00°"));
+}
+
+TEST(Answer, ShowsOneIntervalOfOneDifference) {
+  ScenarioSummary scenario = AnsweredSummary();
+  scenario.headline_metrics = {"orientation_error_deg", "solved_practical"};
+  ConditionSummary& condition = scenario.conditions[0];
+  Comparison& of_table = condition.rivals.emplace_back(*condition.rival_answers[0].success);
+  of_table.ci_low = -0.71;
+  const auto shown = [&] { return AnswersOf(scenario, "adaptive", Against::kRival).front().comparison->ci_low; };
+  EXPECT_EQ(shown(), -0.71);
+  of_table.pairs = 19;  // the control: other worlds, because a failed cell has no success in the table
+  EXPECT_EQ(shown(), -0.70);
 }
 
 TEST(Headline, ThatSuccessAndValueDecideUnderDifferentConditionsHasNoFigure) {
@@ -138,13 +207,18 @@ TEST(Headline, GivesTheLeastAndTheLargestDifferenceOverConditions) {
   scenario.conditions.push_back(scenario.conditions.front());
   scenario.conditions[1].comparisons[0].difference = -7.85;
   EXPECT_THAT(HeadlineOfSolvers(scenario), HasSubstr("than “fixed” (effector orientation error −7.85 to −1.00°);"));
+  // The sentence has the same ends, also if the differences have different signs.
+  scenario.conditions.push_back(scenario.conditions.front());
+  scenario.conditions[2].comparisons[0].difference = 0.5;
+  EXPECT_THAT(CompareInWords(scenario, "adaptive", "orientation_error_deg", Against::kBaseline).sentence,
+              HasSubstr(": −7.85° () to 0.500° (), on 20 worlds each"));
   for (ConditionSummary& condition : scenario.conditions) condition.comparisons[0].difference.reset();
   EXPECT_THAT(HeadlineOfSolvers(scenario), HasSubstr("better than “fixed”;"));
 }
 
 TEST(Headline, SaysThatNothingIsDecided) {
   ScenarioSummary scenario = SolverSummary();
-  scenario.conditions[0].rivals = {Compared("orientation_error_deg", "gauss-newton", Verdict::kInconclusive)};
+  scenario.conditions[0].rivals = {Compared("orientation_error_deg", "gauss-newton", Verdict::kUndecided)};
   const std::string headline = HeadlineOfSolvers(scenario);
   EXPECT_THAT(headline, HasSubstr("; undecided against “gauss-newton”"));
   EXPECT_THAT(headline, Not(HasSubstr("no different")));
@@ -155,7 +229,21 @@ TEST(Headline, SaysWhereItIsAboutTheseClipsOnly) {
   scenario.unit = SamplingUnit::kClip;
   EXPECT_THAT(HeadlineOfSolvers(scenario), Not(HasSubstr("on these clips")));
   scenario.conditions[0].comparisons[0].beyond.verdict = std::nullopt;
-  EXPECT_THAT(HeadlineOfSolvers(scenario), ::testing::EndsWith(", on these clips"));
+  EXPECT_THAT(HeadlineOfSolvers(scenario), HasSubstr("better than “fixed” on these clips (effector"));
+  scenario.conditions[0].comparisons[0].beyond.why_open = "4 clips: no verdict for others";
+  const auto sentence = [&] {
+    return CompareInWords(scenario, "adaptive", "orientation_error_deg", Against::kBaseline).sentence;
+  };
+  EXPECT_THAT(sentence(), HasSubstr(" For other clips: 4 clips: no verdict for others."));
+  scenario.unit = SamplingUnit::kRecordedPerson;
+  EXPECT_THAT(sentence(), HasSubstr(" of 20 people. For other people: 4 clips"));
+  scenario.unit = SamplingUnit::kWorld;
+  EXPECT_THAT(sentence(), Not(HasSubstr("For other")));
+  scenario.unit = SamplingUnit::kClip;
+  // A verdict against the strongest other method says so, too, also if it is undecided for other clips.
+  EXPECT_THAT(HeadlineOfSolvers(scenario), HasSubstr("no different from “gauss-newton” (+1.00°)"));
+  scenario.conditions[0].rivals[0].beyond.verdict = Verdict::kUndecided;
+  EXPECT_THAT(HeadlineOfSolvers(scenario), HasSubstr("no different from “gauss-newton” on these clips (+1.00°)"));
 }
 
 TEST(Headline, NamesBothRivalsWhereHalvesOfTheWorldsChoseDifferently) {

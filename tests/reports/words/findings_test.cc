@@ -54,7 +54,7 @@ TEST(Answer, CountsTheWorldsLostWhenWorse) {
 }
 
 TEST(Answer, ClaimsNothingThatIsNotSettled) {
-  const std::string open = AnswerTo(Figures(20, -0.2, -0.9, 0.5, 0.5, Verdict::kInconclusive));
+  const std::string open = AnswerTo(Figures(20, -0.2, -0.9, 0.5, 0.5, Verdict::kUndecided));
   EXPECT_THAT(open, HasSubstr("It is undecided whether"));
   EXPECT_THAT(open, Not(HasSubstr("lowers")));
   const std::string same = AnswerTo(Figures(20, 0.01, -0.02, 0.03, 0.5, Verdict::kNoDifference));
@@ -62,7 +62,7 @@ TEST(Answer, ClaimsNothingThatIsNotSettled) {
 }
 
 TEST(Answer, NamesTheMeanThatTheMedianHides) {
-  Comparison rare = Figures(120, 0, 0, 0, 0.4, Verdict::kInconclusive);
+  Comparison rare = Figures(120, 0, 0, 0, 0.4, Verdict::kUndecided);
   rare.mean = 6.3, rare.mean_low = 3.19, rare.mean_high = 9.61;
   EXPECT_THAT(AnswerTo(rare), HasSubstr("median 0° (95 % CI 0–0), mean 6.30° (3.19–9.61) on 120 worlds"));
   rare.verdict = Verdict::kNoDifference;
@@ -70,10 +70,9 @@ TEST(Answer, NamesTheMeanThatTheMedianHides) {
 }
 
 TEST(Answer, SaysWhyItIsOpen) {
-  Comparison open = Figures(8, -4.7, -6.0, -1.1, 0.9, Verdict::kInconclusive);
+  Comparison open = Figures(8, -4.7, -6.0, -1.1, 0.9, Verdict::kUndecided);
   open.why_open = "too few worlds";
-  EXPECT_THAT(AnswerTo(open), HasSubstr("on 8 worlds."));
-  EXPECT_EQ(FindingsOf(RunData{}, OneComparison(open)).answer.why_open, "too few worlds");
+  EXPECT_THAT(AnswerTo(open), ::testing::EndsWith("on 8 worlds. Why: too few worlds."));
 }
 
 TEST(Answer, TellsOfTheWorldsThatOnlyOneSurvived) {
@@ -88,7 +87,7 @@ TEST(Answer, TellsOfTheWorldsThatOnlyOneSurvived) {
 }
 
 TEST(Answer, AdmitsThatNothingCouldBeCompared) {
-  EXPECT_THAT(AnswerTo(Figures(0, std::nullopt, std::nullopt, std::nullopt, 0, Verdict::kInconclusive)),
+  EXPECT_THAT(AnswerTo(Figures(0, std::nullopt, std::nullopt, std::nullopt, 0, Verdict::kUndecided)),
               HasSubstr("no world has both values"));
 }
 
@@ -101,7 +100,7 @@ TEST(Answer, SaysThatItDependsWhenConditionsDisagree) {
   scenario.conditions[1].comparisons[0].difference = 4.0;
   const MethodFinding answer = FindingsOf(RunData{}, scenario).answer;
   EXPECT_FALSE(answer.verdict.has_value());
-  EXPECT_EQ(answer.Words(), "it depends on these worlds");
+  EXPECT_EQ(answer.Words(), "differs by condition on these worlds");
   EXPECT_THAT(answer.sentence, HasSubstr("better under 1 of 2, worse under 1 of 2"));
   EXPECT_THAT(answer.sentence, HasSubstr(": −2.00° (95 % CI −3.00 to −1.00; noise=5) to 4.00° (−3.00 to "
                                          "−1.00; noise=20), on 9 worlds each."));
@@ -210,7 +209,7 @@ TEST(Findings, GiveAFewFiguresOfTheMethodItsBaselineAndTheStrongestOther) {
   EXPECT_EQ(figures.methods[2].name, "gate-inertialised");
   EXPECT_EQ(figures.labels,
             (std::vector<std::string>{"jump at the transition point", "ended ok", "processor time",
-                                      "worlds in which “wait-for-end” is better by a difference that matters"}));
+                                      "worlds in which “wait-for-end” is better"}));
   EXPECT_EQ(figures.methods[2].values[0], "6.40 cm");
   EXPECT_EQ(figures.methods[1].values[2], "250 ms");
   EXPECT_EQ(figures.methods[2].values[2], "2.00 s");
@@ -223,7 +222,7 @@ TEST(Findings, GiveAFewFiguresOfTheMethodItsBaselineAndTheStrongestOther) {
 TEST(Findings, AnswerTwiceAndSayWhatTheVerdictIsAbout) {
   const RunData run = UnitRun();
   const ScenarioFindings capture = FindingsOf(run, run.scenarios[3]);
-  EXPECT_THAT(capture.headline, ::testing::EndsWith(", on these clips"));
+  EXPECT_THAT(capture.headline, HasSubstr(" on these clips ("));
   EXPECT_THAT(capture.answer.sentence, HasSubstr(" worlds of 4 clips."));
   EXPECT_THAT(capture.answer.BothVerdicts(), ::testing::EndsWith(" on these clips, no verdict for other clips"));
   const ScenarioFindings transition = FindingsOf(run, run.scenarios[0]);

@@ -60,28 +60,28 @@ TEST(Beyond, OfAnOlderRunClaimsNothing) {
 }
 
 TEST(Beyond, SaysWhyItIsOpen) {
-  Comparison open = OnClips(Verdict::kBetter, Verdict::kInconclusive, 7);
+  Comparison open = OnClips(Verdict::kBetter, Verdict::kUndecided, 7);
   open.beyond.why_open = "too few clips";
   const BeyondFinding found = InWords({open}, SamplingUnit::kClipPair);
-  EXPECT_THAT(found.words, HasSubstr("for other clips: inconclusive (pseudo-median of 7 clips"));
+  EXPECT_THAT(found.words, HasSubstr("for other clips: undecided (pseudo-median of 7 clips"));
   EXPECT_THAT(found.words, ::testing::EndsWith(": too few clips"));
   EXPECT_FALSE(found.as_on_these);
 }
 
 TEST(Beyond, CountsConditions) {
   const BeyondFinding found =
-      InWords({OnClips(Verdict::kBetter, Verdict::kBetter, 9), OnClips(Verdict::kBetter, Verdict::kInconclusive, 9),
+      InWords({OnClips(Verdict::kBetter, Verdict::kBetter, 9), OnClips(Verdict::kBetter, Verdict::kUndecided, 9),
                OnClips(Verdict::kBetter, std::nullopt, 3)},
               SamplingUnit::kClip);
-  EXPECT_EQ(found.words, "for other clips: better under 1 of 3, inconclusive under 1 of 3, no verdict under 1 of 3");
+  EXPECT_EQ(found.words, "for other clips: better under 1 of 3, undecided under 1 of 3, no verdict under 1 of 3");
   EXPECT_FALSE(found.verdict.has_value());
 }
 
 TEST(Beyond, SaysTheSameOnlyOnceWhereEveryWorldIsItsOwnUnit) {
   EXPECT_EQ(InWords({OnClips(Verdict::kWorse, Verdict::kWorse, 20)}, SamplingUnit::kWorld).words,
             "for other worlds of the same kind: the same");
-  EXPECT_THAT(InWords({OnClips(Verdict::kWorse, Verdict::kInconclusive, 20)}, SamplingUnit::kPerson).words,
-              HasSubstr("for other people: inconclusive"));
+  EXPECT_THAT(InWords({OnClips(Verdict::kWorse, Verdict::kUndecided, 20)}, SamplingUnit::kPerson).words,
+              HasSubstr("for other people: undecided"));
 }
 
 TEST(Yardstick, IsAMethodThatIsComparedWithNone) {
