@@ -61,6 +61,7 @@ void PrintWorlds(const std::string& title, const std::vector<TailLine>& lines) {
 }
 
 void PrintReport(const GateReport& report) {
+  PrintList("Answers that became worse:", FallenLines(report));
   PrintMoves(report.comparison, "baseline", "now", kMaxRows);
   PrintWorlds("Worlds that are far worse:", TailLines(report, true, kMaxWorldsEach, kMaxWorlds));
   PrintWorlds("Single worlds that are far worse, but too few to fail:",
@@ -73,13 +74,15 @@ void PrintReport(const GateReport& report) {
     fmt::print("{}: {}: {} [{}]\n", ClaimOutcomeName(ratio.outcome), ratio.scenario, RatioClaim(ratio),
                RatioDetail(ratio));
   }
-  PrintList("Answers that became worse:", FallenLines(report));
   PrintList("New, not in the baseline:", report.comparison.only_after);
   PrintList("Settings of the method changed in the scenario:", report.comparison.settings_changed);
   PrintList("Methods without an answer:", report.silent);
   PrintList("Incomplete:", report.incomplete);
   for (const std::string& sentence : GateSentences(report)) fmt::print("{}\n", sentence);
-  fmt::print("Gate: {}{}\n", GateVerdictWords(GateVerdictOf(report)),
+  const GateVerdict verdict = GateVerdictOf(report);
+  std::vector<std::string> flipped;
+  if (verdict == GateVerdict::kRegressed) flipped = FallenLines(report, true);
+  fmt::print("Gate: {}{}{}{}\n", GateVerdictWords(verdict), flipped.empty() ? "" : ": ", Join(flipped, "; "),
              report.baseline_file.empty() ? ", without a baseline (--baseline FILE --update makes one)" : "");
 }
 
