@@ -60,6 +60,7 @@ void PrintWorlds(const std::string& title, const std::vector<TailLine>& lines) {
 }
 
 void PrintReport(const GateReport& report) {
+  PrintList("Answers that became worse:", FallenLines(report));
   PrintMoves(report.comparison, "baseline", "now", kMaxRows);
   PrintWorlds("Worlds that are far worse:", TailLines(report, true, kMaxWorldsEach, kMaxWorlds));
   PrintWorlds("Single worlds that are far worse, but too few to fail:",
@@ -72,7 +73,6 @@ void PrintReport(const GateReport& report) {
     fmt::print("{}: {}: {} [{}]\n", ClaimOutcomeName(ratio.outcome), ratio.scenario, RatioClaim(ratio),
                RatioDetail(ratio));
   }
-  PrintList("Answers that became worse:", FallenLines(report));
   PrintList("New, not in the baseline:", report.comparison.only_after);
   PrintList("Settings of the method changed in the scenario:", report.comparison.settings_changed);
   PrintList("Methods without an answer:", report.silent);

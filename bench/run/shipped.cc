@@ -67,7 +67,13 @@ fs::path FindShipped(const std::string& name) {
 tl::unexpected<Error> NotShipped(const std::string& path) {
   std::vector<std::string> names = ShippedScenarios();
   names.insert(names.end(), std::begin(kSuites), std::end(kSuites));
-  const std::string nearest = NearestName(path, names);
+  // A path within a clone of the repository is the name of a shipped scenario between "scenarios/" and ".yaml".
+  std::string name = fs::path(path).lexically_normal().string();
+  const std::string folder = std::string(kScenarioFolder) + "/";
+  if (const std::size_t at = name.rfind(folder); at != std::string::npos) name.erase(0, at + folder.size());
+  if (name.ends_with(kEnding)) name.resize(name.size() - std::string_view(kEnding).size());
+  if (name.ends_with('/')) name.pop_back();
+  const std::string nearest = NearestName(name, names);
   return Fail({path},
               "no such scenario file or folder, and etude has no scenario of that name{} (etude list scenarios)",
               nearest.empty() ? "" : fmt::format("; did you mean '{}'?", nearest));

@@ -140,6 +140,10 @@ class Cluster(unittest.TestCase):
             ("-n", "4", "-c", "two", SUITE): "'two' is not a number of CPUs",
             ("-n", "4"): "no scenario",
             ("-n", "4", "nowhere.yaml"): "no scenario 'nowhere.yaml'",
+            ("-n", "4", "quic"): "no scenario 'quic'",
+            ("-n", "4", "quick/i"): "no scenario 'quick/i'",
+            ("-n", "4", "quick", "full/ik_weights", "--jobs", "2"): "--jobs: the array gives that itself",
+            ("-n", "4", "--seed", "2", SUITE): "options of the run come after SCENARIO",
             ("-n", "4", SUITE, "--jobs", "2"): "--jobs: the array gives that itself",
             ("-n", "4", "-o", str(SCRIPTS), SUITE): "exists already",
         }.items():
