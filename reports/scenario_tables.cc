@@ -117,9 +117,9 @@ std::string Caption(const ScenarioSummary& scenario, const ConditionSummary& con
 }
 
 constexpr std::string_view kStarsCaption =
-    "$^{*}$~$p \\le 0.05$, $^{**}$~$p \\le 0.01$, $^{***}$~$p \\le 0.001$. Better and worse also need an interval on "
-    "one side of zero and a difference that matters. No difference needs an interval that contains only differences "
-    "that do not matter.";
+    "$^{*}$~$p \\le 0.05$, $^{**}$~$p \\le 0.01$, $^{***}$~$p \\le 0.001$. “Better” and “worse” also need an interval "
+    "on one side of zero and a difference that matters. “No difference” needs an interval that contains only "
+    "differences that do not matter.";
 
 std::string Float(const std::string& caption, const Table& table) {
   return fmt::format(

@@ -215,7 +215,8 @@ Finding JudgeComparison(const Expectation& expectation, const ConditionTable& ta
   if (found.verdict != of_pairs) return {outcome, detail + "; it does not hold if a failure counts as a loss"};
   const double alpha = 1 - expectation.confidence;
   if (outcome == ClaimOutcome::kUndecided && SmallestP(found.differing) > alpha) {
-    detail += fmt::format("; {} of them differ, and {:.4g} % needs at least {}", found.differing,
+    detail += fmt::format("; {} of these worlds differ, and a confidence of {:.4g} % needs at least {} that differ",
+                          found.differing,
                           100 * expectation.confidence, PairsNeeded(1, alpha));
   }
   return {outcome, detail};

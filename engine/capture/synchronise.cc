@@ -52,8 +52,8 @@ ClockOffset FindOffset(const std::function<std::optional<double>(int offset)>& m
     best = offset;
   }
   const ParabolaMinimum minimum = FitParabola(misfit, best).value_or(ParabolaMinimum{});
-  // The smallest significant improvement over offset 0 is the sum of kNoBetter (a share of the misfit at offset 0) and
-  // kNothing (squared pixels). With a smaller improvement, the offset is 0, because probably nobody moved.
+  // The offset is 0, because probably nobody moved, unless it lowers the misfit at offset 0 by more than the share
+  // kNoBetter plus kNothing squared pixels.
   constexpr double kNoBetter = 0.001, kNothing = 1e-4;
   // With 300 distances or more, noise alone keeps the ratio of the mean misfit to the minimum below this value.
   constexpr double kTold = 1.25;

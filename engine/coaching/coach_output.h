@@ -65,7 +65,7 @@ enum class CoachMode {
   kDoze,
   kWake,
   kDance,
-  kCorrect,      ///< one of the acts head shake, wave and puzzled is played
+  kCorrect,      ///< the act "head_shake", "wave" or "puzzled" is played
   kDemonstrate,  ///< a slow demonstration is shown; the player only watches
   kPraise,
 };

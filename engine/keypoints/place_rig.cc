@@ -306,7 +306,7 @@ Result<RigPlacement> PlaceRig(const RigFile& rig, std::span<const LandmarkPositi
   const bool at_feet = options.floor == "feet" || (options.floor == "auto" && chosen.from_the_take);
   if (const auto height = ParseFinite(options.floor)) {
     place.shift.y = -*height;
-    floor_told = fmt::format(", the floor at {:g} m of it", *height);
+    floor_told = fmt::format(", the floor at height {:g} m", *height);
   } else if (at_feet) {
     place.shift.y = -place.scale * FloorUnder(FeetAtRest(points, rate_hz, *stature), chosen.up, *stature);
     floor_told = ", the floor under the feet";
@@ -334,7 +334,7 @@ Result<RigPlacement> PlaceRig(const RigFile& rig, const PlacementOptions& option
   place.told = fmt::format("lengths in {}{}", UnitText(place.scale * rig.unit_m), AxesTold(place.R * rig.R_WF));
   if (const auto height = ParseFinite(options.floor)) {
     place.shift.y = -*height;
-    place.told += fmt::format("; the floor at {:g} m of it", *height);
+    place.told += fmt::format("; the floor at height {:g} m", *height);
   }
   return place;
 }

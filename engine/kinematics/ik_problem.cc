@@ -218,7 +218,9 @@ std::string_view FindProblemFault(const KinematicTree& tree, const IkProblem& pr
   }
   if (!are_limits_good) return "a limit is inverted";
   for (const EffectorTarget& target : problem.targets) are_targets_good &= IsGood(target);
-  if (!are_targets_good) return "a target is not a finite frame with weights";
+  if (!are_targets_good) {
+    return "a target is invalid; allowed: a finite position, orthonormal axes, finite weights of 0 or more";
+  }
   return {};
 }
 

@@ -121,10 +121,10 @@ void FindLow(const GroundView& ground, const Told& told, std::vector<MotionFault
   }
 }
 
-/// Appends the stretches in which the body is too high, outside of displaced frames. The three Hovering rules are tried
-/// in order until one finds a fault. Nobody jumps for a second, but some people sit on high chairs or stand on steps.
-/// The limits are above what recorded dance shows: toes stay up to 5 cm above their 5th percentile for two seconds, and
-/// up to 9 cm for one second.
+/// Appends the stretches in which the body is too high, without the frames that FindDisplacedLevels reported. The three
+/// Hovering rules are tried in order until one finds a fault. Nobody jumps for a second, but some people sit on high
+/// chairs or stand on steps. The limits are above what recorded dance shows: toes stay up to 5 cm above their 5th
+/// percentile for two seconds, and up to 9 cm for one second.
 void FindHigh(const GroundView& ground, const Told& told, std::vector<MotionFault>& faults) {
   for (const fault_limits::Hovering& kind : fault_limits::kHoverings) {
     std::vector<bool> hovers(ground.frames());

@@ -59,7 +59,7 @@ FootContacts FindFootContacts(std::span<const BodyPose> poses, double rate_hz);
 struct SupportingClip {
   std::span<const BodyPose> poses;  ///< poses of the clip, moved on the floor to where the clip is shown
   int begin = 0;                    ///< the shown frame of poses[0]; may be outside of the requested frames
-  /// The last shown frame of the clip. The places at which the clip supports the body in that frame still support it in
+  /// The last shown frame of the clip. Where the clip supports the body in this frame, it may also support the body in
   /// later frames. The default means that the clip is never left.
   int left_at = std::numeric_limits<int>::max();
 };
@@ -74,11 +74,12 @@ struct Support {
 
 /// Finds the joints that support a body while clips are shown. Only the clips define possible support, so a floating
 /// motion cannot become its own floor. A raised heel or a raised foot of the clip defines no support while another
-/// joint bears the clip (SupportRules::heel, toes). A joint supports the body
-/// - if it is at rest where the same joint of a clip rests near that time: at most SupportRules::height above and at
-///   most SupportRules::level below the lowest such height, or within `height` of a higher surface; or
-/// - if it moves like the same joint of a clip, and that joint bears the clip's body in that frame or a neighbouring
-///   one: the heights of the two joints differ by at most SupportRules::height, their velocities by at most
+/// joint bears the clip (SupportRules::heel, toes). A joint supports the body in two cases:
+/// - The joint is at rest, and the same joint of a clip is at rest near that time. The clip's joint may rest at several
+///   heights, for example on a step. The joint is at most SupportRules::height above and at most SupportRules::level
+///   below the lowest of these heights, or within SupportRules::height of another.
+/// - The joint moves like the same joint of a clip, and that joint bears the clip's body in that frame or a neighbouring
+///   one. The heights of the two joints differ by at most SupportRules::height, their velocities by at most
 ///   SupportRules::rest_speed.
 /// Consecutive frames without support are a flight if the body is supported just before and just after them, if the
 /// ground can have thrown it (SupportRules::max_push), and if the mass centre falls as SupportRules states over these

@@ -76,8 +76,8 @@ def _folder_of(module):
 
 
 def _interpreter(granted):
-    """Returns the Python that runs this process; adds Python's prefix to `granted` unless the fence shows this folder
-    to all programs."""
+    """Returns the path of the running Python interpreter. Adds the folder of its installation (`sys.prefix`) to
+    `granted`, unless the sandbox shows this folder to all programs."""
     for prefix in dict.fromkeys([sys.prefix, sys.base_prefix]):
         if not f"{prefix}/".startswith(SYSTEM):
             granted.append(prefix)

@@ -177,7 +177,8 @@ std::string PairsHtml(const RunData& run, const ScenarioSummary& scenario) {
   if (pairs.empty()) return "";
   std::string html =
       CurveLegend(scenario.methods,
-                  "Grey bodies are true. Pictures and motions are of recorded cells: <code>--keep motions</code>.");
+                  "Grey bodies show the truth. Only recorded cells have pictures and motions "
+                  "(<code>--keep motions</code>).");
   for (std::size_t i = 0; i < std::min(pairs.size(), kMaxPairs); ++i) {
     const Pair& pair = pairs[i];
     std::string curves, frames;

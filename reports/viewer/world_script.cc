@@ -224,8 +224,8 @@ class Writer {
     if (std::ranges::find(marks, mark) == marks.end()) marks.push_back(std::move(mark));
   }
 
-  /// Adds the extras of a cell. Returns the frame of the world at which the cell's recording begins, chosen so that the
-  /// requests of all transitions are at the same frame of the world.
+  /// Adds the extras of a cell. Returns the frame on the viewer's time axis at which the cell's recording begins. It is
+  /// chosen so that the requests of all transitions are at the same frame of this axis.
   int AddExtras(const std::string& method, const Recording& recording) {
     wanted_ = 0;
     const auto add = [&](const auto& extras) {

@@ -91,7 +91,8 @@ class CodeNoise {
   void Apply(RandomStream& random, ColourImage& picture) const;
 
  private:
-  std::vector<std::uint8_t> outcomes_;  ///< code with noise, by [code without noise][index in NormalRows::Table()]
+  /// The pixel value with noise, by [value without noise][index in NormalRows::Table()].
+  std::vector<std::uint8_t> outcomes_;
 };
 
 /// The reading of a chip under a Bayer filter: each pixel has one colour, red where row and column are even, blue where

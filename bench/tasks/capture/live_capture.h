@@ -48,7 +48,7 @@ class LiveCapture {
   std::vector<TakeCameras::Feed> feeds_;
   std::optional<LiveRecovery> marks_;
   std::optional<LiveSilhouettes> silhouettes_;
-  std::size_t frame_ = 0;  ///< the frame whose skeleton Next returns
+  std::size_t frame_ = 0;  ///< the frame whose skeleton the next call of Next() returns
   std::optional<RecoveredFrame> latest_;
 };
 

@@ -66,7 +66,7 @@ CaptureWorld MakeStudio(const StudioOptions& options, const FilmedPerson& bookin
 /// one that keeps the performer within 1.2 m of the middle along X and Z, where the cameras see the whole body, is
 /// taken. If none does, the window that exceeds this distance least is taken. Clips that loop are repeated; other clips
 /// that are shorter than the window are used whole. In a secret world the clip is disguised
-/// (bench/tasks/base/disguise.h), unless it has its own figure.
+/// (bench/tasks/base/disguise.h), unless the mesh of its own file is drawn.
 CaptureWorld MakeCaptureWorld(const StudioOptions& options, const LibraryClip& clip, const WorldKey& key);
 
 /// Returns the lens distortion of a camera that has these effects.

@@ -90,8 +90,9 @@ int EventAt(int frame, const DetectionWorld& world) {
   return -1;
 }
 
-/// Sorts the measured performances into bags. For judging, there is one bag per event. For spotting, there is one bag
-/// per event and move; outside the performances of a move, there is one wrong bag per second and move.
+/// Sorts the measured performances into bags (sets with one label, multiple-instance learning). For judging, there is
+/// one bag per event. For spotting, there is one bag per event and move. The time in which a move is not performed also
+/// gives bags: one per second and move, with the label "wrong".
 void AddSession(const DetectionWorld& world, const Repertoire& repertoire, const std::vector<Measured>& measured,
                 std::vector<LabelledBag>& asked, std::vector<LabelledBag>& spotted) {
   BagMaker asked_bags, spotted_bags;

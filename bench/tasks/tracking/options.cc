@@ -28,7 +28,8 @@ const FieldTable<TrackingOptions>& TrackingConditionFields() {
        Key::Number("target_noise_deg", Path(&Options::target_noise, &TargetNoise::orientation_deg), {0, 180},
                    "Standard deviation of every target's rotation vector, along each axis, drawn anew in every frame."),
        Key::Number("joint_noise_deg", &Options::joint_noise_deg, {0, 180},
-                   "Standard deviation of the angles from which the first frame starts, about the truth.")
+                   "Standard deviation of the difference between the start angles of the first frame and the true "
+                   "angles.")
            .Unit("degrees")
            .WhenAbsent("(the standing pose)"),
        SweepsField(&Options::common, "Maximum number of solver steps per frame."), GoalsField(&Options::common)},

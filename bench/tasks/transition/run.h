@@ -34,8 +34,8 @@ std::vector<std::string> TransitionMetrics();
 
 /// Returns the value of a metric for a method that made no transition (Task::ValueOfFailure). It is 0 for
 /// `natural_share` and the other shares over all cells: if missing transitions were not counted, a method could raise
-/// its share by failing in hard cases. Returns nullopt for other metrics: a jump that was not made has no size, and 0
-/// for `false_smooth` would reward the failure.
+/// its share by failing in hard cases. Returns nullopt for other metrics. For example, a jump that
+/// was not made has no size, and if `false_smooth` were 0, the failure would be rewarded.
 std::optional<double> TransitionFailureValue(std::string_view metric);
 
 /// Records the metrics of ScoreTransition for a world in which no transition was found: the values of

@@ -27,7 +27,7 @@ struct TransitionPoint {
 };
 
 struct BridgeOptions {
-  int min_clips = 2;  ///< minimum number of clips that contain the ten fuzzy terms of a bridge frame together
+  int min_clips = 2;  ///< minimum number of clips that have a frame with the ten fuzzy terms of a bridge frame
   /// Frames match below this fuzzy distance; a larger threshold finds more transitions, but worse ones.
   double threshold = 0.4;
 };

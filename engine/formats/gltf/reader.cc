@@ -154,8 +154,8 @@ Error NotGltf(const std::string& file, const std::string& complaint) {
 
 constexpr const char* kDraco = "KHR_draco_mesh_compression";
 
-/// Returns true if a file may require the extension. Extensions for lights and materials do not affect the result,
-/// quantised meshes are supported, and compressed meshes are left out.
+/// Returns true if files that require this extension can be read. Extensions for lights and materials do not affect the
+/// result, quantised meshes are supported, and compressed meshes are left out.
 bool IsHarmless(const std::string& extension) {
   return extension.starts_with("KHR_materials_") || extension.starts_with("KHR_texture_") ||
          extension.starts_with("EXT_texture_") || extension == "KHR_lights_punctual" ||

@@ -132,7 +132,8 @@ class GaussNewtonLanes {
     }
   }
 
-  /// Gets the next action of a lane's course, and performs it unless it is a step. Returns true for a step.
+  /// Asks the GaussNewtonCourse of a lane's problem for the next action, and performs it unless it is a step. Returns
+  /// true for a step.
   bool Ask(Lane& lane, int n) {
     using enum GaussNewtonCourse::Act;
     const auto is_out_of_reach = [&] { return help_.IsOutOfReach(lane.problem); };

@@ -107,7 +107,7 @@ struct LimbPacks {
   int slot_count = 0;
   int trunk_hinge_count = 0;
   int first_trunk_place = 0;
-  int place_count = 0;  ///< number of angle indices, a multiple of every vector width
+  int place_count = 0;  ///< number of angle indices, rounded up to a multiple of every vector width
 
   /// `tree` must be free of faults (`FindFault`).
   explicit LimbPacks(const KinematicTree& tree);

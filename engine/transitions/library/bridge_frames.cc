@@ -22,7 +22,8 @@ glm::dvec3 NeckInTrunk(const BodyPose& pose) {
   return {glm::dot(neck, left), glm::dot(neck, up), glm::dot(neck, glm::cross(left, up))};
 }
 
-/// Keeps, in each class, the frames with the smallest differences; of equal differences, the earlier frames.
+/// Keeps, of all frames with the same ten tags, those with the smallest FrameRating::difference; if differences are
+/// equal, the earlier frames.
 std::vector<int> KeepMostAlike(const std::vector<int>& frames, const TaggedClip& clip,
                                const std::vector<FrameRating>& ratings, int most_per_class) {
   std::map<Tags, std::vector<int>> classes;

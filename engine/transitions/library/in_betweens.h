@@ -66,8 +66,8 @@ struct InBetweenRules {
 };
 
 /// Paper A's in-between motion (補間動作, section 3.5, figures 13 and 14). Such a motion consists of bridge frames and can
-/// therefore be joined to any two clips. Our net is a star: key poses from all over the library, with tweens from any
-/// key to any other, directly or through a hub.
+/// therefore be joined to any two clips. Our net consists of key poses from all clips of the library. A tween leads
+/// from any key to any other, directly if they are near enough, otherwise through the hub.
 struct InBetweenNet {
   /// A bridge frame from which in-betweens are built.
   struct Key {

@@ -232,7 +232,8 @@ TEST_F(SummaryTest, AnExpectationIsHeldToItsConfidence) {
   below.confidence = 0.999;  // nine pairs reach p = 0.0039 at best
   const ExpectationResult result = JudgeExpectation(below, study, Tabulate(study, rows), 1);
   EXPECT_EQ(result.outcome, ClaimOutcome::kUndecided);
-  EXPECT_THAT(result.detail, ::testing::HasSubstr("9 of them differ, and 99.9 % needs at least 11"));
+  EXPECT_THAT(result.detail, ::testing::HasSubstr("9 of these worlds differ, and a confidence of 99.9 % needs at "
+                                                          "least 11 that differ"));
   EXPECT_THAT(result.detail, ::testing::HasSubstr("on 9 worlds, 1 more do not have both values"));
 }
 

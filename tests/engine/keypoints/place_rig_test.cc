@@ -191,7 +191,7 @@ TEST(PlaceRig, TellsWhichAxesOfTheFileAreOurs) {
   rig.R_WF = glm::dmat3(0, 0, 1, 1, 0, 0, 0, 1, 0);  // (x, y, z) of the file is our (y, z, x)
   EXPECT_EQ(PlaceRig(rig, {})->told, "lengths in m; x is the file's y, z its x, up its z");
   EXPECT_EQ(PlaceRig(rig, {.unit = "mm", .up = "-y", .floor = "0.2"})->told,
-            "lengths in mm; x is the file's z, z its x, up its -y; the floor at 0.2 m of it");
+            "lengths in mm; x is the file's z, z its x, up its -y; the floor at height 0.2 m");
   EXPECT_EQ(PlaceRig(SomeRig(), {})->told, "lengths in m") << "the axes are the same";
   ASSERT_OK(seen, PlaceRig(rig, Stander([](glm::dvec3 p) { return p; }), kPlaceRate, {}));
   EXPECT_THAT(seen->told, ::testing::EndsWith("the floor as in the file; x is the file's y, z its x, up its z"));

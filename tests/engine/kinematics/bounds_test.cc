@@ -67,9 +67,9 @@ TEST(Faults, BeginRightBeyondTheirBounds) {
   EXPECT_EQ(fault([](T&, P& p, O&) { p.limits[3] = {0.5, 0.4999}; }), "a limit is inverted");
   EXPECT_EQ(fault([](T&, P& p, O&) { p.targets[1].axis_weights.y = 1e6; }), "");
   EXPECT_EQ(fault([](T&, P& p, O&) { p.targets[1].position_weight = 1.1e6; }),
-            "a target is not a finite frame with weights");
+            "a target is invalid; allowed: a finite position, orthonormal axes, finite weights of 0 or more");
   EXPECT_EQ(fault([](T&, P& p, O&) { p.targets[2].axis_weights.y = -1e-9; }),
-            "a target is not a finite frame with weights");
+            "a target is invalid; allowed: a finite position, orthonormal axes, finite weights of 0 or more");
   EXPECT_EQ(fault([](T&, P& p, O&) { p.targets.pop_back(); }), "targets do not fit the tree");
   EXPECT_EQ(fault([](T&, P& p, O&) { p.limits.pop_back(); }), "angles or limits do not fit the tree");
   EXPECT_EQ(fault([](T&, P&, O& o) { o.angle_change_tolerance = 0; }), "");
