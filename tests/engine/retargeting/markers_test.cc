@@ -7,6 +7,7 @@
 #include <cmath>
 #include <functional>
 
+#include "engine/retargeting/marker_sets.h"
 #include "tests/support/results.h"
 
 namespace etude {
