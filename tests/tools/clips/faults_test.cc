@@ -52,7 +52,7 @@ TEST(FaultsOfAClip, StandInItsFactsForPeopleAndForPrograms) {
   ASSERT_TRUE(facts.size() == 1 && facts[0].body && facts[0].body->faults);
   EXPECT_TRUE(FactsAsJson(facts)["clips"][0]["body"]["remarks"].empty());
   ClipFacts spoilt = facts[0];
-  spoilt.body->faults->faults = {{FaultKind::kPops, 1, 1.5, Role::kHead, 0.5, "head pops"}};
+  spoilt.body->faults->faults = {{FaultKind::kPops, 1, 1.5, Role::kHead, 0.5, 0, "head pops"}};
   EXPECT_THAT(FactsAsText(spoilt), HasSubstr("remark   head pops\n"));
   const Json told = FactsAsJson({spoilt})["clips"][0]["body"];
   EXPECT_EQ(told["remarks"], Json::array({"head pops"}));
