@@ -11,11 +11,10 @@ namespace {
 
 constexpr int kBarWidth = 32;
 
+std::string ToGo(double seconds) { return seconds < 0.5 ? "" : fmt::format(", about {:.0f} s to go", seconds); }
+
 /// Estimates the time that the amount `left` will take if the amount `done` took `seconds`.
-std::string Remaining(double done, double left, double seconds) {
-  if (done <= 0 || left <= 0) return "";
-  return fmt::format(", about {:.0f} s to go", seconds / done * left);
-}
+std::string Remaining(double done, double left, double seconds) { return done <= 0 ? "" : ToGo(seconds / done * left); }
 
 /// Prints without throwing if standard error is closed. fmt::print would throw, and the exception would end a run.
 void Print(const std::string& text) { std::fputs(text.c_str(), stderr); }
@@ -37,14 +36,12 @@ void ProgressBar::Show(const Progress& progress) {
     const double share = *progress.written;
     return Show(share, "results summarised", Remaining(share, 1 - share, SecondsSince(began_)));
   }
-  const auto cells = static_cast<double>(progress.cells);
-  const double done = progress.Work();
   const std::string answered =
       progress.cells_answered == 0 ? "" : fmt::format("{} left to measure, ", progress.cells_answered);
-  Show(progress.cells == 0 ? 1 : done / cells,
+  Show(progress.cells_done >= progress.cells ? 1 : progress.work_done / progress.work,
        fmt::format("{}/{} cells, {} ok, {}{:.0f} s", progress.cells_done, progress.cells, progress.cells_ok, answered,
                    progress.seconds),
-       Remaining(done - progress.work_before, cells - done, progress.seconds));
+       ToGo(progress.SecondsToGo()));
 }
 
 void ProgressBar::Show(double share, const std::string& what, const std::string& remaining) {

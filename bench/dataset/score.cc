@@ -127,10 +127,12 @@ class Meter {
  public:
   Meter(std::size_t cells, const std::function<void(const Progress&)>& on_progress) : on_progress_(on_progress) {
     progress_.cells = cells;
+    progress_.work = static_cast<double>(cells);
     on_progress_(progress_);
   }
   void Count(Status status) {
     ++progress_.cells_done;
+    ++progress_.work_done;
     progress_.cells_ok += status == Status::kOk ? 1 : 0;
     progress_.seconds = SecondsSince(start_);
     on_progress_(progress_);
@@ -216,6 +218,7 @@ Result<ScoreOutcome> ScorePredictions(const ScoreOptions& options,
   ASSIGN_OR_RETURN(auto manifest, MakeManifest(suite, scenarios, options.program_version));
   ASSIGN_OR_RETURN(const auto answers, DescribeAnswers(plan, cells, answered.cells()));
   manifest["scored"].update(answers);
+  RETURN_IF_ERROR(AddPrograms(scenarios, fence, manifest));
   const fs::path folder = options.output;
   RETURN_IF_ERROR(SaveJson(Inside(folder) / "manifest.json", manifest));
   if (!suite.seed.IsPlain()) {

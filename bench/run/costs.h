@@ -37,10 +37,13 @@ struct KeptCost {
 /// if the table is invalid.
 Result<std::map<std::string, KeptCost>> ReadKeptCosts();
 
+/// The usual processor time of one yardstick (on an AMD EPYC), seconds.
+inline constexpr double kYardstickS = 0.0005;
+
 /// The speed of this machine under its present load.
 struct Pace {
   double yardsticks_per_s = 0;  ///< yardsticks of work per second of wall time, all workers together
-  double yardstick_ms = 0;      ///< processor time of one yardstick; 0.5 ms on an AMD EPYC
+  double yardstick_ms = 0;      ///< processor time of one yardstick, ms (kYardstickS)
 };
 
 /// Measures the speed of this machine: one copy of this process per worker runs yardsticks for an eighth of a second.

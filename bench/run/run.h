@@ -55,14 +55,22 @@ struct Progress {
   std::size_t cells_ok = 0;
   /// Number of cells that are answered but not yet measured by outside metric programs.
   std::size_t cells_answered = 0;
-  double work_before = 0;  ///< work that an interrupted run had already done, if this run resumes it (see Work)
+  /// The work of all cells and of the done ones, in yardsticks if the costs of scenarios are known, else in cells. A
+  /// cell that is answered but not yet measured counts a half.
+  double work = 0, work_done = 0;
+  double work_before = 0;  ///< work that an interrupted run had already done, if this run resumes it
+  /// The time that a unit of work was expected to take before any was done, with all workers; 0 = unknown.
+  double seconds_per_work = 0;
   double seconds = 0;
   /// The share of the results that has been summarised and written; nullopt while cells still run.
   std::optional<double> written = {};
 
-  /// Returns the amount of work done, in cells: finished cells count one, cells that are answered but not yet measured
-  /// count a half.
-  double Work() const { return static_cast<double>(cells_done) + 0.5 * static_cast<double>(cells_answered); }
+  /// Estimates the time until all cells are done, seconds; 0 = unknown. The expected speed counts as if it had been
+  /// measured on a tenth of the work.
+  double SecondsToGo() const {
+    const double expected = seconds_per_work > 0 ? 0.1 * work : 0, done = expected + work_done - work_before;
+    return done <= 0 ? 0 : (expected * seconds_per_work + seconds) / done * (work - work_done);
+  }
 };
 
 /// A sentence for users about a clip file: an observation, or a change that reading made to the content.
