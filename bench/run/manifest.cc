@@ -132,7 +132,7 @@ std::string ShowPart(const std::string& line, std::size_t at) {
   constexpr std::size_t kBefore = 20, kShown = 60;
   const auto is_inside = [&](std::size_t i) { return i < line.size() && (line[i] & 0xC0) == 0x80; };  // of a character
   std::size_t start = at > kBefore ? at - kBefore : 0, end = std::min(start + kShown, line.size());
-  while (is_inside(start)) --start;
+  while (start > 0 && is_inside(start)) --start;
   while (is_inside(end)) ++end;
   return fmt::format("{}\"{}\"{}", start > 0 ? "…" : "", line.substr(start, end - start), end < line.size() ? "…" : "");
 }
