@@ -6,6 +6,7 @@
 
 #include "bench/outside/conformance.h"
 #include "bench/outside/outside_method.h"
+#include "bench/outside/program_view.h"
 #include "bench/tasks/registry.h"
 #include "cli/commands.h"
 #include "cli/facts.h"
@@ -46,6 +47,7 @@ Result<std::unique_ptr<LabelledStreams>> LoadPeople(const RecordedPeople& people
 int CheckMethodCommand(OutsideOptions options, const std::string& seat, const RecordedPeople& people, bool is_fenced,
                        bool as_json) {
   AdoptOrphans();
+  if (auto named = CheckNames(options.command); !named) return Complain(named.error());
   const auto recordings = LoadPeople(people);
   if (!recordings) return Complain(recordings.error());
   if (is_fenced) options.fence = Fence::Find();
@@ -130,7 +132,8 @@ void DefineCheckMethod(CLI::App& app, Action& action) {
                                  .task = options->task,
                                  .time_s = options->time_s,
                                  .memory_mb = options->memory_mb,
-                                 .files = options->files},
+                                 .files = options->files,
+                                 .by_options = true},
                                 options->seat, options->people, options->is_fenced, options->as_json);
     };
   });

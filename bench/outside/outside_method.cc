@@ -47,6 +47,7 @@ tl::unexpected<OutsideFailure> NotAsked(const Error& error) {
 struct OutsideMethod::State {
   explicit State(OutsideOptions told) : options(std::move(told)), program(options) {}
 
+  Outcome<void> EnsureStarted();
   Outcome<void> MakeReady(const std::string& setting_id, const Payload& setting);
   Outcome<Json> Solve(const std::string& setting_id, const Payload& setting, const std::string& problem_id,
                       const Payload& problem);
@@ -54,6 +55,7 @@ struct OutsideMethod::State {
                       const Payload& begin);
   Outcome<Json> Step(const Payload& step);
   OutsideReply ReplyOf(Outcome<Json> said);
+  OutsideReply ReplyToStep(const Outcome<void>& done);
   Outcome<void> Start();
   Outcome<void> TellSetting(const std::string& id, const Payload& setting);
   template <typename Act>
@@ -112,13 +114,15 @@ Outcome<void> OutsideMethod::State::Attempt(const std::string& what, Act act) {
   return tl::unexpected(failed.last);
 }
 
+Outcome<void> OutsideMethod::State::EnsureStarted() {
+  return program.IsRunning() ? Outcome<void>() : Attempt("in its start", [&] { return Start(); });
+}
+
 /// Makes the program ready for a problem: starts it and sends the setting, if this has not been done.
 Outcome<void> OutsideMethod::State::MakeReady(const std::string& setting_id, const Payload& setting) {
   EndSession();
   if (!options.seed.IsPlain() && setting_in_force && setting_in_force != setting_id) Stop(kEndingMs);
-  if (!program.IsRunning()) {
-    RETURN_IF_ERROR(Attempt("in its start", [&] { return Start(); }));
-  }
+  RETURN_IF_ERROR(EnsureStarted());
   if (setting_in_force != setting_id) {
     RETURN_IF_ERROR(Attempt("at setting " + Printable(setting_id), [&] { return TellSetting(setting_id, setting); }));
   }
@@ -300,12 +304,10 @@ OutsideReply OutsideMethod::Ask(const std::string& setting_id, const Payload& se
 OutsideReply OutsideMethod::Begin(const std::string& setting_id, const Payload& setting, const std::string& session_id,
                                   const Payload& session) {
   state_->program.ForgetPeak();
-  auto begun = state_->Begin(setting_id, setting, session_id, session);
-  OutsideReply reply = state_->ReplyOf(begun ? Outcome<Json>(Json{{"type", "answer"}, {"answer", Json::object()}})
-                                             : tl::unexpected(begun.error()));
-  state_->program.SaveErrors();
-  return reply;
+  return state_->ReplyToStep(state_->Begin(setting_id, setting, session_id, session));
 }
+
+OutsideReply OutsideMethod::Greet() { return state_->ReplyToStep(state_->EnsureStarted()); }
 
 OutsideReply OutsideMethod::Step(const Payload& step) {
   assert(state_->session.has_value());
@@ -335,6 +337,14 @@ OutsideReply OutsideMethod::State::ReplyOf(Outcome<Json> said) {
     reply.status = Status::kOk;
     reply.answer = std::make_unique<Json>(std::move((*said)["answer"]));
   }
+  return reply;
+}
+
+/// Makes the reply for a step that has no answer.
+OutsideReply OutsideMethod::State::ReplyToStep(const Outcome<void>& done) {
+  OutsideReply reply = ReplyOf(done ? Outcome<Json>(Json{{"type", "answer"}, {"answer", Json::object()}})
+                                    : tl::unexpected(done.error()));
+  program.SaveErrors();
   return reply;
 }
 

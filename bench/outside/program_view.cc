@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <fstream>
 
+#include "engine/base/names.h"
 #include "io/process/fence.h"
 
 namespace etude {
@@ -14,6 +15,8 @@ namespace fs = std::filesystem;
 
 constexpr std::streamsize kMaxScriptBytes = 4096;
 constexpr int kMaxLinks = 40;
+/// How the names of scripts end. Of other arguments it is unknown whether they name a file that must exist.
+constexpr std::string_view kScriptEndings[] = {".py", ".sh", ".js", ".mjs", ".rb", ".pl", ".jl", ".R", ".lua", ".php"};
 
 /// Returns the absolute, normalised path without a slash at its end.
 fs::path Whole(const fs::path& path) {
@@ -142,7 +145,7 @@ std::vector<fs::path> FindUnseen(const ProgramView& view, std::string_view words
   return unseen;
 }
 
-std::string FilesThatShow(const std::vector<fs::path>& unseen, const ProgramView& view) {
+std::string FilesThatShow(const std::vector<fs::path>& unseen, const ProgramView& view, bool as_options) {
   std::vector<fs::path> files;
   std::error_code error;
   for (const fs::path& path : view.shown) {
@@ -150,9 +153,32 @@ std::string FilesThatShow(const std::vector<fs::path>& unseen, const ProgramView
     AddWidest(IsTooWide(folder) ? path : folder, files);
   }
   for (const fs::path& path : unseen) AddWidest(path, files);
-  std::string text;
-  for (const fs::path& path : files) text += (text.empty() ? "" : ", ") + path.string();
-  return fmt::format("files: [{}]", text);
+  std::vector<std::string> words;
+  for (const fs::path& path : files) words.push_back(path.string());
+  return as_options ? "--files " + Join(words, " --files ") : fmt::format("files: [{}]", Join(words));
+}
+
+Result<void> CheckNames(const std::vector<std::string>& command, const std::vector<Place>& places) {
+  std::error_code error;
+  for (std::size_t i = 0; i < command.size(); ++i) {
+    const std::string& word = command[i];
+    const fs::path path = word;
+    const bool is_text = i > 0 && (command[i - 1] == "-c" || command[i - 1] == "-e");
+    const bool is_script = i > 0 && !is_text && !word.starts_with('-') &&
+                           std::ranges::find(kScriptEndings, path.extension().string()) != std::end(kScriptEndings);
+    if (fs::exists(path, error) || !(is_script || (i == 0 && word.find('/') != std::string::npos))) continue;
+    std::vector<std::string> near;
+    const fs::path folder = path.parent_path();
+    for (fs::directory_iterator entry(folder.empty() ? "." : folder, error), end; !error && entry != end;
+         entry.increment(error)) {
+      near.push_back((folder / entry->path().filename()).string());
+    }
+    std::ranges::sort(near);
+    const std::string nearest = NearestName(word, near);
+    return Fail(i < places.size() ? places[i] : Place(), "there is no file '{}'{}", word,
+                nearest.empty() ? "" : fmt::format("; did you mean '{}'?", nearest));
+  }
+  return {};
 }
 
 fs::path PythonFolder() {

@@ -5,6 +5,8 @@
 #include <string_view>
 #include <vector>
 
+#include "engine/base/result.h"
+
 namespace etude {
 
 /// The command of a program, and the files that a sandbox shows the program in addition to the system's files. The
@@ -28,8 +30,14 @@ ProgramView ViewOf(const std::vector<std::string>& command, const std::vector<st
 std::vector<std::filesystem::path> FindUnseen(const ProgramView& view, std::string_view words);
 
 /// Returns the text of a key `files` with which the sandbox shows a program `unseen` in addition to the files shown
-/// already, e.g. "files: [mine, /home/me/venv]".
-std::string FilesThatShow(const std::vector<std::filesystem::path>& unseen, const ProgramView& view);
+/// already: "files: [mine, /home/me/venv]". If `as_options` is true, returns options: "--files mine --files
+/// /home/me/venv".
+std::string FilesThatShow(const std::vector<std::filesystem::path>& unseen, const ProgramView& view,
+                          bool as_options = false);
+
+/// Fails if a command names a program by its path, or a script, that does not exist. The error is at the word's entry
+/// in `places`, if there is one.
+Result<void> CheckNames(const std::vector<std::string>& command, const std::vector<Place>& places = {});
 
 /// Returns the folder of Etude's Python package: `share/etude/python` of an installation, else `python` in a folder
 /// above the running program; "" if there is none. Every outside program sees this folder and has it in its PYTHONPATH.

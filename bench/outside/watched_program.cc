@@ -173,7 +173,8 @@ std::string WatchedProgram::CureOfStart() const {
   if (unseen.empty()) return "";
   std::string names;
   for (const auto& path : unseen) names += (names.empty() ? "" : " and ") + path.string();
-  return fmt::format("; {} cannot be read inside its fence: give it {}", names, FilesThatShow(unseen, view_));
+  return fmt::format("; {} cannot be read inside its fence: give it {}", names,
+                     FilesThatShow(unseen, view_, options_.by_options));
 }
 
 void WatchedProgram::Receive() { child_->Receive(kMaxReplyBytes); }

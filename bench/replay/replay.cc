@@ -156,7 +156,8 @@ Result<ReplayOutcome> ReplayPrepared(const ReplayOptions& options, const RunData
     RETURN_IF_ERROR(CheckPrograms(options.folder, prepared.scenarios, options.outside));
     RETURN_IF_ERROR(NoteKey(options.folder, prepared.suite, prepared.scenarios, options.key));
   }
-  ASSIGN_OR_RETURN(const Fence fence, FenceFor(prepared.scenarios, options.outside, options.folder, options.key));
+  const auto fenced = options.without_programs ? std::span<const PreparedScenario>() : prepared.scenarios;
+  ASSIGN_OR_RETURN(const Fence fence, FenceFor(fenced, options.outside, options.folder, options.key));
   // The reason of a failure quotes the program's standard error, which is collected in a temporary folder.
   std::optional<TemporaryFolder> errors;
   if (!ProgramsOf(prepared.scenarios).empty()) {

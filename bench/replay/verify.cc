@@ -79,8 +79,7 @@ Result<std::set<fs::path>> FilesOfRun(const FilePath& folder, const FinishedRun&
       files.insert(fs::path("series") / (scenario.name + ".jsonl"));
     }
     for (const ScenarioProgram& program : ProgramsIn(scenario)) {
-      const std::string role = std::string_view(program.role) == "metric" ? "metric~" : "";
-      files.insert(ErrorFileOf("stderr", scenario, role + program.entry->name));
+      files.insert(ErrorFileOf("stderr", scenario, program));
     }
   }
   // Add the recordings of the cells that keep their motions.
@@ -311,11 +310,17 @@ Result<VerifyOutcome> VerifyFolder(const ReplayOptions& options, bool replays) {
   // Check the manifest. With `replays`, also check the worlds and run the chosen cells again.
   if (!replays) {
     ASSIGN_OR_RETURN(const auto suite, ReadManifest(folder / "manifest.json"));
-    ASSIGN_OR_RETURN(all.emplace_back(), VerifyManifest(folder, run, suite, {}));
+    ASSIGN_OR_RETURN(all.emplace_back(), VerifyManifest(folder, run, suite, {}, Json()));
     return outcome;
   }
   ASSIGN_OR_RETURN(const auto prepared, PrepareRun(folder / "manifest.json", options.key));
-  ASSIGN_OR_RETURN(all.emplace_back(), VerifyManifest(folder, run, prepared.suite, prepared.scenarios));
+  Json programs;
+  if (!options.without_programs) {
+    RETURN_IF_ERROR(CheckPrograms(options.folder, prepared.scenarios, options.outside));
+    ASSIGN_OR_RETURN(const Fence fence, FenceFor(prepared.scenarios, options.outside, options.folder, options.key));
+    RETURN_IF_ERROR(AddPrograms(prepared.scenarios, fence, programs));
+  }
+  ASSIGN_OR_RETURN(all.emplace_back(), VerifyManifest(folder, run, prepared.suite, prepared.scenarios, programs));
   all.push_back(VerifyWorlds(run, Plan(prepared.scenarios)));
   ASSIGN_OR_RETURN(auto replayed, ReplayPrepared(options, run.data, prepared));
   all.push_back(VerifyCells(replayed));

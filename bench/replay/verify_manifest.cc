@@ -76,7 +76,7 @@ Result<std::vector<Scenario>> ScenariosOf(const FilePath& folder) {
 }
 
 Result<Verified> VerifyManifest(const FilePath& folder, const FinishedRun& run, const SuiteSetup& suite,
-                                std::span<const PreparedScenario> scenarios) {
+                                std::span<const PreparedScenario> scenarios, const Json& programs) {
   Verified verified{"manifest.json: as such a run writes it", {}};
   ASSIGN_OR_RETURN(const auto then, ReadJsonFile(folder / "manifest.json"));
   ASSIGN_OR_RETURN(auto now, MakeManifest(suite, scenarios, run.data.program_version));
@@ -92,10 +92,18 @@ Result<Verified> VerifyManifest(const FilePath& folder, const FinishedRun& run, 
       if (const Json& scored = then.at("scored"); scored.contains(key)) now["scored"][key] = scored.at(key);
     }
   }
+  ASSIGN_OR_RETURN(const auto parsed, ScenariosOf(folder));
   const Json& told = then.at("scenarios");
   for (std::size_t s = 0; s < now["scenarios"].size() && s < told.size(); ++s) {
     Json& scenario = now["scenarios"][s];
     keep(told.at(s), scenario, "platform");
+    if (!ProgramsIn(parsed.at(s)).empty()) {
+      if (!told.at(s).contains("programs")) {
+        verified.what += ", apart from its programs: an earlier etude, which recorded no versions of them, wrote it";
+      } else {
+        scenario["programs"] = (programs.is_null() ? told : programs.at("scenarios")).at(s).at("programs");
+      }
+    }
     if (!scenarios.empty()) continue;
     for (const char* key : {"loaded_clips", "platform"}) {
       if (told.at(s).contains(key)) scenario[key] = told.at(s).at(key);
@@ -113,7 +121,6 @@ Result<Verified> VerifyManifest(const FilePath& folder, const FinishedRun& run, 
   }
   // `now` also contains the metrics that were read from this manifest itself. Report the metrics that no scenario
   // defines.
-  ASSIGN_OR_RETURN(const auto parsed, ScenariosOf(folder));
   std::set<std::string> own;
   for (const Scenario& scenario : parsed) {
     for (const OutsideMetric& metric : scenario.outside_metrics) own.insert(metric.info.id);

@@ -8,6 +8,7 @@
 
 #include "bench/outside/seated_program.h"
 #include "bench/run/machine_trial.h"
+#include "bench/run/outside_programs.h"
 #include "engine/base/digest.h"
 
 namespace etude {
@@ -75,15 +76,7 @@ CellRunner::CellRunner(const PreparedScenario& scenario, std::string error_folde
   for (std::size_t m = 0; m < told.methods.size(); ++m) {
     const MethodEntry& method = told.methods[m];
     if (method.exec.empty()) continue;
-    outside_.emplace(m, OutsideMethod({.command = method.exec,
-                                       .task = told.task,
-                                       .options_json = method.options_json,
-                                       .time_s = method.time_s.value_or(told.limits.time_s),
-                                       .memory_mb = told.limits.memory_mb,
-                                       .error_file = ErrorFileOf(error_folder_, told, method.name),
-                                       .fence = fence,
-                                       .files = method.files,
-                                       .seed = scenario.setup().seed}));
+    outside_.emplace(m, OutsideMethod(OptionsOf(scenario, {&method}, error_folder_, fence)));
   }
 }
 

@@ -1,6 +1,7 @@
 #include "bench/run/dry_run.h"
 
 #include <cmath>
+#include <nlohmann/json.hpp>
 #include <numeric>
 #include <set>
 
@@ -171,6 +172,8 @@ Result<Forecast> DryRun(const RunOptions& options, double sample_seconds) {
   ASSIGN_OR_RETURN(const auto prepared, PrepareToRun(suite, options));
   Forecast forecast{.scenarios = {}, .workers = WorkerCount(options.jobs), .pace = {}};
   ASSIGN_OR_RETURN(const Fence fence, FenceFor(prepared, options.outside, "", options.key));
+  Json programs;
+  RETURN_IF_ERROR(AddPrograms(prepared, fence, programs));  // fails, as the run would, if a program cannot start
   // Measure the speed of this machine. Stored costs are multiples of a yardstick of work, so the speed turns them into
   // seconds.
   ASSIGN_OR_RETURN(forecast.pace, MeasurePace(forecast.workers));

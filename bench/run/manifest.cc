@@ -8,6 +8,8 @@
 #include <fstream>
 #include <map>
 #include <nlohmann/json.hpp>
+#include <regex>
+#include <sstream>
 #include <thread>
 
 #include "bench/metrics/catalogue.h"
@@ -122,6 +124,32 @@ Result<Json> DescribeLibraries() {
   return libraries;
 }
 
+constexpr const char* kUnknownPrograms =
+    "it is unknown which versions of its outside programs ran: an earlier etude, which did not record them, wrote it";
+
+/// Returns up to 60 bytes of `line`, from shortly before byte `at` on, in quotes.
+std::string ShowPart(const std::string& line, std::size_t at) {
+  constexpr std::size_t kBefore = 20, kShown = 60;
+  const auto is_inside = [&](std::size_t i) { return i < line.size() && (line[i] & 0xC0) == 0x80; };  // of a character
+  std::size_t start = at > kBefore ? at - kBefore : 0, end = std::min(start + kShown, line.size());
+  while (start > 0 && is_inside(start)) --start;
+  while (is_inside(end)) ++end;
+  return fmt::format("{}\"{}\"{}", start > 0 ? "…" : "", line.substr(start, end - start), end < line.size() ? "…" : "");
+}
+
+/// Returns the difference of two texts, at least one of which has several lines: the first line that differs.
+JsonDifference CompareTexts(const std::string& path, const std::string& then, const std::string& now) {
+  std::istringstream old_lines(then), new_lines(now);
+  std::string was, is;
+  for (int number = 1;; ++number) {
+    const bool has_old = !std::getline(old_lines, was).fail(), has_new = !std::getline(new_lines, is).fail();
+    if (has_old && has_new && was == is) continue;
+    const auto at = static_cast<std::size_t>(std::ranges::mismatch(was, is).in1 - was.begin());
+    return {fmt::format("{}, line {},", path, number), has_old ? ShowPart(was, at) : "absent",
+            has_new ? ShowPart(is, at) : "absent"};
+  }
+}
+
 /// Adds the differences between two values of manifests, `then` and `now`, to `found`. `path` is the position of both
 /// values within their manifests.
 void CompareJson(const std::string& path, const Json& then, const Json& now, std::vector<JsonDifference>& found) {
@@ -134,6 +162,9 @@ void CompareJson(const std::string& path, const Json& then, const Json& now, std
     }
   } else if (then.is_array() && now.is_array() && then.size() == now.size()) {
     for (std::size_t i = 0; i < now.size(); ++i) CompareJson(fmt::format("{}[{}]", path, i), then[i], now[i], found);
+  } else if (then.is_string() && now.is_string() &&
+             (then.get<std::string>() + now.get<std::string>()).find('\n') != std::string::npos) {
+    found.push_back(CompareTexts(path, then, now));
   } else {
     found.push_back({path, then.is_null() ? "absent" : ShowJson(then), now.is_null() ? "absent" : ShowJson(now)});
   }
@@ -222,7 +253,28 @@ Result<PreparedRun> PrepareRun(const FilePath& manifest, const std::optional<Sec
 std::vector<JsonDifference> CompareManifests(const Json& then, const Json& now) {
   std::vector<JsonDifference> found;
   CompareJson("", then, now, found);
+  // The digest of a scenario differs because a text of the suite does.
+  if (std::ranges::any_of(found, [](const auto& one) { return one.path.starts_with("sources."); })) {
+    static const std::regex digest(R"(scenarios\[\d+\]\.digest)");
+    std::erase_if(found, [](const auto& one) { return std::regex_match(one.path, digest); });
+  }
   return found;
+}
+
+std::vector<JsonDifference> OfPrograms(const std::vector<JsonDifference>& differences) {
+  static const std::regex programs(R"(scenarios\[\d+\]\.programs.*)");
+  std::vector<JsonDifference> found;
+  std::ranges::copy_if(differences, std::back_inserter(found),
+                       [](const auto& one) { return std::regex_match(one.path, programs); });
+  return found;
+}
+
+Result<void> RequirePrograms(const Json& manifest, std::span<const PreparedScenario> scenarios, const Place& place) {
+  for (std::size_t s = 0; s < scenarios.size(); ++s) {
+    const bool is_told = manifest.at("scenarios").at(s).contains("programs");
+    if (!is_told && !ProgramsIn(scenarios[s].scenario()).empty()) return Fail(place, "{}", kUnknownPrograms);
+  }
+  return {};
 }
 
 std::string InWords(std::span<const JsonDifference> differences) {

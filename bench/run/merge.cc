@@ -34,6 +34,10 @@ Result<void> CheckManifest(const fs::path& folder, const JournalHead& head, bool
   const std::vector<JsonDifference> found = CompareManifests(then, now);
   const Place place{folder.string()};
   if (found.empty()) return Fail(place, "its manifest.json differs from the one with which it began");
+  if (OfPrograms(found) == found) {
+    return Fail(place, "ran other versions of outside programs than the shards before: {}; run it again (--overwrite)",
+                InWords(found));
+  }
   if (!AreOfLibraries(found))
     return Fail(place, "is a shard of a different run than the shards before: {}", InWords(found));
   if (!other_libraries) {
@@ -109,6 +113,8 @@ Result<RunOutcome> Merge(const MergeOptions& options, const std::function<void(d
   if (shards.folders.empty()) return Fail({}, "there is nothing to merge: {}", Join(shards.missing, "; "));
   ASSIGN_OR_RETURN(const auto prepared,
                    PrepareRun(Inside(shards.folders.begin()->second) / "manifest.json", options.key));
+  ASSIGN_OR_RETURN(const auto manifest, ReadJson(shards.manifest, ""));
+  RETURN_IF_ERROR(RequirePrograms(manifest, prepared.scenarios, {shards.folders.begin()->second.string()}));
   const Plan plan(prepared.scenarios);
   CellTable cells(plan.cell_count());
   Json hosts = Json::array();

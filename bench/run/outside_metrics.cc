@@ -4,6 +4,7 @@
 #include <nlohmann/json.hpp>
 
 #include "bench/results/row_json.h"
+#include "bench/run/outside_programs.h"
 #include "bench/tasks/base/answer_fields.h"
 #include "bench/tasks/base/pose_json.h"
 #include "engine/base/machine.h"
@@ -55,24 +56,17 @@ std::string Show(const std::optional<double>& value) { return value ? fmt::forma
 
 }  // namespace
 
-std::string ErrorFileOf(const std::string& folder, const Scenario& scenario, const std::string& program) {
-  return folder.empty() ? "" : folder + "/" + scenario.name + "~" + program + ".txt";
+std::string ErrorFileOf(const std::string& folder, const Scenario& scenario, const ScenarioProgram& program) {
+  return folder.empty() ? ""
+                        : fmt::format("{}/{}~{}{}.txt", folder, scenario.name, program.IsMetric() ? "metric~" : "",
+                                      program.entry->name);
 }
 
 OutsideMetrics::OutsideMetrics(const PreparedScenario& scenario, const std::string& error_folder, const Fence& fence)
     : scenario_(scenario) {
   const Scenario& told = scenario.scenario();
   for (const OutsideMetric& metric : told.outside_metrics) {
-    const MethodEntry& program = metric.program;
-    programs_.emplace_back(OutsideOptions{.command = program.exec,
-                                          .task = "metric",
-                                          .options_json = program.options_json,
-                                          .time_s = program.time_s.value_or(told.limits.time_s),
-                                          .memory_mb = told.limits.memory_mb,
-                                          .error_file = ErrorFileOf(error_folder, told, "metric~" + program.name),
-                                          .fence = fence,
-                                          .files = program.files,
-                                          .seed = scenario.setup().seed});
+    programs_.emplace_back(OptionsOf(scenario, {&metric.program, "metric"}, error_folder, fence));
     settings_.push_back(SettingOf(metric.info, told.task));
   }
 }

@@ -36,6 +36,6 @@ Result<void> CheckMetricVectors(std::span<const PreparedScenario> scenarios, con
 
 /// Returns the file in `folder` to which a scenario's program writes its standard error. Returns "" if `folder` is "":
 /// the program then writes to Etude's standard error. Programs of one scenario must have different names.
-std::string ErrorFileOf(const std::string& folder, const Scenario& scenario, const std::string& program);
+std::string ErrorFileOf(const std::string& folder, const Scenario& scenario, const ScenarioProgram& program);
 
 }  // namespace etude

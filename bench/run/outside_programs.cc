@@ -3,9 +3,16 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <array>
+#include <fstream>
+#include <map>
 #include <nlohmann/json.hpp>
 
 #include "bench/outside/program_view.h"
+#include "bench/run/outside_metrics.h"
+#include "engine/base/digest.h"
+#include "engine/base/machine.h"
+#include "io/files/temporary_folder.h"
 #include "io/process/child_process.h"
 
 namespace etude {
@@ -28,6 +35,116 @@ Result<void> CheckPrograms(const std::string& file, std::span<const PreparedScen
   const std::vector<std::string> programs = ProgramsOf(scenarios);
   if (programs.empty() || rules.allow_exec) return {};
   return Fail({file, 0, 0}, "would run programs, which needs --allow-exec: {}", fmt::join(programs, "; "));
+}
+
+OutsideOptions OptionsOf(const PreparedScenario& scenario, const ScenarioProgram& program,
+                         const std::string& error_folder, const Fence& fence) {
+  const Scenario& told = scenario.scenario();
+  const MethodEntry& entry = *program.entry;
+  const bool is_metric = program.IsMetric();
+  return {.command = entry.exec,
+          .task = is_metric ? "metric" : told.task,
+          .options_json = entry.options_json,
+          .time_s = entry.time_s.value_or(told.limits.time_s),
+          .memory_mb = told.limits.memory_mb,
+          .error_file = ErrorFileOf(error_folder, told, program),
+          .fence = fence,
+          .files = entry.files,
+          .seed = scenario.setup().seed};
+}
+
+namespace {
+
+std::string DigestOfContent(const fs::path& file) {
+  std::ifstream in(file, std::ios::binary);
+  if (!in) return "unreadable";
+  Digest digest;
+  std::vector<char> part(1 << 20);
+  while (in.read(part.data(), static_cast<std::streamsize>(part.size())), in.gcount() > 0) {
+    digest.Add(std::string_view(part.data(), static_cast<std::size_t>(in.gcount())));
+  }
+  return digest.Hex();
+}
+
+/// Adds the digests of the files in a folder. Results of runs, caches of Python and the folder of Git do not count. A
+/// folder of very many files, such as an installation of Python, has one digest, of the names and sizes of its files.
+void AddFolder(const std::string& folder, Json& files) {
+  constexpr std::size_t kMaxContents = 1000;
+  std::map<std::string, std::int64_t> sizes;
+  std::error_code error;
+  for (fs::recursive_directory_iterator entry(folder, error), end; !error && entry != end; entry.increment(error)) {
+    const fs::path name = entry->path().filename();
+    std::error_code none;
+    if (entry->is_directory(none)) {
+      if (name == ".git" || name == "__pycache__" || fs::exists(entry->path() / "manifest.json", none)) {
+        entry.disable_recursion_pending();
+      }
+    } else if (entry->is_regular_file(none)) {
+      sizes[entry->path().lexically_normal().string()] = static_cast<std::int64_t>(entry->file_size(none));
+    }
+  }
+  if (sizes.size() <= kMaxContents) {
+    for (const auto& [file, size] : sizes) files[file] = DigestOfContent(file);
+    return;
+  }
+  Digest digest;
+  for (const auto& [file, size] : sizes) digest.Add(std::string_view(file)).Add(size);
+  files[folder + " (names and sizes)"] = digest.Hex();
+}
+
+/// Adds the digests of the files beside `script` whose names end as its name does: a script may import them.
+void AddNeighbours(const fs::path& script, Json& files) {
+  std::error_code error;
+  const fs::path folder = script.has_parent_path() ? script.parent_path() : fs::path(".");
+  for (fs::directory_iterator entry(folder, error), end; !error && entry != end; entry.increment(error)) {
+    std::error_code none;
+    if (entry->path().extension() != script.extension() || !entry->is_regular_file(none)) continue;
+    files[entry->path().lexically_normal().string()] = DigestOfContent(entry->path());
+  }
+}
+
+/// Returns the digests of the files that a program's `exec` and `files` name, by their names there.
+Json DigestsOf(const MethodEntry& program) {
+  Json files = Json::object();
+  std::error_code error;
+  for (std::size_t i = 0; i < program.exec.size(); ++i) {
+    const std::string& word = program.exec[i];
+    const std::string path = i == 0 ? FindProgram(word).value_or("") : word;
+    if (!fs::is_regular_file(path, error) || (i == 0 && Fence::IsOfSystem(path))) continue;
+    files[fs::path(word).lexically_normal().string()] = DigestOfContent(path);
+    if (program.files.empty() && fs::path(word).has_extension()) AddNeighbours(path, files);
+  }
+  for (const std::string& file : program.files) {
+    if (fs::is_directory(file, error)) {
+      AddFolder(file, files);
+    } else {
+      files[fs::path(file).lexically_normal().string()] = DigestOfContent(file);
+    }
+  }
+  return files;
+}
+
+}  // namespace
+
+Result<void> AddPrograms(std::span<const PreparedScenario> scenarios, const Fence& fence, Json& manifest) {
+  std::optional<TemporaryFolder> errors;  // the reason of a failure quotes the program's standard error
+  for (std::size_t s = 0; s < scenarios.size(); ++s) {
+    for (const ScenarioProgram& program : ProgramsIn(scenarios[s].scenario())) {
+      if (!errors) {
+        ASSIGN_OR_RETURN(errors, TemporaryFolder::Make("greetings"));
+      }
+      OutsideMethod started(OptionsOf(scenarios[s], program, errors->path().string(), fence));
+      const OutsideReply reply = started.Greet();
+      if (!reply.was_asked) {
+        return FailOfMachine("{} {} of {}: {}", program.role, program.entry->name, scenarios[s].scenario().name,
+                             reply.reason);
+      }
+      manifest["scenarios"][s]["programs"][(program.IsMetric() ? "metric " : "") + program.entry->name] = {
+          {"greeting", reply.status == Status::kOk ? Json(started.ProgramName()) : Json()},
+          {"files", DigestsOf(*program.entry)}};
+    }
+  }
+  return {};
 }
 
 namespace {
@@ -102,6 +219,7 @@ Result<Fence> FenceFor(std::span<const PreparedScenario> scenarios, const Outsid
     ours.push_back(Canonical(scenario.setup().file).parent_path());
     for (const ScenarioProgram& program : ProgramsIn(scenario.scenario())) {
       RETURN_IF_ERROR(CheckFiles(scenario, program));
+      RETURN_IF_ERROR(CheckNames(program.entry->exec, program.entry->exec_places));
       std::vector<std::string> command = program.entry->exec;
       if (const auto found = FindProgram(command.front())) command.front() = *found;
       for (const fs::path& mine : ours) {

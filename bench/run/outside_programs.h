@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "bench/outside/outside_method.h"
 #include "bench/run/secret_key.h"
 #include "bench/run/setup.h"
 #include "io/files/json.h"
@@ -17,6 +18,16 @@ struct OutsideRules {
   bool is_fenced = true;    ///< true: outside programs run in the sandbox, if the kernel allows it
   bool allow_exec = false;  ///< true: also run programs that a manifest or a pack names, which may come from a stranger
 };
+
+/// Returns the options with which a program of a scenario is started. `error_folder` is the folder of its standard
+/// error (ErrorFileOf).
+OutsideOptions OptionsOf(const PreparedScenario& scenario, const ScenarioProgram& program,
+                         const std::string& error_folder, const Fence& fence);
+
+/// Adds to a manifest what identifies each outside program: the name and version of its greeting (null if the greeting
+/// is invalid), and the digests of the files that `exec` and `files` name and, without `files`, of the scripts beside
+/// its script. Every program is started once. Fails if this machine cannot start one.
+Result<void> AddPrograms(std::span<const PreparedScenario> scenarios, const Fence& fence, Json& manifest);
 
 /// Lists every method and every metric that is a program, e.g. "python3 my_solver.py (ik-weights/mine)".
 std::vector<std::string> ProgramsOf(std::span<const PreparedScenario> scenarios);

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "bench/results/folder.h"
+#include "bench/run/expected_work.h"
 #include "bench/run/machine_trial.h"
 #include "bench/run/manifest.h"
 #include "bench/run/outside_metrics.h"
@@ -35,14 +36,23 @@ fs::path FolderFor(const RunOptions& options, const SuiteSetup& suite) {
 Result<FolderState> CheckFolder(const fs::path& folder, const RunOptions& options) {
   auto state = LookAtFolder(folder);
   if (!state || *state == FolderState::kFree || options.resume || options.overwrite) return state;
+  if (const auto head = ReadJournalHead(folder);
+      head && !head->shard.IsWhole() && Exists(Inside(folder) / "host.json")) {
+    return Fail(
+        {folder.string()},
+        "already holds the finished shard {}; etude merge makes one run of all shards, --overwrite replaces it, "
+        "-o chooses another folder",
+        ToString(head->shard));
+  }
   return Fail({folder.string(), 0, 0}, "already holds {}; {}--overwrite replaces it, -o chooses another folder",
               *state == FolderState::kFinished ? "a run" : "an unfinished run",
               *state == FolderState::kFinished ? "" : "--resume continues it, ");
 }
 
-/// Fails unless the folder's manifest equals `manifest`. If `other_libraries` is true, libraries may differ, and the
-/// folder records the differences.
-Result<void> CheckManifest(const fs::path& folder, const std::string& manifest, bool other_libraries) {
+/// Fails unless the folder's manifest equals `manifest` and lists the outside programs of `scenarios`. If
+/// `other_libraries` is true, libraries may differ, and the folder records the differences.
+Result<void> CheckManifest(const fs::path& folder, const std::string& manifest, bool other_libraries,
+                           std::span<const PreparedScenario> scenarios) {
   const FilePath path = Inside(folder) / "manifest.json";
   ASSIGN_OR_RETURN(const auto found, ReadWholeFile(path));
   if (found == manifest) return {};
@@ -55,13 +65,30 @@ Result<void> CheckManifest(const fs::path& folder, const std::string& manifest, 
   const Json version = was_secret ? then.value("secret_worlds", Json(1)) : Json();
   if (version.is_number_integer()) RETURN_IF_ERROR(CheckSecretWorlds(version.get<int>(), {path.string()}));
   const std::vector<JsonDifference> differences = CompareManifests(then, now);
+  constexpr const char* kCure = "only the same run can be resumed; --overwrite replaces it, -o chooses another folder";
+  if (const auto of_programs = OfPrograms(differences); !of_programs.empty() && of_programs == differences) {
+    if (auto told = RequirePrograms(then, scenarios, {path.string()}); !told) {
+      return Fail(told.error().place, "{}; {}", told.error().message, kCure);
+    }
+    return Fail({path.string()}, "ran other versions of outside programs: {}; {}", InWords(differences), kCure);
+  }
   if (!AreOfLibraries(differences)) {
-    return Fail({path.string()}, "belongs to another run: {}; only the same run can be resumed", InWords(differences));
+    return Fail({path.string()}, "belongs to another run: {}; {}", InWords(differences), kCure);
   }
   if (other_libraries) return RecordOtherLibraries(folder, differences);
   return Fail({path.string()},
               "libraries have changed since the run began: {}; --other-libraries resumes anyway and records it",
               InWords(differences));
+}
+
+/// Fails if the outside programs differ from those of the manifest at `path`, which the run repeats.
+Result<void> CheckSamePrograms(const std::string& path, const Json& now, std::span<const PreparedScenario> scenarios) {
+  ASSIGN_OR_RETURN(const auto then, ReadJsonFile(path));
+  if (then.contains("data_set")) return {};  // of etude export, which runs no program
+  RETURN_IF_ERROR(RequirePrograms(then, scenarios, {path}));
+  const auto differences = OfPrograms(CompareManifests(then, now));
+  if (differences.empty()) return {};
+  return Fail({path}, "ran other versions of outside programs: {}; run its scenario instead", InWords(differences));
 }
 
 Result<void> CheckHead(const fs::path& folder, const JournalHead& found, const JournalHead& wanted) {
@@ -80,8 +107,9 @@ Result<void> CheckHead(const fs::path& folder, const JournalHead& found, const J
 class JournalRecorder {
  public:
   JournalRecorder(CellTable& cells, CellTable* answered, Journal journal, const FilePath& file, const Progress& before,
-                  const std::function<void(const Progress&)>& on_progress)
-      : cells_(cells),
+                  const ExpectedWork& work, const std::function<void(const Progress&)>& on_progress)
+      : work_(work),
+        cells_(cells),
         answered_(answered),
         journal_(std::move(journal)),
         file_(cells.AddFile(file)),
@@ -94,12 +122,14 @@ class JournalRecorder {
 
   Result<void> Add(const DeliveredCell& cell) {
     const std::size_t number = cell.head.cell;
+    const bool was_answered = answered_ != nullptr && answered_->Has(number);
+    unsynced_.work_done += (was_answered || !cell.head.is_measured ? 0.5 : 1) * work_.Of(number);
     ASSIGN_OR_RETURN(const auto offset, journal_.Append(cell.line));
     if (cell.head.is_measured) {
       cells_.Put(number, file_, offset, cell.line.size());
       ++unsynced_.cells_done;
       unsynced_.cells_ok += cell.head.status == Status::kOk ? 1 : 0;
-      unsynced_.cells_answered -= answered_ != nullptr && answered_->Has(number) ? 1 : 0;
+      unsynced_.cells_answered -= was_answered ? 1 : 0;
     } else {
       answered_->Put(number, answered_file_, offset, cell.line.size());
       ++unsynced_.cells_answered;
@@ -129,6 +159,7 @@ class JournalRecorder {
 
  private:
   const Clock::time_point start_ = Clock::now();
+  const ExpectedWork& work_;
   CellTable& cells_;
   CellTable* answered_;  ///< the cells that outside metric programs must still measure; null without such programs
   Journal journal_;
@@ -162,9 +193,9 @@ struct OpenedJournal {
 /// Writes the manifest and begins a journal. If `continues` is true, continues the existing journal and reads its
 /// finished cells into `cells` and its answered cells into `answered` (unless null).
 Result<OpenedJournal> OpenJournal(const fs::path& folder, const std::string& manifest, const JournalHead& head,
-                                  bool continues, const RunOptions& options, const Plan& plan, CellTable& cells,
-                                  CellTable* answered) {
-  Progress before;
+                                  bool continues, const RunOptions& options, const Plan& plan, const ExpectedWork& work,
+                                  CellTable& cells, CellTable* answered) {
+  Progress before{.seconds_per_work = work.SecondsEach(WorkerCount(options.jobs))};
   std::vector<int> damaged;
   if (continues) {
     ASSIGN_OR_RETURN(const auto found, ReadJournal(folder, plan, cells, answered));
@@ -173,7 +204,6 @@ Result<OpenedJournal> OpenJournal(const fs::path& folder, const std::string& man
     before.cells_done = found.cells;
     before.cells_ok = found.cells_ok;
     before.cells_answered = found.answered;
-    before.work_before = before.Work();
   } else {
     RETURN_IF_ERROR(WriteFileAtomically(Inside(folder) / "manifest.json", manifest, OnDisk::kLater));
     RETURN_IF_ERROR(SyncTree(folder));
@@ -182,8 +212,16 @@ Result<OpenedJournal> OpenJournal(const fs::path& folder, const std::string& man
   ASSIGN_OR_RETURN(auto journal,
                    continues ? Journal::Continue(folder, options.sync) : Journal::Begin(folder, head, options.sync));
   for (std::size_t world = 0; world < plan.world_count(); ++world) {
-    if (plan.IsIn(options.shard, world)) before.cells += plan.MethodCount(world);
+    if (!plan.IsIn(options.shard, world)) continue;
+    before.cells += plan.MethodCount(world);
+    for (std::size_t method = 0; method < plan.MethodCount(world); ++method) {
+      const std::size_t cell = plan.CellAt(world, method);
+      const bool is_answered = answered != nullptr && answered->Has(cell);
+      before.work += work.OfWorld(world);
+      before.work_done += (cells.Has(cell) ? 1 : is_answered ? 0.5 : 0) * work.OfWorld(world);
+    }
   }
+  before.work_before = before.work_done;
   return OpenedJournal{std::move(journal), before, std::move(damaged)};
 }
 
@@ -224,7 +262,9 @@ Result<RunOutcome> Run(const RunOptions& options, const std::function<void(const
   }
   // Collect the data that identify the run: plan, manifest and build.
   const Plan plan(scenarios);
-  ASSIGN_OR_RETURN(const auto described, MakeManifest(suite, scenarios, options.program_version));
+  ASSIGN_OR_RETURN(auto described, MakeManifest(suite, scenarios, options.program_version));
+  RETURN_IF_ERROR(AddPrograms(scenarios, fence, described));
+  if (!options.from.empty()) RETURN_IF_ERROR(CheckSamePrograms(options.from, described, scenarios));
   ASSIGN_OR_RETURN(const auto manifest, WriteJson(described));
   ASSIGN_OR_RETURN(const auto build, BuildDigest());
   const JournalHead head{Digest().Add(manifest + "\n").Hex(), build, options.shard};
@@ -238,19 +278,22 @@ Result<RunOutcome> Run(const RunOptions& options, const std::function<void(const
   // Claim the folder. Nothing is written before this point.
   ASSIGN_OR_RETURN(auto claimed, RunFolder::Claim(folder, continues));
   if (continues) {
-    RETURN_IF_ERROR(CheckManifest(folder, manifest + "\n", options.other_libraries));
+    RETURN_IF_ERROR(CheckManifest(folder, manifest + "\n", options.other_libraries, scenarios));
     if (state == FolderState::kFinished) return AlreadyWhole(folder);
     if (is_secret && !may_be_used) RETURN_IF_ERROR(CheckUnused(*options.key, use));
   }
   // Open the journal, and run the cells that the journal lacks.
   CellTable cells(plan.cell_count()), answered_cells(HasOutsideMetrics(plan) ? plan.cell_count() : 0);
   CellTable* const answered = answered_cells.size() > 0 ? &answered_cells : nullptr;
-  ASSIGN_OR_RETURN(auto opened, OpenJournal(folder, manifest + "\n", head, continues, options, plan, cells, answered));
+  ASSIGN_OR_RETURN(const auto costs, ReadKeptCosts());
+  const ExpectedWork work(plan, costs);
+  ASSIGN_OR_RETURN(auto opened,
+                   OpenJournal(folder, manifest + "\n", head, continues, options, plan, work, cells, answered));
   if (is_secret) RETURN_IF_ERROR(NoteUse(*options.key, use, may_be_used));
   std::vector<Order> orders = plan.OrdersFor(options.shard, cells.Done());
   const bool was_done = continues && orders.empty();
   JournalRecorder recorder(cells, answered, std::move(opened.journal), Inside(folder) / kJournalFile, opened.before,
-                           on_progress);
+                           work, on_progress);
   const auto whole = RunOrders(suite, plan, std::move(orders),
                                {.program = ThisProgram(),
                                 .error_folder = (fs::absolute(folder) / "stderr").string(),

@@ -31,9 +31,11 @@ std::string ReadOptions(Fields& method) {
 
 void ReadProgram(Fields& method, MethodEntry& entry) {
   entry.exec = method.Texts("exec");
-  if (method.node().Find("exec") == nullptr || (!entry.exec.empty() && !entry.exec.front().empty())) return;
-  method.Complain(method.Raw("exec")->place,
-                  "'exec' needs a program and its arguments, such as [python3, my_solver.py]");
+  const Node* node = method.Raw("exec");
+  if (node == nullptr) return;
+  for (const Node& word : node->items) entry.exec_places.push_back(word.place);
+  if (!entry.exec.empty() && !entry.exec.front().empty()) return;
+  method.Complain(node->place, "'exec' needs a program and its arguments, such as [python3, my_solver.py]");
 }
 
 /// Checks the key names of a built-in method. The method's task reads the values, but does not know that `against` and

@@ -62,10 +62,11 @@ struct MethodEntry {
                                   ///< itself
   Node node;                      ///< the mapping that the task reads; not used for an outside method without a seat
   std::vector<std::string> exec;  ///< an outside method's program and arguments; empty = built in
-  std::string options_json;       ///< an outside method's `options`, sent to it unchanged
-  std::optional<double> time_s;   ///< an outside method's own limit per problem or step, instead of Limits::time_s
-  std::string seat = {};          ///< an outside method's seat in the task's loop; "" = the method is asked once per
-                                  ///< world
+  std::vector<Place> exec_places = {};  ///< the place of each word of `exec` in the scenario's file
+  std::string options_json;             ///< an outside method's `options`, sent to it unchanged
+  std::optional<double> time_s;  ///< an outside method's own limit per problem or step, instead of Limits::time_s
+  std::string seat = {};         ///< an outside method's seat in the task's loop; "" = the method is asked once per
+                                 ///< world
   std::vector<std::string> files = {};  ///< files that a sandbox shows to the program; empty = the program's own folder
   std::string description = {};         ///< a sentence about the method, for readers of the results; "" = not described
 
@@ -132,6 +133,8 @@ std::vector<std::string> MethodNames(const Scenario& scenario);
 struct ScenarioProgram {
   const MethodEntry* entry = nullptr;
   const char* role = "method";  ///< "method" or "metric"
+
+  bool IsMetric() const { return std::string_view(role) == "metric"; }
 };
 /// Returns the methods that are programs, and then the metrics that are programs.
 std::vector<ScenarioProgram> ProgramsIn(const Scenario& scenario);

@@ -198,6 +198,8 @@ class Machine(EtudeCase):
         self.assertEqual(taken.returncode, 3, taken.stderr)
         self.assertRegex(taken.stderr, r"etude: this machine: .*; cells not run: [1-3]; finished cells are kept; --resume")
         self.assertFalse((self.out / "cells.jsonl").exists())
+        folder.unlink()  # `exec` names it, so as a file it would belong to the program
+        folder.mkdir()
         self.run_suite(scenario, "--resume")
         self.assert_same_results(whole, self.out)
 

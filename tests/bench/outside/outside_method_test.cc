@@ -138,6 +138,17 @@ INSTANTIATE_TEST_SUITE_P(
         Hostility{"speaks_another_protocol", Status::kBadOutput, "in its start: does not support protocol 1: "}),
     [](const auto& tested) { return tested.param.behaviour; });
 
+TEST(OutsideMethod, GreetsBeforeItIsAskedAnything) {
+  OutsideMethod method(Behaving("is_good"));
+  EXPECT_EQ(method.ProgramName(), "");
+  EXPECT_EQ(method.Greet().status, Status::kOk);
+  EXPECT_EQ(method.ProgramName(), "hostile 1.0");
+  EXPECT_EQ(Ask(method).status, Status::kOk);
+  OutsideMethod silent(Behaving("dies_in_the_handshake"));
+  EXPECT_FALSE(silent.Greet().was_asked);
+  EXPECT_EQ(silent.ProgramName(), "");
+}
+
 TEST(OutsideMethod, ClosingItsOutputIsNoWayToLiveOn) {
   OutsideMethod method(Behaving("closes_its_output"));
   const OutsideReply reply = Ask(method);

@@ -64,6 +64,7 @@ TEST_F(ProgramViewTest, FindsWhatAFenceDoesNotShowAProgramThatDidNotStart) {
   const ProgramView shim = ViewOf({In("manager/shims/python"), In("mine/solver.py")}, {});
   EXPECT_THAT(FindUnseen(shim, ""), ElementsAre(In("manager")));
   EXPECT_EQ(FilesThatShow({In("manager")}, shim), "files: [" + In("mine") + ", " + In("manager") + "]");
+  EXPECT_EQ(FilesThatShow({In("manager")}, shim, true), "--files " + In("mine") + " --files " + In("manager"));
   // The last words on stderr name the missing file.
   const ProgramView plain = ViewOf({"/bin/sh", In("mine/solver.py")}, {});
   EXPECT_THAT(FindUnseen(plain, ""), ElementsAre());

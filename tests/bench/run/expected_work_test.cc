@@ -12,7 +12,7 @@ namespace {
 TEST(ExpectedWork, TakesStoredCostsAndTheirMeanForOtherScenarios) {
   SuiteSetup suite = SmallSuite();
   suite.sources["b.yaml"] =
-      Replaced(Replaced(kSmallScenario, "scenario: small", "scenario: b"), "sweeps: 20", "sweeps: 9");
+      testing::Replaced(testing::Replaced(kSmallScenario, "scenario: small", "scenario: b"), "sweeps: 20", "sweeps: 9");
   suite.scenarios.push_back(suite.scenarios.front());
   suite.scenarios.back().file = "b.yaml";
   suite.scenarios.back().name = "b";
