@@ -147,7 +147,8 @@ void DefineCapture(CLI::App& app, const std::string& command_line, Action& actio
   command->add_option("--layout", options->layout, "The order of the keypoints, if their number does not determine it")
       ->check(OneOf(KeypointLayoutNames()));
   // Define the outputs, and the reference to compare with.
-  command->add_option("-o,--output", options->output, "The motion to write: .bvh, .glb, .trc, .csv, .c3d, .npz or .mot")->required();
+  command->add_option("-o,--output", options->output, "The motion to write: .bvh, .glb, .trc, .csv, .c3d, .npz or .mot")
+      ->required();
   command->add_option("--points", options->points, "Also write the triangulated keypoints (.trc)");
   command->add_option("--film", options->film, "Also write the films with the skeleton drawn over them (.mp4)");
   command->add_option("--report", options->report,

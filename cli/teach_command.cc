@@ -56,10 +56,10 @@ Result<std::vector<TaughtMove>> Teach(const TeachCommandOptions& options) {
   const auto takes = [&](const LabelledPart& part) {
     return std::ranges::find(options.without, part.move) == options.without.end();
   };
-  auto taught = TeachMoves(loaded.streams, parts, takes, true);
+  ASSIGN_OR_RETURN(auto taught, TeachMoves(loaded.streams, parts, takes, true));
   // Files show whole milliseconds: 3.9, not 3.9000000000000004.
   constexpr double kMs = 1000;
-  for (TaughtMove& move : taught ? *taught : std::vector<TaughtMove>{}) move.span_s = std::round(kMs * move.span_s) / kMs;
+  for (TaughtMove& move : taught) move.span_s = std::round(kMs * move.span_s) / kMs;
   return taught;
 }
 

@@ -43,9 +43,9 @@ std::vector<SeenAt> JointsIn(const ProjectionMatrix& camera, const SeenPerson& s
   std::vector<SeenAt> joints;
   for (const auto& [landmark, role] : kJointLandmarks) joints.push_back({role, seen[landmark]});
   const bool has_ears = places[Index(kLeftEar)] && places[Index(kRightEar)];
-  joints.push_back({Role::kHead, has_ears             ? MiddleOf(camera, seen, places, kLeftEar, kRightEar)
-                                 : places[Index(kHead)] ? seen[kHead]
-                                                        : seen[kNose]});
+  joints.push_back({Role::kHead, places[Index(kHead)] ? seen[kHead]
+                                 : has_ears           ? MiddleOf(camera, seen, places, kLeftEar, kRightEar)
+                                                      : seen[kNose]});
   return joints;
 }
 

@@ -147,8 +147,8 @@ RoleVectors JointsOf(const LandmarkPositions& marks) {
   joints[Index(Role::kHipCentre)] = Middle(at(kLeftHip), at(kRightHip));
   joints[Index(Role::kShoulderCentre)] = Middle(at(kLeftShoulder), at(kRightShoulder));
   auto& head = joints[Index(Role::kHead)];
-  head = Middle(at(kLeftEar), at(kRightEar));
-  if (!head) head = at(kHead);
+  head = at(kHead);
+  if (!head) head = Middle(at(kLeftEar), at(kRightEar));
   if (!head) head = at(kNose);
   // If the head or a foot is missing, guess it.
   const auto &hips = joints[Index(Role::kHipCentre)], &shoulders = joints[Index(Role::kShoulderCentre)];

@@ -53,10 +53,10 @@ void BridgePoints(std::span<LandmarkPositions> frames, std::size_t max_gap);
 void SmoothPoints(std::span<LandmarkPositions> frames, double rate_hz, double cutoff_hz);
 
 /// Returns the positions of all joints that the landmarks determine. Hips, knees, ankles, shoulders, elbows and wrists
-/// are landmarks; the shoulder centre is midway between the shoulders, the hip centre between the hips; the head is
-/// midway between the ears, else at its top, else at the nose; a foot ends at its big toe. *(Ours)*: without a finger
-/// tip, the hand extends the forearm by 0.72 of the forearm's length; without a face, the head extends the trunk by half
-/// of the trunk's length; without a toe, the foot ends 0.18 m from its ankle, ahead and a little down.
+/// are landmarks; the shoulder centre is midway between the shoulders, the hip centre between the hips; the head is at
+/// its top, else midway between the ears, else at the nose; a foot ends at its big toe. *(Ours)*: without a finger tip,
+/// the hand extends the forearm by 0.72 of the forearm's length; without a face, the head extends the trunk by half of
+/// the trunk's length; without a toe, the foot ends 0.18 m from its ankle, ahead and a little down.
 RoleVectors JointsOf(const LandmarkPositions& landmarks);
 
 }  // namespace etude

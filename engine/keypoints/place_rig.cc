@@ -124,17 +124,18 @@ const LengthUnit* LikelyUnit(double file_units) {
 
 /// Returns words for the legs of a person of this stature. Keypoints of hips and ankles lie inside the limbs' ends, and
 /// people differ, so the legs do not tell the stature to 10 %; only the legs were measured.
-std::string LegsText(double stature) { return fmt::format("legs of {:.3g} m from hip to ankle", stature / kStatureOfLeg); }
+std::string LegsText(double stature) {
+  return fmt::format("legs of {:.3g} m from hip to ankle", stature / kStatureOfLeg);
+}
 
 /// @param file_units the person's stature, estimated from the legs, in the file's lengths
 Result<double> UnitOf(const RigFile& rig, double file_units, const PlacementOptions& options, std::string& told) {
   constexpr double kUsualStature = 1.7;
   const LengthUnit* likely = rig.has_unit ? LikelyUnit(file_units) : nullptr;
   const std::string advice =
-      likely != nullptr ? fmt::format("--rig-unit {} makes them {:.3g} m", likely->name,
-                                      likely->metres * file_units / kStatureOfLeg)
-                        : fmt::format("for a person of {:g} m: about --rig-unit {:.2g}", kUsualStature,
-                                      kUsualStature / file_units);
+      likely != nullptr
+          ? fmt::format("--rig-unit {} makes them {:.3g} m", likely->name, likely->metres * file_units / kStatureOfLeg)
+          : fmt::format("for a person of {:g} m: about --rig-unit {:.2g}", kUsualStature, kUsualStature / file_units);
   // A requested unit must give a plausible stature.
   if (options.unit != "auto") {
     const double metres = *MetresOf(options.unit);

@@ -139,8 +139,8 @@ const RecogniserKind* FindRecogniser(std::string_view name) { return FindByName(
 const RecogniserKind& RecommendedRecogniser(std::span<const TaughtMove> taught, bool by_a_coach) {
   const bool has_examples =
       std::ranges::all_of(taught, [](const TaughtMove& move) { return CheckExamples(move).has_value(); });
-  const bool has_several = std::ranges::all_of(
-      taught, [](const TaughtMove& move) { return move.examples.size() >= kExamplesOfWholeBody; });
+  const bool has_several =
+      std::ranges::all_of(taught, [](const TaughtMove& move) { return move.examples.size() >= kExamplesOfWholeBody; });
   return *FindRecogniser(!has_examples ? "key-pose" : by_a_coach ? "coached" : has_several ? "whole-body" : "learnt");
 }
 

@@ -282,9 +282,10 @@ std::string DoubtOf(const std::string& layout, const SeenPeople& frames) {
   // In body_25b these are the landmarks with the indices that body_25 gives to the mid-hip and the hips.
   const Midway hips = CountMidway(frames, Landmark::kRightElbow, Landmark::kLeftWrist, Landmark::kRightHip);
   if (!hips.Are()) return "";
-  return fmt::format("in layout body_25b the right elbow lies between left wrist and right hip in {} of {} people; "
-                     "body_25 would fit",
-                     hips.between, hips.people);
+  return fmt::format(
+      "in layout body_25b the right elbow lies between left wrist and right hip in {} of {} people; "
+      "body_25 would fit",
+      hips.between, hips.people);
 }
 
 }  // namespace

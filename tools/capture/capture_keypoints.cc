@@ -74,6 +74,11 @@ std::string ReportText(const RecoveredPerson& person, const std::vector<FilmedVi
   for (const auto& [name, metres] : ShownLengths(person.body.lengths)) {
     lengths.push_back(fmt::format("{} {:.1f}", name, kCmPerMetre * metres));
   }
+  // The landmark is the top of the head; files often have this joint in the middle of the head.
+  const bool has_top = std::ranges::any_of(
+      person.landmarks, [](const LandmarkPositions& at) { return at[Index(Landmark::kHead)].has_value(); });
+  if (has_top)
+    lengths.push_back(fmt::format("neck to the top of the head {:.1f}", kCmPerMetre * person.body.lengths.neck));
   text += fmt::format("\nlengths, cm: {}\n", Join(lengths));
   const auto held = std::ranges::count(person.is_held, true);
   if (held > 0) text += fmt::format("{} frames show too little and repeat the last pose\n", held);
@@ -131,8 +136,9 @@ Result<UnmarkedMotion> WithOutlines(const RecoveredPerson& person, std::size_t c
 
 /// Returns the first doubt about the keypoints' layout, which explains why nobody was found, for the end of a message.
 std::string DoubtOfLayout(const SeenFilms& films) {
-  const auto doubt = std::ranges::find_if(
-      films.told.lines, [](const std::string& line) { return line.starts_with("doubtful: ") && line.find("layout") != line.npos; });
+  const auto doubt = std::ranges::find_if(films.told.lines, [](const std::string& line) {
+    return line.starts_with("doubtful: ") && line.find("layout") != line.npos;
+  });
   return doubt == films.told.lines.end() ? "" : "; " + doubt->substr(doubt->find(' ') + 1);
 }
 
@@ -303,8 +309,8 @@ Result<bool> CaptureKeypoints(const CaptureFilmsOptions& options, FilmedSession 
     ASSIGN_OR_RETURN(both, WithOutlines(person, chosen, take, options));
     facts["silhouettes"] = {{"stature_m", both->stature_m}, {"cost", both->cost}, {"held_frames", both->held}};
     if (JoinOutlines(films.cameras, person.people[chosen], both->motion, AdjustOf(recover), person)) {
-      films.told.Tell(fmt::format("{}; the joints follow from keypoints and outlines together",
-                                  OutlinesText(views, *both)));
+      films.told.Tell(
+          fmt::format("{}; the joints follow from keypoints and outlines together", OutlinesText(views, *both)));
     } else {
       films.told.Tell(
           "doubtful: no motion fits keypoints and outlines at once; the joints follow from the keypoints alone");

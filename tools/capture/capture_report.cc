@@ -143,7 +143,8 @@ double MedianOf(const CameraResiduals& residuals) {
 }
 
 std::string OutlinesText(const std::vector<FilmedView>& views, const UnmarkedMotion& person) {
-  return fmt::format("body and outlines differ by {:.0f} % in the median", MedianOf(ResidualsOfOutlines(views, person)));
+  return fmt::format("body and outlines differ by {:.0f} % in the median",
+                     MedianOf(ResidualsOfOutlines(views, person)));
 }
 
 std::string DoubtsOf(const std::vector<std::string>& told) {
@@ -156,11 +157,10 @@ Result<bool> WritePage(const CaptureFilmsOptions& options, CapturePage page, con
   ASSIGN_OR_RETURN(const TemporaryFolder folder, TemporaryFolder::Make("capture-report"));
   // The film of --film, or else a temporary one.
   const fs::path film = options.film.empty() ? folder.path() / "overlay.mp4" : fs::path(options.film);
-  ASSIGN_OR_RETURN(const bool is_whole, options.film.empty()
-                                            ? options.listener.film([&](const FilmWatch& watch) {
-                                                return WriteOverlayFilm(film, overlays, motion, watch, &page.still);
-                                              })
-                                            : WriteFilm(options, overlays, motion, &page.still));
+  ASSIGN_OR_RETURN(const bool is_whole, options.film.empty() ? options.listener.film([&](const FilmWatch& watch) {
+    return WriteOverlayFilm(film, overlays, motion, watch, &page.still);
+  })
+                                                             : WriteFilm(options, overlays, motion, &page.still));
   if (!is_whole) return false;
   constexpr std::uintmax_t kMaxFilmBytes = 16'000'000;
   std::error_code unreadable;

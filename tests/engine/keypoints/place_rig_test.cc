@@ -63,9 +63,10 @@ TEST(PlaceRig, LeavesARigAsItIsWhoseUnitAndAxesFitThePerson) {
   ASSERT_OK(place, PlaceRig(SomeRig(), Stander([](glm::dvec3 p) { return p; }, 5), kPlaceRate, {}));
   EXPECT_TRUE(place->IsNone());
   EXPECT_NEAR(place->stature_m, 1.7, 1e-9);
-  EXPECT_EQ(place->told,
-            "lengths in m (legs of 0.85 m from hip to ankle); up is y (the person leans 5° from it), the floor as in the "
-            "file");
+  EXPECT_EQ(
+      place->told,
+      "lengths in m (legs of 0.85 m from hip to ankle); up is y (the person leans 5° from it), the floor as in the "
+      "file");
 }
 
 TEST(PlaceRig, FindsTheUnitThatMakesItAPerson) {
@@ -74,20 +75,23 @@ TEST(PlaceRig, FindsTheUnitThatMakesItAPerson) {
         << name;
     EXPECT_DOUBLE_EQ(place->scale, metres) << name;
     EXPECT_NEAR(place->stature_m, 1.7, 1e-9) << name;
-    EXPECT_THAT(place->told, HasSubstr(std::string("lengths in ") + name + " (found: legs of 0.85 m from hip to ankle; in m "));
+    EXPECT_THAT(place->told,
+                HasSubstr(std::string("lengths in ") + name + " (found: legs of 0.85 m from hip to ankle; in m "));
   }
   const auto child = PlaceRig(SomeRig(), Stander([](glm::dvec3 p) { return p * 350.0; }), kPlaceRate, {});
   EXPECT_DOUBLE_EQ(child.value().scale, 0.001) << "0.6 m tall: nobody else's unit makes that";
-  EXPECT_THAT(testing::Message(PlaceRig(SomeRig(), Stander([](glm::dvec3 p) { return p * 1e5; }), kPlaceRate, {})),
-              HasSubstr("the legs are 8.5e+04 units long from hip to ankle, which no person's are in m, cm, mm, inch, foot; "
-                        "for a person of 1.7 m: about --rig-unit 1e-05"));
+  EXPECT_THAT(
+      testing::Message(PlaceRig(SomeRig(), Stander([](glm::dvec3 p) { return p * 1e5; }), kPlaceRate, {})),
+      HasSubstr("the legs are 8.5e+04 units long from hip to ankle, which no person's are in m, cm, mm, inch, foot; "
+                "for a person of 1.7 m: about --rig-unit 1e-05"));
 }
 
 TEST(PlaceRig, TakesTheUnitThatIsToldAndNoOtherPersonThanOne) {
   RigFile rig = SomeRig();
   rig.has_unit = false;
   const auto points = Stander([](glm::dvec3 p) { return p * 4.0; });
-  EXPECT_THAT(testing::Message(PlaceRig(rig, points, kPlaceRate, {})), HasSubstr("for a person of 1.7 m it is about 0.25 m"));
+  EXPECT_THAT(testing::Message(PlaceRig(rig, points, kPlaceRate, {})),
+              HasSubstr("for a person of 1.7 m it is about 0.25 m"));
   ASSERT_OK(told, PlaceRig(rig, points, kPlaceRate, {.unit = "0.3"}));
   EXPECT_DOUBLE_EQ(told->scale, 0.3);
   EXPECT_THAT(told->told, HasSubstr("lengths in units of 0.3 m (as given; legs of 1.02 m from hip to ankle)"));
@@ -98,9 +102,10 @@ TEST(PlaceRig, TakesTheUnitThatIsToldAndNoOtherPersonThanOne) {
   }
   // A person whose legs are short by 12 % is no reason to scale a right rig.
   const auto shorter = Stander([](glm::dvec3 p) { return 0.88 * p; });
-  EXPECT_EQ(testing::Message(PlaceRig(SomeRig(), shorter, kPlaceRate, {.unit = "mm"})),
-            "in mm the person would have legs of 0.000748 m from hip to ankle; allowed: 0.25 to 1.1 m; --rig-unit m makes "
-            "them 0.748 m");
+  EXPECT_EQ(
+      testing::Message(PlaceRig(SomeRig(), shorter, kPlaceRate, {.unit = "mm"})),
+      "in mm the person would have legs of 0.000748 m from hip to ankle; allowed: 0.25 to 1.1 m; --rig-unit m makes "
+      "them 0.748 m");
 }
 
 TEST(PlaceRig, FindsTheAxisThatIsUpAndTheFloorUnderTheFeet) {

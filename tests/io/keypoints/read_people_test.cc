@@ -167,8 +167,9 @@ TEST_F(ReadPeople, KnowsTheOrderOfOpenPosesBody25ByItsMidHip) {
   const auto doubt = [&](const char* people_in, const char* layout) {
     return ReadKeypoints(folder_.path() / people_in, layout).value().doubt;
   };
-  EXPECT_EQ(doubt("a", "body_25b"),
-            "in layout body_25b the right elbow lies between left wrist and right hip in 4 of 4 people; body_25 would fit");
+  EXPECT_EQ(
+      doubt("a", "body_25b"),
+      "in layout body_25b the right elbow lies between left wrist and right hip in 4 of 4 people; body_25 would fit");
   EXPECT_EQ(doubt("b", "body_25"),
             "in layout body_25 the mid-hip lies between the hips in 0 of 4 people; body_25b would fit");
   EXPECT_EQ(doubt("a", "body_25") + doubt("b", "body_25b") + doubt("a", ""), "");
