@@ -16,8 +16,8 @@
 
 namespace etude {
 
-/// Adds a joint named "head" to the skeleton of the body's clips: readers of clips look for one, and in BVH the end of a
-/// branch has no name.
+/// Adds a joint named "head" to the skeleton of the body's clips: readers of clips look for one, and in BVH the end of
+/// a branch has no name.
 void NameHead(CaptureBody& body);
 
 /// Makes the body of a person from bone lengths, metres: for each role, the distance from its parent role. The clip's
