@@ -17,6 +17,7 @@
 #include "cli/facts.h"
 #include "engine/base/names.h"
 #include "reports/words/figures.h"
+#include "reports/words/judged.h"
 
 namespace etude {
 namespace {
@@ -68,11 +69,12 @@ bool Print(const ScenarioForecast& one) {
   }
   if (WorldsAreUnits(one.unit)) return worlds >= for_values;
   if (one.units < kMinUnits) {
-    fmt::print("  for others: no verdict: {}; at least {} are needed\n", CountUnits(one.units, one.unit), kMinUnits);
+    fmt::print("  for {}: no verdict is possible with {}; at least {} are needed\n", OtherUnits(one.unit),
+               CountUnits(one.units, one.unit), kMinUnits);
     return worlds >= for_values;
   }
-  fmt::print("  for others: a difference of {:.2f} or more standard deviations of the mean differences of {}\n",
-             MinDetectableDifference(one.units, one.comparisons), CountUnits(one.units, one.unit));
+  fmt::print("  for {}: a difference of {:.2f} or more standard deviations of the mean differences of {}\n",
+             OtherUnits(one.unit), MinDetectableDifference(one.units, one.comparisons), CountUnits(one.units, one.unit));
   return true;
 }
 

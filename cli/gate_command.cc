@@ -80,7 +80,7 @@ void PrintReport(const GateReport& report) {
   for (const std::string& sentence : GateSentences(report)) fmt::print("{}\n", sentence);
   const std::vector<std::string> reversed = FallenLines(report, true);
   fmt::print("Gate: {}{}{}\n", GateVerdictWords(GateVerdictOf(report)),
-             reversed.empty() ? "" : fmt::format(" ({})", Join(reversed, "; ")),
+             reversed.empty() ? "" : ": " + Join(reversed, "; "),
              report.baseline_file.empty() ? ", without a baseline (--baseline FILE --update makes one)" : "");
 }
 

@@ -127,7 +127,7 @@ PageCheck CheckPage(std::string_view page, std::string_view bare) {
   PageCheck check;
   while (true) {
     const std::size_t media = bare.find(kMediaBegin), takes = bare.find(kTakesBegin);
-    if (media == takes) break;  // true if `bare` has no enclosed part any more
+    if (media == takes) break;  // both are npos: `bare` contains no further part between these marks
     const bool is_media = media < takes;
     const std::string_view end = is_media ? kMediaEnd : kTakesEnd;
     const std::size_t before = is_media ? media + kMediaBegin.size() : takes + kTakesBegin.size();

@@ -89,7 +89,8 @@ static void Describe(RecordFields& fields, DetectionExtras::Alarm& alarm) {
 
 static void Describe(RecordFields& fields, DetectionExtras& extras) {
   fields.Format("etude-detection", 1);
-  fields.Optional("threshold", extras.threshold, "threshold of judging; absent for the answer of a method outside");
+  fields.Optional("threshold", extras.threshold,
+                  "evidence from which the method judges a performance right; absent for an outside method");
   fields.List("moves", extras.moves, "the moves that may be asked for");
   fields.List("events", extras.events, "the performances asked for, in order of time");
   fields.List("alarms", extras.alarms, "detections of moves that nobody danced");

@@ -146,7 +146,7 @@ class ScenarioColumns {
       return Fail(place, "has {} numbers, but its run has {} rows", found, index_.row_count());
     // This reader does not need the shape, but NumPy does, so a wrong shape is an error.
     if (!file.HasShape(kNpyType<Number>, index_.shape()))
-      return Fail(place, "is not an array of condition, trial, method");
+      return Fail(place, "is not an array with the axes condition, trial, method");
     return file;
   }
 

@@ -14,8 +14,8 @@ struct Interval {
   IntervalKind kind = IntervalKind::kBca;
 };
 
-/// Returns the score interval of the share count / of (Wilson 1927). For the shares 0 and 1 it still has a width, where
-/// a bootstrap interval has none. `of` > 0.
+/// Returns Wilson's score interval (1927) of the share `count` / `of`. For the shares 0 and 1 it still has a width,
+/// where a bootstrap interval has none. `of` > 0.
 Interval WilsonInterval(int count, int of, double confidence = kConfidence);
 
 /// Returns the interval of the difference of two shares measured on the same worlds, (gained − lost) / pairs. It is the

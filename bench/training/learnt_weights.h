@@ -34,7 +34,7 @@ class LearntWeights {
   /// could be learnt, returns the fuzzy system's own weights.
   const FeatureWeights& For(WeightSource source, const std::string& judged_a, const std::string& judged_b);
 
-  /// Returns the fit from which For takes the weights of these clips. `source` must not be kFixed.
+  /// Returns the fit whose weights `For()` returns for these clips. `source` must not be kFixed.
   const WeightFit& FitOf(WeightSource source, const std::string& judged_a, const std::string& judged_b);
 
  private:

@@ -14,9 +14,9 @@ namespace {
 constexpr int kMaxNesting = 32;
 constexpr int kMaxValues = 10'000;  // yaml-cpp's time grows with the square of the number of values
 
-/// Estimates the nesting of a text, because yaml-cpp's parser is recursive: the deepest bracket or the longest run of
-/// list markers, whichever is larger. The estimate may be too high. Nesting by indentation is left to yaml-cpp's own
-/// guard.
+/// Estimates how deeply a text is nested: the depth of its brackets, or the length of its longest run of list markers,
+/// whichever is larger. Deep nesting is a danger, because yaml-cpp's parser is recursive. The estimate may be too high.
+/// Nesting by indentation is left to yaml-cpp's own guard.
 int EstimateNesting(std::string_view text) {
   int deepest = 0;
   int brackets = 0;

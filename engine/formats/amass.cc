@@ -100,8 +100,8 @@ Result<Clip> ReadAmass(const Npz& npz, const std::string& file, std::optional<do
   if (!told_hz && (rate == nullptr || rate->values.size() != 1)) {
     return Fail(
         {file},
-        "arrays {}; allowed: beside them one number, mocap_framerate or mocap_frame_rate, the frames a second, or "
-        "`--rate` (in convert `--file-rate`, in a joint map `rate: 60`)",
+        "states no frame rate (its arrays: {}); allowed: a number mocap_framerate or mocap_frame_rate, frames a "
+        "second, or `--rate` (in convert `--file-rate`, in a joint map `rate: 60`)",
         Join(names));
   }
   if (!told_hz && other_rate != nullptr && other_rate->values != rate->values) {

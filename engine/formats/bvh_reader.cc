@@ -400,11 +400,8 @@ Result<Clip> ReadBvh(std::string_view bytes, const std::string& file, std::vecto
   }
   // A joint with positions and an OFFSET of 0 rests at its position in the first frame. Our own bodies have such joints.
   const bool is_body = std::ranges::none_of(clip.skeleton.joints, [](const Joint& j) { return !FindRole(j.name); });
-  const std::size_t taken = TakeOffsetsFromFrame(clip.frames.front(), clip.skeleton);
-  if (taken > 0 && !is_body) {
-    remark(fmt::format(
-        "{} joints with positions have an OFFSET of 0: their rest positions are taken from the first frame", taken));
-  }
+  if (TakeOffsetsFromFrame(clip.frames.front(), clip.skeleton) && !is_body)
+    remark("joints with positions and an OFFSET of 0: their rest positions are taken from the first frame");
   return clip;
 }
 

@@ -23,9 +23,10 @@ struct ToldRate {
   std::string times = "the column Time";
 };
 
-/// Finds the origin and unit of a file's times (NaN: missing). The unit is the milli-, micro- or nanosecond instead of
-/// the second if it agrees with the stated rate or, without a stated rate, if rows would otherwise be more than a
-/// second apart. If times begin beyond 11 days, such as times since 1970, the first time becomes 0 s.
+/// Finds the origin and unit of a file's times (NaN: missing). The unit is the second, with two exceptions. If the
+/// times agree with the stated rate only in milli-, micro- or nanoseconds, this is the unit. If no rate is stated and
+/// rows would be more than a second apart, a smaller unit is taken. If times begin beyond 11 days, such as times since
+/// 1970, the first time becomes 0 s.
 TimeScale FindTimeScale(std::span<const double> times, const ToldRate& told);
 
 }  // namespace etude

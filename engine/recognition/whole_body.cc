@@ -64,8 +64,8 @@ double SquaredDistanceOf(const WholePose& seen, const WholePose& taught) {
   return sum;
 }
 
-/// Compares a stream with one example in two ways: with the best passage that ends now, as SubsequenceAligner does
-/// (without the path), and with the whole stream as one performance.
+/// Computes two distances between a stream and one example: the distance of the stream's best passage that ends now (as
+/// SubsequenceAligner does, but without the path), and the distance of the whole stream, taken as one performance.
 class ExampleDistance {
  public:
   ExampleDistance(const WholePattern& pattern, int longest)

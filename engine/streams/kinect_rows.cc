@@ -138,7 +138,8 @@ bool HasColumnsOf(StreamFormat format, std::size_t columns) { return FindLayout(
 Result<StreamRecording> ReadKinectRows(std::string_view text, const std::string& file, StreamFormat format,
                                        const StreamReading& reading) {
   ASSIGN_OR_RETURN(const NumberRows table, ReadNumberRows(text, file, kMaxClock));
-  // Find the layout by the number of columns, then determine what the first column and the fourth numbers mean.
+  // Find the layout by the number of columns. Then determine what the first column means, and what the fourth number of
+  // each joint means.
   const RowLayout* layout = FindLayout(format, table.columns);
   if (layout == nullptr) {
     return Fail({file, table.lines.front()}, "{} numbers in a row; allowed for {}: {}", table.columns,

@@ -205,8 +205,8 @@ def score(target, predictions, output, *, name=None, alone=False, allow_missing=
     """Scores answers, and returns the Run (etude.load) of the result folder.
 
     target: a data set written by `etude export`. allow_exec: allows the data set's own programs, such as metrics, to
-    run. predictions: a folder of answers, or a method made by @etude.method. Such a method is asked in this process
-    without a fence, all problems of a setting at once if the method takes batches, and its answers are kept in the
+    run. predictions: a folder of answers, or a method made by @etude.method. Such a method runs in this process
+    without the sandbox. If it takes batches, it gets all problems of a setting at once. Its answers are kept in the
     folder `output` + ".answers".
     """
     if hasattr(predictions, "__etude__"):

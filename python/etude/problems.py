@@ -600,7 +600,8 @@ class CaptureProblem(Message):
     frames: The number of frames.
     limb_lengths_m: The limb lengths of the person filmed, by name.
     cameras: The cameras and their films, which are synchronised.
-    marks: The annotator's marks by segmenter, then [camera][frame]: null, or strokes and discs in pixels.
+    marks: The annotator's marks. Each key is the name of a segmenter, each value is marks[camera][frame]: strokes
+        and discs in pixels, or null for a frame without marks.
     """
     HOLDS: ClassVar[dict] = {"cameras": [CaptureCamera]}
     frames: int

@@ -222,7 +222,7 @@ int CoachedScene::PosterFrame() const {
 std::string CoachedScene::Words() const {
   return fmt::format(
       "A coached session, seconds {} to {} of {}: the coach in its forest, beside it the learner's true motion, and at "
-      "the lower right the same as the sensor saw it. The bands of the timeline: what the coach does; whether each "
+      "the lower right this motion as the sensor saw it. The bands of the timeline: what the coach does; whether each "
       "performance was truly right; how the coach judged it. {} corrections in the whole session. A click for every "
       "beat of the music.",
       FormatFixed(first_ / kJudgedRateHz, 0), FormatFixed(last_ / kJudgedRateHz, 0),

@@ -19,8 +19,8 @@ struct Judged {
   /// is no answer.
   const Answer* answer = nullptr;
 
-  /// Here returns the verdict on the worlds of this run. Elsewhere returns the verdict generalised to other clips,
-  /// people or libraries; nullopt if the run has too few of these.
+  /// `Here()` returns the verdict on the worlds of this run. `Elsewhere()` returns the verdict generalised to other
+  /// clips, people or libraries; nullopt if the run has too few of these.
   Verdict Here() const { return answer == nullptr ? comparison->verdict : answer->verdict; }
   std::optional<Verdict> Elsewhere() const { return answer == nullptr ? comparison->beyond.verdict : answer->beyond; }
 };

@@ -97,7 +97,8 @@ class Annotator {
   PersonErrors errors_;
   EvidenceOptions eye_;
   AnnotatorDice dice_;
-  std::array<int, 2> swapped_frames_{};  // remaining marked frames of the current exchange of [0] arms, [1] legs
+  // The number of further marked frames in which left and right stay exchanged: [0] arms, [1] legs.
+  std::array<int, 2> swapped_frames_{};
 };
 
 }  // namespace etude

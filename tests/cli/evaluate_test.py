@@ -416,7 +416,8 @@ class Evaluate(EtudeCase):
                 (["score", scenario, self.folder, "--name", "x", "-o", self.out], "there are no problems to export"),
                 (["run", scenario, "--seed-file", keys], "uses no random numbers, because it judges files"),
                 (["run", outside], "task evaluation takes no programs, so 'exec' is not allowed"),
-                (["check-method", "--task", "evaluation", "--", "python3", "x.py"], "task evaluation takes no programs\n")]:
+                (["check-method", "--task", "evaluation", "--", "python3", self.write("x.py", "")],
+                 "task evaluation takes no programs\n")]:
             with self.subTest(words=words, command=arguments[0]):
                 told = self.etude(*arguments)
                 self.assertEqual(told.returncode, 2, told.stdout + told.stderr)

@@ -111,7 +111,11 @@ class Links(EtudeCase):
             self.assertEqual(kept.read_text(), text)
 
     def test_take_no_last_words_of_programs(self):
-        program = self.write("method.py", "import sys\nprint('words', file=sys.stderr)\n")
+        program = self.write("method.py", """import sys
+input()
+print('{"type": "hello", "protocol": 1, "name": "m", "version": "1"}', flush=True)
+print("words", file=sys.stderr)
+""")
         text = IK + f"  - {{name: mine, exec: [python3, {program}]}}\n"
         scenario, shard = self.write("t.yaml", text), self.folder / "1"
         run = ["run", scenario, "--shard", "1/2", "-o", shard]

@@ -96,8 +96,8 @@ void MatchAngles(const RawMotion& truth, const RawMotion& sampled, MatchedMotion
   matched.found_angles = Chosen(of_found, common);
 }
 
-/// Returns the parent of each judged joint among the judged joints, by the roles or, without roles, by the truth's
-/// skeleton; −1 = it has none.
+/// Returns, for each judged joint, the index of its parent in `joints`; −1 if its parent is not among them. Parents are
+/// found by the joints' roles, or by the truth's skeleton if there are no roles.
 std::vector<int> FindParents(const std::vector<CommonJoint>& joints, const RawMotion& truth) {
   const auto place_of = [&](int joint) {
     const auto found = std::ranges::find(joints, joint, &CommonJoint::truth);

@@ -109,10 +109,10 @@ struct CcdAndersonOptions {
 
 /// Solves by the sweeps of `ccd-hinges`, extrapolated from the last few sweeps (`AndersonMixing`). *Ours.* In paper B
 /// one joint is optimised after the other, so errors move slowly along the limbs; such slow convergence can be
-/// extrapolated. Each angle q is represented by x = tan((q − middle of its range) / 2), which needs no trigonometric
-/// functions. If an extrapolation raises Σ w_p e² + Σ w_o |u_c − u_d|² (with the weights of its sweep), it is discarded
-/// and the result of the sweep is kept. One iteration is one sweep; it costs one forward-kinematics pass, or two if its
-/// extrapolation was discarded.
+/// extrapolated. Instead of each angle q, x = tan((q − middle of its range) / 2) is extrapolated, because sine and
+/// cosine of q follow from x without trigonometric functions. If an extrapolation raises Σ w_p e² + Σ w_o |u_c − u_d|²
+/// (with the weights of its sweep), it is discarded and the result of the sweep is kept. One iteration is one sweep; it
+/// costs one forward-kinematics pass, or two if its extrapolation was discarded.
 IkSolution SolveCcdAnderson(const KinematicTree& tree, const IkProblem& problem, const IkOptions& options,
                             const CcdAndersonOptions& own = {});
 

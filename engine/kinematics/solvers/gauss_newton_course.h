@@ -50,7 +50,7 @@ class GaussNewtonCourse {
   GaussNewtonCourse(const IkOptions& options, const GaussNewtonOptions& own, const Numerics& numerics);
 
   /// Decides the next action at a new pose, given its |e|² and whether it meets the goals. `is_out_of_reach()` returns
-  /// true if no pose can meet the targets; it is called at most once, where restarts would begin.
+  /// true if no pose can meet the targets; it is called at most once, just before the first restart.
   template <class IsOutOfReach>
   Next Arrive(double squares, bool is_met, const IsOutOfReach& is_out_of_reach) {
     // Count the iteration and its forward-kinematics pass.

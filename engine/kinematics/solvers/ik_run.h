@@ -124,8 +124,9 @@ IkSolution RunFromStart(const KinematicTree& tree, const IkProblem& problem, con
 }
 
 /// Runs a solver that works sweep by sweep and does not need errors itself. `step(sweep, run)` makes one iteration of a
-/// Sweep, constructed from (tree, problem, options, own…), and returns the largest turn. Errors are measured at
-/// `Sweep::Angles` for a trace, at the last iteration, and where `Sweep::MissesGoals` returns false.
+/// Sweep, constructed from (tree, problem, options, own…), and returns the largest turn. After an iteration,
+/// the errors of `Sweep::Angles()` are measured only if a trace is requested, if the iteration is the last one, or if
+/// `Sweep::MissesGoals()` returns false.
 template <class Sweep, class Step, class... Own>
 IkSolution RunSweeps(const KinematicTree& tree, const IkProblem& problem, const IkOptions& options, const Step& step,
                      const Own&... own) {

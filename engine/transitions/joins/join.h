@@ -23,10 +23,10 @@ struct PosePair {
 struct JoinInput {
   PosePair shown;   ///< the last two frames shown
   PosePair target;  ///< the new motion's frames at the same times
-  /// Returns the old motion's next `count` frames, or fewer at its end. Call it only while the join begins.
+  /// Returns the old motion's next `count` frames, or fewer at its end. Call it only in JoinKind::begin.
   std::function<std::vector<BodyPose>(std::size_t count)> continuation;
-  /// Returns the new motion's next `count` frames after the point, or fewer at its end. Call it only while the join
-  /// begins.
+  /// Returns the new motion's next `count` frames after the point, or fewer at its end. Call it only in
+  /// JoinKind::begin.
   std::function<std::vector<BodyPose>(std::size_t count)> upcoming = {};
   /// The choice's preferred join, which minimum-jerk and planted-feet use.
   std::optional<PreferredJoin> preferred = {};

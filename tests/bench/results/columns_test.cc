@@ -186,7 +186,7 @@ TEST_F(ColumnsTest, ThatAreNotAsTheyWereWrittenAreRefused) {
   // With this shape NumPy would read the two methods of a trial as two trials of one method.
   EXPECT_THAT(with(own / "position_error_cm.npy",
                    [](std::string& text) { text.replace(text.find("(2, 4, 2)"), 9, "(2, 2, 4)"); }),
-              HasSubstr("is not an array of condition, trial, method"));
+              HasSubstr("is not an array with the axes condition, trial, method"));
   EXPECT_THAT(with(own / "index.json", [](std::string& text) { text = "{}"; }), HasSubstr("not an index of columns"));
   const auto with_index = [&](const char* key, const nlohmann::json& value, const char* scenario = "poses") {
     return with(folder() / "columns" / scenario / "index.json", [&](std::string& text) {

@@ -163,7 +163,8 @@ TEST(Amass, TakesTheRateThatIsToldAndRefusesNone) {
   EXPECT_EQ(ReadAmass(npz, "a.npz", 50)->rate_hz, 50);
   npz.arrays.erase("mocap_framerate");
   EXPECT_EQ(ReadAmass(npz, "a.npz", 50)->rate_hz, 50);
-  EXPECT_THAT(testing::Refusal(ReadAmass(npz, "a.npz")), HasSubstr("arrays poses, trans; allowed: beside them one number"));
+  EXPECT_THAT(testing::Refusal(ReadAmass(npz, "a.npz")),
+              HasSubstr("states no frame rate (its arrays: poses, trans); allowed: a number"));
 }
 
 TEST(Amass, RefusesArraysThatAreNoMotion) {
