@@ -131,6 +131,7 @@ Result<void> AddPrograms(std::span<const PreparedScenario> scenarios, const Fenc
   for (std::size_t s = 0; s < scenarios.size(); ++s) {
     for (const ScenarioProgram& program : ProgramsIn(scenarios[s].scenario())) {
       if (!errors) {
+        AdoptOrphans();  // so that processes that outlive a program become children of this process, which ends them
         ASSIGN_OR_RETURN(errors, TemporaryFolder::Make("greetings"));
       }
       OutsideMethod started(OptionsOf(scenarios[s], program, errors->path().string(), fence));

