@@ -46,7 +46,7 @@ class DryRun(EtudeCase):
         self.assertIn(f"Shard 2/3: {parts[1]['cells']} of {whole['cells']} cells.\n{parts[1]['cells']} cells, about ", said)
 
     def test_says_that_two_clips_carry_nothing(self):
-        self.assertIn("no verdict: 2 clips; at least 6 are needed", self.tell(["builtin:clap", "builtin:boxing"]))
+        self.assertIn("for other clips: no verdict is possible with 2 clips; at least 6 are needed", self.tell(["builtin:clap", "builtin:boxing"]))
 
     def facts(self, *arguments):
         told = self.ends(0, "run", *arguments, "--dry-run", "--json")

@@ -229,7 +229,8 @@ def carry(noises):
         return {"angles_deg": start}
 
     converse(asked)
-    memory.write(len(texts), json.dumps(asked_now).encode())
+    if asked_now:  # before a run, each program is started once and only greeted
+        memory.write(len(texts), json.dumps(asked_now).encode())
     print("NOTES " + json.dumps(asked_now), file=sys.stderr, flush=True)
 
 
