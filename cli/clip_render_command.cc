@@ -22,8 +22,8 @@ struct ClipRenderOptions {
   std::string character;  ///< the performing figure; "" = chosen for each clip
   std::string view = "three-quarter";
   std::string size;  ///< picture size, "200x260"; "" = 200 × 260 on a sheet, 720 × 720 in a film
-  int frames = 0;    ///< pictures per clip; 0 = 12 for one clip, 8 for several
-  int columns = 0;   ///< pictures per row; 0 = 6 for one clip, one row per clip for several
+  int frames = 0;    ///< pictures per clip; 0 = default: 12 for a single clip, 8 for each of several clips
+  int columns = 0;   ///< pictures per row; 0 = default: 6 for a single clip, else all pictures of a clip
   int jobs = 0;
   bool overwrite = false;
   ClipReading reading;

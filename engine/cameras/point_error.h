@@ -51,9 +51,10 @@ struct PointError {
 /// Computes, to first order, the expected error of the position that minimises the sum of squared pixel distances
 /// (`TriangulateLikeliest`, equal weights). The covariance of the position is K S Kᵀ with K = (JᵀJ)⁻¹Jᵀ. Here J holds
 /// the derivatives of the pixels with respect to the position. S is the covariance of the pixels: their noise after the
-/// lens distortion is removed, plus the effect of the calibration's deviations. Combinations of cameras are weighted by
-/// their probabilities. If fewer than two cameras have the point in their pictures, or if all lines of sight are
-/// parallel, `lost` is 1. Precondition: at most kMaxDroppingCameras cameras if `dropout` is not 0.
+/// lens distortion is removed, plus the effect of the calibration's deviations. If `dropout` is not 0, the error is a
+/// mean over all combinations of cameras that give a pixel, weighted by the combinations' probabilities. If fewer than
+/// two cameras have the point in their pictures, or if all lines of sight are parallel, `lost` is 1. Precondition: at
+/// most kMaxDroppingCameras cameras if `dropout` is not 0.
 PointError ExpectedPointError(std::span<const Camera> cameras, const glm::dvec3& p_WQ, const SightingErrors& errors);
 
 /// Returns true if the camera has the point in its picture.

@@ -42,7 +42,7 @@ struct JointMeasurements {
 
 /// Triangulates every joint from all marks that end there: the position minimises Σ rᵀ Λ r over the pictures, with r
 /// the reprojection error and Λ its information (`MarkedJointsOf`), by Gauss–Newton steps from paper B's linear
-/// solution. The joint's information is the information of this sum at the solution. A joint that only one picture
+/// solution. The position's information is the normal matrix of this sum at the solution. A joint that only one picture
 /// shows is placed at the point of the sight line that is nearest to the joint's position in neighbouring frames, with
 /// a depth error of 15 cm *(ours)*. `inputs.known` is ignored.
 std::vector<JointMeasurements> MeasureJoints(const MeasureInputs& inputs, const MarkErrors& errors = {});

@@ -230,8 +230,8 @@ Result<ChosenUp> UpOf(const RigFile& rig, const glm::dvec3& person, const FoundU
   return ChosenUp{found.up, true, fmt::format("up is found from {}, to within {:.1f}°{}", found.by, within, world)};
 }
 
-/// Tells which axes of the file are ours: "; x is the file's y, z its x, up its z"; "" if they have the same names, or
-/// if one is not an axis of the file.
+/// Returns a text that names the file's axis for each of our axes: "; x is the file's y, z its x, up its z". Returns ""
+/// if all names are the same, or if one of our axes lies along no axis of the file.
 std::string AxesTold(const glm::dmat3& R_OF) {
   std::array<std::string, 3> names;
   bool is_same = true;

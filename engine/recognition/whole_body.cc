@@ -96,13 +96,13 @@ void ExampleDistance::Update(const WholePose& seen) {
   double passage_before = 0, passage_before_that = 0, gap_before = 0;
   int start_before = 0, start_before_that = 0;
   for (std::size_t j = 0; j < pattern_->size(); ++j) {
-    // Whole performance: extend the symmetric warping path; a diagonal step counts twice.
+    // Update `whole_[j]`: extend the symmetric warping path; a diagonal step counts twice.
     const double gap = SquaredDistanceOf(seen, (*pattern_)[j]);
     left = std::min({diagonal + 2 * gap, whole_[j] + gap, left + gap});
     diagonal = whole_[j];
     whole_[j] = left;
 
-    // Passage: stay at j, advance by one step or by two, or begin here.
+    // Update `passage_[j]`: a passage stays at pattern step j, advances to j by one or two steps, or begins (j = 0).
     const double stayed = passage_[j];
     const int stayed_start = starts_[j];
     double best = stayed;

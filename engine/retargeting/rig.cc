@@ -75,7 +75,7 @@ glm::dquat HipsOf(const BodyPose& pose) {
 
 glm::dquat ChestOf(const BodyPose& pose) {
   // The chest's Y axis follows the trunk exactly; the X axis follows the shoulders as far as possible at a right angle
-  // to Y, because shoulders rise with the arms. Hips do not rise with the legs, so their X axis is exact.
+  // to Y, because shoulders rise with the arms. In `HipsOf` the X axis is exact: hips do not rise with the legs.
   const glm::dquat up_first =
       Orientation(VectorBetween(pose, kSpine, kShoulderCentre), VectorBetween(pose, kLeftShoulder, kRightShoulder));
   return up_first * glm::angleAxis(-kPi / 2, glm::dvec3(0, 0, 1));

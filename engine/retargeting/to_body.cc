@@ -29,7 +29,7 @@ using enum Role;
 
 constexpr double kMinStature = 1.45;
 constexpr double kMaxStature = 2.1;
-constexpr double kMinSensedStature = 1.2;  // depth sensors write millimetres, and measure the head too low
+constexpr double kMinSensedStature = 1.2;  // for millimetres: depth sensors write them, and measure the head too low
 
 struct Unit {
   std::string_view name;

@@ -22,8 +22,8 @@ struct Stance {
   double balanced = 0;  ///< share of the frames with the mass centre over the feet
   double straight = 0;  ///< share of the frames with trunk, head and legs straight along the axis, as in static trials
   double floor = 0;     ///< range of the lowest joint's height (5th to 95th percentile)
-  double way = 0;       ///< distance that the hips travel perpendicular to the axis
-  double steps = 0;     ///< share of that distance during which one ankle stands still
+  double way = 0;       ///< largest extent of the hip centre's path, perpendicular to the axis
+  double steps = 0;     ///< share of the frames in which the hips travel that also have a standing ankle
   double on_hands = 0;  ///< share of the frames with a wrist beyond the head, as in a handstand
 };
 

@@ -21,7 +21,7 @@ struct UpRule {
   UpEvidence evidence = UpEvidence::kPosture;
   /// A text that names the source of the axis: "the usual axis of TRC files", "the rule of AMASS".
   std::string source = "the usual axis";
-  /// True if the body at rest stands along `axis`; a still stance along another axis is then no evidence.
+  /// True if the body at rest stands along `axis`; weight over the feet along another axis is then no evidence.
   bool is_of_rest = false;
   bool is_y_or_z = false;             ///< true if only Y and Z can be the up axis
 };
@@ -36,16 +36,19 @@ struct UpFinding {
 };
 
 /// Finds the axis that points up (ours). The result is the rule's axis, unless the rule's evidence is kPosture and the
-/// whole motion is evidence for another axis. Another axis has evidence if the body is upright along it in a tenth of
-/// the frames, and the lowest joint stays at one height along this axis, but not along the usual axis (this also holds
-/// for people who lie, crawl or stand on their hands). It also has evidence if the body is upright along it in four
-/// fifths of the frames and hardly ever along the usual axis, and
-/// - the body walks: it travels perpendicular to this axis while one foot stands, or
-/// - the file or its format states the usual axis, and along the usual axis the body stands on its head, but not on its
-///   hands, or
-/// - the body's weight is always over its feet along this axis (this is not so for a person who lies), and the body
-///   either moves while the lowest joint's height varies less along this axis, or stands quite still and straight, as
-///   in static trials.
+/// whole motion is evidence for another axis. If the file or its format states the axis, evidence for another axis only
+/// sets `doubt`. The motion is evidence for another axis in two cases:
+/// - Along the other axis, the body is upright in a tenth of the frames and the lowest joint stays at one height. Along
+///   the usual axis, this height varies. In the other frames, people may lie, crawl or stand on their hands.
+/// - The body is upright in four fifths of the frames along the other axis, and hardly ever along the usual axis. In
+///   addition, one of these is true:
+///   - the body walks: it travels perpendicular to the other axis while one foot stands;
+///   - the file or its format states the usual axis, and along the usual axis the body stands on its head, but not on
+///     its hands;
+///   - along the other axis, the body's weight is over its feet (not so for a person who lies), and the lowest joint's
+///     height varies less than along the usual axis;
+///   - along the other axis, the body's weight is over its feet, and the body stands quite still and straight, as in
+///     static trials.
 /// In case of doubt, the usual axis is taken. `poses` are in the file's unit and axes, at `rate_hz`, at least one. A
 /// missing toe must be at the position of its ankle.
 UpFinding FindUp(std::span<const BodyPose> poses, double rate_hz, const UpRule& rule);

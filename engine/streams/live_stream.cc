@@ -52,7 +52,7 @@ Result<void> LiveStream::Take(std::string_view line, std::vector<SensedFrame>& s
     frame->line = line_;
     return Add(*std::move(frame), stream);
   }
-  // Before the start, collect lines until there are enough for the estimates.
+  // Before the start, collect lines until there are enough to estimate the unit, the up direction and the floor.
   if (rows_++ == 0) heading_ = line;
   first_lines_ += line;
   first_lines_ += '\n';

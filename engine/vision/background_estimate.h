@@ -19,8 +19,9 @@ struct MotionOptions {
   int change = 14;  ///< colour difference, in levels, that counts as motion; several standard deviations of noise
 };
 
-/// Computes the activity of each picture and pixel: in the square around the pixel, the share of pixels whose colour
-/// differs from their colour in the picture `lag` pictures before or after.
+/// Computes the activity of each picture and pixel: the share of changed pixels in the square around the pixel. A pixel
+/// has changed if its colour in this picture differs from its colour in the picture `lag` pictures earlier or later (or
+/// in the first or last picture, if there is none).
 std::vector<Activity> MotionActivity(std::span<const ColourImage> pictures, const MotionOptions& options = {});
 
 /// Estimates the background of a static scene: for each pixel and channel, the median over the `kept` pictures with the

@@ -299,7 +299,8 @@ class EvidenceFinder {
     seen.seen_share = std::min(1.0, limb.region->pixels / whole);
     const bool is_long = limb.line.high - limb.line.low > 3 * half_width;
     if (!(inner && outer) && (seen.seen_share < kMinSeenShare || !is_long)) return std::nullopt;
-    // End the stroke at the joint only if this limb has a border there; the joint may come from the neighbouring limb.
+    // End the stroke at a joint if this limb has a border there, or at the tip of an outermost limb. Any other joint is
+    // known from the neighbouring limb alone, so the stroke ends with this limb's region.
     seen.line.a = inner && limb.inner ? *inner : limb.line.At(limb.line.low);
     seen.line.b = outer && (limb.outer || !HasOuterLimb(i)) ? *outer : limb.line.At(limb.line.high);
     return seen;

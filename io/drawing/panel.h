@@ -6,8 +6,7 @@
 
 namespace etude {
 
-/// A numeric axis of an SVG panel. It maps values to positions in the panel's units. Every picture of the page uses
-/// such axes.
+/// A numeric axis of an SVG panel. It maps values to positions in the panel's units.
 struct Axis {
   double low = 0, high = 1;
   bool is_logarithmic = false;

@@ -62,8 +62,9 @@ std::string VerdictPhrase(const std::vector<Judged>& judged) {
   return "undecided against " + others;
 }
 
-/// Returns the range of the differences from the other method over all conditions: "−0.949 mm"; "" if there are no
-/// differences.
+/// Returns `what` and the range of the differences from the other method over all conditions: "−0.949 mm" if all are
+/// equal. For one condition, the text may state the tail instead, or the mean as well. Returns "" if there are no
+/// differences, or if the comparisons have different metrics.
 std::string ChangeOf(const std::vector<Judged>& judged, std::string_view what) {
   if (!HaveOneMetric(judged)) return "";
   std::optional<double> low, high;

@@ -18,9 +18,9 @@ constexpr double kChange = 0.25;
 // The effects of faults at severity 1 (ours).
 constexpr double kLostAmplitude = 0.8;
 constexpr double kLateBeats = 1;
-constexpr double kOffBeats = 1;  // largest delay, beats; kMaxOffBeat limits the delay, so the timing never goes back
-constexpr double kMaxOffBeat = 0.7 / kPi;
-constexpr double kUnstopped = 0.35;  // share of the move that is danced before the person stops
+constexpr double kOffBeats = 1;            // largest shift before or after the beat, beats
+constexpr double kMaxOffBeat = 0.7 / kPi;  // upper limit of the shift, share of the move: time never runs backwards
+constexpr double kUnstopped = 0.35;        // share of the move that is danced before the person stops
 
 /// Returns 1 while `share` is below `severity` and 0 while it is above, with a smooth change around `severity`.
 double First(double share, double severity) {

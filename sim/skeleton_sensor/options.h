@@ -76,9 +76,9 @@ double DepthDeviation(DepthLaw law, double z);
 /// The errors of a Kinect-like skeleton sensor: `SensorV1()`, `SensorV2()` or a file (docs/sensor.md). Comments at the
 /// presets state the sources of the values.
 struct SkeletonSensorOptions {
-  /// Multiplies every size, probability and lag below (probabilities are limited to 1). The strength does not affect
-  /// which joints are hidden or out of view, nor the offsets of guesses for hidden joints. At 0, hidden joints are
-  /// inferred correctly, and all other joints are reported at their true positions.
+  /// Multiplies the errors of joints; the probabilities of wrong guesses and outliers (up to 1) and of swaps;
+  /// `dropout_share` (up to 0.9); and, below 1, the lag. The strength does not change the sizes of wrong guesses and
+  /// outliers, nor which joints are hidden or out of view. At 0, every joint in view is reported at its true position.
   double strength = 1.0;
 
   Intrinsics view;  ///< intrinsics of the depth camera

@@ -181,7 +181,7 @@ Result<void> CompareBeside(const CalibrateOptions& options, const RefinedRig& ri
     if (same == theirs.end()) return Fail({file}, "no camera {}, by name or by number", own.name);
     cameras.push_back(same->camera);
   }
-  // Place the boards for the other calibration, then compare intrinsics, residuals and distances between cameras.
+  // Find the boards' poses with the other calibration, then compare intrinsics, residuals and distances of cameras.
   const auto placed = LocateBoards(cameras, views);
   if (!placed) return Fail({file}, "{}", placed.error().message);
   options.listener.print(fmt::format("\ncompared with {}, on the same corners:\n", file));

@@ -69,7 +69,7 @@ std::vector<std::pair<std::string, double>> ShownLengths(const LimbLengths& leng
 /// command.
 CapturePage BeginPage(const CaptureFilmsOptions& options, const BodyMotion& motion, const LimbLengths& lengths,
                       const std::vector<std::string>& told);
-/// Returns a phrase with the number of doubtful lines in `told`.
+/// Returns a phrase with the number of lines in `told` that begin with "doubtful".
 std::string DoubtsOf(const std::vector<std::string>& told);
 /// Writes the film of `--film`, if there is one, puts it into the page and writes the page. Without `--film` the page
 /// has a film, too. Returns false if Ctrl-C interrupted the film.

@@ -10,8 +10,9 @@
 namespace etude {
 namespace {
 
-/// Returns a position for every joint in every frame. In frames in which the twin does not show a joint, the joint
-/// keeps its last position. Before the joint's first position, it has the first position.
+/// Returns the motion of the twin (the optical recording of the same motion), with a position for every joint in every
+/// frame. A joint that the twin does not show in a frame keeps its last position; before its first position, the joint
+/// is at its first position.
 BodyMotion WholeMotion(const RealRecording& real) {
   BodyMotion motion{.rate_hz = real.recording.rate_hz, .poses = std::vector<BodyPose>(real.match.truth.size())};
   for (const Role role : AllRoles()) {

@@ -257,7 +257,7 @@ class RecordedTask final : public Task {
   const std::vector<DetectionMethod> methods_;
   const LabelledStreams& set_;
   const Taught taught_;
-  // These are caches of values that depend on keys alone. A task has one scenario and one seed.
+  // Caches, by fold index and by trial, which determine the values because a task has one scenario and one seed.
   mutable std::map<std::size_t, Result<Fold>> folds_;
   mutable std::map<int, std::vector<MethodDecision>> decisions_;
 };

@@ -30,7 +30,7 @@ struct Movement {
 /// zero from `blend_s` on.
 glm::dvec3 MinimumJerkAt(const Movement& movement, double seconds, double blend_s);
 
-/// The frames of a join, in the frame of the spliced motion.
+/// The frames of a join, in the coordinate frame of the spliced motion. "The point" is the transition point.
 struct JoinWindow {
   PosePair shown;                       ///< the last two frames shown
   BodyPose target_before;               ///< the new motion's frame before the point
@@ -58,9 +58,9 @@ class WindowTurns {
 
 /// Computes the shown poses of a window, frame by frame. There are three kinds of join:
 /// - kDecays: the new motion plays, and limb by limb the offset of the old motion from the new motion decays with
-///   minimum jerk. Velocities are measured from the point to the next frame, so the first shown frame is the old
-///   motion's next frame, and a jump of the new motion at the point has no effect. If the old motion has ended,
-///   velocities are measured up to the point.
+///   minimum jerk. Velocities are measured from the transition point to the next frame, so the first shown frame is
+///   almost the old motion's next frame, and a jump of the new motion just before the transition point has no effect.
+///   If the old motion ends at the transition point, velocities are measured from the frame before that point.
 /// - kFades: both motions play, and the share of the new motion grows along a minimum-jerk curve, limb by limb.
 ///   Compared with kDecays, the shown motion has less of the two motions' accelerations, and more of the difference
 ///   between the motions.
