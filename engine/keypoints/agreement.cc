@@ -133,9 +133,9 @@ std::optional<ReferenceClock> MeasureClock(const MarkerMotion& motion, const Mar
     const double stretch = turn / middle;
     return ReferenceClock{.at = shift - turn, .stretch = stretch};
   };
-  // Returns the mean loss of a clock over at most 200 frames; nullopt if the recordings have too few markers in common.
+  // Returns the mean loss of a clock over fewer than 400 frames; nullopt if the recordings share too few markers.
   const auto loss_of = [&](const ReferenceClock& clock) -> std::optional<double> {
-    constexpr std::size_t kMaxFrames = 200;  // more frames hardly change the loss
+    constexpr std::size_t kMaxFrames = 200;  // with twice as many frames or more, frames are skipped
     constexpr double kFar = 0.03;
     const std::size_t stride = std::max<std::size_t>(1, motion.frames.size() / kMaxFrames);
     double sum = 0;

@@ -47,7 +47,7 @@ class Guesser {
  public:
   Guesser(std::span<const PictureOfFilm> films, double min_confidence)
       : films_(films), least_confidence_(min_confidence), geometry_(MatricesOf(films)), guesses_(films.size()) {
-    // Sample at most forty frames.
+    // Sample fewer than eighty frames, evenly spaced.
     std::size_t frames = films.empty() ? 0 : films.front().people.size();
     for (const PictureOfFilm& film : films) frames = std::min(frames, film.people.size());
     constexpr std::size_t kMaxFrames = 40;

@@ -154,7 +154,7 @@ class PersonMatcher {
       const auto found = other.entries.find(frame);
       if (found != other.entries.end()) shared.push_back({frame, entry, found->second});
     }
-    // Compute the median error over about kMaxFrames of these frames.
+    // Compute the median error over fewer than twice kMaxFrames of these frames, evenly spaced.
     constexpr std::size_t kMaxFrames = 60;
     const std::size_t stride = std::max<std::size_t>(1, shared.size() / kMaxFrames);
     const auto error_of = [&](bool is_swapped) {

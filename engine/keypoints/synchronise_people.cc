@@ -61,10 +61,10 @@ struct Misfit {
   double mean() const { return squares / count; }
 };
 
-/// Computes the misfit of two people over at most 100 frames, evenly spaced in the first camera's time.
+/// Computes the misfit of two people over fewer than 200 frames, evenly spaced in the first camera's time.
 Misfit MisfitOf(const EpipolarGeometry& geometry, const MovingPerson& one, double one_offset, const MovingPerson& other,
                 double other_offset, std::size_t frames, const PeopleSyncOptions& options) {
-  constexpr std::size_t kMaxFrames = 100;  // more frames hardly change the result
+  constexpr std::size_t kMaxFrames = 100;  // with twice as many frames or more, frames are skipped
   const std::size_t stride = std::max<std::size_t>(1, frames / kMaxFrames);
   std::array<double, kLandmarkCount> sums{}, squares{};
   std::array<int, kLandmarkCount> counts{};
@@ -188,7 +188,7 @@ class ClockFinder {
     const std::size_t stride = std::max<std::size_t>(1, frames_ / kMaxFrames);
     double sum = 0;
     std::size_t count = 0;
-    // Sum the losses over at most 60 frames, the other cameras, and the people.
+    // Sum the losses over fewer than 120 frames, the other cameras, and the people.
     for (std::size_t frame = 0; frame < frames_; frame += stride) {
       const auto time = static_cast<double>(frame);
       const std::vector<SeenPerson> here = PeopleAt(films_[c], clock, time);
