@@ -112,7 +112,8 @@ std::uint64_t Within(const float* bounds, size_t count, float reach) {
 /// share with code for older CPUs.)
 HWY_INLINE size_t FirstOf(std::uint64_t set) { return set == 0 ? 64 : static_cast<size_t>(__builtin_ctzll(set)); }
 
-/// Lowers the distances of one block's points to those from `cone`. Of equally near cones, the first keeps the point.
+/// For each point of one block, stores the distance and index of `cone` if `cone` is nearer than the stored cone, or
+/// equally near with a lower index.
 void Compare(const ConeColumns& cones, size_t cone, const PointColumns& points, size_t first_point, double* distance,
              double* owner) {
   const Real real;

@@ -70,7 +70,7 @@ class TakeCameras {
 
     TakeCameras& cameras_;
     std::size_t camera_;
-    std::vector<PersonFinder> finders_;  // one finder per source
+    std::vector<PersonFinder> finders_;  // one finder per PersonSource
   };
   Feed FeedOf(std::size_t camera) { return Feed(*this, camera); }
 
