@@ -26,8 +26,8 @@ class IkPeer {
   /// equals the tree.
   virtual std::vector<LimbFrame> Effectors(std::span<const double> angles) = 0;
 
-  /// Solves from `problem.start`. The goals are those of `options`, as far as the library's stop criteria can express
-  /// them.
+  /// Solves from `problem.start`. The library stops at `position_goal` and `axis_goal` of `options`, as far as its stop
+  /// criteria can express them.
   virtual IkPeerAnswer Solve(const IkProblem& problem, const IkOptions& options) = 0;
 };
 

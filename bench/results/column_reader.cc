@@ -130,8 +130,8 @@ class ScenarioColumns {
  private:
   enum TextColumn { kReason, kClip, kUnits };
   static constexpr std::array<const char*, 3> kTextColumns = {"reason", "clip", "units"};
-  /// The columns of a kind's metrics, stages and series, in the kind's order. The column of a metric without values is
-  /// null.
+  /// The columns of one kind of rows: its metrics, stages and series, in the order of ColumnIndex::Kind. The column of
+  /// a metric without values is null.
   struct KindColumns {
     std::vector<const NpyFile*> values, digests, curves, ends;
   };

@@ -78,7 +78,7 @@ Comparison ComparePaired(std::span<const Pair> pairs, const MetricInfo& metric, 
   // only one.
   result.signed_rank = SignedRankTest(differences);
   result.sign_flip = SignFlipTest(differences, metric.aggregate, seed, purpose);
-  // If the metric has no direction, larger values count as better in this share.
+  // Larger values count as better if the metric has no direction.
   const double sign = metric.direction == Direction::kLowerIsBetter ? -1 : 1;
   result.share_better = ShareBetter(differences, sign);
   for (double difference : differences) {

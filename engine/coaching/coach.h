@@ -94,7 +94,7 @@ struct CoachState {
   std::int64_t mode_since = 0;  ///< first frame of the current mode
   Playback playback;
 
-  // State of the player.
+  // State of the player, the person in front of the sensor.
   ClapState clap;
   bool clap_waits = false;  ///< true from the detection of a clap until the coach reacts to it
   StillnessState stillness;

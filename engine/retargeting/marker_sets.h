@@ -31,7 +31,7 @@ struct MarkerSet {
   /// then show the planes in which the limbs bend.
   bool has_skin_limbs = false;
   bool has_skin_shoulders = false;  ///< true if shoulders have one marker each, on top
-  int rank = 0;                     ///< if a file has several sets, the set with the highest rank is used
+  int rank = 0;                     ///< if a person has several sets, the set with the highest rank is used
 };
 
 /// Lists the supported conventions.
@@ -68,7 +68,7 @@ std::vector<std::string> MissingFrom(const MarkerSet& set, const MarkerColumns& 
 struct ChosenSet {
   std::optional<MarkerSet> made = {};  ///< a set made for this person
   const MarkerSet* known = nullptr;    ///< otherwise one of MarkerSets
-  const MarkerSet* other = nullptr;    ///< a second complete set of MarkerSets that the file also contains
+  const MarkerSet* other = nullptr;    ///< the best other complete set whose knee markers differ; null if none
   const MarkerSet* set() const { return made ? &*made : known; }  ///< null if there is none
 };
 /// Chooses one of the sets that are complete. If the user wants a set, `wanted` is the set's key, and only that set is

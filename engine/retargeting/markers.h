@@ -60,8 +60,8 @@ struct MarkerBody {
 /// without such a gap is kept, and the note states this. Positions at 0, 0, 0 may count as gaps (RepairMarkers). The
 /// note names joints that seem to be exchanged between left and right (FindExchangedJoints). FindUp finds the up axis
 /// by the rule `options.up`. The floor (5th percentile of the lowest joint's height) becomes 0. For Etude's own joints,
-/// Y is up, and the floor stays unless it is over half a metre from 0. If a file has several complete sets, the set
-/// with the highest rank is used, then the set that determines most joints; the note names the other.
+/// Y is up, and the floor stays unless it is over half a metre from 0. If a person has several complete sets, ChooseSet
+/// chooses one by rank, and the note names the best other set whose knee markers differ.
 ///
 /// If a body is not 0.4 to 4 m tall (median), its unit is assumed to be wrong. The unit is then multiplied by the power
 /// of ten that makes the body 1.2 to 2.3 m tall, and the note states this. A unit given in `options` is never changed.

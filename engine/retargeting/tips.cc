@@ -106,8 +106,8 @@ double MedianOf(const JointMapDraft& draft, const MovingPoses& moving, Measure m
   return LowerPercentile(std::move(values), 0.5);
 }
 
-/// Places a composed tip on `joint`, at the distance `length` from the role `base`. `direction` returns the tip's
-/// direction in a pose; at rest the direction is `rest`.
+/// Makes the role `tip` a point that is fixed to `joint`, at the distance `length` from the role `base`. `direction`
+/// returns the direction from `base` to the tip in a pose. `rest` is the tip's position in the rest pose.
 template <typename Direction>
 void ComposeTip(JointMapDraft& draft, Role tip, int joint, Role base, const glm::dvec3& rest, double length,
                 const MovingPoses& moving, Direction direction) {

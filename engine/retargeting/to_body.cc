@@ -359,7 +359,7 @@ bool IsTPose(const BodyPose& pose) {
 
 Result<BodyConversion> ToBodyMotion(const Clip& clip, const JointMap& map, const std::string& file,
                                     const BodyOptions& options) {
-  // Determine the up axis, and describe a lying body.
+  // Determine the up axis. If the body lies along another axis, describe this in `lies`.
   if (clip.frames.empty()) return Fail({file}, "no frames; at least one is needed");
   BodySampler sampler(clip, map);
   BodyConversion done;

@@ -33,7 +33,7 @@ struct Cone {
   Vec rows[kConeRows];
 };
 
-/// The nearest points of a cone's axis to points, lane by lane: `along` is 0 at end 0 and 1 at end 1.
+/// In each lane, the point on a cone's axis that is nearest to a given point: `along` is 0 at end 0 and 1 at end 1.
 struct OnAxis {
   Vec along, distance, signed_distance;
 };
@@ -112,7 +112,8 @@ std::uint64_t Within(const float* bounds, size_t count, float reach) {
 /// share with code for older CPUs.)
 HWY_INLINE size_t FirstOf(std::uint64_t set) { return set == 0 ? 64 : static_cast<size_t>(__builtin_ctzll(set)); }
 
-/// Lowers the distances of one block's points to those from `cone`. Of equally near cones, the first keeps the point.
+/// For each point of one block, stores the distance and index of `cone` if `cone` is nearer than the stored cone, or
+/// equally near with a lower index.
 void Compare(const ConeColumns& cones, size_t cone, const PointColumns& points, size_t first_point, double* distance,
              double* owner) {
   const Real real;
@@ -128,8 +129,8 @@ void Compare(const ConeColumns& cones, size_t cone, const PointColumns& points, 
   }
 }
 
-/// Returns false if the cone certainly lowers none of the distances of a block's points: it computes no division and no
-/// root.
+/// Returns false if `cone` is certainly not nearer to any point of a block than the stored distance. Computes no
+/// division and no root.
 bool MayLower(const Axes& axes, size_t cone, const PointColumns& points, size_t first_point, const double* distance) {
   const Real real;
   const auto zero = hn::Zero(real), one = hn::Set(real, 1.0);
@@ -187,7 +188,7 @@ void FindNearest(const ConeColumns& cones, const PointColumns& points, double* d
 /// The numbers of one point: its six derivatives, its weight, and the weight times the residual.
 enum PointNumber { kWeight = 6, kWeightedValue, kNumbers };
 
-/// Adds one point to the sums; what it adds to rows 6 and 7 has no meaning.
+/// Adds one point to the sums. Rows 6 and 7 of the sums have no meaning.
 HWY_INLINE void AddPoint(const double* point, Vec (&gradient)[kParts], Vec (&hessian)[6][kParts]) {
   const Real real;
   for (size_t part = 0; part < kParts; ++part) {

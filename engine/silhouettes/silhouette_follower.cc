@@ -8,7 +8,7 @@ namespace {
 
 constexpr int kSearchEvery = 5;           // moments between searches; a search takes as long as dozens of moments
 constexpr std::size_t kRemembered = 100;  // number of moments from which the usual cost is estimated
-constexpr int kThicknessMoments = 20;     // number of moments from which the thickness is estimated once
+constexpr int kThicknessMoments = 20;     // number of moments from which each estimate of the thickness is made
 
 }  // namespace
 

@@ -11,7 +11,7 @@ struct Axis {
   double low = 0, high = 1;
   bool is_logarithmic = false;
   double from = 0, to = 1;  ///< the positions of `low` and `high`; `from` may exceed `to`
-  std::string low_label = {};  ///< the label of `low`, where smaller values are drawn; "" = its number
+  std::string low_label = {};  ///< the label of `low`, which smaller values share; "" = the number
 
   /// Returns the position of a value; a value outside the axis gets the position of the nearer end.
   double At(double value) const;

@@ -238,7 +238,7 @@ Result<PeopleOfFilm> ReadAs(const fs::path& path, const std::string& layout, con
   return fs::is_directory(path) ? ReadFolder(path, layout, of) : ReadFile(path, layout, of);
 }
 
-/// The people who show three landmarks, and those of them whose landmark `middle` lies midway between the two others.
+/// Counts the people who show three landmarks (`people`), and those whose middle landmark lies midway (`between`).
 struct Midway {
   int between = 0, people = 0;
   bool Are() const { return IsEnough() && between >= kMostly * people; }

@@ -109,8 +109,8 @@ class ConvergencePanel {
   const IkPath& path_;
   const ConvergenceStage& stage_;
   Paint colour_;
-  /// For each entry of the path, the index of the entry whose picture is shown: the entry of the latest pose that
-  /// visibly differs from the pose in the previous picture.
+  /// `seen_[i]` is the index of the entry whose picture is shown for entry i of the path. A pose gets a new picture
+  /// only if it visibly differs from the pose in the last picture.
   std::vector<std::size_t> seen_;
   std::optional<Drawn> drawn_;  ///< the latest picture, cached because several frames may show it
 };

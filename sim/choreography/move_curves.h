@@ -27,8 +27,8 @@ enum class Ease {
 /// both derivatives at the keys. Keys before and after a snap or a step are at rest.
 ///
 /// The segments are quintic Hermite polynomials. Slopes are the weighted harmonic means of Fritsch and Butland (1984).
-/// At a key, the second derivatives of the two neighbouring cubics are compared: the derivative with the smaller
-/// magnitude is taken, or 0 if the signs differ (ours).
+/// The two cubic Hermite segments that meet at a key have two second derivatives there: the one with the smaller
+/// magnitude is taken, or 0 if their signs differ (ours).
 class PeriodicCurve {
  public:
   struct Key {

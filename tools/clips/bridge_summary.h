@@ -15,7 +15,7 @@ constexpr int kMaxClipsWithPairs = 300;
 /// Writes the number of bridge frames, the reachability, and the ways into the corrective clips, as text for a
 /// terminal. With pairs, a clip's figures are means over the other clips; without pairs, the figures are for all other
 /// clips together. For more than 24 clips, only the JSON has the table of pairs. `wait_s` is the maximum wait before a
-/// transition for which `coverage` was measured, seconds.
+/// transition, seconds, with which `coverage` was computed.
 std::string BridgeSummaryAsText(const BridgeLibrary& loaded, const Coverage& coverage, double wait_s);
 
 /// Writes the content of BridgeSummaryAsText for programs (docs/schemas/bridge-summary.schema.json). Without pairs,

@@ -36,7 +36,7 @@ Take Film(const CaptureWorld& world, const StudioOptions& options, const WorldKe
   for (std::size_t camera = 0; camera < world.cameras.size(); ++camera) {
     show(camera, std::nullopt, cameras.backgrounds()[camera]);
   }
-  // Prepare one observation for each source.
+  // Prepare one observation for each PersonSource.
   Take take;
   std::vector<Digest> masks(sources.size()), marks(sources.size());
   std::vector<std::vector<MaskScore>> scores(sources.size());
@@ -51,7 +51,7 @@ Take Film(const CaptureWorld& world, const StudioOptions& options, const WorldKe
     if (keeps_masks(source)) observation.masks.resize(world.cameras.size());
   }
 
-  // Shoot frame by frame. Each source adds its mask, the mask's score and the marks.
+  // Shoot frame by frame. Each PersonSource adds its mask, the mask's score and its marks.
   for (std::size_t camera = 0; camera < world.cameras.size(); ++camera) {
     TakeCameras::Feed feed = cameras.FeedOf(camera);
     for (std::size_t frame = 0; frame < world.truth.size(); ++frame) {

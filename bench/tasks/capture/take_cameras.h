@@ -48,12 +48,12 @@ class TakeCameras {
   TakeCameras(const CaptureWorld& world, const StudioOptions& options, const WorldKey& key,
               std::span<const PersonSource> sources, Renderer& renderer);
 
-  /// One picture, and the result of each source for it.
+  /// One picture, and the mask and the marks that each PersonSource made from it.
   struct Picture {
     ColourImage colour;
     Mask person, shadow;  ///< the true masks
     std::vector<Mask> found;
-    std::vector<Marks> marks;  ///< marks by source; empty for silhouettes without keypoints
+    std::vector<Marks> marks;  ///< by source; empty for sources of silhouettes without keypoints
   };
 
   /// The pictures of one camera. Its TakeCameras must outlive this object.
@@ -70,12 +70,12 @@ class TakeCameras {
 
     TakeCameras& cameras_;
     std::size_t camera_;
-    std::vector<PersonFinder> finders_;  // one finder per source
+    std::vector<PersonFinder> finders_;  // one finder per PersonSource
   };
   Feed FeedOf(std::size_t camera) { return Feed(*this, camera); }
 
   const std::vector<ColourImage>& backgrounds() const { return backgrounds_; }
-  /// Returns the annotators of each source.
+  /// Returns the annotators of each PersonSource.
   const std::vector<Marking>& marking() const { return marking_; }
 
  private:

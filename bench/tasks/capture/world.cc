@@ -191,7 +191,7 @@ CaptureWorld MakeStudio(const StudioOptions& options, const FilmedPerson& bookin
 }
 
 CaptureWorld MakeCaptureWorld(const StudioOptions& options, const LibraryClip& clip, const WorldKey& key) {
-  // A clip's own figure moves exactly like the clip, so the clip is not disguised.
+  // In a secret world, disguise the clip, unless its own mesh is drawn: the mesh moves exactly like the clip.
   std::optional<Disguise> disguise;
   if (!key.suite_seed.IsPlain() && options.figure != PerformerFigure::kOwn) disguise.emplace(key);
   Window window = ChooseWindow(options, clip, key, disguise);

@@ -47,8 +47,8 @@ void AddTrials(const std::shared_ptr<const DetectionWorld>& world, std::span<con
                const Repertoire& repertoire, TrialsOfMethods& trials);
 
 /// Returns the thresholds of each method. A method keeps a threshold that it sets. Otherwise, if there is an operating
-/// point, the threshold is set at that point on the method's trials. If no performance was right, the threshold of
-/// spotting is also used for judging. `trials` come from people other than the judged one.
+/// point, the method gets the thresholds that reach this point on its trials. If no performance was right, the
+/// threshold of spotting is also used for judging. `trials` come from people other than the judged one.
 std::vector<MethodDecision> DecideBy(std::span<const ReadyMethod> methods, const TrialsOfMethods& trials,
                                      const std::optional<OperatingPoint>& point);
 

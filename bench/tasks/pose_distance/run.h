@@ -45,8 +45,8 @@ PairVerdict ComputePairVerdict(const PairWorld& world, const PoseDistanceMethod&
 /// Returns the ids of all metrics of the task, in the order in which they are measured.
 std::vector<std::string> PoseDistanceMetrics();
 
-/// Scores a verdict. `distance` is the built-in distance that was used; its value is a metric if the world has a single
-/// pair. `distance` is null for an outside method, whose scale is unknown.
+/// Scores a verdict. `distance` is the built-in distance that the method used, or null for an outside method, whose
+/// scale is unknown. If the world has a single pair, the value of this distance is one of the metrics.
 CellResult ScorePairs(const PairWorld& world, const PairVerdict& verdict, const PoseDistance* distance);
 
 }  // namespace etude

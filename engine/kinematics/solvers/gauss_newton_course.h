@@ -131,7 +131,7 @@ class GaussNewtonCourse {
   // Below this damping a step gets extra active-set passes.
   static constexpr double kSmallDamping = 0.01;
 
-  // Steps are stuck if kPatience of them have not reduced |e|² to the share kProgress of its value. If few iterations
+  // Steps are stuck if |e|², after kPatience steps, is still at least kProgress times its old value. If few iterations
   // are allowed, max_iterations / kShareOfPatience steps are enough, so that iterations remain for restarts.
   static constexpr int kPatience = 6;
   static constexpr int kShareOfPatience = 5;

@@ -230,7 +230,7 @@ constexpr double kFirstGrowth = 2;
 // Minimum damping. Without it, JJᵀ is singular when limbs are at their limits.
 constexpr double kMinMu = 1e-9;
 
-// A descent is stuck if kMaxPatience steps have not reduced the sum of squares to the share kMinProgress of its value.
+// A descent is stuck if the sum of squares, after kMaxPatience steps, is still at least kMinProgress of its old value.
 // If few iterations are allowed, max_iterations / kPartOfIterations steps are enough, so that iterations remain for
 // restarts.
 constexpr int kMaxPatience = 6;
@@ -286,8 +286,8 @@ class Minimiser {
     run_.CountPass();
   }
 
-  /// Steps from `state_` until the targets are met or `patience` steps have not reduced the sum to the share
-  /// `progress`.
+  /// Steps from `state_` until the targets are met, or until `patience` steps have not reduced the sum below `progress`
+  /// times its old value.
   void Descend(double progress, int patience) {
     double cost = linear_.Cost(frames_), fallen_to = cost;
     double factor = 1, growth = kFirstGrowth;

@@ -73,8 +73,8 @@
   };
   document.documentElement.classList.add('js');
 
-  // The card of a dot or row shows its cells, and the command `etude replay` that runs these cells again. `folder` is
-  // the run's folder in this command.
+  // A dot or table row opens a card, which lists one `etude replay` command for each cell of the dot or row. `folder`
+  // is the run's folder in these commands.
   const folder = location.protocol === 'file:' ? decodeURIComponent(location.pathname).replace(/\/report\/[^/]*$/, '') : '.';
   const word = (text) => /^[\w.\/=,:@%+-]+$/.test(text) ? text : "'" + text.replaceAll("'", "'\\''") + "'";
   const card = make('div', '', {className: 'row-card', hidden: true});
