@@ -14,8 +14,8 @@ namespace etude {
 using MarkerPosition = std::optional<glm::dvec3>;
 using JointPositions = std::array<MarkerPosition, kRoleCount>;
 
-/// The positions in one frame of the wands: markers beside thighs and shanks that show the planes in which the limbs
-/// bend. Left, then right.
+/// The positions of the wands in one frame, left, then right. A wand is a marker beside a thigh or shank that shows the
+/// plane in which the limb bends.
 struct Wands {
   std::array<MarkerPosition, 2> thigh = {}, shank = {};
 };
