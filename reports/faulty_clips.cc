@@ -17,7 +17,7 @@ struct FaultyClips {
   Table table;  ///< clips that exceed their fault limits come first, clips that could not be judged last
   /// Says how many clips have no fault and how many could not be judged; empty if the run judged no clips.
   std::string sentence;
-  std::size_t rows = 0;  ///< the number of clips to list, even if the table shows only the first `most`
+  std::size_t rows = 0;  ///< number of clips to list; `table` may show only the first ones
 };
 
 /// Collects the faulty clips of a run; the table has at most `most` rows.

@@ -116,8 +116,8 @@ Result<std::uint64_t> DigestNumber(const std::string& stage, const std::string& 
 /// Returns a curve's identity: everything but its values.
 auto IdentityOf(const Series& series) { return std::tie(series.name, series.axis, series.names); }
 
-/// Returns true if `why` describes a row's metric: nullopt if the metric has a value, else the index of the reason in
-/// `texts`, or kOwnReason if the reason is the row's own.
+/// Returns true if `why` is right for a row's metric. If the metric has a value, `why` must be nullopt. Otherwise it
+/// must be the index of the metric's reason in `texts`, or kOwnReason if this reason is the row's own.
 bool IsWhy(std::optional<int> why, const MetricValue& metric, const Row& row, const std::vector<std::string>& texts) {
   if (!why || metric.value) return !why && metric.value;
   return metric.null_reason ==

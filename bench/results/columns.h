@@ -34,7 +34,7 @@ struct ColumnIndex {
   /// The data that several rows share: their metrics, stages and curves, in order, and the reasons of missing values.
   struct Kind {
     std::vector<std::string> metrics;
-    std::vector<std::optional<int>> why;  ///< for each metric, why it has no value: an index in `texts`, or kOwnReason
+    std::vector<std::optional<int>> why;  ///< per metric: an index in `texts`, or kOwnReason; nullopt if it has a value
     std::vector<std::string> stages;
     std::vector<Series> series;  ///< the curves, without their values
   };

@@ -10,14 +10,14 @@
 
 namespace etude {
 
-/// The work that each cell of a run is expected to be, from which the remaining time of the run is estimated.
+/// The expected work of each cell of a run. The remaining time of the run is estimated from these numbers.
 class ExpectedWork {
  public:
   /// `kept` are the stored costs (ReadKeptCosts). A cell of a scenario without stored cost counts as much as the other
   /// cells do on average; if no cost is known, every cell counts 1. The plan must outlive this object.
   ExpectedWork(const Plan& plan, const std::map<std::string, KeptCost>& kept);
 
-  /// Returns the work of a cell, by its number, or of one cell of a world: in yardsticks if costs are known.
+  /// Return the expected work of one cell, by the cell's number or by its world's: in yardsticks if costs are known.
   double Of(std::size_t cell) const { return OfWorld(plan_.WorldOf(cell)); }
   double OfWorld(std::size_t world) const { return per_cell_[static_cast<std::size_t>(plan_.world(world).scenario)]; }
   /// Returns the expected wall time of a unit of work, seconds; 0 = unknown.

@@ -37,7 +37,7 @@ class Stepping {
   void DanceOn();
   void Correct();
 
-  // Functions for the music and for the windows. (The functions for the windows are in stepping_windows.cc.)
+  // Functions for the music, and for the windows in which performances are judged (stepping_windows.cc).
   void FollowMusic(double dance_frame);
   void OpenWindowAt(double dance_frame);
   void CloseWindow();

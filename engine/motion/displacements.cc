@@ -86,8 +86,8 @@ std::vector<FrameRange> FindFrozen(const BodyMotion& motion) {
     }
     is_still[f] = fastest < fault_limits::kStill_m_s;
   }
-  // A held pose is not a fault if the body comes to rest gently before it and moves gently after it. But a recorded
-  // person never repeats a pose exactly for long.
+  // A held pose is not a fault if the body comes to rest gently before it and moves gently after it. A pose that is
+  // repeated exactly for `kRepeat_s` is always a fault, because no recorded person does this.
   std::vector<FrameRange> frozen;
   for (const FrameRange& range : RangesOf(is_still)) {
     if ((range.last - range.first + 1) / motion.rate_hz < fault_limits::kFreeze_s) continue;

@@ -36,8 +36,8 @@ class HoltFilter {
  public:
   explicit HoltFilter(const HoltOptions& options) : options_(options) {}
 
-  /// Takes the next raw position and returns the filtered one. Both radii are doubled for an inferred joint, as in the
-  /// SDK's sample.
+  /// Takes the next raw position and returns the filtered one. For an inferred joint, both radii of HoltOptions are
+  /// doubled, as in the sample of the Kinect SDK.
   glm::dvec3 Update(const glm::dvec3& raw, bool inferred = false);
   /// Forgets the past; the next position is treated as the first.
   void Reset() { count_ = 0; }

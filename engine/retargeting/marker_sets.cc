@@ -174,7 +174,8 @@ ChosenSet ChooseKnown(const MarkerColumns& columns, const std::string& wanted) {
 
 /// Returns the set that a naming scheme of skeletons makes of the markers; nullopt if it lacks a needed joint.
 std::optional<MarkerSet> SetOfSkeletonNames(const MarkerColumns& columns, std::span<const std::string> names) {
-  // Markers have no parents, so the first scheme that names all joints of a limb is taken.
+  // Markers have no parents and form no chains. FindLimb therefore takes the first scheme that names all joints of a
+  // limb.
   Skeleton points;
   std::vector<std::string> keys;
   for (const auto& [key, column] : columns) {

@@ -14,14 +14,14 @@ namespace etude {
 using MarkerPosition = std::optional<glm::dvec3>;
 using JointPositions = std::array<MarkerPosition, kRoleCount>;
 
-/// The positions in one frame of the wands: markers beside thighs and shanks that show the planes in which the limbs
-/// bend. Left, then right.
+/// The positions of the wands in one frame, left, then right. A wand is a marker beside a thigh or shank that shows the
+/// plane in which the limb bends.
 struct Wands {
   std::array<MarkerPosition, 2> thigh = {}, shank = {};
 };
 
 /// Moves joints from their markers on the skin to the joints' centres (Davis et al. 1991, as in Vicon's Plug-in Gait;
-/// the shares are ours):
+/// the shares of limb lengths below are ours):
 /// - knee and ankle: in the plane of the limb's wand or, without one, in the plane in which the limb bends. The centre
 ///   lies inward of the marker. The lines from the centre to the marker and to the limb's other end are perpendicular;
 /// - elbow: along its hinge's axis, from the outside inward. If the lengths of the upper arms are far more constant

@@ -52,7 +52,7 @@ class Tracker {
   }
 
   SilhouetteTrack Run() {
-    // Follow the body from each start pose, in both directions of time, and keep the best path.
+    // Follow the body from each start pose, in both directions of time, and combine the paths (`Better`).
     Fits fits(frame_count_);
     bool is_first = true;
     for (const Anchor& anchor : ChooseAnchors()) {
@@ -217,7 +217,7 @@ class Tracker {
   }
 
   // Follows the take forwards and backwards, beginning with the pose that `fits` has at the start or at the end, and
-  // returns the path of lower cost.
+  // combines the two paths (`Better`).
   Fits Retraced(const Fits& fits) {
     const auto first = std::ranges::find_if(fits, [](const auto& fit) { return fit.has_value(); });
     const auto last = std::find_if(fits.rbegin(), fits.rend(), [](const auto& fit) { return fit.has_value(); });
@@ -301,8 +301,9 @@ class Tracker {
     return *usual;
   }
 
-  // Searches for lost limbs in every fifth frame with an excessive cost, and follows the results through the other
-  // frames, forwards and backwards in time. Keeps the path of lower cost.
+  // In each run of frames with excessive costs, searches for lost limbs in the first and then every fifth frame; the
+  // frames between are fitted from the pose of the frame before. Does this forwards, then backwards in time. Each time,
+  // `Better` chooses the old or the new pose of each frame.
   void Repair(Fits& fits) {
     constexpr int kFollowed = 4;
     const double too_much = options_.lost * UsualCost(fits);

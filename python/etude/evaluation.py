@@ -92,7 +92,7 @@ def _free_folder(overwrite):
 
 
 def _shape(nested):
-    """Returns the lengths of nested lists, along their first items."""
+    """Returns the shape of nested lists: the length of the list, of its first item, of that item's first item, …"""
     return (len(nested), *_shape(nested[0])) if hasattr(nested, "__len__") and len(nested) else ()
 
 

@@ -97,7 +97,7 @@ def complaint(said):
 
 
 def _in_python(text):
-    """Returns an error with options as they are called here: `--overwrite` becomes `overwrite=True`."""
+    """Returns an error text with options written as in Python: `--overwrite` becomes `overwrite=True`."""
     return _FLAG.sub(lambda found: "output=" if found[2] else found[1].replace("-", "_") + "=True", text)
 
 

@@ -38,7 +38,8 @@ std::string CostPhrase(const std::vector<Judged>& judged, const CostRatio& ratio
   return fmt::format("{} {} × the {}", VerbOf(c), RatioText(ratio), WordsFor(c.metric).label);
 }
 
-/// Returns " on these clips" if the verdict on the worlds of this run does not generalise to other clips; else "".
+/// Returns " on these clips" (or people, …: the words for `unit`) if the verdict is claimed only for the units of this
+/// run. Returns "" if other units have the same verdict, or if the verdict is undecided.
 std::string OnTheseOnly(const std::vector<Judged>& judged, SamplingUnit unit) {
   if (CommonVerdict(judged) == Verdict::kUndecided || BeyondInWords(judged, unit).as_on_these) return "";
   return fmt::format(" on {}", TheseUnits(unit));

@@ -60,7 +60,7 @@ void DrawHeight(Canvas& canvas, const RigForecast& forecast, const ForecastOptio
       canvas.FillBox({left + from.x, top + from.y, to.x - from.x, to.y - from.y}, paint);
     }
   }
-  // Label the ends of both axes: of x below, of z at the left of a row's first map.
+  // Label the ends of the x axis below each map, and the ends of the z axis at the left of the first map of each row.
   const auto label = [&](const glm::dvec2& at, double share, const char* axis, double metres) {
     const std::string text = fmt::format("{}{:.1f}", axis, metres);
     canvas.DrawText({at.x - share * canvas.TextWidth(text, kTickSize), at.y}, text, kTickSize, kSoftInk, kPanel);

@@ -12,8 +12,8 @@ namespace etude {
 /// that lacks one of the four joints has no contacts.
 std::vector<bool> ContactsByMotion(const RawMotion& motion);
 
-/// Returns `given`, completed by what the truth's own motion yields: its beats (MotionBeats), and the mean and
-/// deviation (at least 1 cm) of each judged joint.
+/// Returns `given`. What it lacks is computed from the truth's own motion: the beats (MotionBeats), and the mean and
+/// standard deviation (at least 1 cm) of each judged joint's coordinates.
 EvaluationSideData SideDataOf(const MatchedMotions& matched, EvaluationSideData given);
 
 /// Hides `percent` per cent of the joint positions in all frames: those that are farthest from the truth. Both motions

@@ -109,7 +109,7 @@ class GaussNewtonQueue {
   virtual int Next() = 0;
   /// Returns the problem that `Next` advanced to.
   virtual Column Problem() const = 0;
-  /// Returns the course of a new problem.
+  /// Returns a new course (gauss_newton_course.h), which chooses a problem's actions.
   virtual GaussNewtonCourse Course() const = 0;
   /// Receives the solution of a problem.
   virtual void Finish(int problem, const GaussNewtonCourse& course, std::span<const double> angles) = 0;

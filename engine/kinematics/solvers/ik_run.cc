@@ -42,7 +42,8 @@ double IkRun::WorstMeanAxis() const {
   return worst;
 }
 
-// Compares chords instead of angles: a chord is never longer than its angle.
+// Compares the chord between an axis and its target with the angle goal. A chord is never longer than its angle in
+// radians, so if the chord misses the goal, the angle does too.
 bool IkRun::MissesByFar(const TreeFrames& frames) const {
   const double squared_position_goal = options_.position_goal * options_.position_goal;
   const double squared_axis_goal = options_.axis_goal * options_.axis_goal;

@@ -29,8 +29,8 @@ struct SweepTree {
     int names[3] = {};     ///< for each axis of the sweep: the index of the tree's axis
     double signs[3] = {};  ///< for each axis: 1 if it points as the tree's axis does, −1 if opposite to it
   };
-  /// A step: one hinge of a joint turns, or, after all hinges of the joint, moments pass from its limb to the parent
-  /// limb.
+  /// A step of one joint. Either one of its hinges turns, or, after all its hinges, the moments of the joint's limb
+  /// (moment_sweep.cc) are added to those of the parent limb.
   struct Step {
     int joint = 0;
     int hinge = -1;             ///< −1 for the step to the parent

@@ -31,8 +31,8 @@ class GradeIndex {
   /// Returns the memory in use, in bytes.
   std::int64_t Bytes() const;
 
-  /// Returns true if any frame matches. `hint` affects only speed: it is the block of the last match, where the search
-  /// begins, and is updated. Begin with 0, and pass it on to a search for a similar frame.
+  /// Returns true if any frame matches. The search begins in block `hint`; a match sets `hint` to its block. `hint`
+  /// affects only speed: set it to 0 before the first search, and do not change it between searches for similar frames.
   bool HasMatch(const Query& query, int& hint) const;
 
  private:

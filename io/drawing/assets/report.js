@@ -174,8 +174,8 @@
     if (row.dataset.ids) (row.tagName === 'TR' ? row.cells[0] : row).append(button('', 'Run it again', () => show(row), 'rerun'));
   });
 
-  // A picture is saved as a file with the colours of the screen and the marks that it uses; or it is printed alone on a
-  // page of its own size, and the browser can save that page as a PDF of vector graphics.
+  // `save` writes a picture as an SVG file, with the screen's colours and the marks that the picture uses. `print`
+  // prints pictures without the rest of the page; the browser can save them as a PDF of vector graphics.
   const PAINTS = ['fill', 'stroke', 'stroke-width', 'stroke-dasharray', 'fill-opacity', 'stroke-opacity', 'opacity', 'font-size', 'font-family', 'paint-order'];
   const whole = (svg) => {
     const copy = svg.cloneNode(true), there = svg.querySelectorAll('*');
