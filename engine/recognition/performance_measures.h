@@ -72,8 +72,8 @@ class RigidComparison {
 
   /// Takes the next step of the window.
   void Update(const PoseVector& seen);
-  /// Returns the measures of the steps so far. `usual_s` is the performer's usual shift; of two equally good fits, the
-  /// one nearer to `usual_s` is taken.
+  /// Returns the measures of the steps so far. `usual_s` is the performer's usual shift, seconds; of two equally good
+  /// fits, the one nearer to `usual_s` is taken.
   std::array<double, kRigidMeasures> Measure(double usual_s) const;
 
  private:

@@ -133,7 +133,7 @@ struct SkeletonSensorOptions {
   bool swaps_when_facing = true;  ///< false: rate proportional to 1 − cos(the body's turn from the sensor) (ours)
   /// Probability of an outlier, per joint and frame (ours). Gaussian noise with uniform outliers: arXiv 1512.04134.
   double outlier_chance = 0.001;
-  double outlier_size_m = 0.15;   ///< largest error of an outlier on each axis, drawn uniformly (ours)
+  double outlier_size_m = 0.15;  ///< largest error of an outlier on each axis, drawn uniformly (ours)
 
   /// Returns the lag in frames: `lag_frames` times the smaller of `strength` and 1, rounded.
   int Lag() const;
