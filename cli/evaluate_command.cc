@@ -158,7 +158,7 @@ void PrintAngles(const ScenarioSummary& summary, const std::vector<AngleAgreemen
   }
 }
 
-/// Returns, as JSON, the aggregates of every metric of every method.
+/// Returns, as JSON: the aggregates of every metric of every method, the agreement by angle, and the result folder.
 Json FactsOf(const ScenarioSummary& summary, const std::vector<AngleAgreement>& angles, const std::string& folder) {
   const auto number = [](const std::optional<double>& value) { return value ? Json(*value) : Json(); };
   Json methods = Json::array();

@@ -156,7 +156,7 @@ Result<std::optional<BlindTrial>> MakeBlindTrial(const RunData& run, const Blind
                 "key 'video', records them",
                 fmt::join(options.methods, ", "));
   }
-  // Film the pairs, and write into the key which method each side shows.
+  // Film the pairs. In `trial.key`, name the method that each side of a film shows.
   ASSIGN_OR_RETURN(auto* const renderer, SharedRenderer());
   ASSIGN_OR_RETURN(const auto folder, TemporaryFolder::Make("blind"));
   std::string films_html;

@@ -130,7 +130,8 @@ constexpr const char* kUnknownPrograms =
 /// Returns up to 60 bytes of `line`, from shortly before byte `at` on, in quotes.
 std::string ShowPart(const std::string& line, std::size_t at) {
   constexpr std::size_t kBefore = 20, kShown = 60;
-  const auto is_inside = [&](std::size_t i) { return i < line.size() && (line[i] & 0xC0) == 0x80; };  // of a character
+  // Returns true if byte `i` continues a UTF-8 character that began at an earlier byte.
+  const auto is_inside = [&](std::size_t i) { return i < line.size() && (line[i] & 0xC0) == 0x80; };
   std::size_t start = at > kBefore ? at - kBefore : 0, end = std::min(start + kShown, line.size());
   while (start > 0 && is_inside(start)) --start;
   while (is_inside(end)) ++end;

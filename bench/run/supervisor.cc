@@ -189,7 +189,7 @@ class Supervisor {
     return worker.orders.empty() ? HandOut(worker) : BeginWorld(worker);
   }
 
-  /// Starts the time limits of the order's first method without an answer. If there is none, ends the world.
+  /// Starts the time limits of the order's next method. If no method is left, ends the world.
   Result<void> StartNextMethod(Worker& worker) {
     const Order& order = worker.orders.front();
     if (order.methods.empty()) return EndWorld(worker);

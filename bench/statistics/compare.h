@@ -15,7 +15,7 @@ struct Pair {
   double method = 0;
 };
 
-/// Returns true if all values are 0 or 1 and the metric is not an amount, so that means are shares.
+/// Returns true if all values are 0 or 1 and the metric is not an amount: the mean of the values is then a share.
 bool AreShares(std::span<const Pair> pairs, const MetricInfo& metric);
 
 /// Returns method − baseline without the effects of rounding. A difference below a billionth of the practical threshold

@@ -222,8 +222,8 @@ Finding JudgeComparison(const Expectation& expectation, const ConditionTable& ta
   return {outcome, detail};
 }
 
-/// Changes "met" to "unmet" if the method is expected to have the better value metric but its success is worse, because
-/// an answer compares success before the value.
+/// Changes "met" to "unmet" if a method that is expected to be better in the value metric (`ValueMetricOf`) has the
+/// worse success, because answers compare success before the value metric.
 void AskSuccessFirst(const Expectation& expectation, const Study& study, const ConditionTable& table,
                      const std::string& other, bool wants_lower, std::uint64_t seed, Finding& finding) {
   const bool wants_better = wants_lower == (FindMetric(expectation.metric)->direction == Direction::kLowerIsBetter);

@@ -25,7 +25,7 @@ enum class CoachEvent {
   kReturns,     ///< the coach returns to the dance, at the repetition that was corrected
   kGoesOn,      ///< the dance continues after too many corrections of one repetition
   kPraises,     ///< praise: in words after a corrected mistake, or as an act at the song's end
-  kTag,         ///< a music-time tag was reached
+  kTag,         ///< the dance reached a tag: a frame that is due at a set time of the music
   kTransition,  ///< a transition between clips begins
   kSongEnds,
   kAttracts,  ///< nobody takes part, so the coach invites to dance

@@ -133,7 +133,7 @@ class Guesser {
     return misses_[key] = misses.empty() ? kNothing : UpperMedian(std::move(misses));
   }
 
-  // Returns the median, over all other films, of Miss between the other film and film `c` under a hypothesis.
+  // Returns the median of the distances (`Miss`) between film `c`, interpreted as `guess` says, and each other film.
   double MissOf(std::size_t c, const Guess& guess) {
     std::vector<double> misses;
     for (std::size_t o = 0; o < films_.size(); ++o) {

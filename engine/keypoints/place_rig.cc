@@ -246,7 +246,7 @@ std::string AxesTold(const glm::dmat3& R_OF) {
   return is_same ? "" : fmt::format("; x is the file's {}, z its {}, up its {}", names[0], names[2], names[1]);
 }
 
-/// Refuses lengths in the format's unit that no rig has *(ours)*.
+/// Fails if the largest distance between two cameras is impossible for a rig in the unit of its format *(ours)*.
 Result<void> CheckDistances(const RigFile& rig) {
   constexpr double kMinApart = 0.03, kMaxApart = 100, kMinUsual = 1, kMaxUsual = 30;
   double apart = 0;

@@ -142,7 +142,7 @@ double MatchOf(const FeatureFrame& frame, const TaughtPose& pose, const Tracking
     total += weight;
   }
   if (!(total > 0)) return 0.0;
-  // Sort by error, and find the smallest error that covers the required share of the weights.
+  // Sort by error, and find the error up to which the angles have the required share of all weight.
   std::sort(angles.begin(), angles.begin() + static_cast<std::ptrdiff_t>(count),
             [](const Angle& a, const Angle& b) { return a.error < b.error; });
   constexpr double kRounding = 1e-9;  // rounding must not exclude a share of exactly `pose_share`

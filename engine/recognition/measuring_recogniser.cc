@@ -157,7 +157,7 @@ class MeasuringFollower final : public StepFollower {
       std::ranges::copy(window->clock.Measure(usual_.Shift()).All(), measures.begin() + kClockSlice.first);
       std::ranges::copy(window->rigid.Measure(usual_.Shift()), measures.begin() + kRigidSlice.first);
     }
-    // Compare each measure with the usual measures of this person.
+    // Compare each measure with the performer's usual measures.
     usual_.Relate(measures);
     if (window == nullptr) std::fill(measures.begin() + kClockSlice.first, measures.end(), 0.0);
     return measures;

@@ -18,9 +18,9 @@ struct ClockMeasures {
   double first = 0;   ///< the same delay for the first half of the example
   double second = 0;  ///< the same delay for the second half of the example
   double drift = 0;   ///< second − first
-  /// `off` is the root mean squared distance at this person's usual shift. A gain is the amount by which the best shift
-  /// lowers this distance: `gain` for the whole example, `first_gain` for its first half, `second_gain` for its second
-  /// half.
+  /// `off` is the root mean squared distance at the performer's usual shift. A gain is the amount by which the best
+  /// shift lowers this distance: `gain` for the whole example, `first_gain` for its first half, `second_gain` for its
+  /// second half.
   double off = 0, gain = 0, first_gain = 0, second_gain = 0;
 
   std::array<double, 8> All() const { return {shift, first, second, drift, off, gain, first_gain, second_gain}; }
@@ -35,7 +35,7 @@ class ClockComparison {
 
   /// Takes the next step of the window.
   void Update(const PoseVector& seen);
-  /// Returns the measures of the steps so far. `usual_s` is this person's usual shift.
+  /// Returns the measures of the steps so far. `usual_s` is the performer's usual shift, seconds.
   ClockMeasures Measure(double usual_s) const;
 
  private:
@@ -72,8 +72,8 @@ class RigidComparison {
 
   /// Takes the next step of the window.
   void Update(const PoseVector& seen);
-  /// Returns the measures of the steps so far. `usual_s` is this person's usual shift; of two equally good fits, the
-  /// one nearer to `usual_s` is taken.
+  /// Returns the measures of the steps so far. `usual_s` is the performer's usual shift, seconds; of two equally good
+  /// fits, the one nearer to `usual_s` is taken.
   std::array<double, kRigidMeasures> Measure(double usual_s) const;
 
  private:
@@ -147,9 +147,9 @@ class PersonBaseline {
  public:
   /// Adds a performance, right or wrong. Only the latest 32 count.
   void Add(const PerformanceMeasures& performance);
-  /// Fills in the differences from this person's usual measures.
+  /// Fills in the differences from the performer's usual measures.
   void Relate(PerformanceMeasures& performance) const;
-  /// Returns this person's usual delay relative to the window, in seconds.
+  /// Returns the performer's usual delay relative to the window, in seconds.
   double Shift() const;
 
  private:

@@ -8,9 +8,10 @@
 
 namespace etude {
 
-/// Returns the median extent of a frame's joints along an axis, in the file's unit. A NaN is a missing joint. Points
-/// such as a ball or a camera are ignored: points more than four times as far from the frame's median point as the
-/// median of these distances, unless more than a quarter of the frame's points are so far away.
+/// Returns the extent of a frame's joints along x, y or z, whichever is largest, as a median over the frames, in the
+/// file's unit. A NaN is a missing joint. Points far from the body, such as a ball or a camera, are ignored: a point's
+/// distance from the frame's median point exceeds four times the median of all points' distances. If more than a
+/// quarter of the points are so far away, all points are used.
 double SpreadOf(std::span<const glm::dvec3> positions, std::size_t joints);
 
 /// Returns the length in metres of the unit (m, cm or mm) in which the extent `spread` is a person's, 0.8 to 2.3 m;

@@ -14,7 +14,8 @@ namespace etude {
 /// Returns the left joints that look exchanged with the right ones (ours). A left and a right limb cross if an exchange
 /// of the two joints at one end makes the two limbs shorter and their lengths far more constant. Upper arms also cross
 /// if the exchange makes them much shorter. Thighs also cross if the exchange makes them shorter in nearly all frames.
-/// If upper arms and forearms, or thighs and shanks, all become shorter in nearly all frames, both pairs cross. All
+/// Upper arms and forearms, or thighs and shanks, also cross if such an exchange makes each of the two pairs shorter in
+/// nearly all frames. The trunk crosses if hips and shoulders point in opposite directions in nearly all frames. All
 /// crossings disappear if one of two complementary sets of joints is exchanged; the smaller set is returned. `frames`
 /// have any unit; unseen joints do not count.
 std::vector<Role> FindExchangedJoints(std::span<const JointPositions> frames);

@@ -58,8 +58,7 @@ double LimbLength(const BodyPose& pose, Role upper, Role middle, Role end) {
   return glm::distance(pose[upper], pose[middle]) + glm::distance(pose[middle], pose[end]);
 }
 
-/// Returns the offset of a limb's middle joint from the straight line between the limb's ends, relative to the limb's
-/// length.
+/// Returns the vector from the midpoint of a limb's two ends to the limb's middle joint, divided by the limb's length.
 glm::dvec3 BendOffset(const BodyPose& pose, Role upper, Role middle, Role end) {
   const double length = LimbLength(pose, upper, middle, end);
   return length > 0 ? (pose[middle] - 0.5 * (pose[upper] + pose[end])) / length : glm::dvec3(0);

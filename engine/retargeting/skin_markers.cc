@@ -35,7 +35,7 @@ struct SkinDepths {
   bool has_elbow_widths = false;
 };
 
-/// The joints of one side of a body in one frame, addressed by left roles for either side.
+/// The joints of one side of a body in one frame. For the right side, too, callers name a joint by its left role.
 class SideOf {
  public:
   SideOf(JointPositions& places, bool is_left) : places_(places), is_left_(is_left) {}

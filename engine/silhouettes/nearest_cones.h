@@ -59,7 +59,8 @@ struct ConeSums {
   double gradient[8] = {};
   double hessian[6][8] = {};
 };
-/// Sums the residuals of the points in their order, with the bits of `DistanceTo` and `LossOf` (silhouette_cost.h).
+/// Sums the residuals of the points in their order; the bits equal those of `DistanceTo` and `LossOf`
+/// (silhouette_cost.h).
 void SumConePoints(const ConeColumns& cones, std::size_t cone, const ConePoints& points, ConeSums& sums);
 
 }  // namespace etude

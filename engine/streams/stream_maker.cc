@@ -242,7 +242,7 @@ Result<void> StreamMaker::Add(const RecordedFrame& frame, std::vector<SensedFram
                 "time {:.6g} s after {:.6g} s; allowed: a clock that increases, by at most {} s per row", frame.time_s,
                 before_->time_s, kMaxLoss_s);
   }
-  // Make the stream's frames up to the time of this frame. Each is a recorded frame, an interpolation between two
+  // Make the stream's frames up to the time of `frame`. Each is a recorded frame, an interpolation between two
   // recorded frames, or a frame without a body.
   for (;; ++next_) {
     const double time = start_s_ + static_cast<double>(next_) / options_.rate_hz;

@@ -232,7 +232,7 @@ Result<std::vector<SourceClip>> ReadClips(const std::string& reference, const Op
                   FormatName(file.format), *wanted.animation);
     }
     const std::string source = wanted.path + (wanted.animation ? "#" + *wanted.animation : "");
-    std::vector<SourceClip> only;  // filled by a move of the clip, because an initializer list would copy the frames
+    std::vector<SourceClip> only;  // not an initializer list, which would copy the frames of the clip
     only.push_back({stem, source, file.format, std::move(file.clips.front()), nullptr, std::nullopt,
                     file.bodies.empty() ? std::nullopt : std::optional(file.bodies.front()), file.remarks, file.roles,
                     shown_of(0)});

@@ -8,7 +8,7 @@
 
 namespace etude {
 
-/// A colour for light pages and a colour for dark pages, "#rrggbb". Films are dark.
+/// A colour for light pages and a colour for dark pages, "#rrggbb". Films use `dark`.
 struct PlotColour {
   std::string_view light, dark;
 };

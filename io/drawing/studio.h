@@ -69,8 +69,8 @@ class Studio {
 Figure Placed(Figure figure, const FloorMove& move);
 
 /// Computes the path that the camera follows, one point per frame: the hip centre, averaged over `smoothing` frames to
-/// either side. If the whole motion stays within 45 cm of the motion's middle, the camera stands still. Needs at least
-/// one frame.
+/// either side. If the hip centre stays within 45 cm of its middle position along x and z, the camera stands still.
+/// Needs at least one frame.
 std::vector<glm::dvec3> CameraPath(const BodyMotion& motion, int smoothing);
 
 }  // namespace etude

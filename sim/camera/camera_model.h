@@ -51,7 +51,7 @@ class Shutter {
 /// A camera's identity within its world. The identity is the key of the camera's random numbers.
 struct CameraIdentity {
   WorldKey world;
-  std::string name;          ///< such as "capture/camera-0"; prefix of the purposes of the camera's random streams
+  std::string name;          ///< such as "capture/camera-0"; the purposes of the camera's random streams begin with it
   bool is_reference = true;  ///< true if the camera's clock is the clock of the truth
 };
 

@@ -27,7 +27,7 @@ struct Shown {
   int move = -1;         ///< index into the learner's moves; −1 if the action has no move
   int repetition = -1;   ///< for kDance: number of the shown performance; a new number begins a new performance
   double beat = 0;       ///< for kDance: beats since that performance's first beat, up to the move's length
-  bool praises = false;  ///< true if the coach praises the latest finished performance in this frame, in any act
+  bool praises = false;  ///< true: in this frame, the coach praises the latest finished performance; `act` may be any
 };
 
 struct LearnerOptions {

@@ -43,8 +43,8 @@ struct CaptureFilmsOptions {
   /// Outlier limit, pixels; 0 = computed from the residuals, at most 3 % of the picture's longer side.
   double outlier_px = 0;
   double sync_s = 0;         ///< maximum difference of the films' clocks, seconds; 0 = the clocks agree
-  std::string command_line;  ///< the command as typed, for the page
-  std::string version;       ///< version of the program, for the page
+  std::string command_line;  ///< the command as typed, which `report` shows
+  std::string version;       ///< version of the program, which `report` shows
   Listener listener = {};
 };
 

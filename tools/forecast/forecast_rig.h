@@ -33,8 +33,8 @@ struct ForecastOptions {
   std::string picture;       ///< a PNG of heat maps, "" = none
   std::string table;         ///< a CSV of all places, "" = none
   std::string report;        ///< an HTML page, "" = none
-  std::string command_line;  ///< the command as typed, for the page
-  std::string version;       ///< version of the program, for the page
+  std::string command_line;  ///< the command as typed, which `report` shows
+  std::string version;       ///< version of the program, which `report` shows
   Listener listener = {};
 };
 

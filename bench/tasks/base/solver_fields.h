@@ -59,7 +59,7 @@ Field<Options> SweepsField(IkOptions Options::*options, std::string meaning) {
                                 std::move(meaning));
 }
 
-/// Reads `stop_at`, the accuracy at which solvers stop. The default is the practical accuracy.
+/// Reads `stop_at`, the accuracy at which solvers stop. The default is "practical".
 void ReadIkGoals(Fields& condition, IkOptions& options);
 template <typename Options>
 Field<Options> GoalsField(IkOptions Options::*options) {

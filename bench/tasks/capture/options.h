@@ -22,7 +22,7 @@ enum class Clothes {
 };
 
 enum class PerformerFigure {
-  kStaged,  ///< "staged": the stage's own people; `clothes` and `scene` choose the people's clothes
+  kStaged,  ///< "staged": Etude's own figure of the performer; `clothes` and `scene` choose its clothes
   kOwn,     ///< "own": the meshes and textures of the clip's file
 };
 

@@ -39,8 +39,8 @@ class DetectionTask final : public Task {
                                           keeps_motion);
   }
 
-  /// Returns the clip that causes a world to be skipped. Returns nothing for any other world, because a session mixes
-  /// all labelled clips.
+  /// Returns the world's clip if it has no labels, so that the world is skipped. Otherwise returns no clip, because a
+  /// session mixes all labelled clips.
   std::vector<std::string> ClipsOf(const WorldKey& key) const override {
     const TrialClip& clip = ClipAt(key);
     if (clip.is_labelled) return {};

@@ -23,8 +23,8 @@ namespace etude {
 DetectionWorld MakeRecordedWorld(const LabelledStreams& set, std::size_t person, const DetectionOptions& options,
                                  const WorldKey& key);
 
-/// Fails if labels cannot be judged: if two performances begin at the same frame or, without taught moves
-/// (`are_taught`), if there is a single person or a recording whose person is unknown.
+/// Fails if labels cannot be judged: if two performances of a recording begin at the same frame. If `are_taught` is
+/// false, moves are learnt from other people; then it also fails for a single person, and for unknown people.
 Result<void> CheckRecordings(const LabelledStreams& set, bool are_taught);
 
 /// The moves that recognisers were taught, and the methods with these recognisers. The recordings of some people may

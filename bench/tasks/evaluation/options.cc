@@ -86,7 +86,7 @@ Result<void> CheckFiles(const Node& condition, const EvaluationOptions& options)
 
 namespace {
 
-/// Adds an error for keys without effect: `answers` of a control, and keys of the spoiler of any other method.
+/// Adds an error for keys without effect: `answers` if the method is a control, the keys of `spoiler` if it is not.
 void CheckControl(Fields& fields, EvaluationMethod& method) {
   if (method.is_control && !method.answers.empty()) fields.Complain(fields.node().place, "a control has no 'answers'");
   if (!method.is_control && method.spoiler != Spoiler{})

@@ -44,7 +44,7 @@ std::vector<SweepTree::Step> StepsOf(const KinematicTree& tree) {
   for (std::size_t n = tree.joints.size() - 1; n > 0; --n) {
     if (is_used[n]) is_used[tree.joints[n].parent] = true;
   }
-  std::vector<int> depths(tree.joints.size());  // depth after the joint's own steps
+  std::vector<int> depths(tree.joints.size());  // for each joint: the number of steps up to the root, its own included
   std::vector<StepWithDepth> ordered;
   for (int n = 1; n < static_cast<int>(tree.joints.size()); ++n) {
     if (!is_used[n]) continue;

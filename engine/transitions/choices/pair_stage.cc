@@ -225,9 +225,9 @@ double PairStage::OwnBeside(int frame) const {
   return std::max(LargestNear(playing_beside_, pair_.leave + frame), LargestNear(wanted_beside_, pair_.enter + frame));
 }
 
-/// Returns how far the slowest of `supports` moves from the frame before `frame` to `frame`, metres: over the floor or
-/// relative to the same joint of a clip; the smaller number counts. If `supports` is empty, the slowest joint of the
-/// feet is used.
+/// Returns the smallest distance that a joint of `supports` moves along the floor from frame `frame` − 1 to `frame`,
+/// metres. The distance is measured in the world and relative to the same joint in each clip; the smallest counts. If
+/// `supports` is empty, the joints are the ankles and toes.
 double PairStage::GlideAt(std::span<const BodyPose> shown, int frame, JointSet supports) const {
   if (supports.none()) {
     for (const LegRoles& leg : kLegs) supports.set(Index(leg.ankle)).set(Index(leg.foot));
@@ -248,8 +248,8 @@ double PairStage::GlideAt(std::span<const BodyPose> shown, int frame, JointSet s
 }
 
 /// Returns the largest turn of the hips against a foot, radians, in a run of frames of the join in which this foot
-/// supports the body and rests. The turn in the same frame of a clip is subtracted. `supports` begins with the join's
-/// first frame.
+/// supports the body and rests. In each frame, the turn of one of the two clips is subtracted if less remains.
+/// `supports` begins with the join's first frame.
 double PairStage::LargestTurn(std::span<const BodyPose> shown, std::span<const Support> supports) const {
   double largest = 0;
   for (const LegRoles& leg : kLegs) {
@@ -269,7 +269,7 @@ double PairStage::LargestTurn(std::span<const BodyPose> shown, std::span<const S
         continue;
       }
       const double whole = turn(shown, f);
-      double added = whole;  // the turn that the clips do not have; the smaller of two
+      double added = whole;  // the turn, or what remains of it without a clip's turn: the smallest
       const auto compare = [&](std::span<const BodyPose> clip, int frame) {
         if (frame < 1 || frame >= static_cast<int>(clip.size())) return;
         const double rest = whole - turn(clip, frame);
