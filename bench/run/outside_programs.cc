@@ -213,7 +213,7 @@ Result<Fence> FenceFor(std::span<const PreparedScenario> scenarios, const Outsid
   if (ProgramsOf(scenarios).empty()) return Fence();
   Fence fence = rules.is_fenced ? Fence::Find() : Fence();
   std::error_code error;
-  // Hide all named pipes. Hide the working folder and the scenarios' folders too if they are below a system folder.
+  // Hide all named pipes. If the working folder or a scenario's folder is below a system folder, hide this folder, too.
   std::vector<fs::path> ours = {fs::current_path(error)};
   for (const PreparedScenario& scenario : scenarios) {
     const bool is_secret = !scenario.setup().seed.IsPlain();

@@ -128,8 +128,8 @@ void Compare(const ConeColumns& cones, size_t cone, const PointColumns& points, 
   }
 }
 
-/// Returns false if the cone certainly lowers none of the distances of a block's points: it computes no division and no
-/// root.
+/// Returns false only if the cone lowers none of the distances of a block's points. May return true for a cone that
+/// lowers none, because no division and no root is computed.
 bool MayLower(const Axes& axes, size_t cone, const PointColumns& points, size_t first_point, const double* distance) {
   const Real real;
   const auto zero = hn::Zero(real), one = hn::Set(real, 1.0);
