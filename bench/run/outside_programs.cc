@@ -103,7 +103,7 @@ void AddNeighbours(const fs::path& script, Json& files) {
   }
 }
 
-/// Returns the digests of the files that a program's `exec` and `files` name, by their names there.
+/// Returns the digests of the files that a program's `exec` and `files` name, by the files' names in these keys.
 Json DigestsOf(const MethodEntry& program) {
   Json files = Json::object();
   std::error_code error;

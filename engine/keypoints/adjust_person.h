@@ -10,7 +10,7 @@ namespace etude {
 struct AdjustPersonOptions {
   double rate_hz = 30;
   double min_confidence = 0.1;  ///< keypoints of lower confidence are ignored
-  double acceleration = 8;        ///< lower bound of a joint's acceleration scale along each axis, m/s²
+  double acceleration = 8;      ///< lower bound of the prior's standard deviation along each axis, m/s²
   /// The motion recovered from silhouettes in the same frames; null if there is none. A joint of this motion has less
   /// weight the farther it usually is from the same joint in the motion from keypoints alone.
   const BodyMotion* outlines = nullptr;

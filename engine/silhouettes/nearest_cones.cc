@@ -112,7 +112,8 @@ std::uint64_t Within(const float* bounds, size_t count, float reach) {
 /// share with code for older CPUs.)
 HWY_INLINE size_t FirstOf(std::uint64_t set) { return set == 0 ? 64 : static_cast<size_t>(__builtin_ctzll(set)); }
 
-/// Lowers the distances of one block's points to those from `cone`. Of equally near cones, the first keeps the point.
+/// Replaces the distance of each point of a block by the distance from `cone`, if that is smaller. Of equally near
+/// cones, the first keeps the point.
 void Compare(const ConeColumns& cones, size_t cone, const PointColumns& points, size_t first_point, double* distance,
              double* owner) {
   const Real real;

@@ -63,8 +63,8 @@ class FileSpot {
 };
 
 /// Opens a regular file with the flags of ::open (O_CLOEXEC is added); O_CREAT also creates the file's folders. Fails
-/// as FileSpot::Find does; on anything but a regular file (opening a pipe could block); and, with the system's reason,
-/// if the file cannot be opened.
+/// as FileSpot::Find does, on anything but a regular file (opening a pipe could block), and if the file cannot be
+/// opened (with the system's reason).
 Result<Descriptor> OpenFile(const FilePath& path, int flags, mode_t mode = 0666);
 
 /// Returns true if a file, a folder or a link has this path. A link below an `Inside` folder counts, although OpenFile

@@ -57,8 +57,8 @@ std::string SentenceFor(const Judged& judged, const std::string& other, const Me
     return fmt::format("“{}” is {} than {}: {}; {}, {}", c.method, VerdictName(verdict), other,
                        TailInWords(*judged.answer), words.label, figures);
   }
-  // Choose the verb that fits the verdict. If the value has a verdict and the answer has none, say first that it is
-  // open.
+  // Choose the verb that fits the verdict. If the value has a verdict and the answer has none, say first that the
+  // answer is undecided.
   const bool is_open = verdict == Verdict::kUndecided && c.verdict != Verdict::kUndecided;
   const std::string begin = is_open ? "Undecided: " : "";
   switch (is_open ? c.verdict : verdict) {

@@ -13,7 +13,7 @@
 namespace etude {
 namespace {
 
-/// The widest matrix that fits a terminal; the output of --json has no such limit.
+/// The largest number of clips whose matrix fits a terminal. The output of --json has no limit.
 constexpr int kMaxMatrixClips = 24;
 
 /// One clip's row of the table. Coverage is measured for each other clip separately if the table of pairs is made,
