@@ -164,8 +164,8 @@ void InjectedTails::Try(const Snapshot& first, const std::string& target, std::u
   const auto worse_by = [&](double times) { return [=](std::optional<double>& value) { *value += times * worse; }; };
   const auto present = static_cast<int>(DrawTrials(TargetOf(first, target), SIZE_MAX, seed).size());
   const int needed = WorldsThatFail(present, rule);
-  // Make worlds worse by 2 × `rule.times` practical thresholds. The gate must report a regression if and only if so
-  // many worlds are a regression by the tail rule.
+  // Make `count` worlds worse by 2 × `rule.times` practical thresholds. The gate must report a regression if and only
+  // if `count` is at least `needed`, the smallest number that is a regression by the tail rule.
   std::set<int> counts = {1, 2, 3, 5, 10};
   if (needed > 0) counts.insert(needed);
   for (const int count : counts) {

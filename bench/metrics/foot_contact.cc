@@ -22,7 +22,8 @@ double FloorStep(const PointTracks& feet, std::size_t f, std::size_t column) {
 /// Returns, for each step between frames, true if the toes skate.
 std::vector<bool> Skates(const PointTracks& feet, std::size_t toes, double rate_hz) {
   constexpr double kFast_mps = 0.5;
-  constexpr std::ptrdiff_t kReach = 2;  // the mean is over five steps; steps outside the motion count as zero
+  // The mean speed is over five steps: two before and two after a step. Steps outside the motion count as zero.
+  constexpr std::ptrdiff_t kReach = 2;
   const auto steps = static_cast<std::ptrdiff_t>(feet.FrameCount()) - 1;
   std::vector<double> speeds;
   for (std::ptrdiff_t f = 0; f < steps; ++f) speeds.push_back(rate_hz * FloorStep(feet, f, toes));

@@ -103,7 +103,7 @@ void AddNeighbours(const fs::path& script, Json& files) {
   }
 }
 
-/// Returns the digests of the files that a program's `exec` and `files` name, by their names there.
+/// Returns the digests of the files that a program's `exec` and `files` name, by the files' names in these keys.
 Json DigestsOf(const MethodEntry& program) {
   Json files = Json::object();
   std::error_code error;
@@ -213,7 +213,7 @@ Result<Fence> FenceFor(std::span<const PreparedScenario> scenarios, const Outsid
   if (ProgramsOf(scenarios).empty()) return Fence();
   Fence fence = rules.is_fenced ? Fence::Find() : Fence();
   std::error_code error;
-  // Hide all named pipes. Hide the working folder and the scenarios' folders too if they are below a system folder.
+  // Hide all named pipes. If the working folder or a scenario's folder is below a system folder, hide this folder, too.
   std::vector<fs::path> ours = {fs::current_path(error)};
   for (const PreparedScenario& scenario : scenarios) {
     const bool is_secret = !scenario.setup().seed.IsPlain();

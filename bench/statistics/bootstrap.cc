@@ -48,8 +48,8 @@ class DrawnMedian {
     last_ = static_cast<std::uint32_t>(FirstDrawing(std::min(sorted.size(), upper_ + 1 + reach)) - 1);
   }
 
-  /// Returns the median of the resample that the 32-bit halves of `drawn` draw. Only draws near the middle are
-  /// compared.
+  /// Returns the median of the resample that the 32-bit halves of `drawn` draw. Compares only the draws near the
+  /// middle, unless the median is not among them.
   double Of(const std::uint64_t* drawn) {
     HalvesWithin found = FindHalvesWithin(drawn, sorted_.size(), low_, last_, near_.data());
     if (lower_ < found.below || upper_ >= found.below + found.within) {  // the middle draws are not near the middle of

@@ -49,7 +49,7 @@ Result<TrainingClips> GatherTrainingClips(std::span<const BodyMotion> clips, con
 std::vector<LabelledPair> LabelPairs(std::span<const TrainingFrame> a, std::span<const TrainingFrame> b,
                                      const Memberships& memberships = PaperMemberships());
 
-/// Returns the pairs of frames (LabelPairs) of all pairs of different clips.
+/// Returns the results of LabelPairs for every two different clips, in one list.
 std::vector<LabelledPair> LabelPairsAcross(std::span<const std::vector<TrainingFrame>> clips,
                                            const Memberships& memberships = PaperMemberships());
 

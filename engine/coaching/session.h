@@ -41,8 +41,8 @@ class CoachSession {
   CoachOutput Next(const SensedFrame& frame, const SessionInput& input = {});
 
   const CoachState& state() const { return state_; }
-  /// Replaces the state while no window is open. The states of filters and of the recogniser's MoveFollowers do not
-  /// change.
+  /// Replaces the state. The states of filters and of the recogniser's MoveFollowers do not change. Call this only
+  /// while no window is open.
   void ReplaceState(CoachState state) { state_ = std::move(state); }
 
  private:

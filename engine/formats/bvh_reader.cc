@@ -335,7 +335,7 @@ double LargestRotation(const std::vector<LocalPose>& frames) {
 }
 
 /// For joints below the root with an offset of 0, takes the positions of the first frame as rest positions. Returns
-/// true if there is such a joint.
+/// true if this changes a rest position.
 bool TakeOffsetsFromFrame(const LocalPose& frame, Skeleton& skeleton) {
   bool takes = false;
   for (std::size_t i = 0; i < skeleton.joints.size(); ++i) {

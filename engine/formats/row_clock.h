@@ -42,7 +42,7 @@ Result<std::optional<RowGrid>> GridOfRows(std::span<const double> times_s, std::
                                           std::optional<double> told_hz, std::size_t width, const std::string& file);
 
 /// Computes times in seconds from frame numbers, if the numbers are whole and ascend; otherwise returns an empty list.
-/// The median step between two numbers becomes 1 / rate_hz.
+/// The median difference between consecutive numbers becomes 1 / rate_hz seconds.
 std::vector<double> TimesOfNumbers(std::span<const double> numbers, double rate_hz);
 
 /// Markers in the rows of a file, before they are placed on frames.

@@ -117,8 +117,8 @@ class Adjuster {
     return std::accumulate(squares.begin(), squares.end(), 0.0) / static_cast<double>(squares.size());
   }
 
-  /// Estimates the acceleration scale of a joint. The noise in second differences is the same at lag 1 and at a longer
-  /// lag, while the contribution of the acceleration grows with the fourth power of the lag.
+  /// Estimates the prior's standard deviation for a joint's acceleration. The noise in second differences is the same
+  /// at lag 1 and at a longer lag, while the contribution of the acceleration grows with the fourth power of the lag.
   double AccelerationOf(Role role) const {
     constexpr double kSeconds = 0.1, kBursts = 1.5;  // kBursts: accelerations exceed their root mean square in bursts
     const double lag = std::max(2.0, std::round(kSeconds * options_.rate_hz));

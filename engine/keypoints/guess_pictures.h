@@ -29,12 +29,12 @@ struct PictureGuess {
 /// Finds how keypoints map to the rig's pictures *(ours)*: as `fit` declares, or also rotated by quarter turns or
 /// mirrored. Cameras are corrected one after the other. Each time, the camera is taken whose correction leaves the
 /// smallest distance of its keypoints from the other cameras' epipolar lines (the median over frames; in each frame,
-/// the best-fitting person and labelling of sides count). A correction is tried only if this distance exceeds 0.3 % of
-/// the height. The correction must reduce the distance to less than half and to less than 5 % of the height. A wrong
-/// correction cannot halve random errors. If pictures were fitted, the estimator may have run on the original pictures;
-/// the keypoints of all films are then pixels of the original pictures. The interpretation with the smaller distance is
-/// taken, unless a file states the film's size. `told` also names a second correction if it is nearly as good, as is
-/// common with two cameras.
+/// the best-fitting person and labelling of sides count). A camera is corrected only if this distance exceeds 0.3 % of
+/// the person's height, and if the correction at least halves the distance and reduces it below 5 % of the height. (A
+/// wrong correction cannot halve random errors.) If pictures were fitted, the estimator may have run on the original
+/// pictures; the keypoints of all films are then pixels of the original pictures. The interpretation with the smaller
+/// distance is taken, unless a file states the film's size. `told` also names a second correction if it is nearly as
+/// good, as is common with two cameras.
 std::vector<PictureGuess> GuessPictures(std::span<const PictureOfFilm> films, double min_confidence);
 
 /// Returns the epipolar distance of the keypoints, mapped as declared, as a share of the person's height: the mean,

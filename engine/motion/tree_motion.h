@@ -35,9 +35,9 @@ struct TreeMotion {
 };
 
 /// Converts a motion to rotations relative to the parents. The tree's offsets are taken from the first frame; later
-/// changes of limb lengths are dropped. Joints that a reader has added (RawMotion::added) become points. Consecutive
-/// quaternions of a joint do not flip their signs. Fails for a motion without rotations or frames, with positions that
-/// are not seen, or with several roots.
+/// changes of limb lengths are dropped. Joints that a reader has added (RawMotion::added) become points
+/// (JointTree::is_point). Consecutive quaternions of a joint do not flip their signs. Fails for a motion without
+/// rotations or frames, with positions that are not seen, or with several roots.
 Result<TreeMotion> TreeMotionOf(const RawMotion& motion);
 
 /// Appends the position (metres) and rotation of every joint in the world, for one pose.

@@ -10,8 +10,8 @@ namespace etude {
 
 /// The limbs that a skeleton's shape suggests, independently of its joints' names.
 struct AnatomyProposal {
-  /// The skeleton's joints that play shoulders, elbows, wrists, hips, knees and ankles, by Index(role). −1 for all
-  /// other roles; −1 for every role if two pairs of limbs were not found.
+  /// By Index(role): the skeleton's joints for shoulders, elbows, wrists, hips, knees and ankles; −1 for all other
+  /// roles. If legs or arms were not found, all are −1.
   std::array<int, kRoleCount> joints;
   double confidence = 0;  ///< 0 to 1
 };

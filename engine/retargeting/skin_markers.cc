@@ -72,7 +72,8 @@ glm::dvec3 Chord(const glm::dvec3& other_end, const glm::dvec3& marker, const gl
 /// with the normal of the bend plane, which gets more weight as the limb bends more. A marker that is `depth` beside a
 /// straight limb makes the limb seem bent; this apparent bend is subtracted.
 glm::dvec3 Inward(const glm::dvec3& rough, const glm::dvec3& upper, const glm::dvec3& lower, double sign, double depth) {
-  constexpr double kCertain = 1.2, kRange = 0.25;  // kCertain multiplies the apparent bend; kRange is a sine
+  // kCertain: factor on the apparent bend; kRange: increase of the bend's sine over which the weight rises from 0 to 1.
+  constexpr double kCertain = 1.2, kRange = 0.25;
   const double a = std::max(glm::length(upper), 1e-9), b = std::max(glm::length(lower), 1e-9);
   const glm::dvec3 normal = sign * glm::cross(upper, lower);
   const double seeming = kCertain * depth * (1 / a + 1 / b);
@@ -93,7 +94,7 @@ SkinDepths DepthsOf(const MarkerSet& set, const std::map<std::string, double>& s
     std::vector<double> lengths;
     bool is_of_file = true;
     for (const bool is_left : {true, false}) {
-      // Compute the distance from the joint's width if the file has it; otherwise take a share of the limb's length.
+      // Compute the marker's depth from the joint's width if the file has it; else take a share of the limb's length.
       const auto width = size((is_left ? "L" : "R") + std::string(joint.size));
       const bool is_offset = joint.left == kLeftShoulder;
       const double radius = 0.5 * size("MARKERDIAMETER").value_or(kUsualMarker);

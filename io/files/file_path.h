@@ -50,7 +50,7 @@ FilePath Inside(const std::filesystem::path& folder);
 class FileSpot {
  public:
   /// Opens the folders of an `Inside` path one by one; `makes_folders` creates missing folders. Fails if a folder is a
-  /// link, if the path leads out of the `Inside` folder, or, with the system's reason, if a folder cannot be opened.
+  /// link, if the path leads out of the `Inside` folder, or if a folder cannot be opened (with the system's reason).
   static Result<FileSpot> Find(const FilePath& path, bool makes_folders);
 
   int folder() const;

@@ -43,7 +43,8 @@ std::string SentenceFor(const Judged& judged, const std::string& other, const Me
     return fmt::format("“{}” and {} both have a value in {} only: too few to judge the {}", c.method, other,
                        Plural(c.pairs, "world"), words.label);
   }
-  // Write the difference, and the mean difference if the mean lies outside the interval.
+  // Write the difference. Also write the mean difference if it lies outside the interval and the verdict is undecided
+  // or decided by the tail.
   std::string figures =
       fmt::format("{} (95 % CI {})", ShortDifference(*c.difference, words), FormatInterval(c.ci_low, c.ci_high, words));
   const bool by_tail = IsDecidedByTail(judged);
@@ -56,8 +57,8 @@ std::string SentenceFor(const Judged& judged, const std::string& other, const Me
     return fmt::format("“{}” is {} than {}: {}; {}, {}", c.method, VerdictName(verdict), other,
                        TailInWords(*judged.answer), words.label, figures);
   }
-  // Choose the verb that fits the verdict. If the value has a verdict and the answer has none, say first that it is
-  // open.
+  // Choose the verb that fits the verdict. If the value has a verdict and the answer has none, say first that the
+  // answer is undecided.
   const bool is_open = verdict == Verdict::kUndecided && c.verdict != Verdict::kUndecided;
   const std::string begin = is_open ? "Undecided: " : "";
   switch (is_open ? c.verdict : verdict) {

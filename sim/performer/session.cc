@@ -123,7 +123,7 @@ SessionPlan PlanSession(RandomStream& random, std::span<const Move> moves, const
   Shuffle(random, is_fault);
 
   constexpr double kStandsFirst = 2.0;  // time that sensors and filters need to settle
-  constexpr double kMinRest = 1.0;      // s; keeps the blend out of one move apart from the blend into the next move
+  constexpr double kMinRest = 1.0;      // s; so that the blend out of a move ends before the blend into the next begins
   SessionPlan plan;
   double time = kStandsFirst;
   const std::vector<std::size_t> asked = DrawMoves(random, moves.size(), count);

@@ -21,7 +21,7 @@ struct SessionOptions {
   double two_faults = 0.25;             ///< probability that an event with a fault has a second fault
   std::optional<double> severity = {};  ///< severity of every fault, in [0, 1]; if empty, drawn for each fault
   std::vector<Fault> faults = {};       ///< faults that may occur; if empty, all
-  double rest_s = 1.5;                  ///< minimum time from an event's window to the next event's beat 0; at least 1
+  double rest_s = 1.5;                  ///< minimum time from an event's WindowEnd to the next beat 0, at least 1 s
 };
 
 /// One event of a session: a scripted performance of a move. All times are in seconds from the session's first frame.

@@ -83,7 +83,7 @@ struct SkeletonSensorOptions {
 
   Intrinsics view;  ///< intrinsics of the depth camera
   DepthLaw depth_law = DepthLaw::kTimeOfFlight;
-  double reference_distance_m = 2.75;  ///< the distance at which errors have their `size`
+  double reference_distance_m = 2.75;  ///< distance from the sensor at which errors have GroupErrors::size
 
   std::array<GroupErrors, kJointGroupCount> groups;
   /// Errors follow a linear model on the tree of the body: in units of the size of the joint's group, a joint's error

@@ -38,7 +38,8 @@ struct Guess {
 };
 using FrameGuesses = std::array<Guess, kRoleCount>;
 
-/// Draws the guesses for hidden joints, limb by limb. A guess is kept for one episode.
+/// Draws the guesses for hidden joints, limb by limb. A guess is kept for one episode, whose length
+/// SkeletonSensorOptions limits.
 class OcclusionGuesses {
  public:
   OcclusionGuesses(const SkeletonSensorOptions& options, const WorldKey& world);

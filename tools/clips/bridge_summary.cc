@@ -13,7 +13,7 @@
 namespace etude {
 namespace {
 
-/// The widest matrix that fits a terminal; the output of --json has no such limit.
+/// The largest number of clips whose matrix fits a terminal. The output of --json has no limit.
 constexpr int kMaxMatrixClips = 24;
 
 /// One clip's row of the table. Coverage is measured for each other clip separately if the table of pairs is made,
@@ -22,9 +22,9 @@ struct ClipSummary {
   int frames = 0, bridge_frames = 0;
   int poses = 0;           ///< number of different tag combinations among the clip's bridge frames
   int reached = 0;         ///< number of other clips that this clip leads into; only if pairs are made
-  double frame_share = 0;  ///< this and the next member: with pairs, means over the other clips
+  double frame_share = 0;  ///< like in_between_share: if pairs are made, the mean over the other clips
   double in_between_share = 0;
-  std::optional<double> worst_wait_s;  ///< the longest wait; with pairs, over the clips that this clip leads into
+  std::optional<double> worst_wait_s;  ///< longest wait; if pairs are made, over the clips that this clip leads into
 };
 
 ClipSummary Summarize(const TaggedClip& clip, const Coverage& coverage, int from) {

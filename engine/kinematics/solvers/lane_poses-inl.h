@@ -21,7 +21,7 @@ struct AngleLanes {
   V now, last, best, start, lower, upper;
 };
 
-/// Forward kinematics of one pose per lane, in the order of `ComputeFrames`, and the linearised targets.
+/// Computes the forward kinematics of one pose per lane, in the order of `ComputeFrames`, and linearises the targets.
 template <class T>
 class LanePoses {
  public:

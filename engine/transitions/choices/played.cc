@@ -67,8 +67,8 @@ class Ends {
 };
 
 /// Collects the frames of a clip around a change of stance. The clip may be entered in an unbroken run of frames that
-/// ends at `before`, and left in an unbroken run that begins at `after`; every frame of a run can be joined. At most
-/// `most_s` seconds of the clip are shown.
+/// ends at `before`, and left in an unbroken run that begins at `after`; `ends` must allow every frame of both runs. At
+/// most `most_s` seconds of the clip are shown.
 ThroughClip WayAround(const MotionLibrary& library, const Ends& ends, int clip, int before, int after, double most_s) {
   const TaggedClip& tagged = library.tagged[clip];
   const auto frames = [&](double seconds) { return static_cast<int>(std::lround(seconds * tagged.rate_hz)); };

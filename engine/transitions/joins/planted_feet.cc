@@ -28,7 +28,7 @@ constexpr Frames Range(int first, int last) {
 }
 
 /// The contacts of one foot in both motions of a window, the distances that the foot slides, and the movement of the
-/// hips over it. An interpolation of both motions stands for the join's hips.
+/// hips over the foot. The hips are interpolated between both motions, as an estimate of the join's hips.
 struct FootTracks {
   FootTracks(const JoinWindow& w, const LegRoles& l, const std::vector<bool>& old, const std::vector<bool>& next)
       : window(w), leg(l), frames(std::min(w.Frames(), kMaxFrames)) {
