@@ -130,7 +130,7 @@ struct SkeletonSensorOptions {
 
   double dropout_share = 0.02;    ///< share of all frames in which the whole body is lost
   double swaps_per_minute = 1.0;  ///< exchanges of left and right arms or legs in profile, 1/3 s each (ours)
-  bool swaps_when_facing = true;  ///< false: rate proportional to 1 − cos(the body's turn from the sensor) (ours)
+  bool swaps_when_facing = true;  ///< false: the rate is multiplied by 1 − cos(the body's turn from the sensor) (ours)
   double outlier_chance = 0.001;  ///< probability per joint and frame (ours; Gaussian + uniform: arXiv 1512.04134)
   double outlier_size_m = 0.15;   ///< largest error of an outlier on each axis, drawn uniformly (ours)
 

@@ -10,12 +10,11 @@ namespace etude {
 
 struct KinematicTree;
 
-/// Returns the height of every joint: the number of joints beyond the joint on the longest way to a leaf (0 for a
-/// leaf).
+/// Returns the height of every joint: the number of its descendants on the longest way to a leaf (0 for a leaf).
 std::vector<int> JointHeights(const KinematicTree& tree);
 
-/// Returns the joints without the root, sorted by height: each comes after all joints beyond it, and joints of one
-/// height are independent of each other.
+/// Returns the joints without the root, sorted by height: each comes after its descendants, and joints of one height
+/// are independent of each other.
 std::vector<int> JointsInwards(const KinematicTree& tree);
 
 /// The tree in the form that the solver of many problems needs (gauss_newton_lanes.cc).
