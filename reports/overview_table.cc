@@ -216,15 +216,14 @@ std::string VerdictOf(const Row& row) {
   return is_false && *is_false > 0 ? "✗ " + text : text;
 }
 
-/// Returns a table with one row for every pair of poses, which shows each method's verdict. The table has no rows if
-/// the worlds are not single pairs.
+/// Returns a table with one row for every pair of poses, which shows each method's verdict. The table has no rows if a
+/// parameter is swept or a world has several pairs: a pair then has no single verdict.
 Table PosePairs(const RunData& run, const ScenarioSummary& scenario, std::string_view poses, std::string_view apart) {
   Table table{
       .label = "Pair by pair",
       .style = "data glance",
       .columns = {{.head = std::string(poses), .is_row_head = true}, {.head = std::string(apart), .is_number = true}}};
   for (const std::string& method : scenario.methods) table.columns.push_back({.head = method, .is_number = true});
-  // If a parameter is swept, or if a world has several pairs, a pair has no single verdict.
   if (scenario.task != "pose-distance" || scenario.conditions.size() != 1) return table;
   // Read the pairs from the first method's rows, and the verdicts from every method's rows.
   for (const Row& row : run.rows) {

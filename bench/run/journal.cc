@@ -111,7 +111,7 @@ Result<std::string_view> CellTable::ReadLine(std::size_t cell) {
 
 Result<void> CellTable::ReadPart(Source& source, const LinePlace& place) const {
   const std::size_t size = std::clamp(kMemory / sources_.size(), kMinPartBytes, kMaxPartBytes);
-  // Lines are in order of completion, so the cell that is read next may have its line shortly before this one.
+  // Lines are in order of completion, so the line of the cell that is read next may be shortly before this line.
   // Therefore, read a part of the file that begins earlier.
   source.begin = place.offset - std::min<std::uint64_t>(place.offset, size / 2);
   source.part.resize(std::max<std::size_t>(size, place.offset - source.begin + place.length));

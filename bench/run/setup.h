@@ -127,7 +127,7 @@ Result<void> FindFiles(const Scenario& scenario, const SourceTexts& texts, Scena
 /// Returns the options with which the motions of a scenario are opened.
 Result<OpenOptions> OpenOptionsOf(const ScenarioSetup& setup, const SourceTexts& texts);
 
-/// Returns true if the scenario's task is not `capture` but its sensor is the cameras of task `capture`.
+/// Returns true if a condition of the scenario has `sensor: cameras`: another task then uses task capture's cameras.
 bool IsFilmed(const Scenario& scenario);
 
 /// Returns the number of people in a scenario's recordings; nullopt if its worlds are not made from recordings. `texts`

@@ -16,8 +16,8 @@ struct CalibrationTargetPose {
   glm::dvec3 p_WT{0};
 };
 
-/// The point pairs of a target in one picture. Points that were measured in the world form a target at the world's
-/// origin.
+/// The point pairs of a target in one picture. If points were measured in the world, all of them form one target, whose
+/// frame is the world.
 struct TargetView {
   std::size_t camera = 0;
   std::size_t target = 0;

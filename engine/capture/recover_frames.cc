@@ -27,7 +27,7 @@ std::optional<Start> PaperStart(const CaptureBody& body, const LimbObservation& 
 // Computes target positions of the joints and of the midpoint of the hips, by following the observed limb directions
 // inwards from every end effector (paper B, figure 3.2(a)).
 PoseTargets TargetsFromEnds(const CaptureBody& body, const LimbObservation& seen) {
-  constexpr double kUnseen = 0.01;  // weight of completed positions
+  constexpr double kUnseen = 0.01;  // weight of positions that depend on a lacking end or direction
   constexpr double kBent = 0.1;     // weight of positions beyond a joint whose bend is not observed
   PoseTargets wanted;
   for (const Role end : {kLeftFoot, kRightFoot, kLeftHand, kRightHand, kHead}) {

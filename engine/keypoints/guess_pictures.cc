@@ -142,7 +142,7 @@ class Guesser {
     return misses.empty() ? 0 : LowerPercentile(misses, 0.5);
   }
 
-  // Interprets the keypoints of all films as pixels of the rig's original pictures if the distance is then smaller.
+  // Interprets the keypoints of all films as pixels of the rig's original pictures if this lowers MissOfAll.
   void ChooseStored() {
     bool is_fitted = false;
     for (const PictureOfFilm& film : films_) {
@@ -163,7 +163,7 @@ class Guesser {
     }
   }
 
-  // Applies the correction of one film that leaves the smallest distance. Returns false if no correction helps enough.
+  // Applies the correction of one film that leaves the smallest MissOf. Returns false if no correction helps enough.
   bool TurnWorst() {
     constexpr double kOff = 0.003, kBetter = 0.5, kNearly = 1.5, kPercent = 100;
     struct Change {
@@ -171,7 +171,7 @@ class Guesser {
       std::size_t camera = 0;
       Guess guess;
     };
-    // Over all films, find the two corrections that leave the smallest distances.
+    // Over all films, find the two corrections that leave the smallest MissOf.
     std::optional<Change> best, second;
     for (std::size_t c = 0; c < films_.size(); ++c) {
       const double before = MissOf(c, guesses_[c]);

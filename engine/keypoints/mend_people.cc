@@ -140,8 +140,8 @@ class Mender {
             least = *other;
             best = &candidate;
           }
-          // The worst camera is the one with the greatest misfit. However, every camera whose picture shows a
-          // better-fitting person comes before the cameras whose pictures show none.
+          // The worst camera has the greatest misfit among the cameras whose pictures show a better-fitting person, or
+          // among all cameras if no picture shows one.
           if (has_better ? best == nullptr || *misfit <= most : best == nullptr && *misfit <= most) continue;
           worst = c;
           most = *misfit;

@@ -35,8 +35,8 @@ namespace {
 double FloorSpeed(const glm::dvec3& velocity) { return std::hypot(velocity.x, velocity.z); }
 
 /// Returns a flag for each frame: true if the mass centre's downward acceleration is SupportRules::min_fall or more.
-/// The acceleration is the second difference over a tenth of a second in each direction. In the first and the last
-/// tenth of a second, the nearest frame outside of these is used.
+/// The acceleration is the second difference over a tenth of a second in each direction. A frame in the first or the
+/// last tenth of a second has the flag of the nearest frame for which this difference exists.
 std::vector<bool> FallingFrames(std::span<const BodyPose> poses, double rate_hz, const SupportRules& rules) {
   constexpr double kReach_s = 0.1;
   const int reach = std::max(static_cast<int>(std::lround(kReach_s * rate_hz)), 1);

@@ -94,7 +94,7 @@ Image<float> SignedDistances(const Mask& mask) {
   Image<float> distances(mask.width, mask.height);
   const double farthest = mask.width + mask.height;
   // Combine the columns by the lower envelope, for each run of equal pixels of a row. The pixel before the run and the
-  // pixel behind it have the other value, so no column farther away is nearer.
+  // pixel after it have the other value, so the nearest pixel of that value is in no column beyond these two.
   const int longest = mask.width + 2;
   Envelope envelope(longest);
   std::vector<double> heights(longest), nearest(longest);
@@ -169,9 +169,9 @@ Mask CutOut(const Mask& mask, const Box& box) {
   return part;
 }
 
-// Gives the value `kValue` to every pixel that has a pixel of that value in its neighbourhood. `is_near` decides
-// whether a neighbour belongs to it, from the distance between the pixel and the neighbour's border; `reach` is the
-// largest offset of a neighbour.
+// Gives the value `kValue` to every pixel whose neighbourhood has a pixel of that value. A neighbour belongs to the
+// neighbourhood if `is_near` is true for the distance from the pixel to the neighbour's border. `reach` is the largest
+// offset of a neighbour.
 template <std::uint8_t kValue, typename IsNear>
 Mask Spread(const Mask& mask, int reach, const IsNear& is_near) {
   Mask out = mask;

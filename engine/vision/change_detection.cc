@@ -78,8 +78,10 @@ class ShadeComparison {
   bool IsNoShade(Rgb8 background, Rgb8 pixel) const;
 
   ChangeOptions o_;
-  double alike2_ = 0;        // below this squared difference, the distance from the nearest multiple is small enough
-  double alike_share2_ = 0;  // below this share of the background's squared length, the factor is plausible
+  // Limits for the squared difference of pixel and background. Below `alike2_`, the pixel is near enough to a multiple
+  // of the background's colour. Below `alike_share2_` × the background's squared length, the factor is plausible.
+  double alike2_ = 0;
+  double alike_share2_ = 0;
 };
 
 bool ShadeComparison::IsNoShade(Rgb8 background, Rgb8 pixel) const {

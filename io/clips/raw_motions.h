@@ -9,9 +9,9 @@
 namespace etude {
 
 /// Returns the motion as the file of a clip holds it: every frame at the file's own rate, on the file's own floor, with
-/// its gaps, in metres and Y up. A leading T-pose stays. A skeleton gives all its joints; markers give all
-/// markers, and the joints that the marker set determines (MarkerBody::shown). Joints that a reader only estimates by a rule are left out. The
-/// hip centre is the joint from which both hips branch if the user's roles name a hip centre, if this joint has the
+/// its gaps, in metres and Y up. A leading T-pose stays. A skeleton gives all its joints; markers give all markers and
+/// the joints that the marker set determines (MarkerBody::shown). Joints that a reader guesses by a rule are left out.
+/// The hip centre is the joint from which both hips branch if the user's roles name a hip centre, if this joint has the
 /// name of a pelvis, or if it lies within 0.4 thigh lengths of the hips' middle at rest. Otherwise, as for an OpenNI
 /// torso, the hip centre is midway between the hips (AddMidwayHips). Contacts are read from an .npz that has them
 /// (ReadFootContacts). Fails if UnderstandClip fails, because without roles the unit and the up axis are unknown. With

@@ -198,12 +198,13 @@ Result<PeopleOfFilm> ReadCoco(const Json& json, const std::string& layout, const
   return film;
 }
 
-/// If all keypoints lie within 0…1, treats them as shares of the film's width and height, and converts them to pixels.
+/// If all seen keypoints lie within ±1.1, treats them as shares of the film's width and height (0…1 in the picture) and
+/// converts them to pixels.
 void Denormalise(const FilmOfKeypoints& of, PeopleOfFilm& film) {
   constexpr double kMaxShare = 1.1;
   constexpr int kSmallPicture = 16;
   if (of.width < kSmallPicture || of.height < kSmallPicture) return;
-  // Return unchanged if any keypoint lies outside 0…1.
+  // Return unchanged if any seen keypoint lies outside ±1.1.
   std::size_t seen = 0;
   for (const auto& frame : film.frames) {
     for (const SeenPerson& person : frame) {

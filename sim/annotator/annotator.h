@@ -37,9 +37,9 @@ constexpr double kIndependentShare = 0.3;  ///< share of the variance: errors dr
 /// 1/e *(ours)*.
 constexpr double kLastingFrames = 10;
 
-/// Returns how unclear a limb with this contrast (`LimbEvidence::contrast`, levels) is, in (0, 1]. The value is 1/2 at
-/// a contrast of 20 levels, which is four times a camera's noise *(ours)*. All errors except the bias grow by the
-/// factor (1 + unclearness).
+/// Returns the unclearness, in (0, 1], of a limb with this contrast (`LimbEvidence::contrast`, levels). It is 1/2 at a
+/// contrast of 20 levels, which is four times a camera's noise *(ours)*. All errors except the bias grow by the factor
+/// (1 + unclearness).
 double Unclearness(double contrast);
 
 /// Probabilities and sizes of mistakes with a limb at `error_px` = 2. All are *(ours)* and proportional to `error_px`.

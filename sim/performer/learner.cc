@@ -128,7 +128,7 @@ struct Learner::Layer {
 
   double Weight(double time_s) const { return Smootherstep((time_s - seen_s) / blend_s); }
 
-  /// Returns the share of the performance at which a perfectly timed performance would be: the beat that the person saw
+  /// Returns the share of the performance that a person in perfect time has danced: to the beat that the coach showed
   /// one lag ago. Before the first beat, the share accelerates from rest; after the last shown beat, it grows at the
   /// move's tempo.
   double DueAt(double time_s) const {

@@ -44,7 +44,8 @@ struct SurfacePaint {
 using PartColours = std::array<Rgb8, 16>;
 
 /// Triangles in the world with one colour, a paint or a texture. Both sides are drawn. Triangles are left out if a
-/// corner or normal is not finite or a corner is 1000 km away. Parts nearer to the camera than 1 cm are clipped.
+/// corner or normal is not finite or a corner is 1000 km from the camera. Parts nearer to it than 1 cm are
+/// clipped.
 struct Surface {
   std::vector<glm::dvec3> positions;                    ///< metres
   std::vector<glm::dvec3> normals;                      ///< unit vectors, one per position

@@ -118,7 +118,7 @@ struct SkeletonSensorOptions {
   double fast_quiet = 0.05;   ///< factor on fast noise at rest; grows with the square of speed to 1 at 0.5 m/s (ours)
   double fast_tail = 0.7;     ///< standard deviation of the logarithm of the bursts' strength; 0: Gaussian noise (ours)
 
-  int lag_frames = 0;  ///< delay of the report, frames
+  int lag_frames = 0;  ///< delay of the reported skeleton, frames
 
   // Occlusion: the guess for hidden joints is kept for an episode. The length of an episode is a number of frames in
   // this range. After the shortest length, an episode also ends when the limb is seen again.

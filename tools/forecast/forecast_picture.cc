@@ -104,7 +104,7 @@ void DrawPlan(Canvas& canvas, const RigForecast& forecast, const ForecastOptions
   canvas.FillBox({kMargin, kPlanTop, kPlanSize, kPlanSize}, {0.13, 0.145, 0.16, 1}, kPanelRadius);
   const glm::dvec2 from = at(forecast.middle_m - half), size = 2.0 * scale * half;
   canvas.FillBox({from.x, from.y, size.x, size.y}, kUnseen);
-  // Draw each camera as a dot with a line in the camera's direction, and keep the places that are then taken.
+  // Draw each camera as a dot with a line in the camera's direction, and record the boxes that dot and line cover.
   struct Mark {
     glm::dvec2 spot;
     std::string name;

@@ -41,8 +41,8 @@ CoachCondition DrawCondition(const WorldKey& key) {
   return condition;
 }
 
-/// Adds a bag of candidate performances for each window that is not grey. A bag keeps only the performances nearest to
-/// the move (KeepNearest), because the farther ones cannot influence the fit.
+/// Adds a bag of candidate performances for each window whose performance is right or wrong, not grey. A bag keeps only
+/// the candidates nearest to the move (KeepNearest), because the farther ones cannot influence the fit.
 void AddSession(const Lesson& lesson, const SessionLog& log, Weighting weighting, std::vector<LabelledBag>& bags) {
   std::vector<PerformanceMeasures> measured;
   const auto recogniser =

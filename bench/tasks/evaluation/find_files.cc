@@ -49,7 +49,8 @@ Result<void> RefuseLinks(const std::string& reference, std::span<const std::stri
   const auto first = std::find_if(pattern.begin(), pattern.end(), [](const fs::path& part) {
     return part.string().find_first_of("*?[") != std::string::npos;
   });
-  const auto found_parts = std::max<std::ptrdiff_t>(std::distance(first, pattern.end()), 1);  // one part for a folder
+  // The number of a path's last parts that the search found: from the first wildcard on; in a folder, the file alone.
+  const auto found_parts = std::max<std::ptrdiff_t>(std::distance(first, pattern.end()), 1);
   std::error_code error;
   for (const std::string& file : files) {
     fs::path path = Split(file).path;

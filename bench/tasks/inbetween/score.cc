@@ -126,9 +126,8 @@ std::string WhyNotClean(const HiddenWindow& hidden) {
   return "";
 }
 
-/// Returns true if the filled gap passes all tests of a clean transition (clean_share). The truth is the only
-/// clip, and all frames of its file count as real. The length of the gap is given, so the time to settle does not
-/// count.
+/// Returns true if the filled gap passes all tests of a clean transition (clean_share). The truth is the only clip, and
+/// all frames of its file count as real. The test of `settle_s` always passes, because the gap's length is given.
 bool IsCleanFilling(const HiddenWindow& hidden, const Globals& found, const Globals& truth) {
   const JudgedFile& file = *hidden.file;
   const std::vector<BodyPose> shown = BodiesOf(found, hidden.roles, file.floor_m, file.scale);

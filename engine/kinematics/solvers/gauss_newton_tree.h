@@ -10,12 +10,11 @@ namespace etude {
 
 struct KinematicTree;
 
-/// Returns the height of every joint: the number of joints beyond the joint on the longest way to a leaf (0 for a
-/// leaf).
+/// Returns the height of every joint: the number of its descendants on the longest way to a leaf (0 for a leaf).
 std::vector<int> JointHeights(const KinematicTree& tree);
 
-/// Returns the joints without the root, sorted by height: each comes after all joints beyond it, and joints of one
-/// height are independent of each other.
+/// Returns the joints without the root, sorted by height: each comes after its descendants, and joints of one height
+/// are independent of each other.
 std::vector<int> JointsInwards(const KinematicTree& tree);
 
 /// The tree in the form that the solver of many problems needs (gauss_newton_lanes.cc).
@@ -45,7 +44,7 @@ struct GaussNewtonTree {
 
   std::vector<Joint> joints;
   std::vector<Effector> effectors;
-  std::vector<int> inwards;  ///< joints sorted by height, each after all joints beyond it (`JointsInwards`)
+  std::vector<int> inwards;  ///< joints sorted by height, each after its descendants (`JointsInwards`)
   std::vector<Step> steps;   ///< in the order of `inwards`; joints of one height alternate, so that a CPU overlaps them
   std::vector<int> unasked;  ///< joints that move no effector
   int quadratic_count = 0;
@@ -101,7 +100,7 @@ struct LimbPacks {
   std::vector<Ends> ends;
   std::vector<TrunkJoint> trunk;  ///< parents before children, the root first
   std::vector<Branch> branches;   ///< the first trunk joint's branches, then the next joint's, in the order of addition
-  std::vector<int> inwards;       ///< trunk joints without the root, each after all joints beyond it
+  std::vector<int> inwards;       ///< trunk joints without the root, each after its descendants
   std::vector<int> places;        ///< the angle index of each degree of freedom
   std::vector<int> end_places;    ///< for each effector: 4 times its index in `ends`, plus its lane
   int slot_count = 0;

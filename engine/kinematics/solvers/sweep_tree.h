@@ -41,8 +41,8 @@ struct SweepTree {
 
   std::vector<Joint> joints;
   std::vector<Effector> effectors;
-  /// The steps of a joint come after those of all joints beyond it; limbs with no effector on or beyond them are left
-  /// out. Independent limbs alternate, so that a CPU can overlap them.
+  /// The steps of a joint come after those of its descendants; limbs with no effector on or beyond them are left out.
+  /// Independent limbs alternate, so that a CPU can overlap them.
   std::vector<Step> steps;
   int axis_count = 0;
   int moments_count = 0;

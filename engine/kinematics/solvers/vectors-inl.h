@@ -117,7 +117,7 @@ HWY_INLINE double GetLane(const Lanes<T, D>& a, int lane) {
 // ---- Four doubles --------------------------------------------------------------------------------------------------
 
 // A `Four` is stored as one vector, or as two on CPUs whose vectors have two doubles. It contains either one number of
-// each of four limbs, or four numbers of a row; only operations on rows move numbers between lanes.
+// each of four limbs, or a row: numbers of one limb. Only functions for rows move numbers between lanes.
 
 #if HWY_MAX_BYTES >= 32
 

@@ -68,8 +68,8 @@ void ForEachLane(std::uint32_t bits, const Visit& visit) {
   for (; bits != 0; bits &= bits - 1) visit(std::countr_zero(bits));
 }
 
-/// Returns d² between `query` and every frame of the block. On every CPU, the values have the bits of the sums from
-/// which `ComputeDistance` takes the square root.
+/// Returns d² between `query` and every frame of the block. On every CPU, d² equals, bit for bit, the sum of which
+/// `ComputeDistance` takes the square root.
 BlockResult SquaredDistances(const GradeMetric& metric, const Grades& query, const FrameBlock& block, double limit);
 
 /// For each box (rounded outwards), returns a lower bound of d² between any frame in `query` and any frame in the box.
