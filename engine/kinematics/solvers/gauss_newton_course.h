@@ -131,8 +131,8 @@ class GaussNewtonCourse {
   // Below this damping a step gets extra active-set passes.
   static constexpr double kSmallDamping = 0.01;
 
-  // Steps are stuck if kPatience of them have not reduced |e|² to the share kProgress of its value. If few iterations
-  // are allowed, max_iterations / kShareOfPatience steps are enough, so that iterations remain for restarts.
+  // Steps are stuck if kPatience steps together have not reduced |e|² to kProgress times its value before them. If few
+  // iterations are allowed, max_iterations / kShareOfPatience steps are enough, so that iterations remain for restarts.
   static constexpr int kPatience = 6;
   static constexpr int kShareOfPatience = 5;
   static constexpr double kProgress = 0.7;
