@@ -57,8 +57,8 @@ class Verdict:
 
 @dataclass(frozen=True)
 class Answer:
-    """The answer of one method against another under one condition, a single verdict as on the page. It considers
-    success first, then the first headline metric, then the tail.
+    """The answer of one method against another under one condition, a single verdict as on the report's page. It
+    considers success first, then the first headline metric, then the tail.
 
     verdict: the verdict on these worlds. beyond: the verdict generalised to other worlds like them; None if there are
     too few units. against: "baseline" or "rival". decided_by: "success", "value", "tail" or "none". details: the
