@@ -54,7 +54,7 @@ struct OffsetFilm {
 };
 
 struct Misfit {
-  double squares = 0;   ///< sum of all squared distances (EpipolarGeometry::DistancePx), pixels²
+  double squares = 0;   ///< sum of the squared distances (EpipolarGeometry::DistancePx, clamped), pixels²
   double variance = 0;  ///< sum of squared deviations of the distances from each landmark's mean, pixels²
   int count = 0;
 
