@@ -149,9 +149,9 @@ struct PlausibilityExtras {
 /// Returns the extras of a task as JSON text. `Extras` is one of the types above.
 template <typename Extras>
 std::string WriteExtras(const Extras& extras);
-/// Reads the text that WriteExtras returns. Fails if the text is not a JSON object. If a key is missing or has a value
-/// of another type, fails and names the key. In IkExtras and TransitionExtras, such members stay empty, because
-/// recordings of older runs and of outside methods have fewer keys.
+/// Reads the text that WriteExtras returns. Fails if the text is not a JSON object, or if a key is missing or has a
+/// value of another type; the error names the key. In IkExtras and TransitionExtras, such a member stays empty instead,
+/// because recordings of older runs and of outside methods have fewer keys.
 template <typename Extras>
 Result<Extras> ReadExtras(const std::string& json);
 

@@ -53,7 +53,8 @@ class NpyWriter {
 /// then ends the process with a sentence on standard error and exit code 3, instead of a crash.
 void EndWhenMappedFilesAreCut();
 
-/// An .npy file mapped into memory: the system reads the parts that are used (EndWhenMappedFilesAreCut).
+/// An .npy file mapped into memory: the system reads only the parts that are used. If another program may truncate the
+/// file, call `EndWhenMappedFilesAreCut` first.
 class NpyFile {
  public:
   /// Opens a file that NpyWriter wrote with numbers of this type. Fails, naming the path, on any other file.

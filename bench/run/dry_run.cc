@@ -174,8 +174,8 @@ Result<Forecast> DryRun(const RunOptions& options, double sample_seconds) {
   ASSIGN_OR_RETURN(const Fence fence, FenceFor(prepared, options.outside, "", options.key));
   Json programs;
   RETURN_IF_ERROR(AddPrograms(prepared, fence, programs));  // fails, as the run would, if a program cannot start
-  // Measure the speed of this machine. Stored costs are multiples of a yardstick of work, so the speed turns them into
-  // seconds.
+  // Measure the speed of this machine. Stored costs are counted in yardsticks (a fixed amount of arithmetic); the speed
+  // converts them to seconds.
   ASSIGN_OR_RETURN(forecast.pace, MeasurePace(forecast.workers));
   // Wall time of a yardstick on one worker.
   const double seconds_per_yardstick = forecast.workers / forecast.pace.yardsticks_per_s;

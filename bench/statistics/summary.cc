@@ -29,9 +29,9 @@ std::vector<const MetricInfo*> MetricsIn(const ConditionTable& table) {
   return present;
 }
 
-/// Returns the interval of the values' aggregate. If a metric ranges from 0 to 1 and all its values are 0 or 1, this is
-/// Wilson's interval, because the bootstrap interval of 0 in 60 has no width. An amount is never a share, even if all
-/// its values are 0.
+/// Returns the interval of the values' aggregate. If a metric's aggregate is the mean of values from 0 to 1, and all
+/// values are 0 or 1, this is Wilson's interval, because the bootstrap interval of, say, 60 zeros has no width. An
+/// amount is never a share, even if all its values are 0.
 std::optional<Interval> IntervalOf(std::span<const double> values, const MetricInfo& metric, std::uint64_t seed,
                                    const std::string& purpose) {
   const bool is_share = metric.reading != Reading::kAmount && metric.aggregate == Aggregate::kMean &&

@@ -41,8 +41,9 @@ struct TriangulatedPoint {
 };
 
 /// Triangulates the point Q seen by two or more cameras (paper B, section 2.4): each sighting gives two linear
-/// equations, and p_WQ = V = (MᵀM)⁻¹ Mᵀb. The rows are divided by |h₃| so that a camera's weight does not depend on the
-/// arbitrary scale of its H. (The paper prints h₁₄ for h₂₄ in the v rows, a misprint.)
+/// equations, and p_WQ = V = (MᵀM)⁻¹ Mᵀb. The rows of a camera are divided by |h₃|, where h₃ is the start (three
+/// numbers) of the third row of the camera's matrix H, so that the arbitrary scale of H does not change the camera's
+/// weight. (The paper prints h₁₄ for h₂₄ in the v rows, a misprint.)
 TriangulatedPoint Triangulate(std::span<const Sighting> sightings);
 
 /// Triangulates like `Triangulate`, but also divides every row by the point's depth in its camera *(ours)*, so that

@@ -37,9 +37,9 @@ bool SeeClap(const SensedFrame& frame, ClapState& state) {
 
 namespace {
 
-/// The body counts as moving if the mean distance of the tracked joints from their rest positions exceeds this (ours).
-/// A resting body moves by millimetres, while an inferred limb can jump by decimetres, so only the mean over tracked
-/// joints counts.
+/// The body counts as moving if the mean distance of the tracked joints from their rest positions exceeds this limit
+/// (ours). A resting body moves by millimetres, while an inferred limb can jump by decimetres, so only the mean over
+/// tracked joints counts.
 constexpr double kMovingMetres = 0.025;
 /// The smoothing factor per frame of the rest positions; it corresponds to a time constant of half a second.
 constexpr double kFollowing = 1.0 / 15;

@@ -30,8 +30,8 @@ struct AcclaimSkeleton {
 bool IsAcclaimMotion(std::string_view text);
 
 /// Reads an ASF file. If an angle exceeds 4π radians, all angles are read as degrees, whatever unit the file states.
-/// Returns an error with file:line:column if the text is not Acclaim's, has bone lengths as channels, bones that are
-/// defined twice or not connected, numbers beyond ±10⁹, or more than 1,000 bones.
+/// Returns an error with file:line:column if the text is not an ASF file, if bone lengths are channels, if a bone is
+/// defined twice or not connected, if a number is beyond ±10⁹, or if there are more than 1,000 bones.
 Result<AcclaimSkeleton> ReadAcclaimSkeleton(std::string_view text, const std::string& file);
 
 /// Reads an AMC file for a skeleton of ReadAcclaimSkeleton. The file has no frame rate; 120 Hz is assumed, the rate of

@@ -44,9 +44,10 @@ struct RigPlacement {
 /// 2.2 m; otherwise metres, centimetres and millimetres are tried, then inches and feet, which must give 1.2 to 2.2 m.
 /// The format's up axis is kept if it is within 35° of the result of `FindUp` and the world is not a camera's frame.
 /// Otherwise the up axis is the axis of the file within 4° of that result (10° if the result is not more accurate), or
-/// else the result itself; `told` then gives its 95 % angle. Fails if no unit gives a plausible stature (the message
-/// names the factor that would), if lengths have no unit, if the up direction is uncertain by more than 35°, if a
-/// requested axis puts cameras and person upside down, and, at the place "keypoints", if no frame shows enough.
+/// else the result itself; `told` then gives the largest error in 95 of 100 takes. Fails if no unit gives a plausible
+/// stature (the message names the factor that would), if lengths have no unit, if the up direction is uncertain by more
+/// than 35°, if a requested axis puts cameras and person upside down, and, at the place "keypoints", if no frame shows
+/// enough.
 /// @param points the points of the person, triangulated with the rig as in its file
 Result<RigPlacement> PlaceRig(const RigFile& rig, std::span<const LandmarkPositions> points, double rate_hz,
                               const PlacementOptions& options);

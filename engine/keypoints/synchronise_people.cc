@@ -54,8 +54,8 @@ struct OffsetFilm {
 };
 
 struct Misfit {
-  double squares = 0;   ///< sum of all squared distances
-  double variance = 0;  ///< sum of squared deviations from the mean of each landmark
+  double squares = 0;   ///< sum of the squared distances (EpipolarGeometry::DistancePx, clamped), pixels²
+  double variance = 0;  ///< sum of squared deviations of the distances from each landmark's mean, pixels²
   int count = 0;
 
   double mean() const { return squares / count; }

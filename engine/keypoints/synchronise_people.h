@@ -42,9 +42,9 @@ struct FoundClock {
 
 /// Finds clocks that explain the keypoints much better than the given clocks *(ours)*. The search covers offsets that
 /// differ by up to `max_frames` from the given offsets, and drifts of up to three frames over half of the film. It
-/// minimises the mean Geman–McClure loss of epipolar distances, with a scale of 1 % of the height: first on a grid,
-/// then with ever smaller steps down to 1/500 of a frame. A clock is changed only if this halves the loss, because
-/// wrong keypoints alone are not evidence of a wrong clock.
+/// minimises the mean Geman–McClure loss of epipolar distances, with a scale of 1 % of the person's height in the
+/// picture, at least 1.5 pixels: first on a grid, then with ever smaller steps down to 1/500 of a frame. A clock is
+/// changed only if this halves the loss, because wrong keypoints alone are not evidence of a wrong clock.
 std::vector<FoundClock> FindClocks(std::span<const ProjectionMatrix> cameras, std::span<const SeenPeople> people,
                                    std::span<const FilmClock> given, int max_frames, const FollowOptions& options);
 

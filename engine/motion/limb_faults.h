@@ -9,8 +9,8 @@
 
 namespace etude {
 
-/// Returns the direction in front of a shank that the toes show: a unit vector perpendicular to the shank; nothing if
-/// the foot is pointed, because the toes then lie near the line of the shank and do not show where the front is.
+/// Returns a shank's forward direction, found from the toes: a unit vector perpendicular to the shank. Returns nullopt
+/// if the foot is pointed, because the toes then lie near the line of the shank and do not show where the front is.
 std::optional<glm::dvec3> FrontByToes(const BodyPose& pose, Side side);
 
 /// Returns the angle by which a knee is overextended, degrees; 0 if it is straight or bent forwards. The line of the

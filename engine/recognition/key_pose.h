@@ -76,7 +76,7 @@ double MatchOf(const FeatureFrame& frame, const TaughtPose& pose, const Tracking
                const KeyPoseOptions& options);
 
 /// Makes paper A's recogniser, which detects a move when its key poses are reached in order. The moves must have key
-/// poses (CheckKeyPoses). The evidence reaches ½ when A's crisp rule is fulfilled.
+/// poses (CheckKeyPoses). The evidence reaches ½ when paper A's crisp rule is fulfilled.
 std::unique_ptr<Recogniser> MakeKeyPoseRecogniser(std::span<const TaughtMove> taught, const TrackingWeights& weights,
                                                   const KeyPoseOptions& options);
 

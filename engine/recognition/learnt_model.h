@@ -17,8 +17,8 @@
 namespace etude {
 
 /// A decision tree of depth three. Each node compares one measure with a limit; the leaf that is reached adds its value
-/// to the log-odds. The children of node n are 2n + 1 (at most the limit) and 2n + 2 (above it); the children of the
-/// last row are leaves.
+/// to the log-odds. Node n leads to node 2n + 1 if its measure is at most its limit, otherwise to node 2n + 2. The last
+/// row of nodes leads to the leaves.
 struct DecisionTree {
   static constexpr std::size_t kNodes = 7, kLeaves = 8;
   std::array<int, kNodes> measures{};  ///< index of each node's measure, below kMeasureCount

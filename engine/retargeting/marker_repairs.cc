@@ -54,9 +54,9 @@ bool IsFarFromZero(const MarkerMotion& markers) {
   return static_cast<double>(far) > kTenth * static_cast<double>(markers.frames.size());
 }
 
-/// Removes positions at 0, 0, 0 of three kinds of markers: those with other positions in other frames, those of limbs
-/// if other markers move, and all markers if the body is far from the origin. (The root of a root-relative pose stays,
-/// because it is always at 0.) Returns the number of removed positions.
+/// Removes a marker's positions at 0, 0, 0 if the marker has other positions in other frames, if it is on a limb and
+/// other markers move, or if the body is far from the origin. (The root of a root-relative pose stays, because it is
+/// always at 0.) Returns the number of removed positions.
 int LeaveZerosOut(MarkerMotion& markers) {
   int zeros = 0;
   const auto moves = [&](std::size_t marker) {

@@ -25,7 +25,7 @@ struct MarkerSet {
   std::string key;  ///< the value of --marker-set that selects this set
   std::vector<MarkerRule> rules;
   std::array<std::string, 4> pelvis = {};  ///< markers of the pelvis: left and right front, left and right back; the
-                                           ///< hips follow from them
+                                           ///< hips are computed from these markers
   std::string sacrum = "";                 ///< the marker that may replace the two markers on the back of the pelvis
   /// True if knees, ankles and elbows have one marker each, on the skin. Further markers on thighs and shanks (wands)
   /// then show the planes in which the limbs bend.

@@ -72,10 +72,10 @@ struct BodyConversion {
 ///   has another root and gets its own floor.
 ///
 /// Fails, naming `file`, for: no frames; more than an hour or half a million poses; a body without size; two or more of
-/// its eight limbs without length in the median frame; a body that is not 0.4 to 4 m tall in a given unit. Also fails
-/// if left and right are swapped or the axes are left-handed: the left arm is on the side of the right leg, or feet
-/// point backwards (if feet are composed: arms point backwards, or knees bend backwards by more than 35° or together
-/// with the arms). The note states a smaller overextension of the knees.
+/// its eight limbs without length in the median frame; a body that is not 0.4 to 4 m tall in the unit that the user
+/// gave. Also fails if left and right are swapped or the axes are left-handed: the left arm is on the side of the right
+/// leg, or feet point backwards (if feet are composed: arms point backwards, or knees bend backwards by more than 35°
+/// or together with the arms). The note states a smaller overextension of the knees.
 Result<BodyConversion> ToBodyMotion(const Clip& clip, const JointMap& map, const std::string& file,
                                     const BodyOptions& options = {});
 

@@ -25,9 +25,10 @@ struct MotionOptions {
 std::vector<Activity> MotionActivity(std::span<const ColourImage> pictures, const MotionOptions& options = {});
 
 /// Estimates the background of a static scene: for each pixel and channel, the median over the `kept` pictures with the
-/// lowest activity there; of equally active pictures, the earliest. A pixel that an object covers in all pictures gets
-/// the object's colour. (B. Laugraud, S. Piérard, M. Van Droogenbroeck, "LaBGen: a method based on motion detection for
-/// generating the background of a scene", Pattern Recognition Letters 96, 2017; they count motion in patches.)
+/// lowest activity there. Of equally active pictures, the earliest are taken. A pixel that an object covers in all
+/// pictures gets the object's colour. (B. Laugraud, S. Piérard, M. Van Droogenbroeck, "LaBGen: a method based on motion
+/// detection for generating the background of a scene", Pattern Recognition Letters 96, 2017; they count motion in
+/// patches.)
 /// @param activity one per picture, of the picture's size
 /// @param kept at least one; if it is the number of pictures, the result is the plain median
 ColourImage EstimateBackground(std::span<const ColourImage> pictures, std::span<const Activity> activity,

@@ -40,7 +40,7 @@ enum class ClipFormat {
 /// "NPZ", "NPY", "Motive", "MOT", "Motion-BIDS", "recording" or "built-in".
 std::string_view FormatName(ClipFormat format);
 
-/// Describes how the body of a clip was made, if the clip's file already holds a body.
+/// Describes how the reader of a file made a clip's body, if the reader returns a body instead of a skeleton.
 struct MadeBody {
   /// The source of the body, and every change that was made to the file's content, as sentences for users.
   std::vector<std::string> changes;

@@ -5,7 +5,7 @@ import dataclasses
 class Message:
     """A dataclass whose fields are the keys of a JSON object of the protocol (`from_` stands for `from`).
 
-    It can also be read like the object: `problem["root"]`, `problem.get("ask")`, `"ask" in step`.
+    Its values can also be read as from a dict: `problem["root"]`, `problem.get("ask")`, `"ask" in step`.
     """
 
     HOLDS = {}  # by key: the class of its value, or [class] if the value is a list

@@ -81,7 +81,7 @@ def _differences(axes, pairs, names, colours):
 
 def curves(run, name, *, scenario=None, condition=None):
     """Returns one curve per method: at each step, the median over the method's cells. A cell that has ended keeps its
-    last value, as on the page. name: the name of a series, such as "position_error_max_cm"."""
+    last value, as on the report's page. name: the name of a series, such as "position_error_max_cm"."""
     scenario = run._named(scenario)
     found, axis, unit = {}, "", ""
     for each in run.series(name, scenario=scenario, condition=condition):

@@ -95,7 +95,7 @@ Result<DetectionExtras> ExtrasOf(const Recording& recording, const Place& place)
   return extras;
 }
 
-/// Adds the verdicts of other methods recorded in the same world, up to the number of rows of the timeline.
+/// Adds the verdicts of other methods recorded in the same world, until the timeline has two rows of methods.
 Result<void> AddOtherJudges(const RunData& run, const ShownCell& cell, Facts& facts) {
   constexpr std::size_t kMaxJudges = 2;
   for (const auto& [row, recorded] : RecordedRows(run)) {

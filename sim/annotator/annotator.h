@@ -20,11 +20,11 @@ struct PersonErrors {
 };
 
 /// Returns the relative difficulty of locating each joint centre, by role, with mean 1. The values are the standard
-/// deviations σ of two keypoint evaluations, divided by their mean. COCO measured its σ on 5,000 images annotated more
-/// than once, relative to the square root of a person's area: shoulders .079, elbows .072, wrists .062, hips .107,
-/// knees .087, ankles .089; ears (used for the head) .035. COCO-WholeBody gives .068 for big toes (used for the feet)
-/// and .026 for middle fingers (used for the hands). Only ratios of σ are used, because the absolute values describe
-/// crowd workers on pictures of all kinds.
+/// deviations σ that COCO and COCO-WholeBody use to evaluate keypoints, divided by their mean. COCO measured its σ on
+/// 5,000 images annotated more than once, relative to the square root of a person's area: shoulders .079, elbows .072,
+/// wrists .062, hips .107, knees .087, ankles .089; ears (used for the head) .035. COCO-WholeBody gives .068 for big
+/// toes (used for the feet) and .026 for middle fingers (used for the hands). Only ratios of σ are used, because the
+/// absolute values describe crowd workers on pictures of all kinds.
 const std::array<double, kRoleCount>& RelativeDeviations();
 
 /// A mark's error is the sum of three parts. These are the parts' shares of the error's variance *(ours; Bartlett,

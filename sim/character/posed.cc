@@ -52,7 +52,7 @@ glm::dvec3 SizeOf(Role role, const BodyPose& pose) {
   for (const Role end : AllRoles()) {
     if (ParentOf(end) == role) return glm::dvec3(ratio(role, end));
   }
-  // Scale the head only by the square root of the ratio for the length from neck to head joint, because files put the
+  // Scale the head by the square root of the neck's length ratio (shoulder centre to head joint), because files put the
   // head joint at different heights.
   return glm::dvec3(std::sqrt(ratio(*ParentOf(role), role)));
 }

@@ -57,8 +57,8 @@ struct BodyDimensions {
 /// Computes the twenty joints of a body that faces +Z on a floor at y = 0. The home spots of the feet are left and
 /// right of the origin. Legs that are not free reach for their spots by two-bone inverse kinematics, so a standing foot
 /// cannot slide; the hips sink until the standing legs reach their spots. In every pose, the limbs have the lengths in
-/// `body`. Angles in `controls` are used unchanged. Lengths (of hips, feet and jumps) are scaled with the hip height,
-/// so a small body takes small steps.
+/// `body`. Angles in `controls` are used unchanged. Controls in metres (of hips, feet and jumps) are scaled with the
+/// hip height, so a small body takes small steps.
 BodyPose PoseOf(const Controls& controls, const BodyDimensions& body = {});
 
 /// Returns the ready stance, in or near which every move starts and ends: feet on their home spots, knees soft, arms

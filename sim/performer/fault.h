@@ -26,9 +26,9 @@ enum class Fault {
 };
 
 /// A fault and its severity: 0 changes nothing, and 1 is the fault's worst form. Faults of execution (amplitude, late,
-/// off beat, limb missing, elbow straight) grow in magnitude. Faults of content (side, move, skipped, order, stopped)
-/// affect a share of the performance that grows with the severity, from the performance's beginning; after this share
-/// the person dances correctly.
+/// off beat, limb missing, elbow straight) grow in magnitude. Faults of content affect a share of the performance that
+/// grows with the severity: its beginning (side, move, skipped, order; afterwards the person dances correctly) or its
+/// end (stopped).
 struct GradedFault {
   Fault fault = Fault::kAmplitude;
   double severity = 1;  ///< severity in [0, 1]
@@ -78,12 +78,12 @@ struct StrayLimits {
 /// `limits.wrong`, and kGrey otherwise.
 Truth TruthOf(const Stray& stray, const StrayLimits& limits = {});
 
-/// Computes `limb_deg` by comparing the meant and the danced pose at 32 shares of the performance.
+/// Computes `Stray::limb_deg` by comparing the meant and the danced pose at 32 shares of the performance.
 double LimbStrayDeg(const std::function<BodyPose(double share)>& meant,
                     const std::function<BodyPose(double share)>& danced);
-/// Computes `timing_beats` of a performance of `beats` beats. Each function maps a time, in [0, 1] of the performance's
-/// length, to the share of the performance that is reached at that time, clamped to [0, 1]. Both functions are sampled
-/// at 64 times.
+/// Computes `Stray::timing_beats`; the performance lasts `beats` beats. Each function maps a time, in [0, 1] of the
+/// performance's length, to the share of the performance that is reached at that time, clamped to [0, 1]. Both
+/// functions are sampled at 64 times.
 double TimingStrayBeats(const std::function<double(double due)>& meant, const std::function<double(double due)>& danced,
                         double beats);
 

@@ -95,7 +95,7 @@ PartColours CodedSuit() {
   constexpr std::array kOrder = {kTrunk,       kLeftThigh,     kLeftShank,    kLeftFoot,   kLeftUpperArm,
                                  kLeftForearm, kLeftHand,      kHead,         kRightThigh, kRightShank,
                                  kRightFoot,   kRightUpperArm, kRightForearm, kRightHand};
-  constexpr double kFirstHue = 250, kHues = 240;  // degrees: hues from 250 over 360 to 130
+  constexpr double kFirstHue = 250, kHues = 240;  // degrees: hues from 250 through 360 to 130
   constexpr std::size_t kStep = 5;                // number of hues between consecutive limbs of kOrder
   PartColours suit{};
   for (std::size_t i = 0; i < kOrder.size(); ++i) {

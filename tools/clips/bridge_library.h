@@ -15,7 +15,7 @@ namespace etude {
 
 /// The clips of a library, and the rules by which the clips' frames are tagged and matched.
 struct BridgeLibraryOptions {
-  std::vector<std::string> clips;  ///< references; each clip counts once
+  std::vector<std::string> clips;  ///< references to clips; repeated clips are ignored
   /// The corrective clips, which are added to the library; empty = the coach's own clips among `clips`.
   std::vector<std::string> to;
   FuzzySystem system;

@@ -108,7 +108,7 @@ void DrawPlan(Canvas& canvas, const RigForecast& forecast, const ForecastOptions
   struct Mark {
     glm::dvec2 spot;
     std::string name;
-    bool is_below;  ///< whether the name rather stands below the dot than above
+    bool is_below;  ///< true: the name should stand below the dot rather than above it
     Paint paint;
   };
   std::vector<Mark> marks;

@@ -25,14 +25,14 @@ struct JointRecording {
   double DurationSeconds() const { return static_cast<double>(frames.size()) / rate_hz; }
 };
 
-/// The rigid body that carries a joint (for example an optical target), measured by the second system (TwinMotion). The
-/// joint's position in the frame of this rigid body is constant.
+/// The rigid body that carries a joint (for example an optical target), measured by a second capture system
+/// (TwinMotion). The joint's position in the frame of this rigid body is constant.
 struct Carrier {
   glm::dvec3 position{0};
   glm::dquat rotation{1, 0, 0, 0};
 };
 
-/// The motion of a recording, measured by a second system: the carrier of each joint in each frame, metres.
+/// The motion of a recording, measured by a second capture system: the carrier of each joint in each frame, metres.
 struct TwinMotion {
   double rate_hz = 60;
   std::vector<std::array<std::optional<Carrier>, kRoleCount>> frames;

@@ -38,7 +38,8 @@ struct PairVerdict {
   std::vector<bool> alike;
 };
 
-/// Computes a method's verdicts. `weights` are the S of the fuzzy distance; other distances ignore them.
+/// Computes a method's verdicts. `weights` are the feature weights S of the fuzzy distance; other distances ignore
+/// them.
 PairVerdict ComputePairVerdict(const PairWorld& world, const PoseDistanceMethod& method, const Memberships& memberships,
                       const FeatureWeights& weights);
 

@@ -16,7 +16,7 @@ struct StageRules {
   HeadRule head;
   int min_clips = TagRules{}.min_clips;
   int most_per_class = TagRules{}.most_per_class;
-  TweenRules tween;            ///< the rules of clips in between
+  TweenRules tween;            ///< the rules by which tweens are made
   bool asks_for_acts = false;  ///< true: if there are acts and other clips, the coach's acts are requested while other
                                ///< clips play
 };

@@ -295,10 +295,10 @@ Result<void> TidyAllNames(tinygltf::Model& model, const std::string& file) {
   return TidyNames(model.materials, "materials", file);
 }
 
-/// Returns tinygltf's model of a file, in which only the JSON types can be trusted. Buffers are loaded; images stay
-/// encoded, and those in separate files are only fetched if pictures are wanted. Returns an error for anything that
-/// OpenGltfContainer or tinygltf refuses, a version other than 2.x, required extensions that would change what is read
-/// here, and URIs that leave the file's folder.
+/// Returns tinygltf's model of a file. Only the JSON types in the model have been checked, not values such as indices.
+/// Buffers are loaded; images stay encoded, and images in separate files are fetched only if pictures are wanted.
+/// Returns an error for anything that OpenGltfContainer or tinygltf refuses, a version other than 2.x, required
+/// extensions that would change what is read here, and URIs that leave the file's folder.
 Result<std::unique_ptr<tinygltf::Model>> ParseGltf(std::string_view bytes, const std::string& file,
                                                    const FetchFile& fetch, bool wants_pictures) {
   ASSIGN_OR_RETURN(auto container, OpenGltfContainer(bytes, file));

@@ -26,9 +26,9 @@ class IkRun {
   /// Returns the problem's start angles, clamped to their ranges.
   const std::vector<double>& start_angles() const { return start_angles_; }
 
-  /// Records the start at the first call, and later the result of each iteration. `errors` belong to `angles`, which is
-  /// a list or a function that makes one; the function is called only for a trace. `fk_evaluations` is the number of
-  /// forward-kinematics passes since the last record.
+  /// Records the start at the first call, and later the result of each iteration. `errors` are those of the pose
+  /// `angles`. `angles` is a list, or a function that returns a list and is called only for a trace. `fk_evaluations`
+  /// is the number of forward-kinematics passes since the last record.
   template <class Angles>
   void Record(std::span<const EffectorError> errors, const Angles& angles, int fk_evaluations = 1) {
     RecordErrors(errors, fk_evaluations);

@@ -137,7 +137,7 @@ struct LevenbergMarquardtOptions {
 /// gradient pushes them out of the range (Bertsekas 1982; `DampedInverse::StepWithin`). The damping μ is the sum of
 /// squares (Sugihara 2011), which makes convergence near the targets quadratic, times a factor that follows the ratio
 /// of actual to predicted reduction (Nielsen 1999). A good step lowers the factor, to no less than a third of its
-/// value. A step that would raise the sum is undone, and the factor is multiplied by 2, after the next such step by 4,
+/// value. A step that would raise the sum is undone and multiplies the factor: the first such step by 2, the next by 4,
 /// then by 8, and so on. No step turns an angle by more than 0.6 rad.
 ///
 /// A descent is stuck if six steps (a fifth of the allowed iterations, if that is less) have not reduced the sum to 0.7

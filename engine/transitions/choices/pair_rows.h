@@ -29,8 +29,8 @@ class PairRows {
 template <class Value>
 class DiagonalSums {
  public:
-  /// Keeps the last `depth` rows (rounded up to a power of two), which limits the memory. The first row is number
-  /// `first_row`.
+  /// To limit the memory, keeps only the last `depth` rows (`depth` is rounded up to a power of two). The first row is
+  /// number `first_row`.
   DiagonalSums(int first_row, int columns, int depth)
       : first_row_(first_row),
         next_row_(first_row),

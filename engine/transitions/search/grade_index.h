@@ -51,7 +51,7 @@ class GradeIndex {
   GradeMetric metric_;
   std::vector<int> order_;  ///< frame indices, block by block
   std::vector<FrameBlock> blocks_;
-  std::vector<Tags> tags_;     ///< the ten tags of each frame, by `order_`; empty if no query has tags
+  std::vector<Tags> tags_;     ///< the ten tags of each frame, in the order of `order_`; empty if no query has tags
   std::vector<Level> levels_;  ///< the lowest level first; the last has one node; empty if there are no frames
 };
 
