@@ -73,8 +73,8 @@
   };
   document.documentElement.classList.add('js');
 
-  // A dot or table row opens a card, which lists one `etude replay` command for each cell of the dot or row. `folder`
-  // is the run's folder in these commands.
+  // The card of a dot or row shows its cells, and the command `etude replay` that runs these cells again. `folder` is
+  // the run's folder in this command.
   const folder = location.protocol === 'file:' ? decodeURIComponent(location.pathname).replace(/\/report\/[^/]*$/, '') : '.';
   const word = (text) => /^[\w.\/=,:@%+-]+$/.test(text) ? text : "'" + text.replaceAll("'", "'\\''") + "'";
   const card = make('div', '', {className: 'row-card', hidden: true});
@@ -174,8 +174,8 @@
     if (row.dataset.ids) (row.tagName === 'TR' ? row.cells[0] : row).append(button('', 'Run it again', () => show(row), 'rerun'));
   });
 
-  // `save` writes a picture as an SVG file, with the screen's colours and the marks that the picture uses. `print`
-  // prints pictures without the rest of the page; the browser can save them as a PDF of vector graphics.
+  // A picture is saved as a file with the colours of the screen and the marks that it uses; or it is printed alone on a
+  // page of its own size, and the browser can save that page as a PDF of vector graphics.
   const PAINTS = ['fill', 'stroke', 'stroke-width', 'stroke-dasharray', 'fill-opacity', 'stroke-opacity', 'opacity', 'font-size', 'font-family', 'paint-order'];
   const whole = (svg) => {
     const copy = svg.cloneNode(true), there = svg.querySelectorAll('*');
