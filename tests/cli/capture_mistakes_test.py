@@ -686,7 +686,7 @@ class Mistakes(EtudeCase):
         self.assertLess(float(re.search(r"^all, median\s+([\d.]+)", both.stdout, re.M)[1]), 10, both.stdout)
         text = (self.folder / "both.html").read_text()
         self.assertEqual(re.findall(r"Median, (px|%)", text), ["px", "%"])
-        self.assertRegex(text, r"px off the keypoints in the median; body and outlines differ by \d+ %; ")
+        self.assertRegex(text, r"px off the keypoints in the median; body and outlines differ by \d+ % in the median; ")
 
     def test_what_is_no_person_is_refused_with_the_factor(self):
         told, errors, _ = self.capture("Pose2Sim", more=("--rig-unit", "cm"))
