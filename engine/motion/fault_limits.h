@@ -27,9 +27,9 @@ inline constexpr double kFootSkate_m_s = 0.14, kFootSkate_s = 0.4,
 // Jumps and pops.
 inline constexpr double kJumpAlongFloor_m = 0.10, kJump_m = 0.25;
 inline constexpr double kPop_m = 0.25, kSurePop_m = 0.45, kPopTimesUsual = 6, kUsualPop = 0.95;
-/// In clips of kShortClipFrames to kPopFrames / (1 − kUsualPop) frames, the usual third difference ignores the
-/// `kPopFrames` largest differences; a pop exceeds `kShortPop_m` and kPopTimesUsual times the usual difference. Clips
-/// with fewer than `kShortClipFrames` frames have no such limit.
+/// A second limit, for clips of kShortClipFrames to kPopFrames / (1 − kUsualPop) frames only: a third difference is a
+/// pop, too, if it exceeds both `kShortPop_m` and kPopTimesUsual times the usual difference, which here is the largest
+/// one after the `kPopFrames` largest are left out.
 inline constexpr double kShortPop_m = 0.36, kShortClipFrames = 45, kPopFrames = 9;
 
 // Freezes.
