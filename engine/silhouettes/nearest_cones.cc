@@ -128,7 +128,7 @@ void Compare(const ConeColumns& cones, size_t cone, const PointColumns& points, 
   }
 }
 
-/// Returns false if the cone certainly lowers none of the distances of a block's points: it computes no division and no
+/// Returns false if the cone certainly lowers no distance of a block's points. The test needs no division and no square
 /// root.
 bool MayLower(const Axes& axes, size_t cone, const PointColumns& points, size_t first_point, const double* distance) {
   const Real real;

@@ -17,7 +17,7 @@ struct SweepTree {
     int moments = -1;         ///< index of the moments of its limb
     bool is_first = false;    ///< true if the parent's limb receives this limb's moments before all others
     bool is_aligned = false;  ///< true if `R_PJ` is the identity
-    int base[3] = {};         ///< indices of the limb's axes before its hinges turn; shared axes have the parent's index
+    int base[3] = {};         ///< indices of the limb's axes before its hinges turn; shared axes: the parent's index
     int axes[3] = {};         ///< indices of the limb's axes after all hinges of the joint have turned
     double R_PJ[3][3] = {};   ///< [row][column]
     double p_PJ[3] = {};

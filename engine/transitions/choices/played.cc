@@ -67,7 +67,7 @@ class Ends {
 };
 
 /// Collects the frames of a clip around a change of stance. The clip may be entered in an unbroken run of frames that
-/// ends at `before`, and left in an unbroken run that begins at `after`; every frame of a run can be joined. At most
+/// ends at `before` (by `MayEnter`), and left in an unbroken run that begins at `after` (by `MayLeave`). At most
 /// `most_s` seconds of the clip are shown.
 ThroughClip WayAround(const MotionLibrary& library, const Ends& ends, int clip, int before, int after, double most_s) {
   const TaggedClip& tagged = library.tagged[clip];
