@@ -71,10 +71,9 @@ Result<SelfTestReport> RunSelfTest(const RunUnderSeed& run, int repetitions);
 class InjectedTails {
  public:
   /// Makes copies of `first`. Each copy has one change, to the values of metric `target` in the first cells of the
-  /// first scenario:
-  /// - n worlds become worse by 2 × `rule.times` practical thresholds; n = 1, 2, 3, 5, 10 and the smallest number that
-  ///   is a regression;
-  /// - that smallest number of worlds becomes worse by 0.9 × `rule.times` practical thresholds;
+  /// first scenario. Let N be the smallest number of far worse worlds that `rule` counts as a regression.
+  /// - n worlds become worse by 2 × `rule.times` practical thresholds, for n = 1, 2, 3, 5, 10 and N;
+  /// - N worlds become worse by 0.9 × `rule.times` practical thresholds;
   /// - one value is lost.
   /// `seed` determines which worlds are chosen.
   void Try(const Snapshot& first, const std::string& target, std::uint64_t seed, const TailRule& rule);

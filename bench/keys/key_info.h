@@ -66,8 +66,8 @@ std::string NumberText(double number);
 /// Merges keys that differ only in their conditions.
 std::vector<KeyInfo> MergeAlike(std::vector<KeyInfo> keys);
 
-/// Returns true if the values of `mapping` allow `key` in it. `keys` are all keys that the mapping may have; an absent
-/// key has its default value. If the key on which `key` depends is not allowed, `key` is not allowed either.
+/// Returns true if `mapping` may contain `key`: the key on which `key` depends is allowed itself and has one of the
+/// values that allow `key`. `keys` are all keys that the mapping may have; an absent key has its default value.
 bool MayStand(const KeyInfo& key, std::span<const KeyInfo> keys, const Node& mapping);
 
 /// Adds an error for every key of `mapping` whose condition (KeyInfo::only_with) does not hold, because the key would

@@ -232,7 +232,7 @@ std::optional<double> IccOf(const AgreementSums& sums) {
   const double columns = n * bias * bias / 2;
   const double rest = (sums.square_truth + sums.square_found - 2 * sums.product) / 2 / (n - 1);
   const double all = rows + rest + 2 / n * (columns - rest);
-  constexpr double kRounding = 1e-12;  // rounding errors of mean squares, degrees²
+  constexpr double kRounding = 1e-12;  // smaller mean squares are rounding errors, degrees²
   if (!(all > kRounding)) return std::nullopt;
   return (rows - rest) / all;
 }

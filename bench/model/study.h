@@ -14,7 +14,8 @@ namespace etude {
 struct Expectation {
   std::string metric;
   std::string of;  ///< the method to which the claim applies
-  /// `of` must be below the method `below`, or above the method `above`, in the same worlds; at most one is set.
+  /// The other method, if there is one: the claim is "`of` is below `below`" or "`of` is above `above`", in the same
+  /// worlds. At most one of the two is set.
   std::string below, above;
   /// Bounds of `statistic` of the method `of`. They are set only if `of` is not compared with another method.
   std::optional<double> at_most, at_least;

@@ -105,7 +105,7 @@ namespace {
 constexpr std::chrono::milliseconds kSampleInterval{20};
 
 tl::unexpected<OutsideFailure> NotStarted(const Error& error) {
-  // The caller's message already names this machine as the cause, so the place of the error is left out.
+  // If this machine caused the error, leave out the error's place, because the caller's message names the machine.
   return tl::unexpected<OutsideFailure>(
       {Status::kFailed, IsOfThisMachine(error) ? error.message : ToString(error), false});
 }

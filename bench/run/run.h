@@ -21,7 +21,7 @@ struct RunOptions {
   std::string text = {};               ///< text of the only file in `scenarios`; if set, the file is not read
   std::string from;                    ///< manifest.json of the run to be repeated; "" = none
   std::optional<std::uint64_t> seed;   ///< if set, replaces each scenario's own seed (by default 1)
-  std::optional<SecretKey> key = {};   ///< key of secret worlds, which replaces the seed
+  std::optional<SecretKey> key = {};   ///< if set, secret worlds are drawn from this key instead of the seed
   bool reuse_key = false;              ///< true: the key may have been used before (used_keys.h)
   std::optional<int> trials;           ///< if set, replaces each scenario's own number of trials
   std::vector<std::string> clips;      ///< if not empty, replaces the scenarios' clips

@@ -53,7 +53,7 @@ Beyond MeasureBeyond(const UnitSample& sample, int comparisons);
 ///   undecided        otherwise
 std::optional<Verdict> VerdictBeyond(const Beyond& beyond, const MetricInfo& metric);
 
-/// Returns a sentence that says why there is no verdict or an undecided one; "" if the verdict is clear.
+/// Returns a sentence that says why the verdict is missing or undecided; "" if the verdict is clear.
 /// `comparisons` is the number of comparisons that were made together (Holm).
 std::string WhyOpenBeyond(const Beyond& beyond, const MetricInfo& metric, SamplingUnit unit, int comparisons);
 

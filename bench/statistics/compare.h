@@ -50,10 +50,10 @@ bool SeesTooFewDiffer(const Comparison& comparison, const MetricInfo& metric);
 ///   undecided        otherwise, and always with fewer than kMinSample pairs
 Verdict VerdictOf(const Comparison& comparison, const MetricInfo& metric, double confidence = kConfidence);
 
-/// Judges a comparison without and with failures. If `with_failures` is given, the comparison's p becomes the p with
-/// failures counted. With this p, the verdicts from the pairs alone and with failures counted must be equal; otherwise
-/// the comparison's verdict is kUndecided. Both inputs must have their own `p_holm`. Returns the verdict from the
-/// pairs alone: with their own p or, if this verdict is undecided, with the p with failures counted.
+/// Judges a comparison of pairs alone and, if `with_failures` is given, the same comparison with failures counted. Both
+/// must have their own `p_holm`. `comparison.p_holm` becomes that of `with_failures`. If both comparisons then have the
+/// same verdict, `comparison.verdict` is this verdict, otherwise kUndecided. Returns the verdict of the pairs alone by
+/// their own p or, if that verdict is undecided, by the p of `with_failures`.
 Verdict JudgeBothWays(Comparison& comparison, const std::optional<Comparison>& with_failures, const MetricInfo& metric,
                       double confidence = kConfidence);
 

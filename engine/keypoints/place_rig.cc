@@ -22,7 +22,7 @@ using enum Landmark;
 struct LengthUnit {
   std::string_view name;
   double metres;
-  double min_stature_m;  ///< lower limit of a plausible stature; rare units must give an adult's stature
+  double min_stature_m;  ///< smallest plausible stature in this unit; for the rare units, an adult's
 };
 constexpr double kMinStature = 0.5, kMaxStature = 2.2, kAdult = 1.2;
 constexpr std::array kUnits = {LengthUnit{"m", 1, kMinStature}, LengthUnit{"cm", 0.01, kMinStature},
@@ -122,8 +122,8 @@ const LengthUnit* LikelyUnit(double file_units) {
   return nullptr;
 }
 
-/// Returns words for the legs of a person of this stature. Keypoints of hips and ankles lie inside the limbs' ends, and
-/// people differ, so the legs do not tell the stature to 10 %; only the legs were measured.
+/// Returns words for the leg length of a person of this stature. Messages state the legs, not the stature, because only
+/// the legs were measured: keypoints lie inside the limbs' ends, and people differ, so the stature may be 10 % wrong.
 std::string LegsText(double stature) {
   return fmt::format("legs of {:.3g} m from hip to ankle", stature / kStatureOfLeg);
 }

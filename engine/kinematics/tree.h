@@ -85,7 +85,7 @@ TreeFrames ComputeFrames(const KinematicTree& tree, const TreeState& state);
 /// Returns the angles of `joint` as x, y, z; angles that the joint does not have are zero.
 glm::dvec3 JointAngles(const TreeJoint& joint, std::span<const double> angles);
 
-/// Returns the world unit vector about which `axis` (0 = X, 1 = Y, 2 = Z) of `joint` turns the limbs beyond.
+/// Returns the rotation axis `axis` (0 = X, 1 = Y, 2 = Z) of `joint` at these angles, as a unit vector in the world.
 glm::dvec3 DofAxis(const TreeJoint& joint, const glm::dmat3& R_WJ, std::span<const double> angles, int axis);
 
 }  // namespace etude

@@ -165,7 +165,7 @@ std::optional<glm::dvec3> FrontByToes(const BodyPose& pose, Side side) {
 }
 
 double KneeOverextension(const BodyPose& pose, Side side, bool sees_toes) {
-  constexpr double kMinBackwards = 0.2;  // a leg turned outwards bends up to 0.1 behind the line of the hips
+  constexpr double kMinBackwards = 0.2;  // cosine of bending axis and line of the hips; a leg turned outwards: 0.1
   const auto [hip, knee, ankle, foot] = kLegs[side == Side::kLeft ? 0 : 1];
   const glm::dvec3 thigh = pose[knee] - pose[hip], shank = pose[ankle] - pose[knee], axis = glm::cross(thigh, shank);
   const double backwards = glm::dot(axis, UnitOr(pose[kRightHip] - pose[kLeftHip], {-1, 0, 0}));

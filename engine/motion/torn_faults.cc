@@ -150,7 +150,7 @@ class TornFinder {
     return largest;
   }
 
-  /// Finds distances that differ from their medians.
+  /// Finds links whose length, in some frames, differs from its median over all frames.
   void FindChanges() {
     for (const Link& link : kLinks) {
       const std::vector<double> distances = Distances(link.inner, link.outer);
@@ -190,7 +190,7 @@ class TornFinder {
     }
   }
 
-  /// Finds distances that are too long in the median frame, and a head joint that coincides with the base of the neck.
+  /// Finds links whose median length is too long, and a head joint that coincides with the base of the neck.
   void FindLengths() {
     for (const Link& link : kLinks) {
       const auto median = MedianOf(Distances(link.inner, link.outer));
@@ -201,7 +201,7 @@ class TornFinder {
     if (head && *head < kMinHead * size_) AddAlways(kShoulderCentre, kHead, kUsualHead * size_ - *head);
   }
 
-  /// Finds median distances that differ between left and right.
+  /// Finds links whose median lengths on the left and on the right differ.
   void FindDifferences() {
     for (const MirroredLink& link : kMirrored) {
       const auto left = MedianOf(Distances(link.inner, link.outer));

@@ -41,7 +41,8 @@ class SubsequenceAligner {
   int count_ = 0;  // number of seen steps
   std::vector<double> costs_, distances_;
   std::vector<int> starts_;  // for each pattern step, the seen step at which the best path to it began
-  // The advance of the best path into each seen step (a ring of `longest_`) and pattern step: 0, 1, 2 or kBegins.
+  // For each seen step (only the last `longest_`, as a ring) and pattern step: the number of pattern steps by which the
+  // best path advances to get there, 0, 1 or 2, or kBegins.
   std::vector<std::uint8_t> advances_;
 };
 

@@ -168,8 +168,8 @@ void FindNearest(const ConeColumns& cones, const PointColumns& points, double* d
     const double radius = points.radius[block];
     const float least = LowerBounds(axes, cones.count, static_cast<float>(points.centre_u[block]),
                                     static_cast<float>(points.centre_v[block]), bounds);
-    // Compare the points with the cone that is probably nearest. A cone whose bound exceeds the points' largest
-    // distance by more than the block's radius lowers the distance of no point.
+    // Compare the points with the cone that is probably nearest. A cone cannot lower any point's distance if the cone's
+    // bound exceeds the points' largest distance by more than the block's radius.
     if (!(least <= Farthest(distance + first_point) + radius)) continue;
     const auto nearest = FirstOf(Within(bounds, cones.count, least));
     if (nearest >= cones.count) continue;  // no cone is valid

@@ -116,7 +116,8 @@ constexpr std::array<JointIndex, kRoleCount> kCarriers = {
     kLeftPalm, kRightUpperArm, kRightForearm, kRightPalm,  kRightPalm,    kLeftThigh,   kLeftShank,
     kLeftSole, kLeftSole,      kRightThigh,   kRightShank, kRightSole,    kRightSole};
 
-// Lengths and offsets belong to a person of 1.70 m; kStatureLengths is that person's sum of thigh, shank and trunk.
+// Constant lengths and offsets in this file describe a person of 1.70 m. kStatureLengths is the sum of that person's
+// thigh, shank and trunk.
 constexpr double kStatureLengths = 1.32;  // metres
 constexpr double kShoulderFall = 0.025;   // metres; height of the base of the neck above the shoulders
 

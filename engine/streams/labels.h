@@ -36,7 +36,7 @@ constexpr double kActionPointTolerance = 0.333;
 ///     seq-1,0.5,3.1,arms-open,right,anna
 ///   MSRC-12's tag stream, `XQPCTick;Tag` and one row per tag: action points of the recording `clip`, by its own clock
 ///   UTKinect's actionLabel.txt: `s01_e01`, then `walk: 252 390` in frames at 30 Hz by the recording's own clock;
-///     labels of NaN are left out; a label belongs to any recording whose name contains `s01_e01`
+///     labels whose frames are NaN are left out; a label belongs to any recording whose name contains `s01_e01`
 ///
 /// Fails, with file, line and column, for unknown headings, times that are not numbers, performances that do not end
 /// after they begin, a file without labels, and more than 16 MiB.

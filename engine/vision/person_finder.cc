@@ -20,7 +20,7 @@ constexpr double kMinWornPixels = 400;  // pixels needed to learn the person's c
 
 // Log-likelihoods of a pixel that shows the room: unchanged, in another light, or changed.
 constexpr float kAsItIs = -1, kInOtherLight = -6, kChanged = -13;
-constexpr float kNoise = 4, kTint = 6;               // standard deviations: in unchanged light, in other light; levels
+constexpr float kNoise = 4, kTint = 6;               // standard deviations, levels: in unchanged light, in other light
 constexpr float kUnexplained = -10;                  // below this log-likelihood, the room does not explain the pixel
 constexpr float kMinLight = 0.2f, kMaxLight = 1.3f;  // range of other light, as shares of the background's intensity
 constexpr int kSameLight = 24;                       // levels; largest change of a colour by drift of the lamp

@@ -54,7 +54,7 @@ struct ChildOptions {
   /// Makes the child the first process of new user, PID and mount namespaces, if the kernel allows it. When the child
   /// ends (at the latest, when this process ends), the kernel ends all processes in the namespaces.
   bool contained = false;
-  int programs = 1;  ///< number of outside programs that run at the same time
+  int programs = 1;  ///< number of outside programs that run at the same time and share the limits per user
   /// ControlGroup::folder of the group to start the child in; only if contained.
   int control_group = -1;
   std::vector<std::string> inherited_texts = {};  ///< texts that the child can read from the descriptors 3, 4, …

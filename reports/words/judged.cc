@@ -30,7 +30,7 @@ std::string FiguresOf(const Beyond& beyond, const MetricWords& words, SamplingUn
   return text;
 }
 
-/// Returns the reason for the first condition that has no verdict generalised to other sampling units.
+/// Returns the first known reason why a condition has no verdict for other sampling units; "" if none is known.
 std::string WhyNone(const std::vector<Judged>& judged, SamplingUnit unit) {
   for (const Judged& j : judged) {
     const Beyond& beyond = j.comparison->beyond;

@@ -30,10 +30,10 @@ struct Judged {
 std::vector<Judged> JudgedOf(const ScenarioSummary& scenario, const std::string& method, const std::string& metric,
                              Against against);
 
-/// Returns the answers about a method, one per condition. Each answer comes with the comparison that decides it: the
-/// comparison of success if success decided or no world has both values, or else the comparison of the value metric. If
-/// success is a headline metric, too, and no cell failed, this is the headline metric's comparison, whose interval the
-/// tables show. If the summary has no answers, returns the comparisons by the first headline metric.
+/// Returns the answers about a method, one per condition. Each answer comes with one comparison. If success decided the
+/// answer, or if no world has values of both methods, this is the comparison by success; otherwise it is the comparison
+/// by the value metric. If the tables show the same comparison, it is theirs, because the two intervals may differ a
+/// little. If the summary has no answers, returns the comparisons by the first headline metric.
 std::vector<Judged> AnswersOf(const ScenarioSummary& scenario, const std::string& method, Against against);
 
 /// Returns the answers about a method if `metric` is the scenario's first headline metric, which its question is about;

@@ -32,9 +32,9 @@ std::vector<Part> Inherited(const Skeleton& skeleton, const MaybeParts& known) {
   return parts;
 }
 
-// Returns the scale of the part at a role's joint relative to the standing body: width, length, depth. Limbs keep their
-// shape. The width of hips and chest follows the distance between the hip joints or the shoulder joints, independently
-// of the spine's length.
+// Returns the scale of the part at a role's joint relative to the standing body: width, length, depth. Limbs are scaled
+// uniformly. The width of hips and chest follows the distance between the hip joints or the shoulder joints, not the
+// spine's length.
 glm::dvec3 SizeOf(Role role, const BodyPose& pose) {
   static const BodyPose standing = StandingPose();
   const auto ratio = [&](Role a, Role b) {

@@ -168,7 +168,7 @@ PoseField::PoseField(Role role, const PoseLengths& lengths, RandomStream& dice) 
       depend_on(role, false, lengths.own);
       depend_on_arms();
   }
-  // Draw the waves.
+  // Draw the random directions, phases and gradients of the waves.
   for (Wave& wave : waves_) {
     wave.direction = dice.Normal3() * std::sqrt(2.0 / kWaves);
     wave.phase = dice.Uniform(0, 2 * kPi);

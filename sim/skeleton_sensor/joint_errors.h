@@ -96,9 +96,9 @@ class PoseError {
 using FrameErrors = std::array<glm::dvec3, kRoleCount>;
 
 /// The continuous errors of clearly seen joints, frame by frame. A joint's error is ρ times its parent's error plus √(1
-/// − ρ²) times an independent part, the joint's own error. Errors are in units of the size of the joint's group, along
-/// and across the line of sight. A joint's own error depends on the pose; a share of the own error's variance is fast
-/// and comes in bursts. The slow drift of a body at rest is added joint by joint.
+/// − ρ²) times an independent part, the joint's own error. In this sum, errors are divided by the error size of the
+/// joint's group (`GroupErrors`), along and across the line of sight. A joint's own error depends on the pose; a share
+/// of the own error's variance is fast and comes in bursts. The slow drift of a body at rest is added joint by joint.
 class ContinuousErrors {
  public:
   /// `rate_hz` must be positive.

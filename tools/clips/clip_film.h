@@ -87,7 +87,7 @@ struct FilmOptions {
   Viewpoint from = Viewpoint::kThreeQuarter;
   int width = 720;  ///< pixels; width and height must be even
   int height = 720;
-  FilmWatch watch = {};  ///< if the watch stops the film, no file remains
+  FilmWatch watch = {};  ///< observes the film and can stop it; then no file remains
 };
 
 /// Writes an MP4 of a whole clip; the camera follows the body. Returns false if the film was stopped.

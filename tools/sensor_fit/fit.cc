@@ -167,7 +167,8 @@ SkeletonSensorOptions FitSensor(const RealRecording& real, const SensorFitOption
   const SensorStatistics measured = StatisticsOf(real);
   SkeletonSensorOptions sensor = options.start;
   if (const double distance = MeanDistance(real); distance > 0) sensor.reference_distance_m = distance;
-  // Correct each setting by comparing, by ratio or difference, the statistic that depends on this setting.
+  // In each step, compare the statistics of the recording and of the simulation. Correct each setting by the ratio or
+  // the difference of the statistic that depends on it.
   for (int step = 0; step < options.steps; ++step) {
     const SensorStatistics simulated = SimulatedStatistics(real, sensor, options.worlds, kFitWorlds).mean;
     FitGroups(measured, simulated, sensor);

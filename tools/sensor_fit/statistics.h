@@ -62,7 +62,7 @@ std::vector<StatisticRow> RowsOf(const SensorStatistics& statistics);
 /// and correlations by 0.15.
 constexpr double kSizeTolerance = 0.30, kCorrelationTolerance = 0.15;
 
-/// The number of rows in which the two compared columns have a value, and how many of these rows are within the
+/// The number of rows in which both compared columns have a value (`compared`), and the number of these rows within the
 /// tolerances.
 struct Agreement {
   int within = 0;

@@ -47,7 +47,7 @@ struct MeasuredTake {
   /// and marks that disagree with the others are removed. Every method of recovery uses these marks.
   std::vector<std::vector<Marks>> marks;
   std::vector<FrameMeasurement> frames;
-  std::vector<std::optional<LimbObservation>> seen;  ///< `frames` after BridgeGaps
+  std::vector<std::optional<LimbObservation>> seen;  ///< `frames` after `BridgeGaps` has filled the gaps
   std::vector<JointMeasurements> joints;             ///< every joint, triangulated from all strokes that end there
   std::string directions_digest, points_digest;
 };

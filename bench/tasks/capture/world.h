@@ -27,7 +27,8 @@ struct PersonalLimbs {
   RestBody body;
 };
 
-/// The figure in a clip's file. It begins at frame `first` of the clip and is moved to the place of the take.
+/// The meshes in a clip's file, drawn instead of the stage's performer. Their motion begins at frame `first` of the
+/// clip and is moved to the place of the take.
 struct OwnFigure {
   std::shared_ptr<const RecordedFigure> figure;
   std::size_t first = 0;

@@ -95,7 +95,7 @@ Result<SessionLog> RunMethod(const ReadyCoach& ready, const CoachCondition& cond
   if (seat == Seat::kPolicy) moments = MakeSeatedPolicy(*seated);
   if (seat == Seat::kLearner) player = MakeSeatedLearner(*seated);
   if (player == nullptr) player = std::make_unique<LearnerPlayer>(world, stage);
-  // A yoked method first runs its partner's session.
+  // A yoked method corrects at the times at which its partner corrects, so first run the partner's session.
   if (ready.partner != nullptr) {
     ASSIGN_OR_RETURN(const SessionLog partner, RunPartner(ready, condition, stage, world));
     moments = std::make_unique<Moments>(partner);

@@ -16,7 +16,7 @@ struct CommonJoint {
   int truth = -1, answer = -1;
 };
 
-/// Returns the joints of the set that both motions have. Adds the others to `lacking`.
+/// Returns the joints of `set` that both motions have. Adds the set's other joints to `lacking`.
 std::vector<CommonJoint> FindCommon(const RawMotion& truth, const RawMotion& answer, std::string_view set,
                                     std::vector<std::string>& lacking);
 

@@ -7,9 +7,9 @@
 
 namespace etude {
 
-/// Returns foot contacts as RawMotion::contacts has them, found by height and speed (Etude's own rule). An ankle below
-/// 12 cm or toes below 5 cm touch while they are slower than 0.2 m/s along the floor, measured over 0.13 s. A motion
-/// that lacks one of the four joints has no contacts.
+/// Returns foot contacts in the form of RawMotion::contacts, found by height and speed (Etude's own rule). A joint (an
+/// ankle below 12 cm, toes below 5 cm) is in contact while its speed along the floor, measured over 0.13 s, is below
+/// 0.2 m/s. A motion that lacks one of the four joints has no contacts.
 std::vector<bool> ContactsByMotion(const RawMotion& motion);
 
 /// Returns `given`. What it lacks is computed from the truth's own motion: the beats (MotionBeats), and the mean and

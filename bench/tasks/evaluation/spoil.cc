@@ -34,7 +34,7 @@ void AddNoise(RawMotion& motion, double noisy_mm, const std::string& seed_name) 
   RandomStream dice({.suite_seed = 1, .scenario = seed_name, .trial = 0}, "noise of a control");
   ChangeEach(motion,
              [&](std::size_t, std::size_t, const glm::dvec3& p) { return p + noisy_mm / 1000 * dice.Normal3(); });
-  // The noise moves both ends of a segment, so the segment turns by √2 times the noise, divided by its length.
+  // The noise moves both ends of a limb, so the limb turns by √2 · noise / length; the length is kSegment_m.
   constexpr double kSegment_m = 0.42;
   RandomStream turns({.suite_seed = 1, .scenario = seed_name, .trial = 0}, "turns of a control");
   for (glm::dquat& rotation : motion.rotations) {

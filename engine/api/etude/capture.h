@@ -21,7 +21,7 @@ struct CapturedMotion {
   BodyMotion motion;
   /// The motion as the text of a BVH file: joint rotations of the person's own skeleton, lengths in metres.
   std::string bvh;
-  std::vector<bool> is_held;  ///< for each frame: true if no pose could be recovered, and the last pose is repeated
+  std::vector<bool> is_held;  ///< for each frame: true if no pose could be recovered, so the last pose is repeated
   double residual_px = 0;     ///< median reprojection error of the triangulated keypoints
 };
 

@@ -68,7 +68,7 @@ class LanePoses {
   /// Returns the residuals of all lanes.
   const ResidualLanes<V>& miss() const { return miss_[0]; }
   const TargetQuadraticLanes<V>& AskedOf(std::size_t effector) const { return asked_[effector]; }
-  /// Returns the hinges. The forward kinematics sets their screws; the step uses their other members.
+  /// Returns the hinges. Forward kinematics (`Place`) sets each hinge's `screw`; a step uses the other members.
   AlignedList<HingeLanes<V>>& hinges() { return hinges_; }
 
  private:

@@ -17,7 +17,7 @@ struct SweepTree {
     int moments = -1;         ///< index of the moments of its limb
     bool is_first = false;    ///< true if the parent's limb receives this limb's moments before all others
     bool is_aligned = false;  ///< true if `R_PJ` is the identity
-    int base[3] = {};         ///< indices of the limb's axes before its hinges turn; may equal indices of the parent's
+    int base[3] = {};         ///< indices of the limb's axes before its hinges turn; shared axes: the parent's index
     int axes[3] = {};         ///< indices of the limb's axes after all hinges of the joint have turned
     double R_PJ[3][3] = {};   ///< [row][column]
     double p_PJ[3] = {};
@@ -26,8 +26,8 @@ struct SweepTree {
     int joint = 0;
     bool is_first = false;  ///< true for the first effector of its limb
     double p_LE[3] = {};
-    int names[3] = {};     ///< for each axis of the sweep: the index of the tree's axis
-    double signs[3] = {};  ///< for each axis: 1 if it points as the tree's axis does, −1 if opposite to it
+    int names[3] = {};     ///< for each axis of S: the index (0, 1 or 2) of the parallel axis of the effector
+    double signs[3] = {};  ///< for each axis of S: 1 if the parallel axis points in the same direction, else −1
   };
   /// A step of one joint. Either one of its hinges turns, or, after all its hinges, the moments of the joint's limb
   /// (moment_sweep.cc) are added to those of the parent limb.

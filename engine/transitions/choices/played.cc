@@ -28,8 +28,8 @@ constexpr double kRunUp_s = 2.5;     // a clip may be entered at most this long 
 constexpr double kRunOut_s = 2.5;    // a clip may be left at most this long after it has changed its stance
 constexpr double kMinShown_s = 0.3;  // minimum time that a clip is shown: the shortest join
 
-/// Decides which frames of a library clip may be entered from an allowed frame of the playing clip, and from which
-/// frames of the clip an allowed frame of the wanted clip may be entered.
+/// Tests frames of an intermediate clip. `MayEnter`: can an allowed frame of the playing clip lead to this frame?
+/// `MayLeave`: can this frame lead to an allowed frame of the wanted clip?
 class Ends {
  public:
   Ends(const MotionLibrary& library, const TransitionRequest& request, const AllowedFrames& allowed)

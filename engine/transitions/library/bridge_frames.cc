@@ -124,7 +124,7 @@ double MeanSquareDistance(const Grades& frame, const Sums& all, const Sums& own,
 }  // namespace
 
 std::vector<std::vector<FrameRating>> RateFrames(std::span<const TaggedClip> clips, const FeatureWeights& weights) {
-  // Sum up the grades of each class, in total and by clip.
+  // Sum up the grades of each class (frames with the same tags), in total and by clip.
   std::map<Tags, PoseClass> classes;
   for (std::size_t c = 0; c < clips.size(); ++c) {
     for (int f = 0; f < clips[c].FrameCount(); ++f) {
