@@ -91,7 +91,7 @@ void MeasureDistances(const HiddenWindow& hidden, const Globals& found, const Gl
   EvaluatedPair pair;
   pair.found = {joints, part(found.positions)};
   pair.truth = {joints, part(truth.positions)};
-  // Measure L2P: positions, divided by their standard deviations in the training set.
+  // Measure L2P: the distance of positions that are divided by their standard deviations in the training set.
   const auto deviations = JudgedFrames(hidden.deviations, hidden.motion.tree, 0, hidden.deviations.empty() ? -1 : 0);
   const bool all_move =
       std::ranges::none_of(deviations, [](const glm::dvec3& one) { return one.x <= 0 || one.y <= 0 || one.z <= 0; });
