@@ -46,7 +46,7 @@ std::vector<Value> JudgedFrames(const std::vector<Value>& values, const JointTre
   return judged;
 }
 
-/// Returns the joint that has a role. If the file lacks it, returns the joint of the next role towards the hip centre.
+/// Returns the joint of a role or, if the file lacks it, of the next role towards the hip centre that the file has.
 int JointOf(const std::array<int, kRoleCount>& roles, Role role) {
   for (std::optional<Role> at = role; at; at = ParentOf(*at)) {
     if (roles[Index(*at)] >= 0) return roles[Index(*at)];
