@@ -25,8 +25,8 @@ Json MappingSchema(std::span<const KeyInfo> keys);
 std::string SchemaText(const Json& schema, const std::string& indent = {});
 
 /// Returns the schema rules by which a key depends on the values of other keys, as `dependencies`. If `says_all` is
-/// true, the mapping is complete, so an absent key has its default. If it is false, an absent key may be in another
-/// part of the file.
+/// true, the mapping is complete, so an absent key has its default. If `says_all` is false, an absent key may be
+/// in another part of the file.
 Json ConditionSchemas(std::span<const KeyInfo> keys, bool says_all);
 
 }  // namespace etude

@@ -50,12 +50,12 @@ CorrectionTally TallyCorrections(const CoachedSession& session);
 /// no performance was wrong.
 std::optional<double> AnsweredShare(const CorrectionTally& tally);
 
-/// Returns `decision_delay_s`: the time from the first frame of a wrong performance until the coach judges it wrong. If
-/// the coach never judges it wrong, the time is censored at the end of the window. Kaplan–Meier median; empty if the
-/// survival curve never falls to one half.
+/// Returns `decision_delay_s`: the Kaplan–Meier median of the time from the first frame of a wrong performance until
+/// the coach judges the performance wrong. If the coach never does, the time is censored at the end of the window. The
+/// result is empty if the survival curve never falls to one half.
 std::optional<double> DecisionDelaySeconds(const CoachedSession& session);
-/// Returns `feedback_delay_s`: the time from the decision to correct until the first frame of the correcting act,
-/// censored at the session's end. Kaplan–Meier median; empty if the survival curve never falls to one half.
+/// Returns `feedback_delay_s`: the Kaplan–Meier median of the time from the decision to correct until the first frame
+/// of the correcting act, censored at the session's end. Empty if the survival curve never falls to one half.
 std::optional<double> FeedbackDelaySeconds(const CoachedSession& session);
 /// Returns `feedback_delay_max_s`: the longest time from a decision to its correcting act, among the acts that began.
 /// Empty if none began.
@@ -63,8 +63,8 @@ std::optional<double> MaxFeedbackDelaySeconds(const CoachedSession& session);
 
 /// Returns `repetitions_until_right`. `moves` holds, for each move, the truth of its performances in order of time. For
 /// each move whose first performance was wrong, the performances are counted up to and including the first right one.
-/// If none is right, the count is censored after the last performance. Kaplan–Meier median; empty if the survival curve
-/// never falls to one half.
+/// If none is right, the count is censored after the last performance. The result is the Kaplan–Meier median of these
+/// counts. It is empty if the survival curve never falls to one half.
 std::optional<double> RepetitionsUntilRight(std::span<const std::vector<PerformanceTruth>> moves);
 
 /// Returns `retention`: the mean of `chances`, the probabilities of a right performance in a test. The result is empty

@@ -34,7 +34,7 @@ struct CameraFit {
 };
 
 /// Returns `reprojection_rms_px`: the root mean square reprojection error of each camera, pixels, averaged over the
-/// cameras. At least one camera is required; infinite if a point lies behind a camera.
+/// cameras. At least one camera is required. Returns infinity if a point lies behind a camera.
 double MeanReprojectionRmsPx(std::span<const CameraFit> cameras);
 
 }  // namespace etude

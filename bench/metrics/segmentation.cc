@@ -31,7 +31,7 @@ std::optional<double> Percent(std::int64_t part, std::int64_t whole) {
 
 MaskScore ScoreMask(const Mask& found, const Mask& truth, const Mask& shadow) {
   assert(found.pixels.size() == truth.pixels.size() && found.pixels.size() == shadow.pixels.size());
-  // Count in runs short enough for 8-bit counters, because the compiler vectorises these.
+  // Count in runs short enough for 8-bit counters, because the compiler vectorises 8-bit counters.
   std::int64_t both = 0, found_count = 0, true_count = 0, shadow_found = 0, shadow_count = 0;
   // The largest multiple of 16 (the bytes of a SIMD register) that an 8-bit counter can hold.
   constexpr std::size_t kRun = 240;

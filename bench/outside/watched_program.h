@@ -92,7 +92,7 @@ class WatchedProgram {
   /// run.
   std::string WithoutFolder(std::string text) const;
 
-  /// Returns the program's processor time since the previous call, seconds. The time of the last sample counts.
+  /// Returns the program's processor time since the previous call, seconds, as far as samples have measured it.
   double TakeCpuSeconds();
   /// Returns the largest memory measured since ForgetPeak, MB.
   double peak_mb() const { return peak_mb_; }

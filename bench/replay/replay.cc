@@ -113,7 +113,7 @@ CellCheck CompareRows(const Row& then, const Row& now) {
   const auto differ = [&](const std::string& stage, const std::string& was, const std::string& is) {
     if (check.same && was != is) check = {check.cell, false, stage, was, is};
   };
-  // A cell that timed out, crashed or ran out of memory has no stages, so its status is compared first.
+  // A cell that timed out, crashed or ran out of memory has no digests of stages, so the status is compared first.
   const Status was = then.result.status, is = now.result.status;
   if (DependsOnMachine(was) || DependsOnMachine(is)) differ("status", StatusText(was), StatusText(is));
   // Compare stages in the order of the pipeline, because the first difference causes the later ones.

@@ -106,7 +106,7 @@ CurveAgreement MeasureAgreement(std::span<const AgreementSums> pairs, std::span<
 std::vector<AngleAgreement> AgreementByAngle(const RunData& run) {
   std::map<std::string_view, const std::vector<Series>*> held;  // the series of each cell, by the cell's name
   for (const CellSeries& cell : run.series) held.emplace(cell.cell, &cell.series);
-  // For one angle, the sums of each pair of curves, with the pair's unit.
+  // The pairs of curves of one angle: each pair's sums, and each pair's unit.
   struct Collected {
     std::vector<AgreementSums> pairs;
     std::vector<std::string> units;

@@ -215,7 +215,7 @@ void Decide(Answer& answer, const Comparison* value) {
          : answer.success                     ? answer.success->beyond.verdict
                                               : std::nullopt);
   // The answer for other units must not claim more than the answer for these worlds. "Better" and "worse" therefore
-  // become undecided. If the answer for these worlds is open, so is the answer for other units.
+  // become undecided. If the answer for these worlds is undecided (`open`), the answer for other units is too.
   if (answer.beyond && (open || IsDecided(*answer.beyond))) answer.beyond = Verdict::kUndecided;
 }
 

@@ -16,8 +16,8 @@ Interval WilsonInterval(int count, int of, double confidence) {
   const double z = TwoSidedQuantile(confidence), n = of, share = count / n;
   const double centre = (share + z * z / (2 * n)) / (1 + z * z / n);
   const double half = z / (1 + z * z / n) * std::sqrt(share * (1 - share) / n + z * z / (4 * n * n));
-  // If the share is 0 or 1, the end of the interval on that side is the share itself; the formula would differ from it
-  // by rounding.
+  // If the share is 0 or 1, the end of the interval on that side is the share itself; the formula's value would differ
+  // from the share by rounding.
   return {count == 0 ? 0 : centre - half, count == of ? 1 : centre + half, IntervalKind::kWilson};
 }
 

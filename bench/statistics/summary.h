@@ -10,7 +10,7 @@
 
 namespace etude {
 
-/// Returns the number of comparisons of methods with their baselines. These are judged together as one family.
+/// Returns the number of comparisons of methods with their baselines. All these comparisons are judged as one family.
 int CountComparisons(const Study& study);
 
 /// The summary of one condition and its comparisons, before the comparisons of all conditions are judged together.

@@ -301,7 +301,7 @@ struct AcclaimFrames {
   double of_root = 0, of_bones = 0;
 };
 
-/// Reads the frames; `is_told_degrees` as for SkeletonReader.
+/// Reads the frames. If `is_told_degrees` is true, all angles are read as degrees, whatever unit the file states.
 Result<AcclaimFrames> ReadFrames(std::string_view text, const AcclaimSkeleton& skeleton, const std::string& file,
                                  bool is_told_degrees) {
   // Look up bones by their names.

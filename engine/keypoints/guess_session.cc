@@ -95,7 +95,7 @@ class SessionGuesser {
   }
 
  private:
-  /// Returns the distance that remains if each film's pictures are corrected by `GuessPictures` alone.
+  /// Corrects each film's pictures by `GuessPictures` alone, and returns their epipolar distance (`MissOfPictures`).
   double MissAsGuessed() const {
     Films guessed = films_;
     const std::vector<PictureGuess> guesses = GuessPictures(films_, least_confidence_);

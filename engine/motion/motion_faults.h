@@ -26,7 +26,7 @@ enum class FaultKind {
   kGaps,       ///< some frames lack joints that other frames show; size: seconds
   kPasses,     ///< a forearm or a hand passes through trunk or head; size: its distance from the spine's line, metres
   kRate,       ///< in flight the body falls with a wrong acceleration; size: that acceleration, metres per second²
-  kSpeed,      ///< in the median frame a joint is faster than people are; size: its speed, metres per second
+  kSpeed,      ///< the fastest joint is too fast for a person; size: its median speed, metres per second
 };
 
 /// The name, unit and rule of a kind of fault. FaultRules lists them in the order of FaultKind.

@@ -275,7 +275,7 @@ Result<BoostedTrees> ReadTrees(Fields& file, const std::string& key) {
 Result<LearntModel> ReadLearntModel(std::string_view text, const std::string& file) {
   ASSIGN_OR_RETURN(const Node node, ParseYaml(text, file));
   Fields fields(node, "a recogniser's model");
-  constexpr int kUnsaid = 1;  // the version of a file that states none
+  constexpr int kUnsaid = 1;  // the version of a file that states no version
   const auto version = static_cast<int>(fields.OptionalWhole("measures", {1, 1e6}).value_or(kUnsaid));
   if (version != kMeasuresVersion) {
     return Fail(fields.Raw("measures")->place,

@@ -281,8 +281,8 @@ class WholeBodyFollower final : public MoveFollower {
     }
   }
 
-  /// Returns true if three quarters of the shortest example have passed since the window opened. Earlier, a move and
-  /// its mirror image look alike, so the evidence stays 0.
+  /// Returns true if three quarters of the shortest example have passed since the window opened. Before
+  /// that time, a move and its mirror image look alike, so the evidence stays 0.
   bool MayShowItsSide() const {
     constexpr double kShowsItsSide = 0.75;
     return in_window_.empty() || std::ranges::any_of(in_window_, [](const ExampleDistance& example) {

@@ -40,9 +40,9 @@ struct JointMapOverrides;
 ///   lowest common ancestor; `Evaluate` computes the midpoint.
 /// - The spine is the joint nearest to the middle of the chain from the hips' common ancestor to the base of the neck.
 /// - Hands, feet and head are tips: each is the farthest end of its chain (fingers, toes, skull) at a plausible
-///   distance from wrist, ankle or base of the neck, because files contain end sites at 0 cm and at 1.6 m. Without such
-///   an end the tip is composed (ours): hand and head extend forearm and trunk, the foot points forward, in the
-///   proportions of paper B's body.
+///   distance from wrist, ankle or base of the neck, because files contain end sites at 0 cm and at 1.6 m. If no end
+///   is at a plausible distance, the tip is composed (ours) in the proportions of paper B's body: the hand extends the
+///   forearm, the head extends the trunk, and the foot points forward.
 ///
 /// If names fail, the limbs follow from the shape (anatomy.h). The proposal must have a confidence of at least 0.9 and
 /// must not contradict a role that was found by name.

@@ -172,7 +172,7 @@ ChosenSet ChooseKnown(const MarkerColumns& columns, const std::string& wanted) {
   return chosen;
 }
 
-/// Returns the set that a naming scheme of skeletons makes of the markers; nullopt if it lacks a needed joint.
+/// Makes a marker set if the markers are named like the joints of a skeleton; nullopt if a needed joint has no marker.
 std::optional<MarkerSet> SetOfSkeletonNames(const MarkerColumns& columns, std::span<const std::string> names) {
   // Markers have no parents and form no chains. FindLimb therefore takes the first scheme that names all joints of a
   // limb.

@@ -137,9 +137,9 @@ glm::dvec3 ByWand(const glm::dvec3& wand, const glm::dvec3& other_end, const glm
   return UnitOr(-Across(wand - other_end, marker - other_end), glm::dvec3(0));
 }
 
-/// Returns the inward direction at a knee, from the line between the hips and the bend of the knee. The bend seen in
-/// the markers gives a first direction and thereby joint centres; the bend of the limb through these centres gives the
-/// result.
+/// Returns the inward direction at a knee, from the line between the hips and the bend of the knee. Estimates the
+/// direction first from the bend of the markers. Moves knee and ankle along this direction to the joint centres, and
+/// estimates the direction again from the bend at these centres.
 glm::dvec3 KneeInward(const SideOf& side, const SkinDepths& depths) {
   const glm::dvec3 hip = *side[kLeftHip], skin = *side[kLeftKnee], ankle = *side[kLeftAnkle];
   const double sign = side.is_left() ? -1 : 1, depth = depths.metres[Index(side.On(kLeftKnee))];

@@ -159,8 +159,8 @@ Result<void> FindUnit(const BodyPose& rest, const std::vector<BodyPose>& poses, 
                       const std::string& file, BodyConversion& done, std::vector<std::string>& remarks) {
   const std::optional<double>& given = options.metres_per_unit;
   const double at_rest = Stature(rest), own = MedianStature(poses), moving = options.stature.value_or(own);
-  // Compare the stature in the frames with that in the rest pose, with that in the file's other clips, and from frame
-  // to frame.
+  // Compare the stature in the frames with the stature in the rest pose and the stature in the file's other clips, and
+  // compare the frames with each other.
   const double ratio = moving / at_rest;
   const bool is_alike = AreAlike(ratio);
   if (!AreAlike(own / moving)) {

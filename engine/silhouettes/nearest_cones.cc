@@ -74,9 +74,9 @@ Axes AxesOf(const ConeColumns& cones) {
   return axes;
 }
 
-/// Writes, for each cone, a number that is at most the cone's signed distance from the point (u, v): the distance from
-/// the axis minus the larger radius, in single precision, minus more than the rounding error. `axes` holds the cones'
-/// axes (`AxesOf`). Returns the smallest of these numbers.
+/// Writes a lower bound of each cone's signed distance from the point (u, v): the distance from the cone's axis, minus
+/// the larger radius, minus a margin above the rounding error of single precision. `axes` holds the cones' axes
+/// (`AxesOf`). Returns the smallest bound.
 float LowerBounds(const Axes& axes, size_t count, float u, float v, float* bounds) {
   const Single single;
   const auto zero = hn::Zero(single), one = hn::Set(single, 1.0F);

@@ -16,7 +16,7 @@ namespace hn = hwy::HWY_NAMESPACE;
 
 using Wide = hn::ScalableTag<std::int16_t>;    ///< a vector of pixels
 using Half = hn::Half<Wide>;                   ///< half of a vector's pixels
-using Whole = hn::Rebind<std::int32_t, Half>;  ///< the pixels of a Half as 32-bit integers: a full vector
+using Whole = hn::Rebind<std::int32_t, Half>;  ///< a full vector: one 32-bit integer per pixel of a `Half`
 using Real = hn::Rebind<float, Half>;
 using Byte = hn::Rebind<std::uint8_t, Wide>;
 

@@ -256,7 +256,7 @@ FencedCommand Fence::Around(const std::vector<std::string>& command, const std::
                             const fs::path& start) const {
   if (!IsUp()) return {command};
   FencedCommand fenced{{program_, "--args", "3", "--", "/bin/sh", "-c", kFirstProcess, "sh"}, {""}, Environment(shown)};
-  const auto pass_text = [&](std::string text) {  // returns the descriptor of the text
+  const auto pass_text = [&](std::string text) {  // returns the number of the text's file descriptor
     fenced.inherited_texts.push_back(std::move(text));
     return std::to_string(fenced.inherited_texts.size() + 2);
   };

@@ -35,7 +35,7 @@ constexpr double kThreadMb = 25e3 / kMb, kMappingMb = 250 / kMb, kLockMb = 250 /
 constexpr std::size_t kMaxUncheckedDescriptors = 256;  // number of descriptors above which pipes are counted
 constexpr std::size_t kMaxFreeSockets = 64;            // each socket above this number counts with a full buffer
 constexpr std::size_t kMaxLockBytes = 4 << 20;
-constexpr std::size_t kEnoughLocks = 17'000;  // more than a program may have (ProgramLimits::kFileLocks)
+constexpr std::size_t kEnoughLocks = 17'000;  // more locks than a program may hold (ProgramLimits::kFileLocks)
 constexpr int kMaxSamplesUnseen = 3;
 
 /// Returns the processor time of this thread and the wall time since the epoch of Clock.

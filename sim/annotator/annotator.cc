@@ -228,7 +228,7 @@ void Annotator::SwapSides(const PictureDice& dice, PictureEvidence& seen) {
 
 Marks Annotator::Mark(int frame, const AnnotatedPicture& picture) {
   const PictureDice& dice = dice_.DrawNumbers(frame);
-  // Measure the visible limbs, then exchange left and right if an exchange lasts in this frame.
+  // Measure the visible limbs, then exchange those limbs whose left and right are confused in this frame.
   PictureEvidence seen = SeePicture(picture, eye_);
   SwapSides(dice, seen);
   const PictureErrors errors(errors_, dice_.bias(), dice, seen);

@@ -14,7 +14,7 @@ using JointSpeeds = std::array<double, kRoleCount>;
 
 /// The motion of a body in one frame.
 struct FrameMotion {
-  JointSpeeds speeds{};                    ///< central differences over two frames before and after
+  JointSpeeds speeds{};                    ///< central differences from two frames before to two frames after
   std::array<double, kRoleCount> moves{};  ///< 0 for a foot at rest on the floor; 1 for a moving foot and other joints
 };
 

@@ -71,8 +71,8 @@ CapturePage BeginPage(const CaptureFilmsOptions& options, const BodyMotion& moti
                       const std::vector<std::string>& told);
 /// Returns a phrase with the number of lines in `told` that begin with "doubtful".
 std::string DoubtsOf(const std::vector<std::string>& told);
-/// Writes the film of `--film`, if there is one, puts it into the page and writes the page. Without `--film` the page
-/// has a film, too. Returns false if Ctrl-C interrupted the film.
+/// Writes the film to the file of `--film`, if this option is given, and writes the page. The page contains the film,
+/// even without `--film`, if the film has at most 16 MB. Returns false if Ctrl-C interrupted the film.
 Result<bool> WritePage(const CaptureFilmsOptions& options, CapturePage page, const std::vector<OverlayView>& overlays,
                        const BodyMotion& motion);
 /// Measures the difference between body and silhouette in each camera, per cent.

@@ -60,7 +60,7 @@ Result<glm::dvec2> MiddleOf(const std::vector<NamedCamera>& cameras, const std::
     normal += across;
     right += across * camera.p_WC;
   }
-  // The minimum of determinant / (number of cameras)³. Below this value, all optical axes are within about 2° of each
+  // The minimum of det(`normal`) / (number of cameras)³. Below this value, all optical axes are within about 2° of each
   // other.
   constexpr double kParallel = 1e-3;
   if (!(glm::determinant(normal) > kParallel * std::pow(static_cast<double>(cameras.size()), 3))) {

@@ -21,8 +21,8 @@ namespace etude {
 struct Observation {
   PersonSource source;
   std::vector<std::vector<Marks>> marks;  ///< the marks; empty in frames that are not to be marked (`IsMarked`)
-  /// Masks by picture, half size. They are kept if Film's `wants_masks` is true, and for silhouettes if the take has at
-  /// most kMaxSilhouettePictures pictures.
+  /// Masks by picture, half as wide and half as high as the picture. They are kept if the parameter `wants_masks` of
+  /// `Film` is true, and for silhouettes if the take has at most kMaxSilhouettePictures pictures.
   std::vector<std::vector<Mask>> masks;
   MaskScore score;  ///< mean score over all pictures
   /// The agreement of two annotators over all pictures. Empty if there is one annotator.

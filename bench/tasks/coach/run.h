@@ -19,7 +19,7 @@ struct ReadyCoach {
   std::shared_ptr<const DanceTransitions> transitions;
   std::unique_ptr<Recogniser> recogniser;
   std::unique_ptr<Coach> coach;
-  std::unique_ptr<Coach> partner;  ///< the partner coach of a yoked method; else null
+  std::unique_ptr<Coach> partner;  ///< the coach with the partner policy, if the method is yoked; else null
 };
 
 /// Prepares the methods. `stage` must outlive the result. Fails if a method's recogniser cannot be taught.

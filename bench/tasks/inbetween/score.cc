@@ -46,7 +46,7 @@ std::vector<Value> JudgedFrames(const std::vector<Value>& values, const JointTre
   return judged;
 }
 
-/// Returns the joint that has a role. If the file lacks it, returns the joint of the next role towards the hip centre.
+/// Returns the joint of a role or, if the file lacks it, of the next role towards the hip centre that the file has.
 int JointOf(const std::array<int, kRoleCount>& roles, Role role) {
   for (std::optional<Role> at = role; at; at = ParentOf(*at)) {
     if (roles[Index(*at)] >= 0) return roles[Index(*at)];
@@ -91,7 +91,7 @@ void MeasureDistances(const HiddenWindow& hidden, const Globals& found, const Gl
   EvaluatedPair pair;
   pair.found = {joints, part(found.positions)};
   pair.truth = {joints, part(truth.positions)};
-  // Measure L2P: positions, divided by their standard deviations in the training set.
+  // Measure L2P: the distance of positions that are divided by their standard deviations in the training set.
   const auto deviations = JudgedFrames(hidden.deviations, hidden.motion.tree, 0, hidden.deviations.empty() ? -1 : 0);
   const bool all_move =
       std::ranges::none_of(deviations, [](const glm::dvec3& one) { return one.x <= 0 || one.y <= 0 || one.z <= 0; });

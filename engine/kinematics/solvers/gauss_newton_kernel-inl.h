@@ -215,7 +215,7 @@ HWY_INLINE void Linearise(const TargetLanes<V>& target, const V (&R_WE)[3][3], c
 /// Expands the quadratic of one target into full matrices Λ and η. Replaces `sum` by Λ and η, or adds these to `sum`.
 template <bool kIsFirst, class V>
 HWY_INLINE void Gather(const TargetQuadraticLanes<V>& asked, QuadraticLanes<V>& sum) {
-  // `put` sets an entry of Λ or adds to it; float keeps only the lower triangle.
+  // `put` sets an entry of Λ or adds to the entry. Vectors of floats keep only the lower triangle of Λ.
   const V nothing(0.0);
   const auto put = [&](int row, int column, const V& x) HWY_ATTR {
     if (!kHasUpperTriangle<V> && column > row) return;

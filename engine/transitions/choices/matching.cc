@@ -30,7 +30,7 @@ bool IsBetter(const RankedPair& a, const RankedPair& b) {
   return std::tuple(!a.matches, a.rank) < std::tuple(!b.matches, b.rank);
 }
 
-/// The best pair of each frame that may be left, and the number of matching pairs.
+/// The best pair of each frame at which a transition may leave its clip, and the number of matching pairs.
 struct RankedPairs {
   std::vector<RankedPair> best;
   std::int64_t matching = 0;

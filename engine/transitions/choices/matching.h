@@ -31,7 +31,7 @@ TransitionRecord PlanPointCloud(const MotionLibrary& library, const TransitionRe
                                 const PointCloudOptions& options = {});
 
 struct MotionMatchingOptions {
-  double least_play_s = 1;  ///< as in PointCloudOptions
+  double least_play_s = 1;  ///< as `PointCloudOptions::least_play_s`, seconds
 };
 const SettingTable<MotionMatchingOptions>& MotionMatchingSettings();
 
@@ -43,7 +43,7 @@ struct FuzzyWindowOptions {
   /// Distances are averaged over this time before the frame and over the same time after it, in seconds. The default
   /// (ours) makes the window twice as long as that of point clouds.
   double reach_s = 1.0 / 3;
-  double least_play_s = 1;  ///< as in PointCloudOptions
+  double least_play_s = 1;  ///< as `PointCloudOptions::least_play_s`, seconds
 };
 const SettingTable<FuzzyWindowOptions>& FuzzyWindowSettings();
 

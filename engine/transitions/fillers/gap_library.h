@@ -37,8 +37,7 @@ class GapLibrary {
     TreeMotion motion;
     std::vector<double> seen;  ///< the features (AppendSeen) of every frame, frame by frame
   };
-  /// A gap of the library: its motion, the frame before the gap, and the squared distance from the gap to be filled,
-  /// m².
+  /// A gap of the library: its motion, the frame before it, and its squared distance, m², from the gap to be filled.
   struct Near {
     const Entry* entry = nullptr;
     std::size_t frame = 0;
