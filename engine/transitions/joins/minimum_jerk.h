@@ -30,7 +30,7 @@ struct Movement {
 /// zero from `blend_s` on.
 glm::dvec3 MinimumJerkAt(const Movement& movement, double seconds, double blend_s);
 
-/// The frames of a join, in the frame of the spliced motion.
+/// The poses of a join, in the coordinate frame of the spliced motion.
 struct JoinWindow {
   PosePair shown;                       ///< the last two frames shown
   BodyPose target_before;               ///< the new motion's frame before the point
@@ -83,7 +83,7 @@ class MinimumJerkPlay {
   std::optional<Inertialiser> decay_;
   /// Movements relative to their ends: each limb's rotation vector, indexed by the limb's child joint, and the root's
   /// position.
-  std::optional<std::array<Movement, kRoleCount>> movements_;  ///< nullopt for a fade and a decay
+  std::optional<std::array<Movement, kRoleCount>> movements_;  ///< only for JoinStyle::kDirect
 };
 
 /// Returns all frames of the window as MinimumJerkPlay computes them.
