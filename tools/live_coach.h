@@ -47,7 +47,7 @@ struct LiveCoachOptions {
   std::string filter;           ///< a name of FilterNames()
   bool dances_at_once = false;  ///< true: the coach begins to dance without waiting for a clap
   bool plans_ahead = false;     ///< true: planning is spread over frames, as live streams need
-  bool brief = false;           ///< true: bodies are left out, and so are frames without a decision
+  bool brief = false;           ///< true: all bodies, and all frames without a decision, are left out
   CoachOptions coach = {};
   /// Receives a remark at the start if the sensor's tilt was corrected or trunks are far from upright.
   std::function<void(const std::string& remark)> on_remark = {};
