@@ -13,7 +13,7 @@ namespace etude {
 /// Notes by their kind (KindOfReason).
 class NoteKinds {
  public:
-  /// Adds the note "`head`: `reason`". Notes of different methods are of different kinds.
+  /// Adds the note "`head`: `reason`". Notes of two methods never have the same kind.
   void Add(const std::string& method, const std::string& head, const std::string& reason);
   /// Returns the first note of each kind as "METHOD, PAIR: reason", with the number of the others.
   std::vector<std::string> Lines() const;

@@ -97,8 +97,8 @@ Result<void> CheckMetricVersions(const Json& manifest, const Place& place) {
 }
 
 /// Returns the name of each world made of files and the digest of its truth; the digest is "" if it has no truth.
-/// `digests` are the manifest's digests of files, in the order of the worlds. The list holds, for each world, the truth
-/// first, if there is one, and then all answers.
+/// `digests` are the manifest's digests of files: for each world, in order, first the truth, if there is one, then all
+/// answers.
 Result<NamedDigests> TruthsOf(const ScenarioSetup& setup, std::span<const std::string> digests, const Place& place) {
   NamedDigests truths;
   std::size_t at = 0;

@@ -30,7 +30,7 @@ KDL::Tree ToKdl(const KinematicTree& tree) {
   KDL::Tree made("root");
   const TreeState rest = StandingState(tree);
   std::vector<std::string> limb_names(tree.joints.size(), "root");  // name of each joint's last segment
-  // Frame of each joint's limb relative to the joint's last segment.
+  // Pose of each joint's limb relative to the joint's last segment.
   std::vector<KDL::Frame> offsets(tree.joints.size());
   for (std::size_t n = 0; n < tree.joints.size(); ++n) {
     const TreeJoint& joint = tree.joints[n];

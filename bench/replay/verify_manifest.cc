@@ -119,8 +119,8 @@ Result<Verified> VerifyManifest(const FilePath& folder, const FinishedRun& run, 
   for (const auto& [name, _] : suite.sources) {
     if (!IsNamed(name, suite)) verified.differences.push_back(fmt::format("sources: nothing names '{}'", name));
   }
-  // `now` also contains the metrics that were read from this manifest itself. Report the metrics that no scenario
-  // defines.
+  // The manifest's `own_metrics` are also in `now`, so the comparison above does not find superfluous ones. Report the
+  // metrics that no scenario defines.
   std::set<std::string> own;
   for (const Scenario& scenario : parsed) {
     for (const OutsideMetric& metric : scenario.outside_metrics) own.insert(metric.info.id);

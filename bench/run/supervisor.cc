@@ -378,7 +378,7 @@ class Supervisor {
   std::string why_not_run_;  ///< why a cell could not be run; the reason of the first such cell
 };
 
-/// Returns the part of the orders whose cells are answered, or the part whose cells are not.
+/// Returns the orders, each reduced to its answered cells or, if not `are_answered`, to its other cells.
 std::vector<Order> OrdersOf(const Plan& plan, const std::vector<Order>& orders, const CellTable& answered,
                             bool are_answered) {
   std::vector<Order> found;

@@ -162,7 +162,8 @@ std::optional<Verdict> VerdictBeyond(const Beyond& beyond, const MetricInfo& met
     const bool holds = is_within(*beyond.mean_low, *beyond.mean_high) && beyond.differing >= kMinUnits;
     return holds ? Verdict::kNoDifference : Verdict::kUndecided;
   }
-  // Otherwise, "better" and "worse" require the interval, the test and the threshold.
+  // "Better" and "worse" require an interval on one side of zero, a mean of the same sign, p_holm ≤ kAlpha, and a
+  // difference of at least the threshold.
   if (!IsOnOneSide(beyond) || !MeanAgrees(beyond) || *beyond.p_holm > kAlpha ||
       std::abs(*beyond.difference) < metric.practical || metric.direction == Direction::kNeither) {
     return Verdict::kUndecided;

@@ -66,8 +66,8 @@ std::int64_t RankOfEnd(std::int64_t n) {
     const double mean = count * (count + 1) / 4, variance = mean * (2 * count + 1) / 6;
     return static_cast<std::int64_t>(std::floor(mean + NormalQuantile(kAlpha / 2) * std::sqrt(variance) + 0.5));
   }
-  // For each sum, count the subsets of the ranks 1 … n with that sum. There are at most 2⁵⁰, so the counts are exact in
-  // a double.
+  // For each sum, count the subsets of the ranks 1 … n with that sum. Counts are at most 2⁵⁰, so a double stores them
+  // exactly.
   std::vector<double> ways(static_cast<std::size_t>(n * (n + 1) / 2 + 1));
   ways[0] = 1;
   for (std::int64_t rank = 1; rank <= n; ++rank) {

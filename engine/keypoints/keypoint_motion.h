@@ -24,7 +24,7 @@ struct TriangulateOptions {
 struct TriangulationReport {
   std::vector<double> rejected;  ///< for each camera, the share of its keypoints that were outliers
   double residual_px = 0;        ///< median reprojection error over all points
-  /// Triangulated share of all frames × landmarks; landmarks that are never seen do not count.
+  /// Share of all frames × landmarks that were triangulated; landmarks that are never seen do not count.
   double found = 0;
 };
 

@@ -34,9 +34,9 @@ struct Mend {
 /// least three cameras see the person, the frame is left out. Then it checks the sides: for each camera, separately for
 /// arms and legs, it compares both labellings with the other cameras' keypoints (Geman–McClure's loss of the epipolar
 /// distance, with a scale of twice the residuals' standard deviation), and takes the cheapest sequence of labellings
-/// (Viterbi; a change costs 1.5). The camera whose new labels lower the cost most comes first. With two cameras, only
-/// the facing direction shows which camera was wrong: toes are in front of heels or ankles, the nose is in front of the
-/// ears. If the body faces the wrong way in nine tenths of the frames, sides are swapped in all cameras.
+/// (Viterbi; a change costs 1.5). The camera whose new labels lower the cost most is corrected first. With two cameras,
+/// only the facing direction shows which camera was wrong: toes are in front of heels or ankles, the nose is in front
+/// of the ears. If the body faces the wrong way in nine tenths of the frames, sides are swapped in all cameras.
 std::vector<Mend> MendPerson(std::span<const ProjectionMatrix> cameras, std::span<const SeenPeople> people,
                              double min_confidence, MatchedPerson& person);
 

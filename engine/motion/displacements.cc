@@ -163,7 +163,7 @@ std::vector<Displacement> FindCommon(const BodyMotion& motion, const std::vector
   return found;
 }
 
-/// A step at which one joint has a large third difference.
+/// A step at which the third difference of one joint's position is large.
 struct Hot {
   int step = 0;
   Role joint = Role::kHipCentre;

@@ -52,7 +52,7 @@ struct BoostingOptions {
   double ridge = 3;
   int min_per_leaf = 12;  ///< minimum number of performances in a leaf
   /// If true, trees take turns: each is fitted to three fifths of the performances and a third of the measures, so that
-  /// the trees differ. (This is stochastic boosting, Friedman 2002, with a fixed rotation instead of random numbers.)
+  /// the trees differ. (This is stochastic boosting, Friedman 2002, with a fixed order instead of random numbers.)
   bool takes_turns = false;
   /// The number of multiple-instance rounds. Each round trains on one performance per bag. The first round takes the
   /// bag's first performance; later rounds take the performance that the previous round's model finds most likely,

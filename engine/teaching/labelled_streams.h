@@ -79,8 +79,8 @@ using LabelTexts = std::map<std::string, std::string>;
 
 /// Combines labels and recordings. Without any labels, each recording is one performance (WholeStreams); otherwise a
 /// recording without a label contains no move. The person of a recording is named by its labels, otherwise by its
-/// file's name; otherwise each recording counts as a person of its own. Fails for the errors of ReadLabels and
-/// MatchLabels, and if the labels of a recording name two people.
+/// file's name; otherwise each recording counts as a person of its own. Fails if `ReadLabels` or `MatchLabels`
+/// fails, and if the labels of a recording name two people.
 Result<LabelledStreams> LabelStreams(std::vector<NamedStream> streams, const LabelTexts& labels);
 
 }  // namespace etude

@@ -47,8 +47,8 @@ enum class JoinStyle {
   kDirect,  ///< each limb moves from its old pose to the new motion's pose at the end of the join
 };
 
-/// The join that a choice of frames prefers. The choice `played`, which tries several joins, sets it; answers of
-/// external methods may also set it.
+/// The join that a choice of frames prefers. The choice `played`, which tries several joins, sets a PreferredJoin;
+/// answers of outside methods may also set one.
 struct PreferredJoin {
   double blend_s = 0;  ///< time until only the new motion is shown, seconds
   JoinStyle way = JoinStyle::kDecays;

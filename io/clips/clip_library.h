@@ -38,8 +38,8 @@ struct ClipLibrary {
 std::string CollectionOf(const LibraryClip& clip);
 
 /// Expands every reference (ExpandReference) and loads the reference's clips, in order; every animation of a glTF file
-/// becomes a clip of its own. Fails with the name of a reference that cannot be found, read or understood. `place` is
-/// the position of the references, for complaints. `on_progress` gets the number of references done.
+/// becomes a clip of its own. Fails with the name of a reference that cannot be found, read or understood. Error
+/// messages name `place`, the position of the references. `on_progress` gets the number of references done.
 Result<ClipLibrary> LoadClips(const std::vector<std::string>& references, const Place& place,
                               const OpenOptions& options = {}, const OnProgress& on_progress = {});
 

@@ -27,8 +27,8 @@ class RecordedMotions {
   /// Returns true if a file's text begins like a recording.
   virtual bool IsRecording(std::string_view text) const = 0;
 
-  /// Reads the motions of a recording; each clip gets the name of its track. `path` is for complaints. A motion whose
-  /// joints are not the twenty roles is read as markers, with `options`.
+  /// Reads the motions of a recording; each clip gets the name of its track. Error messages name the file `path`. A
+  /// motion whose joints are not the twenty roles is read as markers, with `options`.
   virtual Result<ClipFile> Read(const std::string& text, const std::string& path, const OpenOptions& options) const = 0;
 
   /// Returns the name of the track that holds the motion of the recorded cell's method. `clips` are all tracks of the

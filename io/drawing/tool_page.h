@@ -7,7 +7,7 @@ namespace etude {
 
 /// The parts of a tool's page around the page's content. All parts are plain texts, not HTML.
 struct ToolPage {
-  std::string_view kind;  ///< the command: "capture"
+  std::string_view kind;  ///< name of the command, e.g. "capture"
   std::string title;
   std::string verdict;  ///< the result in one or two sentences
   std::string version;

@@ -32,7 +32,7 @@ std::string ShowJson(const Json& json);
 /// Returns the depth to which brackets nest. The text need not be valid JSON.
 int NestingOf(std::string_view text);
 
-/// Reads one JSON value, nested at most 100 deep. `file` and `line` are for complaints; line 0 means that the whole
+/// Reads one JSON value, nested at most 100 deep. Error messages name `file` and `line`; line 0 means that the whole
 /// file is one value. Fails on invalid JSON and on a zero byte.
 Result<Json> ReadJson(const std::string& text, const std::string& file, int line = 0);
 

@@ -50,7 +50,7 @@ constexpr auto kRefused = std::to_array<Refusal>({
     {SYS_io_setup, ENOSYS},
     {SYS_landlock_create_ruleset, ENOSYS},
     {SYS_fanotify_init, ENOSYS},
-    {SYS_setxattr, EOPNOTSUPP},  // this and the next two: file attributes in tmpfs count as no process's memory
+    {SYS_setxattr, EOPNOTSUPP},  // these three calls: memory of file attributes in tmpfs counts for no process
     {SYS_lsetxattr, EOPNOTSUPP},
     {SYS_fsetxattr, EOPNOTSUPP},
     // Refuse threads with their own descriptor tables, and processes that share a table, because open files and locks

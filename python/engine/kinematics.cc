@@ -43,7 +43,8 @@ struct Numbers {
   void Fill(std::span<double> row, py::ssize_t number) const {
     for (std::size_t i = 0; i < row.size(); ++i) row[i] = first[number + static_cast<py::ssize_t>(i) * stride];
   }
-  /// Fills the rows of a position. FillMatrix fills the rows of a matrix, which a batch stores column by column.
+  /// Fills the three rows of a batch that hold a position. FillMatrix fills the nine rows of a matrix, which the batch
+  /// stores column by column.
   void FillPosition(const auto& row_of, py::ssize_t from = 0) const {
     for (int axis = 0; axis < kPositionNumbers; ++axis) Fill(row_of(axis), from + axis);
   }

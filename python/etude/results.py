@@ -16,7 +16,7 @@ __all__ = ["load", "Run", "Table", "Column", "Pairs", "Answer", "Verdict", "Moti
 def load(folder, *, unsealed=False, program=None):
     """Reads the result folder of a finished run.
 
-    The program checks the run's seal, so that changed values are refused; `unsealed` reads them nevertheless. Raises
+    The program checks the run's seal and refuses changed values; with `unsealed`, it makes no such check. Raises
     EtudeError.
     """
     folder = pathlib.Path(folder)

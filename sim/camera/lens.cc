@@ -181,8 +181,8 @@ View LensWarp::Warp(const View& pinhole) const {
     std::copy_n(&picture.At(0, rows.first), part.pixels.size(), part.pixels.begin());
     return part;
   };
-  // Convert colour to light, warp the light, and convert the light back to colour. Labels and depth are looked up
-  // directly.
+  // Convert colour to light, warp the light, and convert the light back to colour. Labels and depth are copied
+  // from the nearest source pixel.
   View view;
   if (!pinhole.colour.pixels.empty()) {
     const ColourImage colour = rows_of(pinhole.colour);

@@ -209,7 +209,6 @@ Result<Move> ParseCurves(std::string_view yaml, const std::string& file) {
   ReadTempoRange(fields, move);
   move.beats = fields.Number("beats", 8, {1, 64});
   const bool mirrored = fields.Boolean("second_half_mirrored", false);
-  // Acts have no key poses, because they are never judged.
   if (is_act) move.loops = fields.Boolean("loops", true);
   const MoveCurves::Style style = {.overlap_beats = fields.Number("overlap_beats", 0.1, {0, 0.5}),
                                    .bounce = 0.01 * fields.Number("bounce_cm", 0, {0, 20}),
@@ -218,6 +217,7 @@ Result<Move> ParseCurves(std::string_view yaml, const std::string& file) {
   Node missing;
   missing.place = document.place;
   const Node* poses = fields.Raw("poses");
+  // Acts have no key poses, because acts are never judged.
   const Node* key_poses = is_act ? nullptr : fields.Raw("key_poses");
   RETURN_IF_ERROR(fields.Finish());
 

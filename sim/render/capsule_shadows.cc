@@ -99,8 +99,8 @@ class Caster {
     }
   }
 
-  // Raises each pixel's nearness to the capsule: 1 at the capsule's skin, 0 at the distance kContactReach from the
-  // skin.
+  // Raises each pixel's value in `nearness` to at least its nearness to this capsule: 1 at the capsule's skin, 0 at
+  // the distance kContactReach from the skin.
   void Touch(const PixelRow& row, float* nearness) const {
     const glm::vec3 a(start_), v(along_);
     const float vv = glm::dot(v, v), per_vv = vv > 0 ? 1 / vv : 0, radius = static_cast<float>(radius_);

@@ -77,9 +77,9 @@ class TextureStore {
 };
 
 /// The framebuffer into which pictures are drawn: colour, labels, linear depth, and a depth buffer for hidden surfaces.
-/// It grows to the size of the largest picture; smaller pictures use its corner. It holds only pixels drawn over the
-/// empty room. Bodies are drawn with an alpha of 0 and shadows with 0.5; where shadows overlap, the darkest counts.
-/// Pixels that were not drawn are not read.
+/// The framebuffer grows to the size of the largest picture; smaller pictures use its corner. It holds only what is
+/// drawn over the empty room. Bodies are drawn with an alpha of 0 and shadows with 0.5; where shadows overlap, the
+/// darkest counts. Pixels that were not drawn are not read.
 class FrameTargets {
  public:
   explicit FrameTargets(const GlFunctions& gl) : gl_(gl) {}

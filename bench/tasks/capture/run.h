@@ -28,8 +28,7 @@ struct CaptureRun {
 RecoverOptions RecoverOptionsOf(const CaptureMethod& method);
 
 /// Returns the options for bridging gaps in a live method. A live method receives marked frames only, so the options
-/// count marked frames instead of all frames. The longest gap therefore has fewer frames, and the turn per frame is
-/// larger.
+/// count marked frames instead of all frames. `max_gap` is therefore smaller, and `turn_per_frame` larger.
 BridgeOptions LiveBridgeOptions(const StudioOptions& options);
 
 /// Returns the body with which a method begins. Its limb lengths are known, or are measured from the marks. Fails, with

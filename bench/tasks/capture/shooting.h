@@ -18,7 +18,7 @@ BodyPose PoseAt(std::span<const BodyPose> poses, double frame);
 Figure PerformerAt(const CaptureWorld& world, double frame);
 
 /// Returns a copy of `effects` with only the effects on the camera's time and geometry (clocks, shutter, lens). Effects
-/// that degrade the picture are left out. Used for pictures of the truth.
+/// that degrade the picture are left out. The copy is for pictures of the truth.
 CameraEffects FaultlessPictures(const CameraEffects& effects);
 
 /// Shoots the pictures of a take.

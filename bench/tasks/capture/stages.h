@@ -68,7 +68,7 @@ class CaptureStages {
   const WorldKey& key() const { return key_; }
   /// Returns, for each frame, true if the annotator marks it.
   const std::vector<bool>& marked() const { return marked_; }
-  /// Adds the performer's next pose. Used for live capture.
+  /// Adds the performer's next pose, for live capture.
   void Add(const BodyPose& pose);
   /// Returns the renderer. Fails, with the reason, if the renderer cannot be made.
   Result<Renderer*> GetRenderer();

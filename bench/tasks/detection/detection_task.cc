@@ -67,7 +67,7 @@ class DetectionTask final : public Task {
   const DetectionOptions options_;
   const std::vector<ReadyMethod> methods_;
   const Repertoire repertoire_;
-  mutable MethodDecisions decisions_{methods_, repertoire_, options_};  // a cache whose content depends on keys alone
+  mutable MethodDecisions decisions_{methods_, repertoire_, options_};  // a cache: an entry depends only on its key
   std::vector<TrialClip> clips_;
 };
 

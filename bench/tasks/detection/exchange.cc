@@ -185,7 +185,7 @@ Result<SessionVerdict> ReadSessionAnswer(const Json& answer, const DetectionWorl
   // Read all detections, each once.
   const std::vector<std::string> moves = NamesOf(repertoire.taught);
   const int frames = static_cast<int>(world.stream.frames.size());
-  std::set<std::pair<std::size_t, int>> calls;  // by move, then by time; duplicates count once
+  std::set<std::pair<std::size_t, int>> calls;  // (index of the move, frame) of each detection
   const Json& said = fields.List("alarms", 0, moves.size() * world.stream.frames.size());
   for (std::size_t i = 0; i < said.size(); ++i) {
     AnswerFields alarm(said[i], fields.PathOf("alarms", i));

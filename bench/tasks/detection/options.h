@@ -90,8 +90,8 @@ struct DetectionMethod {
   }
 };
 
-/// Returns the options of the sensor that the condition names; those of v2 if the condition names no sensor, or
-/// cameras.
+/// Returns the options of the sensor that the condition names. If it names no sensor, or cameras, returns the options
+/// of v2.
 Result<SkeletonSensorOptions> SensorOf(const TaskInput& input);
 /// Adds an error for each key that belongs to another sensor than the condition's.
 void CheckSensorKeys(Fields& condition, DetectionOptions& options);

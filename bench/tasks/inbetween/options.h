@@ -23,7 +23,7 @@ struct InbetweenOptions {
   int given = 1;                  ///< number of frames after the gap that methods receive
   std::optional<double> rate_hz;  ///< rate to which motions are sampled; nullopt = each file's own
   glm::dvec3 facing{0, 1, 0};     ///< the root's axis that points along X in the last frame before the gap
-  /// True: a window has its file's own offsets; false: those of the first training file.
+  /// True: a window has the bone offsets of its own file; false: the bone offsets of the first training file.
   bool own_offsets = false;
 };
 

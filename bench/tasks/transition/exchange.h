@@ -55,9 +55,9 @@ Payload NaturePayload(const Stage& stage, const TransitionRequest& request);
 ///   clip `from` in the setting. Clip `to` is then aligned with the last of these frames, which should be the method's
 ///   own version of `enter_frame`. The body must be the clips' body: a limb that is more than 2 cm longer or shorter is
 ///   an error. There may be at most 300 frames, and no `through`.
-/// - `"between_start": [x, y, z, …]`: with `between`, the method's version of `leave_frame`. It is not shown, but the
-///   gaps at the transition point are measured to it. Without it, the frames between are assumed to begin at constant
-///   velocity.
+/// - `"between_start": [x, y, z, …]`: with `between`, the method's version of `leave_frame`. This pose is not shown;
+///   the gaps at the transition point are measured from `leave_frame` to this pose. Without `between_start`, the frames
+///   of `between` are assumed to begin at constant velocity.
 /// - `"matched": true`: the two frames of the transition point were chosen because they are similar. Only then
 ///   `false_smooth` is measured.
 ///

@@ -25,7 +25,8 @@ class Follower {
     for (std::vector<int>& limbs : led_) std::ranges::reverse(limbs);
   }
 
-  // Changes `angles` so that the limbs follow the result of the passes. `frames` are the frames at `angles`.
+  // Changes `angles` so that the limbs follow the result of the passes. `frames` are the joints' coordinate frames at
+  // `angles`.
   void Follow(const TreeFrames& frames, std::vector<double>& angles) {
     limbs_ = frames.joints;
     // First, turn every joint to fit the tips of its own limb; then, to fit all tips beyond the joint.

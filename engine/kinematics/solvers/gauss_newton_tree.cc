@@ -273,7 +273,7 @@ GaussNewtonTree::GaussNewtonTree(const KinematicTree& tree)
     if (quadratic < 0) quadratic = joint.quadratic;
   }
   // List the steps of elimination by the joints' heights in the tree, leaves first. For each height, list the last
-  // hinge of every joint, then the hinge before it of every joint, and so on; then the additions to the parents.
+  // hinge of every joint, then the last but one of every joint, and so on; then the additions to the parents.
   const std::vector<int> heights = JointHeights(tree);
   for (auto first = inwards.begin(); first != inwards.end();) {
     const auto is_higher = [&](int n) { return heights[n] > heights[*first]; };

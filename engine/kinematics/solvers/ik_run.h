@@ -9,7 +9,7 @@
 
 namespace etude {
 
-/// Sets `out` to the errors of all effectors at `frames`.
+/// Sets `out` to the errors of all effectors at the pose whose coordinate frames are `frames`.
 void MeasureErrors(const TreeFrames& frames, std::span<const EffectorTarget> targets, std::vector<EffectorError>& out);
 
 /// Sets `out` to the errors of all effectors of `problem` at `angles`.

@@ -23,7 +23,8 @@ struct TreeJacobian {
   }
 };
 
-/// Computes the Jacobian at `frames`, which belong to `tree`. The memory of `out` is reused from call to call.
+/// Computes the Jacobian at `frames`, the coordinate frames of the joints of `tree`. The memory of `out` is reused from
+/// call to call.
 void ComputeJacobian(const KinematicTree& tree, const TreeFrames& frames, TreeJacobian& out);
 
 /// A position error of this many metres counts as much as an axis error of one radian, in all solvers that minimise a
@@ -40,7 +41,7 @@ class LinearTargets {
  public:
   LinearTargets(const KinematicTree& tree, std::span<const EffectorTarget> targets);
 
-  /// Linearises the targets at `frames`.
+  /// Computes residuals and Jacobian at the pose whose coordinate frames are `frames`.
   void Build(const TreeFrames& frames);
 
   int rows() const { return static_cast<int>(residuals_.size()); }

@@ -83,7 +83,7 @@ class MinimumJerkPlay {
   std::optional<Inertialiser> decay_;
   /// Movements relative to their ends: each limb's rotation vector, indexed by the limb's child joint, and the root's
   /// position.
-  std::optional<std::array<Movement, kRoleCount>> movements_;  ///< nullopt for a fade and a decay
+  std::optional<std::array<Movement, kRoleCount>> movements_;  ///< only for JoinStyle::kDirect
 };
 
 /// Returns all frames of the window as MinimumJerkPlay computes them.
