@@ -224,7 +224,7 @@ Table PosePairs(const RunData& run, const ScenarioSummary& scenario, std::string
       .style = "data glance",
       .columns = {{.head = std::string(poses), .is_row_head = true}, {.head = std::string(apart), .is_number = true}}};
   for (const std::string& method : scenario.methods) table.columns.push_back({.head = method, .is_number = true});
-  // If a parameter is swept, or if a world has several pairs, a pair has no single verdict.
+  // Show no rows if a parameter is swept or a world has several pairs: a row could not show a single verdict.
   if (scenario.task != "pose-distance" || scenario.conditions.size() != 1) return table;
   // Read the pairs from the first method's rows, and the verdicts from every method's rows.
   for (const Row& row : run.rows) {
