@@ -47,11 +47,11 @@ struct PowerSpectrumError {
 };
 
 /// Returns NPSS (normalised power spectrum similarity) over successive windows of `length` frames, beginning with the
-/// first frame. For each window and channel, the cumulated shares of power of found and truth are compared: the
-/// absolute differences are summed over all frequencies. The result is the mean of these sums, weighted by the truth's
-/// power. Frames after the last complete window, and windows with an unknown value, are left out. A channel without
-/// power in the truth has no weight; a channel without power in `found` has shares of zero there. Returns nothing if no
-/// window is left or the truth has no power. Cost: windows × channels × length².
+/// first frame. For each window and channel, the power spectra of `found` and `truth` are divided by their totals and
+/// cumulated over frequency; the absolute differences of the two curves are summed. The result is the mean of these
+/// sums, weighted by the truth's power. Frames after the last complete window, and windows with an unknown value, are
+/// left out. A channel without power in the truth has no weight; for a channel without power in `found`, the curve of
+/// `found` is zero. Returns nothing if no window is left or the truth has no power. Cost: windows × channels × length².
 std::optional<PowerSpectrumError> MeasurePowerSpectrum(const ChannelTracks& found, const ChannelTracks& truth,
                                                        std::size_t length, PowerOf kind);
 

@@ -76,8 +76,8 @@ class WatchedProgram {
   /// Reads the output that is available now. NextLine then returns its lines.
   void Receive();
   std::optional<std::string> NextLine() { return child_->NextLine(); }
-  /// Waits for a line until `deadline`. `seconds` is the time limit in the error message, counted from the question.
-  /// Fails if the program ends, exceeds the limit of a resource, or sends no line in time.
+  /// Waits for a line until `deadline`. Fails if the program ends, exceeds the limit of a resource, or sends no line in
+  /// time; in the last case, the error message states the time limit `seconds`, counted from the question.
   OutsideOutcome<std::string> WaitForLine(Clock::time_point deadline, double seconds);
   /// Measures the program's resources. Fails if they exceed the limits. MeasureIfDue measures only if 20 ms have passed
   /// since the last sample.

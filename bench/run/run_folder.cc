@@ -181,7 +181,7 @@ void RunFolder::Keep() {
   // a run.
   if (aside_) fs::rename(aside_->path() / kOldRun, aside_->path() / kGone, ignored);
   aside_.reset();
-  FindLeft();  // deletes what a killed run with `--overwrite` left, if it has been resumed
+  FindLeft();  // if this run resumed a killed run with `--overwrite`: deletes the folders that the killed run left
 }
 
 Result<void> RunFolder::Lock() {

@@ -137,7 +137,7 @@ class Supervisor {
     return {};
   }
 
-  /// Appends to `text` what a worker receives for an order: a line for the world, or one line for each answered cell.
+  /// Appends an order's lines for the worker to `text`: one for the world; or, if workers measure, one for each cell.
   Result<void> AddText(const Order& order, std::string& text) {
     const World& world = plan_.world(order.world);
     if (answered_ == nullptr) {

@@ -34,7 +34,7 @@ PoseTargets TargetsFromEnds(const CaptureBody& body, const LimbObservation& seen
     glm::dvec3 position = seen.ends[end];
     double weight = seen.lacks_end[Index(end)] ? kUnseen : 1;
     Role role = end;
-    // Follow the limbs inwards as far as their directions are observed.
+    // Follow the chain of limbs from the end inwards, up to the first limb that is not in `ObservedLimbs()`.
     while (true) {
       wanted.places[role] = position;
       wanted.weights[Index(role)] = weight;

@@ -25,8 +25,8 @@ void NameHead(CaptureBody& body);
 Result<CaptureBody> BodyOfBones(const std::array<double, kRoleCount>& lengths);
 
 /// Estimates a person's body: every bone has its median length over the frames that show both of its joints, left and
-/// right separately; the spine is at `kSpineShare` of the trunk (`BodyOfBones`). Fails, naming the joint, if no frame
-/// shows some bone.
+/// right separately; the spine is at `kSpineShare` of the trunk (`BodyOfBones`). Fails if a bone is shown in no frame;
+/// the error names the joint.
 Result<CaptureBody> MedianBody(std::span<const LandmarkPositions> frames);
 
 /// Finds, in every frame, the angles and the root's position that minimise Σ weight · |position − joint|², at least

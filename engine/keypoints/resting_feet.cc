@@ -63,7 +63,7 @@ std::vector<FootStay> FeetAtRest(std::span<const LandmarkPositions> points, doub
       end_stay();
     }
   }
-  // Keep the longest stays.
+  // Keep the `kMaxStays` periods of rest with the most frames.
   std::ranges::stable_sort(found, std::ranges::greater{}, [](const auto& one) { return one.first; });
   if (found.size() > kMaxStays) found.resize(kMaxStays);
   std::vector<FootStay> stays;

@@ -85,8 +85,8 @@ const LearntModel& BuiltinLearntModel();
 const LearntModel& BuiltinCoachedModel();
 
 /// Makes our learnt recogniser. It aligns performances with the taught examples, measures them, and judges the measures
-/// by a model trained on simulated people. A motion that is farther from every example than nearly all of the training
-/// data is not spotted as a move. The model does not depend on which moves are taught.
+/// by a model trained on simulated people. A motion is not spotted as a move if it is farther from every example than
+/// 19 of 20 right performances in the training data. The model does not depend on which moves are taught.
 std::unique_ptr<Recogniser> MakeLearntRecogniser(std::span<const TaughtMove> taught, const TrackingWeights& weights,
                                                  const LearntModel& model);
 

@@ -38,7 +38,7 @@ struct OnAxis {
   Vec along, distance, signed_distance;
 };
 
-/// Finds the nearest points on the axis, which minimise the distance minus the radius (`NearestOnCone`).
+/// Finds, for each point, the place on the axis at which distance minus radius is smallest (`NearestOnCone`).
 HWY_INLINE OnAxis NearestOnAxis(const Cone& cone, Vec u, Vec v) {
   const Real real;
   const Vec* const c = cone.rows;

@@ -154,7 +154,7 @@ void ColourLikelihood::Learn(const ColourImage& picture, const Mask& person) {
   const Image<int> about = CountsWithin(person, kReach);
   for (std::size_t i = 0; i < near_.pixels.size(); ++i) near_.pixels[i] = about.pixels[i] > 0;
 
-  // Count the colours of the person's pixels that the room does not explain, without the rim.
+  // Count the colours of the person's pixels that the room does not explain. Leave out a rim of `kRim` pixels.
   Mask sure = person;
   for (std::size_t i = 0; i < sure.pixels.size(); ++i) sure.pixels[i] &= strange_.pixels[i];
   const Image<int> inside = CountsWithin(sure, kRim);

@@ -117,8 +117,8 @@ std::string DescribeSecondBody(const Skeleton& skeleton, const JointMap& map) {
   }
   const int top = static_cast<int>(std::ranges::find(below | std::views::reverse, wanted).base() - below.begin()) - 1;
   if (top < 0) return "";
-  // Collect the joints outside the subtree of `top`. Readers number equal names ("Hips#2"), so restore the file's own
-  // names.
+  // Collect the joints outside the subtree of `top`. Readers add numbers to equal names ("Hips#2"), so restore the
+  // file's own names.
   constexpr std::size_t kMinJoints = 12;
   Skeleton others;
   std::vector<int> place(skeleton.joints.size(), -1);

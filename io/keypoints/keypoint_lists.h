@@ -42,8 +42,8 @@ bool IsKeypointList(const Json& json);
 ///   `people` or `instances`, or bare lists of people or of points; null means no people.
 /// Frame numbers count from 1 if no number is 0 and the film's number of frames is unknown or equals the last number;
 /// otherwise they count from 0. If frames have no numbers but all have a time (`timestamp`, `timestamp_ms`, `time`, …),
-/// and the film's number of frames differs from the list's, the times place the frames; only ratios of times matter.
-/// `told` says if frames are missing.
+/// and the film's number of frames differs from the list's, the frame numbers are computed from the times, whose unit
+/// does not matter. `told` says if frames are missing.
 Result<PeopleOfFilm> ReadKeypointList(const Json& json, const std::string& layout, const FilmOfKeypoints& of,
                                       const Place& place);
 

@@ -80,7 +80,7 @@ class PoseField {
   std::array<Wave, kWaves> waves_;
 };
 
-/// The error of one joint as a function of the pose: unit mean square per axis, with jumps between two modes.
+/// The error of one joint as a function of the pose. Its mean square is 1 on each axis; it jumps between two modes.
 class PoseError {
  public:
   PoseError(Role role, const SkeletonSensorOptions& options, RandomStream& dice);

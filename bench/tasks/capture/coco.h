@@ -16,8 +16,9 @@ namespace etude {
 /// of which the first seventeen are COCO's own. Their positions come from the marks (`PersonOf`); the annotator does
 /// not mark the face. A keypoint is written as x, y, v. A marked keypoint has v = 2; for any other, all three are 0.
 /// Pixels follow COCO: the centre of the first pixel is (0, 0). `bbox` is the box around the keypoints, `area` the area
-/// of the box. Fails if a mark is not finite. @param pictures the file name of each frame @param marks the marks of
-/// each frame
+/// of the box. Fails if a mark is not finite.
+/// @param pictures the file name of each frame
+/// @param marks the marks of each frame
 Result<std::string> WriteCocoKeypoints(const Intrinsics& camera, std::span<const std::string> pictures,
                                        std::span<const Marks> marks);
 

@@ -23,8 +23,8 @@ class Marking {
   /// determines where its joints lie in its limbs, and which point of its head is marked.
   Marking(const StudioOptions& options, const CaptureWorld& world, const WorldKey& key);
 
-  /// Marks one picture and returns the marks as methods receive them. If both annotators drew a stroke or disc, it is
-  /// the mean of the two marks; if a single annotator drew it, it is returned unchanged. The result is empty if the
+  /// Marks one picture and returns the marks as methods receive them. Where both annotators drew a stroke or disc, the
+  /// result is the mean of the two; where only one annotator drew, the result is that mark. The result is empty if the
   /// frame is not marked. The frames of a camera must come in order.
   Marks Mark(std::size_t camera, std::size_t frame, const AnnotatedPicture& picture);
 

@@ -183,7 +183,8 @@ class Loop {
     log_.words.push_back(std::move(words));
   }
 
-  /// Returns the last frame before each transition point of a transition that was requested in this frame.
+  /// Returns, for each transition point of `record`, the last frame of the session before this point. The transition
+  /// was requested in frame `frame_`.
   std::vector<int> TransitionPointsOf(const TransitionRecord& record) const {
     std::vector<int> points;
     double frame = frame_;

@@ -226,8 +226,8 @@ class RecordedTask final : public Task {
     return folds_.emplace(index, MakeFold(set_, taught_, {NameOf(person)}, methods_)).first->second;
   }
 
-  /// Returns the thresholds of the methods. The thresholds are found on other people. The recognisers that judge one of
-  /// these people were taught neither by that person nor by the judged person.
+  /// Returns the thresholds of the methods. With an operating point, recordings of other people determine thresholds.
+  /// The recognisers that judge one of these people were taught neither by that person nor by the judged person.
   const std::vector<MethodDecision>& DecisionsFor(const WorldKey& key) const {
     const auto known = decisions_.find(key.trial);
     if (known != decisions_.end()) return known->second;

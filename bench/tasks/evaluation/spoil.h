@@ -4,8 +4,8 @@
 
 namespace etude {
 
-/// The faults that are added to a truth, in this order. They test metrics on an answer whose faults are known. A fault
-/// of 0 changes nothing.
+/// The faults that are added to a truth, in this order, to test metrics on an answer whose faults are known. A fault of
+/// 0 changes nothing.
 struct Spoiler {
   double noisy_mm = 0;        ///< standard deviation of white noise on each axis of each joint
   double smoothed_ms = 0;     ///< length of a centred moving mean

@@ -78,8 +78,8 @@ class FuzzyGate {
     double distance = 0;
     bool matches = false;
   };
-  /// Compares a frame of the playing clip with all frames that may be entered, in order. The span is valid until the
-  /// next call.
+  /// Compares frame `from` of `playing` with the frames in `entering`, in their order. With MatchRules::within_class,
+  /// frames whose tag differs from that of `from` are left out. The span is valid until the next call.
   std::span<const Compared> Compare(int from);
 
  private:

@@ -25,15 +25,15 @@ struct PlayedJoin {
   int unsupported = 0;  ///< length in frames of the longest run without support
 };
 
-/// The amounts that cost as much as one second (PlayedOptions).
+/// The excess acceleration and the deviation that each cost as much as one second (PlayedOptions).
 struct PlayedRates {
   double excess_per_s = 0, invented_per_s = 0;
 };
 
 /// Plays the joins of a request's clips at the given pairs (at least one): at every length, direct and as a fade
 /// (PlayMinimumJerk), placed by the feet and by momentum (CarriedShift). Returns the joins that were played with
-/// planted feet (PlantFeet), the best first. Joins end by frame `last` of the wanted clip; only the shortest length may
-/// exceed it.
+/// planted feet (PlantFeet), the best first. Only joins of the shortest length may end after frame `last` of the wanted
+/// clip.
 ///
 /// The method is best-first search (Hart, Nilsson and Raphael 1968): the join with the lowest cost so far is continued.
 /// That cost first contains only the time, then also the costs of the limbs' movement, frame by frame, then those of
