@@ -164,8 +164,8 @@ void InjectedTails::Try(const Snapshot& first, const std::string& target, std::u
   const auto worse_by = [&](double times) { return [=](std::optional<double>& value) { *value += times * worse; }; };
   const auto present = static_cast<int>(DrawTrials(TargetOf(first, target), SIZE_MAX, seed).size());
   const int needed = WorldsThatFail(present, rule);
-  // Make worlds worse by 2 × `rule.times` practical thresholds. The gate must report a regression if and only if so
-  // many worlds are a regression by the tail rule.
+  // Make worlds worse by 2 × `rule.times` practical thresholds. By the tail rule, the gate must report a regression if
+  // and only if at least `needed` worlds are worse (never if `needed` is 0).
   std::set<int> counts = {1, 2, 3, 5, 10};
   if (needed > 0) counts.insert(needed);
   for (const int count : counts) {

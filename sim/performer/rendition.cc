@@ -190,7 +190,7 @@ bool CanShow(const GradedFault& fault, const Move& move, const Move* instead) {
   GradedFault worst = fault;
   worst.severity = 1;
   const Rendition rendition(style, {}, {worst}, &other);
-  // If a move equals its own mirror image half a performance later, the move has no wrong side.
+  // A move that equals its own mirror image, shifted by half a performance, has no wrong side.
   if (fault.fault == Fault::kWrongSide) {
     const auto shifted = [&](double share) { return PoseOf(rendition.Meant(share + 0.5)); };
     const auto mirrored = [&](double share) { return PoseOf(rendition.Danced(share)); };
