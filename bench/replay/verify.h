@@ -20,11 +20,11 @@ struct VerifyOutcome {
   std::optional<CellChoice> choice;  ///< the cells that were run again; nullopt if none were
 };
 
-/// Checks that a result folder is consistent, even if somebody renewed its seal. It checks the seal, the set of files
-/// and the rows, which must be those of the manifest and written as a run writes them. The summary and its expectations
-/// are computed again from the rows. With `replays`, the clips and units of every row are checked too, and the cells
-/// that `options` choose are run again; secret worlds need their key. The times and the description of the machine
-/// cannot be checked. Fails if the folder cannot be read.
+/// Checks that a result folder is consistent, even if somebody renewed its seal. It checks the seal and the set of
+/// files. The rows must be those of the manifest, in the form in which a run writes them. The summary and its
+/// expectations are computed again from the rows. With `replays`, the clips and units of every row are checked too, and
+/// the cells that `options` choose are run again; secret worlds need their key. The times and the description of the
+/// machine cannot be checked. Fails if the folder cannot be read.
 Result<VerifyOutcome> VerifyRun(const ReplayOptions& options, bool replays);
 
 }  // namespace etude

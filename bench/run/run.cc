@@ -163,7 +163,7 @@ class JournalRecorder {
   CellTable& cells_;
   CellTable* answered_;  ///< the cells that outside metric programs must still measure; null without such programs
   Journal journal_;
-  std::uint32_t file_, answered_file_;  ///< numbers of the journal file in `cells_` and in `answered_`
+  std::uint32_t file_, answered_file_;  ///< the journal file's number in `cells_`, and in `answered_`
   /// Progress that counts the cells synchronised to the disk, and progress that counts all written cells.
   Progress progress_, unsynced_;
   const std::function<void(const Progress&)>& on_progress_;

@@ -45,8 +45,8 @@ std::optional<double> SuccessAt(const MethodColumns& method, const std::string& 
   return status == Status::kOk ? std::nullopt : std::optional(0.0);
 }
 
-/// A method and the other method with which it is compared in each world. A rival may differ between the two halves of
-/// the worlds (FindRival).
+/// A method and the other method with which it is compared in each trial. The other method may change between trials,
+/// because the two halves of the worlds may have different rivals (FindRival).
 struct Pairing {
   const MethodColumns* method;
   std::vector<const MethodColumns*> other;  ///< the other method in each trial

@@ -23,7 +23,7 @@ constexpr std::int64_t kMaxExactValues = 50;
 /// Returns the number of Walsh averages of the ascending values that are at most `limit`.
 std::int64_t CountWalshAverages(std::span<const double> ascending, double limit) {
   std::int64_t count = 0;
-  auto end = static_cast<std::int64_t>(ascending.size());  // end of the values whose average with value i is ≤ `limit`
+  auto end = static_cast<std::int64_t>(ascending.size());  // value i has averages ≤ `limit` with values i … end − 1
   for (std::int64_t i = 0; i < end; ++i) {
     while (end > i &&
            (ascending[static_cast<std::size_t>(i)] + ascending[static_cast<std::size_t>(end - 1)]) / 2 > limit)

@@ -13,7 +13,7 @@ namespace {
 
 using Films = std::vector<PictureOfFilm>;
 
-constexpr std::size_t kMaxFilms = 8;  // with more films, exchanges are not tried
+constexpr std::size_t kMaxFilms = 8;  // with more films, exchanges of two films are not tried
 
 /// A possible mistake in how keypoints were stored. `told` describes it for users. `pixel` maps a pixel of the file to
 /// the correct pixel of a film whose pictures have the size `size`.

@@ -57,7 +57,7 @@ PoseTargets TargetsOf(const RoleVectors& joints, const BodyPose& completed) {
   PoseTargets wanted{.places = completed, .weights = {}};
   for (std::size_t i = 0; i < kRoleCount; ++i) wanted.weights[i] = joints[i] ? 1 : kUnseen;
   // If hips and shoulders appear nearer to each other than the trunk is long, the trunk could bend in any direction.
-  // This target keeps it nearly straight.
+  // The target of the spine keeps the trunk nearly straight.
   if (joints[Index(Role::kHipCentre)] && joints[Index(Role::kShoulderCentre)]) wanted.weights[Index(Role::kSpine)] = 1;
   return wanted;
 }

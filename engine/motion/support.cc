@@ -210,8 +210,8 @@ class SupportFinder::ClipSupport {
     for (std::size_t i = 0; i < heights.size(); ++i) {
       // A joint that has sunk into the floor is also supported.
       if (i == 0 && height >= heights[i] - rules_.level && height <= heights[i] + rules_.height) return true;
-      // A height is a separate surface only if the clip's joint does not also rest a little below this height. (Toes
-      // rest a little lower while the heel bears the body.)
+      // A height is a separate surface only if it is more than `rules_.level` above the next lower height. (Toes rest a
+      // little lower while the heel bears the body.)
       const bool surface = i > 0 && heights[i] - heights[i - 1] > rules_.level;
       if (surface && std::abs(height - heights[i]) <= rules_.height) return true;
     }

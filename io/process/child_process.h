@@ -127,7 +127,7 @@ class ChildProcess {
   std::size_t sent_ = 0;        ///< bytes of `unsent_` already written
   std::string buffer_;          ///< output received so far
   std::size_t line_start_ = 0;  ///< start of the next line in `buffer_`
-  std::size_t scanned_ = 0;     ///< end of the part of `buffer_`, from line_start_ on, that has no line end
+  std::size_t scanned_ = 0;     ///< index in `buffer_`; from `line_start_` to this index there is no line end
 };
 
 }  // namespace etude

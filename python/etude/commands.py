@@ -108,8 +108,8 @@ def _value_of(key, text):
 
 
 def _with_methods(name, text, entries):
-    """Returns the text of a scenario in which entries are added at the end of the list of methods, otherwise
-    unchanged."""
+    """Returns `text`, the text of a scenario, with `entries` added at the end of its list of methods. The rest of the
+    text stays unchanged."""
     if re.search(r"^include:", text, re.MULTILINE):
         raise EtudeError(f"{name}: includes another file, which a copy would not find: write the methods into it")
     if not entries:

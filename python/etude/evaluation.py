@@ -20,14 +20,13 @@ def evaluate(truth=None, *, names=None, rate_hz=None, pairs=None, joints=None, p
     folder.
 
     truth, and each answer by its method's name: a motion file, a folder or a pattern; or an array of positions, frames
-    × joints × 3 in metres with Y up, NaN where a joint was not seen. Arrays need `names` of their joints and `rate_hz`;
-    the names state the roles, as those of markers in a file do; give `unit` ("cm") if arrays are not in metres, and
-    `up` ("z") if Y does not point up; without arrays, both are about all files. Arrays are kept as .npz files in the
-    folder `output` + ".motions". pairs: a CSV file of pairs,
-    given instead of truth and answers. joints, people, lag, statistics, music_beats, metrics: as the options of `etude
-    evaluate`. alone: there is no truth; floor and limits are then the options of `etude evaluate --alone`, and the
-    metric within_limits says which clips keep the limits. output: the result folder; by default the first free folder
-    of out/evaluate-1, out/evaluate-2, …
+    × joints × 3 in metres with Y up, NaN where a joint was not seen. Arrays need `names` (of their joints) and
+    `rate_hz`; joint names state the roles, as marker names in a file do. Give `unit` ("cm") if arrays are not in
+    metres, and `up` ("z") if Y does not point up; without arrays, `unit` and `up` apply to all files. Arrays are kept
+    as .npz files in the folder `output` + ".motions". pairs: a CSV file of pairs, given instead of truth and answers.
+    joints, people, lag, statistics, music_beats, metrics: as the options of `etude evaluate`. alone: there is no truth;
+    floor and limits are then the options of `etude evaluate --alone`, and the metric within_limits says which clips
+    keep the limits. output: the result folder; by default the first free folder of out/evaluate-1, out/evaluate-2, …
 
     Raises EtudeError, also if a method has no answer that can be judged; the error's `run` is then set. Warns of pairs
     that are not judged.

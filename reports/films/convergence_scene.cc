@@ -148,8 +148,8 @@ constexpr double kDetail = 1.5;
 constexpr double kWordsShare = 0.34;
 // The bodies are turned by this angle from the frontal view, so that near and far limbs can be distinguished.
 constexpr double kTurn = Radians(25);
-// The smallest visible motion of a joint, metres; about a tenth of a pixel. If no joint has moved farther since the
-// last picture, as in many of the last iterations, the last picture is shown again.
+// The smallest visible motion of a joint, metres; about a tenth of a pixel. If no joint has moved more than this since
+// the last picture, as often happens in late iterations, the last picture is shown again.
 constexpr double kVisible = 0.0005;
 constexpr Paint kGhostRim{0.90, 0.93, 0.95, 0.55};
 constexpr Paint kMarkShadow{0.05, 0.06, 0.07, 0.8};

@@ -46,7 +46,8 @@ void MakeStageFilm(const RunData& run, const MediaPaths& paths, const FilmWatch&
     why = "There are no pictures: " + ToString(renderer.error());
     return;
   }
-  // `shoot` renders the film. The film's `why_not` then also has the reasons why other pictures could not be made.
+  // `shoot` renders a scene as the film. It adds the film's `why_not` to `why`, which holds the reasons why other
+  // pictures could not be made, and sets `why_not` to all these reasons.
   const auto shoot = [&](Scene&& scene) {
     Film film = Shoot(scene, paths.films / kRunFilm, watch);
     if (!film.why_not.empty()) Note(why, film.why_not);

@@ -123,7 +123,8 @@ std::string AgainstRival(const ScenarioSummary& scenario, const std::string& met
                          const std::string& baseline, const std::optional<Verdict>& of_baseline) {
   const std::vector<Judged> judged = AnswersOf(scenario, method, Against::kRival);
   if (judged.empty()) return "";
-  // `metric` decided the comparison with the baseline. If another metric decided this comparison, name that metric.
+  // `metric` decided the comparison with the baseline. If another metric decided the comparison with the
+  // rival, name that metric.
   const std::string& decides = judged.front().comparison->metric;
   const std::string what = decides == metric ? "" : WordsFor(decides).label + " ";
   const std::string rival = OthersOf(judged);

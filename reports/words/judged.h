@@ -54,8 +54,8 @@ bool MeanTellsMore(const Comparison& c);
 /// Returns the answer of a condition that the tail of this comparison's metric decided; null if there is none.
 const Answer* FindTailAnswer(const ConditionSummary& condition, const Comparison& comparison);
 
-/// Returns the comparison as tables show it. If the tail of its metric decided the answer, its verdicts are those of
-/// the answer, and its reason says so: a table must not contradict the answer.
+/// Returns the comparison as tables show it. If the tail of its metric decided the answer of `condition`, the result
+/// has the answer's verdicts and a reason that says so, because a table must not contradict the answer.
 Comparison AsAnswered(const ConditionSummary& condition, const Comparison& comparison);
 
 /// Returns the numbers of worlds by which a tail decided an answer: "far worse in 23 of 120 worlds, far better in 3".

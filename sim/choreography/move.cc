@@ -213,7 +213,7 @@ Result<Move> ParseCurves(std::string_view yaml, const std::string& file) {
   const MoveCurves::Style style = {.overlap_beats = fields.Number("overlap_beats", 0.1, {0, 0.5}),
                                    .bounce = 0.01 * fields.Number("bounce_cm", 0, {0, 20}),
                                    .loops = move.loops};
-  // Report a missing list at the place of the whole document.
+  // Errors about a missing list name the place of `document`, because the list itself has no place.
   Node missing;
   missing.place = document.place;
   const Node* poses = fields.Raw("poses");

@@ -152,7 +152,7 @@ struct JumpTimes {
 };
 
 JumpTimes TimesOf(const PoseKey& top, double beat_seconds) {
-  constexpr double kEffort = 2.5;  // in half flights: push-off and landing take three quarters of a flight each
+  constexpr double kEffort = 2.5;  // `effort` / `flight`; push-off and landing each last 1.5 `flight`
   const double flight = std::sqrt(2 * JumpOf(top) / kStandardGravity) / beat_seconds;
   return {flight, kEffort * flight};
 }

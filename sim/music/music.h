@@ -22,7 +22,7 @@ class MusicClock {
  public:
   MusicClock(const MusicClockOptions& options, const WorldKey& world);
 
-  /// Jumps to a position in the song, seconds, and plays from there. A stutter that has begun continues.
+  /// Jumps to a position in the song, seconds, and plays from there. The jump does not end a stutter that has begun.
   void PlayFrom(double music_s);
   /// Stops at the present position.
   void Pause();

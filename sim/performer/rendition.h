@@ -81,8 +81,8 @@ class Rendition {
 };
 
 /// Returns true if this fault alone, at its worst, makes a performance of `move` truly wrong; the person otherwise
-/// dances as taught. If a move equals its own mirror image half a performance later, it has no wrong side. `choice` has
-/// the meaning of GradedFault::choice; `instead` is used for kWrongMove.
+/// dances as taught. A move that equals its own mirror image, shifted by half a performance, has no wrong side.
+/// `choice` has the meaning of GradedFault::choice; `instead` is used for kWrongMove.
 bool CanShow(const GradedFault& fault, const Move& move, const Move* instead);
 
 /// For each move, the faults that the move can show, which are the same for every person. The search takes some

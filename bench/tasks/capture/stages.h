@@ -41,7 +41,7 @@ struct CalibratedCameras {
   std::string digest = {};
 };
 
-/// The measurements in space that the marks of a whole take give.
+/// The marks of a whole take, and the 3D measurements computed from these marks.
 struct MeasuredTake {
   /// The marks as `marks[camera][frame]`, without lens distortion. If the method requires it, they are synchronised,
   /// and marks that disagree with the others are removed. Every method of recovery uses these marks.

@@ -67,8 +67,9 @@ Result<void> CheckCommon(const RawMotion& truth, const RawMotion& answer, std::s
 
 namespace {
 
-/// Returns the motion with the other's roles if only the other has a skeleton and its needed joints all have namesakes.
-/// `changed` holds the result if it differs from `motion`.
+/// If only `other` has a skeleton, gives the joints of `motion` the roles of the joints of `other` with the same names.
+/// Returns `motion` itself if a needed role would then be missing. `changed` holds the result if it differs from
+/// `motion`.
 const RawMotion& WithRolesOfNamesakes(const RawMotion& motion, const RawMotion& other, RawMotion& changed) {
   if (!motion.parents.empty() || other.parents.empty()) return motion;
   auto roles = RawMotion::NoRoles();

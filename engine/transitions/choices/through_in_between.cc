@@ -46,8 +46,8 @@ class KeySearch {
     return nearest;
   }
 
-  /// Returns as candidates the taken point and those of `frames` that are nearest to the same key, in all at most half
-  /// of kMaxCandidates. Each candidate's `from_frame` is the clip's frame.
+  /// Returns at most kMaxCandidates / 2 candidates: `key_point`, which is taken, and those of `frames` that are nearest
+  /// to `key_point.key`. Each candidate's `from_frame` is a frame of the clip.
   std::vector<Candidate> ListCandidates(const KeyPoint& key_point, std::span<const int> frames) const {
     std::vector<Candidate> listed;
     for (int frame : frames) {
