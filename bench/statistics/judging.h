@@ -43,8 +43,8 @@ std::vector<AcrossVerdict> JudgeAcross(const Study& study, const std::vector<Con
 /// verdict is the opposite or "no difference" in one of the conditions, and otherwise undecided. Because every
 /// condition must hold, no correction for multiple conditions is needed (intersection–union test, Berger 1982). A bound
 /// (at_most, at_least) is compared with the statistic itself. If some cells have no value, a bound that the other cells
-/// meet is undecided. If the expectation is that the method has the better value metric (ValueMetricOf), worse success
-/// also makes it unmet.
+/// meet is undecided. If the expectation is that the method is better by the metric that `ValueMetricOf` returns, worse
+/// success also makes it unmet.
 ExpectationResult JudgeExpectation(const Expectation& expectation, const Study& study, const ScenarioTable& table,
                                    std::uint64_t seed);
 

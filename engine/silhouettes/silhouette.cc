@@ -94,7 +94,7 @@ Image<float> SignedDistances(const Mask& mask) {
   Image<float> distances(mask.width, mask.height);
   const double farthest = mask.width + mask.height;
   // Combine the columns by the lower envelope, for each run of equal pixels of a row. The pixel before the run and the
-  // pixel behind it have the other value, so no column farther away is nearer.
+  // pixel behind it have the other value, so no pixel of the other value beyond these two is nearer.
   const int longest = mask.width + 2;
   Envelope envelope(longest);
   std::vector<double> heights(longest), nearest(longest);
