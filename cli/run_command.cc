@@ -91,7 +91,7 @@ void PrintTables(const ScenarioSummary& scenario, const std::vector<Row>& rows) 
   }
 }
 
-/// Prints the answers, as the report's page begins with them.
+/// Prints the scenarios' answers, with which the report's page begins, too.
 void PrintAnswers(const RunData& run) {
   std::vector<std::string> answers;
   for (const ScenarioSummary& scenario : run.scenarios) {

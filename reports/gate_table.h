@@ -53,8 +53,8 @@ struct TailLine {
 std::vector<TailLine> TailLines(const std::vector<const MetricMove*>& moves, const GateReport& report,
                                 std::size_t most);
 
-/// Returns the lines of far worse worlds: for all metrics that fail the gate if `failing` is true, for all other
-/// metrics if it is false. Each method has at most `most_each` worlds, and there are about `most` lines in total.
+/// Returns lines about the worlds that are far worse: for all metrics that fail the gate if `failing` is true, for all
+/// other metrics if it is false. Each method has at most `most_each` worlds, and there are about `most` lines in total.
 std::vector<TailLine> TailLines(const GateReport& report, bool failing, std::size_t most_each, std::size_t most);
 
 /// Returns the results of a gate as a comment on a pull request: the verdict, the failures, other changes, and the

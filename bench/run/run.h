@@ -59,7 +59,7 @@ struct Progress {
   /// cell that is answered but not yet measured counts a half.
   double work = 0, work_done = 0;
   double work_before = 0;  ///< work that an interrupted run had already done, if this run resumes it
-  /// The time that a unit of work was expected to take before any was done, with all workers; 0 = unknown.
+  /// The wall time of a unit of `work` with all workers, as expected when the run began, seconds; 0 = unknown.
   double seconds_per_work = 0;
   double seconds = 0;
   /// The share of the results that has been summarised and written; nullopt while cells still run.

@@ -23,9 +23,9 @@ double McNemarMidP(int gained, int lost);
 ///
 /// *Success* is the difference of Study::success in the worlds that neither method skipped. A cell that failed counts
 /// 0; a world in which a cell with status ok has no value is left out. If all values are 0 or 1, the test is McNemar's.
-/// *Value* is the first headline metric that is not the success. Here it is compared in the worlds in which both
-/// methods succeeded, but only if success is a yes-or-no value and a method failed in some world. The comparison over
-/// all worlds, with failures counted, is in ConditionSummary::comparisons or ::rivals. *Tail* is the share of worlds in
+/// *Value* is the first headline metric that is not the success. If success is a yes-or-no value and a method failed in
+/// some world, the values are compared here in the worlds in which both methods succeeded. The comparison over all
+/// worlds, with failures counted, is in ConditionSummary::comparisons or ::rivals. *Tail* is the share of worlds in
 /// which the method is far better, minus the share in which it is far worse. "Far" means by more than TailRule::times
 /// practical thresholds of the value's metric. Shares have no tail.
 std::optional<Answer> MeasureAnswerAgainstBaseline(const Study& study, const ConditionTable& table,

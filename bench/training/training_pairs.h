@@ -38,9 +38,9 @@ TrainingClips SampleClips(std::vector<std::string> identities, std::span<const B
 /// clips would make learning slow, and would improve it little.
 constexpr std::size_t kMaxTrainingClips = 40;
 
-/// Returns every built-in move and the clips of `clips` with other identities, each once, all retargeted to
-/// `proportions`. If there are more than kMaxTrainingClips, some of the clips from `clips`, evenly chosen, are left
-/// out.
+/// Returns every built-in move and every clip whose identity no move and no earlier clip has, all retargeted to
+/// `proportions`. `identities` has one entry per clip. If these are more than kMaxTrainingClips, evenly chosen clips
+/// are left out, but no moves.
 Result<TrainingClips> GatherTrainingClips(std::span<const BodyMotion> clips, const std::vector<std::string>& identities,
                                           const BodyProportions& proportions);
 

@@ -46,8 +46,8 @@ std::vector<PointPair> CornersBetween(const SightingMap& map, const SightingKey&
 }
 
 /// Returns all sightings if they show at most kMaxMoments targets, or if no target is seen in several films. (A target
-/// is a board at one time.) Otherwise returns the sightings of about kMaxMoments targets, in evenly spaced blocks of
-/// consecutive looks.
+/// is a board at one time; a look is an examined picture of a film.) Otherwise returns the sightings of about
+/// kMaxMoments targets, in evenly spaced blocks of consecutive looks.
 std::vector<BoardSighting> Subsampled(std::span<const BoardSighting> sightings) {
   constexpr std::size_t kMaxMoments = 60;
   std::map<std::size_t, std::size_t> cameras;  // number of cameras that see each target

@@ -14,7 +14,7 @@ struct FoundUp {
   glm::dvec3 up;
   double deviation = 0;  ///< standard deviation in radians, along the axis in which the direction is least certain
   double within = 0;     ///< angle from the true direction that is not exceeded in 95 of 100 takes, radians
-  std::string by;        ///< the evidence: "the cameras' horizons and resting feet"
+  std::string by;        ///< the main evidence, e.g. "the cameras' horizons and resting feet"
 };
 
 /// Finds the up direction from several cues *(ours)*. It minimises a sum of robust squared residuals (Student's t,

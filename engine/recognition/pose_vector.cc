@@ -56,7 +56,7 @@ double TrunkLength(const SensedFrame& skeleton) {
 void SquaredDistances(const PoseVector& seen, std::span<const PoseVector> taught, std::span<double> out) {
   double total = 0;
   for (const double weight : seen.weights) total += weight;
-  // Two poses at a time, which the compiler vectorises; an odd last pose is computed twice.
+  // Compute two distances at a time, so that the compiler vectorises; if their count is odd, compute the last twice.
   for (std::size_t j = 0; j < taught.size(); j += 2) {
     const std::size_t next = std::min(j + 1, taught.size() - 1);
     double sum = 0, sum_next = 0;

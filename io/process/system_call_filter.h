@@ -9,7 +9,7 @@ namespace etude {
 /// - memory that TreeMeter and Fence::MeasureScratch cannot measure;
 /// - resources that are counted per user or machine and have no limit in a namespace;
 /// - the user's keys, or the kernel's log;
-/// - sockets, except UNIX, INET, INET6 and NETLINK. Network namespaces do not isolate every other family: AF_VSOCK
+/// - sockets, except UNIX, INET, INET6 and NETLINK. Network namespaces do not isolate all other families: AF_VSOCK
 ///   reaches the host.
 std::string SystemCallFilter();
 

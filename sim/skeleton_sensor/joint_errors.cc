@@ -255,7 +255,7 @@ FrameErrors ContinuousErrors::Next(const BodyPose& pose, const FrameMotion& moti
   for (const Role role : AllRoles()) {
     const std::size_t j = Index(role);
     JointNoise& noise = noises_[j];
-    // Draw the joint's own error: pose-dependent and fast in motion, slow at rest.
+    // Draw the joint's own error. In motion it has a pose-dependent and a fast part; at rest it changes slowly.
     const Sight sight = SightOf(sensor_, pose[role], options_);
     const double moves = motion.moves[j];
     const glm::dvec3 fast = FastGain(motion.speeds, j, options_) * noise.fast.Next(fast_dice_);

@@ -50,7 +50,7 @@ struct CaptureFilmsOptions {
 
 /// The outcome of a capture.
 struct CapturedFilms {
-  bool is_whole = false;  ///< false if a film was stopped: the motion is written, the film is not
+  bool is_whole = false;  ///< false if the listener stopped the overlay film: the motion was written, this film was not
   /// The reason why the motion is probably wrong; "" if there is none. With a reason, nothing was written unless
   /// doubtful motions are accepted.
   std::string doubt;

@@ -22,7 +22,7 @@ std::vector<double> KnownOf(const std::vector<std::optional<double>>& values);
 /// One camera of a captured take.
 struct CapturedCamera {
   std::string name;
-  TakeCurve residual;  ///< the measure of `CameraResiduals`, frame by frame
+  TakeCurve residual;  ///< the difference that `CameraResiduals` describes, in each frame
   /// Share of the camera's keypoints that disagreed with other cameras; absent if there are no keypoints.
   std::optional<double> left_out;
 };

@@ -20,7 +20,7 @@ namespace etude {
 Result<FoundFiles> FindWindows(const Node& condition, std::span<const Node> methods,
                                const std::map<std::string, std::string>& texts);
 
-/// Returns the first frame that the name of a window states.
+/// Returns the index of a window's first frame, as stated in the window's name `window`.
 int FirstFrameOf(const std::string& window);
 
 /// Reads a whole motion at the protocol's rate. Only `motion` and `roles` of the result are set.

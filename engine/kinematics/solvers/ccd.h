@@ -50,7 +50,7 @@ enum class CcdJoint {
   /// Paper B, case 2: rotate about the axes of the joint's rest frame, one after the other. After each rotation,
   /// decompose the joint's whole rotation into Rx Ry Rz, clip the angles, and compose it again.
   kWhole,
-  /// Ours: turn the joint as hinges about its Euler axes, each clipped immediately. This never lowers the gain.
+  /// Ours: turn the joint as hinges about its Euler axes, each clipped immediately. No turn lowers its `HingeGain`.
   kHinges,
 };
 

@@ -132,8 +132,8 @@ class GaussNewtonLanes {
     }
   }
 
-  /// Asks the GaussNewtonCourse of a lane's problem for the next action, and performs it unless it is a step. Returns
-  /// true for a step.
+  /// Asks the GaussNewtonCourse of a lane's problem for the next action. If the action is a step, prepares the step and
+  /// returns true; otherwise performs the action and returns false.
   bool Ask(Lane& lane, int n) {
     using enum GaussNewtonCourse::Act;
     const auto is_out_of_reach = [&] { return help_.IsOutOfReach(lane.problem); };

@@ -15,7 +15,7 @@ namespace etude {
 namespace {
 
 constexpr double kAlwaysUsual = 0.01;  // lowest usual acceleration, metres per frame²: 9 m/s², about free fall
-constexpr double kLimbShare = 0.6;     // share of the cost of the limbs' motion that counts before the feet are planted
+constexpr double kLimbShare = 0.6;     // before the feet are planted, only this share of the limbs' cost counts
 constexpr double kUnplanted_s = 0.1;   // cost of a frame in which no foot carries weight (FootPlan)
 constexpr double kFloating_s = 6;      // cost of each frame beyond kHop in the longest run without support
 constexpr int kHop = 2;
