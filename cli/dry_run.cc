@@ -74,7 +74,8 @@ bool Print(const ScenarioForecast& one) {
     return worlds >= for_values;
   }
   fmt::print("  for {}: a difference of {:.2f} or more standard deviations of the mean differences of {}\n",
-             OtherUnits(one.unit), MinDetectableDifference(one.units, one.comparisons), CountUnits(one.units, one.unit));
+             OtherUnits(one.unit), MinDetectableDifference(one.units, one.comparisons),
+             CountUnits(one.units, one.unit));
   return true;
 }
 

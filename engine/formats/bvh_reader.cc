@@ -398,7 +398,7 @@ Result<Clip> ReadBvh(std::string_view bytes, const std::string& file, std::vecto
                     "degrees, which BVH files have",
                     largest));
   }
-  // A joint with positions and an OFFSET of 0 rests at its position in the first frame. Our own bodies have such joints.
+  // A joint with positions and an OFFSET of 0 rests at its position in the first frame. Our bodies have such joints.
   const bool is_body = std::ranges::none_of(clip.skeleton.joints, [](const Joint& j) { return !FindRole(j.name); });
   if (TakeOffsetsFromFrame(clip.frames.front(), clip.skeleton) && !is_body)
     remark("joints with positions and an OFFSET of 0: their rest positions are taken from the first frame");
