@@ -78,10 +78,9 @@ struct Support {
 /// - The joint is at rest, and the same joint of a clip is at rest near that time. The clip's joint may rest at several
 ///   heights, for example on a step. The joint is at most SupportRules::height above and at most SupportRules::level
 ///   below the lowest of these heights, or within SupportRules::height of another of these heights.
-/// - The joint moves like the same joint of a clip, and that joint bears the clip's body in that frame or the frame
-/// before or after it. The heights of the two joints differ by at most SupportRules::height, their velocities by at
-/// most
-///   SupportRules::rest_speed.
+/// - The joint moves like the same joint of a clip, and that joint bears the clip's body in that frame or in the frame
+///   before or after it. The heights of the two joints differ by at most SupportRules::height, their velocities by at
+///   most SupportRules::rest_speed.
 /// Consecutive frames without support are a flight if the body is supported just before and just after them, if the
 /// ground can have thrown it (SupportRules::max_push), and if the mass centre falls as SupportRules states over these
 /// frames, or over these frames and the two neighbouring frames. A flight is judged over at least five frames.
