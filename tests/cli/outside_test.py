@@ -22,7 +22,7 @@ REASONS = {
     "crashes": ("crashed", "ended with signal 11 (Segmentation fault); its last words: 'about to fall'"),
     "hangs": ("timeout", "took longer than 0.5 s"),
     "prints_garbage": ("bad_output", "wrote something that is not JSON: 'loading model \\x1b[1m100%\\x1b[0m'"),
-    "answers_nan": ("bad_output", "said something that is not JSON near byte "),
+    "answers_nan": ("bad_output", "wrote something that is not JSON near byte "),
     "eats_memory": ("out_of_memory", "held more than 300 MB of memory"),
 }
 
