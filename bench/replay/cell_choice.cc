@@ -53,14 +53,19 @@ Result<std::set<std::size_t>> FindCells(const ReplayOptions& options, const RunD
     const auto place = FindRow(run, wanted);
     if (!place) {
       std::vector<std::string> known;
-      for (const Row& other : run.rows) known.push_back(other.Id());
+      ForEachRow(run, [&](const Row& row, std::size_t /*place*/) { known.push_back(row.Id()); });
       const std::string nearest = NearestName(wanted, known);
-      return Fail({options.folder, 0, 0}, "holds no cell '{}'{}", wanted,
-                  nearest.empty() ? ", such as '" + known.front() + "'" : "; did you mean '" + nearest + "'?");
+      const std::string advice = !nearest.empty()  ? "; did you mean '" + nearest + "'?"
+                                 : !known.empty() ? ", such as '" + known.front() + "'"
+                                                  : "";
+      return Fail({options.folder, 0, 0}, "holds no cell '{}'{}", wanted, advice);
     }
     const MethodRows* const method = methods.Find(RowAt(run, *place));
-    if (method == nullptr || !method->why_not.empty()) {
-      return Fail({options.folder, 0, 0}, "'{}' is an answer that was scored, not run", wanted);
+    if (method == nullptr) {
+      return Fail({options.folder}, "contains the cell {}, which its manifest does not contain", wanted);
+    }
+    if (!method->why_not.empty()) {
+      return Fail({options.folder, 0, 0}, "cannot run cell '{}' and others of its method again: {}", wanted, method->why_not);
     }
     places.insert(*place);
   }

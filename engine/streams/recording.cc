@@ -97,7 +97,8 @@ Result<void> CheckReach(const StreamRecording& recording, const std::string& fil
   return {};
 }
 
-/// Checks that times do not decrease. If several frames have the same time, keeps only the last of these frames.
+/// Checks that times do not decrease. If several frames have the same time, keeps only the first of these frames, as
+/// LiveStream does, which cannot wait for the next frame.
 Result<void> OrderTimes(StreamRecording& recording, const std::string& file) {
   std::vector<RecordedFrame> ordered;
   for (const RecordedFrame& frame : recording.frames) {
@@ -105,12 +106,11 @@ Result<void> OrderTimes(StreamRecording& recording, const std::string& file) {
       return Fail({file, frame.line}, "time {:.6g} s after {:.6g} s; allowed: a clock that does not run backwards",
                   frame.time_s, ordered.back().time_s);
     }
-    if (!ordered.empty() && frame.time_s == ordered.back().time_s) ordered.pop_back();
-    ordered.push_back(frame);
+    if (ordered.empty() || frame.time_s > ordered.back().time_s) ordered.push_back(frame);
   }
   if (const std::size_t twice = recording.frames.size() - ordered.size(); twice > 0) {
     recording.remarks.push_back(
-        fmt::format("{} frames have the same time as another; the last of these is used", twice));
+        fmt::format("{} frames have the same time as another; the first of these is used", twice));
   }
   recording.frames = std::move(ordered);
   return {};

@@ -48,11 +48,12 @@ def decomposed(matrix):
     return inside / inside[2, 2], angle * axis * (1 if axis @ twist >= 0 else -1), translation
 
 
-def calibration(cameras, size):
+def calibration(cameras):
     """Returns Pose2Sim's calibration file. Its world has Z up: its x, y, z are our z, x, y."""
     text = ""
-    for number, points in enumerate(cameras, 1):
-        inside, rotation, translation = decomposed(camera(points) @ np.array(
+    for number, each in enumerate(cameras, 1):
+        size = each.image_width, each.image_height
+        inside, rotation, translation = decomposed(camera(each.calibration) @ np.array(
             [[0, 1, 0, 0], [0, 0, 1, 0], [1, 0, 0, 0], [0, 0, 0, 1]]))
         text += (f"[cam_{number:02}]\nname = \"cam_{number:02}\"\nsize = {[float(x) for x in size]}\nmatrix = {inside.tolist()}\n"
                  f"distortions = [0.0, 0.0, 0.0, 0.0]\nrotation = {rotation.tolist()}\n"
@@ -104,8 +105,7 @@ class Pose2SimMethod(Triangulation):
         with tempfile.TemporaryDirectory() as folder, contextlib.redirect_stdout(sys.stderr):
             project = pathlib.Path(folder) / "take"
             (project / "calibration").mkdir(parents=True)
-            (project / "calibration" / "Calib.toml").write_text(
-                calibration([each.calibration for each in problem.cameras], (self.setting.image_width, self.setting.image_height)))
+            (project / "calibration" / "Calib.toml").write_text(calibration(problem.cameras))
             for number, of_camera in enumerate(marks, 1):
                 name = f"cam_{number:02}"
                 write_keypoints(project / "pose" / f"{name}_json", name, self.pixels(of_camera), joints)

@@ -547,11 +547,9 @@ class CaptureStroke(Message):
 
 @dataclass
 class CaptureSetting(Message):
-    """The format of the pictures, and the limbs and joints that the annotator marks in them.
+    """The rate of the pictures, and the limbs and joints that the annotator marks in them.
 
     rate_hz: Pictures per second.
-    image_width: The width of a picture, in pixels.
-    image_height: The height of a picture, in pixels.
     joints: The twenty joints, in the order of poses.
     parents: The name of each joint's parent; null for the first.
     strokes: The limbs that the annotator marks.
@@ -559,8 +557,6 @@ class CaptureSetting(Message):
     """
     HOLDS: ClassVar[dict] = {"strokes": [CaptureStroke]}
     rate_hz: float
-    image_width: int
-    image_height: int
     joints: List[str]
     parents: List[Optional[str]]
     strokes: List[CaptureStroke]
@@ -583,11 +579,15 @@ class CapturePoint(Message):
 class CaptureCamera(Message):
     """A camera and its film.
 
+    image_width: The width of a picture, in pixels.
+    image_height: The height of a picture, in pixels.
     calibration: Points that a person clicked in the picture, from which the camera is calibrated.
     background: A picture of the empty room.
     pictures: The names of the PNG files, one per frame.
     """
     HOLDS: ClassVar[dict] = {"calibration": [CapturePoint]}
+    image_width: int
+    image_height: int
     calibration: List[CapturePoint]
     background: str
     pictures: List[str]

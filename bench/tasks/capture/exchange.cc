@@ -138,8 +138,7 @@ std::vector<CaptureExtras::Mark> StrokesOf(const Marks& marks) {
 }  // namespace
 
 Payload DescribeStudio() {
-  const Intrinsics camera;
-  Json setting = {{"rate_hz", kJudgedRateHz}, {"image_width", camera.width}, {"image_height", camera.height}};
+  Json setting = {{"rate_hz", kJudgedRateHz}};
   setting.update(DescribeBody());
   for (const StrokeMark& mark : StrokeMarks()) {
     setting["strokes"].push_back({{"from", RoleName(mark.from)}, {"to", RoleName(mark.to)}});
@@ -160,8 +159,13 @@ Result<Payload> MakeCaptureProblem(const StudioOptions& options, const WorldKey&
   std::vector<std::vector<std::string>> pictures(world.cameras.size());
   Json cameras = Json::array();
   ASSIGN_OR_RETURN(const CalibrationPairs* calibration, stages.GetCalibrationPairs());
-  for (const std::vector<PointPair>& pairs : *calibration) {
-    cameras.push_back({{"calibration", ToJson(pairs)}, {"background", nullptr}, {"pictures", Json::array()}});
+  for (std::size_t camera = 0; camera < world.cameras.size(); ++camera) {
+    const Intrinsics& intrinsics = world.cameras[camera].intrinsics;
+    cameras.push_back({{"image_width", intrinsics.width},
+                       {"image_height", intrinsics.height},
+                       {"calibration", ToJson((*calibration)[camera])},
+                       {"background", nullptr},
+                       {"pictures", Json::array()}});
   }
   problem.files.push_back({"calibration-points.yaml", PairsFile(world, *calibration)});
   // Film the take once. Each picture becomes a file.

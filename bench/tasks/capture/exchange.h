@@ -11,14 +11,13 @@
 
 namespace etude {
 
-/// Describes the studio to outside methods, which receive takes of two cameras. Units are metres; Y is up; the frame is
+/// Describes the studio to outside methods, which receive takes of two to eight cameras. Units are metres; Y is up; the frame is
 /// right-handed. A pose is sixty numbers (EncodePose). Pixel coordinates are u to the right and v down; (0, 0) is the
 /// top left corner of the picture, and (0.5, 0.5) the centre of the first pixel.
 ///
 /// Setting:
 ///
-///     {"rate_hz": 30, "image_width": 640, "image_height": 480,
-///      "joints": ["hip_centre", …], "parents": [null, "hip_centre", …],
+///     {"rate_hz": 30, "joints": ["hip_centre", …], "parents": [null, "hip_centre", …],
 ///      "strokes": [{"from": "left_hip", "to": "left_knee"}, …], "discs": ["left_foot", …]}
 ///
 /// `strokes` are the thirteen limbs that the annotator marks with a line; `discs` are the five ends that the annotator
@@ -30,7 +29,8 @@ Payload DescribeStudio();
 /// are separate files.
 ///
 ///     {"frames": 150, "limb_lengths_m": {"foot": 0.18, "shank": 0.42, …},
-///      "cameras": [{"calibration": [{"world_m": [x, y, z], "pixel": [u, v]}, …],
+///      "cameras": [{"image_width": 640, "image_height": 480,
+///                   "calibration": [{"world_m": [x, y, z], "pixel": [u, v]}, …],
 ///                   "background": "camera-1-background.png",
 ///                   "pictures": ["camera-1-0000.png", …]}, …],
 ///      "marks": {"hue": [[{"strokes": [[u, v, u, v], null, …], "discs": [[u, v], null, …]}, …], […]], "hue-gated": …}}

@@ -1,10 +1,13 @@
 #include "engine/streams/live_stream.h"
 
 #include <fmt/format.h>
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <sstream>
+#include <string>
 #include <utility>
+#include <vector>
 
 #include "engine/formats/joint_csv.h"
 #include "tests/engine/streams/small_files.h"
@@ -63,6 +66,22 @@ TEST(LiveStream, HearsWhatARecordingSays) {
   // A Kinect's level is estimated from a still trunk, from any part of the file alike.
   ExpectAsRecorded(KinectV1Text(WavingMotion(90), "2"));
   ExpectAsRecorded(WithClock(KinectV1Text(WavingMotion(90), "1", 0.1), 44155936, 1e6 / 30));
+}
+
+TEST(LiveStream, OfEqualTimesTheFirstCountsAsInARecording) {
+  std::vector<std::string> lines;
+  std::istringstream text(WriteJointCsv(WavingMotion(90)));
+  for (std::string line; std::getline(text, line);) lines.push_back(line);
+  // Repeat the time of row 20 with the joints of row 40.
+  const auto after_time = [](const std::string& line) { return line.find(',', line.find(',') + 1); };
+  lines.insert(lines.begin() + 21, lines[20].substr(0, after_time(lines[20])) + lines[40].substr(after_time(lines[40])));
+  std::string twice;
+  for (const std::string& line : lines) twice += line + "\n";
+  ExpectAsRecorded(twice);
+  ASSERT_OK(recording, ReadStreamRecording(twice, "s"));
+  EXPECT_EQ(recording->frames.size(), 90u);
+  EXPECT_THAT(recording->remarks,
+              ::testing::Contains("1 frames have the same time as another; the first of these is used"));
 }
 
 TEST(LiveStream, TakesTheClocksTextsAndCommasOfTables) {

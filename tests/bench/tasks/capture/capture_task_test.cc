@@ -256,6 +256,12 @@ TEST(CaptureTask, FilmsWithOnesOwnCameras) {
   ASSERT_EQ(extras->views.size(), 3u);
   EXPECT_EQ(extras->views[1].truth.intrinsics.width, 400);
   EXPECT_NEAR(extras->views[2].truth.p_WC.y, 1.9, 1e-9);
+  // Outside methods are told the sizes of these cameras.
+  ASSERT_OK(problem, (*task)->MakeWorld(kKey, false)->MakeProblem());
+  const Json& told = (*problem->json)["cameras"];
+  ASSERT_EQ(told.size(), 3u);
+  EXPECT_EQ(told[1]["image_width"], 400);
+  EXPECT_EQ(told[1]["image_height"], 300);
 
   const auto refusal = [&](const std::vector<NamedCamera>& cameras) {
     const auto refused = Make(yaml, {{"rig_file", WritePose2SimCalibration(cameras)}});

@@ -63,6 +63,8 @@ TEST(CaptureExchange, TellsTheMarksPicturesAndCalibrationPointsThatBuiltInMethod
   const Json& json = *problem->json;
   ASSERT_EQ(json["frames"], 3);
   ASSERT_EQ(json["cameras"].size(), 2u);
+  EXPECT_EQ(json["cameras"][0]["image_width"], 640);
+  EXPECT_EQ(json["cameras"][0]["image_height"], 480);
   EXPECT_EQ(json["cameras"][0]["calibration"].size(), 24u);
   EXPECT_EQ(problem->files.size(), 1 + 2u * (1 + 3) + 2u * SegmenterNames().size())
       << "calibration points, pictures, and marks as COCO keypoints";
