@@ -195,7 +195,15 @@ Result<void> RunFolder::Lock() {
       is_ours_ = false;
       return Fail({file.string()}, "is no file");
     }
-    if (lock_ < 0 && (errno == EROFS || errno == EACCES)) return {};  // no process can write here, so no lock is needed
+    // In a folder that this process cannot write, it needs no lock. The lock file of another user's run cannot be
+    // opened.
+    if (lock_ < 0 && errno == EACCES && ::access(path_.c_str(), W_OK) == 0) {
+      is_ours_ = false;
+      return Fail({file.string()},
+                  "belongs to another user, whose run may be writing into the folder; choose another "
+                  "folder with -o, or delete the file if that run has ended");
+    }
+    if (lock_ < 0 && (errno == EROFS || errno == EACCES)) return {};
     if (lock_ < 0) return CannotWrite(file.string(), "cannot be made", errno);
     if (::flock(lock_, LOCK_EX | LOCK_NB) != 0) {
       const int reason = errno;
