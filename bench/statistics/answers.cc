@@ -153,7 +153,8 @@ class Measurer {
 };
 
 /// Corrects the p-values of one step of the comparisons (success, value or tail) over a family of answers (Holm), and
-/// sets the verdicts of this step. `metric_of` returns the metric whose threshold judges an answer's step.
+/// sets the verdicts of this step. `metric_of(answer)` returns the metric of this step; the verdict depends on the
+/// metric's practical threshold.
 template <typename MetricOf>
 void JudgeStep(const std::vector<Answer*>& family, std::optional<Comparison> Answer::*step, SamplingUnit unit,
                const MetricOf& metric_of) {

@@ -293,7 +293,8 @@ std::vector<Member> ChainOf(const std::vector<Member>& family) {
   return chain;
 }
 
-/// Returns the values of the members' methods, by method, in the worlds in which all members have a value.
+/// Returns the values of the metric for each member, by the name of its method, in the worlds in which all members
+/// have a value.
 std::map<std::string, std::vector<double>> ValuesOf(const std::vector<Member>& members, const ConditionTable& table,
                                                     const std::string& metric) {
   std::map<std::string, std::vector<double>> values;

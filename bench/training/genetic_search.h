@@ -74,8 +74,9 @@ constexpr double kBreakpointReach = 0.2;
 /// end (a shoulder) stays flat there. Left and right limbs share their genes. Gaussian and singleton shapes are fixed.
 std::size_t CountMembershipGenes(const Memberships& start);
 
-/// Returns the memberships for genes in [0, 1]. Every breakpoint of `start` is moved by (2 gene − 1) ·
-/// kBreakpointReach, and each shape's breakpoints are sorted again. Genes of ½ give `start`.
+/// Returns the memberships for genes in [0, 1]. A breakpoint of `start` with a gene is moved by (2 gene − 1) ·
+/// kBreakpointReach · (width of the universe), at most to an end of the universe. Each shape's breakpoints are then
+/// sorted again. Genes of ½ give `start`.
 Memberships MembershipsOfGenes(const Memberships& start, std::span<const double> genes);
 
 }  // namespace etude

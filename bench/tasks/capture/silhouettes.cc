@@ -41,7 +41,7 @@ std::optional<TreeState> StartOf(const SilhouetteInputs& inputs, const Silhouett
 
 // Returns the joints that the marks show, as [camera][picture]. Empty if the marks are not used.
 std::vector<std::vector<std::vector<SeenJoint>>> JointsMarked(const SilhouetteInputs& inputs) {
-  constexpr double kSigma_px = 4;  // error of a marked joint, because marks are on the body's surface, not inside
+  constexpr double kSigma_px = 4;  // error of a marked joint: marks lie on the body's surface, joints inside it
   std::vector<std::vector<std::vector<SeenJoint>>> joints;
   if (inputs.start != SilhouetteStart::kKeypoints) return joints;
   for (const std::vector<Marks>& of_camera : inputs.marks) {

@@ -227,7 +227,8 @@ class RecordedTask final : public Task {
   }
 
   /// Returns the thresholds of the methods. With an operating point, recordings of other people determine thresholds.
-  /// The recognisers that judge one of these people were taught neither by that person nor by the judged person.
+  /// If no moves were taught beforehand, each of these people is seen by recognisers of a fold of their own, which
+  /// leaves out that person and the judged person.
   const std::vector<MethodDecision>& DecisionsFor(const WorldKey& key) const {
     const auto known = decisions_.find(key.trial);
     if (known != decisions_.end()) return known->second;

@@ -38,8 +38,8 @@ enum class Lag {
 /// frames, and the answer is sampled at the truth's times plus the lag (`Sampled`). If the rates drift apart by less
 /// than a hundredth of a frame over the truth, they count as equal, and frames are paired one to one. The root, which
 /// also has the role hip_centre, is the files' own if both have one; otherwise it is the midpoint of the hips in both.
-/// Nothing else is changed. Fails if there is no common joint, if no joint is ever seen in both, or if a lag is
-/// searched and not found.
+/// Nothing else is changed. Fails if there is no common joint, if no joint is ever seen in both, or if `lag` is kFind
+/// and no lag is found.
 Result<MatchedMotions> Match(const RawMotion& truth, const RawMotion& answer, std::string_view joints, Lag lag);
 
 }  // namespace etude
