@@ -111,7 +111,7 @@ void CopyVerdictsBeyond(Comparison& comparison) {
   beyond.why_open = comparison.why_open;
 }
 
-/// Judges a family of comparisons for other units as JudgeOnTheseWorlds does for these worlds.
+/// Judges a family of comparisons as JudgeOnTheseWorlds does, but for units that were not run (Beyond).
 void JudgeBeyond(std::span<Question* const> family, SamplingUnit unit) {
   // Apply Holm's correction to the p-values without failures, and to those with failures counted as losses.
   std::vector<std::optional<double>> pairs_alone, all_worlds;

@@ -11,9 +11,9 @@
 
 namespace etude {
 
-/// Describes the studio to outside methods, which receive takes of two cameras. Units are metres; Y is up; the frame is
-/// right-handed. A pose is sixty numbers (EncodePose). Pixel coordinates are u to the right and v down; (0, 0) is the
-/// top left corner of the picture, and (0.5, 0.5) the centre of the first pixel.
+/// Describes the studio to outside methods, which receive takes of two or more cameras. Units are metres; Y is up;
+/// the frame is right-handed. A pose is sixty numbers (EncodePose). Pixel coordinates are u to the right and v down;
+/// (0, 0) is the top left corner of the picture, and (0.5, 0.5) the centre of the first pixel.
 ///
 /// Setting:
 ///

@@ -65,8 +65,9 @@ class RecordingAppender {
   DetectionWorld& world_;
 };
 
-/// Returns another move that counts as requested while the person performed `move`: the move that follows it in the
-/// list, plus `turn` further positions. Returns `move` itself if there is no other.
+/// Returns another move, which then counts as requested while the person performed `move`. The other moves are taken
+/// in turn: `turn` = 0 gives the move after `move` in the list, 1 the one after that, and so on, cyclically and
+/// without `move`. Returns `move` itself if there is no other.
 const std::string& OtherMove(const std::vector<std::string>& moves, const std::string& move, std::size_t turn) {
   const auto at = static_cast<std::size_t>(std::ranges::find(moves, move) - moves.begin());
   const std::size_t others = std::max<std::size_t>(moves.size() - 1, 1);

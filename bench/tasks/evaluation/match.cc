@@ -122,8 +122,8 @@ std::vector<int> FindParents(const std::vector<CommonJoint>& joints, const RawMo
   return parents;
 }
 
-/// Returns true if the rates, which files state with rounding, drift apart by less than a hundredth of a frame over the
-/// length of the truth.
+/// Returns true if the two frame rates count as equal: at the truth's end, the times of frames of equal number differ
+/// by less than a hundredth of a frame. Files may state their rates with rounding.
 bool HaveSameRate(const RawMotion& truth, const RawMotion& answer) {
   constexpr double kMaxDrift = 0.01;  // tolerance, frames
   return std::abs(answer.rate_hz / truth.rate_hz - 1) * static_cast<double>(truth.FrameCount()) < kMaxDrift;

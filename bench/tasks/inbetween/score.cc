@@ -173,7 +173,7 @@ void MeasureMovement(const HiddenWindow& hidden, const Globals& found, const Glo
   }
   result.MeasureOr("supported_share", supported, "the file has no legs");
   result.MeasureOr("foot_slide_cmps", slide, "the file has no toes");
-  constexpr int kReach = 3;  // frames that a third difference reaches back
+  constexpr int kReach = 3;  // number of earlier frames in a third difference (jerk)
   const std::size_t joints = JudgedCount(hidden.motion.tree);
   const PointTracks around{
       joints, JudgedFrames(found.positions, hidden.motion.tree, hidden.first - kReach, hidden.last + kReach)};
