@@ -38,9 +38,8 @@ enum class Lag {
 /// truth's frames, and the answer is sampled at the truth's times plus the lag (`Sampled`). The two frame rates count
 /// as equal, so that frames are paired one to one, if the times of frames of equal number differ by less than a
 /// hundredth of a frame at the truth's end. The root, which also has the role hip_centre, is the files' own if both
-/// have one; otherwise it is the midpoint of the hips in both.
-/// Nothing else is changed. Fails if there is no common joint, if no joint is ever seen in both, or if `lag` is kFind
-/// and no lag is found.
+/// have one; otherwise it is the midpoint of the hips in both. Nothing else is changed. Fails if there is no common
+/// joint, if no joint is ever seen in both, or if `lag` is kFind and no lag is found.
 Result<MatchedMotions> Match(const RawMotion& truth, const RawMotion& answer, std::string_view joints, Lag lag);
 
 }  // namespace etude
