@@ -264,7 +264,8 @@ std::optional<Comparison> CompareSuccess(const Study& study, const ConditionTabl
 int WorldsNeeded(const Study& study) {
   const MetricInfo *success = FindMetric(study.success), *value = FindMetric(ValueMetricOf(study));
   int needed = PairsNeeded(CountComparisons(study), kAlpha);
-  // McNemar's mid-p, which judges shares and tails, is at least half of the smallest p of the other tests.
+  // McNemar's mid-p judges yes-or-no success and tails. Its smallest value is half of the smallest p of the other
+  // tests, so at kAlpha it needs as many worlds as another test at 2 · kAlpha.
   if (success != nullptr) {
     needed =
         std::min(needed, PairsNeeded(CountAnswers(study), success->reading == Reading::kScore ? kAlpha : 2 * kAlpha));

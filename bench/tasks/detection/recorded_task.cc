@@ -259,7 +259,8 @@ class RecordedTask final : public Task {
   const std::vector<DetectionMethod> methods_;
   const LabelledStreams& set_;
   const Taught taught_;
-  // Caches, by fold index and by trial, which determine the values because a task has one scenario and one seed.
+  // Caches: folds by fold index, and decisions by trial. These keys suffice, because a task has one scenario and one
+  // seed.
   mutable std::map<std::size_t, Result<Fold>> folds_;
   mutable std::map<int, std::vector<MethodDecision>> decisions_;
 };

@@ -183,8 +183,8 @@ std::string NoteOnRoots(const RawMotion& truth, const RawMotion& answer) {
   return a == b ? ", root " + a : fmt::format(", root {} of the truth, {} of the answer", a, b);
 }
 
-/// Returns a note on joints that stay at one distance from the truth, far beyond the error of the others: they may be
-/// different points of the body. "" if there are none.
+/// Returns a note on joints whose distance from the truth hardly varies and is far larger than that of most joints:
+/// they may be different points of the body. "" if there are none.
 std::string NoteOnStrangers(const MatchedMotions& matched) {
   constexpr double kMin_m = 0.05, kTimes = 4, kSteady = 0.25;  // tolerances (ours)
   const std::size_t joints = matched.joints.size();
