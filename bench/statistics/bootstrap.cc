@@ -48,12 +48,12 @@ class DrawnMedian {
     last_ = static_cast<std::uint32_t>(FirstDrawing(std::min(sorted.size(), upper_ + 1 + reach)) - 1);
   }
 
-  /// Returns the median of the resample that the 32-bit halves of `drawn` draw. Compares only the draws near the
-  /// middle, unless the median is not among them.
+  /// Returns the median of a resample. Each 64-bit number of `drawn` holds two 32-bit numbers, which draw one value
+  /// each. Compares only the draws near the middle, unless the median is not among them.
   double Of(const std::uint64_t* drawn) {
     HalvesWithin found = FindHalvesWithin(drawn, sorted_.size(), low_, last_, near_.data());
-    if (lower_ < found.below || upper_ >= found.below + found.within) {  // the middle draws are not near the middle of
-                                                                         // the values: compare all draws
+    if (lower_ < found.below || upper_ >= found.below + found.within) {
+      // The median is not among these draws, so compare all draws.
       found = FindHalvesWithin(drawn, sorted_.size(), 0, ~std::uint32_t{0}, near_.data());
     }
     const auto end = near_.begin() + static_cast<std::ptrdiff_t>(found.within);

@@ -189,7 +189,7 @@ struct Finding {
 
 Finding JudgeComparison(const Expectation& expectation, const ConditionTable& table, const std::string& other,
                         bool wants_lower, std::uint64_t seed, const std::string& purpose) {
-  // Compare the two methods, without failures and with failures counted as losses.
+  // Compare the two methods in the worlds in which both have a value, and again with failures counted as losses.
   MetricInfo metric = *FindMetric(expectation.metric);
   metric.direction = wants_lower ? Direction::kLowerIsBetter : Direction::kHigherIsBetter;
   const PairedWorlds worlds = PairsOf(table, other, expectation.of, expectation.metric);

@@ -121,7 +121,7 @@ struct Rival {
 /// and only serves as a yardstick, and a method with an oracle, which shows an upper bound.
 bool Competes(const Study& study, const ComparedMethod& method);
 
-/// Returns true if a method has a rival (FindRival). This follows from the scenario alone.
+/// Returns true if the scenario allows a rival of this method (FindRival). The results have no influence.
 bool HasRival(const Study& study, const ComparedMethod& method);
 
 /// Returns the rival that the scenario names, or else the best of all other competing methods. The method's baseline is

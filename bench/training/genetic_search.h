@@ -54,8 +54,9 @@ constexpr double kFitnessRamp = 0.5;
 
 /// Fits the `genetic` weights (paper A leaves them to future work; the method is Etude's): the weights S ≥ 0 with sum 8
 /// for which "d < 0.4" best separates the close pairs, measured by soft F1. The first ancestor is `start`, so the
-/// result is no worse than `start` on the training pairs. The status is that of FitWeights; `iterations` counts
-/// generations. Unless the status is kFitted, the weights are `start`.
+/// result is no worse than `start` on the training pairs. `iterations` counts generations. The status is kOneClassOnly
+/// if all pairs are close or none is, kNothingCounts if the best score is 0, and otherwise kFitted. Unless it is
+/// kFitted, the weights are `start`.
 WeightFit FitWeightsGenetically(std::span<const LabelledPair> pairs, const FeatureWeights& start,
                                 const GeneticOptions& options = {});
 

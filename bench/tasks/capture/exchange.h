@@ -67,9 +67,9 @@ Result<void> MakeCapturePictures(const StudioOptions& options, const WorldKey& k
 ///
 ///     {"poses": [[sixty numbers], null, …]}
 ///
-/// It is scored like the result of a built-in method. A frame without a pose repeats the last pose, and so counts in
-/// every joint error; `frames_recovered` is the share of frames with a pose. The metrics of a built-in method's stages
-/// are missing.
+/// It is scored like the result of a built-in method. A frame without a pose counts in every joint error: it gets the
+/// last pose before it, or the answer's first pose if there is none. `frames_recovered` is the share of frames with a
+/// pose. The metrics of a built-in method's stages are missing.
 using CaptureAnswer = std::vector<std::optional<BodyPose>>;
 Result<CaptureAnswer> ReadCaptureAnswer(const Json& answer, std::size_t frames);
 

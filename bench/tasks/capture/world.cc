@@ -122,7 +122,7 @@ std::vector<double> MakeBrightness(const StudioOptions& options, std::size_t fra
   return brightness;
 }
 
-// A tape with which lengths are measured, with a random error.
+// A measuring tape. Each measured length has a random error.
 class Tape {
  public:
   Tape(double error_mm, const WorldKey& key) : error_m_(0.001 * error_mm), random_(key, "capture/limb-tape") {}

@@ -175,7 +175,7 @@ Series ScoreSeries(const DetectionWorld& world, const SessionVerdict& verdict) {
 
 namespace {
 
-/// Returns the fault's index in AllFaults; −1 for no fault or an unknown name.
+/// Returns the fault's index in AllFaults; −1 if there is no fault.
 double IndexOfFault(const std::optional<Fault>& fault) {
   if (!fault) return -1;
   return static_cast<double>(std::ranges::find(AllFaults(), *fault) - AllFaults().begin());

@@ -136,8 +136,8 @@ struct ClockOffset {
 };
 
 /// Compares the clocks that both files state. If a file states none, or if the clocks never show the same time, the
-/// first frames count as simultaneous. If the offset differs from whole frames by less than a tenth of a frame, it is
-/// rounded.
+/// first frames count as simultaneous. If the rates are equal and the offset is within a tenth of a frame of a whole
+/// number of frames, it is rounded to this number.
 ClockOffset OffsetOf(const RawMotion& truth, const RawMotion& answer) {
   constexpr const char* kByClocks = ": judged by these clocks (--lag find searches the lag)";
   constexpr double kSame = 0.1;  // tolerance, frames
