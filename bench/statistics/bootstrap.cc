@@ -32,8 +32,8 @@ std::vector<double> Jackknife(std::span<const double> sorted, Aggregate aggregat
   return values;
 }
 
-/// Finds the medians of resamples of sorted values. A random 32-bit number draws the value at index number · count /
-/// 2³².
+/// Finds the medians of resamples of sorted values. A random 32-bit number r draws the value at index
+/// ⌊r · count / 2³²⌋.
 class DrawnMedian {
  public:
   explicit DrawnMedian(std::span<const double> sorted)
@@ -41,8 +41,8 @@ class DrawnMedian {
         lower_((sorted.size() - 1) / 2),
         upper_(sorted.size() / 2),
         near_(sorted.size() + kHalvesSlack) {
-    // The ranks of the middle draws are nearly always within three standard errors, √count / 2 ranks each, of the
-    // middle.
+    // The ranks of the middle draws are nearly always within three standard errors of the middle. A standard error is
+    // √count / 2 ranks.
     const auto reach = static_cast<std::size_t>(1.5 * std::sqrt(static_cast<double>(sorted.size())));
     low_ = static_cast<std::uint32_t>(FirstDrawing(lower_ - std::min(lower_, reach)));
     last_ = static_cast<std::uint32_t>(FirstDrawing(std::min(sorted.size(), upper_ + 1 + reach)) - 1);

@@ -346,7 +346,7 @@ class BudgetMaker {
   }
 
  private:
-  /// Adds one step of the chain: the reduction of the error, as the share of the stages that the step replaces.
+  /// Adds one step of the chain. The step replaces some stages by the truth; their share is the reduction of the error.
   void AddStep(const Member& before, const Member& after) {
     std::string name;
     for (const std::string& stage : Without(after.stages, before.stages)) name += (name.empty() ? "" : ", ") + stage;

@@ -15,7 +15,7 @@ namespace etude {
 /// A genome. Its genes are numbers in [0, 1].
 using Genome = std::vector<double>;
 
-/// The size of the search. Values above the defaults no longer changed the results.
+/// The size of the search. Larger values than the defaults did not change the results.
 struct GeneticOptions {
   int population = 40;
   int generations = 60;

@@ -10,7 +10,8 @@
 namespace etude {
 
 /// A random function of time with mean 0 and standard deviation 1. Half of its variance comes from a constant. The rest
-/// is a cubic spline with a new random knot every half second, so the function is twice continuously differentiable.
+/// is a cubic B-spline with a new random coefficient every half second, so the function is twice continuously
+/// differentiable.
 class WanderingDice {
  public:
   WanderingDice(const WorldKey& key, std::string_view purpose);

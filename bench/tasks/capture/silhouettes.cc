@@ -13,7 +13,7 @@ namespace {
 
 constexpr double kMaskPixel = 2;  // picture pixels per mask pixel: masks are half size
 
-// Returns the true pose of the first frame, with random errors of up to `kNearAngle` in every angle.
+// Returns the true pose of the first frame, with random errors in every angle and in the root's position.
 TreeState NearStart(const SilhouetteBody& body, const BodyPose& pose, const WorldKey& key) {
   constexpr double kNearAngle = Radians(10), kNearPosition = 0.05;  // kNearPosition: metres, along each axis
   RandomStream random(key, "capture/near-start");

@@ -56,7 +56,7 @@ class TakeCameras {
     std::vector<Marks> marks;  ///< by source; empty for sources of silhouettes without keypoints
   };
 
-  /// The pictures of one camera. Its TakeCameras must outlive this object.
+  /// The pictures of one camera. The TakeCameras that made this object must outlive it.
   class Feed {
    public:
     /// Shoots the next picture, cuts out the person, and marks the picture. The frames of a camera must come in order.

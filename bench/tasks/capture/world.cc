@@ -11,7 +11,8 @@
 namespace etude {
 namespace {
 
-constexpr double kReach = 1.2;  // metres from the middle along X and Z, within which the cameras see the body
+// The cameras see the whole body if no joint is farther than this from the middle, along X and along Z; metres.
+constexpr double kReach = 1.2;
 
 // A window of a clip, and the movement that brings it to the middle of the floor.
 struct Window {
