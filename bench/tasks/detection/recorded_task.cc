@@ -219,7 +219,8 @@ class RecordedTask final : public Task {
     return TaughtPayload(repertoire.names, repertoire.taught, examples);
   }
 
-  /// Returns the fold in which this person is judged. It holds the moves that all other people taught.
+  /// Returns the fold in which this person is judged. Its recognisers were taught the moves in the condition's file or,
+  /// without such a file, by all other people.
   const Result<Fold>& FoldOf(std::size_t person) const {
     const std::size_t index = taught_ ? 0 : person;  // moves taught beforehand are the same for all
     const auto known = folds_.find(index);
