@@ -53,7 +53,8 @@ CLI::Option* AddJobs(CLI::App& command, int& jobs);
 CLI::Option* AddOverwrite(CLI::App& command, bool& overwrite, const std::string& help = "Replace an existing file");
 /// The names of the joint-map option, for every command that opens clips.
 constexpr const char* kJointMapOption = "--joint-map,--map";
-/// Adds --unit or --up of the clips or files `of`; the value is added to `clip_facts` as a line of a joint-map file.
+/// AddUnit adds --unit, and AddUp adds --up. The help says "clips" or "files", as stated by `of`. The option's value is
+/// added to `clip_facts` as a line of a joint-map file.
 CLI::Option* AddUnit(CLI::App& command, const std::string& of, std::string& clip_facts);
 CLI::Option* AddUp(CLI::App& command, const std::string& of, std::string& clip_facts);
 /// Adds --seed, --trials, --clips, --joint-map, --unit, --up, --rate, --keep-floor and --marker-set, for every command
@@ -67,7 +68,8 @@ void AddUnsealed(CLI::App& command, Sealing& sealing);
 /// Adds --no-fence and --allow-exec, for every command that runs external methods.
 void AddOutsideRules(CLI::App& command, OutsideRules& rules);
 
-/// Returns a check that an option's text is one of `names`, which the help lists. Its complaint names the nearest one.
+/// Returns a check that an option's text is one of `names`. The help lists all names; the complaint about another text
+/// suggests the nearest name.
 CLI::Validator OneOf(const std::vector<std::string>& names);
 /// Returns a function that checks an option's text: that function returns "" for a number from `low` to `high`, else a
 /// complaint. (CLI::Range would accept NaN.) `kind` names the quantity in complaints: "rate in Hz".

@@ -12,7 +12,7 @@ namespace etude {
 /// resemble each other, so a claim that goes beyond these worlds must count units, not worlds.
 enum class SamplingUnit {
   kWorld,           ///< each world is its own unit
-  kPerson,          ///< the person in a world; each world has another person
+  kPerson,          ///< the person in a world; each world has a person of its own
   kClip,            ///< the first clip that a world shows
   kClipPair,        ///< both clips of a world: the clip that a transition leaves and the clip that it enters
   kLibrary,         ///< the folder from which a world's clips come

@@ -26,10 +26,12 @@ namespace {
 
 constexpr int kPollMilliseconds = 20;  // pause between two measurements of workers' memory and time
 constexpr double kAheadS = 0.05;       // seconds of work that a worker gets at a time, estimated from earlier worlds
-// Longer worlds are begun early: waiting for one that is begun last costs more time than preparing its condition twice.
+// Worlds that take more seconds than this are begun early (OrderQueue). If one were begun last, all other workers would
+// wait for it, which costs more time than to prepare its condition in several workers.
 constexpr double kLongWorldS = 1;
 constexpr int kGatherMicroseconds = 2000;  // pause to collect more results if no worker is idle
-// Number of successive worker deaths in set-up that end the run; one death may be chance (short memory, a stray kill).
+// Number of successive worker deaths in set-up that end the run. A single death may have a passing cause, such as too
+// little free memory.
 constexpr int kMaxDeathsInSetup = 3;
 constexpr double kMaxSetupS = 600;      // maximum duration of a worker's set-up, in which the worker loads clips
 constexpr double kClockPerLimit = 20;   // wall-time limit of a world or method, a multiple of the processor-time limit

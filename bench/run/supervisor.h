@@ -41,13 +41,14 @@ struct DeliveredCell {
 using Deliver = std::function<Result<void>(const DeliveredCell& cell)>;
 
 /// Gives worlds to worker processes and collects their cells. Several short worlds are given at a time, so that no
-/// worker waits. A worker that exceeds the scenario's limits of time or memory is ended. If a worker dies or is ended,
-/// only the cell in progress is lost: its row gets the status `crashed`, `timeout` or `out_of_memory`, with the reason,
-/// and a new worker runs the world's other methods. If the worker was still building the world, all cells of the world
-/// get such a row. If a worker dies during its set-up, no cell is lost. Outside metric programs learn the truth. They
-/// are therefore started only after all methods have answered and the methods' workers and programs have ended. Returns
-/// false if the user stopped the run early. Fails with an error of this machine (machine.h) if no worker can start, if
-/// several in a row die during their set-up, or, at the end, if cells could not be run and were not delivered.
+/// worker waits. A worker that exceeds the scenario's limits of time or memory is ended. If a worker dies or is
+/// ended, only the cell in progress is lost: its row gets the status `crashed`, `timeout`, `out_of_memory` or
+/// `bad_output`, with the reason, and a new worker runs the world's other methods. If the worker was still building
+/// the world, all cells of the world get such a row. If the cause is a fault of this machine, lost cells get no row.
+/// If a worker dies during its set-up, no cell is lost. Outside metric programs learn the truth. They are therefore
+/// started only after all methods have answered and the methods' workers and programs have ended. Returns false if
+/// the user stopped the run early. Fails with an error of this machine (machine.h) if no worker can start, if several
+/// in a row die during their set-up, or, at the end, if cells could not be run and were not delivered.
 Result<bool> RunOrders(const SuiteSetup& setup, const Plan& plan, std::vector<Order> orders,
                        const SupervisorOptions& options, const Deliver& deliver);
 

@@ -46,7 +46,7 @@ bool AreOtherShards(const Json& a, const Json& b) {
          of_a->count == of_b->count && of_a->index != of_b->index;
 }
 
-/// Returns true if `use` is the run that the line records.
+/// Returns true if `use` repeats the run that the line records.
 bool IsRepeated(const Json& line, const Json& use) {
   return line.at("command") == "run" && use.at("command") == "run" && line.at("manifest") == use.at("manifest");
 }

@@ -61,7 +61,8 @@ std::vector<NamedClips> ReadLibraries(Fields& fields, const TaskKind& kind) {
   return read;
 }
 
-/// Returns the value of `key`; null if it is absent or an empty list (`streams: []` is a default).
+/// Returns the value of `key`; null if the key is absent or its value is an empty list or mapping. `streams: []`, for
+/// example, means the same as no `streams`.
 const Node* FindFilled(Fields& fields, const char* key) {
   const Node* node = fields.Raw(key);
   const bool is_empty =

@@ -12,8 +12,8 @@
 namespace etude {
 
 /// Returns the values of a swept parameter, from a list or a range: `{from: 5, to: 20, step: 5}`, `{from: 1, to: 100,
-/// count: 5, scale: log}`. A range's values are written with at most 12 digits, so 0.1 + 2 × 0.1 reads 0.3. In error
-/// messages, each of these values has the place of the range. Fails if there is no value or more than `most`.
+/// count: 5, scale: log}`. A range's values are written with at most 12 digits, so 0.1 + 2 × 0.1 reads 0.3. An error
+/// message about such a value names the line and column of the range. Fails if there is no value or more than `most`.
 Result<std::vector<Node>> SweptValues(const Node::Entry& swept, std::size_t most);
 
 struct RangeWords {

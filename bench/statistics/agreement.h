@@ -29,9 +29,9 @@ struct CurveAgreement {
 /// Measures the agreement over pairs of curves. `units` names the unit to which each pair belongs. RMSE, bias and
 /// ICC(A,1) are computed over all frames together. The limits of agreement are those for repeated measures with a
 /// varying true value (Bland and Altman 2007, section 3): a one-way analysis of variance of the differences by unit
-/// gives the variance within units and the variance between units. Their sum is the variance of one additional
-/// difference; a frame is a replicate. Intervals are BCa intervals of units drawn with replacement, from a random
-/// stream keyed by `seed` and `purpose`.
+/// gives the variance within units and the variance between units, with frames as the replicates. The sum of the two
+/// is the variance of a single new difference. Intervals are BCa intervals of units drawn with replacement, from a
+/// random stream keyed by `seed` and `purpose`.
 CurveAgreement MeasureAgreement(std::span<const AgreementSums> pairs, std::span<const std::string> units,
                                 std::uint64_t seed, const std::string& purpose);
 

@@ -153,7 +153,8 @@ class Measurer {
 };
 
 /// Corrects the p-values of one step of the comparisons (success, value or tail) over a family of answers (Holm), and
-/// sets the verdicts of this step. `metric_of` returns the metric whose threshold judges an answer's step.
+/// sets the verdicts of this step. `metric_of(answer)` returns the metric of this step; the verdict depends on the
+/// metric's practical threshold.
 template <typename MetricOf>
 void JudgeStep(const std::vector<Answer*>& family, std::optional<Comparison> Answer::*step, SamplingUnit unit,
                const MetricOf& metric_of) {
@@ -263,7 +264,8 @@ std::optional<Comparison> CompareSuccess(const Study& study, const ConditionTabl
 int WorldsNeeded(const Study& study) {
   const MetricInfo *success = FindMetric(study.success), *value = FindMetric(ValueMetricOf(study));
   int needed = PairsNeeded(CountComparisons(study), kAlpha);
-  // McNemar's mid-p, which judges shares and tails, is at least half of the smallest p of the other tests.
+  // McNemar's mid-p judges yes-or-no success and tails. Its smallest value is half of the smallest p of the other
+  // tests, so at kAlpha it needs as many worlds as another test at 2 · kAlpha.
   if (success != nullptr) {
     needed =
         std::min(needed, PairsNeeded(CountAnswers(study), success->reading == Reading::kScore ? kAlpha : 2 * kAlpha));

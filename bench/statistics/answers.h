@@ -38,8 +38,9 @@ std::optional<Answer> MeasureAnswerAgainstRival(const Study& study, const Condit
 /// compares success alone.
 std::string ValueMetricOf(const Study& study);
 
-/// Returns the number of worlds below which no answer of a study can have the verdict "better" or "worse", whatever the
-/// values: the smallest p of every step, corrected over its family (Holm), is above 5 %. At least kMinSample.
+/// Returns the number of worlds below which no answer of a study can have the verdict "better" or "worse". With fewer
+/// worlds, even the smallest possible p of each step, corrected over its family (Holm), is above 5 %. The number is at
+/// least kMinSample, because fewer values have no interval.
 int WorldsNeeded(const Study& study);
 
 /// Compares the success of two methods under one condition, and judges this comparison as if it were the only one.

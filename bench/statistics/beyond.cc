@@ -128,8 +128,8 @@ Beyond MeasureBeyond(const UnitSample& sample, int comparisons) {
       values[i] = KeepThirtyBits(n * mean - (n - 1) * beyond.left_out[i].difference);
     }
   }
-  // Find out whether the values are those of a yes-or-no metric: −1, 0 or 1. If no world differs, an amount has only
-  // zeros, too; for an amount, the interval of a share would have the wrong unit.
+  // Values that are all −1, 0 or 1 are treated as those of a yes-or-no metric. If all are zero, the metric itself must
+  // be yes-or-no: an amount may have only zeros, too, but the interval of a share would have the wrong unit for it.
   const bool is_yes_or_no = (sample.yes_or_no || beyond.differing > 0) && std::ranges::all_of(values, [](double value) {
                               return std::abs(value) == 1 || value == 0;
                             });

@@ -32,8 +32,8 @@ std::vector<double> Jackknife(std::span<const double> sorted, Aggregate aggregat
   return values;
 }
 
-/// Finds the medians of resamples of sorted values. A random 32-bit number draws the value at index number · count /
-/// 2³².
+/// Finds the medians of resamples of sorted values. A random 32-bit number r draws the value at index
+/// ⌊r · count / 2³²⌋.
 class DrawnMedian {
  public:
   explicit DrawnMedian(std::span<const double> sorted)
@@ -41,19 +41,19 @@ class DrawnMedian {
         lower_((sorted.size() - 1) / 2),
         upper_(sorted.size() / 2),
         near_(sorted.size() + kHalvesSlack) {
-    // The ranks of the middle draws are nearly always within three standard errors, √count / 2 ranks each, of the
-    // middle.
+    // The ranks of the middle draws are nearly always within three standard errors of the middle. A standard error is
+    // √count / 2 ranks.
     const auto reach = static_cast<std::size_t>(1.5 * std::sqrt(static_cast<double>(sorted.size())));
     low_ = static_cast<std::uint32_t>(FirstDrawing(lower_ - std::min(lower_, reach)));
     last_ = static_cast<std::uint32_t>(FirstDrawing(std::min(sorted.size(), upper_ + 1 + reach)) - 1);
   }
 
-  /// Returns the median of the resample that the 32-bit halves of `drawn` draw. Compares only the draws near the
-  /// middle, unless the median is not among them.
+  /// Returns the median of a resample. Each 64-bit number of `drawn` holds two 32-bit numbers, which draw one value
+  /// each. Compares only the draws near the middle, unless the median is not among them.
   double Of(const std::uint64_t* drawn) {
     HalvesWithin found = FindHalvesWithin(drawn, sorted_.size(), low_, last_, near_.data());
-    if (lower_ < found.below || upper_ >= found.below + found.within) {  // the middle draws are not near the middle of
-                                                                         // the values: compare all draws
+    if (lower_ < found.below || upper_ >= found.below + found.within) {
+      // The median is not among these draws, so compare all draws.
       found = FindHalvesWithin(drawn, sorted_.size(), 0, ~std::uint32_t{0}, near_.data());
     }
     const auto end = near_.begin() + static_cast<std::ptrdiff_t>(found.within);

@@ -21,8 +21,9 @@ constexpr int kMinSample = 6;
 /// Returns the bias-corrected and accelerated (BCa) bootstrap interval of any statistic (Efron 1987, section 3).
 /// `replicates` are the statistic's bootstrap replicates; they are sorted here. `jackknife` holds the statistic's
 /// values with one observation left out each. Replicates that equal the estimate count half as below it and half as
-/// above it. The ends of the interval are replicates. If the correction is undefined (all replicates on one side of the
-/// estimate, or all jackknife values equal), the result is the percentile interval (Efron 1979), and its kind says so.
+/// above it. Each end of the interval is one of the replicates. If the correction is undefined (all replicates on one
+/// side of the estimate, or all jackknife values equal), the result is the percentile interval (Efron 1979), and its
+/// kind says so.
 Interval BcaInterval(std::vector<double>& replicates, double estimate, std::span<const double> jackknife,
                      double confidence = kConfidence);
 

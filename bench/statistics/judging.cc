@@ -64,8 +64,8 @@ std::string NoteOnMean(const Comparison& c, const MetricInfo& metric) {
                      unit, amount(*c.mean_low), amount(*c.mean_high));
 }
 
-/// Corrects the p-values of a family of comparisons, without and with failures, judges every comparison and adds its
-/// notes.
+/// Corrects the p-values of a family of comparisons: those without failures, and those with failures counted as losses.
+/// Judges every comparison and adds its notes.
 void JudgeOnTheseWorlds(std::span<Question* const> family, SamplingUnit unit) {
   // Apply Holm's correction to the p-values without failures, and to those with failures counted as losses.
   std::vector<std::optional<double>> pairs_alone, all_worlds;
@@ -111,7 +111,7 @@ void CopyVerdictsBeyond(Comparison& comparison) {
   beyond.why_open = comparison.why_open;
 }
 
-/// Judges a family of comparisons for other units as JudgeOnTheseWorlds does for these worlds.
+/// Judges a family of comparisons as JudgeOnTheseWorlds does, but for units that were not run (Beyond).
 void JudgeBeyond(std::span<Question* const> family, SamplingUnit unit) {
   // Apply Holm's correction to the p-values without failures, and to those with failures counted as losses.
   std::vector<std::optional<double>> pairs_alone, all_worlds;
@@ -189,7 +189,7 @@ struct Finding {
 
 Finding JudgeComparison(const Expectation& expectation, const ConditionTable& table, const std::string& other,
                         bool wants_lower, std::uint64_t seed, const std::string& purpose) {
-  // Compare the two methods, without failures and with failures counted as losses.
+  // Compare the two methods in the worlds in which both have a value, and again with failures counted as losses.
   MetricInfo metric = *FindMetric(expectation.metric);
   metric.direction = wants_lower ? Direction::kLowerIsBetter : Direction::kHigherIsBetter;
   const PairedWorlds worlds = PairsOf(table, other, expectation.of, expectation.metric);
@@ -199,7 +199,7 @@ Finding JudgeComparison(const Expectation& expectation, const ConditionTable& ta
     with_failures = ComparePaired(all->pairs, metric, seed, purpose + "/failures", expectation.confidence);
   }
   const Verdict of_pairs = JudgeBothWays(found, with_failures, metric, expectation.confidence);
-  // Derive met, unmet or undecided from the verdict.
+  // Decide from the verdict whether the expectation is met, unmet or undecided.
   const int without = worlds.only_baseline + worlds.only_method + worlds.neither;
   const std::string missing = without == 0 ? "" : fmt::format(", {} more do not have both values", without);
   if (!found.ci_low)

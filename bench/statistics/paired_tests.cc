@@ -204,9 +204,9 @@ PairedTest SignFlipTest(std::span<const double> differences, Aggregate aggregate
   const std::size_t differing = sizes.size() - zeros;
   if (differing == 0) return {1.0, "exact"};
   const double largest = sizes.back();
-  // If all differences have the same sign, only two sign vectors, all plus and all minus, give a mean as far from zero.
-  // Drawn sign vectors could not show how small this p is, so it would not pass Holm's correction among many
-  // comparisons. Differences within rounding do not move the mean, so their signs do not count.
+  // If all differences have the same sign, only two sign vectors (all plus, all minus) give a mean as far from zero as
+  // the observed one. Drawn sign vectors could not show how small this p is, so it would not pass Holm's correction
+  // among many comparisons. Differences within rounding do not move the mean, so their signs do not count.
   const double rounding = kRounding * largest;
   const auto real = std::ranges::find_if(ordered, [&](double d) { return std::abs(d) > rounding; });
   const auto below = std::count_if(real, ordered.end(), [](double d) { return d < 0; }), count = ordered.end() - real;

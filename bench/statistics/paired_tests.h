@@ -25,12 +25,13 @@ PairedTest SignedRankTest(std::span<const double> differences);
 double RankBiserial(std::span<const double> differences);
 
 /// Computes the sign-flip permutation test (Fisher 1935) of the differences' median or mean. Up to 16 non-zero
-/// differences, all sign vectors are enumerated, and p is exact. For a mean, p is also exact for n differences of one
-/// sign (2 / 2ⁿ, with n ≤ 1000; differences within rounding do not count), and for differences of equal size by the
-/// binomial distribution (for shares this is McNemar's exact test). Otherwise m = 9,999 sign vectors are drawn from a
-/// stream keyed by `seed` and `purpose`. b of them have an aggregate at least as far from zero as the observed one, and
-/// p = (b + 1) / (m + 1) (Phipson & Smyth 2010). Above kMaxResampled differences, p comes from a normal approximation;
-/// for a median, from the normal approximation of the sign test.
+/// differences, all sign vectors are enumerated, and p is exact. For a mean, p has a closed form in two more cases.
+/// If all n differences have the same sign, p = 2 / 2ⁿ; differences within rounding are not counted, and n above 1000
+/// is taken as 1000. If all differences have the same size, p comes from the binomial distribution (for shares this
+/// is McNemar's exact test). Otherwise m = 9,999 sign vectors are drawn from a stream keyed by `seed` and `purpose`.
+/// b of them have an aggregate at least as far from zero as the observed one, and p = (b + 1) / (m + 1) (Phipson &
+/// Smyth 2010). Above kMaxResampled differences, p comes from a normal approximation; for a median, from the normal
+/// approximation of the sign test.
 PairedTest SignFlipTest(std::span<const double> differences, Aggregate aggregate, std::uint64_t seed,
                         const std::string& purpose);
 

@@ -42,8 +42,8 @@ double ValueAt(std::int64_t order) {
   return std::bit_cast<double>(order >= 0 ? order : std::numeric_limits<std::int64_t>::min() - order);
 }
 
-/// Returns the k-th smallest Walsh average, k = 1 … n (n + 1) / 2. Bisection over the doubles finds the smallest double
-/// that at least k averages do not exceed.
+/// Returns the k-th smallest Walsh average, k = 1 … n (n + 1) / 2: the smallest double x for which at least k
+/// averages are ≤ x. Bisection over the doubles finds it.
 double WalshAverage(std::span<const double> ascending, std::int64_t k) {
   std::int64_t low = OrderOf(ascending.front()), high = OrderOf(ascending.back());
   while (low < high) {

@@ -14,8 +14,8 @@ namespace {
 
 constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
 
-/// Returns the worst value that any method reached under the condition. This value counts as the value of a failed
-/// cell. Returns nothing if there is no value.
+/// Returns the worst value that any method reached under the condition. Cells without a value get this value, unless
+/// they were skipped. Returns nothing if there is no value.
 std::optional<double> WorstOf(const ConditionTable& table, const MetricInfo& metric) {
   std::optional<double> worst;
   for (const MethodColumns& method : table.methods) {
@@ -29,8 +29,8 @@ std::optional<double> WorstOf(const ConditionTable& table, const MetricInfo& met
   return worst;
 }
 
-/// Returns the method's aggregate over one half of the worlds; failed cells count as `worst`. Returns nothing if the
-/// half has no worlds.
+/// Returns the method's aggregate over one half of the worlds; cells without a value count as `worst`. Returns
+/// nothing if the method was skipped in all worlds of the half.
 std::optional<double> ScoreOf(const ConditionTable& table, const MethodColumns& method, const MetricInfo& metric,
                               double worst, int half) {
   std::vector<double> values;

@@ -70,7 +70,9 @@ class ScenarioTable {
   std::size_t last_ = 0;
 };
 
-/// Returns the half of the worlds to which a trial belongs, 0 or 1. All worlds of a unit are in the same half.
+/// Returns the half of the worlds to which a trial belongs: the index of the world's unit modulo 2, so all worlds of
+/// a unit are in the same half. If the world has no unit or several, or if there is only one unit, the half is the
+/// number of the trial modulo 2.
 int HalfOf(const ConditionTable& table, int trial);
 
 /// The values of one metric for two methods in the worlds of a condition. Worlds that both methods skipped are left
@@ -109,7 +111,7 @@ std::string PurposeOf(const std::string& scenario, const std::vector<SweptValue>
 
 /// The strongest rival of a method.
 struct Rival {
-  std::array<std::string, 2> of_half;  ///< the rival in worlds of even units, then the rival in worlds of odd units
+  std::array<std::string, 2> of_half;  ///< the rival in each half of the worlds (HalfOf)
 
   std::string Name() const;  ///< the rival's name: "a", or "a or b" if the two halves have different rivals
   std::string Note() const;  ///< says how the two rivals were chosen; "" if they are the same
@@ -119,7 +121,7 @@ struct Rival {
 /// and only serves as a yardstick, and a method with an oracle, which shows an upper bound.
 bool Competes(const Study& study, const ComparedMethod& method);
 
-/// Returns true if a method has a rival (FindRival). This follows from the scenario alone.
+/// Returns true if the scenario allows a rival of this method (FindRival). The results have no influence.
 bool HasRival(const Study& study, const ComparedMethod& method);
 
 /// Returns the rival that the scenario names, or else the best of all other competing methods. The method's baseline is
@@ -127,10 +129,9 @@ bool HasRival(const Study& study, const ComparedMethod& method);
 /// its baseline and its rival.
 ///
 /// The best method is chosen by the first headline metric. Methods that are worse than the best by less than the
-/// practical threshold are compared by the next metric, and so on. A failed cell counts as the condition's worst value.
-/// The rival is chosen in one half of the worlds and judged in the other: worlds of odd units choose the rival for
-/// worlds of even units, and the reverse. (If every world is a unit or has several units, odd and even trials are used
-/// instead.)
+/// practical threshold are compared by the next metric, and so on. A cell without a value counts as the worst value
+/// of the condition, unless it was skipped. Each half of the worlds (HalfOf) gets the rival that is the best method
+/// in the other half, so a rival is never judged in the worlds in which it was chosen.
 ///
 /// Returns nothing if the method is itself the rival or does not compete, if only the baseline competes, or if one half
 /// has no worlds from which to choose.

@@ -293,7 +293,8 @@ std::vector<Member> ChainOf(const std::vector<Member>& family) {
   return chain;
 }
 
-/// Returns the values of the members' methods, by method, in the worlds in which all members have a value.
+/// Returns the values of the metric for each member, by the name of its method, in the worlds in which all members
+/// have a value.
 std::map<std::string, std::vector<double>> ValuesOf(const std::vector<Member>& members, const ConditionTable& table,
                                                     const std::string& metric) {
   std::map<std::string, std::vector<double>> values;
@@ -345,7 +346,7 @@ class BudgetMaker {
   }
 
  private:
-  /// Adds one step of the chain: the reduction of the error, as the share of the stages that the step replaces.
+  /// Adds one step of the chain. The step replaces some stages by the truth; their share is the reduction of the error.
   void AddStep(const Member& before, const Member& after) {
     std::string name;
     for (const std::string& stage : Without(after.stages, before.stages)) name += (name.empty() ? "" : ", ") + stage;

@@ -15,7 +15,7 @@ namespace etude {
 /// A genome. Its genes are numbers in [0, 1].
 using Genome = std::vector<double>;
 
-/// The size of the search. Values above the defaults no longer changed the results.
+/// The size of the search. Larger values than the defaults did not change the results.
 struct GeneticOptions {
   int population = 40;
   int generations = 60;
@@ -54,8 +54,9 @@ constexpr double kFitnessRamp = 0.5;
 
 /// Fits the `genetic` weights (paper A leaves them to future work; the method is Etude's): the weights S ≥ 0 with sum 8
 /// for which "d < 0.4" best separates the close pairs, measured by soft F1. The first ancestor is `start`, so the
-/// result is no worse than `start` on the training pairs. The status is that of FitWeights; `iterations` counts
-/// generations. Unless the status is kFitted, the weights are `start`.
+/// result is no worse than `start` on the training pairs. `iterations` counts generations. The status is kOneClassOnly
+/// if all pairs are close or none is, kNothingCounts if the best score is 0, and otherwise kFitted. Unless it is
+/// kFitted, the weights are `start`.
 WeightFit FitWeightsGenetically(std::span<const LabelledPair> pairs, const FeatureWeights& start,
                                 const GeneticOptions& options = {});
 
@@ -74,8 +75,9 @@ constexpr double kBreakpointReach = 0.2;
 /// end (a shoulder) stays flat there. Left and right limbs share their genes. Gaussian and singleton shapes are fixed.
 std::size_t CountMembershipGenes(const Memberships& start);
 
-/// Returns the memberships for genes in [0, 1]. Every breakpoint of `start` is moved by (2 gene − 1) ·
-/// kBreakpointReach, and each shape's breakpoints are sorted again. Genes of ½ give `start`.
+/// Returns the memberships for genes in [0, 1]. A breakpoint of `start` with a gene is moved by (2 gene − 1) ·
+/// kBreakpointReach · (width of the universe), at most to an end of the universe. Each shape's breakpoints are then
+/// sorted again. Genes of ½ give `start`.
 Memberships MembershipsOfGenes(const Memberships& start, std::span<const double> genes);
 
 }  // namespace etude

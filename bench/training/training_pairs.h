@@ -38,9 +38,9 @@ TrainingClips SampleClips(std::vector<std::string> identities, std::span<const B
 /// clips would make learning slow, and would improve it little.
 constexpr std::size_t kMaxTrainingClips = 40;
 
-/// Returns every built-in move and every clip whose identity no move and no earlier clip has, all retargeted to
-/// `proportions`. `identities` has one entry per clip. If these are more than kMaxTrainingClips, evenly chosen clips
-/// are left out, but no moves.
+/// Returns the training clips, retargeted to `proportions`: every built-in move, and every clip unless a move or an
+/// earlier clip has the same identity. `identities` has one entry per clip. If moves and clips together are more than
+/// kMaxTrainingClips, clips at even distances in the list are taken, and the other clips are left out.
 Result<TrainingClips> GatherTrainingClips(std::span<const BodyMotion> clips, const std::vector<std::string>& identities,
                                           const BodyProportions& proportions);
 

@@ -28,7 +28,7 @@ enum class WeightFitStatus {
   kNotConverged,
 };
 
-/// The result of a fit. If `status` is not kFitted, `weights` are paper A's.
+/// The result of a fit. If `status` is not kFitted, `weights` are paper A's, or the start of a genetic search.
 struct WeightFit {
   WeightFitStatus status = WeightFitStatus::kOneClassOnly;
   FeatureWeights weights = PaperWeights();

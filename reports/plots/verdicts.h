@@ -13,7 +13,7 @@
 namespace etude {
 
 struct JudgedPerformance {
-  int person = 0;    ///< number of the trial, because each trial has another person
+  int person = 0;    ///< number of the trial, because each trial has a person of its own
   double score = 0;  ///< the method's score; higher means more likely right
   double truth = 0;  ///< ground truth: 1 right, ½ grey, 0 wrong
   bool is_called = false;

@@ -74,7 +74,7 @@ struct Wait {
   bool happened = false;  ///< false: the wait was censored; it is longer than `seconds`, which may be infinite
 };
 
-/// Returns the Kaplan–Meier estimate (1958) of the share still waiting. The first point is (the earliest time, 1). One
+/// Returns the Kaplan–Meier estimate (1958) of the share still waiting. The first point is (the shortest wait, 1). One
 /// point (time, share) follows for each time at which an event happened. A censored wait gives no point; it counts as
 /// at risk up to and including the time at which it was censored. The curve is empty if there are no waits.
 std::vector<std::pair<double, double>> SurvivalCurve(std::span<const Wait> waits);

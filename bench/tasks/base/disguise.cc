@@ -18,14 +18,14 @@ using enum Role;
 
 constexpr double kKnotSeconds = 0.5;
 
-/// The root mean square over time of a cubic B-spline whose knots have a standard deviation of 1.
+/// The root mean square over time of a cubic B-spline whose coefficients have a standard deviation of 1.
 constexpr double kSplineDeviation = 0.692;
 
 /// The random turn of a limb about its upper joint. It is added to the turn of the limb's parent.
 struct LimbTurn {
   Role child;
   double turn_deg = 0;  ///< standard deviation of the turn about each of three axes
-  double bend = 0;      ///< standard deviation of the turn about BendAxis, radians ÷ the axis's length
+  double bend = 0;      ///< standard deviation of the turn about BendAxis, radians, per unit of the axis's length
 };
 
 constexpr std::array kTurns = {
@@ -130,7 +130,8 @@ void Disguise::ApplyTo(std::vector<BodyPose>& window, double rate_hz) const {
     // Apply the turns from the pelvis outwards. Each limb also turns with its parent.
     BodyPose& pose = window[k];
     for (const Bone& bone : AllBones()) {
-      // The pelvis is rigid with both hips, and the chest with both shoulders.
+      // The pelvis is rigid, so both hips turn with the spine. The chest is rigid, so shoulders have no turn of their
+      // own.
       const bool is_hip = bone.child == kLeftHip || bone.child == kRightHip;
       glm::dmat3& turn = turned[Index(bone.child)];
       turn = turned[Index(is_hip ? kSpine : bone.parent)];

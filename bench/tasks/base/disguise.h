@@ -10,7 +10,8 @@
 namespace etude {
 
 /// A random function of time with mean 0 and standard deviation 1. Half of its variance comes from a constant. The rest
-/// is a cubic spline with a new random knot every half second, so the function is twice continuously differentiable.
+/// is a cubic B-spline with a new random coefficient every half second, so the function is twice continuously
+/// differentiable.
 class WanderingDice {
  public:
   WanderingDice(const WorldKey& key, std::string_view purpose);
@@ -31,7 +32,8 @@ BodyPose PoseOfClip(std::span<const BodyPose> clip, double frame);
 /// would know the truth. The body is scaled by up to ± 1/12. The clip is played up to a seventh slower and starts
 /// between two frames. Every limb, with all limbs attached to it, is turned by random angles that vary over time: about
 /// 3° in hips and trunk, 6° in arms. Limb lengths change by the scale alone. Elbows and knees bend about a fifth more
-/// or less and never hyperextend. The lowest joint keeps its height. Worlds that are not secret are not disguised.
+/// or less and never hyperextend. The height of the lowest joint changes by the scale alone. Worlds that are not
+/// secret are not disguised.
 class Disguise {
  public:
   /// `key.scenario` must outlive this object.

@@ -32,7 +32,8 @@ struct FileStudy {
   }
 };
 
-/// Returns the error for a request that concerns outside programs: a task that judges files has no problems for them.
+/// Returns the error for every request that only outside programs need, such as a problem or a truth. A task that
+/// judges files runs no such programs.
 inline tl::unexpected<Error> FailOfFileTask() { return Fail({}, "a task that judges files runs no program"); }
 
 /// A world of a task that judges files. It sends no problem to a program.

@@ -18,8 +18,8 @@ TaskKind MakeIkTaskKind();
 /// Task tracking is inverse kinematics along clips. It measures if a solver keeps up with a motion when it has a
 /// limited number of steps per frame and starts at its answer to the previous frame.
 TaskKind MakeTrackingTaskKind();
-/// Task capture measures how close the skeleton from two cameras comes to the truth. It runs paper B's whole pipeline
-/// on rendered pictures of a clip.
+/// Task capture measures how close the skeleton from two or more cameras comes to the truth. It runs paper B's whole
+/// pipeline on rendered pictures of a clip.
 TaskKind MakeCaptureTaskKind();
 /// Task pose-distance measures how well a distance tells whether two poses look alike. A world is one of eight authored
 /// pairs of poses, or some hundreds of pairs of frames of two clips.

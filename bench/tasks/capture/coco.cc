@@ -19,7 +19,7 @@ constexpr std::array kNames = {
     "left_heel",      "right_heel", "left_hand",    "right_hand"};
 static_assert(kNames.size() == kLandmarkCount);
 
-/// The limbs: first COCO's own list, whose keypoints are counted from one, then the limbs of the head, feet and hands.
+/// The limbs, as pairs of keypoints counted from one: COCO's own list, then the limbs of the head, feet and hands.
 constexpr int kSkeleton[][2] = {{16, 14}, {14, 12}, {17, 15}, {15, 13}, {12, 13}, {6, 12},  {7, 13},  {6, 7},
                                 {6, 8},   {7, 9},   {8, 10},  {9, 11},  {2, 3},   {1, 2},   {1, 3},   {2, 4},
                                 {3, 5},   {4, 6},   {5, 7},   {18, 19}, {16, 21}, {17, 22}, {10, 27}, {11, 28}};

@@ -11,9 +11,9 @@
 
 namespace etude {
 
-/// Describes the studio to outside methods, which receive takes of two to eight cameras. Units are metres; Y is up; the frame is
-/// right-handed. A pose is sixty numbers (EncodePose). Pixel coordinates are u to the right and v down; (0, 0) is the
-/// top left corner of the picture, and (0.5, 0.5) the centre of the first pixel.
+/// Describes the studio to outside methods, which receive takes of two or more cameras. Units are metres; Y is up;
+/// the frame is right-handed. A pose is sixty numbers (EncodePose). Pixel coordinates are u to the right and v down;
+/// (0, 0) is the top left corner of the picture, and (0.5, 0.5) the centre of the first pixel.
 ///
 /// Setting:
 ///
@@ -67,9 +67,9 @@ Result<void> MakeCapturePictures(const StudioOptions& options, const WorldKey& k
 ///
 ///     {"poses": [[sixty numbers], null, …]}
 ///
-/// It is scored like the result of a built-in method. A frame without a pose repeats the last pose, and so counts in
-/// every joint error; `frames_recovered` is the share of frames with a pose. The metrics of a built-in method's stages
-/// are missing.
+/// It is scored like the result of a built-in method. A frame without a pose counts in every joint error: it gets the
+/// last pose before it, or the answer's first pose if there is none. `frames_recovered` is the share of frames with a
+/// pose. The metrics of a built-in method's stages are missing.
 using CaptureAnswer = std::vector<std::optional<BodyPose>>;
 Result<CaptureAnswer> ReadCaptureAnswer(const Json& answer, std::size_t frames);
 

@@ -31,8 +31,8 @@ struct Observation {
   std::string marks_digest;
 };
 
-/// The largest number of pictures of a take, over all cameras, for which masks for silhouettes are kept. A mask takes
-/// 77 kB.
+/// Masks for silhouettes are kept only if a take has at most this many pictures, counted over all cameras. A mask
+/// takes 77 kB.
 constexpr std::size_t kMaxSilhouettePictures = 4000;
 
 struct Take {

@@ -14,9 +14,9 @@
 
 namespace etude {
 
-/// The annotators of one take, for one PersonSource. Each annotator draws on copies of the pictures, and the marks are
-/// then read back from the copies (`ReadMarks`). Two Markings of the same world use the same random draws, whatever
-/// pictures they receive.
+/// The annotators who mark the pictures of one take. In these pictures, one PersonSource has cut out the person. Each
+/// annotator draws on copies of the pictures, and the marks are then read back from the copies (`ReadMarks`). Two
+/// Markings of the same world use the same random draws, whatever pictures they receive.
 class Marking {
  public:
   /// `key` must outlive this object. The world determines the number of cameras and the kind of figure. The figure

@@ -101,7 +101,7 @@ struct Oracle {
 
 /// The way in which poses of a body are recovered from pictures.
 enum class Recovery {
-  kIk,      ///< "ik": inverse kinematics to limb directions and ends, with known lengths (paper B)
+  kIk,      ///< "ik": inverse kinematics to limb directions and ends, with fixed limb lengths (paper B)
   kEnds,    ///< "ends": each joint is triangulated from the strokes that end there; no body is fitted
   kBundle,  ///< "bundle": one body in smooth motion is fitted to all marks of all frames (bundle adjustment)
   /// "keypoints": the method of `etude capture`. Joints are triangulated robustly, and a body with the median limb
@@ -125,7 +125,7 @@ enum class LengthSource {
 /// The way in which a method that tracks silhouettes finds its first pose.
 enum class SilhouetteStart {
   kCold,  ///< "cold": the method uses the pictures alone
-  kNear,  ///< "near": the method starts from the first true pose, with errors of up to 10° in every angle
+  kNear,  ///< "near": the method starts from the first true pose, with errors up to 10° per angle and 5 cm per axis
   /// "keypoints": as kCold; in addition, in every picture the marks give the positions of joints, like the keypoints of
   /// a pose estimator.
   kKeypoints,

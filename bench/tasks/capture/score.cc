@@ -161,7 +161,7 @@ std::vector<bool> FramesSeen(const Observation& observation) {
 /// Measures the joint errors separately over frames with marks and over frames without marks.
 void ReportSeen(const CaptureWorld& world, const Observation& observation, const PoseErrors& errors, CellResult& cell) {
   const std::vector<bool> all_seen = FramesSeen(observation);
-  std::vector<bool> seen, held;  // for each frame in view: true if the frame has marks; true if it has none
+  std::vector<bool> seen, held;  // for each frame in view: `seen` if the frame has marks, `held` if it has none
   for (std::size_t k = 0; k < all_seen.size(); ++k) {
     if (!world.in_view[k]) continue;
     seen.push_back(all_seen[k]);

@@ -15,7 +15,8 @@ namespace etude {
 CellResult ScoreCaptureRun(const CaptureWorld& world, const CaptureRun& run, bool keeps_motion,
                            std::span<const double> moments = {});
 
-/// Scores an answer of an outside method like the result of a built-in method. The metrics of stages are missing.
+/// Scores an answer of an outside method like the result of a built-in method. The metrics of a built-in method's
+/// stages are missing.
 CellResult ScoreCaptureAnswer(const CaptureWorld& world, const CaptureAnswer& answer, bool keeps_motion);
 
 /// Returns the ids of all metrics that a cell reports, by a value or by the reason why the value is missing.

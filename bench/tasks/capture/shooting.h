@@ -10,8 +10,9 @@
 
 namespace etude {
 
-/// Returns the pose at a fractional frame by Catmull-Rom interpolation: a cubic through the two frames on either side.
-/// At a whole number k, this is poses[k]. Before the first and after the last frame, the pose is constant.
+/// Returns the pose at a fractional frame by Catmull-Rom interpolation of each joint's position: a cubic from the
+/// frame before to the frame after. At a whole number k, this is poses[k]. Before the first and after the last frame,
+/// the pose is constant.
 BodyPose PoseAt(std::span<const BodyPose> poses, double frame);
 
 /// Returns the figure of the performer at a fractional frame.

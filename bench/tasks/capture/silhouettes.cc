@@ -13,7 +13,7 @@ namespace {
 
 constexpr double kMaskPixel = 2;  // picture pixels per mask pixel: masks are half size
 
-// Returns the true pose of the first frame, with random errors of up to `kNearAngle` in every angle.
+// Returns the true pose of the first frame, with random errors in every angle and in the root's position.
 TreeState NearStart(const SilhouetteBody& body, const BodyPose& pose, const WorldKey& key) {
   constexpr double kNearAngle = Radians(10), kNearPosition = 0.05;  // kNearPosition: metres, along each axis
   RandomStream random(key, "capture/near-start");
@@ -41,7 +41,7 @@ std::optional<TreeState> StartOf(const SilhouetteInputs& inputs, const Silhouett
 
 // Returns the joints that the marks show, as [camera][picture]. Empty if the marks are not used.
 std::vector<std::vector<std::vector<SeenJoint>>> JointsMarked(const SilhouetteInputs& inputs) {
-  constexpr double kSigma_px = 4;  // error of a marked joint, because marks are on the body's surface, not inside
+  constexpr double kSigma_px = 4;  // error of a marked joint: marks lie on the body's surface, joints inside it
   std::vector<std::vector<std::vector<SeenJoint>>> joints;
   if (inputs.start != SilhouetteStart::kKeypoints) return joints;
   for (const std::vector<Marks>& of_camera : inputs.marks) {

@@ -124,7 +124,7 @@ class CaptureStages {
   std::map<BodyChoice, NearestPoses> nearest_;
 };
 
-/// Returns the true values for those measurements of a frame that the oracles of a method replace.
+/// Returns the measurements of a frame that a method's oracles give: true limb directions, true ends, both or none.
 KnownMeasurement KnownMeasurementOf(const BodyPose& truth, const Oracle& oracle);
 
 }  // namespace etude

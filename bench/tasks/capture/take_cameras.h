@@ -53,10 +53,10 @@ class TakeCameras {
     ColourImage colour;
     Mask person, shadow;  ///< the true masks
     std::vector<Mask> found;
-    std::vector<Marks> marks;  ///< by source; empty for sources of silhouettes without keypoints
+    std::vector<Marks> marks;  ///< by source; no marks if a source is `for_silhouettes` without `has_keypoints`
   };
 
-  /// The pictures of one camera. Its TakeCameras must outlive this object.
+  /// The pictures of one camera. The TakeCameras that made this object must outlive it.
   class Feed {
    public:
     /// Shoots the next picture, cuts out the person, and marks the picture. The frames of a camera must come in order.

@@ -11,7 +11,8 @@
 namespace etude {
 namespace {
 
-constexpr double kReach = 1.2;  // metres from the middle along X and Z, within which the cameras see the body
+// The cameras see the whole body if no joint is farther than this from the middle, along X and along Z; metres.
+constexpr double kReach = 1.2;
 
 // A window of a clip, and the movement that brings it to the middle of the floor.
 struct Window {
@@ -122,7 +123,7 @@ std::vector<double> MakeBrightness(const StudioOptions& options, std::size_t fra
   return brightness;
 }
 
-// A tape with which lengths are measured, with a random error.
+// A measuring tape. Each measured length has a random error.
 class Tape {
  public:
   Tape(double error_mm, const WorldKey& key) : error_m_(0.001 * error_mm), random_(key, "capture/limb-tape") {}

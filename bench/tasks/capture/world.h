@@ -45,7 +45,7 @@ struct CaptureWorld {
   std::optional<OwnFigure> own;    ///< a figure that is drawn instead of the stage's people
   glm::dvec3 middle{0};            ///< the expected position of the performer on the floor
   std::vector<Camera> cameras;     ///< at least two, each with its lens
-  std::vector<bool> in_view;       ///< for each frame, true if two cameras see the whole body
+  std::vector<bool> in_view;       ///< for each frame, true if two cameras or more see the whole body
   Room room;                       ///< the empty room; background pictures use its `brightness` unchanged
   StageOptions stage_options;
   StagedRoom stage;                ///< the room and people that `scene` adds

@@ -45,7 +45,7 @@ Shown LearnerPlayer::SeenOf(const CoachOutput& shown) {
   return seen;
 }
 
-/// Predicts the frame of the dance at the time of the requested pose, if the dance continues at its present rate.
+/// Sets `seen` to the move and the beat that the dance will reach in kFramesAhead frames if it keeps its present rate.
 void LearnerPlayer::SeeDance(const CoachOutput& shown, Shown& seen) {
   const double rate = last_frame_ ? std::clamp(shown.clip_frame - *last_frame_, 0.0, 2.0) : 1;
   last_frame_ = shown.clip_frame;

@@ -13,7 +13,8 @@ namespace etude {
 ///
 /// Learners predict the state of the dance at the time of their movement, so they are late only by their own lag.
 /// Unexpected events (the coach stops, shakes its head, shows the move) cannot be predicted. Learners react to these
-/// events late: the delay is the number of frames for which poses are requested in advance.
+/// events at least SkeletonSensor::kAhead + 1 frames after the screen showed them, because poses are requested in
+/// advance.
 class LearnerPlayer final : public Player {
  public:
   /// `world` and `stage` must outlive this object.

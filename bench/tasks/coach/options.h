@@ -17,7 +17,7 @@ namespace etude {
 /// condition.
 struct CoachOperatingPoint {
   double needless_per_min = 0.2;
-  int sessions = 24;  ///< number of sessions, each with another person
+  int sessions = 24;  ///< number of sessions, each with a different person
 };
 
 /// One condition of a coach scenario: the learner, the song, the quality of the sensor and the steadiness of the music.

@@ -48,8 +48,8 @@ bool AreAlike(const TransitionWay& a, const TransitionWay& b) {
          a.rules.within_class == b.rules.within_class;
 }
 
-/// Returns the coach's own policy. If a program replaces the policy, returns the yoked policy, because the program then
-/// decides when to correct.
+/// Returns the coach's own policy. If a program replaces the policy, returns the policy `yoked`, which corrects only at
+/// the moments that it is given, because the program then decides when to correct.
 Coach::PolicyChoice PolicyOf(const CoachMethod& method) {
   if (method.seat == Seat::kPolicy) return {FindPolicy("yoked"), {}};
   return method.policy;

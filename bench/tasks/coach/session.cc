@@ -166,7 +166,7 @@ class Loop {
     open_.reset();
   }
 
-  /// Logs the first frame of a correcting act. It is the frame after the transition to the act.
+  /// Logs the frame in which the coach begins to act out a correction: the first frame after the transition to it.
   void NoteAct() {
     const bool acts = shown_.mode == CoachMode::kCorrect && !shown_.in_transition;
     if (acts && !log_.corrections.empty() && !log_.corrections.back().act_frame) {

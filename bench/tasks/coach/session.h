@@ -24,8 +24,9 @@ class Player {
  public:
   virtual ~Player() = default;
 
-  /// Returns the body's next pose, after the coach showed `shown`. The pose is for a time SkeletonSensor::kAhead frames
-  /// (0.23 s) after `shown`, because nobody reacts at once: a simple visual reaction takes 0.2 to 0.25 s.
+  /// Returns the body's next pose. `shown` is what the coach showed in the previous frame. The pose is for the time
+  /// SkeletonSensor::kAhead frames (0.23 s) after the present frame, because nobody reacts at once: a simple visual
+  /// reaction takes 0.2 to 0.25 s.
   virtual BodyPose Next(const CoachOutput& shown) = 0;
   /// Returns the latest performance in this repetition of the dance; nullopt if none has begun in it.
   virtual std::optional<PlayedPerformance> PerformanceOf(int repetition) const = 0;

@@ -11,7 +11,7 @@
 namespace etude {
 
 struct CoachedTraining {
-  int sessions = 300;  ///< number of sessions of three minutes, each with another person
+  int sessions = 300;  ///< number of sessions of three minutes, each with a different person
   std::uint64_t seed = 1;
   BoostingOptions boosting{.trees = 200, .rate = 0.08};
   OnProgress progress = {};  ///< called with the number of finished sessions

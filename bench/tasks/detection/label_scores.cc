@@ -111,7 +111,8 @@ class PersonLeftOut {
         out_.detections.push_back({taught_[spotting.move].name, clock_s_ + spotting.frame / stream.rate_hz});
       }
     }
-    // Seconds between streams, so that no detection matches a point of the next stream.
+    // Put seconds between the streams on the time axis, so that no detection can match an action point of the next
+    // stream.
     constexpr double kBetweenStreams = 10;
     clock_s_ += static_cast<double>(stream.frames.size()) / stream.rate_hz + kBetweenStreams;
   }
@@ -126,7 +127,8 @@ class PersonLeftOut {
 };
 
 constexpr double kMargin = 0.5;  // seconds; the windows of the detection task have the same margin
-constexpr double kApart = 10;    // seconds between recordings, so that no detection matches a point of the next one
+// Seconds between recordings on the time axis, so that no detection can match an action point of the next recording.
+constexpr double kApart = 10;
 
 double Rounded(double value) { return std::round(value * 1e4) / 1e4; }
 

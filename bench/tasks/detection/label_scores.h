@@ -38,9 +38,10 @@ struct LeaveOneOut {
 Result<LeaveOneOut> LeaveOnePersonOut(const std::vector<NamedStream>& streams, const std::vector<LabelledPart>& parts,
                                       const std::string& file, const WatchOptions& options);
 
-/// Returns the distance of two performances, centimetres: the root mean square per joint, with the trunk scaled to 50
-/// cm, by dynamic time warping of both performances as a whole (Sakoe and Chiba 1978, symmetric). It is the usual
-/// reference method for data sets of labelled performances. Nullopt if one of the performances shows no body.
+/// Returns the distance of two performances, centimetres. Dynamic time warping aligns them as a whole (Sakoe and
+/// Chiba 1978, symmetric), and all trunks are scaled to 50 cm. The distance is the root mean square of the joints'
+/// distances along the alignment. It is the usual reference method for data sets of labelled performances. Returns
+/// nullopt if one of the performances shows no body.
 std::optional<double> WarpedDistanceCm(const SkeletonStream& a, const SkeletonStream& b);
 
 /// Scores how well recognised moves agree with labels, over several recordings.

@@ -28,9 +28,10 @@ struct AlarmTrial {
   std::function<bool(const Detection&)> is_performance;
 };
 
-/// Returns the smallest threshold of spotting, to a resolution of 2⁻¹⁶, at which all trials together give at most
-/// `false_alarms_per_min`. The rate falls as the threshold rises, apart from alarms that a refractory time hides.
-/// Returns 1 if the rate is higher even at a threshold of 1. At least one trial is required, and each must have frames.
+/// Returns a threshold of spotting at which all trials together give at most `false_alarms_per_min`. Bisection, to a
+/// resolution of 2⁻¹⁶, finds the smallest such threshold if a higher threshold never gives more false alarms. (It may
+/// give more: evidence that varies can cross it more often.) Returns 1 if no threshold tried is high enough. At least
+/// one trial is required, and each must have frames.
 double ThresholdAt(std::span<const AlarmTrial> trials, double false_alarms_per_min, double refractory_s);
 
 /// A method's results for other people: the evidence for all moves, and the scores of the requested performances before

@@ -33,7 +33,7 @@ enum class OccluderKind { kNone, kTable, kChair, kPerson };
 struct OperatingPoint {
   double false_alarms_per_min = 1;
   double recall = 0.9;  ///< share of the right performances that each method calls right at its threshold
-  int sessions = 24;    ///< number of sessions, each with another person
+  int sessions = 24;    ///< number of sessions, each with a different person
 };
 
 /// The thresholds of a method for its two decisions. Spotting decides at any time if a move was performed; judging

@@ -65,8 +65,9 @@ class RecordingAppender {
   DetectionWorld& world_;
 };
 
-/// Returns another move that counts as requested while the person performed `move`: the move that follows it in the
-/// list, plus `turn` further positions. Returns `move` itself if there is no other.
+/// Returns another move, which then counts as requested while the person performed `move`. The other moves are taken
+/// in turn: `turn` = 0 gives the move after `move` in the list, 1 the one after that, and so on, cyclically and
+/// without `move`. Returns `move` itself if there is no other.
 const std::string& OtherMove(const std::vector<std::string>& moves, const std::string& move, std::size_t turn) {
   const auto at = static_cast<std::size_t>(std::ranges::find(moves, move) - moves.begin());
   const std::size_t others = std::max<std::size_t>(moves.size() - 1, 1);
@@ -218,7 +219,8 @@ class RecordedTask final : public Task {
     return TaughtPayload(repertoire.names, repertoire.taught, examples);
   }
 
-  /// Returns the fold in which this person is judged. It holds the moves that all other people taught.
+  /// Returns the fold in which this person is judged. Its recognisers were taught the moves in the condition's file or,
+  /// without such a file, by all other people.
   const Result<Fold>& FoldOf(std::size_t person) const {
     const std::size_t index = taught_ ? 0 : person;  // moves taught beforehand are the same for all
     const auto known = folds_.find(index);
@@ -227,7 +229,8 @@ class RecordedTask final : public Task {
   }
 
   /// Returns the thresholds of the methods. With an operating point, recordings of other people determine thresholds.
-  /// The recognisers that judge one of these people were taught neither by that person nor by the judged person.
+  /// If no moves were taught beforehand, each of these people is seen by recognisers of a fold of their own, which
+  /// leaves out that person and the judged person.
   const std::vector<MethodDecision>& DecisionsFor(const WorldKey& key) const {
     const auto known = decisions_.find(key.trial);
     if (known != decisions_.end()) return known->second;
@@ -257,7 +260,8 @@ class RecordedTask final : public Task {
   const std::vector<DetectionMethod> methods_;
   const LabelledStreams& set_;
   const Taught taught_;
-  // Caches, by fold index and by trial, which determine the values because a task has one scenario and one seed.
+  // Caches: folds by fold index, and decisions by trial. These keys suffice, because a task has one scenario and one
+  // seed.
   mutable std::map<std::size_t, Result<Fold>> folds_;
   mutable std::map<int, std::vector<MethodDecision>> decisions_;
 };

@@ -14,8 +14,9 @@ struct SessionVerdict {
   SkeletonStream filtered;
   /// One judgement per event; the frames of a judgement count from the first frame of the event's window.
   std::vector<Judgement> events;
-  /// For each event, the index (in Repertoire::taught) of the move with the most evidence in the event's window. Empty
-  /// for an outside method, which names no moves.
+  /// For each event, the index (in Repertoire::taught) of the recognised move. In a simulated session, this is the
+  /// move with the most evidence in the event's window; in a labelled recording, the class of the performance as a
+  /// whole. Empty for an outside method, which names no moves.
   std::vector<std::optional<std::size_t>> named = {};
   std::vector<Detection> alarms;         ///< false alarms, by move (Repertoire::taught), then by time
   std::vector<Detection> spotted = {};   ///< all detections, true and false

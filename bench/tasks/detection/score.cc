@@ -58,8 +58,8 @@ std::optional<double> ShareSpotted(const DetectionWorld& world, const SessionVer
   return RightSpotted(right, calls);
 }
 
-/// Returns, for each right performance, the time until it was called right. The time is censored when the window
-/// closes.
+/// Returns, for each right performance, the time from its completion until it was called right. If it was not called
+/// right, the time is censored at the end of its window.
 std::vector<Wait> WaitsOf(const DetectionWorld& world, const SessionVerdict& verdict) {
   std::vector<Wait> waits;
   for (std::size_t i = 0; i < verdict.events.size(); ++i) {
@@ -175,7 +175,7 @@ Series ScoreSeries(const DetectionWorld& world, const SessionVerdict& verdict) {
 
 namespace {
 
-/// Returns the fault's index in AllFaults; −1 for no fault or an unknown name.
+/// Returns the fault's index in AllFaults; −1 if there is no fault.
 double IndexOfFault(const std::optional<Fault>& fault) {
   if (!fault) return -1;
   return static_cast<double>(std::ranges::find(AllFaults(), *fault) - AllFaults().begin());

@@ -25,7 +25,8 @@ class SessionWorld final : public TaskWorld {
   SessionWorld(const std::vector<ReadyMethod>& methods, Decide decide, const Repertoire& repertoire,
                DetectionWorld world, bool keeps_motion, Set set = {});
 
-  /// Computes the thresholds, which all worlds share. If the condition has cameras, also renders their pictures.
+  /// Computes the methods' thresholds, unless an earlier world has. If the condition has cameras, also renders their
+  /// pictures.
   void PrepareShared() override;
 
   CellResult Run(std::size_t method) override;

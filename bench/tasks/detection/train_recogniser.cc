@@ -10,7 +10,7 @@
 namespace etude {
 namespace {
 
-/// The measures of a performance that may have ended in this frame.
+/// The measures of a performance that may have ended in frame `frame` of the session.
 struct Measured {
   PerformanceOrigin occasion;
   std::size_t move;

@@ -20,12 +20,15 @@ struct CommonJoint {
 std::vector<CommonJoint> FindCommon(const RawMotion& truth, const RawMotion& answer, std::string_view set,
                                     std::vector<std::string>& lacking);
 
-/// Returns the error if the motions have so few common joints, by roles, that their names cannot have been understood.
+/// Fails if the motions have no common joint, or so few that the roles of their joints are probably unknown: fewer than
+/// the number of kNeededJoints, and fewer than half of the joints of the motion with fewer joints. For the set "same",
+/// one common joint is enough. `common` is the number of common joints.
 Result<void> CheckCommon(const RawMotion& truth, const RawMotion& answer, std::size_t common, std::string_view set);
 
-/// Returns truth and answer with comparable roles, each a given motion or stored in `changed_…`:
-/// - If only one has a skeleton and its needed joints all have namesakes in the other, its roles hold for both, because
-///   such markers were computed with this skeleton.
+/// Returns the truth and the answer, with roles that can be compared. If a motion must be changed for this, the result
+/// refers to a changed copy, which is stored in `changed_…`.
+/// - If only one motion has a skeleton, and the other has joints with the names of all its needed joints, these joints
+///   get the skeleton's roles, because such points were computed with this skeleton.
 /// - The root is the motions' own joint if both have one, otherwise the midpoint of the hips.
 std::pair<const RawMotion&, const RawMotion&> WithCommonRoles(const RawMotion& truth, const RawMotion& answer,
                                                               RawMotion& changed_truth, RawMotion& changed_answer);

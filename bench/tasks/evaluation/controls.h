@@ -16,8 +16,8 @@ std::vector<bool> ContactsByMotion(const RawMotion& motion);
 /// standard deviation (at least 1 cm) of each judged joint's coordinates.
 EvaluationSideData SideDataOf(const MatchedMotions& matched, EvaluationSideData given);
 
-/// Hides `percent` per cent of the joint positions in all frames: those that are farthest from the truth. Both motions
-/// have the same joints and frames.
+/// Hides `percent` per cent of all positions of the answer (joints × frames): those that are farthest from the truth.
+/// Both motions must have the same joints and frames.
 void HideWorst(RawMotion& answer, const RawMotion& truth, double percent);
 
 }  // namespace etude

@@ -71,8 +71,8 @@ class EvaluationWorld final : public FileWorld {
   }
 
  private:
-  /// Reads the truth. If all methods are controls, answers are copies of the truth. Rotations that the reader of the
-  /// file has invented are then kept, and the foot contacts are found from the motion.
+  /// Reads the truth. If all methods are controls, answers are copies of the truth. Rotations that the reader
+  /// computed from positions (RigClip) are then kept, and foot contacts are found from the motion.
   static Result<RawMotion> Open(const EvaluationStudy& study, const std::string& reference) {
     auto truth = OpenRawMotion(reference, study.opening, study.has_only_controls);
     if (truth && study.has_only_controls) truth->contacts = ContactsByMotion(*truth);

@@ -49,7 +49,8 @@ Result<void> RefuseLinks(const std::string& reference, std::span<const std::stri
   const auto first = std::find_if(pattern.begin(), pattern.end(), [](const fs::path& part) {
     return part.string().find_first_of("*?[") != std::string::npos;
   });
-  // The number of a path's last parts that the search found: from the first wildcard on; in a folder, the file alone.
+  // Check only the last parts of each path, which the search found: from the pattern's first wildcard on or, for a
+  // folder, only the file name.
   const auto found_parts = std::max<std::ptrdiff_t>(std::distance(first, pattern.end()), 1);
   std::error_code error;
   for (const std::string& file : files) {

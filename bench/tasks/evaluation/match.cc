@@ -122,8 +122,8 @@ std::vector<int> FindParents(const std::vector<CommonJoint>& joints, const RawMo
   return parents;
 }
 
-/// Returns true if the rates, which files state with rounding, drift apart by less than a hundredth of a frame over the
-/// length of the truth.
+/// Returns true if the two frame rates count as equal: at the truth's end, the times of frames of equal number differ
+/// by less than a hundredth of a frame. Files may state their rates with rounding.
 bool HaveSameRate(const RawMotion& truth, const RawMotion& answer) {
   constexpr double kMaxDrift = 0.01;  // tolerance, frames
   return std::abs(answer.rate_hz / truth.rate_hz - 1) * static_cast<double>(truth.FrameCount()) < kMaxDrift;
@@ -136,8 +136,8 @@ struct ClockOffset {
 };
 
 /// Compares the clocks that both files state. If a file states none, or if the clocks never show the same time, the
-/// first frames count as simultaneous. If the offset differs from whole frames by less than a tenth of a frame, it is
-/// rounded.
+/// first frames count as simultaneous. If the rates are equal and the offset is within a tenth of a frame of a whole
+/// number of frames, it is rounded to this number.
 ClockOffset OffsetOf(const RawMotion& truth, const RawMotion& answer) {
   constexpr const char* kByClocks = ": judged by these clocks (--lag find searches the lag)";
   constexpr double kSame = 0.1;  // tolerance, frames
@@ -183,8 +183,8 @@ std::string NoteOnRoots(const RawMotion& truth, const RawMotion& answer) {
   return a == b ? ", root " + a : fmt::format(", root {} of the truth, {} of the answer", a, b);
 }
 
-/// Returns a note on joints that stay at one distance from the truth, far beyond the error of the others: they may be
-/// different points of the body. "" if there are none.
+/// Returns a note on joints whose distance from the truth hardly varies and is far larger than that of most joints:
+/// they may be different points of the body. "" if there are none.
 std::string NoteOnStrangers(const MatchedMotions& matched) {
   constexpr double kMin_m = 0.05, kTimes = 4, kSteady = 0.25;  // tolerances (ours)
   const std::size_t joints = matched.joints.size();

@@ -34,12 +34,12 @@ enum class Lag {
   kFind,  ///< the time that FindTimeShift finds, which may be between two frames
 };
 
-/// Matches an answer with a truth. `joints` is the name of a set of joints (JointSetNames). The result has the truth's
-/// frames, and the answer is sampled at the truth's times plus the lag (`Sampled`). If the rates drift apart by less
-/// than a hundredth of a frame over the truth, they count as equal, and frames are paired one to one. The root, which
-/// also has the role hip_centre, is the files' own if both have one; otherwise it is the midpoint of the hips in both.
-/// Nothing else is changed. Fails if there is no common joint, if no joint is ever seen in both, or if a lag is
-/// searched and not found.
+/// Matches an answer with a truth. `joints` is the name of a set of joints (JointSetNames). The result has the
+/// truth's frames, and the answer is sampled at the truth's times plus the lag (`Sampled`). The two frame rates count
+/// as equal, so that frames are paired one to one, if the times of frames of equal number differ by less than a
+/// hundredth of a frame at the truth's end. The root, which also has the role hip_centre, is the files' own if both
+/// have one; otherwise it is the midpoint of the hips in both. Nothing else is changed. Fails if there is no common
+/// joint, if no joint is ever seen in both, or if `lag` is kFind and no lag is found.
 Result<MatchedMotions> Match(const RawMotion& truth, const RawMotion& answer, std::string_view joints, Lag lag);
 
 }  // namespace etude

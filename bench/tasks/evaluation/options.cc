@@ -7,7 +7,7 @@
 namespace etude {
 namespace {
 
-/// A set of joints, given by a layout of arrays with this number of joints.
+/// A set of joints: the joints of the array layout `layout` (JointsOfLayout) in its variant with `joints` joints.
 struct JointSetOfLayout {
   std::string_view name, layout;
   std::size_t joints;

@@ -130,8 +130,8 @@ void Mirror(RawMotion& motion, std::size_t begin) {
     const glm::dvec3& q = before.At(f, other[j]);
     return f < begin ? p : glm::dvec3(2 * middle - q.x, q.y, q.z);
   });
-  // Reflect the rotation by which the joint on the other side differs from its pose at rest, and apply this rotation to
-  // this joint at rest.
+  // Joint k, on the other side, has turned from its rest rotation by `from_rest`. Mirror this turn, and turn joint j
+  // from its own rest rotation by the result.
   TurnEach(motion, [&](std::size_t f, std::size_t j, const glm::dquat& rotation) {
     if (f < begin) return rotation;
     const std::size_t k = other[j];

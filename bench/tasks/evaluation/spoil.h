@@ -25,8 +25,8 @@ struct Spoiler {
 };
 
 /// Returns a copy of a truth with these faults; HideWorst hides joints later. The noise depends on `seed_name` alone.
-/// Rotations get the faults, too: noise of 10 mm turns each joint by 1.9° about each axis, as it would turn a segment
-/// of 42 cm.
+/// Rotations get the faults, too. Noise of 10 mm, for example, turns each joint by 1.9° (standard deviation) about
+/// each axis, because such noise at both ends of a limb of 42 cm turns the limb by that angle.
 RawMotion Spoilt(const RawMotion& truth, const Spoiler& spoiler, const std::string& seed_name);
 
 }  // namespace etude

@@ -21,7 +21,7 @@ enum class NoiseKind {
 enum class IkStart {
   kDisturbed,  ///< the truth plus noise
   kMiddle,     ///< the middle of every joint's range
-  kStretched,  ///< stretched limbs, with the targets along them (paper B, figure 3.8)
+  kStretched,  ///< the standing pose; the position errors point along its stretched limbs (paper B, figure 3.8)
 };
 
 /// The difficulty of the trials of a condition.

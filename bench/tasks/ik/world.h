@@ -10,11 +10,12 @@
 
 namespace etude {
 
-/// Returns the true pose of a trial like paper B's figure 3.8, on the body of `MakeBodyTree`, for a start at rest with
-/// hanging arms. Etude's own pose: the upright body crouches by 2h and bends its arms. Compared with the start, its
-/// head is 2h lower and both hands are h higher, each along its stretched arm. The right foot and all effectors' axes
-/// are unchanged. At the start JᵀΔX = 0: each of the three position errors points along its limb through the joints,
-/// and their sum and moment are zero, so a gradient method does not move. h is random, about 4 to 23 mm.
+/// Returns the true pose of a trial in which a gradient method cannot leave its start, as in paper B's figure 3.8.
+/// The start is the standing pose with hanging arms (StandingState); the true pose is Etude's own. The body crouches
+/// by 2h and bends its arms. Compared with the start, the head is 2h lower, and each hand is h higher, on the line of
+/// the stretched arm. The right foot and the axes of all effectors are unchanged. At the start JᵀΔX = 0: each of the
+/// three position errors points along its limb through the joints, and the sum and the moment of these errors are
+/// zero. h is random, about 4 to 23 mm.
 TreeState CrouchBeneathStandingHands(const KinematicTree& tree, RandomStream& dice);
 
 /// One trial (like those in paper B's chapter 5): a true pose, and the problem of reaching the positions and axes of

@@ -10,7 +10,7 @@ const FieldTable<InbetweenOptions>& InbetweenConditionFields() {
   using Options = InbetweenOptions;
   using Key = Field<Options>;
   constexpr Range kFrames{1, 10'000};
-  // Each key has a range and a sentence for the reference page.
+  // Keys of the files, the windows and the gap, the rate, the orientation and the bone offsets.
   static const FieldTable<Options> table{
       {Key::Texts("truth", &Options::truth, "a list of motion files, patterns, folders",
                   "The motions of which frames are hidden; they need rotations of joints.")

@@ -74,8 +74,8 @@ std::string DigestOf(std::span<const glm::dvec3> positions) {
   return Digest().Add(std::span(&positions.front().x, 3 * positions.size())).Hex();
 }
 
-/// Returns global rotations as channels. Their signs follow from the signs of the local rotations, as in LAFAN1's
-/// code.
+/// Returns global rotations as channels: w, x, y, z of each joint. Quaternions keep the signs that they have as
+/// products of local quaternions, as in LAFAN1's code.
 ChannelTracks ChannelsOf(const std::vector<glm::dquat>& turns, std::size_t joints) {
   ChannelTracks tracks{4 * joints, {}};
   for (const glm::dquat& q : turns) tracks.values.insert(tracks.values.end(), {q.w, q.x, q.y, q.z});
@@ -120,14 +120,15 @@ void MeasureDistances(const HiddenWindow& hidden, const Globals& found, const Gl
 std::string WhyNotClean(const HiddenWindow& hidden) {
   if (hidden.motion.rate_hz != kJudgedRateHz) return fmt::format("the rate is not {:g} Hz", kJudgedRateHz);
   for (const Role role : AllRoles()) {
-    if (role == Role::kLeftHand || role == Role::kRightHand) continue;  // a hand that the file lacks is at the wrist
+    if (role == Role::kLeftHand || role == Role::kRightHand) continue;  // a missing hand is placed at the wrist
     if (hidden.roles[Index(role)] < 0) return fmt::format("the file has no {}", RoleName(role));
   }
   return "";
 }
 
-/// Returns true if the filled gap passes all tests of a clean transition (clean_share). The truth is the only clip, and
-/// all frames of its file count as real. The test of `settle_s` always passes, because the gap's length is given.
+/// Returns true if the filled gap passes all tests of a clean transition (clean_share). The true motion takes the
+/// place of both clips of the transition, and the real frames of StrangeCmSeconds are all frames of its file. The
+/// test of `settle_s` always passes, because the gap's length is given.
 bool IsCleanFilling(const HiddenWindow& hidden, const Globals& found, const Globals& truth) {
   const JudgedFile& file = *hidden.file;
   const std::vector<BodyPose> shown = BodiesOf(found, hidden.roles, file.floor_m, file.scale);
@@ -172,7 +173,7 @@ void MeasureMovement(const HiddenWindow& hidden, const Globals& found, const Glo
   }
   result.MeasureOr("supported_share", supported, "the file has no legs");
   result.MeasureOr("foot_slide_cmps", slide, "the file has no toes");
-  constexpr int kReach = 3;  // frames that a third difference reaches back
+  constexpr int kReach = 3;  // number of earlier frames in a third difference (jerk)
   const std::size_t joints = JudgedCount(hidden.motion.tree);
   const PointTracks around{
       joints, JudgedFrames(found.positions, hidden.motion.tree, hidden.first - kReach, hidden.last + kReach)};

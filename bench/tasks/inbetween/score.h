@@ -31,7 +31,9 @@ struct HiddenWindow {
   /// The divisors of L2P: the standard deviations of each joint's position in training, metres. Empty if they are
   /// unknown.
   std::vector<glm::dvec3> deviations;
-  std::shared_ptr<const JudgedFile> file;  ///< shared by all windows of a file; the windows outlive the file's motion
+  /// The measurements of the whole file. The windows of the file share them, because the file's motion may be freed
+  /// before the windows.
+  std::shared_ptr<const JudgedFile> file;
 };
 
 /// Returns the ids of all metrics of the task, in the order in which they are measured.

@@ -23,7 +23,7 @@ double OwnRate(double rate_hz, const InbetweenOptions& options) {
   return std::abs(rate_hz - whole) < kFewDigits * rate_hz ? whole : rate_hz;
 }
 
-/// Returns the number of frames that `frames` frames become at the protocol's rate.
+/// Returns the number of frames of a motion after it is sampled at the protocol's rate. `frames` is the number before.
 std::size_t SampledFrames(std::size_t frames, double own_rate_hz, const InbetweenOptions& options) {
   if (!options.rate_hz || frames == 0) return frames;
   constexpr double kRounding = 1e-6;  // tolerance in frames, as in `Sampled`

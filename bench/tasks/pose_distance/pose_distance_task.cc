@@ -18,7 +18,7 @@ struct PairStudy {
   std::vector<PoseDistanceMethod> methods;
   DancedClips clips;
   FuzzySystem fuzzy;
-  mutable LearntWeights learnt;  ///< caches fitted weights; the weights depend on the arguments alone
+  mutable LearntWeights learnt;  ///< fits weights and caches them; no result depends on the state of the cache
 };
 
 class PoseDistanceWorld final : public TaskWorld {

@@ -32,7 +32,7 @@ struct SeenPose {
 
 struct SeenPair {
   SeenPose a, b;
-  double gap_m = 0;  ///< the truth: PoseGap, the distance of the worst joint after alignment on the floor
+  double gap_m = 0;  ///< the truth: PoseGap, the largest distance between the same joints after alignment on the floor
 };
 
 /// Pairs of poses that a method must classify as alike or not.

@@ -33,7 +33,7 @@ SensedFrame SensedOf(const std::optional<RecoveredFrame>& recovered, const Sense
 /// Cameras that film a motion that is known beforehand. All capture methods work on the same pictures.
 class CameraTake {
  public:
-  /// `sensing` must outlive this object. The motion must have 30 Hz.
+  /// `sensing` must outlive this object. The rate of the motion must be 30 Hz.
   CameraTake(const CameraSensing& sensing, const BodyMotion& motion, const WorldKey& key);
 
   /// Takes the pictures, which all methods share. Without this call, the first method takes the pictures, and the time

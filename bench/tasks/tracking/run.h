@@ -21,11 +21,11 @@ struct TrackingAnswer {
 /// Fails, naming the frame, if a problem is invalid for the solver.
 Result<TrackingAnswer> Follow(const TrackingWorld& world, const TrackingMethod& method);
 
-/// Measures an answer against the given targets and the true motion. The answer has one entry per frame. The cell is
-/// `ok` if every frame is solved practically. Otherwise it is `unsolved`. The reason then describes the first frame in
-/// which a limit is exceeded or, if there is none, states the number of unsolved frames and the first of them. A frame
-/// in which a limit is exceeded is unsolved. The cell's series have one value per frame. With `keeps_motion`, a
-/// recording has the tracks "truth" and "solution".
+/// Measures an answer against the given targets and the true motion. The answer has one entry per frame. A frame is
+/// unsolved (IsFrameSolved) if it misses its targets or exceeds a joint limit. The cell is `ok` if every frame is
+/// solved, else `unsolved`. The reason then describes the first frame that exceeds a joint limit. If there is none,
+/// the reason states the number of unsolved frames and the first of them. The cell's series have one value per frame.
+/// With `keeps_motion`, a recording has the tracks "truth" and "solution".
 CellResult ScoreTracking(const TrackingWorld& world, double rate_hz, const TrackingAnswer& answer, bool keeps_motion);
 
 /// Returns the ids of all metrics that a cell reports, by a value or by the reason why the value is missing.

@@ -131,7 +131,8 @@ Result<TrackingWorld> MakeTrackingWorld(const KinematicTree& body, const Trackin
     return Fail({}, "too few frames in clip {}: {} at {:g} Hz; tracking needs {}", clip.name, window.size(),
                 options.rate_hz, kMinTrackedFrames);
   }
-  // Fit the body to each frame, close to the previous frame. The fitted pose determines the targets.
+  // Fit the body to each frame; from the previous frame, no angle may turn faster than kMaxJointSpeed. The fitted
+  // pose determines the targets.
   TrackingWorld world{body, {}, {}, {}};
   RandomStream noise(key, "tracking/target-noise");
   std::optional<OpenAngles> open;

@@ -29,8 +29,8 @@ struct TrackingWorld {
 /// Makes the world of `key`. The window of the clip begins at a random frame. Clips that loop are repeated; other clips
 /// that are shorter than the window are used whole. If the rate is not the clips' 30 Hz, joints are interpolated
 /// linearly between two frames. In a secret world the clip is disguised (bench/tasks/base/disguise.h), its place and
-/// heading are random, and the five angles that no target determines are random functions of time. Fails if the clip
-/// has fewer than kMinTrackedFrames frames, or if a frame's limbs give no pose of the body.
+/// heading are random, and the five angles that no target determines are random functions of time. Fails if the
+/// window has fewer than kMinTrackedFrames frames, or if a frame's limbs give no pose of the body.
 Result<TrackingWorld> MakeTrackingWorld(const TrackingOptions& options, const LibraryClip& clip, const WorldKey& key);
 /// Makes a world for a given body. The body's limb lengths may differ from those of the clip's performer.
 Result<TrackingWorld> MakeTrackingWorld(const KinematicTree& body, const TrackingOptions& options,

@@ -51,7 +51,7 @@ Payload NaturePayload(const Stage& stage, const TransitionRequest& request);
 /// - `"join_s": 0.5`: the duration of `minimum-jerk` or `planted-feet`, 0 to 5 s. Together with `join_s`,
 ///   `"fades": true` makes the old clip continue while it fades out, or `"direct": true` makes each limb move with
 ///   minimum jerk to its pose in the new clip at the join's end. Other joins have durations of their own.
-/// - `"between": [[x, y, z, …], …]`: the method's own frames, shown after `leave_frame` in the place and heading of
+/// - `"between": [[x, y, z, …], …]`: the method's own frames, shown after `leave_frame`. They have the coordinates of
 ///   clip `from` in the setting. Clip `to` is then aligned with the last of these frames, which should be the method's
 ///   own version of `enter_frame`. The body must be the clips' body: a limb that is more than 2 cm longer or shorter is
 ///   an error. There may be at most 300 frames, and no `through`.
@@ -84,8 +84,8 @@ Series JumpSeries(const TransitionOutcome& outcome);
 /// (axis "feature").
 std::vector<Series> ExplanationOf(const TransitionRecord& record);
 
-/// Records the transition, with 2.5 s before and after it: the track "coach", the clips, and TransitionExtras. The
-/// outcome's record must have segments.
+/// Records the motion from 2.5 s before the transition to at least 2.5 s after it, as far as the motion goes: the track
+/// "coach", the clips, and TransitionExtras. The outcome's record must have segments.
 Recording RecordTransition(const TransitionOutcome& outcome, const Stage& stage);
 
 }  // namespace etude

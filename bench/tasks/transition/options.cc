@@ -66,7 +66,7 @@ const FieldTable<TransitionCondition>& TransitionConditionFields() {
 const FieldTable<TransitionMethod>& TransitionMethodFields() {
   using Key = Field<TransitionMethod>;
   static const FieldTable<TransitionMethod> table = [] {
-    // The keys that do not depend on a registry.
+    // Keys of the choice, the join, the weights, the matching rules and the wait.
     FieldTable<TransitionMethod> made{
         {Key::Name("choice", Path(&TransitionMethod::way, &TransitionWay::choice), ChoiceNames(), FindChoice,
                    "Which frames a transition takes, and when: paper A's bridge frames, or an alternative."),

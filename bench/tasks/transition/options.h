@@ -28,7 +28,7 @@ struct TransitionCondition {
   double wait_s = 1;                   ///< longest wait, seconds, of methods that do not set their own
   /// True if every cell keeps the explanation of its transition (ExplanationOf); false if only recordings keep it.
   bool explain = false;
-  StageRules stage;  ///< the rules of the stage, without its fuzzy system
+  StageRules stage;  ///< the rules of the stage; `fuzzy` comes from FuzzySystemOf
 };
 
 const FieldTable<TransitionCondition>& TransitionConditionFields();

@@ -20,7 +20,7 @@ struct TransitionOutcome {
 };
 
 /// Carries out an outside method's answer, which must have segments: splices the clips, or inserts the method's own
-/// frames. Distances are computed with the fixed weights, whatever weights the method used.
+/// frames. Distances are computed with the weights of `stage.fuzzy`, whatever weights the method used.
 TransitionOutcome FollowAnswer(const TransitionAnswer& answer, const Stage& stage, const TransitionRequest& request);
 
 /// Returns the join of an outcome for measurement, together with the clip that played and the requested clip. The

@@ -270,7 +270,7 @@ CellResult TransitionRun::Run(std::size_t index) {
   TransitionWay way = method.way;
   way.rules.weights = WeightsOf(method.weights);
   Transition made = MakeTransition(basis_.stage.library, request, way);
-  // A forced transition takes the nearest pair, although no frames match.
+  // A forced transition takes the pair of frames with the smallest distance, although no pair matches.
   CellResult result = Score({.request = request,
                              .matched = way.choice->matches_poses && made.record.branch != Branch::kForced,
                              .rules = way.rules,

@@ -34,8 +34,8 @@ std::vector<std::string> TransitionMetrics();
 
 /// Returns the value of a metric for a method that made no transition (Task::ValueOfFailure). It is 0 for
 /// `natural_share` and the other shares over all cells: if missing transitions were not counted, a method could raise
-/// its share by failing in hard cases. Returns nullopt for other metrics. For example, a jump that
-/// was not made has no size, and if `false_smooth` were 0, the failure would be rewarded.
+/// its share by failing in hard cases. Returns nullopt for other metrics. For example, a jump that was not made has
+/// no size, and if `false_smooth` were 0, the failure would be rewarded.
 std::optional<double> TransitionFailureValue(std::string_view metric);
 
 /// Records the metrics of ScoreTransition for a world in which no transition was found: the values of
@@ -46,7 +46,7 @@ void MeasureNoWay(CellResult& result);
 struct TransitionBasis {
   const std::vector<TransitionMethod>& methods;
   const Stage& stage;
-  LearntWeights& learnt;  ///< caches fitted weights; the weights depend on the arguments alone
+  LearntWeights& learnt;  ///< fits weights and caches them; no result depends on the state of the cache
   double max_wait_s = 0;  ///< the wait that is sent to outside methods; built-in methods have waits of their own
   bool explain = false;   ///< true: every cell keeps the explanation of its transition
 };

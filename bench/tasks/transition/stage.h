@@ -30,8 +30,8 @@ struct Stage {
   std::vector<double> natural_slides_cmps;  ///< foot slide over each clip, cm/s
   RealFrames real_frames;                   ///< the frames of all clips
   FuzzySystem fuzzy;                        ///< the fuzzy system by which the clips are tagged
-  std::vector<int> playing;                 ///< clips that may play at a request: all, or all except the acts
-  std::vector<int> wanted;                  ///< clips that may be requested
+  std::vector<int> playing;                 ///< clips that may play at a request: all, or all but the coach's acts
+  std::vector<int> wanted;                  ///< clips that may be requested: all, or the coach's acts alone
 };
 
 /// The smallest number of frames of a usable clip. A shorter clip has no unbroken window of eleven frames with second
