@@ -29,7 +29,9 @@ namespace {
 struct CrowdCommandOptions {
   CrowdOptions crowd;
   double seconds = 2;
-  int steps = 100;  ///< maximum number of solver iterations per frame; it may double if a character misses its targets
+  int steps = 100;  ///< maximum number of solver iterations per character and frame
+  /// Solves in floats. A problem that floats do not solve is solved again in doubles, with up to `steps` further
+  /// iterations.
   bool in_float = false;
   std::string output;  ///< the film to write; "" = only the report
   int jobs = 0;
@@ -73,7 +75,7 @@ Json Tell(const CrowdCommandOptions& options, Timings timings) {
           {"largest_ms", timings.times_ms.back()}};
 }
 
-/// A crowd that is tracked frame by frame.
+/// A crowd whose characters follow their target motions, solved frame by frame, and the measured processing times.
 class FollowedCrowd {
  public:
   FollowedCrowd(const CrowdCommandOptions& options, std::span<const TrackingWorld> worlds)
@@ -81,7 +83,7 @@ class FollowedCrowd {
     ik_.max_iterations = options.steps;
   }
 
-  /// Tracks all characters up to a frame. Call it with ascending frames.
+  /// Solves the poses of all characters up to a frame. Call it with ascending frames.
   void FollowTo(int frame) {
     for (; next_ <= frame; ++next_) {
       const double begin = ProcessorTimeMs();

@@ -32,7 +32,7 @@ struct PairNotes {
 
 /// Collects the notes of a run, row by row.
 Result<PairNotes> ReadPairNotes(const std::filesystem::path& folder);
-/// Prints at most ten kinds of notes on judged pairs, then of notes on others.
+/// Prints the notes on judged pairs, then the notes on pairs that were not judged: at most ten kinds of each.
 void PrintPairNotes(const PairNotes& notes);
 
 }  // namespace etude

@@ -68,7 +68,7 @@ endfunction()
 function(etude_shared_library TARGET)
   cmake_parse_arguments(ARG "" "NAME;EXPORT" "" ${ARGN})
   target_link_options(${TARGET} PRIVATE "-Wl,--version-script=${CMAKE_CURRENT_SOURCE_DIR}/symbols.map")
-  if(NOT ETUDE_SANITIZE AND NOT ETUDE_FUZZ)  # clang expects those symbols in the program
+  if(NOT ETUDE_SANITIZE AND NOT ETUDE_FUZZ)  # with clang, the sanitizers' functions are defined only in the program
     target_link_options(${TARGET} PRIVATE -Wl,-z,defs)
   endif()
   set_target_properties(${TARGET} PROPERTIES

@@ -33,7 +33,7 @@ std::uint16_t Turned(std::uint16_t code);
 /// Returns the number of codes on the board.
 int CountCodes(const Board& board);
 constexpr bool IsBlackSquare(int column, int row) { return (column + row) % 2 == 0; }
-/// Returns the number of a white square's code.
+/// Returns the `number` (as in CodeOf) of the code on a white square.
 int CodeNumberOf(const Board& board, int column, int row);
 
 /// Returns true if the board is black at a point of its plane, metres from its top left corner, x to the right, y down.

@@ -215,8 +215,8 @@ std::optional<BodyPose> CompleteJoints(const OptionalJoints& joints, const BodyP
   middle(kSpine, kHipCentre, kShoulderCentre, kSpineShare);
   if (std::ranges::none_of(filled, [](const auto& joint) { return joint.has_value(); })) return std::nullopt;
 
-  // Attach each missing joint to its neighbour at the offset of `like`, rotated by the difference between the headings
-  // of the frame's body and of `like`.
+  // Attach each missing joint to its neighbour. The offset between the two comes from `like`, rotated by the
+  // difference between the headings of this body and of `like`.
   const auto across = AcrossOf(joints);
   const glm::dvec3 like_across = like[kLeftHip] - like[kRightHip];
   const FloorMove turn{.yaw = across ? YawOf(*across) - YawOf(like_across) : 0};

@@ -27,9 +27,9 @@ struct ClockOffset {
 };
 
 /// Finds the offset that minimises `misfit`, in squared pixels: first the best whole number of frames, then the minimum
-/// of the parabola through its neighbourhood. The misfit is evaluated at whole frames only. (An interpolated pixel has
-/// a smaller error than measured pixels, so offsets would be biased towards half frames.) Returns 0 if the minimum is
-/// hardly below the misfit at 0, or if the misfit at 0 is undefined.
+/// of the parabola through its neighbourhood. The misfit is evaluated at whole frames only. (Between frames, pixels
+/// would be interpolated and so have smaller errors, which would bias the offset towards half frames.) Returns 0 if
+/// the minimum is hardly below the misfit at 0, or if the misfit at 0 is undefined.
 ClockOffset FindOffset(const std::function<std::optional<double>(int offset)>& misfit, int max_frames);
 
 using OptionalPixel = std::optional<glm::dvec2>;

@@ -24,8 +24,8 @@ struct ClapState {
   static constexpr int kLongAgo = 1000;
 };
 
-/// Takes one frame at 30 Hz. Returns true in the frame in which a clap is detected: both hands are tracked and above
-/// the hips, and have come together within half a second of being apart.
+/// Must be called once per frame, at 30 Hz. Returns true in the frame in which a clap is detected: both hands are
+/// tracked and above the hips, and have come together within half a second of being apart.
 bool SeeClap(const SensedFrame& frame, ClapState& state);
 
 /// The state that SeeMotion keeps between two frames.
@@ -37,7 +37,7 @@ struct StillnessState {
   int frames = 0;  ///< number of all frames since ResetCounts
 };
 
-/// Takes one frame at 30 Hz. Returns true if the body is seen and moves.
+/// Must be called once per frame, at 30 Hz. Returns true if the body is seen and moves.
 bool SeeMotion(const SensedFrame& frame, StillnessState& state);
 /// Restarts the counts but keeps the joints' rest positions.
 void ResetCounts(StillnessState& state);
