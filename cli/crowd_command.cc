@@ -108,7 +108,7 @@ class FollowedCrowd {
   int next_ = 0;
 };
 
-/// Makes a film of every n-th frame while the crowd is tracked. Returns false if the film was stopped.
+/// Makes a film of every n-th frame while the poses are solved. Returns false if the film was stopped.
 Result<bool> FilmCrowd(const CrowdCommandOptions& options, FollowedCrowd& followed, const FilmWatch& watch) {
   using Character = CrowdStage::Character;
   static_assert(std::is_trivially_copyable_v<Character>, "characters are passed on as they are stored in memory");
@@ -141,7 +141,8 @@ Result<bool> FilmCrowd(const CrowdCommandOptions& options, FollowedCrowd& follow
                          {count * sizeof(Character), fill}, draw, watch);
 }
 
-/// Tracks the crowd frame by frame, and reports the result. Returns null if Ctrl-C stopped the tracking.
+/// Solves the poses of the crowd frame by frame, and makes the film if one was requested. Prints and returns the
+/// measured times; returns null if Ctrl-C was pressed.
 Result<Json> FollowCrowd(const CrowdCommandOptions& options) {
   ASSIGN_OR_RETURN(const auto worlds, MakeCrowd(options.crowd));
   FollowedCrowd followed(options, worlds);

@@ -26,8 +26,8 @@ install(FILES "${CMAKE_BINARY_DIR}/etude.pth" DESTINATION lib/python3/dist-packa
 install(DIRECTORY docs/ DESTINATION "${CMAKE_INSTALL_DOCDIR}/docs" PATTERN schemas EXCLUDE)
 install(DIRECTORY findings DESTINATION "${CMAKE_INSTALL_DOCDIR}" USE_SOURCE_PERMISSIONS)
 install(FILES README.md CHANGELOG.md CITATION.cff DESTINATION "${CMAKE_INSTALL_DOCDIR}")
-# Files that pages link to are installed where the program finds them. The list is made from the links in the source
-# tree.
+# The pages link to these folders, which are installed in share/etude, where the program finds them. A symbolic link
+# in the folder of documentation leads to each of them.
 set(links "${CMAKE_BINARY_DIR}/doc_links")
 file(MAKE_DIRECTORY "${links}/docs")
 foreach(name docs/schemas examples scenarios ci)
@@ -71,7 +71,8 @@ set(config "${CMAKE_INSTALL_LIBDIR}/cmake/Etude")
 install(TARGETS etude_shared etude_sim_shared EXPORT EtudeTargets
   LIBRARY DESTINATION "${CMAKE_INSTALL_LIBDIR}" COMPONENT library NAMELINK_COMPONENT development)
 install(DIRECTORY engine/api/etude sim/api/etude DESTINATION include/etude COMPONENT development FILES_MATCHING PATTERN "*.h")
-# The headers of engine and sim with a public namespace, and all that they include (checked by tests/guards).
+# Install the headers of engine and sim whose namespace is public. Of our headers they include only installed ones
+# (checked by tests/guards).
 file(GLOB_RECURSE headers RELATIVE "${CMAKE_SOURCE_DIR}" CONFIGURE_DEPENDS engine/*.h sim/*.h)
 foreach(header IN LISTS headers)
   file(STRINGS "${header}" public REGEX "^namespace \\[\\[gnu::visibility" LIMIT_COUNT 1)

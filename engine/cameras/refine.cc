@@ -226,7 +226,7 @@ class Bundle {
       evaluate.parameter_blocks.push_back(targets_[i].data());
       columns_.insert(columns_.end(), kPoseCount, Column{intrinsics_.size() + i, -1});
     }
-    // Evaluate the Jacobian and sum up its products.
+    // Evaluate the Jacobian, and compute JᵀJ from its nonzero entries.
     problem_.Evaluate(evaluate, &cost_, &residuals_, nullptr, &jacobian_);
     const ceres::CRSMatrix& jacobian = jacobian_;
     Eigen::MatrixXd normal = Eigen::MatrixXd::Zero(jacobian.num_cols, jacobian.num_cols);

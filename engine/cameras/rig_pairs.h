@@ -19,8 +19,8 @@ Result<std::vector<double>> MatrixAt(const Node& camera, std::string_view key, s
 Result<RigFile> ReadEasyMocap(const Node& intrinsics, const Node& extrinsics);
 
 /// Reads OpenCV's stereo pair: M1, D1, M2, D2 from the intrinsics; R and T, which map from the first camera's frame to
-/// the second's, from the extrinsics. The world is the first camera's frame; the cameras are named "left" and "right".
-/// Rectification matrices are ignored because the films are not rectified.
+/// the second's, from the extrinsics. The file's world is the first camera's frame, which `RigFile::R_WF` rotates;
+/// the cameras are named "left" and "right". Rectification matrices are ignored because the films are not rectified.
 Result<RigFile> ReadOpenCvStereo(const Node& intrinsics, const Node& extrinsics);
 
 /// Reads COLMAP's text model with one image for each camera; the image's name, without folder and extension, becomes

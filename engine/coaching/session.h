@@ -25,8 +25,8 @@ class CoachSession {
     const Coach* coach = nullptr;
     const Recogniser* recogniser = nullptr;  ///< a recogniser that was taught the moves of the dance, in the same order
     FilterOptions filter = {};
-    /// If true, the recogniser also follows the mirrored skeleton, so that the coach can name a wrong side. This
-    /// changes only the coach's words and the computing time.
+    /// If true, the recogniser also follows the mirrored skeleton, so that the coach can tell players that they use
+    /// the wrong side. This changes only the coach's words and the computing time.
     bool tells_wrong_side = true;
   };
 

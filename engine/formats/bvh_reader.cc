@@ -290,9 +290,10 @@ Result<void> ReadFrame(TextScanner& scanner, const std::vector<BvhChannel>& chan
   return {};
 }
 
-/// Returns true if the position channels of joints below the root are relative to the OFFSETs. Absolute positions stay
-/// around the OFFSET, relative positions around 0. The criterion: in the median frame, most joints with position
-/// channels and an OFFSET are nearer to 0 than a fifth of the OFFSET's length.
+/// Returns true if the position channels of joints below the root are relative to the OFFSETs. Absolute positions
+/// stay near the OFFSET; relative positions stay near 0. The criterion: for most joints with three position channels
+/// and an OFFSET other than 0, the median length of the position over the frames is below a fifth of the OFFSET's
+/// length.
 bool AreRelativeToOffsets(const Skeleton& skeleton, const std::vector<BvhChannel>& channels,
                           const std::vector<LocalPose>& frames) {
   constexpr double kNear = 0.2;
@@ -398,7 +399,8 @@ Result<Clip> ReadBvh(std::string_view bytes, const std::string& file, std::vecto
                     "degrees, which BVH files have",
                     largest));
   }
-  // A joint with positions and an OFFSET of 0 rests at its position in the first frame. Our bodies have such joints.
+  // A joint with positions and an OFFSET of 0 rests at its position in the first frame. This is usual for our own
+  // bodies, so they get no remark.
   const bool is_body = std::ranges::none_of(clip.skeleton.joints, [](const Joint& j) { return !FindRole(j.name); });
   if (TakeOffsetsFromFrame(clip.frames.front(), clip.skeleton) && !is_body)
     remark("joints with positions and an OFFSET of 0: their rest positions are taken from the first frame");
