@@ -18,8 +18,8 @@ endif()
 install(DIRECTORY scenarios examples DESTINATION share/etude USE_SOURCE_PERMISSIONS PATTERN __pycache__ EXCLUDE PATTERN node_modules EXCLUDE)
 install(DIRECTORY ci DESTINATION share/etude USE_SOURCE_PERMISSIONS)
 install(DIRECTORY docs/schemas DESTINATION share/etude)
-# The Python package has a folder of its own, which the fence shows to outside methods. A path file tells Debian's
-# Python where it is.
+# The Python package has a folder of its own, which the programs of outside methods can see behind their fence
+# (docs/outside-methods.md). A path file tells Debian's Python where this folder is.
 install(DIRECTORY python/etude DESTINATION share/etude/python PATTERN __pycache__ EXCLUDE)
 file(WRITE "${CMAKE_BINARY_DIR}/etude.pth" "../../../share/etude/python\n")
 install(FILES "${CMAKE_BINARY_DIR}/etude.pth" DESTINATION lib/python3/dist-packages)
@@ -121,8 +121,8 @@ set(CPACK_COMPONENTS_ALL program library development)
 set(CPACK_DEBIAN_PROGRAM_PACKAGE_NAME etude)
 set(CPACK_DEBIAN_LIBRARY_PACKAGE_NAME libetude)
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_NAME libetude-dev)
-# Debian's tools find linked libraries. This list has the libraries and programs that Etude opens, starts or reads by
-# name. The clips are those of the quick suite.
+# Debian's tools find linked libraries. The lists below name the packages whose libraries, programs and files Etude
+# opens by name while it runs; assimp-testmodels has clips of the quick suite.
 set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS ON)
 if(OSMESA_FOUND)
   set(draws libosmesa6)

@@ -150,9 +150,9 @@ class Grower {
   std::deque<GridIndex> open_;
 };
 
-/// Returns the chessboard around saddle `seed`, grown along the edges; the lower right square of (0, 0) is bright.
-/// Saddles that are `taken` belong to other boards. The grid may be wrong, or hold only the seed; Reader later checks
-/// the grid by its codes.
+/// Returns the corners of the chessboard around saddle `seed`, found one after another along the edges. The seed is
+/// corner (0, 0), and the square to its lower right is bright. Saddles that are `taken` belong to other boards. The
+/// grid may be wrong, or hold only the seed; Reader later checks the grid by its codes.
 CornerGrid GrowGrid(const GreyImage& picture, const std::vector<Saddle>& saddles, std::size_t seed,
                     const std::vector<bool>& taken) {
   return Grower(picture, saddles, taken).Grow(seed);

@@ -353,7 +353,7 @@ ceres::Solver::Options SolverOptions(const BundleOptions& options) {
 
 BundleSolution AdjustBundle(const BundleInputs& inputs, const BundleOptions& options) {
   FLAGS_minloglevel = google::GLOG_FATAL;  // no log output: the summary reports the outcome
-  // The parameter blocks begin at the start poses.
+  // Set the parameter blocks to the start poses.
   Variables variables{inputs.body, inputs.body.lengths, {}};
   for (const TreeState& state : inputs.start) {
     assert(state.angles.size() == inputs.body.tree.limits.size());

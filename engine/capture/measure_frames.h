@@ -39,8 +39,9 @@ struct FrameMeasurement {
   std::array<std::optional<SightLine>, kRoleCount> sight_lines = {};
 };
 
-/// Measurements of one frame from another source than marks: from another sensor, or true values, with which the errors
-/// of later computations can be measured alone. Each member that is present replaces all measurements of its kind.
+/// Measurements of one frame that do not come from marks but from another sensor, or true values. With true values, the
+/// errors of later computations can be measured without the errors of marks. Each member that is present replaces all
+/// measurements of its kind.
 struct KnownMeasurement {
   std::optional<RoleVectors> ends;
   std::optional<RoleVectors> directions;

@@ -10,9 +10,9 @@
 
 namespace etude {
 
-/// The frames that are shown after a request: those of the transition, then those of the entered clip to its end (of an
-/// act only the beginning is entered: DanceLibrary::ClipEntering). (A floor move rotates a clip about the vertical and
-/// shifts it on the floor.)
+/// The frames that are shown after a request: those of the transition, then those of the entered clip to its end. To
+/// enter an act, a transition enters the clip of the act's beginning (DanceLibrary::ClipEntering); the whole act then
+/// plays on. A floor move rotates a clip about the vertical and shifts it on the floor.
 struct ShownPath {
   int clip = 0;                  ///< the wanted clip, as an index in the library
   std::vector<BodyPose> frames;  ///< shown poses, in the coordinates of the clip that played before

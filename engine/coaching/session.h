@@ -30,8 +30,8 @@ class CoachSession {
     bool tells_wrong_side = true;
   };
 
-  /// Starts in state `begin` from Coach::Begin() or BeginDancing(). The objects that `parts` points to must outlive the
-  /// session.
+  /// Starts in the state `begin`, a result of Coach::Begin() or BeginDancing(). The objects that `parts` points to must
+  /// outlive the session.
   CoachSession(const Parts& parts, CoachState begin);
   ~CoachSession();
   CoachSession(CoachSession&&) noexcept;

@@ -240,8 +240,9 @@ Result<MotionHeader> ReadMotionHeader(TextScanner& scanner, std::size_t joints) 
   return MotionHeader{static_cast<int>(count), RateOf(seconds), count_token};
 }
 
-/// Multiplies `rotation` by a rotation about its own axis `kAxis`, leaving out the products with zero. The axis is a
-/// template parameter so that the four numbers stay in registers; most of the reading time is spent here.
+/// Multiplies `rotation` from the right by a rotation about the axis `kAxis` (0 = x, 1 = y, 2 = z). Products with zero
+/// are left out. The axis is a template parameter so that the four numbers stay in registers; most of the reading time
+/// is spent here.
 template <int kAxis>
 void Turn(glm::dquat& rotation, double degrees) {
   constexpr int kNext = (kAxis + 1) % 3, kLast = (kAxis + 2) % 3;

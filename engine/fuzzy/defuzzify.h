@@ -14,7 +14,7 @@ enum class Defuzzification {
   kMaximum,   ///< the mean of the inputs with maximum membership
   kCentroid,  ///< the centroid of the area under the terms' union; overlaps count once
   kHeight,    ///< the mean of the terms' peaks, weighted by the terms' grades
-  kArea,      ///< the mean of the clipped terms' centres of gravity, weighted by area; overlaps count twice
+  kArea,      ///< the mean of the clipped terms' centres of gravity, weighted by area; overlaps count for each term
 };
 
 std::span<const Defuzzification, 4> AllDefuzzifications();
