@@ -17,8 +17,8 @@ macro(etude_harness_options)
 endmacro()
 
 # etude_headers(<target> LIBRARIES <target>... OPTIONS <option>... HEADERS <header>...)
-#   With ETUDE_UNITY, compiles headers once for all folders with the same options in which the variable ETUDE_HEADERS is
-#   <target>. Without ETUDE_UNITY, each file must include what it uses.
+#   With ETUDE_UNITY, compiles these headers once. All folders in which the variable ETUDE_HEADERS is <target> use the
+#   result; their options must be the same. Without ETUDE_UNITY, each file must include what it uses.
 function(etude_headers TARGET)
   cmake_parse_arguments(ARG "" "" "LIBRARIES;OPTIONS;HEADERS" ${ARGN})
   if(ETUDE_UNITY)
@@ -211,6 +211,6 @@ set(ETUDE_PINNED_ENVIRONMENT
   "LC_ALL=C.UTF-8"
   "PATH=/usr/bin:$ENV{PATH}")  # inside a fence, a Python in a home folder is not visible
 if(ETUDE_SANITIZE MATCHES "address")
-  # Finds constants that are initialised before a constant of another file that they need.
+  # AddressSanitizer then reports a constant that is initialised before the constant of another file that it needs.
   list(APPEND ETUDE_PINNED_ENVIRONMENT "ASAN_OPTIONS=check_initialization_order=1:strict_init_order=1")
 endif()

@@ -88,7 +88,8 @@ write_basic_package_version_file("${CMAKE_BINARY_DIR}/EtudeConfigVersion.cmake" 
 install(FILES "${CMAKE_BINARY_DIR}/EtudeConfig.cmake" "${CMAKE_BINARY_DIR}/EtudeConfigVersion.cmake"
   DESTINATION "${config}" COMPONENT development)
 
-# Packages for two Debian releases have two versions, in the releases' order: 0.4.0+deb12, 0.4.0+deb13.
+# A package's version ends with the number of its Debian release, so that the package for the later release counts as
+# the newer one: 0.4.0+deb12 < 0.4.0+deb13.
 cmake_host_system_information(RESULT system QUERY DISTRIB_INFO)
 set(package_version "${PROJECT_VERSION}")
 if(system_ID STREQUAL debian AND system_VERSION_ID)  # a Debian after the latest release has no number

@@ -49,7 +49,7 @@ struct LimbDirection {
   DirectionStatus status = DirectionStatus::kIllConditioned;
   glm::dvec3 direction{0};  ///< unit vector in the world, from a to b; only when kOk
   /// The angle between the two planes, in [0, π/2]; for more planes, the largest angle between any two. The error of
-  /// the direction is the error of the strokes times 1/sin(plane_angle).
+  /// the direction is about the angular error of the planes divided by sin(plane_angle).
   double plane_angle = 0;
 };
 

@@ -14,8 +14,8 @@ namespace etude {
 struct SyncOptions {
   /// The maximum offset that is searched, in frames either way. Raise it for cameras that were started by hand.
   int max_frames = 16;
-  /// The maximum error of a pair of sightings, pixels. Larger errors are capped, so that a single mark on the wrong
-  /// limb does not determine the offset.
+  /// The epipolar distance, pixels, at which the distance of a pair of sightings is capped, so that a single mark on
+  /// the wrong limb does not determine the offset.
   double max_px = 20;
 };
 

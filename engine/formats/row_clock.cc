@@ -109,7 +109,7 @@ std::string DescribeGrid(const RowGrid& grid, std::size_t twice) {
 /// preferred, then a whole number, then a rate of television (n · 1000 / 1001).
 std::optional<RowGrid> GridOfCoarseTimes(std::span<const double> times, std::optional<double> told_hz) {
   constexpr std::size_t kMinRows = 8;
-  constexpr double kMinPerStep = 1.05;  // minimum mean count of rows per step; below it, equal times are duplicates
+  constexpr double kMinPerStep = 1.05;  // minimum mean number of rows per step; with fewer, equal times are duplicates
   const double step = PrintedStep(times), span = times.back() - times.front();
   if (times.size() < kMinRows || step == 0 || !(span > 0) || std::ranges::adjacent_find(times) == times.end()) {
     return std::nullopt;
