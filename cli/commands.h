@@ -119,7 +119,7 @@ void DefineForecast(CLI::App& app, const std::string& command_line, Action& acti
 void DefineCoach(CLI::App& app, Action& action);
 /// `etude completion SHELL`, and the hidden command with which the Debian package makes manual pages.
 void DefineOptionTree(CLI::App& app, Action& action);
-/// `etude crowd`: tracks a crowd's motions on one core, reports the time per frame, and makes a film of the crowd.
+/// `etude crowd`: solves the poses of a crowd on one core, reports the time per frame, and makes a film of the crowd.
 void DefineCrowd(CLI::App& app, Action& action);
 
 }  // namespace etude

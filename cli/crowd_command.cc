@@ -119,7 +119,7 @@ Result<bool> FilmCrowd(const CrowdCommandOptions& options, FollowedCrowd& follow
   const int every = std::max(1, static_cast<int>(std::ceil(rate_hz / kFilmRateHz)));
   const int frames = (options.crowd.frames + every - 1) / every;
   const auto count = static_cast<std::size_t>(options.crowd.characters);
-  // This process tracks the crowd; copies of this process draw the frames.
+  // This process solves the poses; copies of this process draw the frames.
   const auto fill = [&](int frame, std::span<std::uint8_t> into) -> Result<void> {
     followed.FollowTo(frame * every);
     for (std::size_t i = 0; i < count; ++i) {

@@ -138,7 +138,7 @@ void PrintAngles(const ScenarioSummary& summary, const std::vector<AngleAgreemen
   if (angles.empty() || std::ranges::none_of(summary.headline_metrics, is_of_angles)) return;
   fmt::print("  {:<26}  {:>8}  {:>22}  {:>20}  {:>7}  units\n", "angle, degrees", "RMSE", "bias (95 %)",
              "limits of agreement", "ICC");
-  const auto shown = [](double value) -> std::string {  // a small value is not shown as 0.00
+  const auto shown = [](double value) -> std::string {  // a small value keeps one significant digit
     if (std::abs(value) < 1e-9) return "0.00";
     return std::abs(value) < 0.005 ? fmt::format("{:.1g}", value) : fmt::format("{:.2f}", value);
   };

@@ -63,8 +63,8 @@ function(etude_folder)
 endfunction()
 
 # etude_shared_library(<target> NAME <file> EXPORT <name>)
-#   Makes lib<file>.so of the library <target> for other programs, as etude::<name>. The current folder's symbols.map
-#   lists its public symbols.
+#   Prepares the library <target> for other programs: its file is lib<file>.so, and programs link it as etude::<name>.
+#   The current folder's symbols.map lists its public symbols.
 function(etude_shared_library TARGET)
   cmake_parse_arguments(ARG "" "NAME;EXPORT" "" ${ARGN})
   target_link_options(${TARGET} PRIVATE "-Wl,--version-script=${CMAKE_CURRENT_SOURCE_DIR}/symbols.map")

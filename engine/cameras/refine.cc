@@ -241,9 +241,9 @@ class Bundle {
   }
 
   // Returns the variances of the free parameters for errors that are correlated among the corners of one view (by blur,
-  // a bent board, or a bias of the finder). The estimator is the sandwich A⁻¹ (Σ g gᵀ) A⁻¹ with A⁻¹ = `inverse`
-  // and the gradient g of each view, enlarged because views are few (Cameron and Miller 2015, CR1). Returns zeros for
-  // fewer than four views.
+  // a bent board, or a bias of the finder). The estimator is the sandwich A⁻¹ (Σ g gᵀ) A⁻¹, where A⁻¹ is `inverse`
+  // and g is the gradient of one view. The variances are multiplied by the correction CR1 for a small number of views
+  // (Cameron and Miller 2015). Returns zeros for fewer than four views.
   Eigen::VectorXd VariancesByViews(const Eigen::MatrixXd& inverse) const {
     Eigen::VectorXd variances = Eigen::VectorXd::Zero(inverse.rows());
     constexpr std::size_t kMinViews = 4;

@@ -52,7 +52,7 @@ class PoseFitter {
   /// beyond L.
   struct Aim {
     Role role;
-    glm::dvec3 p_LQ{0};  ///< position of the role relative to L if all angles beyond L are zero
+    glm::dvec3 p_LQ{0};  ///< position of the role in the frame of L, if all angles beyond L are zero
     bool is_on_limb = false;
   };
 

@@ -109,7 +109,7 @@ std::optional<PointMeasurement> OnSightLine(const InformedSighting& seen, const 
   const auto sum = PointEquationsAt({&seen, 1}, position);
   if (!sum) return std::nullopt;
   // Standard deviation, along the sight line, of a joint that only one picture shows, metres *(ours)*. It is large
-  // because interpolation between neighbouring frames is inaccurate.
+  // because the joint's depth is only interpolated between other frames.
   constexpr double kDepthError = 0.15;
   const glm::dmat3 depth = glm::outerProduct(line->direction_W, line->direction_W) / (kDepthError * kDepthError);
   return PointMeasurement{position, sum->information + depth};

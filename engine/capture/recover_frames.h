@@ -50,7 +50,7 @@ struct RecoveredFrame {
 
 /// Recovers a skeleton in every frame from its observation (paper B, chapter 3): fix the limb lengths, then move every
 /// end effector back to its observed position with the solver. For paper B's body, lengths are fixed as in section 3.2
-/// (`FixLimbLengths`) and start angles found as in 3.3 (`FindStartState`). For another body, `PoseFitter` replaces
+/// (`FixLimbLengths`), and start angles are found as in 3.3 (`FindStartState`). For another body, `PoseFitter` replaces
 /// these two functions: it fits the body to all joints that the end effectors and the limbs' directions determine.
 /// Values that an observation lacks are taken from the last frame, or at the beginning from a standing body
 /// (`CompleteObservation`); these values are not used as targets. A frame stays empty if it has no observation, if its

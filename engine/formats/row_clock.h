@@ -53,7 +53,7 @@ struct MarkerRows {
   bool has_clock = true;        ///< false if the times were made from frame numbers
   double first_number = 0;      ///< number of the first row's frame, if the times were made from frame numbers
   std::string rate_name = "";   ///< the header that gives `markers.rate_hz`; "" if none does
-  std::string time_name = "the column Time";  ///< what holds the times, in words for messages
+  std::string time_name = "the column Time";  ///< the column or channel of the times, as messages name it
 };
 /// Places markers on frames by their times, whose unit FindTimeScale finds. In a frame whose row is missing, no marker
 /// counts as seen. The remark says what was changed. Fails like GridOfRows.
