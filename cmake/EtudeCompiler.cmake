@@ -27,7 +27,7 @@ endif()
 # Unused libraries are not loaded, and relocated data becomes read-only after loading.
 add_link_options(-Wl,--as-needed -Wl,-z,relro -Wl,-z,now)
 include(CheckLinkerFlag)
-check_linker_flag(CXX -fuse-ld=gold ETUDE_HAS_GOLD)  # linking the hundred test programs then takes a third of the time
+check_linker_flag(CXX -fuse-ld=gold ETUDE_HAS_GOLD)  # gold links the test programs faster
 if(ETUDE_WERROR)
   add_compile_options(-Werror)
 endif()

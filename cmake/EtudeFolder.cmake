@@ -209,7 +209,7 @@ set(ETUDE_PINNED_ENVIRONMENT
   "MESA_SHADER_CACHE_DISABLE=true"
   "LP_NUM_THREADS=0"
   "LC_ALL=C.UTF-8"
-  "PATH=/usr/bin:$ENV{PATH}")  # inside a fence, a Python in a home folder is not visible
+  "PATH=/usr/bin:$ENV{PATH}")  # fenced methods cannot see a Python in a home folder, so /usr/bin is first
 if(ETUDE_SANITIZE MATCHES "address")
   # AddressSanitizer then reports a constant that is initialised before the constant of another file that it needs.
   list(APPEND ETUDE_PINNED_ENVIRONMENT "ASAN_OPTIONS=check_initialization_order=1:strict_init_order=1")

@@ -252,7 +252,8 @@ std::unique_ptr<ceres::LossFunction> MakeLoss(const BundleOptions& options) {
   return nullptr;
 }
 
-/// The cost of the adjustment as a Ceres problem. The Ceres problem owns the cost's terms.
+/// The cost of the adjustment as a Ceres problem. This object owns the cost's terms; the Ceres problem only refers to
+/// them.
 class BundleProblem {
  public:
   BundleProblem(const BundleInputs& inputs, const BundleOptions& options, Variables& variables)

@@ -48,7 +48,7 @@ class PoseFitter {
   TreeState Improve(const PoseTargets& wanted, const TreeState& state) const;
 
  private:
-  /// A role at whose target a limb L can be pointed: a role on L, or the first role with a target on a chain of limbs
+  /// A role whose target shows where a limb L points: a role on L, or the first role with a target on a chain of limbs
   /// beyond L.
   struct Aim {
     Role role;

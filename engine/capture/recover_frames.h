@@ -26,8 +26,8 @@ struct RecoverInputs {
   /// starts at the angles that the pictures show, in any other frame at the angles of the last recovered frame.
   std::vector<bool> marked = {};
   /// The true start angles or true poses, one per frame, if known; otherwise empty. Known start angles replace the
-  /// computed start angles, and known poses replace the solver's result. The error of the replaced computation can then
-  /// be measured.
+  /// computed start angles, and known poses replace the solver's result. The error that remains in the recovered motion
+  /// then comes from the other computations.
   std::vector<TreeState> known_starts = {}, known_poses = {};
 };
 

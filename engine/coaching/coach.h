@@ -44,8 +44,8 @@ void ResetCounts(StillnessState& state);
 
 /// The settings of a coach. Times are in seconds; values are ours where paper A gives none.
 struct CoachOptions {
-  /// The evidence at which a performance counts as right, in (0, 1]. The right value depends on the recogniser: to
-  /// compare recognisers, choose values that give equal false-alarm rates.
+  /// The evidence at which a performance counts as right, in (0, 1]. Recognisers need different values: to compare
+  /// recognisers, choose values that give equal false-alarm rates.
   double right_from = 0.5;
   /// A window is the time in which a performance is judged. It opens and closes this time after the coach's repetition
   /// begins and ends, because learners follow with a lag.
