@@ -253,13 +253,12 @@ Result<int> EvaluateCommand(const EvaluateOptions& options) {
     ASSIGN_OR_RETURN(data, LoadRunRowByRow(outcome->folder));
   }
   const ScenarioSummary& summary = data.scenarios.front();
-  // A pair that is not judged must not pass unnoticed. Among motions without a truth, clips that cannot be judged are
-  // an error only if limits are given.
+  // With a truth, the command fails if a pair is not judged. Without a truth, it fails if a method has no judged clip.
   const bool lacks_some = !options.alone.is_alone && outcome->cells_ok < outcome->cells;
   const bool has_silent = lacks_some || std::ranges::any_of(summary.conditions.front().methods,
                                                             [](const MethodSummary& method) { return method.ok == 0; });
   const Triage triage = options.alone.is_alone ? TriageOf(data) : Triage{};
-  // If limits are given, a clip that cannot be judged counts as exceeding the limits.
+  // If limits are given, it also fails if a clip exceeds them or is not judged.
   const bool exceeds = !triage.beyond_limits.empty() || (!options.alone.limits.empty() && !triage.not_judged.empty());
   const int code = has_silent || exceeds ? kNothingWorked : kSuccess;
   const std::string folder = outcome->folder.string();

@@ -23,7 +23,7 @@ class NoteKinds {
   std::map<std::string, std::size_t> places_;  ///< the index in `kinds_` of each kind
 };
 
-/// The notes in a run's rows on pairs of files.
+/// The notes about pairs of files, from the rows of a run.
 struct PairNotes {
   NoteKinds judged;                           ///< what was judged, and how answers were changed
   NoteKinds not_judged;                       ///< why pairs could not be judged

@@ -324,7 +324,7 @@ void AddOffsets(const std::vector<BvhChannel>& channels, Clip& clip) {
   }
 }
 
-/// Returns the largest rotation of a joint relative to its parent, degrees, in about a hundred of the frames.
+/// Returns the largest rotation of a joint relative to its parent, degrees, in at most a hundred evenly spaced frames.
 double LargestRotation(const std::vector<LocalPose>& frames) {
   constexpr std::size_t kSamples = 100;
   double sine = 0;  // sine of half the largest rotation so far
