@@ -258,7 +258,7 @@ Result<int> EvaluateCommand(const EvaluateOptions& options) {
   const bool has_silent = lacks_some || std::ranges::any_of(summary.conditions.front().methods,
                                                             [](const MethodSummary& method) { return method.ok == 0; });
   const Triage triage = options.alone.is_alone ? TriageOf(data) : Triage{};
-  // If limits are given, it also fails if a clip exceeds them or is not judged.
+  // If limits are given, the command also fails if a clip exceeds them or is not judged.
   const bool exceeds = !triage.beyond_limits.empty() || (!options.alone.limits.empty() && !triage.not_judged.empty());
   const int code = has_silent || exceeds ? kNothingWorked : kSuccess;
   const std::string folder = outcome->folder.string();
