@@ -268,7 +268,7 @@ std::string UnfinishedMapFile(const Skeleton& skeleton) {
   return text;
 }
 
-/// Returns the joints of all roles, or, if `map` is null, of the roles that can be determined.
+/// Returns the joint of each role in `map` or, if `map` is null, of each role that FindPartialRoles finds or proposes.
 std::array<RoleOnSheet, kRoleCount> RolesOnSheet(const Skeleton& skeleton, const JointMap* map) {
   using By = RoleOnSheet::By;
   std::array<RoleOnSheet, kRoleCount> roles;

@@ -14,7 +14,7 @@ class App;
 
 namespace etude {
 
-/// Options with facts that a motion file may not state; "" = the file decides.
+/// Options with facts that a motion file may lack; "" = the file decides.
 struct ClipReading {
   std::string joint_map;  ///< the name of a joint-map file
   std::string unit;       ///< the unit: "m", "cm", …, or metres per unit as a number

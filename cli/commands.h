@@ -38,8 +38,9 @@ void TellUnsealed(const std::string& why);
 /// Reads a baseline, and warns if no seal confirms its content. Fails if the baseline's seal is invalid, unless seals
 /// are ignored.
 Result<Snapshot> TakeBaseline(const std::string& path, Sealing sealing);
-/// Runs scenarios with a progress bar, and reports clips that were left out, damaged lines and missing locks. If the
-/// run was stopped, reports that and returns nullopt.
+/// Runs scenarios with a progress bar. Reports a result folder that could not be locked, changes that reading made to
+/// clips, clips that were left out, damaged lines of a resumed run's journal, and outside methods that ran without a
+/// fence. If the run was stopped, reports that and returns nullopt.
 Result<std::optional<RunOutcome>> RunWithProgress(RunOptions options);
 /// Prints the tables of a finished run, and the reasons why methods have no answer. Returns kNothingWorked if a method
 /// has no answer or no cell is ok.
@@ -118,7 +119,7 @@ void DefineForecast(CLI::App& app, const std::string& command_line, Action& acti
 void DefineCoach(CLI::App& app, Action& action);
 /// `etude completion SHELL`, and the hidden command with which the Debian package makes manual pages.
 void DefineOptionTree(CLI::App& app, Action& action);
-/// `etude crowd`: tracks a crowd's motions on one core, reports the time per frame, and makes a film of the crowd.
+/// `etude crowd`: solves the poses of a crowd on one core, reports the time per frame, and makes a film of the crowd.
 void DefineCrowd(CLI::App& app, Action& action);
 
 }  // namespace etude

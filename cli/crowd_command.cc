@@ -29,7 +29,9 @@ namespace {
 struct CrowdCommandOptions {
   CrowdOptions crowd;
   double seconds = 2;
-  int steps = 100;  ///< maximum number of solver iterations per frame; it may double if a character misses its targets
+  int steps = 100;  ///< maximum number of solver iterations per character and frame
+  /// Solves in floats. A problem that floats do not solve is solved again in doubles, with up to `steps` further
+  /// iterations.
   bool in_float = false;
   std::string output;  ///< the film to write; "" = only the report
   int jobs = 0;
@@ -73,7 +75,7 @@ Json Tell(const CrowdCommandOptions& options, Timings timings) {
           {"largest_ms", timings.times_ms.back()}};
 }
 
-/// A crowd that is tracked frame by frame.
+/// A crowd whose characters follow their target motions, solved frame by frame, and the measured processing times.
 class FollowedCrowd {
  public:
   FollowedCrowd(const CrowdCommandOptions& options, std::span<const TrackingWorld> worlds)
@@ -81,7 +83,7 @@ class FollowedCrowd {
     ik_.max_iterations = options.steps;
   }
 
-  /// Tracks all characters up to a frame. Call it with ascending frames.
+  /// Solves the poses of all characters up to a frame. Call it with ascending frames.
   void FollowTo(int frame) {
     for (; next_ <= frame; ++next_) {
       const double begin = ProcessorTimeMs();
@@ -106,7 +108,7 @@ class FollowedCrowd {
   int next_ = 0;
 };
 
-/// Makes a film of every n-th frame while the crowd is tracked. Returns false if the film was stopped.
+/// Makes a film of every n-th frame while the poses are solved. Returns false if the film was stopped.
 Result<bool> FilmCrowd(const CrowdCommandOptions& options, FollowedCrowd& followed, const FilmWatch& watch) {
   using Character = CrowdStage::Character;
   static_assert(std::is_trivially_copyable_v<Character>, "characters are passed on as they are stored in memory");
@@ -117,7 +119,7 @@ Result<bool> FilmCrowd(const CrowdCommandOptions& options, FollowedCrowd& follow
   const int every = std::max(1, static_cast<int>(std::ceil(rate_hz / kFilmRateHz)));
   const int frames = (options.crowd.frames + every - 1) / every;
   const auto count = static_cast<std::size_t>(options.crowd.characters);
-  // This process tracks the crowd; copies of this process draw the frames.
+  // This process solves the poses; copies of this process draw the frames.
   const auto fill = [&](int frame, std::span<std::uint8_t> into) -> Result<void> {
     followed.FollowTo(frame * every);
     for (std::size_t i = 0; i < count; ++i) {
@@ -139,7 +141,8 @@ Result<bool> FilmCrowd(const CrowdCommandOptions& options, FollowedCrowd& follow
                          {count * sizeof(Character), fill}, draw, watch);
 }
 
-/// Tracks the crowd frame by frame, and reports the result. Returns null if Ctrl-C stopped the tracking.
+/// Solves the poses of the crowd frame by frame, and makes the film if one was requested. Prints and returns the
+/// measured times; returns null if Ctrl-C was pressed.
 Result<Json> FollowCrowd(const CrowdCommandOptions& options) {
   ASSIGN_OR_RETURN(const auto worlds, MakeCrowd(options.crowd));
   FollowedCrowd followed(options, worlds);

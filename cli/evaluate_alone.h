@@ -22,7 +22,7 @@ struct AloneOptions {
 Result<std::string> ScenarioOfMotions(const std::vector<std::string>& files, const AloneOptions& options,
                                       const std::string& people);
 
-/// The clips of a run of motions without a truth, sorted by outcome.
+/// The clips that a run judged without a truth, sorted by outcome.
 struct Triage {
   std::size_t clips = 0, fault_free = 0;     ///< number of judged clips, and number of judged clips without a fault
   std::map<std::string, std::size_t> kinds;  ///< number of clips that show a fault, by the word for this kind of fault

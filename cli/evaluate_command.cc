@@ -138,7 +138,7 @@ void PrintAngles(const ScenarioSummary& summary, const std::vector<AngleAgreemen
   if (angles.empty() || std::ranges::none_of(summary.headline_metrics, is_of_angles)) return;
   fmt::print("  {:<26}  {:>8}  {:>22}  {:>20}  {:>7}  units\n", "angle, degrees", "RMSE", "bias (95 %)",
              "limits of agreement", "ICC");
-  const auto shown = [](double value) -> std::string {  // a small value is not shown as 0.00
+  const auto shown = [](double value) -> std::string {  // a small value keeps one significant digit
     if (std::abs(value) < 1e-9) return "0.00";
     return std::abs(value) < 0.005 ? fmt::format("{:.1g}", value) : fmt::format("{:.2f}", value);
   };
@@ -253,13 +253,12 @@ Result<int> EvaluateCommand(const EvaluateOptions& options) {
     ASSIGN_OR_RETURN(data, LoadRunRowByRow(outcome->folder));
   }
   const ScenarioSummary& summary = data.scenarios.front();
-  // A pair that is not judged must not pass unnoticed. Among motions without a truth, clips that cannot be judged are
-  // an error only if limits are given.
+  // With a truth, the command fails if a pair is not judged. Without a truth, it fails if a method has no judged clip.
   const bool lacks_some = !options.alone.is_alone && outcome->cells_ok < outcome->cells;
   const bool has_silent = lacks_some || std::ranges::any_of(summary.conditions.front().methods,
                                                             [](const MethodSummary& method) { return method.ok == 0; });
   const Triage triage = options.alone.is_alone ? TriageOf(data) : Triage{};
-  // If limits are given, a clip that cannot be judged counts as exceeding the limits.
+  // If limits are given, the command also fails if a clip exceeds them or is not judged.
   const bool exceeds = !triage.beyond_limits.empty() || (!options.alone.limits.empty() && !triage.not_judged.empty());
   const int code = has_silent || exceeds ? kNothingWorked : kSuccess;
   const std::string folder = outcome->folder.string();

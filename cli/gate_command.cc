@@ -49,7 +49,8 @@ int ExitCode(GateVerdict verdict) {
   return kIncompleteRun;
 }
 
-/// Prints each far worse world in two lines: the difference, and the command that runs the world again.
+/// Prints the worlds that are far worse than in the baseline. Each world has two lines: the difference, and the command
+/// that runs the world again. A line without a command counts the worlds that are left out.
 void PrintWorlds(const std::string& title, const std::vector<TailLine>& lines) {
   std::vector<std::string> text;
   for (const TailLine& line : lines) {

@@ -32,8 +32,8 @@ class Interrupt {
 /// requested.
 int DoInterruptibly(const std::function<int()>& work, const std::function<void()>& clean_up);
 
-/// Returns false if Ctrl-C was pressed, otherwise `is_whole`, the result of writing a film. (Ctrl-C also ends the
-/// encoder, so `is_whole` may then be the encoder's error.)
+/// Returns `is_whole`, the result of writing a film. If it is an error and Ctrl-C was pressed, returns false instead,
+/// because Ctrl-C also ends the encoder, which then causes an error.
 Result<bool> UnlessInterrupted(Result<bool> is_whole, const Interrupt& interrupt);
 
 }  // namespace etude

@@ -75,8 +75,8 @@ int ComplainOfArguments(const CLI::App& app, const CLI::ParseError& error) {
     command = command->get_subcommands().front();
     words += command->get_name() + " ";
   }
-  // Report an unknown word first: an unknown word explains the failure better than the error about a missing argument,
-  // which is often a consequence of the unknown word. Words after "--" belong to another program.
+  // If there is an unknown word, report this word instead of CLI11's error, which is often only its consequence, such
+  // as a missing argument. Words after "--" belong to another program.
   std::vector<std::string> extras = app.remaining(true);
   extras.erase(std::ranges::find(extras, "--"), extras.end());
   std::string message = error.what();

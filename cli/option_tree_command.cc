@@ -47,8 +47,8 @@ std::vector<std::pair<const CLI::Option*, std::vector<std::string>>> OptionsOf(c
 
 constexpr std::string_view kHelp = "help";  ///< "etude help COMMAND"; main turns it into "etude COMMAND --help"
 
-/// Returns the fixed values that a command's arguments may have besides files. Where a scenario is expected, these are
-/// the scenarios that come with etude.
+/// Returns the values, other than files, that a shell can offer for a command's arguments: the shells, or the scenarios
+/// and suites that come with etude.
 std::vector<std::string> ArgumentsOf(const CLI::App& command) {
   const auto asks_for = [&](const char* argument) { return command.get_option_no_throw(argument) != nullptr; };
   if (asks_for(kShellArgument)) return Shells();

@@ -23,7 +23,7 @@ class NoteKinds {
   std::map<std::string, std::size_t> places_;  ///< the index in `kinds_` of each kind
 };
 
-/// The notes in a run's rows on pairs of files.
+/// The notes about pairs of files, from the rows of a run.
 struct PairNotes {
   NoteKinds judged;                           ///< what was judged, and how answers were changed
   NoteKinds not_judged;                       ///< why pairs could not be judged
@@ -32,7 +32,7 @@ struct PairNotes {
 
 /// Collects the notes of a run, row by row.
 Result<PairNotes> ReadPairNotes(const std::filesystem::path& folder);
-/// Prints at most ten kinds of notes on judged pairs, then of notes on others.
+/// Prints the notes on judged pairs, then the notes on pairs that were not judged: at most ten kinds of each.
 void PrintPairNotes(const PairNotes& notes);
 
 }  // namespace etude

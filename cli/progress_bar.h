@@ -34,8 +34,8 @@ class ProgressBar {
   Clock::time_point began_ = Clock::now();
   bool is_shown_ = false;
   int tenths_shown_ = -1;
-  /// For logs: the time of the next line, unless the work reaches the next tenth earlier, and the pause after that
-  /// line, seconds.
+  /// For logs, in seconds: the time at which a line is due, even if the work has not reached its next tenth, and the
+  /// time from that line until another one is due.
   double next_s_ = 2, pause_s_ = 2;
   bool is_writing_ = false;  ///< true while the bar shows the writing of a run's results
 };

@@ -91,7 +91,7 @@ void PrintTables(const ScenarioSummary& scenario, const std::vector<Row>& rows) 
   }
 }
 
-/// Prints the scenarios' answers, with which the report's page begins, too.
+/// Prints the answer of each scenario in one sentence. The report's page begins with the same sentences.
 void PrintAnswers(const RunData& run) {
   std::vector<std::string> answers;
   for (const ScenarioSummary& scenario : run.scenarios) {
@@ -231,7 +231,7 @@ Result<std::optional<RunOutcome>> RunWithProgress(RunOptions options) {
   ProgressBar bar;
   ASSIGN_OR_RETURN(auto outcome, Run(options, [&](const Progress& progress) { bar.Show(progress); }));
   interrupt.reset();  // everything is written, so from here on Ctrl-C ends the program
-  // Report clips that were left out, and damaged lines.
+  // Report a folder without a lock, and what was changed, left out or ignored.
   TellUnlocked(outcome);
   TellChanges(outcome.changes);
   for (const RefusedClip& one : outcome.refused) Complain({{one.clip}, "left out: " + one.why});

@@ -27,9 +27,9 @@ struct StreamArguments {
   Result<OpenOptions> ClipOptions() const;
 };
 
-/// Loads the labels of these recordings and finds their performances (MatchLabels); prints on standard error what
-/// labels and recordings do not share (DescribeLabels). If `labels` is "", each recording is one performance
-/// (WholeStreams).
+/// Loads the labels and finds the labelled performances in the recordings (MatchLabels). Prints on standard error
+/// which labels have no recording and which recordings have no label (DescribeLabels). If `labels` is "", each
+/// recording is one performance (WholeStreams).
 Result<std::vector<LabelledPart>> LoadParts(const std::string& labels, const std::vector<NamedStream>& streams);
 
 /// Adds the options of StreamArguments to a command.

@@ -10,8 +10,8 @@ endif()
 set(CMAKE_CXX_FLAGS_RELEASE "${ETUDE_OPTIMISE} -DNDEBUG")
 set(CMAKE_CXX_FLAGS_RELWITHDEBINFO "-O1 -g1")  # keeps assertions in builds with sanitizers
 
-# x86-64-v2 is the oldest CPU on which Etude promises identical bytes. Contracting a*b+c to a fused multiply-add would
-# change the last bit on CPUs that have that instruction.
+# x86-64-v2 is the lowest instruction set level on which Etude promises identical bytes. Contracting a*b+c to a fused
+# multiply-add would change the last bit on CPUs that have that instruction.
 add_compile_options(-march=x86-64-v2 -ffp-contract=off)
 # Functions of the library cannot be replaced at load time, so the library's own calls may be inlined.
 add_compile_options(-fno-semantic-interposition)
@@ -27,7 +27,7 @@ endif()
 # Unused libraries are not loaded, and relocated data becomes read-only after loading.
 add_link_options(-Wl,--as-needed -Wl,-z,relro -Wl,-z,now)
 include(CheckLinkerFlag)
-check_linker_flag(CXX -fuse-ld=gold ETUDE_HAS_GOLD)  # linking the hundred test programs then takes a third of the time
+check_linker_flag(CXX -fuse-ld=gold ETUDE_HAS_GOLD)  # gold links the test programs faster
 if(ETUDE_WERROR)
   add_compile_options(-Werror)
 endif()

@@ -17,8 +17,8 @@ macro(etude_harness_options)
 endmacro()
 
 # etude_headers(<target> LIBRARIES <target>... OPTIONS <option>... HEADERS <header>...)
-#   With ETUDE_UNITY, compiles headers once for all folders with the same options in which the variable ETUDE_HEADERS is
-#   <target>. Without ETUDE_UNITY, each file must include what it uses.
+#   With ETUDE_UNITY, compiles these headers once. All folders in which the variable ETUDE_HEADERS is <target> use the
+#   result; their options must be the same. Without ETUDE_UNITY, each file must include what it uses.
 function(etude_headers TARGET)
   cmake_parse_arguments(ARG "" "" "LIBRARIES;OPTIONS;HEADERS" ${ARGN})
   if(ETUDE_UNITY)
@@ -63,12 +63,12 @@ function(etude_folder)
 endfunction()
 
 # etude_shared_library(<target> NAME <file> EXPORT <name>)
-#   Makes lib<file>.so of the library <target> for other programs, as etude::<name>. The current folder's symbols.map
-#   lists its public symbols.
+#   Prepares the library <target> for other programs: its file is lib<file>.so, and programs link it as etude::<name>.
+#   The current folder's symbols.map lists its public symbols.
 function(etude_shared_library TARGET)
   cmake_parse_arguments(ARG "" "NAME;EXPORT" "" ${ARGN})
   target_link_options(${TARGET} PRIVATE "-Wl,--version-script=${CMAKE_CURRENT_SOURCE_DIR}/symbols.map")
-  if(NOT ETUDE_SANITIZE AND NOT ETUDE_FUZZ)  # clang expects those symbols in the program
+  if(NOT ETUDE_SANITIZE AND NOT ETUDE_FUZZ)  # with clang, the sanitizers' functions are defined only in the program
     target_link_options(${TARGET} PRIVATE -Wl,-z,defs)
   endif()
   set_target_properties(${TARGET} PROPERTIES
@@ -209,8 +209,8 @@ set(ETUDE_PINNED_ENVIRONMENT
   "MESA_SHADER_CACHE_DISABLE=true"
   "LP_NUM_THREADS=0"
   "LC_ALL=C.UTF-8"
-  "PATH=/usr/bin:$ENV{PATH}")  # inside a fence, a Python in a home folder is not visible
+  "PATH=/usr/bin:$ENV{PATH}")  # fenced methods cannot see a Python in a home folder, so /usr/bin is first
 if(ETUDE_SANITIZE MATCHES "address")
-  # Finds constants that are initialised before a constant of another file that they need.
+  # AddressSanitizer then reports a constant that is initialised before the constant of another file that it needs.
   list(APPEND ETUDE_PINNED_ENVIRONMENT "ASAN_OPTIONS=check_initialization_order=1:strict_init_order=1")
 endif()

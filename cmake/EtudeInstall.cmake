@@ -18,16 +18,16 @@ endif()
 install(DIRECTORY scenarios examples DESTINATION share/etude USE_SOURCE_PERMISSIONS PATTERN __pycache__ EXCLUDE PATTERN node_modules EXCLUDE)
 install(DIRECTORY ci DESTINATION share/etude USE_SOURCE_PERMISSIONS)
 install(DIRECTORY docs/schemas DESTINATION share/etude)
-# The Python package has a folder of its own, which the fence shows to outside methods. A path file tells Debian's
-# Python where it is.
+# The Python package has a folder of its own, which the programs of outside methods can see behind their fence
+# (docs/outside-methods.md). A path file tells Debian's Python where this folder is.
 install(DIRECTORY python/etude DESTINATION share/etude/python PATTERN __pycache__ EXCLUDE)
 file(WRITE "${CMAKE_BINARY_DIR}/etude.pth" "../../../share/etude/python\n")
 install(FILES "${CMAKE_BINARY_DIR}/etude.pth" DESTINATION lib/python3/dist-packages)
 install(DIRECTORY docs/ DESTINATION "${CMAKE_INSTALL_DOCDIR}/docs" PATTERN schemas EXCLUDE)
 install(DIRECTORY findings DESTINATION "${CMAKE_INSTALL_DOCDIR}" USE_SOURCE_PERMISSIONS)
 install(FILES README.md CHANGELOG.md CITATION.cff DESTINATION "${CMAKE_INSTALL_DOCDIR}")
-# Files that pages link to are installed where the program finds them. The list is made from the links in the source
-# tree.
+# The pages link to these folders, which are installed in share/etude, where the program finds them. A symbolic link
+# in the folder of documentation leads to each of them.
 set(links "${CMAKE_BINARY_DIR}/doc_links")
 file(MAKE_DIRECTORY "${links}/docs")
 foreach(name docs/schemas examples scenarios ci)
@@ -71,7 +71,8 @@ set(config "${CMAKE_INSTALL_LIBDIR}/cmake/Etude")
 install(TARGETS etude_shared etude_sim_shared EXPORT EtudeTargets
   LIBRARY DESTINATION "${CMAKE_INSTALL_LIBDIR}" COMPONENT library NAMELINK_COMPONENT development)
 install(DIRECTORY engine/api/etude sim/api/etude DESTINATION include/etude COMPONENT development FILES_MATCHING PATTERN "*.h")
-# The headers of engine and sim with a public namespace, and all that they include (checked by tests/guards).
+# Install the headers of engine and sim whose namespace is public. Of our headers they include only installed ones
+# (checked by tests/guards).
 file(GLOB_RECURSE headers RELATIVE "${CMAKE_SOURCE_DIR}" CONFIGURE_DEPENDS engine/*.h sim/*.h)
 foreach(header IN LISTS headers)
   file(STRINGS "${header}" public REGEX "^namespace \\[\\[gnu::visibility" LIMIT_COUNT 1)
@@ -87,7 +88,8 @@ write_basic_package_version_file("${CMAKE_BINARY_DIR}/EtudeConfigVersion.cmake" 
 install(FILES "${CMAKE_BINARY_DIR}/EtudeConfig.cmake" "${CMAKE_BINARY_DIR}/EtudeConfigVersion.cmake"
   DESTINATION "${config}" COMPONENT development)
 
-# Packages for two Debian releases have two versions, in the releases' order: 0.4.0+deb12, 0.4.0+deb13.
+# A package's version ends with the number of its Debian release, so that the package for the later release counts as
+# the newer one: 0.4.0+deb12 < 0.4.0+deb13.
 cmake_host_system_information(RESULT system QUERY DISTRIB_INFO)
 set(package_version "${PROJECT_VERSION}")
 if(system_ID STREQUAL debian AND system_VERSION_ID)  # a Debian after the latest release has no number
@@ -120,8 +122,8 @@ set(CPACK_COMPONENTS_ALL program library development)
 set(CPACK_DEBIAN_PROGRAM_PACKAGE_NAME etude)
 set(CPACK_DEBIAN_LIBRARY_PACKAGE_NAME libetude)
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_NAME libetude-dev)
-# Debian's tools find linked libraries. This list has the libraries and programs that Etude opens, starts or reads by
-# name. The clips are those of the quick suite.
+# Debian's tools find linked libraries. The lists below name the packages whose libraries, programs and files Etude
+# opens by name while it runs; assimp-testmodels has clips of the quick suite.
 set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS ON)
 if(OSMESA_FOUND)
   set(draws libosmesa6)

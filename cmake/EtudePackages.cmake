@@ -4,7 +4,7 @@ find_package(fmt REQUIRED)
 find_package(glm REQUIRED)
 find_package(tl-expected REQUIRED)
 find_package(Eigen3 REQUIRED NO_MODULE)
-set(BLA_VENDOR Generic)  # not ATLAS, which Debian's Ceres would bring
+set(BLA_VENDOR Generic)  # the generic BLAS; without this line, Debian's Ceres would bring ATLAS
 find_package(Ceres REQUIRED)
 find_package(hwy REQUIRED)
 find_package(LibXml2 REQUIRED)

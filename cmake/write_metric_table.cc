@@ -1,7 +1,7 @@
 // Writes the catalogue's files as C++, when the program is built:
 //     etude_metric_table <out.cc> <file.yaml>...
-// An error in a file stops the build, which reports its place. The program does not read the files itself, because
-// yaml-cpp would need 30 ms or more for them at every start.
+// An error in a file stops the build with a message that states the error's position. The program does not read the
+// files itself, because yaml-cpp would need 30 ms or more for them at every start.
 #include <fmt/format.h>
 
 #include <algorithm>

@@ -40,7 +40,7 @@ void CheckRate(double rate_hz) {
 /// Returns true if two rates differ by rounding only: a rate that was computed from a column of times is rounded.
 bool KeepsRate(double a_hz, double b_hz) { return std::abs(a_hz / b_hz - 1) < 1e-6; }
 
-/// Resamples a body's motion by rotating its joints, so that limbs keep their lengths.
+/// Resamples a body's motion by interpolating the rotations of its joints, so that limbs keep their lengths.
 BodyMotion Resampled(const BodyMotion& motion, double rate_hz) {
   if (KeepsRate(motion.rate_hz, rate_hz)) return {.rate_hz = rate_hz, .poses = motion.poses};
   const Clip clip = Resample(RigClip(motion, motion.poses.front(), ""), rate_hz);

@@ -7,8 +7,8 @@
 
 namespace etude {
 
-/// A small list of named items. Find starts after the last hit, so it takes constant time if names are looked up in a
-/// repeating order.
+/// A small list of named items. Find starts after the item that it found last, so it takes constant time if names are
+/// looked up in the order in which they were added, again and again.
 template <typename T>
 class CyclicLookup {
  public:

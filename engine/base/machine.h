@@ -23,8 +23,8 @@ inline Error OfThisMachine(const Error& error) { return {{}, ToString(error), Er
 inline bool IsOfThisMachine(const Error& error) { return error.kind == ErrorKind::kMachine; }
 
 /// Returns the error for a file or folder that cannot be written, from an errno: "PATH: WHAT: No space left on device".
-/// It is attributed to the machine (disk full, limit, read-only, no permission), unless the name is the cause: a file
-/// where a folder is needed, a missing folder, a name that is too long.
+/// It is attributed to the machine (full disk, quota, read-only disk, no permission), unless the name is the cause: a
+/// file where a folder is needed, a missing folder, a name that is too long.
 tl::unexpected<Error> CannotWrite(const std::string& path, std::string_view what, int reason);
 /// Returns the error for a file or folder that cannot be read. It is attributed to the input, unless the machine lacks
 /// memory, open files or a working disk.

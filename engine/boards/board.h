@@ -17,7 +17,7 @@ struct Board {
 };
 
 constexpr int kMaxSquares = 16;
-/// A code is kCodeSide × kCodeSide modules, 1 for black, surrounded by a margin of one white module.
+/// A code consists of kCodeSide × kCodeSide modules, black (1) or white (0), in a margin of one white module.
 constexpr int kCodeSide = 4;
 constexpr int kModules = kCodeSide + 2;
 /// The number of codes. Two codes differ in at least kCodeDistance modules, however each code is rotated. A code
@@ -25,7 +25,8 @@ constexpr int kModules = kCodeSide + 2;
 constexpr int kCodeCount = 120;
 constexpr int kCodeDistance = 4;
 
-/// Returns the modules of a code row by row from the top, the first one in the highest bit. 0 ≤ `number` < kCodeCount.
+/// Returns the modules of code `number` (0 ≤ `number` < kCodeCount), row by row from the top. The first module is the
+/// highest bit.
 std::uint16_t CodeOf(int number);
 /// Returns the code rotated by 90° clockwise.
 std::uint16_t Turned(std::uint16_t code);
@@ -33,7 +34,7 @@ std::uint16_t Turned(std::uint16_t code);
 /// Returns the number of codes on the board.
 int CountCodes(const Board& board);
 constexpr bool IsBlackSquare(int column, int row) { return (column + row) % 2 == 0; }
-/// Returns the number of a white square's code.
+/// Returns the `number` (as in CodeOf) of the code on a white square.
 int CodeNumberOf(const Board& board, int column, int row);
 
 /// Returns true if the board is black at a point of its plane, metres from its top left corner, x to the right, y down.

@@ -32,8 +32,8 @@ std::vector<TargetView> BoardViews::views() const {
 }
 
 void AlignToBoard(BoardPlacement stance, std::span<Camera> cameras) {
-  // The board's frame has x to the right, y down, and z away from the board's front. The columns are these axes in the
-  // world.
+  // Seen from the front, the board's frame has x to the right, y down, and z into the board. The columns are these axes
+  // in the world.
   const glm::dmat3 R_WT = stance == BoardPlacement::kOnFloor
                               ? glm::dmat3(glm::dvec3(1, 0, 0), glm::dvec3(0, 0, 1), glm::dvec3(0, -1, 0))
                               : glm::dmat3(glm::dvec3(1, 0, 0), glm::dvec3(0, -1, 0), glm::dvec3(0, 0, -1));

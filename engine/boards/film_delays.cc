@@ -22,9 +22,9 @@ const glm::dvec2* PixelOf(const SightingMap& map, const SightingKey& key, const 
   return nullptr;
 }
 
-/// Returns the corners of a sighting, moved to another time by interpolation between looks. `share` (−0.5 to 0.5) is
-/// this time after the sighting's own look, divided by the interval between looks. Corners that no neighbouring look
-/// shows are left out.
+/// Returns the corners of a sighting at another time, interpolated between looks. `share` (−0.5 to 0.5) is the time
+/// from the sighting's look to that other time, divided by the interval between looks. Corners that no neighbouring
+/// look shows are left out.
 std::vector<PointPair> CornersBetween(const SightingMap& map, const SightingKey& key, const BoardSighting& sighting,
                                       double share) {
   constexpr double kNow = 1e-6;

@@ -19,9 +19,10 @@ using GridIndex = std::pair<int, int>;
 using CornerGrid = std::map<GridIndex, std::size_t>;
 
 constexpr double kMaxSpacingPx = 150;  // maximum distance between the first two corners of a grid
-// Cosine of 14°: maximum angle between an edge and the direction to the next corner.
+// Cosine of the maximum angle, 14°, between an edge and the direction to the next corner.
 constexpr double kMinAlignment = 0.97;
-constexpr double kMinSimilarity = 0.9;  // cosine of 26°: maximum rotation of the edges between neighbouring corners
+// Cosine of the maximum angle, 26°, between the edges at neighbouring corners.
+constexpr double kMinSimilarity = 0.9;
 // Maximum error of a corner predicted from two neighbouring corners, as a share of the distance between these two.
 constexpr double kMaxPredictionError = 0.25;
 // Maximum distance to the next corner in a new direction, as a multiple of the known distance to another neighbour.
@@ -149,9 +150,9 @@ class Grower {
   std::deque<GridIndex> open_;
 };
 
-/// Returns the chessboard around saddle `seed`, grown along the edges; the lower right square of (0, 0) is bright.
-/// Saddles that are `taken` belong to other boards. The grid may be wrong, or hold only the seed; Reader later checks
-/// the grid by its codes.
+/// Returns the corners of the chessboard around saddle `seed`, found one after another along the edges. The seed is
+/// corner (0, 0), and the square to its lower right is bright. Saddles that are `taken` belong to other boards. The
+/// grid may be wrong, or hold only the seed; Reader later checks the grid by its codes.
 CornerGrid GrowGrid(const GreyImage& picture, const std::vector<Saddle>& saddles, std::size_t seed,
                     const std::vector<bool>& taken) {
   return Grower(picture, saddles, taken).Grow(seed);

@@ -57,10 +57,11 @@ bool IsStrongestAround(const GreyImage& strengths, int x, int y) {
   return true;
 }
 
-// Returns the saddle at (x, y). Its edges are the directions of zero curvature, xx cos² + 2 xy cos sin + yy sin² = 0.
+// Returns the saddle at (x, y). Its edges are the directions (cos a, sin a) in which the curvature is zero:
+// xx cos² a + 2 xy cos a sin a + yy sin² a = 0.
 Saddle Describe(const Hessian& hessian, double x, double y) {
   // In the frame of the principal directions, with curvatures k1 > 0 and −k2 < 0, the condition is
-  // k1 cos² − k2 sin² = 0.
+  // k1 cos² a − k2 sin² a = 0.
   const double mean = 0.5 * (hessian.xx + hessian.yy), half = std::hypot(0.5 * (hessian.xx - hessian.yy), hessian.xy);
   // Compute the direction of the largest curvature.
   const double bright = 0.5 * std::atan2(2 * hessian.xy, hessian.xx - hessian.yy);
@@ -78,7 +79,7 @@ std::optional<glm::dvec2> Refine(const GreyImage& picture, const glm::dvec2& fou
     glm::dvec2 right(0);
     const int x0 = static_cast<int>(std::floor(pixel.x)), y0 = static_cast<int>(std::floor(pixel.y));
     if (x0 < kBorder || y0 < kBorder || x0 >= picture.width - kBorder || y0 >= picture.height - kBorder) return {};
-    // Add up the equations of all gradients nearby, weighted by their distance.
+    // Add up the equations of all gradients nearby; the nearer a gradient is, the larger is its weight.
     for (int y = y0 - kRefineReachPx; y <= y0 + kRefineReachPx; ++y) {
       for (int x = x0 - kRefineReachPx; x <= x0 + kRefineReachPx; ++x) {
         const glm::dvec2 q(x + 0.5, y + 0.5);

@@ -20,8 +20,8 @@ double BrightnessAt(const GreyImage& picture, const glm::dvec2& pixel);
 /// A saddle point of brightness, between two dark and two bright quadrants: a corner of a chessboard or of a code.
 struct Saddle {
   glm::dvec2 pixel{0};
-  /// Unit vectors along the two crossing edges. The quadrant clockwise from the first to the second (u right, v down)
-  /// is bright.
+  /// Unit vectors along the two crossing edges. Rotating the first clockwise (u right, v down) to the second sweeps a
+  /// bright quadrant.
   std::array<glm::dvec2, 2> edges;
   double strength = 0;
 };

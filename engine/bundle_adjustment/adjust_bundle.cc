@@ -252,7 +252,8 @@ std::unique_ptr<ceres::LossFunction> MakeLoss(const BundleOptions& options) {
   return nullptr;
 }
 
-/// The cost of the adjustment as a Ceres problem. The Ceres problem owns the cost's terms.
+/// The cost of the adjustment as a Ceres problem. This object owns the cost's terms; the Ceres problem only refers to
+/// them.
 class BundleProblem {
  public:
   BundleProblem(const BundleInputs& inputs, const BundleOptions& options, Variables& variables)
@@ -353,7 +354,7 @@ ceres::Solver::Options SolverOptions(const BundleOptions& options) {
 
 BundleSolution AdjustBundle(const BundleInputs& inputs, const BundleOptions& options) {
   FLAGS_minloglevel = google::GLOG_FATAL;  // no log output: the summary reports the outcome
-  // The parameter blocks begin at the start poses.
+  // Set the parameter blocks to the start poses.
   Variables variables{inputs.body, inputs.body.lengths, {}};
   for (const TreeState& state : inputs.start) {
     assert(state.angles.size() == inputs.body.tree.limits.size());

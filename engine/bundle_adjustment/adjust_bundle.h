@@ -76,7 +76,7 @@ struct BundleSolution {
 /// by Ceres's Levenberg–Marquardt method with an analytic Jacobian and a sparse Cholesky factor. Here r is the
 /// reprojection error of a mark in pixels, Λ its information, and ρ the robust loss. Time is linear in the number of
 /// frames. Angles that are determined neither by marks nor by neighbouring frames stay as in `start`. Marks of a point
-/// that is behind the camera at `start` are ignored.
+/// that at `start` is behind the camera, or less than 0.1 m in front of it, are ignored.
 BundleSolution AdjustBundle(const BundleInputs& inputs, const BundleOptions& options = {});
 
 }  // namespace etude

@@ -45,7 +45,8 @@ class PointGains {
         first_(first_block),
         length_block_(length_block) {}
 
-  /// Adds to row `row` the derivatives of a residual whose derivative with respect to the point is `along`.
+  /// Adds the derivatives of a residual with respect to the parameter blocks to row `row`. `along` is the residual's
+  /// derivative with respect to the point.
   void Add(int row, const glm::dvec3& along) const {
     const auto gain = [&](int column) { return glm::dot(along, gains_[column]); };
     // Fill the blocks of position, rotation, angles and lengths; a block is null if Ceres does not need it.

@@ -95,8 +95,8 @@ std::optional<glm::dvec2> Project(const ProjectionMatrix& matrix, const glm::dve
 /// plane, or so far outside the picture that the distortion model folds back (`Undistort`).
 std::optional<glm::dvec2> Project(const Camera& camera, const glm::dvec3& p_WQ);
 
-/// `DistortPixel` maps a pixel of the pinhole to the pixel of the lens, and `UndistortPixel` is its inverse. Each
-/// returns nullopt for a pixel that has no counterpart.
+/// `DistortPixel` maps a pixel of the picture without lens distortion to the pixel of the same ray in the camera's
+/// picture; `UndistortPixel` is its inverse. Each returns nullopt for a pixel that has no counterpart.
 std::optional<glm::dvec2> DistortPixel(const Camera& camera, const glm::dvec2& pixel);
 std::optional<glm::dvec2> UndistortPixel(const Camera& camera, const glm::dvec2& pixel);
 

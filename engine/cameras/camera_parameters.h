@@ -17,7 +17,7 @@ namespace etude {
 struct CameraParameters {
   double focal_length = 600;  ///< f, pixel heights; > 0
   double delta_u = 1;         ///< width of a pixel, in pixel heights; > 0
-  double delta_v = 1;         ///< height of a pixel, in pixel heights
+  double delta_v = 1;         ///< height of a pixel; always 1, because pixel heights are the unit
   double principal_u = 320;   ///< pu, pixels
   double principal_v = 240;   ///< pv, pixels
   double skew = kRightAngle;  ///< θ, angle between the axes of the picture, radians, in (0, π)

@@ -28,14 +28,14 @@ glm::dvec3 ViewingRay(const ProjectionMatrix& matrix, const glm::dvec2& pixel);
 
 /// The plane through a camera's centre and a stroke; it contains the limb.
 struct StrokePlane {
-  glm::dvec3 normal_W{0};  ///< unit normal, ray(a) × ray(b)
+  glm::dvec3 normal_W{0};  ///< unit normal, in the direction of ray(a) × ray(b)
   glm::dvec3 ray_a_W{0};   ///< unit vector from the camera through the stroke's start
   glm::dvec3 ray_b_W{0};   ///< unit vector from the camera through the stroke's end
   double length_px = 0;
 };
 
-/// Returns the plane of a stroke; nullopt if the stroke has no length, that is, less than 0.01 pixel at a focal length
-/// of 600.
+/// Returns the plane of a stroke; nullopt if the stroke has no length, that is, at most 0.006 pixel at a focal length
+/// of 600 pixels.
 std::optional<StrokePlane> PlaneOf(const LimbSighting& sighting);
 
 enum class DirectionStatus {
@@ -49,7 +49,7 @@ struct LimbDirection {
   DirectionStatus status = DirectionStatus::kIllConditioned;
   glm::dvec3 direction{0};  ///< unit vector in the world, from a to b; only when kOk
   /// The angle between the two planes, in [0, π/2]; for more planes, the largest angle between any two. The error of
-  /// the direction is the error of the strokes times 1/sin(plane_angle).
+  /// the direction is about the angular error of the planes divided by sin(plane_angle).
   double plane_angle = 0;
 };
 

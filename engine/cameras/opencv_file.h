@@ -25,7 +25,7 @@ struct OpenCvParameters {
 };
 
 /// Returns the camera's parameters, with 5, 8, 12 or 14 distortion coefficients: the smallest of these counts that
-/// keeps all coefficients other than 0. A fisheye has 4.
+/// keeps all coefficients other than 0. A fisheye camera always has 4.
 OpenCvParameters ParametersOf(const Camera& camera);
 /// Makes a camera from the parameters. Fails, with the reason, if the parameters do not describe a camera.
 Result<Camera> CameraOf(const OpenCvParameters& parameters);

@@ -16,11 +16,11 @@ struct CameraPairs {
   std::vector<PointPair> pairs;
 };
 
-/// Reads points measured in the world (metres, Y up) and their pixels (OpenCV's: the centre of the first pixel is at
-/// (0, 0)) for each camera, from either
-/// - CSV with the heading `camera,x,y,z,u,v`, one pair a line, cameras by name in any order; or
+/// Reads point pairs for each camera: a point measured in the world (x, y, z; metres, Y up) and its pixel (u, v; in the
+/// file, the centre of the first pixel is at (0, 0), as in OpenCV). The file is either
+/// - CSV with the heading `camera,x,y,z,u,v` and one pair per line, which begins with the camera's name; or
 /// - YAML: `left: {size: [1920, 1080], pairs: [[x, y, z, u, v], …]}` for each camera.
-/// Fails with the line and what is allowed; refuses more than 64 cameras or 1 MiB.
+/// Fails, naming the line and what is allowed; refuses more than 64 cameras or 1 MiB.
 Result<std::vector<CameraPairs>> ReadPointPairs(std::string_view text, const std::string& file);
 
 }  // namespace etude

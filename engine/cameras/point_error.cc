@@ -76,7 +76,8 @@ std::optional<glm::dmat3> InverseNormal(std::span<const PixelErrors> pixels, std
     if (subset >> i & 1) normal += glm::transpose(pixels[i].by_position) * pixels[i].by_position;
   }
   const double trace = normal[0][0] + normal[1][1] + normal[2][2];
-  constexpr double kParallel = 1e-9;  // value of det / (trace / 3)³ for lines of sight that are 10⁻⁴ rad apart
+  // The value of det / (trace / 3)³ for two lines of sight of equal weight at an angle of 3·10⁻⁵ rad.
+  constexpr double kParallel = 1e-9;
   if (!(glm::determinant(normal) > kParallel * std::pow(trace / 3, 3))) return std::nullopt;
   return glm::inverse(normal);
 }

@@ -46,8 +46,8 @@ std::string Table(const NamedCamera& named) {
                      p.is_fisheye);
 }
 
-/// Returns the rotation nearest to a matrix that was rounded to six digits, by Newton's iteration. A matrix that is
-/// farther from a rotation is returned unchanged.
+/// Returns the rotation nearest to `R`, by Newton's iteration, if `R` is a rotation but for rounding of its numbers.
+/// Otherwise returns `R` unchanged.
 glm::dmat3 Orthonormal(const glm::dmat3& R) {
   const glm::dmat3 off = R * glm::transpose(R) - glm::dmat3(1);
   constexpr double kRounded = 1e-3;

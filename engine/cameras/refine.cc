@@ -226,7 +226,7 @@ class Bundle {
       evaluate.parameter_blocks.push_back(targets_[i].data());
       columns_.insert(columns_.end(), kPoseCount, Column{intrinsics_.size() + i, -1});
     }
-    // Evaluate the Jacobian and sum up its products.
+    // Evaluate the Jacobian, and compute JᵀJ from its nonzero entries.
     problem_.Evaluate(evaluate, &cost_, &residuals_, nullptr, &jacobian_);
     const ceres::CRSMatrix& jacobian = jacobian_;
     Eigen::MatrixXd normal = Eigen::MatrixXd::Zero(jacobian.num_cols, jacobian.num_cols);
@@ -241,9 +241,9 @@ class Bundle {
   }
 
   // Returns the variances of the free parameters for errors that are correlated among the corners of one view (by blur,
-  // a bent board, or a bias of the finder). The estimator is the sandwich A⁻¹ (Σ g gᵀ) A⁻¹ with A⁻¹ = `inverse`
-  // and the gradient g of each view, enlarged because views are few (Cameron and Miller 2015, CR1). Returns zeros for
-  // fewer than four views.
+  // a bent board, or a bias of the finder). The estimator is the sandwich A⁻¹ (Σ g gᵀ) A⁻¹, where A⁻¹ is `inverse`
+  // and g is the gradient of one view. The variances are multiplied by the correction CR1 for a small number of views
+  // (Cameron and Miller 2015). Returns zeros for fewer than four views.
   Eigen::VectorXd VariancesByViews(const Eigen::MatrixXd& inverse) const {
     Eigen::VectorXd variances = Eigen::VectorXd::Zero(inverse.rows());
     constexpr std::size_t kMinViews = 4;

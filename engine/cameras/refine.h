@@ -67,7 +67,7 @@ struct RefinedRig {
   std::size_t points = 0;  ///< N, the number of point pairs
   /// p, the number of free parameters. If corners have errors of σ per coordinate, rms_px is near σ √(2 − p / N).
   std::size_t parameters = 0;
-  /// Standard deviations of each camera's intrinsics; 0 if cameras are held fixed.
+  /// Standard deviations of each camera's intrinsics; 0 for intrinsics that are held fixed.
   std::vector<IntrinsicsDeviation> deviations;
 };
 

@@ -33,7 +33,8 @@ Result<std::vector<double>> MatrixAt(const Node& camera, std::string_view key, s
 
 namespace {
 
-/// Rotates into our world from a world with Z up, or from a world that is a camera's frame.
+/// Rotates from the file's axes to ours as if the file had Z up. This is not so for OpenCV's stereo pair and COLMAP;
+/// their up axis must be found separately (PlacementOptions::up).
 const glm::dmat3 kOursOfZUp(0, 0, 1, 1, 0, 0, 0, 1, 0);
 
 /// Makes the camera in our world; the picture size is 0 × 0 if the file states none.

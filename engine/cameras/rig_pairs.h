@@ -14,13 +14,15 @@ namespace etude {
 /// `rows` is 0, if the count is not rows × columns.
 Result<std::vector<double>> MatrixAt(const Node& camera, std::string_view key, std::size_t rows, std::size_t columns);
 
-/// Reads EasyMocap's pair: `names`, `K_<name>`, `dist_<name>` (and `H_`, `W_`) from the intrinsics; `Rot_<name>` or
-/// `R_<name>`, `T_<name>` from the extrinsics. The world is the frame of EasyMocap's chessboard, Z up, in metres.
+/// Reads EasyMocap's two files: `names`, `K_<name>`, `dist_<name>` (and `H_<name>`, `W_<name>`) from intri.yml;
+/// `T_<name>`, and `Rot_<name>` or `R_<name>`, from extri.yml. The files' world is the frame of EasyMocap's
+/// chessboard, Z up, in metres; `RigFile::R_WF` rotates it.
 Result<RigFile> ReadEasyMocap(const Node& intrinsics, const Node& extrinsics);
 
-/// Reads OpenCV's stereo pair: M1, D1, M2, D2 from the intrinsics; R and T, which map from the first camera's frame to
-/// the second's, from the extrinsics. The world is the first camera's frame; the cameras are named "left" and "right".
-/// Rectification matrices are ignored because the films are not rectified.
+/// Reads OpenCV's two files of a stereo rig: M1, D1, M2, D2 from intrinsics.yml; R and T, which map from the first
+/// camera's frame to the second's, from extrinsics.yml. The files' world is the first camera's frame, which
+/// `RigFile::R_WF` rotates; the cameras are named "left" and "right". Rectification matrices are ignored because the
+/// films are not rectified.
 Result<RigFile> ReadOpenCvStereo(const Node& intrinsics, const Node& extrinsics);
 
 /// Reads COLMAP's text model with one image for each camera; the image's name, without folder and extension, becomes

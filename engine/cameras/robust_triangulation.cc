@@ -55,7 +55,7 @@ using DistanceOfView = std::vector<double>;
 struct Consensus {
   std::vector<std::size_t> views;
   double weight = 0;
-  double squares = std::numeric_limits<double>::infinity();  // mean squared distance over `views`
+  double squares = std::numeric_limits<double>::infinity();  // weighted mean squared distance over `views`, px²
 
   bool IsBetterThan(const Consensus& other) const {
     return weight != other.weight ? weight > other.weight : squares < other.squares;

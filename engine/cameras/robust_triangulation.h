@@ -69,10 +69,11 @@ struct RobustPoint {
   double residual_px = 0;      ///< weighted root mean square distance of the agreeing sightings
 };
 
-/// Triangulates a point from sightings of which some may be outliers *(ours)*. The start is the set of agreeing views
-/// (`AgreeingViews`, weighted). The position minimises Σ w · d², where d is the distance in the picture
-/// (`TriangulateLikeliest`). Then the set becomes all sightings within `outlier_px` of the position's projections, and
-/// the position is computed again, at most three times. Returns nullopt if fewer than two sightings agree.
+/// Triangulates a point from sightings of which some may be outliers *(ours)*. The first set of sightings is the one of
+/// `AgreeingViews` (weighted). The position minimises Σ w · d² over the set, where d is the distance in the picture
+/// (`TriangulateLikeliest`). Then the set becomes all sightings within `outlier_px` of the position's projections.
+/// These two steps are done at most three times, until the set no longer changes. Returns nullopt if fewer than two
+/// sightings agree.
 std::optional<RobustPoint> TriangulateRobustly(std::span<const WeightedSighting> sightings,
                                                const RobustOptions& options = {});
 

@@ -132,7 +132,8 @@ namespace {
 
 using enum Role;
 
-/// A length of LimbLengths, and the two joints between which it is measured; on the right side, their mirror images.
+/// A length of LimbLengths. It is measured between the joints `a` and `b`, and on the other side of the body between
+/// their mirror images.
 struct LengthBetween {
   double LimbLengths::*length;
   Role a, b;

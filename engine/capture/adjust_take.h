@@ -49,8 +49,9 @@ struct AdjustedTake {
 };
 
 /// Adjusts a whole take at once (`AdjustBundle`): fits paper B's body in all frames to the marks of all pictures. The
-/// search starts at the angles that point the limbs along the joints of `start` (`FindStartState`); a frame without
-/// such angles starts at the angles of a neighbouring frame. `is_solved` is false if no frame shows a body.
+/// search starts at the angles that point the limbs along the joints of `start` (`FindStartState`). A frame without
+/// such angles starts at the pose of the last earlier frame that has them, or else of the first frame that has them.
+/// `is_solved` is false if no frame shows a body.
 AdjustedTake AdjustTake(const AdjustTakeInputs& inputs, const AdjustTakeOptions& options = {});
 
 /// Returns the smoothness prior for a motion at this frame rate; it applies to hips, shoulders, wrists, ankles and all

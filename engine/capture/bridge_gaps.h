@@ -32,8 +32,8 @@ struct BridgeOptions {
 ///     Σ (Nᵢ·d)²/εᵢ² + |d − b|²/τ²,   εᵢ = max(1°, √2 · `mark_error_px` / length of the stroke · |rayᵢ × b|).
 ///   τ is `turn_per_frame` times the number of frames to the nearest measurement. εᵢ is the error of Nᵢ·b that the
 ///   marks' errors cause; rayᵢ is the unit vector from the camera towards the stroke's middle. Nearly parallel planes
-///   thus determine part of the direction, and the neighbouring frames the rest. Without b, the limb is assumed not to
-///   be foreshortened: its direction is normal to the mean line of sight of its pictures.
+///   thus determine part of the direction; the neighbouring frames determine the rest. Without b, the limb is assumed
+///   not to be foreshortened: its direction is normal to the mean line of sight of its pictures.
 /// A quantity that is not seen in the frame and was not measured within `max_gap` frames is marked as lacking
 /// (`LimbObservation::lacks_end`); a frame that lacks everything is empty.
 std::vector<std::optional<LimbObservation>> BridgeGaps(std::span<const FrameMeasurement> frames,

@@ -31,8 +31,8 @@ Result<std::vector<ProjectionMatrix>> CalibrateCameras(std::span<const std::vect
 Result<std::vector<Camera>> RefineCameras(std::span<const std::vector<PointPair>> pairs,
                                           std::span<const PictureSize> sizes, const RefineOptions& options = {});
 
-/// Returns the marks as the camera would show them without lens distortion. These marks and the camera's `MatrixOf` are
-/// the input of `MeasureInputs`. A mark outside the field of the lens is left out.
+/// Returns the marks as the camera would show them without lens distortion. A mark outside the field of the lens is
+/// left out. `MeasureInputs` takes such marks, with the matrix that `MatrixOf` returns for the camera.
 Marks UndistortMarks(const Camera& camera, const Marks& marks);
 
 }  // namespace etude

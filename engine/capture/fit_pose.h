@@ -48,11 +48,11 @@ class PoseFitter {
   TreeState Improve(const PoseTargets& wanted, const TreeState& state) const;
 
  private:
-  /// A role at whose target a limb L can be pointed: a role on L, or the first role with a target on a chain of limbs
+  /// A role whose target shows where a limb L points: a role on L, or the first role with a target on a chain of limbs
   /// beyond L.
   struct Aim {
     Role role;
-    glm::dvec3 p_LQ{0};  ///< position of the role relative to L if all angles beyond L are zero
+    glm::dvec3 p_LQ{0};  ///< position of the role in the frame of L, if all angles beyond L are zero
     bool is_on_limb = false;
   };
 

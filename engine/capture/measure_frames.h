@@ -30,16 +30,18 @@ using RoleVectors = std::array<std::optional<glm::dvec3>, kRoleCount>;
 
 /// The spatial measurements from the marks of one frame.
 struct FrameMeasurement {
-  RoleVectors ends;        ///< p_WE, metres: position of each end effector in the world, by its role
-  RoleVectors directions;  ///< unit vectors in the world: direction of each limb, by the role of its lower joint
+  RoleVectors ends;  ///< p_WE, metres: position of each end effector in the world, by its role
+  /// Unit vectors in the world: the direction of each limb, by the role at which its stroke ends (`StrokeMark::to`).
+  RoleVectors directions;
   /// For each limb without a direction: the planes through the limb, one per picture that shows it.
   std::array<std::vector<StrokePlane>, kRoleCount> planes = {};
   /// The sight line of each end effector that only one picture shows.
   std::array<std::optional<SightLine>, kRoleCount> sight_lines = {};
 };
 
-/// Measurements of one frame from another source than marks: from another sensor, or true values, with which the errors
-/// of later computations can be measured alone. Each member that is present replaces all measurements of its kind.
+/// Measurements of one frame that do not come from marks but from another sensor, or true values. With true values, the
+/// errors of later computations can be measured without the errors of marks. Each member that is present replaces all
+/// measurements of its kind.
 struct KnownMeasurement {
   std::optional<RoleVectors> ends;
   std::optional<RoleVectors> directions;

@@ -109,7 +109,7 @@ std::optional<PointMeasurement> OnSightLine(const InformedSighting& seen, const 
   const auto sum = PointEquationsAt({&seen, 1}, position);
   if (!sum) return std::nullopt;
   // Standard deviation, along the sight line, of a joint that only one picture shows, metres *(ours)*. It is large
-  // because interpolation between neighbouring frames is inaccurate.
+  // because the joint's depth is only interpolated between other frames.
   constexpr double kDepthError = 0.15;
   const glm::dmat3 depth = glm::outerProduct(line->direction_W, line->direction_W) / (kDepthError * kDepthError);
   return PointMeasurement{position, sum->information + depth};
@@ -215,8 +215,8 @@ std::optional<BodyPose> CompleteJoints(const OptionalJoints& joints, const BodyP
   middle(kSpine, kHipCentre, kShoulderCentre, kSpineShare);
   if (std::ranges::none_of(filled, [](const auto& joint) { return joint.has_value(); })) return std::nullopt;
 
-  // Attach each missing joint to its neighbour at the offset of `like`, rotated by the difference between the headings
-  // of the frame's body and of `like`.
+  // Attach each missing joint to its neighbour. The offset between the two comes from `like`, rotated by the
+  // difference between the headings of this body and of `like`.
   const auto across = AcrossOf(joints);
   const glm::dvec3 like_across = like[kLeftHip] - like[kRightHip];
   const FloorMove turn{.yaw = across ? YawOf(*across) - YawOf(like_across) : 0};

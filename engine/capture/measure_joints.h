@@ -13,7 +13,7 @@
 
 namespace etude {
 
-/// The error model of marks that a method may use.
+/// The errors of marks that a method assumes.
 struct MarkErrors {
   double mark_error_px = 2;  ///< standard deviation of a disc in u and in v, and of a stroke's end across the stroke
   /// The standard deviation of a stroke's end along the limb, as a share of the stroke's length. Strokes are more

@@ -71,7 +71,8 @@ std::vector<EffectorError> ErrorsSeen(const CaptureBody& body, const LimbObserva
 /// Returns the pose at which the solver starts; nullopt if neither the pictures nor the last frame give one.
 std::optional<TreeState> StartOf(const Start& found, const std::optional<RecoveredFrame>& last, bool is_marked) {
   if (!last || (found.seen && is_marked)) return found.seen;
-  // The solver does not move the root. So take the root's position from the pictures, and its frame if they show it.
+  // The solver does not move the root. So take the root's position from the pictures, and also its orientation
+  // (`root_frame`) if the pictures show it.
   TreeState start = last->state;
   start.root_position = found.fixed[kLeftFoot];
   if (found.seen) start.root_frame = found.seen->root_frame;

@@ -26,8 +26,8 @@ struct RecoverInputs {
   /// starts at the angles that the pictures show, in any other frame at the angles of the last recovered frame.
   std::vector<bool> marked = {};
   /// The true start angles or true poses, one per frame, if known; otherwise empty. Known start angles replace the
-  /// computed start angles, and known poses replace the solver's result. The error of the replaced computation can then
-  /// be measured.
+  /// computed start angles, and known poses replace the solver's result. The error that remains in the recovered motion
+  /// then comes from the other computations.
   std::vector<TreeState> known_starts = {}, known_poses = {};
 };
 
@@ -50,7 +50,7 @@ struct RecoveredFrame {
 
 /// Recovers a skeleton in every frame from its observation (paper B, chapter 3): fix the limb lengths, then move every
 /// end effector back to its observed position with the solver. For paper B's body, lengths are fixed as in section 3.2
-/// (`FixLimbLengths`) and start angles found as in 3.3 (`FindStartState`). For another body, `PoseFitter` replaces
+/// (`FixLimbLengths`), and start angles are found as in 3.3 (`FindStartState`). For another body, `PoseFitter` replaces
 /// these two functions: it fits the body to all joints that the end effectors and the limbs' directions determine.
 /// Values that an observation lacks are taken from the last frame, or at the beginning from a standing body
 /// (`CompleteObservation`); these values are not used as targets. A frame stays empty if it has no observation, if its

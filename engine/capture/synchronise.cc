@@ -52,8 +52,8 @@ ClockOffset FindOffset(const std::function<std::optional<double>(int offset)>& m
     best = offset;
   }
   const ParabolaMinimum minimum = FitParabola(misfit, best).value_or(ParabolaMinimum{});
-  // The offset is 0, because probably nobody moved, unless it lowers the misfit at offset 0 by more than the share
-  // kNoBetter plus kNothing squared pixels.
+  // If the minimum is below the misfit at offset 0 by at most the share kNoBetter of this misfit plus kNothing px²,
+  // probably nobody moved: the offset is then 0.
   constexpr double kNoBetter = 0.001, kNothing = 1e-4;
   // With 300 distances or more, noise alone keeps the ratio of the mean misfit to the minimum below this value.
   constexpr double kTold = 1.25;

@@ -14,8 +14,8 @@ namespace etude {
 struct SyncOptions {
   /// The maximum offset that is searched, in frames either way. Raise it for cameras that were started by hand.
   int max_frames = 16;
-  /// The maximum error of a pair of sightings, pixels. Larger errors are capped, so that a single mark on the wrong
-  /// limb does not determine the offset.
+  /// The epipolar distance, pixels, at which the distance of a pair of sightings is capped, so that a single mark on
+  /// the wrong limb does not determine the offset.
   double max_px = 20;
 };
 
@@ -27,9 +27,9 @@ struct ClockOffset {
 };
 
 /// Finds the offset that minimises `misfit`, in squared pixels: first the best whole number of frames, then the minimum
-/// of the parabola through its neighbourhood. The misfit is evaluated at whole frames only. (An interpolated pixel has
-/// a smaller error than measured pixels, so offsets would be biased towards half frames.) Returns 0 if the minimum is
-/// hardly below the misfit at 0, or if the misfit at 0 is undefined.
+/// of the parabola through its neighbourhood. The misfit is evaluated at whole frames only. (Between frames, pixels
+/// would be interpolated and so have smaller errors, which would bias the offset towards half frames.) Returns 0 if
+/// the minimum is hardly below the misfit at 0, or if the misfit at 0 is undefined.
 ClockOffset FindOffset(const std::function<std::optional<double>(int offset)>& misfit, int max_frames);
 
 using OptionalPixel = std::optional<glm::dvec2>;

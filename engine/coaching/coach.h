@@ -24,8 +24,8 @@ struct ClapState {
   static constexpr int kLongAgo = 1000;
 };
 
-/// Takes one frame at 30 Hz. Returns true in the frame in which a clap is detected: both hands are tracked and above
-/// the hips, and have come together within half a second of being apart.
+/// Must be called once per frame, at 30 Hz. Returns true in the frame in which a clap is detected: both hands are
+/// tracked and above the hips, and have come together within half a second of being apart.
 bool SeeClap(const SensedFrame& frame, ClapState& state);
 
 /// The state that SeeMotion keeps between two frames.
@@ -37,15 +37,15 @@ struct StillnessState {
   int frames = 0;  ///< number of all frames since ResetCounts
 };
 
-/// Takes one frame at 30 Hz. Returns true if the body is seen and moves.
+/// Must be called once per frame, at 30 Hz. Returns true if the body is seen and moves.
 bool SeeMotion(const SensedFrame& frame, StillnessState& state);
 /// Restarts the counts but keeps the joints' rest positions.
 void ResetCounts(StillnessState& state);
 
 /// The settings of a coach. Times are in seconds; values are ours where paper A gives none.
 struct CoachOptions {
-  /// The evidence at which a performance counts as right, in (0, 1]. The right value depends on the recogniser: to
-  /// compare recognisers, choose values that give equal false-alarm rates.
+  /// The evidence at which a performance counts as right, in (0, 1]. Recognisers need different values: to compare
+  /// recognisers, choose values that give equal false-alarm rates.
   double right_from = 0.5;
   /// A window is the time in which a performance is judged. It opens and closes this time after the coach's repetition
   /// begins and ends, because learners follow with a lag.

@@ -28,7 +28,7 @@ enum class CoachEvent {
   kTag,         ///< the dance reached a tag: a frame that is due at a set time of the music
   kTransition,  ///< a transition between clips begins
   kSongEnds,
-  kAttracts,  ///< nobody takes part, so the coach invites to dance
+  kAttracts,  ///< nobody takes part, so the coach invites people to dance
   kDozes,
 };
 /// Returns the event's name, for example "woken", "song begins" or "right".

@@ -61,9 +61,10 @@ double MusicAt(const Dance& dance, double frame);
 /// Returns the index of the dance's first tag at `frame` or later.
 int NextTag(const Dance& dance, double frame);
 
-/// Applies paper A's music-time tags (3.4). The dance is at `frame` and the music at `music_s`. Returns the number of
-/// dance frames to advance per shown frame so that tag `next` is reached at its time; after the last tag, the goal is
-/// the dance's end. Below 1 the move is slowed down, above 1 sped up; the result is clamped to [slowest, fastest].
+/// Returns the number of dance frames per shown frame with which the dance reaches the music-time tag `next` at its
+/// time (paper A, 3.4), if the dance is at `frame` and the music at `music_s`. After the last tag, the end of the
+/// dance takes the place of the tag. Below 1 the dance is slowed down, above 1 sped up; the result is clamped to
+/// [slowest, fastest].
 double RateToTag(const Dance& dance, int next, double frame, double music_s, double slowest, double fastest);
 
 }  // namespace etude

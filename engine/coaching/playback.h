@@ -10,9 +10,9 @@
 
 namespace etude {
 
-/// The frames that are shown after a request: those of the transition, then those of the entered clip to its end (of an
-/// act only the beginning is entered: DanceLibrary::ClipEntering). (A floor move rotates a clip about the vertical and
-/// shifts it on the floor.)
+/// The frames that are shown after a request: those of the transition, then those of the entered clip to its end. To
+/// enter an act, a transition enters the clip of the act's beginning (DanceLibrary::ClipEntering); the whole act then
+/// plays on. A floor move rotates a clip about the vertical and shifts it on the floor.
 struct ShownPath {
   int clip = 0;                  ///< the wanted clip, as an index in the library
   std::vector<BodyPose> frames;  ///< shown poses, in the coordinates of the clip that played before
@@ -43,7 +43,8 @@ class DanceTransitions {
 
  private:
   std::shared_ptr<const TransitionRecord> Plan(int from, int frame, int to) const;
-  /// `home_from` is the playing clip's floor move if the wanted clip is to be shown where it was authored, else null.
+  /// `home_from` is null if the wanted clip may be shown anywhere on the floor. Otherwise it is shown where it was
+  /// authored, and `home_from` is the floor move of the playing clip.
   std::shared_ptr<const ShownPath> Splice(int from, int frame, const FloorMove* home_from, int to) const;
 
   const DanceLibrary& library_;
@@ -83,8 +84,8 @@ bool IsSettled(const Playback& playback);
 /// Advances by one frame, or by `rate` frames of the dance while the dance plays. When a path back into the dance has
 /// ended, the dance continues from the frame that the path has reached.
 void Advance(Playback& playback, const DanceLibrary& library, double rate);
-/// Starts a transition from the playing dance or clip to the clip `clip`, beginning with the next frame. The playback
-/// must be settled.
+/// Starts a transition from the playing dance or clip to the clip `clip`, beginning with the next frame.
+/// `IsSettled(playback)` must be true.
 void LeaveFor(int clip, Playback& playback, const DanceTransitions& transitions);
 /// Starts a transition like LeaveFor, but shows the clip at the place on the floor where it was authored.
 void LeaveForHome(int clip, Playback& playback, const DanceTransitions& transitions);

@@ -25,13 +25,13 @@ class CoachSession {
     const Coach* coach = nullptr;
     const Recogniser* recogniser = nullptr;  ///< a recogniser that was taught the moves of the dance, in the same order
     FilterOptions filter = {};
-    /// If true, the recogniser also follows the mirrored skeleton, so that the coach can name a wrong side. This
-    /// changes only the coach's words and the computing time.
+    /// If true, the recogniser also follows the mirrored skeleton, so that the coach can tell players that they use
+    /// the wrong side. This changes only the coach's words and the computing time.
     bool tells_wrong_side = true;
   };
 
-  /// Starts in state `begin` from Coach::Begin() or BeginDancing(). The objects that `parts` points to must outlive the
-  /// session.
+  /// Starts in the state `begin`, a result of Coach::Begin() or BeginDancing(). The objects that `parts` points to must
+  /// outlive the session.
   CoachSession(const Parts& parts, CoachState begin);
   ~CoachSession();
   CoachSession(CoachSession&&) noexcept;

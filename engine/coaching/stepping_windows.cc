@@ -30,8 +30,8 @@ void Stepping::OpenWindowAt(double dance_frame) {
   const double opens = static_cast<double>(repetition.first) + options_.reaction_s * kJudgedRateHz;
   if (dance_frame < opens) return;
   ++state_.next_window;
-  // If the coach enters a repetition more than this number of frames late, the player has not seen all of it, so no
-  // window opens.
+  // If the dance is already more than this number of frames past the window's opening, because a transition entered
+  // it there, the player has not seen all of the repetition, so no window opens.
   constexpr double kLateFrames = 3;
   if (dance_frame > opens + kLateFrames) return;
   state_.open = {.repetition = index, .move = repetition.move};

@@ -240,8 +240,9 @@ Result<MotionHeader> ReadMotionHeader(TextScanner& scanner, std::size_t joints) 
   return MotionHeader{static_cast<int>(count), RateOf(seconds), count_token};
 }
 
-/// Multiplies `rotation` by a rotation about its own axis `kAxis`, leaving out the products with zero. The axis is a
-/// template parameter so that the four numbers stay in registers; most of the reading time is spent here.
+/// Multiplies `rotation` from the right by a rotation about the axis `kAxis` (0 = x, 1 = y, 2 = z). Products with zero
+/// are left out. The axis is a template parameter so that the four numbers stay in registers; most of the reading time
+/// is spent here.
 template <int kAxis>
 void Turn(glm::dquat& rotation, double degrees) {
   constexpr int kNext = (kAxis + 1) % 3, kLast = (kAxis + 2) % 3;
@@ -290,9 +291,10 @@ Result<void> ReadFrame(TextScanner& scanner, const std::vector<BvhChannel>& chan
   return {};
 }
 
-/// Returns true if the position channels of joints below the root are relative to the OFFSETs. Absolute positions stay
-/// around the OFFSET, relative positions around 0. The criterion: in the median frame, most joints with position
-/// channels and an OFFSET are nearer to 0 than a fifth of the OFFSET's length.
+/// Returns true if the position channels of joints below the root are relative to the OFFSETs. Absolute positions
+/// stay near the OFFSET; relative positions stay near 0. The criterion: for most joints with three position channels
+/// and an OFFSET other than 0, the median length of the position over the frames is below a fifth of the OFFSET's
+/// length.
 bool AreRelativeToOffsets(const Skeleton& skeleton, const std::vector<BvhChannel>& channels,
                           const std::vector<LocalPose>& frames) {
   constexpr double kNear = 0.2;
@@ -322,7 +324,7 @@ void AddOffsets(const std::vector<BvhChannel>& channels, Clip& clip) {
   }
 }
 
-/// Returns the largest rotation of a joint relative to its parent, degrees, in about a hundred of the frames.
+/// Returns the largest rotation of a joint relative to its parent, degrees, in at most a hundred evenly spaced frames.
 double LargestRotation(const std::vector<LocalPose>& frames) {
   constexpr std::size_t kSamples = 100;
   double sine = 0;  // sine of half the largest rotation so far
@@ -398,7 +400,8 @@ Result<Clip> ReadBvh(std::string_view bytes, const std::string& file, std::vecto
                     "degrees, which BVH files have",
                     largest));
   }
-  // A joint with positions and an OFFSET of 0 rests at its position in the first frame. Our bodies have such joints.
+  // A joint with positions and an OFFSET of 0 rests at its position in the first frame. This is usual for our own
+  // bodies, so they get no remark.
   const bool is_body = std::ranges::none_of(clip.skeleton.joints, [](const Joint& j) { return !FindRole(j.name); });
   if (TakeOffsetsFromFrame(clip.frames.front(), clip.skeleton) && !is_body)
     remark("joints with positions and an OFFSET of 0: their rest positions are taken from the first frame");

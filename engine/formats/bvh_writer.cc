@@ -118,8 +118,8 @@ class Writer {
     for (int i = 0; i < 3; ++i) PrintNumber(Millionths(numbers[i]));
   }
 
-  /// Prints a number that is given in millionths. It is written by hand, because most of the writing time is spent
-  /// here.
+  /// Prints a number that is given in millionths. Most of the writing time is spent in this function, so it assembles
+  /// the digits itself.
   void PrintNumber(double millionths) {
     constexpr std::uint64_t kWhole = 1'000'000;
     if (millionths < 0) text_ += '-';

@@ -209,8 +209,8 @@ class ParameterWriter {
     bytes_ += '\0';
   }
 
-  /// Adds a parameter. `type` is −1 for letters, 2 for words, 4 for floats. `sizes` are its dimensions, at most 255
-  /// each.
+  /// Adds a parameter. `type` is −1 for text, 2 for 16-bit integers, 4 for floats. `sizes` are its dimensions, at
+  /// most 255 each.
   void Add(int id, std::string_view name, int type, const std::vector<std::size_t>& sizes, std::string_view data) {
     bytes_ += static_cast<char>(name.size());
     bytes_ += static_cast<char>(id);

@@ -25,14 +25,14 @@ bool IsC3d(std::string_view bytes);
 /// and floats, parameters at any block, more than 255 points (LABELS2 …) and more than 65,535 frames (TRIAL's fields,
 /// LONG_FRAMES). The markers' `remark` states if data follow the last frame, or if the header's rate differs from
 /// POINT:RATE. A point with a negative residual or without finite coordinates counts as not seen. Analogue channels,
-/// rotations and events are ignored. Widths of joints (PROCESSING:LKNEEWIDTH and so on, as Vicon writes them,
-/// millimetres) become the markers' `sizes_m`. Returns an error if the file is not C3D or is truncated, has no points
+/// rotations and events are ignored. Joint widths, which Vicon writes in millimetres as PROCESSING:LKNEEWIDTH and so
+/// on, become the markers' `sizes_m`. Returns an error if the file is not C3D or is truncated, has no points
 /// or no rate, has a unit other than m, cm, mm, in, ft, or has more than 10,000 points or 10⁷ frames.
 Result<C3d> ReadC3d(std::string_view bytes, const std::string& file);
 
 /// Writes trajectories as a C3D file of an Intel machine, as floats in millimetres; POINT:Y_SCREEN states that Y points
-/// up. A marker that was not seen is written with the residual −1. Names longer than 127 bytes are cut. There may be at
-/// most 65,535 markers.
+/// up. A marker that was not seen is written with the residual −1. Names longer than 127 bytes are cut. Precondition:
+/// at most 65,535 markers.
 std::string WriteC3d(const MarkerMotion& motion);
 /// Writes a body's joints as a C3D file with one marker per role.
 std::string WriteC3d(const BodyMotion& motion);

@@ -83,7 +83,7 @@ Result<JointCsvColumns> FindColumns(const NumberRows& table, const std::string& 
     if (number == 1) columns.time = i;
     if (number >= 2) columns.joints[(number - 2) / 3][(number - 2) % 3] = i;
   }
-  // A joint needs all three coordinates or none.
+  // A joint must have columns for all three coordinates or for none.
   for (const Role role : AllRoles()) {
     const auto& [x, y, z] = columns.joints[Index(role)];
     if (x.has_value() == y.has_value() && y.has_value() == z.has_value()) continue;

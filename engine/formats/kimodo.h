@@ -20,7 +20,7 @@ bool IsKimodoNpz(const Npz& arrays);
 Result<Clip> ReadKimodo(const Npz& arrays, const std::string& file);
 
 /// Returns `foot_contacts` (frames × 4: left heel, left toes, right heel, right toes; 0 or 1); nullopt if there is no
-/// such array. The file may come from any program. Fails for another shape.
+/// such array. The file need not be Kimodo's. Fails for another shape.
 Result<std::optional<std::vector<bool>>> ReadFootContacts(const Npz& arrays, std::size_t frames,
                                                           const std::string& file);
 

@@ -19,8 +19,8 @@ constexpr double kMissing = std::numeric_limits<double>::quiet_NaN();
 bool IsRowBlank(char c) { return c == ' ' || c == '\t' || c == '\r'; }
 bool IsComma(char c) { return c == ',' || c == ';'; }
 
-/// Returns the separator of the cells below a heading without commas: ';' if the heading contains one, else a tab if
-/// the heading contains one. Returns 0 for any other heading: any separator is then allowed.
+/// Returns the separator of a heading without commas: ';' if the heading contains one, else a tab if it contains one.
+/// Returns 0 for any other heading; then the separator is found in each row.
 char SeparatorOf(std::string_view heading) {
   if (heading.find(',') != std::string_view::npos) return 0;
   if (heading.find(';') != std::string_view::npos) return ';';

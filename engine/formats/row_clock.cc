@@ -105,11 +105,11 @@ std::string DescribeGrid(const RowGrid& grid, std::size_t twice) {
 }
 
 /// Returns the grid of evenly spaced rows if their times are printed so coarsely that neighbouring rows share a time,
-/// e.g. 120 Hz printed to 0.01 s; nullopt for other rows. Several rates may fit within the rounding: the stated rate is
-/// preferred, then a whole number, then a rate of television (n · 1000 / 1001).
+/// e.g. 120 Hz printed to 0.01 s; nullopt for other rows. The grid has the first of these rates that fits within the
+/// rounding: the stated rate, the mean rate rounded to a whole number n, n · 1000 / 1001 (television), the mean rate.
 std::optional<RowGrid> GridOfCoarseTimes(std::span<const double> times, std::optional<double> told_hz) {
   constexpr std::size_t kMinRows = 8;
-  constexpr double kMinPerStep = 1.05;  // minimum mean count of rows per step; below it, equal times are duplicates
+  constexpr double kMinPerStep = 1.05;  // minimum mean number of rows per step; with fewer, equal times are duplicates
   const double step = PrintedStep(times), span = times.back() - times.front();
   if (times.size() < kMinRows || step == 0 || !(span > 0) || std::ranges::adjacent_find(times) == times.end()) {
     return std::nullopt;

@@ -53,19 +53,19 @@ struct MarkerRows {
   bool has_clock = true;        ///< false if the times were made from frame numbers
   double first_number = 0;      ///< number of the first row's frame, if the times were made from frame numbers
   std::string rate_name = "";   ///< the header that gives `markers.rate_hz`; "" if none does
-  std::string time_name = "the column Time";  ///< what holds the times, in words for messages
+  std::string time_name = "the column Time";  ///< the column or channel of the times, as messages name it
 };
 /// Places markers on frames by their times, whose unit FindTimeScale finds. In a frame whose row is missing, no marker
 /// counts as seen. The remark says what was changed. Fails like GridOfRows.
 Result<MarkerMotion> LayOnClock(MarkerRows rows, const std::string& file);
 
-/// Places the joints of a CSV on frames by their times. A CSV without times is placed by its frame numbers, at the rate
-/// kJudgedRateHz.
+/// Resamples the rows of a CSV at evenly spaced frames. If the CSV has no times, they are computed from its frame
+/// numbers at the rate kJudgedRateHz (TimesOfNumbers).
 Result<MarkerMotion> LayOnClock(const JointCsv& csv, const std::string& file);
 
-/// Places a body's rows on frames by their times. A hole (missing rows) of up to a second is bridged linearly. If there
-/// are longer holes, only the longest stretch of frames without such a hole is kept. `remark` says what was changed.
-/// Fails like GridOfRows.
+/// Resamples a body's motion at evenly spaced frames; `times_s` holds the time of each row. A hole (missing rows) of
+/// up to a second is bridged linearly. If there are longer holes, only the longest stretch of frames without such a
+/// hole is kept. `remark` says what was changed. Fails like GridOfRows.
 Result<BodyMotion> LayOnClock(BodyMotion rows, std::span<const double> times_s, const std::string& file,
                               std::string& remark, double& start_s);
 

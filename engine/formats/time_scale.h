@@ -24,9 +24,9 @@ struct ToldRate {
 };
 
 /// Finds the origin and unit of a file's times (NaN: missing). The unit is the second, with two exceptions. If the
-/// times agree with the stated rate only in milli-, micro- or nanoseconds, this is the unit. If no rate is stated and
-/// rows would be more than a second apart, a smaller unit is taken. If times begin beyond 11 days, such as times since
-/// 1970, the first time becomes 0 s.
+/// times agree with the stated rate only when they are read as milli-, micro- or nanoseconds, that unit is taken. If
+/// no rate is stated and rows would be more than a second apart, a smaller unit is taken. If the first time is beyond
+/// ±10⁶ s (as times since 1970 are), it becomes 0 s.
 TimeScale FindTimeScale(std::span<const double> times, const ToldRate& told);
 
 }  // namespace etude

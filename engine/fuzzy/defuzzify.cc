@@ -82,7 +82,8 @@ std::vector<double> CornersOf(std::span<const ActivatedTerm> terms, const Univer
   std::ranges::sort(corners);
   std::vector<double> all = corners;
   for (std::size_t i = 0; i + 1 < corners.size(); ++i) {
-    // Between two neighbouring corners every term is a straight line, so each pair of terms crosses at most once.
+    // Between two neighbouring corners every term is a straight line (a Gaussian is nearly straight), so each pair of
+    // terms crosses at most once.
     const double low = corners[i], high = corners[i + 1];
     if (high <= low) continue;
     for (std::size_t a = 0; a < terms.size(); ++a) {

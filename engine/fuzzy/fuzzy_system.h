@@ -37,7 +37,7 @@ const std::string* ChoosePose(const RuleBase& base, const Grades& grades);
 struct FuzzySystem {
   std::string name = "paper";
   Memberships memberships = PaperMemberships();
-  FeatureWeights weights = PaperWeights();  ///< S of equation 1, the `fixed` weights; they sum to 8
+  FeatureWeights weights = PaperWeights();  ///< the weights S of equation 1; they sum to 8
   RuleBase rules = PaperRules();
 };
 

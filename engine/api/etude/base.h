@@ -12,7 +12,7 @@ namespace etude {}
 /// right-handed with Y up. p_AB_W is the position of B from A, expressed in W; R_WB rotates vectors from B to W.
 namespace etude::engine {
 
-using namespace etude;  // the library's types are the engine's own
+using namespace etude;  // the interface passes types of the engine, such as BodyMotion
 
 /// Thrown for input that cannot be processed. `what()` is one line: the position as far as it is known ("walk.bvh:12:3:
 /// …"), what was found and what is allowed. A numerical outcome, such as an undetermined point, is returned as a

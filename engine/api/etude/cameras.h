@@ -27,9 +27,9 @@ struct CalibratedCamera {
 /// not determine a camera: fewer than six, points in one plane, or no picture size.
 ETUDE_API CalibratedCamera Calibrate(std::span<const PointPair> pairs, int width, int height);
 
-/// Triangulates a point from its pixels in several cameras with lenses, by TriangulateByPixels. `pixels` has one entry
-/// per camera, nullopt where a camera does not show the point. Throws BadInput if the numbers of pixels and cameras
-/// differ.
+/// Triangulates a point from its pixels in the pictures of several cameras: removes the lens distortion, then calls
+/// TriangulateByPixels. `pixels` has one entry per camera, nullopt where a camera does not show the point. Throws
+/// BadInput if the numbers of pixels and cameras differ.
 ETUDE_API TriangulatedPoint Triangulate(std::span<const NamedCamera> cameras,
                                         std::span<const std::optional<glm::dvec2>> pixels);
 

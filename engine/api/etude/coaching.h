@@ -39,7 +39,8 @@ struct CoachOptions {
 class ETUDE_API Coach {
  public:
   /// @param moves right performances of each move, in the order of the dance's moves. Throws BadInput for a dance that
-  /// violates the rules stated at its fields, for moves that are not in the dance, and for unknown names.
+  /// violates the rules stated at its fields, for other moves than the dance's, for an example without frames, and for
+  /// unknown names.
   Coach(const Dance& dance, std::span<const TaughtMove> moves, const CoachOptions& options = {});
   Coach(Coach&&) noexcept;
   Coach& operator=(Coach&&) noexcept;

@@ -27,7 +27,8 @@ struct TransitionPoint {
 };
 
 struct BridgeOptions {
-  int min_clips = 2;  ///< minimum number of clips that have a frame with the ten fuzzy terms of a bridge frame
+  /// A frame can be a bridge frame only if its ten fuzzy terms occur together in at least this many clips.
+  int min_clips = 2;
   /// Frames match below this fuzzy distance; a larger threshold finds more transitions, but worse ones.
   double threshold = 0.4;
 };

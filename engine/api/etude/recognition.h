@@ -36,8 +36,8 @@ class ETUDE_API Recogniser {
   Recogniser& operator=(Recogniser&&) noexcept;
   ~Recogniser();
 
-  /// Begins to follow a stream; the stream keeps the data of the recogniser alive. Throws BadInput for a rate that is
-  /// not above 0, or above 1000.
+  /// Begins to follow a stream; the stream keeps the data of the recogniser alive. Throws BadInput for a rate outside
+  /// (0, 1000].
   RecogniserStream Follow(double rate_hz = 30) const;
 
  private:

@@ -57,7 +57,7 @@ constexpr double kMinRotationLength = 1e-9;
 
 glm::dquat Quaternion(const double* xyzw) { return {xyzw[3], xyzw[0], xyzw[1], xyzw[2]}; }
 
-/// Returns the tolerance for comparing a time with `time`, because files store times as floats.
+/// Returns the largest difference at which another time counts as equal to `time`. Files store times as floats.
 double GltfTimeRounding(double time) { return 2e-7 * std::max(1.0, std::abs(time)); }
 
 Result<GltfCurve> GltfCurve::Read(GltfFile& file, int animation, int sampler, std::size_t width) {

@@ -17,8 +17,8 @@ namespace etude {
 /// meshes), and one clip per animation on the same skeleton.
 struct GltfContent {
   Character character;
-  /// The animations. Names are as in the file, in one line; unnamed animations and animations with the same name are
-  /// numbered.
+  /// The animations. In names, control characters and invalid UTF-8 become '?'. Unnamed animations and animations
+  /// with the same name are numbered.
   std::vector<Clip> clips;
   /// The joints that a VRM file (0.x, 1.0) or VRM animation declares as bones, by VRM's bone names, for example
   /// "leftUpperArm".

@@ -22,8 +22,8 @@ class GltfTextures {
   /// Decodes pictures of `file`; both arguments must outlive this object.
   GltfTextures(const GltfFile& file, const DecodePicture& decode) : file_(file), decode_(decode) {}
 
-  /// Returns the material's texture multiplied by its colour (linear RGB); null if it has no texture in PNG or JPEG.
-  /// Returns an error for invalid indices, damaged pictures, or more than 64 million pixels in one file.
+  /// Returns the material's texture multiplied by `colour` (linear RGB); null if the material has no texture in PNG or
+  /// JPEG. Returns an error for invalid indices, damaged pictures, or more than 64 million pixels in one file.
   Result<SharedTexture> Read(const tinygltf::Material& material, const glm::dvec3& colour, const std::string& where);
 
  private:

@@ -13,7 +13,7 @@ namespace etude {
 struct GltfNodes {
   Skeleton skeleton;
   std::vector<int> joint_of;    ///< joint of each node; −1 for nodes that are not joints
-  std::vector<int> mesh_nodes;  ///< nodes of the scene with a mesh, ascending
+  std::vector<int> mesh_nodes;  ///< nodes of the scene that have a mesh, ascending
 };
 
 /// Reads the nodes of the default scene. Without a default scene it reads the nodes of the first scene, and without

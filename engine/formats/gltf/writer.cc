@@ -84,8 +84,8 @@ int AddGltfView(tinygltf::Model& model, const GltfBytes& bytes, std::size_t stri
   return static_cast<int>(model.bufferViews.size()) - 1;
 }
 
-/// Adds an accessor and returns its index. If `values` holds the accessor's numbers element by element, the minimum and
-/// maximum of the numbers are stored, too; positions and key times need a minimum and a maximum.
+/// Adds an accessor and returns its index. If `values` holds the accessor's numbers, element by element, the minimum
+/// and maximum of each component are stored, too; glTF requires them for positions and key times.
 int AddGltfAccessor(tinygltf::Model& model, const GltfSlice& slice, std::span<const double> values = {}) {
   tinygltf::Accessor accessor;
   accessor.bufferView = slice.view;
@@ -170,8 +170,8 @@ void AddTrack(tinygltf::Model& model, tinygltf::Animation& animation, const Trac
 }
 
 /// Adds a clip as a LINEAR animation of the model's first nodes, which are the joints of `skeleton`. A property that
-/// stays at rest gets no channel, and a constant property gets one key. If nothing moves, one channel gets all keys, so
-/// that the clip keeps its length. A clip without frames is left out.
+/// has its rest value in all frames gets no channel; any other constant property gets one key. If nothing moves, one
+/// channel gets all keys, so that the clip keeps its length. A clip without frames is left out.
 void AddGltfClip(tinygltf::Model& model, const Skeleton& skeleton, const Clip& clip) {
   if (clip.frames.empty()) return;
   std::vector<Track> tracks;
