@@ -23,7 +23,7 @@ struct PictureOfFilm {
 /// The map that converts the keypoints of a film to pixels of the rig.
 struct PictureGuess {
   PixelFit fit;
-  std::string told;  ///< explanation for people; "" if the map is as declared
+  std::string told;  ///< explanation for users; "" if `fit` is as declared
 };
 
 /// Finds how keypoints map to the rig's pictures *(ours)*: as `fit` declares, or also rotated by quarter turns or

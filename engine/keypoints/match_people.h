@@ -36,8 +36,9 @@ std::vector<PersonTrack> FollowPeople(const SeenPeople& people, const FollowOpti
 
 struct MatchOptions {
   FollowOptions follow;
-  /// The largest distance between the rays of one person's keypoints, median over time, as a share of the person's
-  /// height in the pictures. Estimators err by 1–2 % of the height; other people differ by 10 % and more *(ours)*.
+  /// The largest error of a match: the distance by which the two rays of a keypoint miss each other, as a share of
+  /// the person's height in the pictures, median over frames and keypoints. It is 1–2 % for one person, because
+  /// estimators are inaccurate, and 10 % or more for two different people *(ours)*.
   double max_error = 0.06;
   /// True if left and right may be exchanged in a camera: tracks that do not match are then also compared with sides
   /// swapped.

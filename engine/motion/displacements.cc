@@ -233,7 +233,7 @@ std::vector<Pop> FindPops(const BodyMotion& motion, const std::vector<PoseSteps>
 /// Returns the weighted mean of the joints' excesses (see FindVelocitySteps) at step `f`. A joint's weight is the
 /// inverse of the sum of its squared excesses in nearby frames, so a standing foot weighs most.
 glm::dvec2 WeightedMean(const std::vector<PoseSteps>& excesses, int f) {
-  constexpr int kNear = 2, kFar = 6;   // a velocity step also changes the excesses of the neighbouring frames
+  constexpr int kNear = 2, kFar = 6;   // nearer frames are left out: a velocity step changes their excesses, too
   constexpr double kSmallest = 1e-10;  // avoids a division by zero; square metres
   glm::dvec3 sum{0};
   double weights = 0;
@@ -268,7 +268,7 @@ std::vector<VelocityStep> FindVelocitySteps(const BodyMotion& motion, const Disp
       excesses[f][j] = bends[f][j] - 0.5 * (bends[f - 1][j] + bends[f + 1][j]);
     }
   }
-  // Find the steps at which most joints share an excess, except near displacements and frozen frames.
+  // Find the steps at which most joints share an excess, except near displacements and ends of frozen stretches.
   std::vector<VelocityStep> steps;
   for (int f = 2; f + 2 < frames; ++f) {
     const double length = AgreedLength(excesses[f], MedianOfJoints(excesses[f]), kTolerance, 0);

@@ -62,7 +62,7 @@ struct LengthChanges {
   double usual = 0;           ///< median of the absolute `share` over the frames that show the limb
 };
 
-/// Returns the changes of upper arms, forearms, thighs and shanks. Frames near pops are ignored.
+/// Returns the length changes of upper arms, forearms, thighs and shanks. Frames near pops are ignored.
 std::vector<LengthChanges> FindLengthChanges(const BodyMotion& motion, std::span<const JointSet> unseen,
                                              const std::vector<Pop>& pops) {
   constexpr double kMinLength = 0.02;

@@ -63,7 +63,8 @@ struct FaultOptions {
   /// For each frame, the joints that it does not show, because the file lacks them and a reader guessed their
   /// positions; empty: all joints are shown. Limbs that end at such joints are not judged.
   std::vector<JointSet> unseen = {};
-  double lost_before_s = 0, lost_after_s = 0;  ///< seconds of the file before and after the motion, without joints
+  /// The durations of the file's first and last frames that are not in the motion because joints are missing.
+  double lost_before_s = 0, lost_after_s = 0;
   bool is_of_markers = false;  ///< true: joints were found from markers on the skin, so the lengths of limbs may change
 };
 

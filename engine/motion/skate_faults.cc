@@ -15,7 +15,7 @@ int FramesIn(const GroundView& ground, double seconds, int least) {
   return std::max(static_cast<int>(std::lround(seconds * ground.motion().rate_hz)), least);
 }
 
-constexpr double kStep_s = 1.0 / 15;  ///< time between two windows
+constexpr double kStep_s = 1.0 / 15;  ///< time between the centres of successive windows
 
 /// Returns the velocities along the floor, metres per second, of foot joints that may be in stance: joints near their
 /// rest height that do not rise or fall, while the body is on its feet. Uses every n-th frame, n = `every`.

@@ -20,9 +20,9 @@ using JointSet = std::bitset<kRoleCount>;
 struct SupportRules {
   double lowest = 0.12;       ///< a joint may bear the body if it is at most this high above the lowest joint
   double rest_speed = 0.5;    ///< a joint is at rest up to this speed (feet roll, and captures are noisy)
-  double height = 0.025;      ///< maximum height of a shown joint above the clip's joint at rest
-  double heel = 0.03;         ///< a raised ankle: this much higher above the toes than in a flat foot
-  double toes = 0.05;         ///< raised toes: higher than this above the clip's lowest joint
+  double height = 0.025;      ///< a shown joint may be this much higher than the clip's joint at rest
+  double heel = 0.03;         ///< a heel is raised if its ankle is this much higher above the toes than in a flat foot
+  double toes = 0.05;         ///< toes are raised if they are more than this above the lowest joint of the clip's pose
   double level = 0.12;        ///< rest heights that differ by more than this are two surfaces, such as floor and step
   double window_s = 1.0 / 3;  ///< a clip's rest heights are searched this long before and after a frame
   /// A body without support is in flight if the downward acceleration of its mass centre is in this range, metres per

@@ -134,7 +134,7 @@ class LimbLanes final : public GaussNewtonLimbs {
   /// Eliminates the hinges of four limbs, from their ends to the trunk.
   void EliminateLimbs(std::size_t number, const Four& damping) {
     const LimbPacks::Pack& pack = packs_.packs[number];
-    QuadraticLanes<Four>& sum = sum_[0];  // in memory, because GCC would store a local variable twice
+    QuadraticLanes<Four>& sum = sum_[0];  // a member, because GCC would store a local variable twice
     bool is_empty = true;
     for (int l = pack.first_level + pack.level_count; l-- > pack.first_level;) {
       const LimbPacks::Level& level = packs_.levels[l];

@@ -21,8 +21,8 @@ class MomentSweep {
   /// Returns true if the moment form supports the weights of these options.
   static bool CanServe(const IkOptions& options);
 
-  /// Turns every joint once, from the leaves to the root. Returns the largest change of an angle, measured by its
-  /// chord, radians.
+  /// Turns every joint once, from the leaves to the root. Returns the largest turn of a hinge as its chord,
+  /// 2 sin(turn / 2), which equals the turn in radians for small turns.
   double Sweep();
 
   /// The two halves of `Sweep`: `Turn` computes new angles, `Measure` computes the limbs' frames and the distances to
