@@ -120,7 +120,7 @@ class Adjuster {
   /// Estimates the prior's standard deviation for a joint's acceleration. The noise in second differences is the same
   /// at lag 1 and at a longer lag, while the contribution of the acceleration grows with the fourth power of the lag.
   double AccelerationOf(Role role) const {
-    constexpr double kSeconds = 0.1, kBursts = 1.5;  // kBursts: accelerations exceed their root mean square in bursts
+    constexpr double kSeconds = 0.1, kBursts = 1.5;  // kBursts: in bursts, accelerations exceed their root mean square
     const double lag = std::max(2.0, std::round(kSeconds * options_.rate_hz));
     const auto one = SquareOver(role, 1), several = SquareOver(role, static_cast<std::size_t>(lag));
     if (!one || !several) return options_.acceleration;
@@ -218,10 +218,10 @@ class Adjuster {
     if (options_.outlines != nullptr) AddOutlines(error);
   }
 
-  /// Adds the motion from silhouettes: a mark at the projection of each joint, in every camera and frame. A mark's
-  /// standard deviation is the joint's median distance between this motion and the motion from keypoints, times the
-  /// square root of the frame rate. (Errors of neighbouring frames are correlated, so the marks of one second count as
-  /// one.)
+  /// Adds the motion from silhouettes: a mark at the projection of each joint, in every camera and frame. The
+  /// standard deviation of a joint's marks in a camera is the larger of `min_px` and the median distance, in the
+  /// picture, from the joint's projection in the motion from keypoints, times the square root of the frame rate.
+  /// (Errors of neighbouring frames are correlated, so the marks of one second count as one.)
   void AddOutlines(double min_px) {
     const auto alike = std::sqrt(std::max(1.0, options_.rate_hz));
     const std::size_t frames = std::min(person_.states.size(), options_.outlines->poses.size());

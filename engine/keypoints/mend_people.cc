@@ -24,7 +24,7 @@ namespace {
 
 using enum Landmark;
 
-constexpr std::size_t kGroups = 2;  // group 0: arms; group 1: legs
+constexpr std::size_t kGroups = 2;  // group 0: face, shoulders and arms; group 1: hips and legs
 
 /// Returns the left and right landmarks of a group.
 const std::vector<std::pair<Landmark, Landmark>>& PairsOf(std::size_t group) {

@@ -12,7 +12,7 @@ namespace {
 
 using PoseSteps = std::array<glm::dvec3, kRoleCount>;
 
-/// Returns how far each joint moves from frame `f` to the next, metres.
+/// Returns the displacement of each joint from frame `f` to the next, metres.
 PoseSteps StepsFrom(const BodyMotion& motion, int f) {
   PoseSteps steps;
   for (std::size_t j = 0; j < kRoleCount; ++j) steps[j] = motion.poses[f + 1].joints[j] - motion.poses[f].joints[j];

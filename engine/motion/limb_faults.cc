@@ -26,8 +26,8 @@ constexpr std::array kLegs = {Leg{kLeftHip, kLeftKnee, kLeftAnkle, kLeftFoot},
                               Leg{kRightHip, kRightKnee, kRightAnkle, kRightFoot}};
 constexpr std::array kArms = {Arm{kLeftElbow, kLeftWrist, kLeftHand}, Arm{kRightElbow, kRightWrist, kRightHand}};
 
-/// Appends a fault for every stretch of at least `min_s` seconds in which `value` is above `limit`; gaps of less than
-/// 0.4 s between such stretches are included. A fault's size is its largest value.
+/// Appends a fault for every stretch of at least `min_s` seconds in which `value` is above `limit`. A stretch includes
+/// gaps of less than 0.4 s in which `value` is not above `limit`. A fault's size is its largest value.
 void AppendRanges(const BodyMotion& motion, const std::vector<double>& value, double limit, double min_s,
                   MotionFault fault, std::vector<MotionFault>& faults) {
   std::vector<bool> is_beyond;
@@ -165,7 +165,7 @@ std::optional<glm::dvec3> FrontByToes(const BodyPose& pose, Side side) {
 }
 
 double KneeOverextension(const BodyPose& pose, Side side, bool sees_toes) {
-  constexpr double kMinBackwards = 0.2;  // cosine of bending axis and line of the hips; a leg turned outwards: 0.1
+  constexpr double kMinBackwards = 0.2;  // cosine between bending axis and hip line; 0.1 for a leg turned outwards
   const auto [hip, knee, ankle, foot] = kLegs[side == Side::kLeft ? 0 : 1];
   const glm::dvec3 thigh = pose[knee] - pose[hip], shank = pose[ankle] - pose[knee], axis = glm::cross(thigh, shank);
   const double backwards = glm::dot(axis, UnitOr(pose[kRightHip] - pose[kLeftHip], {-1, 0, 0}));

@@ -51,8 +51,8 @@ struct MotionFault {
 };
 
 struct MotionFaults {
-  double floor_m = 0;           ///< the height of the floor that the motion is judged by
-  bool is_floor_found = false;  ///< true if the motion is far from height 0 and the floor is where the feet rest
+  double floor_m = 0;                    ///< the height of the floor that the motion is judged by
+  bool is_floor_found = false;           ///< true if the floor was found from the motion, which is far from height 0
   std::vector<MotionFault> faults = {};  ///< sorted by kind, then by time
 };
 

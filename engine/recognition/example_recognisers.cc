@@ -81,8 +81,8 @@ constexpr double kFar = std::numeric_limits<double>::infinity();
 
 /// An unknown motion at this distance, metres, is the alternative to a move if no known motion is nearer. In 19 of 20
 /// cases, another person's performance of a move is nearer to the move's examples than this (simulated people,
-/// tests/sim/performer). In recordings of real people, the median of that person's distance is 10 cm in one set and
-/// 16–28 cm in another.
+/// tests/sim/performer). In recordings of real people, the median distance of another person's performance is 10 cm
+/// in one set and 16–28 cm in another.
 constexpr double kUnknownMotionDistance = 0.21;
 
 /// An example of a move and the wrong patterns that it is compared with. All have the same number of steps.
@@ -241,7 +241,7 @@ class NearestFollower final : public StepFollower {
   std::vector<double> right_, wrong_, held_still_;  // distances of this step, per move
   std::size_t longest_, since_open_ = 0;
   Stillness standing_;
-  std::vector<Stillness> held_;   // for each example, the comparison with its held mean pose
+  std::vector<Stillness> held_;   // for each example: compares the last steps with the example's mean pose
   std::vector<PoseVector> seen_;  // the last `longest_` steps
 };
 

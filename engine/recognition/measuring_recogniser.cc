@@ -143,7 +143,7 @@ class MeasuringFollower final : public StepFollower {
   };
 
   /// Measures the best alignment that ends now. `first` is the number, in `steps_`, of the aligner's first step.
-  /// `window` is null for a spotted performance, whose clock measures are 0.
+  /// `window` is null for a spotted performance, whose comparisons with the window (kClockSlice, kRigidSlice) are 0.
   PerformanceMeasures MeasureNow(const TaughtExample& example, const SubsequenceAligner& aligner, int first,
                                  const InWindow* window) const {
     const std::vector<StepPair> path = aligner.Path();

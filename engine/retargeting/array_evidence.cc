@@ -15,7 +15,7 @@ namespace {
 /// at nearly the same height. `length` is the body's length; `columns` are the columns of the wrists.
 bool StandsOnHands(std::span<const glm::dvec3> positions, std::size_t joints, const std::array<std::size_t, 2>& columns,
                    double length) {
-  constexpr double kStillFloor = 0.1, kNear = 0.3, kMost = 0.5;  // first two in body lengths, kMost a share of frames
+  constexpr double kStillFloor = 0.1, kNear = 0.3, kMost = 0.5;  // kMost: a share of frames; others: body lengths
   std::vector<double> lowest;
   double low = 0;
   for (std::size_t begin = 0; begin < positions.size(); begin += joints) {

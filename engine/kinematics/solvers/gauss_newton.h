@@ -73,10 +73,10 @@ enum class Precision { kFloat, kDouble };
 /// restarts with their sweeps; everything else runs in lanes.
 /// - `kDouble`: every solution equals that of `SolveGaussNewton` to the last bit.
 /// - `kFloat`: twice as many lanes. The solver aims at nine tenths of each goal, so that the requested goal is met in
-///   double. Damping is at least 10⁻⁵. Once the squared residual is below 10⁻⁶, steps are taken without the pull to the
-///   start, which float cannot resolve there. A problem that float does not solve is solved again in double from its
-///   start; only the iterations in double are reported. If several poses meet the targets, float may find another pose
-///   than double. Do not use `kFloat` for goals below 2·10⁻⁴ cm or degrees.
+///   double. Damping is at least 10⁻⁵ before phase 5. Once the squared residual is below 10⁻⁶, steps are taken
+///   without the pull to the start, which float cannot resolve there. A problem that float does not solve is solved
+///   again in double from its start; only the iterations in double are reported. If several poses meet the targets,
+///   float may find another pose than double. Do not use `kFloat` for goals below 2·10⁻⁴ cm or degrees.
 /// A faulty problem gets kBadInput; if the tree or the options have a fault, all problems do. `IkOptions::trace` is
 /// ignored.
 IkBatchSolution SolveGaussNewtonBatch(const KinematicTree& tree, const IkBatch& problems, const IkOptions& options,
