@@ -128,8 +128,10 @@ class Adjuster {
     return std::max(options_.acceleration, kBursts * std::sqrt(square) * options_.rate_hz * options_.rate_hz);
   }
 
-  /// Makes the body with its adjustable bone lengths. Each bone has a length of its own, with three exceptions where no
-  /// landmark shows a joint: the two bones of the trunk, both hips, and both shoulders share one length each.
+  /// Makes the body with its adjustable bone lengths. Each bone has a length of its own, with three exceptions: the
+  /// two bones of the trunk have one length in all, the bones from the hip centre to both hips have the same length,
+  /// and so have the bones from the shoulder centre to both shoulders. (No landmark shows the joint between two such
+  /// bones.)
   bool MakeBody() {
     const KinematicTree& tree = person_.body.tree;
     measurable_.tree = tree;
@@ -291,7 +293,7 @@ class Adjuster {
 
 double KeypointErrorPx(std::span<const ProjectionMatrix> cameras, const MatchedPerson& seen, double min_confidence,
                        double outlier_px) {
-  std::vector<double> squares;  // one estimate of the variance per point; the median estimate is unbiased
+  std::vector<double> squares;  // one estimate of the variance per point (KeypointVarianceOf)
   for (const auto& [frame, landmark, by, point] :
        TriangulateLandmarks(cameras, seen, {.min_confidence = min_confidence, .robust = {outlier_px}})) {
     squares.push_back(KeypointVarianceOf(point));

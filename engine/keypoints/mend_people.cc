@@ -87,7 +87,8 @@ class Mender {
   }
 
   /// Returns the median epipolar distance of a person in camera `c` to the person in camera `o`, as a share of the
-  /// height, for the better labelling of sides. Returns nullopt if the two detections have too few keypoints in common.
+  /// height; sides are labelled as they are or swapped, whichever gives the smaller median. Returns nullopt if the two
+  /// detections have too few keypoints in common.
   std::optional<double> MisfitOf(std::size_t c, const SeenPerson& one, std::size_t o, const SeenPerson& other) const {
     std::optional<double> least;
     for (const bool is_swapped : {false, true}) {
@@ -168,7 +169,8 @@ class Mender {
     }
   }
 
-  /// Returns twice the robust standard deviation of the epipolar distances, for the better labelling of each pair.
+  /// Returns twice the robust standard deviation of the epipolar distances, at least 0.7 px. For each left and right
+  /// landmark seen by two cameras, the labelling with the smaller distances counts.
   double ScalePx() const {
     std::vector<double> distances;
     for (std::size_t frame = 0; frame < frames_; ++frame) {

@@ -41,10 +41,12 @@ struct RigPlacement {
 
 /// Finds the unit and the up axis of a rig from a person in it *(ours)*. The stature is estimated as 2.0 times the
 /// length of the leg (hip, knee, ankle; medians over frames). The format's unit is kept if the stature is then 0.5 to
-/// 2.2 m; otherwise metres, centimetres and millimetres are tried, then inches and feet, which must give 1.2 to 2.2 m.
-/// The format's up axis is kept if it is within 35° of the result of `FindUp`, the format defines a unit, and the
-/// world is not a camera's frame. Otherwise the up axis is the axis of the file within 4° of that result (10° if the
-/// result is not more accurate), or else the result itself; `told` then gives the largest error in 95 of 100 takes.
+/// 2.2 m; otherwise metres, centimetres and millimetres are tried, then inches and feet, which must give 1.2 to
+/// 2.2 m. The format's up axis is kept if it is within 35° of the result of `FindUp` (or within the uncertainty of
+/// that result, if larger), the format defines a unit, and the world is not a camera's frame. (For Caliscope, whose
+/// axes are those of a calibration board, it must also be within 8° or three standard deviations, whichever is
+/// larger.) Otherwise the up axis is the axis of the file within 4° of the result (up to 10° if the result is less
+/// accurate), or else the result itself; `told` then states the error that 95 of 100 takes do not exceed.
 /// Fails in these cases:
 /// - The stature is not plausible in the requested unit or in any unit (the message names a factor that makes it so).
 /// - Neither the format nor `options` defines the unit.

@@ -30,10 +30,11 @@ Result<CaptureBody> BodyOfBones(const std::array<double, kRoleCount>& lengths);
 Result<CaptureBody> MedianBody(std::span<const LandmarkPositions> frames);
 
 /// Finds, in every frame, the angles and the root's position that minimise Σ weight · |position − joint|², at least
-/// locally, over the joints that landmarks determine (`JointsOf`). A joint that a frame lacks gets a target with weight
-/// 0.01, which keeps its relative position from the frame before. No landmark shows the spine, so its target lies on
-/// the line from hips to shoulders. This target has weight 1, because otherwise a trunk that appears too short could
-/// bend in any direction. Returns nullopt for frames with fewer than eight joints. *(Ours.)*
+/// locally, over the joints that landmarks determine (`JointsOf`). For a joint that a frame lacks, the target has
+/// weight 0.01: it lies at the offset from a neighbouring joint that the fitted pose of the frame before has, turned
+/// by the change of the heading (`CompleteJoints`). No landmark shows the spine, so its target lies on the line from
+/// hips to shoulders. This target has weight 1, because otherwise a trunk that appears too short could bend in any
+/// direction. Returns nullopt for frames with fewer than eight joints. *(Ours.)*
 std::vector<std::optional<TreeState>> FitPerson(const CaptureBody& body, std::span<const LandmarkPositions> frames);
 
 struct RecoverPersonOptions {

@@ -52,8 +52,8 @@ double ReferenceOffset(const GroundView& ground, const std::vector<Level>& level
   return reference;
 }
 
-/// The frames that were reported as displaced. `reference` is the sum of all vertical displacements before a frame at
-/// the right height, metres.
+/// The frames that were reported as displaced. `reference` is the sum of the lasting vertical displacements, metres, at
+/// which the body has the right height.
 struct Told {
   std::vector<bool> frames;
   double reference = 0;

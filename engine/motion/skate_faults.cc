@@ -120,7 +120,7 @@ void AppendSkate(const GroundView& ground, const std::vector<Glide>& glides, std
   faults.push_back(ground.FaultOf(FaultKind::kSkates, {first, last}, glm::length(velocity)));
 }
 
-/// Returns true if, among the foot joints that may be in stance, more joints move at about `velocity` than rest.
+/// Returns true if more of the foot joints that may be in stance move at about `velocity` than are at rest.
 bool Carries(const GroundView& ground, const FrameRange& span, const glm::dvec2& velocity) {
   constexpr double kNear = 0.07, kNearShare = 0.3, kRest = 0.5;
   const double near = std::max(kNear, kNearShare * glm::length(velocity));

@@ -60,7 +60,7 @@ struct SupportingClip {
   std::span<const BodyPose> poses;  ///< poses of the clip, moved on the floor to where the clip is shown
   int begin = 0;                    ///< the shown frame of poses[0]; may be outside of the requested frames
   /// The last shown frame of the clip. Where the clip supports the body in this frame, it may also support the body in
-  /// later frames. The default means that the clip is never left.
+  /// later frames. By default, the clip is shown to the end.
   int left_at = std::numeric_limits<int>::max();
 };
 
@@ -82,8 +82,9 @@ struct Support {
 ///   before or after it. The heights of the two joints differ by at most SupportRules::height, their velocities by at
 ///   most SupportRules::rest_speed.
 /// Consecutive frames without support are a flight if the body is supported just before and just after them, if the
-/// ground can have thrown it (SupportRules::max_push), and if the mass centre falls as SupportRules states over these
-/// frames, or over these frames and the two neighbouring frames. A flight is judged over at least five frames.
+/// ground can have thrown it (SupportRules::max_push), and if the mass centre falls within the limits min_fall,
+/// max_fall and flight_stray of SupportRules. The fall is judged over these frames, or over these frames and the two
+/// neighbouring frames, but at least over five frames.
 class SupportFinder {
  public:
   /// The clips' poses must outlive this object.

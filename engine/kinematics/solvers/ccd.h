@@ -50,7 +50,8 @@ enum class CcdJoint {
   /// Paper B, case 2: rotate about the axes of the joint's rest frame, one after the other. After each rotation,
   /// decompose the joint's whole rotation into Rx Ry Rz, clip the angles, and compose it again.
   kWhole,
-  /// Ours: turn the joint as hinges about its Euler axes, each clipped immediately. No turn lowers its `HingeGain`.
+  /// Ours: turn the joint as hinges about its Euler axes, each clipped immediately. No turn of a hinge lowers its
+  /// `HingeGain`.
   kHinges,
 };
 

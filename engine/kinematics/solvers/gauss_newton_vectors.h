@@ -78,8 +78,8 @@ class GaussNewtonLimbs {
   double *angles = nullptr, *lower = nullptr, *upper = nullptr;
   double root[12] = {};  ///< p_WL, then R_WL column by column
 
-  /// Returns the memory of an effector's target: the numbers of `IkBatch::target`, stored four doubles apart, with the
-  /// position weight per square of `kPositionScale`.
+  /// Returns the memory of an effector's target: the numbers of `IkBatch::target`, stored four doubles apart, but with
+  /// the position weight divided by `kPositionScale`².
   virtual double* TargetOf(int effector) = 0;
 
   /// The pose X_WE of an effector at the pose placed last, which is the solution if the course has converged.
