@@ -183,7 +183,7 @@ class Guesser {
           if (guess == guesses_[c]) continue;
           const Change change{MissOf(c, guess), before, c, guess};
           if (!(change.after < std::min(kMaxPlausibleMiss, kBetter * before))) continue;
-          // Among nearly equal hypotheses, prefer the first, which has the smallest change.
+          // Among nearly equal hypotheses, prefer the first: an earlier film, fewer quarter turns, no mirroring.
           if (!best || change.after < 0.999 * best->after) {
             second = best;
             best = change;

@@ -56,8 +56,8 @@ struct MatchedPerson {
 
 /// Identifies people over cameras and time *(ours)*. The tracks of different cameras (`FollowPeople`) are joined in
 /// ascending order of the distance between their rays; two tracks of one camera that overlap in time are never one
-/// person. The result is deterministic: ties go to the track that began first. Persons are ordered by `sightings`,
-/// descending.
+/// person. The result is deterministic: ties go to the earlier camera, then to the track that began first. Persons
+/// are ordered by `sightings`, descending.
 /// @param cameras the cameras of the rig, without lens distortion; all pixels must be undistorted
 /// @param people the people of each camera, all with the same number of frames
 std::vector<MatchedPerson> MatchPeople(std::span<const ProjectionMatrix> cameras, std::span<const SeenPeople> people,

@@ -58,8 +58,8 @@ bool Shows(std::span<const JointSet> unseen, int frame, std::initializer_list<Ro
 /// The changes of a limb's length, relative to its median.
 struct LengthChanges {
   Role end = kHead;           ///< the limb's far end
-  std::vector<double> share;  ///< change by frame, as a share of the median; 0 in ignored frames
-  double usual = 0;           ///< median of the absolute `share` over the frames that show the limb
+  std::vector<double> share;  ///< absolute change by frame, as a share of the median; 0 in ignored frames
+  double usual = 0;           ///< median of the absolute changes over all frames that show the limb
 };
 
 /// Returns the length changes of upper arms, forearms, thighs and shanks. Frames near pops are ignored.
@@ -96,9 +96,10 @@ std::vector<LengthChanges> FindLengthChanges(const BodyMotion& motion, std::span
   return all;
 }
 
-/// Appends limbs whose lengths differ from their medians by more than 3 % for at least 0.05 s in all. One fault of a
-/// limb covers all frames with such a difference. If joints were found from markers, skin that moves over the bones
-/// changes the lengths; the difference must then also exceed fifteen times the usual deviation.
+/// Appends limbs whose lengths differ from their medians by more than 3 % for at least 0.05 s and at least three
+/// frames in all. One fault of a limb covers all frames with such a difference. If joints were found from markers,
+/// skin that moves over the bones changes the lengths; the difference must then also exceed fifteen times the usual
+/// deviation.
 void FindStretches(const BodyMotion& motion, const FaultOptions& options, const std::vector<Pop>& pops,
                    std::vector<MotionFault>& faults) {
   constexpr int kMinFrames = 3;
