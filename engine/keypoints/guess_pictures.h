@@ -37,7 +37,7 @@ struct PictureGuess {
 /// pictures. `told` also names a second correction if it is nearly as good, as is common with two cameras.
 std::vector<PictureGuess> GuessPictures(std::span<const PictureOfFilm> films, double min_confidence);
 
-/// Returns the epipolar distance of the keypoints, mapped as declared, as a share of the person's height: the mean,
+/// Maps the keypoints as declared, and returns their epipolar distance as a share of the person's height: the mean,
 /// over pairs of cameras, of the median distance of one camera's keypoints from the other camera's epipolar lines.
 /// Returns 1 if the distance cannot be computed.
 double MissOfPictures(std::span<const PictureOfFilm> films, double min_confidence);

@@ -62,7 +62,7 @@ Result<RigPlacement> PlaceRig(const RigFile& rig, std::span<const LandmarkPositi
 /// camera's frame and no up axis is given; the message names the options.
 Result<RigPlacement> PlaceRig(const RigFile& rig, const PlacementOptions& options);
 
-/// Transforms a camera into the placed world.
+/// Returns the camera with its pose in our world, to which `place` maps.
 Camera Placed(const RigPlacement& place, Camera camera);
 
 }  // namespace etude

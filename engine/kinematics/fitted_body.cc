@@ -166,7 +166,7 @@ class Builder {
         if (limb_of_[child] < 0) RETURN_IF_ERROR(AddOutwardLimb(child));
       }
     }
-    // Add what pictures show of the body, and the skeleton that `ToClip` writes.
+    // Add the roles, twists and end effectors that pictures show, and the skeleton that `ToClip` writes.
     PlaceRoles();
     AddTwists();
     AddEnds();

@@ -71,11 +71,11 @@ struct FaultOptions {
 /// Motions with fewer frames are not judged.
 constexpr std::size_t kMinFramesForFaults = 8;
 
-/// Finds the faults of a motion without knowing its true motion; the method is our own. FaultRules states the rules.
-/// The motion is in metres, Y up, with finite positions, and at its own rate, because resampling hides displaced or
+/// Finds the faults of a motion without a reference motion; the method is our own. FaultRules states the rules. The
+/// motion is in metres, Y up, with finite positions, and at its own rate, because resampling hides displaced or
 /// repeated frames. If `floor_m` is absent, the floor is at height 0; but if the 5th percentile of the lowest joint's
-/// height is then more than 60 cm from 0, the floor is found from the height at which the feet rest. A motion of fewer
-/// than kMinFramesForFaults frames returns no faults.
+/// height is then more than 60 cm from 0, the floor is found from the height at which the feet rest. A motion of
+/// fewer than kMinFramesForFaults frames returns no faults.
 MotionFaults FindMotionFaults(const BodyMotion& motion, const FaultOptions& options = {});
 
 /// Returns the sentences of the three largest faults of each kind. If faults are left out, one more sentence states

@@ -71,8 +71,8 @@ class CcdSweep {
   void Measure();
 
   /// Returns the sum that turns reduce, Σ w_p e² + Σ w_o |u_c − u_d|², at the pose measured last, with the weights of
-  /// the last turn. If weights change during a sweep, the weights at the sweep's end are used; `kWangChen` is used
-  /// without ρ.
+  /// the last turn. If weights change during a sweep, the weights at the sweep's end are used. For `kWangChen`, the
+  /// factor 1 + ρ (`WangChenFactor`) is left out.
   double Merit() const;
   /// Sets every angle, clamped to its range. Does not update the errors.
   void SetAngles(std::span<const double> angles);

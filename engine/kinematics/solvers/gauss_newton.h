@@ -11,9 +11,9 @@
 namespace [[gnu::visibility("default")]] etude {
 
 struct GaussNewtonOptions {
-  /// The number of sweeps of coordinate descent before the first Gauss–Newton step. The default is 0, because damped
-  /// steps work better from the start pose than from a pose whose angles sweeps have moved to their limits. Raise it
-  /// only to compare (README.md has the figures).
+  /// The number of sweeps of coordinate descent before the first Gauss–Newton step. The default is 0, because sweeps
+  /// move angles to their limits, and damped steps work worse from there than from the start pose. Raise it only to
+  /// compare (README.md has the figures).
   int first_sweeps = 0;
   /// The number of extra active-set passes per step while damping is small. Extra passes find which limits are active;
   /// the null-space components of the step depend on these limits. More than three passes change the step little. Set

@@ -155,8 +155,8 @@ class LimbLanes final : public GaussNewtonLimbs {
                        sum, hinges_[slot]);
       }
     }
-    // Store by rows what each limb's quadratic is after its hinges are eliminated. EliminateTrunk adds it to the
-    // trunk's quadratic.
+    // Store each limb's quadratic, without the eliminated hinges, row by row. EliminateTrunk adds it to the trunk's
+    // quadratic.
     QuadraticRows* rows = &limb_rows_[number * LimbPacks::kWidth];
     for (int r = 0; r < 6; ++r) PutRows(sum.matrix + 6 * r, [&](int lane) -> SixRow& { return rows[lane].matrix[r]; });
     PutRows(sum.vector, [&](int lane) -> SixRow& { return rows[lane].vector; });

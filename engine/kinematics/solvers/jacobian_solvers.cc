@@ -113,7 +113,8 @@ double DampedInverse::Gain(std::span<const double> step) const {
 
 namespace {
 
-// Computes α JᵀdX at `angles`. An angle at an end of its range gets 0 if its torque points out of the range.
+// Computes the step α JᵀdX at `angles`. An angle at an end of its range does not move if its step points out of the
+// range.
 void ComputeStep(const LinearTargets& linear, std::span<const double> angles, std::span<const AngleRange> ranges,
                  double gain, Eigen::VectorXd& step) {
   const Eigen::Map<const Eigen::MatrixXd> jacobian(linear.jacobian().data(), linear.rows(), linear.columns());

@@ -115,10 +115,11 @@ struct DampedLeastSquaresOptions {
 /// over the angles with Gauss–Newton steps (JᵀJ + λI) Δq = Jᵀ r. The damping follows Marquardt: λ is divided by 5 after
 /// a step that lowers the sum; a step that does not lower the sum is undone, and λ is multiplied by 5. With
 /// `Bounds::kClamped`, each angle moves by at most 0.6 rad a step and is clamped to its limits. With `kActiveSet`,
-/// angles that would leave their limits are fixed there and the step is solved for the others (Baerlocher and Boulic
-/// 2004; here the set is the optimal one, `DampedInverse::StepWithin`), and the whole step is scaled down to at most
-/// 0.6 rad. `IkOptions::weights` and `refresh` do not apply. The solver also stalls if a step lowers the sum by less
-/// than 10⁻⁶ of its value. One iteration is one attempted step and costs one forward-kinematics pass.
+/// angles that would leave their limits are fixed there, and the step is solved for the other angles (Baerlocher and
+/// Boulic 2004; here `DampedInverse::StepWithin` also searches for the optimal set of fixed angles). The whole step
+/// is then scaled down to at most 0.6 rad. `IkOptions::weights` and `refresh` do not apply. The solver also stalls if
+/// a step lowers the sum by less than 10⁻⁶ of its value. One iteration is one attempted step and costs one
+/// forward-kinematics pass.
 IkSolution SolveDampedLeastSquares(const KinematicTree& tree, const IkProblem& problem, const IkOptions& options,
                                    const DampedLeastSquaresOptions& own = {});
 

@@ -105,7 +105,7 @@ HWY_INLINE double TurnHinge(const Quad& from, const Quad& towards, HingeState& h
   const double old_c = hinge.c, old_s = hinge.s;
   const double c = is_flat ? old_c : is_inside ? x * scale : end_c;
   const double s = is_flat ? old_s : is_inside ? y * scale : end_s;
-  // Mix rows i and j of the moments.
+  // Store the angle, and turn rows i and j of the moments by it.
   hinge.c = c;
   hinge.s = s;
   row_i = a * c - b * s;

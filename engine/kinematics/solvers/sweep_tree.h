@@ -10,7 +10,8 @@ namespace etude {
 /// problem. The steps in their order are a sweep from the leaves to the root; in reverse order they are forward
 /// kinematics. Each limb has a frame S instead of the tree's frame. If the tree's R_PJ maps every axis to ± an axis,
 /// as at every joint of paper B's body, S has the axes of the parent's S while all angles of the joint are zero. R_PJ
-/// is then the identity and needs no computation. P, J and L below are these frames.
+/// is then the identity and needs no computation. The names P, J and L have the meaning that `TreeJoint` gives them,
+/// but with the frames S.
 struct SweepTree {
   struct Joint {
     int parent = -1;
