@@ -50,14 +50,15 @@ struct RecoverPersonOptions {
   double min_outlier_px = 0;  ///< lower limit of OutlierLimit, pixels
 };
 
-/// Returns the options for pictures whose longer side is `longer_side_px`. Keypoints that are off by more than 3 % of
-/// that side are outliers. Somebody who was not seen for half a second is a new person.
+/// Returns the options for pictures whose longer side is `longer_side_px`. A keypoint is an outlier if it is farther
+/// than 3 % of that side from the projection of its triangulated point. Somebody who was not seen for half a second
+/// is a new person.
 RecoverPersonOptions UsualRecovery(double rate_hz, double longer_side_px);
 
 /// A person recovered from several cameras' keypoints.
 struct RecoveredPerson {
   std::vector<MatchedPerson> people;  ///< all people that were found
-  /// Positions of the requested person's landmarks, with gaps filled and smoothed.
+  /// Positions of the requested person's landmarks. `FitLocated` fills their gaps and smooths them.
   std::vector<LandmarkPositions> landmarks;
   TriangulationReport report;
   std::vector<Mend> mends;  ///< corrections of the requested person's keypoints
@@ -81,7 +82,8 @@ Result<RecoveredPerson> LocatePerson(std::span<const ProjectionMatrix> cameras, 
                                      const RecoverPersonOptions& options);
 
 /// Recovers the motion of a person whose landmarks are known: BridgePoints, SmoothPoints, then the person's own body
-/// (MedianBody) and its poses (FitPerson). Fails if some bone is never seen.
+/// (MedianBody) and its poses (FitPerson). Fails if no frame shows the length of some bone, or if no frame shows
+/// enough joints.
 Result<RecoveredPerson> FitLocated(RecoveredPerson person, const RecoverPersonOptions& options);
 
 /// Computes the clip and the motion of `person` from its body and states.

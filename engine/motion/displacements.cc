@@ -71,8 +71,10 @@ std::vector<FrameRange> GroupsOf(const std::vector<int>& frames) {
 }
 
 std::vector<FrameRange> FindFrozen(const BodyMotion& motion) {
-  constexpr double kNeverAsStill = 0.003;  // stricter limit of the joints' mean speed near a freeze, metres per second
-  constexpr double kGentle = 0.6;          // a step next to a freeze is gentle up to this share of the next step away
+  // If the body is never nearly still elsewhere, this limit of the joints' mean speed replaces kAbrupt_m_s; metres per
+  // second.
+  constexpr double kNeverAsStill = 0.003;
+  constexpr double kGentle = 0.6;  // a step next to a freeze is gentle up to this share of the step beyond it
   // Compute the mean speed of the joints at each step, and mark the steps without motion.
   const int steps = static_cast<int>(motion.poses.size()) - 1;
   std::vector<double> mean(steps);
@@ -100,7 +102,7 @@ std::vector<FrameRange> FindFrozen(const BodyMotion& motion) {
       continue;
     }
     if (elsewhere.empty()) continue;
-    // If the body is never nearly still outside of these frames, use a stricter limit.
+    // If the body is never nearly still outside of these frames, a slower step already counts as abrupt.
     constexpr std::size_t kMinElsewhere = 20;
     const bool is_never_as_still = elsewhere.size() > kMinElsewhere && Quantile(elsewhere, 0.02) > kNeverAsStill;
     const double limit = is_never_as_still ? kNeverAsStill : fault_limits::kAbrupt_m_s;

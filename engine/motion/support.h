@@ -35,9 +35,10 @@ struct SupportRules {
 /// The joints that support a body in one frame of a clip.
 struct Bearing {
   JointSet rests;  ///< lowest joints that are at rest; none while the mass centre falls (SupportRules::min_fall)
-  /// Equals `rests` unless `rests` is empty (a jump, walking on the spot, a skating foot). Then it contains all of the
-  /// lowest joints that do not glide, because the clip itself shows them as support. A joint glides if it moves over
-  /// the floor faster than SupportRules::rest_speed and faster than three times its speed relative to the hip centre.
+  /// Equals `rests` unless `rests` is empty (a jump, walking on the spot, a skating foot). If it is empty, all of the
+  /// lowest joints that do not glide count as bearing, because a clip is taken to be right. A joint glides if it
+  /// moves over the floor faster than SupportRules::rest_speed and faster than three times its speed relative to the
+  /// hip centre.
   JointSet bears;
 };
 

@@ -79,8 +79,8 @@ namespace {
 using Pattern = std::vector<PoseVector>;
 constexpr double kFar = std::numeric_limits<double>::infinity();
 
-/// An unknown motion at this distance, metres, is the alternative to a move if no known motion is nearer. In 19 of 20
-/// cases, another person's performance of a move is nearer to the move's examples than this (simulated people,
+/// If no known motion is nearer, a move competes with an unknown motion at this distance, metres. In 19 of 20 cases,
+/// another person's performance of a move is nearer to the move's examples than this (simulated people,
 /// tests/sim/performer). In recordings of real people, the median distance of another person's performance is 10 cm
 /// in one set and 16–28 cm in another.
 constexpr double kUnknownMotionDistance = 0.21;

@@ -20,8 +20,8 @@ IkSolution SolveCcdHinges(const KinematicTree& tree, const IkProblem& problem, c
 /// The gain g(φ) = k₁(1 − cos φ) + k₂ cos φ + k₃ sin φ of a hinge that turns by φ (paper B, equations 3.10–3.13). The
 /// gain measures how well the end effectors beyond the hinge match their targets after the turn; the best turn
 /// maximises the gain. Summing over several effectors is ours. Let u_c be the current and u_d the desired unit vector
-/// of an axis. For axes, the paper starts from minimising Σ (u_d · u_c − 1)² but then maximises Σ u_d · u_c, which is
-/// another criterion for three axes. This struct maximises Σ u_d · u_c, which minimises Σ |u_d − u_c|².
+/// of an axis. For axes, the paper starts from minimising Σ (u_d · u_c − 1)² but then maximises Σ u_d · u_c; for
+/// three axes, these criteria differ. This struct maximises Σ u_d · u_c, which minimises Σ |u_d − u_c|².
 struct HingeGain {
   double k1 = 0, k2 = 0, k3 = 0;
 

@@ -49,8 +49,8 @@ class GaussNewtonHelp {
   virtual bool IsOutOfReach(int problem) = 0;
   /// Measures the errors at these angles. Returns true if they meet the goals.
   virtual bool MeetsGoals(int problem, std::span<const double> angles) = 0;
-  /// Goes to the pose of the restart and sweeps, as `next` prescribes; counts the sweeps in `course`. `angles` are read
-  /// and replaced.
+  /// Replaces `angles` by the pose of restart `next.restart` (0: keeps them), then sweeps up to `next.sweeps` times
+  /// from there. Counts the sweeps in `course`.
   virtual void Sweep(int problem, const GaussNewtonCourse::Next& next, GaussNewtonCourse& course,
                      std::span<double> angles) = 0;
   /// Records the angles after a step.

@@ -281,7 +281,7 @@ class Minimiser {
   }
 
  private:
-  /// Computes the forward kinematics at a pose that was not produced by an iteration.
+  /// Computes the forward kinematics at the start of a restart or at the best pose, and counts this additional pass.
   void Place() {
     ComputeFrames(tree_, state_, frames_);
     run_.CountPass();

@@ -33,8 +33,8 @@ class DampedInverse {
   ///     argmin |J dq − e|² + μ |dq − preferred|²   subject to   lower ≤ angles + dq ≤ upper.
   /// By duality dq = clamp(preferred + Jᵀy) with J dq + μ y = e, a piecewise linear equation with as many unknowns as
   /// J has rows. It is solved by Newton's method, which here is the primal-dual active set method (Hintermüller, Ito
-  /// and Kunisch 2002): solve for y with some angles fixed at an end of their range, none at first; then fix each
-  /// angle whose preferred + Jᵀy leaves its range at the end where it leaves, and free the others. (Starting from the
+  /// and Kunisch 2002): solve for y with some angles fixed at an end of their range, none at first; then fix every
+  /// angle whose preferred + Jᵀy is beyond an end of its range at that end, and free the others. (Starting from the
   /// active set of the last step takes more passes.) At most four passes are made; with the damping of
   /// `levenberg-marquardt` the mean is 1.5 passes. Nearly every active set settles within four passes; more passes
   /// would settle few of the others. The answer always lies within the ranges. It is the optimum if the active set
