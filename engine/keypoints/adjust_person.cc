@@ -117,8 +117,9 @@ class Adjuster {
     return std::accumulate(squares.begin(), squares.end(), 0.0) / static_cast<double>(squares.size());
   }
 
-  /// Estimates the prior's standard deviation for a joint's acceleration. The noise in second differences is the same
-  /// at lag 1 and at a longer lag, while the contribution of the acceleration grows with the fourth power of the lag.
+  /// Estimates the prior's standard deviation for a joint's acceleration from the mean squares of second differences
+  /// at lag 1 and at a longer lag. Noise contributes equally to both mean squares; the contribution of the
+  /// acceleration grows with the fourth power of the lag.
   double AccelerationOf(Role role) const {
     constexpr double kSeconds = 0.1, kBursts = 1.5;  // kBursts: in bursts, accelerations exceed their root mean square
     const double lag = std::max(2.0, std::round(kSeconds * options_.rate_hz));
@@ -252,8 +253,8 @@ class Adjuster {
   }
 
   /// Adds marks for a joint that fewer than two cameras see. The marks keep the joint near its position in the
-  /// single-frame fit. The marks' standard deviation is a tenth of the person's height in the picture, or, if
-  /// `error_px` is given, twice `error_px`.
+  /// single-frame fit. Their standard deviation is twice `error_px` if it is given; otherwise it is a tenth of the
+  /// person's height in the picture, at least one pixel.
   void HoldUnseen(std::size_t frame, Role role, const std::optional<double>& error_px) {
     constexpr double kShareOfHeight = 0.1, kComposed = 2;
     const BodyPose& pose = person_.motion.poses[frame];

@@ -150,8 +150,8 @@ class Mender {
           has_better = best != nullptr;
         }
         if (!worst || (!has_better && seeing < 3)) break;
-        // Take the better person's keypoints. If there is no better person, remove the keypoints: at least two other
-        // cameras see the person.
+        // Take the better person's keypoints. If there is no better person, remove the keypoints; at least two other
+        // cameras still show the person.
         person_.seen[*worst][frame] = has_better ? instead : std::nullopt;
         (has_better ? found : nobody)[*worst].frames.push_back(frame);
       }

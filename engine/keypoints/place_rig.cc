@@ -232,8 +232,8 @@ Result<ChosenUp> UpOf(const RigFile& rig, const glm::dvec3& person, const FoundU
   return ChosenUp{found.up, true, fmt::format("up is found from {}, to within {:.1f}°{}", found.by, within, world)};
 }
 
-/// Returns a text that names the file's axis for each of our axes: "; x is the file's y, z its x, up its z". Returns ""
-/// if all names are the same, or if one of our axes lies along no axis of the file.
+/// Returns a text that names the file's axis for each of our axes: "; x is the file's y, z its x, up its z". Returns
+/// "" if our axes have the same names in the file, or if one of our axes lies along no axis of the file.
 std::string AxesTold(const glm::dmat3& R_OF) {
   std::array<std::string, 3> names;
   bool is_same = true;

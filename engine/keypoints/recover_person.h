@@ -67,7 +67,7 @@ struct RecoveredPerson {
   std::vector<TreeState> states;  ///< poses of the body, one per frame
   Clip clip;                      ///< the motion as a clip, metres, Y up
   BodyMotion motion;              ///< the motion of `clip` as twenty joints
-  std::vector<bool> is_held;      ///< true for frames that could not be recovered and repeat the last pose
+  std::vector<bool> is_held;      ///< true for frames that were not recovered and repeat the last (or the first) pose
 };
 
 /// Removes the lens distortion from keypoints in the camera's own pixels.

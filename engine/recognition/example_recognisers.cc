@@ -238,7 +238,8 @@ class NearestFollower final : public StepFollower {
   }
 
   const std::vector<Example>& examples_;
-  std::vector<double> right_, wrong_, held_still_;  // distances of this step, per move
+  // For each move, its distances in this step: to the nearest right example, wrong pattern and held pose.
+  std::vector<double> right_, wrong_, held_still_;
   std::size_t longest_, since_open_ = 0;
   Stillness standing_;
   std::vector<Stillness> held_;   // for each example: compares the last steps with the example's mean pose

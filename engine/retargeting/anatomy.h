@@ -57,8 +57,8 @@ class JointMapDraft {
   std::array<glm::dvec3, kRoleCount> rest_{};
 };
 
-/// Returns true if the joint of `end` belongs to no limb. A wrist or ankle is then moved by a separate control of the
-/// rig.
+/// Returns true if the joint that plays the role `end` belongs to no limb. If the role is a wrist or an ankle, a
+/// separate control of the rig then moves this joint.
 bool IsFree(const JointMapDraft& draft, Role end);
 
 }  // namespace etude

@@ -1,5 +1,5 @@
 // Solves many problems of one tree, each in one lane of the CPU's vectors. This file is compiled once per instruction
-// set; the best one is selected at run time (README.md).
+// set; the best set that the CPU supports is selected at run time (README.md).
 #include <algorithm>
 #include <limits>
 #include <vector>

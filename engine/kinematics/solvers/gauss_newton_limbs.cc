@@ -1,7 +1,7 @@
 // Solves problems one after the other, with four limbs side by side in the lanes of a vector. The trunk's joints are
-// computed one by one, with a matrix row per vector. This file is compiled once per instruction set; the best one is
-// selected at run time (README.md). With vectors of any width, numbers are added in the order of the tests'
-// plain_gauss_newton.cc.
+// computed one by one, with a matrix row per vector. This file is compiled once per instruction set; the best set
+// that the CPU supports is selected at run time (README.md). With vectors of any width, numbers are added in the
+// order of the tests' plain_gauss_newton.cc.
 #include <algorithm>
 #include <limits>
 
