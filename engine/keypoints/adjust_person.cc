@@ -117,10 +117,11 @@ class Adjuster {
     return std::accumulate(squares.begin(), squares.end(), 0.0) / static_cast<double>(squares.size());
   }
 
-  /// Estimates the prior's standard deviation for a joint's acceleration. The noise in second differences is the same
-  /// at lag 1 and at a longer lag, while the contribution of the acceleration grows with the fourth power of the lag.
+  /// Estimates the prior's standard deviation for a joint's acceleration from the mean squares of second differences
+  /// at lag 1 and at a longer lag. Noise contributes equally to both mean squares; the contribution of the
+  /// acceleration grows with the fourth power of the lag.
   double AccelerationOf(Role role) const {
-    constexpr double kSeconds = 0.1, kBursts = 1.5;  // kBursts: accelerations exceed their root mean square in bursts
+    constexpr double kSeconds = 0.1, kBursts = 1.5;  // kBursts: in bursts, accelerations exceed their root mean square
     const double lag = std::max(2.0, std::round(kSeconds * options_.rate_hz));
     const auto one = SquareOver(role, 1), several = SquareOver(role, static_cast<std::size_t>(lag));
     if (!one || !several) return options_.acceleration;
@@ -128,8 +129,10 @@ class Adjuster {
     return std::max(options_.acceleration, kBursts * std::sqrt(square) * options_.rate_hz * options_.rate_hz);
   }
 
-  /// Makes the body with its adjustable bone lengths. Each bone has a length of its own, with three exceptions where no
-  /// landmark shows a joint: the two bones of the trunk, both hips, and both shoulders share one length each.
+  /// Makes the body with its adjustable bone lengths. Each bone has a length of its own, with three exceptions: the
+  /// two bones of the trunk have one length in all, the bones from the hip centre to both hips have the same length,
+  /// and so have the bones from the shoulder centre to both shoulders. (No landmark shows the joint between two such
+  /// bones.)
   bool MakeBody() {
     const KinematicTree& tree = person_.body.tree;
     measurable_.tree = tree;
@@ -218,10 +221,10 @@ class Adjuster {
     if (options_.outlines != nullptr) AddOutlines(error);
   }
 
-  /// Adds the motion from silhouettes: a mark at the projection of each joint, in every camera and frame. A mark's
-  /// standard deviation is the joint's median distance between this motion and the motion from keypoints, times the
-  /// square root of the frame rate. (Errors of neighbouring frames are correlated, so the marks of one second count as
-  /// one.)
+  /// Adds the motion from silhouettes: a mark at the projection of each joint, in every camera and frame. The
+  /// standard deviation of a joint's marks in a camera is the larger of `min_px` and the median distance, in the
+  /// picture, from the joint's projection in the motion from keypoints, times the square root of the frame rate.
+  /// (Errors of neighbouring frames are correlated, so the marks of one second count as one.)
   void AddOutlines(double min_px) {
     const auto alike = std::sqrt(std::max(1.0, options_.rate_hz));
     const std::size_t frames = std::min(person_.states.size(), options_.outlines->poses.size());
@@ -250,8 +253,8 @@ class Adjuster {
   }
 
   /// Adds marks for a joint that fewer than two cameras see. The marks keep the joint near its position in the
-  /// single-frame fit. The marks' standard deviation is a tenth of the person's height in the picture, or, if
-  /// `error_px` is given, twice `error_px`.
+  /// single-frame fit. Their standard deviation is twice `error_px` if it is given; otherwise it is a tenth of the
+  /// person's height in the picture, at least one pixel.
   void HoldUnseen(std::size_t frame, Role role, const std::optional<double>& error_px) {
     constexpr double kShareOfHeight = 0.1, kComposed = 2;
     const BodyPose& pose = person_.motion.poses[frame];
@@ -291,7 +294,7 @@ class Adjuster {
 
 double KeypointErrorPx(std::span<const ProjectionMatrix> cameras, const MatchedPerson& seen, double min_confidence,
                        double outlier_px) {
-  std::vector<double> squares;  // one estimate of the variance per point; the median estimate is unbiased
+  std::vector<double> squares;  // one estimate of the variance per point (KeypointVarianceOf)
   for (const auto& [frame, landmark, by, point] :
        TriangulateLandmarks(cameras, seen, {.min_confidence = min_confidence, .robust = {outlier_px}})) {
     squares.push_back(KeypointVarianceOf(point));

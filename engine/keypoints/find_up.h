@@ -22,8 +22,8 @@ struct FoundUp {
 /// - **Cameras** are mounted level: a picture's rows are horizontal ± 3° (as in nerfstudio's `vertical` orientation of
 ///   camera poses); cameras look down by 10° ± 20°. A picture rotated by quarter turns adds a fixed cost.
 /// - **Resting feet** stand on one level floor: landmarks of one kind have the same height, ± 0.8 % of the stature;
-///   ankles, heels and toes differ by the heights of a flat foot, ± 1.5 %. Outliers (a foot on a chair, or on its toes)
-///   are ignored.
+///   ankles, heels and toes differ by the heights of a flat foot, ± 1.5 %. Outliers (a foot on a chair, or on its
+///   toes) are ignored. Hips below the feet add a fixed cost.
 /// - **A straight person** (the distance from ankles to shoulders is the length of legs and trunk) stands upright,
 ///   ± 6°; a lying person adds a fixed cost.
 /// - **In a flight** gravity accelerates the body's centre of mass, ± 3°: a flight is at least 0.2 s in which a

@@ -23,21 +23,21 @@ struct PictureOfFilm {
 /// The map that converts the keypoints of a film to pixels of the rig.
 struct PictureGuess {
   PixelFit fit;
-  std::string told;  ///< explanation for people; "" if the map is as declared
+  std::string told;  ///< explanation for users; "" if `fit` is as declared
 };
 
 /// Finds how keypoints map to the rig's pictures *(ours)*: as `fit` declares, or also rotated by quarter turns or
-/// mirrored. Cameras are corrected one after the other. Each time, the camera is taken whose correction leaves the
-/// smallest distance of its keypoints from the other cameras' epipolar lines (the median over frames; in each frame,
-/// the best-fitting person and labelling of sides count). A camera is corrected only if this distance exceeds 0.3 % of
-/// the person's height, and if the correction at least halves the distance and reduces it below 5 % of the height. (A
-/// wrong correction cannot halve random errors.) If pictures were fitted, the estimator may have run on the original
-/// pictures; the keypoints of all films are then pixels of the original pictures. The interpretation with the smaller
-/// distance is taken, unless a file states the film's size. `told` also names a second correction if it is nearly as
-/// good, as is common with two cameras.
+/// mirrored. Cameras are corrected one after the other. A camera's error is the distance of its keypoints from the
+/// other cameras' epipolar lines: the median over frames, with the best-fitting person and labelling of sides in each
+/// frame. Each time, the correction that leaves the smallest error is made. A camera is corrected only if its error
+/// exceeds 0.3 % of the person's height, and if the correction at least halves the error and reduces it below 5 % of
+/// the height. (A wrong correction cannot halve random errors.) If pictures were fitted, the estimator may have run
+/// on the original pictures; the keypoints of all films are then pixels of the original pictures. They are
+/// interpreted in this way if the distances become smaller by more than 3 %, and if no file states the size of its
+/// pictures. `told` also names a second correction if it is nearly as good, as is common with two cameras.
 std::vector<PictureGuess> GuessPictures(std::span<const PictureOfFilm> films, double min_confidence);
 
-/// Returns the epipolar distance of the keypoints, mapped as declared, as a share of the person's height: the mean,
+/// Maps the keypoints as declared, and returns their epipolar distance as a share of the person's height: the mean,
 /// over pairs of cameras, of the median distance of one camera's keypoints from the other camera's epipolar lines.
 /// Returns 1 if the distance cannot be computed.
 double MissOfPictures(std::span<const PictureOfFilm> films, double min_confidence);

@@ -41,8 +41,8 @@ constexpr std::array kReadings = {
     Reading{"keypoints are shares of the picture's longer side",
             [](const glm::dvec2& p, const glm::dvec2& size) { return OfSquare(p, size, 0); }}};
 
-/// Returns the camera for another reading of the pose in the rig's file, p_C = R_CF p_F + t: the inverse map if
-/// `is_inverse`, and the pose of a camera that looks along −z if `is_opengl`.
+/// Returns the camera with the pose p_C = R_CF p_F + t of the rig's file read in another way: if `is_inverse`, as the
+/// map from the camera to the file's world; if `is_opengl`, as the pose of a camera that looks along −z.
 Camera WithPose(Camera camera, const glm::dmat3& R_WF, bool is_inverse, bool is_opengl) {
   glm::dmat3 R_CF = camera.R_CW * R_WF;
   glm::dvec3 t = -(camera.R_CW * camera.p_WC);

@@ -36,8 +36,9 @@ std::vector<PersonTrack> FollowPeople(const SeenPeople& people, const FollowOpti
 
 struct MatchOptions {
   FollowOptions follow;
-  /// The largest distance between the rays of one person's keypoints, median over time, as a share of the person's
-  /// height in the pictures. Estimators err by 1–2 % of the height; other people differ by 10 % and more *(ours)*.
+  /// The largest error of a match: the distance by which the two rays of a keypoint miss each other, as a share of
+  /// the person's height in the pictures, median over frames and keypoints. It is 1–2 % for one person, because
+  /// estimators are inaccurate, and 10 % or more for two different people *(ours)*.
   double max_error = 0.06;
   /// True if left and right may be exchanged in a camera: tracks that do not match are then also compared with sides
   /// swapped.
@@ -55,8 +56,8 @@ struct MatchedPerson {
 
 /// Identifies people over cameras and time *(ours)*. The tracks of different cameras (`FollowPeople`) are joined in
 /// ascending order of the distance between their rays; two tracks of one camera that overlap in time are never one
-/// person. The result is deterministic: ties go to the track that began first. Persons are ordered by `sightings`,
-/// descending.
+/// person. The result is deterministic: ties go to the earlier camera, then to the track that began first. Persons
+/// are ordered by `sightings`, descending.
 /// @param cameras the cameras of the rig, without lens distortion; all pixels must be undistorted
 /// @param people the people of each camera, all with the same number of frames
 std::vector<MatchedPerson> MatchPeople(std::span<const ProjectionMatrix> cameras, std::span<const SeenPeople> people,

@@ -24,7 +24,7 @@ namespace {
 
 using enum Landmark;
 
-constexpr std::size_t kGroups = 2;  // group 0: arms; group 1: legs
+constexpr std::size_t kGroups = 2;  // group 0: face, shoulders and arms; group 1: hips and legs
 
 /// Returns the left and right landmarks of a group.
 const std::vector<std::pair<Landmark, Landmark>>& PairsOf(std::size_t group) {
@@ -87,7 +87,8 @@ class Mender {
   }
 
   /// Returns the median epipolar distance of a person in camera `c` to the person in camera `o`, as a share of the
-  /// height, for the better labelling of sides. Returns nullopt if the two detections have too few keypoints in common.
+  /// height; sides are labelled as they are or swapped, whichever gives the smaller median. Returns nullopt if the two
+  /// detections have too few keypoints in common.
   std::optional<double> MisfitOf(std::size_t c, const SeenPerson& one, std::size_t o, const SeenPerson& other) const {
     std::optional<double> least;
     for (const bool is_swapped : {false, true}) {
@@ -149,8 +150,8 @@ class Mender {
           has_better = best != nullptr;
         }
         if (!worst || (!has_better && seeing < 3)) break;
-        // Take the better person's keypoints. If there is no better person, remove the keypoints: at least two other
-        // cameras see the person.
+        // Take the better person's keypoints. If there is no better person, remove the keypoints; at least two other
+        // cameras still show the person.
         person_.seen[*worst][frame] = has_better ? instead : std::nullopt;
         (has_better ? found : nobody)[*worst].frames.push_back(frame);
       }
@@ -168,7 +169,8 @@ class Mender {
     }
   }
 
-  /// Returns twice the robust standard deviation of the epipolar distances, for the better labelling of each pair.
+  /// Returns twice the robust standard deviation of the epipolar distances, at least 0.7 px. For each left and right
+  /// landmark seen by two cameras, the labelling with the smaller distances counts.
   double ScalePx() const {
     std::vector<double> distances;
     for (std::size_t frame = 0; frame < frames_; ++frame) {

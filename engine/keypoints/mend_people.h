@@ -29,14 +29,15 @@ struct Mend {
 };
 
 /// Corrects the keypoints of a person seen by two cameras or more *(ours)*. First, it checks the identity: if a
-/// camera's keypoints are more than 5 % of the height off the other cameras' epipolar lines, and another person in that
-/// picture is less than a third of this distance off, the other person's keypoints are taken. If nobody fits and at
-/// least three cameras see the person, the frame is left out. Then it checks the sides: for each camera, separately for
-/// arms and legs, it compares both labellings with the other cameras' keypoints (Geman–McClure's loss of the epipolar
-/// distance, with a scale of twice the residuals' standard deviation), and takes the cheapest sequence of labellings
-/// (Viterbi; a change costs 1.5). The camera whose new labels lower the cost most is corrected first. With two cameras,
-/// only the facing direction shows which camera was wrong: toes are in front of heels or ankles, the nose is in front
-/// of the ears. If the body faces the wrong way in nine tenths of the frames, sides are swapped in all cameras.
+/// camera's keypoints are more than 5 % of the height off the other cameras' epipolar lines, and another person in
+/// that picture is less than a third of this distance off, the other person's keypoints are taken. If nobody fits and
+/// at least three cameras see the person, this camera's keypoints are left out in this frame. Then it checks the
+/// sides, for each camera and separately for the upper body and the legs. Both labellings of a frame are compared
+/// with the other cameras' keypoints; their cost is Geman–McClure's loss of the epipolar distance, with a scale of
+/// twice the residuals' standard deviation. The cheapest sequence of labellings is taken (Viterbi; a change of the
+/// labelling costs 1.5). The camera whose new labels lower the cost most is corrected first. With two cameras, only
+/// the facing direction shows which camera was wrong: toes are in front of heels or ankles, the nose is in front of
+/// the ears. If the body faces the wrong way in nine tenths of the frames, sides are swapped in all cameras.
 std::vector<Mend> MendPerson(std::span<const ProjectionMatrix> cameras, std::span<const SeenPeople> people,
                              double min_confidence, MatchedPerson& person);
 

@@ -120,8 +120,9 @@ using SeenPeople = std::vector<std::vector<SeenPerson>>;
 /// Returns the height of the box around all keypoints that were seen, pixels; 0 if none was.
 double HeightPx(const SeenPerson& person);
 
-/// Makes keypoints from the marks of one picture (paper B, section 4.2): a joint is the end of a stroke, or the mean of
-/// the ends where several strokes meet; a tip is its disc's centre. Marked landmarks have confidence 1.
+/// Makes keypoints from the marks of one picture (paper B, section 4.2): a joint is the end of a stroke, or the mean
+/// of the ends where several strokes meet; an end effector is the centre of its disc. Marked landmarks have
+/// confidence 1.
 SeenPerson PersonOf(const Marks& marks);
 
 }  // namespace etude

@@ -78,7 +78,8 @@ std::string CameraOfTheWorld(const RigFile& rig) {
   return {};
 }
 
-constexpr double kStatureOfLeg = 2.0;  // Drillis and Contini 1966: hip 0.53, ankle 0.039 of the stature
+// Drillis and Contini 1966: hip and ankle are at 0.53 and 0.039 of the stature.
+constexpr double kStatureOfLeg = 2.0;
 
 /// Returns the stature in the rig's lengths, estimated as twice the median leg (hip to knee to ankle); nullopt if no
 /// frame shows a leg.
@@ -122,8 +123,9 @@ const LengthUnit* LikelyUnit(double file_units) {
   return nullptr;
 }
 
-/// Returns words for the leg length of a person of this stature. Messages state the legs, not the stature, because only
-/// the legs were measured: keypoints lie inside the limbs' ends, and people differ, so the stature may be 10 % wrong.
+/// Returns a text that states the leg length of a person of this stature. Messages state the leg length because only
+/// the legs are measured. The stature may be 10 % wrong: keypoints are not exactly at the ends of the limbs, and the
+/// ratio of stature to leg length differs between people.
 std::string LegsText(double stature) {
   return fmt::format("legs of {:.3g} m from hip to ankle", stature / kStatureOfLeg);
 }
@@ -230,8 +232,8 @@ Result<ChosenUp> UpOf(const RigFile& rig, const glm::dvec3& person, const FoundU
   return ChosenUp{found.up, true, fmt::format("up is found from {}, to within {:.1f}°{}", found.by, within, world)};
 }
 
-/// Returns a text that names the file's axis for each of our axes: "; x is the file's y, z its x, up its z". Returns ""
-/// if all names are the same, or if one of our axes lies along no axis of the file.
+/// Returns a text that names the file's axis for each of our axes: "; x is the file's y, z its x, up its z". Returns
+/// "" if our axes have the same names in the file, or if one of our axes lies along no axis of the file.
 std::string AxesTold(const glm::dmat3& R_OF) {
   std::array<std::string, 3> names;
   bool is_same = true;

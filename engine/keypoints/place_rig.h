@@ -33,7 +33,7 @@ struct RigPlacement {
   glm::dmat3 R{1};
   glm::dvec3 shift{0};
   double stature_m = 0;  ///< the person's stature, from the legs, to within 15 %; 0 if no person was used
-  std::string told;      ///< explanation for people: "lengths in mm (…), up is -y (…)"
+  std::string told;      ///< explanation for users: "lengths in mm (…), up is -y (…)"
 
   glm::dvec3 operator()(const glm::dvec3& p) const { return scale * (R * p) + shift; }
   bool IsNone() const { return scale == 1 && R == glm::dmat3(1) && shift == glm::dvec3(0); }
@@ -41,13 +41,18 @@ struct RigPlacement {
 
 /// Finds the unit and the up axis of a rig from a person in it *(ours)*. The stature is estimated as 2.0 times the
 /// length of the leg (hip, knee, ankle; medians over frames). The format's unit is kept if the stature is then 0.5 to
-/// 2.2 m; otherwise metres, centimetres and millimetres are tried, then inches and feet, which must give 1.2 to 2.2 m.
-/// The format's up axis is kept if it is within 35° of the result of `FindUp` and the world is not a camera's frame.
-/// Otherwise the up axis is the axis of the file within 4° of that result (10° if the result is not more accurate), or
-/// else the result itself; `told` then gives the largest error in 95 of 100 takes. Fails if no unit gives a plausible
-/// stature (the message names the factor that would), if lengths have no unit, if the up direction is uncertain by more
-/// than 35°, if a requested axis puts cameras and person upside down, and, at the place "keypoints", if no frame shows
-/// enough.
+/// 2.2 m; otherwise metres, centimetres and millimetres are tried, then inches and feet, which must give 1.2 to
+/// 2.2 m. The format's up axis is kept if it is within 35° of the result of `FindUp` (or within the uncertainty of
+/// that result, if larger), the format defines a unit, and the world is not a camera's frame. (For Caliscope, whose
+/// axes are those of a calibration board, it must also be within 8° or three standard deviations, whichever is
+/// larger.) Otherwise the up axis is the axis of the file within 4° of the result (up to 10° if the result is less
+/// accurate), or else the result itself; `told` then states the error that 95 of 100 takes do not exceed.
+/// Fails in these cases:
+/// - The stature is not plausible in the requested unit or in any unit (the message names a factor that makes it so).
+/// - Neither the format nor `options` defines the unit.
+/// - The up direction is uncertain by more than 35°.
+/// - A requested axis puts cameras and person upside down.
+/// - The keypoints do not show hips, knees, ankles and shoulders (the error's place is "keypoints").
 /// @param points the points of the person, triangulated with the rig as in its file
 Result<RigPlacement> PlaceRig(const RigFile& rig, std::span<const LandmarkPositions> points, double rate_hz,
                               const PlacementOptions& options);
@@ -57,7 +62,7 @@ Result<RigPlacement> PlaceRig(const RigFile& rig, std::span<const LandmarkPositi
 /// camera's frame and no up axis is given; the message names the options.
 Result<RigPlacement> PlaceRig(const RigFile& rig, const PlacementOptions& options);
 
-/// Transforms a camera into the placed world.
+/// Returns the camera with its pose in our world, to which `place` maps.
 Camera Placed(const RigPlacement& place, Camera camera);
 
 }  // namespace etude

@@ -30,10 +30,11 @@ Result<CaptureBody> BodyOfBones(const std::array<double, kRoleCount>& lengths);
 Result<CaptureBody> MedianBody(std::span<const LandmarkPositions> frames);
 
 /// Finds, in every frame, the angles and the root's position that minimise Σ weight · |position − joint|², at least
-/// locally, over the joints that landmarks determine (`JointsOf`). A joint that a frame lacks gets a target with weight
-/// 0.01, which keeps its relative position from the frame before. No landmark shows the spine, so its target lies on
-/// the line from hips to shoulders. This target has weight 1, because otherwise a trunk that appears too short could
-/// bend in any direction. Returns nullopt for frames with fewer than eight joints. *(Ours.)*
+/// locally, over the joints that landmarks determine (`JointsOf`). For a joint that a frame lacks, the target has
+/// weight 0.01: it lies at the offset from a neighbouring joint that the fitted pose of the frame before has, turned
+/// by the change of the heading (`CompleteJoints`). No landmark shows the spine, so its target lies on the line from
+/// hips to shoulders. This target has weight 1, because otherwise a trunk that appears too short could bend in any
+/// direction. Returns nullopt for frames with fewer than eight joints. *(Ours.)*
 std::vector<std::optional<TreeState>> FitPerson(const CaptureBody& body, std::span<const LandmarkPositions> frames);
 
 struct RecoverPersonOptions {
@@ -49,14 +50,15 @@ struct RecoverPersonOptions {
   double min_outlier_px = 0;  ///< lower limit of OutlierLimit, pixels
 };
 
-/// Returns the options for pictures whose longer side is `longer_side_px`. Keypoints that are off by more than 3 % of
-/// that side are outliers. Somebody who was not seen for half a second is a new person.
+/// Returns the options for pictures whose longer side is `longer_side_px`. A keypoint is an outlier if it is farther
+/// than 3 % of that side from the projection of its triangulated point. Somebody who was not seen for half a second
+/// is a new person.
 RecoverPersonOptions UsualRecovery(double rate_hz, double longer_side_px);
 
 /// A person recovered from several cameras' keypoints.
 struct RecoveredPerson {
   std::vector<MatchedPerson> people;  ///< all people that were found
-  /// Positions of the requested person's landmarks, with gaps filled and smoothed.
+  /// Positions of the requested person's landmarks. `FitLocated` fills their gaps and smooths them.
   std::vector<LandmarkPositions> landmarks;
   TriangulationReport report;
   std::vector<Mend> mends;  ///< corrections of the requested person's keypoints
@@ -65,7 +67,7 @@ struct RecoveredPerson {
   std::vector<TreeState> states;  ///< poses of the body, one per frame
   Clip clip;                      ///< the motion as a clip, metres, Y up
   BodyMotion motion;              ///< the motion of `clip` as twenty joints
-  std::vector<bool> is_held;      ///< true for frames that could not be recovered and repeat the last pose
+  std::vector<bool> is_held;      ///< true for frames that were not recovered and repeat the last (or the first) pose
 };
 
 /// Removes the lens distortion from keypoints in the camera's own pixels.
@@ -80,7 +82,8 @@ Result<RecoveredPerson> LocatePerson(std::span<const ProjectionMatrix> cameras, 
                                      const RecoverPersonOptions& options);
 
 /// Recovers the motion of a person whose landmarks are known: BridgePoints, SmoothPoints, then the person's own body
-/// (MedianBody) and its poses (FitPerson). Fails if some bone is never seen.
+/// (MedianBody) and its poses (FitPerson). Fails if no frame shows the length of some bone, or if no frame shows
+/// enough joints.
 Result<RecoveredPerson> FitLocated(RecoveredPerson person, const RecoverPersonOptions& options);
 
 /// Computes the clip and the motion of `person` from its body and states.

@@ -12,13 +12,14 @@ namespace etude {
 /// Returns warnings about the rig, or about how the keypoints were read, one sentence each *(ours)*. Nothing is
 /// corrected, because keypoints do not show which of the two is wrong.
 ///
-/// **Focal lengths** of one film or of all: the factor on them, within 12 % of 1, that minimises Σ d² / (d² + 9 σ²) is
-/// found. Here d are the distances of keypoints from the other films' epipolar lines, and σ is their usual size. A
-/// warning is given if the factor is off by at least 2 % and by four of its standard errors. The standard error is the
-/// jackknife's, over landmarks or over tenths of the time, whichever is larger, so that constant errors of an estimator
-/// are taken into account. If all focal lengths are wrong by the same factor, mainly the person's size changes. With
-/// errors of 2 px, the standard error of the factor is then 1 % for four cameras around the person, and 4 % for two, so
-/// two cameras give no warning.
+/// **Focal lengths**: for each of the first eight films, and for all films together, the factor on the focal length
+/// (within 12 % of 1) is found that minimises Σ d² / (d² + 9 σ²). Here d are the distances of keypoints from the
+/// other films' epipolar lines, and σ is their usual size. Of these factors, the one with the smallest sum is judged:
+/// a warning is given if it differs from 1 by at least 2 % and by four of its standard errors. The standard error is
+/// the jackknife's, over landmarks or over tenths of the time, whichever is larger, so that constant errors of an
+/// estimator are taken into account. If all focal lengths are wrong by the same factor, mainly the person's size
+/// changes. With errors of 2 px, the standard error of the factor is then 1 % for four cameras around the person, and
+/// 4 % for two, so two cameras give no warning.
 ///
 /// **Coordinates relative to a square**, if interpreted as relative to the picture, show a person who is too wide or
 /// too narrow. A warning is given if the ratio of shoulder width to leg length differs from the usual 0.42 by a factor

@@ -93,7 +93,8 @@ Misfit MisfitOf(const EpipolarGeometry& geometry, const MovingPerson& one, doubl
   return misfit;
 }
 
-/// For each person of one camera, adds the smallest misfit to a person of the other camera.
+/// Finds, for each person of film `one`, the best-fitting person of film `other`, and adds the misfit of these two to
+/// `all`.
 void AddMisfit(const EpipolarGeometry& geometry, const OffsetFilm& one, const OffsetFilm& other, double offset,
                std::size_t frames, const PeopleSyncOptions& options, Misfit& all) {
   constexpr int kMinCount = 30;

@@ -15,10 +15,11 @@ struct PeopleSyncOptions {
 };
 
 /// Estimates the delay of each camera's pictures *(ours)*, like the overload for marks in
-/// `engine/capture/synchronise.h`: frame k of a camera was taken at the first camera's time k + offset. People need not
-/// be identified: at each offset, every person tracked in the first camera is compared with all people of the other
-/// camera, and the person with the lowest mean squared epipolar distance (`EpipolarGeometry`) counts. A camera whose
-/// offset cannot be determined gets 0; the offset of the first camera is 0 by definition.
+/// `engine/capture/synchronise.h`: frame k of a camera was taken at the first camera's time k + offset. People need
+/// not be identified: at each offset, every person tracked in another camera is compared with all people of this
+/// camera, and the person with the lowest mean squared epipolar distance (`EpipolarGeometry`) counts. Each camera is
+/// compared with the cameras before it, and then again with all others. A camera whose offset cannot be determined
+/// gets 0; the offset of the first camera is 0 by definition.
 /// @param cameras the cameras of the rig, without lens distortion; all pixels must be undistorted
 /// @param people the people of each camera, each with its own number of frames
 std::vector<ClockOffset> EstimateOffsets(std::span<const ProjectionMatrix> cameras, std::span<const SeenPeople> people,

@@ -45,8 +45,8 @@ class Parts {
     return std::ranges::all_of(AllRoles(), [&](Role role) { return IsBelowPelvis(carrier_[Index(role)]); });
   }
 
-  /// Removes all parts but the pelvis and its descendants, and parts without tips (`TipsOf`). If a part turns about the
-  /// same point as its parent, it becomes a child of its grandparent.
+  /// Removes the parts that do not descend from the pelvis, and the descendants without tips (`TipsOf`). If a part
+  /// turns about the same point as its parent, it becomes a child of its grandparent.
   void Simplify() {
     for (std::size_t i = 0; i < all_.size(); ++i) all_[i].is_left_out = !IsBelowPelvis(static_cast<int>(i));
     for (const Role role : AllRoles()) AssignToParent(role);
@@ -166,7 +166,7 @@ class Builder {
         if (limb_of_[child] < 0) RETURN_IF_ERROR(AddOutwardLimb(child));
       }
     }
-    // Add what pictures show of the body, and the skeleton that `ToClip` writes.
+    // Add the roles, twists and end effectors that pictures show, and the skeleton that `ToClip` writes.
     PlaceRoles();
     AddTwists();
     AddEnds();

@@ -22,7 +22,7 @@ namespace etude {
 ///   leg with the foot is straight, the axis is the component of the hip line that is normal to the leg;
 /// - the pelvis: its Y axis is as near as possible to the trunk, so that a sitting body bends at the hips and not at
 ///   the navel. The trunk: its X axis points along the shoulders.
-/// If `joints` are a pose of the tree, the positions of all joints are reproduced exactly, if `limits` allow it.
+/// If `joints` are a pose of the tree within `limits`, the positions of all joints are reproduced exactly.
 /// Returns nullopt if a position is not finite, two neighbouring joints coincide, or the left leg and the hips lie on
 /// one line.
 std::optional<TreeState> FindStartState(const KinematicTree& body, const BodyPose& joints,

@@ -12,7 +12,7 @@ namespace {
 
 using PoseSteps = std::array<glm::dvec3, kRoleCount>;
 
-/// Returns how far each joint moves from frame `f` to the next, metres.
+/// Returns the displacement of each joint from frame `f` to the next, metres.
 PoseSteps StepsFrom(const BodyMotion& motion, int f) {
   PoseSteps steps;
   for (std::size_t j = 0; j < kRoleCount; ++j) steps[j] = motion.poses[f + 1].joints[j] - motion.poses[f].joints[j];
@@ -71,8 +71,10 @@ std::vector<FrameRange> GroupsOf(const std::vector<int>& frames) {
 }
 
 std::vector<FrameRange> FindFrozen(const BodyMotion& motion) {
-  constexpr double kNeverAsStill = 0.003;  // stricter limit of the joints' mean speed near a freeze, metres per second
-  constexpr double kGentle = 0.6;          // a step next to a freeze is gentle up to this share of the next step away
+  // If the body is never nearly still elsewhere, this limit of the joints' mean speed replaces kAbrupt_m_s; metres per
+  // second.
+  constexpr double kNeverAsStill = 0.003;
+  constexpr double kGentle = 0.6;  // a step next to a freeze is gentle up to this share of the step beyond it
   // Compute the mean speed of the joints at each step, and mark the steps without motion.
   const int steps = static_cast<int>(motion.poses.size()) - 1;
   std::vector<double> mean(steps);
@@ -100,7 +102,7 @@ std::vector<FrameRange> FindFrozen(const BodyMotion& motion) {
       continue;
     }
     if (elsewhere.empty()) continue;
-    // If the body is never nearly still outside of these frames, use a stricter limit.
+    // If the body is never nearly still outside of these frames, a slower step already counts as abrupt.
     constexpr std::size_t kMinElsewhere = 20;
     const bool is_never_as_still = elsewhere.size() > kMinElsewhere && Quantile(elsewhere, 0.02) > kNeverAsStill;
     const double limit = is_never_as_still ? kNeverAsStill : fault_limits::kAbrupt_m_s;
@@ -233,7 +235,7 @@ std::vector<Pop> FindPops(const BodyMotion& motion, const std::vector<PoseSteps>
 /// Returns the weighted mean of the joints' excesses (see FindVelocitySteps) at step `f`. A joint's weight is the
 /// inverse of the sum of its squared excesses in nearby frames, so a standing foot weighs most.
 glm::dvec2 WeightedMean(const std::vector<PoseSteps>& excesses, int f) {
-  constexpr int kNear = 2, kFar = 6;   // a velocity step also changes the excesses of the neighbouring frames
+  constexpr int kNear = 2, kFar = 6;   // nearer frames are left out: a velocity step changes their excesses, too
   constexpr double kSmallest = 1e-10;  // avoids a division by zero; square metres
   glm::dvec3 sum{0};
   double weights = 0;
@@ -268,7 +270,7 @@ std::vector<VelocityStep> FindVelocitySteps(const BodyMotion& motion, const Disp
       excesses[f][j] = bends[f][j] - 0.5 * (bends[f - 1][j] + bends[f + 1][j]);
     }
   }
-  // Find the steps at which most joints share an excess, except near displacements and frozen frames.
+  // Find the steps at which most joints share an excess, except near displacements and ends of frozen stretches.
   std::vector<VelocityStep> steps;
   for (int f = 2; f + 2 < frames; ++f) {
     const double length = AgreedLength(excesses[f], MedianOfJoints(excesses[f]), kTolerance, 0);

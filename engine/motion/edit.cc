@@ -121,8 +121,8 @@ std::optional<glm::dquat> NearestRotation(glm::dmat3 axes) {
   constexpr double kFlat = 1e-9;
   if (!(glm::determinant(axes) > kFlat * size * size * size)) return std::nullopt;
   axes /= std::cbrt(glm::determinant(axes));
-  // Newton's iteration first about halves large singular values in each step (for forty steps if the matrix is as flat
-  // as allowed), then converges quadratically.
+  // At first, each step of Newton's iteration roughly halves the large singular values (forty steps do so if the
+  // matrix is as flat as allowed); then the iteration converges quadratically.
   constexpr int kMaxSteps = 60;
   constexpr double kSame = 1e-15;
   for (int step = 0; step < kMaxSteps; ++step) {

@@ -27,9 +27,10 @@ inline constexpr double kFootSkate_m_s = 0.14, kFootSkate_s = 0.4,
 // Jumps and pops.
 inline constexpr double kJumpAlongFloor_m = 0.10, kJump_m = 0.25;
 inline constexpr double kPop_m = 0.25, kSurePop_m = 0.45, kPopTimesUsual = 6, kUsualPop = 0.95;
-/// In clips of kShortClipFrames to kPopFrames / (1 − kUsualPop) frames, a third difference is also a pop if it exceeds
-/// `kShortPop_m` and kPopTimesUsual times the value that all but `kPopFrames` of the joint's third differences stay
-/// below. Shorter and longer clips do not have this second rule.
+/// The second rule for pops. A third difference is also a pop if it exceeds both `kShortPop_m` and `kPopTimesUsual`
+/// times the (1 − kPopFrames / n) quantile of the joint's n third differences, so up to `kPopFrames` large
+/// differences do not raise the limit. This rule has an effect only in clips of `kShortClipFrames` to
+/// kPopFrames / (1 − kUsualPop) frames.
 inline constexpr double kShortPop_m = 0.36, kShortClipFrames = 45, kPopFrames = 9;
 
 // Freezes.

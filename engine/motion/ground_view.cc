@@ -26,8 +26,8 @@ double Mode(std::vector<double> values) {
   return Median({begin, begin + static_cast<std::ptrdiff_t>(count)});
 }
 
-/// Returns true if trunk and legs are upright. (If a person sits or lies, a seat, a cushion or flesh is between the
-/// joints and the floor.)
+/// Returns true if trunk and legs are upright. (Other poses do not show the floor's height: a seat, a cushion or
+/// flesh may be between the joints and the floor.)
 bool IsUprightPose(const BodyPose& pose) {
   constexpr double kSteep = 0.7;
   const glm::dvec3 trunk = pose[kShoulderCentre] - pose[kHipCentre];

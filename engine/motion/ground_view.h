@@ -45,8 +45,7 @@ class GroundView {
   /// Returns the height of the lowest joint, metres, with the displacements. Finger tips are ignored.
   double Lowest(int frame) const { return lowest_[frame]; }
   const std::vector<double>& lowest() const { return lowest_; }
-  /// Returns true if only feet and hands are near the floor: all other joints are at least 20 cm above the lowest rest
-  /// height.
+  /// Returns true if only feet and hands are near the floor: all other joints are more than 20 cm above `LowestRest()`.
   bool IsOnFeet(int frame) const;
   /// Returns true if trunk and legs are upright.
   bool IsUpright(int frame) const { return is_upright_[frame]; }

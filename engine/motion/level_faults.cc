@@ -25,9 +25,9 @@ struct Level {
   double offset = 0;
 };
 
-/// Returns the vertical displacement of the frames at the right height. These frames are the level of the lowest cost.
-/// A level costs less if the feet rest near the floor, if the clip begins and ends on this level, and if the level
-/// lasts long.
+/// Returns the vertical displacement of the level with the lowest cost; its frames are taken to be at the right
+/// height. A level costs less if the feet rest near the floor on it (ignored if the floor was found from the motion),
+/// if the clip begins on it, if the clip ends on it, and the longer it lasts.
 double ReferenceOffset(const GroundView& ground, const std::vector<Level>& levels) {
   constexpr double kSame = 0.025, kLowest = -0.01, kHighest = 0.1;  // metres; levels count as equal up to kSame
   constexpr double kPerMetre = 2, kForTime = 0.04, kForEnd = 0.03;
@@ -52,8 +52,8 @@ double ReferenceOffset(const GroundView& ground, const std::vector<Level>& level
   return reference;
 }
 
-/// The frames that were reported as displaced. `reference` is the sum of all vertical displacements before a frame at
-/// the right height, metres.
+/// The frames that were reported as displaced. `reference` is the sum of the lasting vertical displacements, metres, at
+/// which the body has the right height.
 struct Told {
   std::vector<bool> frames;
   double reference = 0;

@@ -26,8 +26,8 @@ constexpr std::array kLegs = {Leg{kLeftHip, kLeftKnee, kLeftAnkle, kLeftFoot},
                               Leg{kRightHip, kRightKnee, kRightAnkle, kRightFoot}};
 constexpr std::array kArms = {Arm{kLeftElbow, kLeftWrist, kLeftHand}, Arm{kRightElbow, kRightWrist, kRightHand}};
 
-/// Appends a fault for every stretch of at least `min_s` seconds in which `value` is above `limit`; gaps of less than
-/// 0.4 s between such stretches are included. A fault's size is its largest value.
+/// Appends a fault for every stretch of at least `min_s` seconds in which `value` is above `limit`. A stretch includes
+/// gaps of less than 0.4 s in which `value` is not above `limit`. A fault's size is its largest value.
 void AppendRanges(const BodyMotion& motion, const std::vector<double>& value, double limit, double min_s,
                   MotionFault fault, std::vector<MotionFault>& faults) {
   std::vector<bool> is_beyond;
@@ -58,11 +58,11 @@ bool Shows(std::span<const JointSet> unseen, int frame, std::initializer_list<Ro
 /// The changes of a limb's length, relative to its median.
 struct LengthChanges {
   Role end = kHead;           ///< the limb's far end
-  std::vector<double> share;  ///< change by frame, as a share of the median; 0 in ignored frames
-  double usual = 0;           ///< median of the absolute `share` over the frames that show the limb
+  std::vector<double> share;  ///< absolute change by frame, as a share of the median; 0 in ignored frames
+  double usual = 0;           ///< median of the absolute changes over all frames that show the limb
 };
 
-/// Returns the changes of upper arms, forearms, thighs and shanks. Frames near pops are ignored.
+/// Returns the length changes of upper arms, forearms, thighs and shanks. Frames near pops are ignored.
 std::vector<LengthChanges> FindLengthChanges(const BodyMotion& motion, std::span<const JointSet> unseen,
                                              const std::vector<Pop>& pops) {
   constexpr double kMinLength = 0.02;
@@ -96,9 +96,10 @@ std::vector<LengthChanges> FindLengthChanges(const BodyMotion& motion, std::span
   return all;
 }
 
-/// Appends limbs whose lengths differ from their medians by more than 3 % for at least 0.05 s in all. One fault of a
-/// limb covers all frames with such a difference. If joints were found from markers, skin that moves over the bones
-/// changes the lengths; the difference must then also exceed fifteen times the usual deviation.
+/// Appends limbs whose lengths differ from their medians by more than 3 % for at least 0.05 s and at least three
+/// frames in all. One fault of a limb covers all frames with such a difference. If joints were found from markers,
+/// skin that moves over the bones changes the lengths; the difference must then also exceed fifteen times the usual
+/// deviation.
 void FindStretches(const BodyMotion& motion, const FaultOptions& options, const std::vector<Pop>& pops,
                    std::vector<MotionFault>& faults) {
   constexpr int kMinFrames = 3;
@@ -165,7 +166,7 @@ std::optional<glm::dvec3> FrontByToes(const BodyPose& pose, Side side) {
 }
 
 double KneeOverextension(const BodyPose& pose, Side side, bool sees_toes) {
-  constexpr double kMinBackwards = 0.2;  // cosine of bending axis and line of the hips; a leg turned outwards: 0.1
+  constexpr double kMinBackwards = 0.2;  // cosine between bending axis and hip line; 0.1 for a leg turned outwards
   const auto [hip, knee, ankle, foot] = kLegs[side == Side::kLeft ? 0 : 1];
   const glm::dvec3 thigh = pose[knee] - pose[hip], shank = pose[ankle] - pose[knee], axis = glm::cross(thigh, shank);
   const double backwards = glm::dot(axis, UnitOr(pose[kRightHip] - pose[kLeftHip], {-1, 0, 0}));

@@ -22,9 +22,9 @@ double KneeOverextension(const BodyPose& pose, Side side, bool sees_toes = true)
 /// 5.1.9).
 double SegmentDistance(const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& c, const glm::dvec3& d);
 
-/// Returns the smallest distance, metres, of forearm and hand from the spine without its ends (hands may rest on the
-/// thighs), and of the forearm from neck and head (hands may lie on the nape). Pass `sees_hand` false to ignore the
-/// hand.
+/// Returns the smallest of these distances, metres: of the forearm and of the hand from the spine without its ends
+/// (hands may rest on the thighs), and of the forearm from the line between shoulder centre and head (hands may lie
+/// on the nape). The hand is ignored if `sees_hand` is false.
 double ArmFromSpine(const BodyPose& pose, Side side, bool sees_hand = true);
 
 /// Appends a fault for each joint at a wrong distance from its neighbours, and a fault for exchanged left and right

@@ -51,8 +51,8 @@ struct MotionFault {
 };
 
 struct MotionFaults {
-  double floor_m = 0;           ///< the height of the floor that the motion is judged by
-  bool is_floor_found = false;  ///< true if the motion is far from height 0 and the floor is where the feet rest
+  double floor_m = 0;                    ///< the height of the floor that the motion is judged by
+  bool is_floor_found = false;           ///< true if the floor was found from the motion, which is far from height 0
   std::vector<MotionFault> faults = {};  ///< sorted by kind, then by time
 };
 
@@ -63,18 +63,19 @@ struct FaultOptions {
   /// For each frame, the joints that it does not show, because the file lacks them and a reader guessed their
   /// positions; empty: all joints are shown. Limbs that end at such joints are not judged.
   std::vector<JointSet> unseen = {};
-  double lost_before_s = 0, lost_after_s = 0;  ///< seconds of the file before and after the motion, without joints
+  /// The durations of the file's first and last frames that are not in the motion because joints are missing.
+  double lost_before_s = 0, lost_after_s = 0;
   bool is_of_markers = false;  ///< true: joints were found from markers on the skin, so the lengths of limbs may change
 };
 
 /// Motions with fewer frames are not judged.
 constexpr std::size_t kMinFramesForFaults = 8;
 
-/// Finds the faults of a motion without knowing its true motion; the method is our own. FaultRules states the rules.
-/// The motion is in metres, Y up, with finite positions, and at its own rate, because resampling hides displaced or
+/// Finds the faults of a motion without a reference motion; the method is our own. FaultRules states the rules. The
+/// motion is in metres, Y up, with finite positions, and at its own rate, because resampling hides displaced or
 /// repeated frames. If `floor_m` is absent, the floor is at height 0; but if the 5th percentile of the lowest joint's
-/// height is then more than 60 cm from 0, the floor is found from the height at which the feet rest. A motion of fewer
-/// than kMinFramesForFaults frames returns no faults.
+/// height is then more than 60 cm from 0, the floor is found from the height at which the feet rest. A motion of
+/// fewer than kMinFramesForFaults frames returns no faults.
 MotionFaults FindMotionFaults(const BodyMotion& motion, const FaultOptions& options = {});
 
 /// Returns the sentences of the three largest faults of each kind. If faults are left out, one more sentence states

@@ -15,7 +15,7 @@ int FramesIn(const GroundView& ground, double seconds, int least) {
   return std::max(static_cast<int>(std::lround(seconds * ground.motion().rate_hz)), least);
 }
 
-constexpr double kStep_s = 1.0 / 15;  ///< time between two windows
+constexpr double kStep_s = 1.0 / 15;  ///< time between the centres of successive windows
 
 /// Returns the velocities along the floor, metres per second, of foot joints that may be in stance: joints near their
 /// rest height that do not rise or fall, while the body is on its feet. Uses every n-th frame, n = `every`.
@@ -120,7 +120,7 @@ void AppendSkate(const GroundView& ground, const std::vector<Glide>& glides, std
   faults.push_back(ground.FaultOf(FaultKind::kSkates, {first, last}, glm::length(velocity)));
 }
 
-/// Returns true if, among the foot joints that may be in stance, more joints move at about `velocity` than rest.
+/// Returns true if more of the foot joints that may be in stance move at about `velocity` than are at rest.
 bool Carries(const GroundView& ground, const FrameRange& span, const glm::dvec2& velocity) {
   constexpr double kNear = 0.07, kNearShare = 0.3, kRest = 0.5;
   const double near = std::max(kNear, kNearShare * glm::length(velocity));

@@ -23,11 +23,12 @@ struct FootSlide {
 };
 
 /// Measures foot sliding. A foot is in stance if FindBearing by kFootRules finds its toes or its ankle at rest. If no
-/// joint of the body is at rest in a frame, the lowest joints of the feet count as in stance, unless they are more than
-/// SupportRules::height above the floor. Glides and treadmills therefore count as sliding, and jumps do not. The floor
-/// is the lower quartile of the height of the body's lowest joint: neither a single low frame nor a jump changes the
-/// quartile. If toes and ankle are both in stance, the foot's speed is the speed of the slower joint, so a rolling foot
-/// does not count as sliding. Velocities are computed by JointVelocities.
+/// joint of the body is at rest in a frame, the foot joints near the body's lowest joint (SupportRules::lowest) count
+/// as in stance, unless the lowest joint is more than SupportRules::height above the floor. Glides and treadmills
+/// therefore count as sliding, and jumps do not. The floor is the lower quartile of the height of the body's lowest
+/// joint: neither a single low frame nor a jump changes the quartile. If toes and ankle are both in stance, the
+/// foot's speed is the speed of the slower joint, so a rolling foot does not count as sliding. Velocities are
+/// computed by JointVelocities.
 FootSlide MeasureFootSlide(const BodyMotion& motion);
 
 /// Summary measures of a motion, in metres and seconds.

@@ -82,9 +82,9 @@ bool FitsFlight(std::span<const BodyPose> poses, int first, int last, double rat
   return rules.min_fall <= fit.fall && fit.fall <= rules.max_fall && fit.stray <= rules.flight_stray;
 }
 
-/// Removes raised feet from the joints that bear a clip: an ankle whose heel is up while the toes bear the body, and
-/// toes high above the lowest joint. (Ankle and toes may be slow enough to count as at rest.) If no other joint bears
-/// the body in a frame, the frame is not changed.
+/// Removes raised feet from the joints that bear a clip's body: an ankle whose heel is up while the toes bear the
+/// body, and toes high above the lowest joint. (Ankle and toes may be slow enough to count as at rest.) If no other
+/// joint bears the body in a frame, the frame is not changed.
 void RemoveRaisedFeet(std::span<const BodyPose> poses, const SupportRules& rules, std::vector<Bearing>& bearing) {
   using enum Role;
   for (const auto& [ankle, foot] : {std::pair{kLeftAnkle, kLeftFoot}, std::pair{kRightAnkle, kRightFoot}}) {
@@ -108,9 +108,9 @@ void RemoveRaisedFeet(std::span<const BodyPose> poses, const SupportRules& rules
   }
 }
 
-/// Returns true if the ground can have thrown the body into the air at frame `from`, i.e. if the acceleration of the
-/// mass centre in the frame before and in `from` needs a force of at most SupportRules::max_push. Also true if fewer
-/// than two frames come before `from`, because the acceleration is then unknown.
+/// Returns true if the ground can have thrown the body into the air at frame `from`: in that frame and in the frame
+/// before it, the acceleration of the mass centre needs a force of at most SupportRules::max_push. Also returns true
+/// if one of these accelerations is unknown, because fewer than two frames come before `from` or none comes after it.
 bool IsThrown(std::span<const BodyPose> poses, int from, double rate_hz, const SupportRules& rules) {
   constexpr double kGravity = 9.81;
   if (from < 2 || from + 1 >= static_cast<int>(poses.size())) return true;

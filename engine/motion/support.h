@@ -20,11 +20,11 @@ using JointSet = std::bitset<kRoleCount>;
 struct SupportRules {
   double lowest = 0.12;       ///< a joint may bear the body if it is at most this high above the lowest joint
   double rest_speed = 0.5;    ///< a joint is at rest up to this speed (feet roll, and captures are noisy)
-  double height = 0.025;      ///< maximum height of a shown joint above the clip's joint at rest
-  double heel = 0.03;         ///< a raised ankle: this much higher above the toes than in a flat foot
-  double toes = 0.05;         ///< raised toes: higher than this above the clip's lowest joint
+  double height = 0.025;      ///< a shown joint may be this much higher than the clip's joint at rest
+  double heel = 0.03;         ///< a heel is raised if its ankle is this much higher above the toes than in a flat foot
+  double toes = 0.05;         ///< toes are raised if they are more than this above the lowest joint of the clip's pose
   double level = 0.12;        ///< rest heights that differ by more than this are two surfaces, such as floor and step
-  double window_s = 1.0 / 3;  ///< a clip's rest heights are searched this long before and after a frame
+  double window_s = 1.0 / 3;  ///< a clip's rest heights near a frame are those up to this long before or after
   /// A body without support is in flight if the downward acceleration of its mass centre is in this range, metres per
   /// second², and if the height deviates from a parabola by at most `flight_stray` (root mean square).
   double min_fall = 6.5, max_fall = 13;
@@ -35,9 +35,10 @@ struct SupportRules {
 /// The joints that support a body in one frame of a clip.
 struct Bearing {
   JointSet rests;  ///< lowest joints that are at rest; none while the mass centre falls (SupportRules::min_fall)
-  /// Equals `rests` unless `rests` is empty (a jump, walking on the spot, a skating foot). Then it contains all of the
-  /// lowest joints that do not glide, because the clip itself shows them as support. A joint glides if it moves over
-  /// the floor faster than SupportRules::rest_speed and faster than three times its speed relative to the hip centre.
+  /// Equals `rests` unless `rests` is empty (a jump, walking on the spot, a skating foot). If it is empty, all of the
+  /// lowest joints that do not glide count as bearing, because a clip is taken to be right. A joint glides if it
+  /// moves over the floor faster than SupportRules::rest_speed and faster than three times its speed relative to the
+  /// hip centre.
   JointSet bears;
 };
 
@@ -59,8 +60,8 @@ FootContacts FindFootContacts(std::span<const BodyPose> poses, double rate_hz);
 struct SupportingClip {
   std::span<const BodyPose> poses;  ///< poses of the clip, moved on the floor to where the clip is shown
   int begin = 0;                    ///< the shown frame of poses[0]; may be outside of the requested frames
-  /// The last shown frame of the clip. Where the clip supports the body in this frame, it may also support the body in
-  /// later frames. The default means that the clip is never left.
+  /// The last shown frame of the clip. In later frames, a joint may still rest at a height at which the clip's joint
+  /// rests near this frame. By default, the clip is shown to the end.
   int left_at = std::numeric_limits<int>::max();
 };
 
@@ -72,9 +73,10 @@ struct Support {
   bool Holds() const { return joints.any() || flight; }
 };
 
-/// Finds the joints that support a body while clips are shown. Only the clips define possible support, so a floating
-/// motion cannot become its own floor. A raised heel or a raised foot of the clip defines no support while another
-/// joint bears the clip (SupportRules::heel, toes). A joint supports the body in two cases:
+/// Finds the joints that support a body while clips are shown. Only joints of the clips show where support is
+/// possible, so a motion that floats is not supported at its own lowest height. A raised heel or a raised foot of a
+/// clip shows no support while another joint bears the clip's body (SupportRules::heel, toes). A joint supports the
+/// body in two cases:
 /// - The joint is at rest, and the same joint of a clip is at rest near that time. The clip's joint may rest at several
 ///   heights, for example on a step. The joint is at most SupportRules::height above and at most SupportRules::level
 ///   below the lowest of these heights, or within SupportRules::height of another of these heights.
@@ -82,8 +84,9 @@ struct Support {
 ///   before or after it. The heights of the two joints differ by at most SupportRules::height, their velocities by at
 ///   most SupportRules::rest_speed.
 /// Consecutive frames without support are a flight if the body is supported just before and just after them, if the
-/// ground can have thrown it (SupportRules::max_push), and if the mass centre falls as SupportRules states over these
-/// frames, or over these frames and the two neighbouring frames. A flight is judged over at least five frames.
+/// ground can have thrown it (SupportRules::max_push), and if the mass centre falls within the limits min_fall,
+/// max_fall and flight_stray of SupportRules. The fall is judged over these frames, or over these frames and the two
+/// neighbouring frames, but at least over five frames.
 class SupportFinder {
  public:
   /// The clips' poses must outlive this object.

@@ -55,7 +55,7 @@ constexpr std::array kMirrored = {
     MirroredLink{kLeftShoulder, kHead, 0.14},           MirroredLink{kLeftShoulder, kLeftElbow, 0.08},
     MirroredLink{kLeftElbow, kLeftWrist, 0.12},         MirroredLink{kLeftWrist, kLeftHand, 0.26}};
 
-/// Two joints whose distance is wrong, with the wrong frames and the size of the error.
+/// Two joints whose distance is wrong, the frames in which it is wrong, and the size of the error.
 struct Wrong {
   Role inner, outer;
   std::vector<bool> frames;
@@ -228,14 +228,15 @@ class TornFinder {
       for (int f = 0; f < frames(); ++f) size = off[f] ? std::max(size, size_of(f)) : size;
       return size;
     };
-    // The head is wrong if it points down the trunk. Its mirror image above the neck is right.
+    // The head is wrong if it lies below the base of the neck, along the trunk. The right position is its mirror image
+    // above the base of the neck.
     const auto trunk = [&](int f) { return between(f, kHipCentre, kShoulderCentre); };
     const auto head = [&](int f) { return between(f, kShoulderCentre, kHead); };
     const std::vector<bool> down =
         Lasting([&](int f) { return shows(f, {kHead}) && is_against(head(f), trunk(f), kAgainst); });
     Add(tears_[kHead], down,
         largest(down, [&](int f) { return -2 * glm::dot(head(f), trunk(f)) / glm::length(trunk(f)); }));
-    // A foot is wrong if it points behind the shank. If both feet do so at once, the sides are exchanged.
+    // A foot is wrong if it points backwards. If both feet point backwards at once, the sides are exchanged.
     const auto points_back = [&](int f, Side side) {
       const auto on = [side](Role left) { return side == Side::kLeft ? left : Mirrored(left); };
       const glm::dvec3 front = glm::cross(between(f, kRightHip, kLeftHip), between(f, on(kLeftAnkle), on(kLeftKnee)));

@@ -16,8 +16,8 @@ struct StepPair {
 
 /// Runs subsequence dynamic time warping online, one step per Update (Müller 2007, section 4.4, with the slope
 /// condition of at most 2). A path matches the whole pattern, may begin at any seen step, and ends at the last seen
-/// step. The cost of a path is the sum of the distances of the path's seen steps and of the pattern steps that the path
-/// skips.
+/// step. The cost of a path is a sum of squared distances: of each seen step to its pattern step, and of each skipped
+/// pattern step to the seen step after the skip.
 class SubsequenceAligner {
  public:
   /// Aligns with `pattern`, which must have at least one step and outlive this object. A path longer than `longest` ≥ 1

@@ -79,10 +79,10 @@ namespace {
 using Pattern = std::vector<PoseVector>;
 constexpr double kFar = std::numeric_limits<double>::infinity();
 
-/// An unknown motion at this distance, metres, is the alternative to a move if no known motion is nearer. In 19 of 20
-/// cases, another person's performance of a move is nearer to the move's examples than this (simulated people,
-/// tests/sim/performer). In recordings of real people, the median of that person's distance is 10 cm in one set and
-/// 16–28 cm in another.
+/// If no known motion is nearer, a move competes with an unknown motion at this distance, metres. In 19 of 20 cases,
+/// another person's performance of a move is nearer to the move's examples than this (simulated people,
+/// tests/sim/performer). In recordings of real people, the median distance of another person's performance is 10 cm
+/// in one set and 16–28 cm in another.
 constexpr double kUnknownMotionDistance = 0.21;
 
 /// An example of a move and the wrong patterns that it is compared with. All have the same number of steps.
@@ -238,10 +238,11 @@ class NearestFollower final : public StepFollower {
   }
 
   const std::vector<Example>& examples_;
-  std::vector<double> right_, wrong_, held_still_;  // distances of this step, per move
+  // For each move, its distances in this step: to the nearest right example, wrong pattern and held pose.
+  std::vector<double> right_, wrong_, held_still_;
   std::size_t longest_, since_open_ = 0;
   Stillness standing_;
-  std::vector<Stillness> held_;   // for each example, the comparison with its held mean pose
+  std::vector<Stillness> held_;   // for each example: compares the last steps with the example's mean pose
   std::vector<PoseVector> seen_;  // the last `longest_` steps
 };
 

@@ -41,7 +41,7 @@ struct BoostedTrees {
 /// The candidate performances of one window. The window is right if at least one of them is right.
 struct LabelledBag {
   bool is_right = false;
-  std::vector<PerformanceMeasures> performances;  ///< the performances, at least one; the most likely one comes first
+  std::vector<PerformanceMeasures> performances;  ///< at least one; the first training round uses the first one
 };
 
 struct BoostingOptions {

@@ -142,8 +142,8 @@ class MeasuringFollower final : public StepFollower {
     RigidComparison rigid;
   };
 
-  /// Measures the best alignment that ends now. `first` is the number of the aligner's first step. `window` is null for
-  /// a spotted performance, whose clock measures are 0.
+  /// Measures the best alignment that ends now. `first` is the number, in `steps_`, of the aligner's first step.
+  /// `window` is null for a spotted performance, whose comparisons with the window (kClockSlice, kRigidSlice) are 0.
   PerformanceMeasures MeasureNow(const TaughtExample& example, const SubsequenceAligner& aligner, int first,
                                  const InWindow* window) const {
     const std::vector<StepPair> path = aligner.Path();

@@ -12,8 +12,8 @@ namespace etude {
 
 /// The origin of a measured performance.
 enum class PerformanceOrigin {
-  kAsked,    ///< it may be the performance asked for; it began after the window opened
-  kSpotted,  ///< nobody asked for it, and it may have begun at any time
+  kAsked,    ///< judged as a performance of the asked move; it began after the window opened
+  kSpotted,  ///< judged as if nobody had asked for it; it may have begun at any time
 };
 
 /// Judges a performance that ends now by its measures. Returns how right it looks, in [0, 1].

@@ -158,7 +158,7 @@ PathClock MeasureClock(std::span<const StepPair> path) {
   const double taught_variance = taught_squares - taught * taught;
   const double seen_variance = seen_squares - seen * seen;
   const double tempo = taught_variance > 0 ? covariance / taught_variance : 1.0;
-  // Find the largest deviation from the line.
+  // Find the largest deviation from this line, that is, from a steady tempo.
   double worst = 0;
   for (const StepPair& pair : path) {
     const double beyond = (pair.seen / kStepsPerSecond - seen) - tempo * (pair.taught / kStepsPerSecond - taught);

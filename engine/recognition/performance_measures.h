@@ -57,9 +57,10 @@ class ClockComparison {
   std::array<std::array<ShiftSum, 2 * kMaxSteps + 1>, 2> halves_{};  ///< one sum per half of the example and per shift
 };
 
-/// The number of measures of RigidComparison: 36 measures of the limbs, as for a warped path, then the lag in seconds,
-/// the logarithm of the pace (below 0: faster than taught), the distance, the distance at the taught pace, and the
-/// share of the example that was seen.
+/// The number of measures of RigidComparison: 36 measures of the limbs, as for a warped path, then the lag in
+/// seconds, the logarithm of the pace (below 0: faster than taught), the distance, the distance at the taught pace
+/// (with a small penalty on the lag), and the share of the example that was seen. The distances are −1 if nothing
+/// fits.
 constexpr std::size_t kRigidMeasures = 41;
 
 /// Compares the steps since the window opened with the example, limb by limb. The example is shifted and stretched in

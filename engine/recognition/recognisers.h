@@ -35,9 +35,9 @@ std::vector<std::string> RecogniserNames();
 /// Returns the recogniser called `name`, or null if there is none.
 const RecogniserKind* FindRecogniser(std::string_view name);
 
-/// Returns the recogniser recommended for these moves (docs/detection.md): `whole-body` if every move has at least
-/// three examples, else `learnt` if every move has an example that shows a body, otherwise `key-pose`. If `by_a_coach`
-/// is true, `coached` replaces the first two, because a coach asks for moves in time with music.
+/// Returns the recogniser recommended for these moves (docs/detection.md): `key-pose` if a move has no example that
+/// shows a body; otherwise `whole-body` if every move has at least three examples, else `learnt`. If `by_a_coach` is
+/// true, `coached` replaces the last two, because a coach asks for moves in time with music.
 const RecogniserKind& RecommendedRecogniser(std::span<const TaughtMove> taught, bool by_a_coach = false);
 
 struct RecogniserOptions {

@@ -268,8 +268,8 @@ class WholeBodyFollower final : public MoveFollower {
   }
 
   void Spot() {
-    // In 1 of 20 cases, another person's performance is farther than 3.4 squared units (six people in front of an
-    // OpenNI sensor).
+    // Another person's performance of a move is rarely farther than this: 19 of 20 are within 3.4 squared units (six
+    // people in front of an OpenNI sensor).
     constexpr double kMaxOtherDistance = 4;
     for (std::size_t move = 0; move < always_.size(); ++move) {
       double other = kMaxOtherDistance;
@@ -304,7 +304,7 @@ class WholeBodyFollower final : public MoveFollower {
   std::vector<std::vector<ExampleDistance>> always_;  // for each move, one ExampleDistance per example
   std::vector<LatelyLowest> lately_;                  // for each move, its lowest distance in the last second
   std::vector<ExampleDistance> in_window_, images_;   // the asked move's examples, and their mirror images
-  double right_ = kInfinity, image_ = kInfinity;      // distances of the nearest passages in the window
+  double right_ = kInfinity, image_ = kInfinity;      // lowest distances of `in_window_` and `images_` in the window
   double best_ = 0;                                   // evidence of the performance asked for
   std::vector<double> spotted_;
 };

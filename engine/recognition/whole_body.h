@@ -8,7 +8,7 @@
 
 namespace etude {
 
-/// The number of examples of every move from which a whole-body recogniser uses the spread between them.
+/// The minimum number of examples of every move with which a whole-body recogniser spots moves without its judge.
 inline constexpr std::size_t kExamplesOfWholeBody = 3;
 
 /// Makes a recogniser for recordings of people (ours). It aligns whole bodies with every example and its mirror image

@@ -66,7 +66,8 @@ class AnatomyFinder {
       const int parent = tree.ParentOf(i);
       if (parent < 0) continue;
       const double length = below_[i].length + glm::distance(tree.RestOf(i), tree.RestOf(parent));
-      // Siblings are visited from last to first, so of two equally long chains the first sibling's is kept.
+      // Siblings are visited from last to first, so of two equally long chains the chain of the first sibling is
+      // kept. (If both have length 0, the last sibling's is kept.)
       if (length < below_[parent].length || (length == 0 && !below_[parent].joints.empty())) continue;
       below_[parent] = {below_[i].joints, length};
     }

@@ -21,10 +21,11 @@ constexpr double kMinAnatomyConfidence = 0.9;
 
 /// Proposes the limbs from the topology of the tree and the rest pose (ours). Legs and arms are two pairs of siblings;
 /// the two chains of bones below a pair are equally long. The trunk leads from the legs to the arms, and the legs point
-/// away from the trunk. In each chain, the three joints are chosen for human proportions of the bones between them.
-/// Left is the direction up × forward, where forward is the direction of the toes. Without toes, the body is assumed to
-/// face +Z, with a lower confidence. The confidence is the product of one score per criterion; a score is 1 within the
-/// range of adults and decreases outside.
+/// away from the trunk. In each chain, the three joints are chosen so that the bones between them have human
+/// proportions. Left is the direction up × forward, where forward is the direction of the toes. Without toes, the
+/// body is assumed to face +Z, with a lower confidence. The confidence is the product of one score per criterion; a
+/// score is 1 within the range of adults and decreases outside. A second choice that fits as well halves the
+/// confidence.
 AnatomyProposal ProposeByAnatomy(const SkeletonTree& tree);
 
 /// A joint map under construction, with the positions of the assigned roles in the rest pose. `tree` must outlive this
@@ -56,8 +57,8 @@ class JointMapDraft {
   std::array<glm::dvec3, kRoleCount> rest_{};
 };
 
-/// Returns true if the joint of `end` belongs to no limb. A wrist or ankle is then moved by a separate control of the
-/// rig.
+/// Returns true if the joint that plays the role `end` belongs to no limb. If the role is a wrist or an ankle, a
+/// separate control of the rig then moves this joint.
 bool IsFree(const JointMapDraft& draft, Role end);
 
 }  // namespace etude

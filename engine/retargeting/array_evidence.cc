@@ -11,11 +11,11 @@
 namespace etude {
 namespace {
 
-/// Returns true if the body stands on its hands: its wrists are near the lowest joint in most frames, and that joint
-/// stays at nearly the same height. `length` is the body's length; `columns` are the columns of the wrists.
+/// Returns true if the body stands on its hands: a wrist is near the lowest joint in most frames, and that joint stays
+/// at nearly the same height. `length` is the body's length; `columns` are the columns of the wrists.
 bool StandsOnHands(std::span<const glm::dvec3> positions, std::size_t joints, const std::array<std::size_t, 2>& columns,
                    double length) {
-  constexpr double kStillFloor = 0.1, kNear = 0.3, kMost = 0.5;  // first two in body lengths, kMost a share of frames
+  constexpr double kStillFloor = 0.1, kNear = 0.3, kMost = 0.5;  // kMost: a share of frames; others: body lengths
   std::vector<double> lowest;
   double low = 0;
   for (std::size_t begin = 0; begin < positions.size(); begin += joints) {
@@ -50,8 +50,8 @@ double SpreadOf(std::span<const glm::dvec3> positions, std::size_t joints) {
       if (IsSeen(place)) distances.push_back(glm::distance(place, middle));
     }
     double limit = kTimesUsual * Median(distances);
-    // If more than a quarter of the points are so far away, they belong to the body, so keep them. (Most points of some
-    // layouts are on the hands, which may be held together.)
+    // If more than a quarter of the points are beyond this limit, they belong to the body, so keep them. (Most points
+    // of some layouts are on the hands, which may be held together.)
     const auto far = std::ranges::count_if(distances, [&](double distance) { return distance > limit; });
     if (4 * static_cast<std::size_t>(far) > distances.size()) limit = std::numeric_limits<double>::infinity();
     // Measure the extent of the points that are not too far from the median point.

@@ -8,10 +8,10 @@
 
 namespace etude {
 
-/// Returns the extent of a frame's joints along x, y or z, whichever is largest, as a median over the frames, in the
-/// file's unit. A NaN is a missing joint. Points far from the body, such as a ball or a camera, are ignored: a point's
-/// distance from the frame's median point exceeds four times the median of all points' distances. If more than a
-/// quarter of the points are so far away, all points are used.
+/// Returns the largest of a frame's extents along x, y and z, as a median over the frames, in the file's unit. A NaN is
+/// a missing joint. Points far from the body, such as a ball or a camera, are ignored. A point is far if its distance
+/// from the frame's median point exceeds four times the median of these distances. If more than a quarter of the points
+/// are far, all points are used.
 double SpreadOf(std::span<const glm::dvec3> positions, std::size_t joints);
 
 /// Returns the length in metres of the unit (m, cm or mm) in which the extent `spread` is a person's, 0.8 to 2.3 m;
@@ -20,9 +20,9 @@ std::optional<double> UnitOfSpread(double spread);
 
 /// How a body stands in the array's axes; kNotTold if it stands along Y on its feet, or if its direction is not known.
 enum class Standing { kNotTold, kAlongMinusY, kOnHands, kAlongZ };
-/// Returns how the body stands. The direction from knees to shoulders decides, in at least three quarters of the frames
-/// that show these joints. A body that is upside down stands on its hands if its wrists are near the lowest joint and
-/// if that joint stays at one height.
+/// Returns how the body stands. The direction from knees to shoulders decides; it must be the same in at least three
+/// quarters of the frames that show these joints. A body that is upside down stands on its hands if a wrist is near
+/// the lowest joint in most frames and if that joint stays at one height.
 Standing HowItStands(std::span<const glm::dvec3> positions, const std::vector<std::string>& names);
 
 }  // namespace etude

@@ -104,8 +104,8 @@ std::vector<Exchange> FindExchanges(std::span<const JointPositions> frames, doub
   std::vector<Exchange> found;
   for (const auto& chain : kChains) {
     for (const Role left : chain) {
-      // For each frame: the sum of the distances that both joints move from the frame before, by their names and with
-      // exchanged names; NaN if a joint is not seen.
+      // For each frame: the sum of the distances that the two joints move from the frame before, with their names as
+      // they are (`straight`) or exchanged in this frame (`crossed`); NaN if a joint is not seen.
       std::vector<double> straight(frames.size(), kUnseen), crossed = straight;
       for (std::size_t f = 1; f < frames.size() && rate_hz >= kMinRate_hz; ++f) {
         const auto &a = frames[f - 1][Index(left)], &b = frames[f - 1][Index(Mirrored(left))];

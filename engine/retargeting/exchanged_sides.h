@@ -24,11 +24,12 @@ struct Exchange {
   Role left;
   std::size_t frame;  ///< the first frame after the exchange
 };
-/// Finds exchanges in a part of a motion (ours): frames in which each joint of a pair moves to the other joint's place.
-/// Let d be the sum of the distances that the two joints, by their names, move from the frame before. With exchanged
-/// names, this sum must be less than d / 4. In the frame before and in the frame after, the smaller of the two sums
-/// must also be less than d / 4, so that crossing arms are no exchange. Joints nearer than 5 cm to each other and rates
-/// below 10 Hz are not judged. `frames` are in metres.
+/// Finds exchanges within a motion (ours): frames in which each joint of a pair moves to the other joint's place.
+/// Let d be the distance that the left joint moves from the frame before, plus the distance that the right joint
+/// moves. If the two names are exchanged in this frame, the sum must be less than d / 4. So that crossing arms are no
+/// exchange, the sums of the frame before and of the frame after must also be less than d / 4, each with the names
+/// exchanged or not. Joints nearer than 5 cm to each other and rates below 10 Hz are not judged. `frames` are in
+/// metres.
 std::vector<Exchange> FindExchanges(std::span<const JointPositions> frames, double rate_hz);
 
 /// Returns a message for the user about all that FindExchangedJoints and FindExchanges find; "" if that is nothing.

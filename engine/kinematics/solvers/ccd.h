@@ -20,8 +20,8 @@ IkSolution SolveCcdHinges(const KinematicTree& tree, const IkProblem& problem, c
 /// The gain g(φ) = k₁(1 − cos φ) + k₂ cos φ + k₃ sin φ of a hinge that turns by φ (paper B, equations 3.10–3.13). The
 /// gain measures how well the end effectors beyond the hinge match their targets after the turn; the best turn
 /// maximises the gain. Summing over several effectors is ours. Let u_c be the current and u_d the desired unit vector
-/// of an axis. For axes, the paper starts from minimising Σ (u_d · u_c − 1)² but then maximises Σ u_d · u_c, which is
-/// another criterion for three axes. This struct maximises Σ u_d · u_c, which minimises Σ |u_d − u_c|².
+/// of an axis. For axes, the paper starts from minimising Σ (u_d · u_c − 1)² but then maximises Σ u_d · u_c; for
+/// three axes, these criteria differ. This struct maximises Σ u_d · u_c, which minimises Σ |u_d − u_c|².
 struct HingeGain {
   double k1 = 0, k2 = 0, k3 = 0;
 
@@ -50,7 +50,8 @@ enum class CcdJoint {
   /// Paper B, case 2: rotate about the axes of the joint's rest frame, one after the other. After each rotation,
   /// decompose the joint's whole rotation into Rx Ry Rz, clip the angles, and compose it again.
   kWhole,
-  /// Ours: turn the joint as hinges about its Euler axes, each clipped immediately. No turn lowers its `HingeGain`.
+  /// Ours: turn the joint as hinges about its Euler axes, each clipped immediately. No turn of a hinge lowers its
+  /// `HingeGain`.
   kHinges,
 };
 
@@ -70,8 +71,8 @@ class CcdSweep {
   void Measure();
 
   /// Returns the sum that turns reduce, Σ w_p e² + Σ w_o |u_c − u_d|², at the pose measured last, with the weights of
-  /// the last turn. If weights change during a sweep, the weights at the sweep's end are used; `kWangChen` is used
-  /// without ρ.
+  /// the last turn. If weights change during a sweep, the weights at the sweep's end are used. For `kWangChen`, the
+  /// factor 1 + ρ (`WangChenFactor`) is left out.
   double Merit() const;
   /// Sets every angle, clamped to its range. Does not update the errors.
   void SetAngles(std::span<const double> angles);

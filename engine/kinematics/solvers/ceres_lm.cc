@@ -75,8 +75,8 @@ class Residuals final : public ceres::CostFunction {
     for (std::size_t e = 0; e < problem_.targets.size(); ++e) {
       const EffectorTarget& target = problem_.targets[e];
       const LimbFrame& X_WE = frames.effectors[e];
-      // Writes three residuals and their rows of the Jacobian. `change` maps the effector's translation and rotation
-      // vector per radian of one angle to the derivative of the residual.
+      // Writes three residuals and their rows of the Jacobian. `change` returns the derivative of the residuals with
+      // respect to one angle, given the effector's translation and its rotation vector per radian of this angle.
       const auto write = [&](const glm::dvec3& residual, const auto& change) {
         for (int k = 0; k < 3; ++k) residuals[row + k] = residual[k];
         for (std::size_t i = 0; jacobian != nullptr && i < moving_.size(); ++i) {

@@ -117,7 +117,7 @@ glm::dmat3 BestTurn(std::span<const glm::dvec3> from, std::span<const glm::dvec3
   for (const glm::dvec3& v : from) {
     is_line = is_line && glm::length(glm::cross(line, v)) < 1e-9 * glm::length(longest);
   }
-  // For parallel vectors, return the smallest rotation of their line.
+  // If the vectors are parallel, return the smallest rotation that turns their line to the best direction.
   if (is_line) {
     glm::dvec3 best(0);
     for (std::size_t i = 0; i < from.size(); ++i) best += glm::dot(from[i], line) * to[i];

@@ -10,16 +10,16 @@ namespace etude {
 
 /// Solves by FABRIK (Aristidou and Lasenby 2011), which moves joints as points, backward from the targets and forward
 /// from the root (`FabrikPass`). It uses positions only; the targets' axes are ignored but still count in the errors.
-/// The step from points to angles is *ours*. After every pair of passes, all joints turn twice. Each time, parents turn
-/// before children, and a joint turns hinge by hinge: each hinge within its range, starting from the pose to which the
-/// joints before it have turned. The first turn of a joint moves the tips of its own limb as near as possible to their
-/// positions after the passes, without changing the twist; the second turn does so for all tips beyond the joint. The
-/// second turn compensates for hinges and limits farther out: without it, a wrist at its limit would keep its hand away
-/// from the target. Without the first turn, the solver takes twice as many steps and solves only three of four
-/// problems. The next passes begin at the resulting pose. The errors of this pose are measured, so a goal counts as
-/// reached only if the angles reach it. A limb in line with its target stays in line (paper B, figure 3.8), because
-/// points on a line move only along it. `IkOptions::weights` and `refresh` do not apply. One iteration is one pair of
-/// passes with both turns of all joints, and costs one forward-kinematics pass.
+/// The step from points to angles is *ours*. After every pair of passes, all joints turn twice, parents before
+/// children. A joint turns hinge by hinge, each hinge within its range, in the pose that all earlier turns have
+/// produced. The first turn of a joint brings the tips of its own limb as near as possible to their positions after
+/// the passes; it does not twist a limb whose tips lie on the limb's axis. The second turn does the same for all tips
+/// beyond the joint. It compensates for hinges and limits farther out: without it, a wrist at its limit would keep
+/// its hand away from the target. Without the first turn, the solver takes twice as many steps and solves only three
+/// of four problems. The next passes begin at the resulting pose. The errors of this pose are measured, so a goal
+/// counts as reached only if the angles reach it. A limb in line with its target stays in line (paper B, figure 3.8),
+/// because points on a line move only along it. `IkOptions::weights` and `refresh` do not apply. One iteration is one
+/// pair of passes with both turns of all joints, and costs one forward-kinematics pass.
 IkSolution SolveFabrik(const KinematicTree& tree, const IkProblem& problem, const IkOptions& options);
 
 /// FABRIK's two passes (Aristidou and Lasenby 2011) over a tree of rigid limbs, on positions alone. A limb has a base

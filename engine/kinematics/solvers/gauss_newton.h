@@ -11,9 +11,9 @@
 namespace [[gnu::visibility("default")]] etude {
 
 struct GaussNewtonOptions {
-  /// The number of sweeps of coordinate descent before the first Gauss–Newton step. The default is 0, because damped
-  /// steps work better from the start pose than from a pose whose angles sweeps have moved to their limits. Raise it
-  /// only to compare (README.md has the figures).
+  /// The number of sweeps of coordinate descent before the first Gauss–Newton step. The default is 0, because sweeps
+  /// move angles to their limits, and damped steps work worse from there than from the start pose. Raise it only to
+  /// compare (README.md has the figures).
   int first_sweeps = 0;
   /// The number of extra active-set passes per step while damping is small. Extra passes find which limits are active;
   /// the null-space components of the step depend on these limits. More than three passes change the step little. Set
@@ -73,10 +73,10 @@ enum class Precision { kFloat, kDouble };
 /// restarts with their sweeps; everything else runs in lanes.
 /// - `kDouble`: every solution equals that of `SolveGaussNewton` to the last bit.
 /// - `kFloat`: twice as many lanes. The solver aims at nine tenths of each goal, so that the requested goal is met in
-///   double. Damping is at least 10⁻⁵. Once the squared residual is below 10⁻⁶, steps are taken without the pull to the
-///   start, which float cannot resolve there. A problem that float does not solve is solved again in double from its
-///   start; only the iterations in double are reported. If several poses meet the targets, float may find another pose
-///   than double. Do not use `kFloat` for goals below 2·10⁻⁴ cm or degrees.
+///   double. Damping is at least 10⁻⁵ before phase 5. Once the squared residual is below 10⁻⁶, steps are taken
+///   without the pull to the start, which float cannot resolve there. A problem that float does not solve is solved
+///   again in double from its start; only the iterations in double are reported. If several poses meet the targets,
+///   float may find another pose than double. Do not use `kFloat` for goals below 2·10⁻⁴ cm or degrees.
 /// A faulty problem gets kBadInput; if the tree or the options have a fault, all problems do. `IkOptions::trace` is
 /// ignored.
 IkBatchSolution SolveGaussNewtonBatch(const KinematicTree& tree, const IkBatch& problems, const IkOptions& options,

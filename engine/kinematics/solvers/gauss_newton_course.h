@@ -39,8 +39,8 @@ class GaussNewtonCourse {
     int sweeps = 0;
   };
 
-  /// Limits that depend on the precision: the minimum damping, and the |e|² below which steps are not pulled to the
-  /// start. Both are larger for float.
+  /// Limits that depend on the precision: the minimum damping (the last phase may divide it by up to 1000), and the
+  /// |e|² below which steps are not pulled to the start. Both are larger for float.
   struct Numerics {
     double min_damping = 1e-7;
     double pulled_above = 0;

@@ -1,7 +1,8 @@
-// The parts of a Gauss–Newton step (gauss_newton.h) and of its forward kinematics, for a value type V: a `Lanes`
-// contains one number of each of many problems, a `Four` one number of each of four limbs. All operations are those of
-// `ComputeFrames` and of the tests' `GaussNewtonStep` in the same order, so in double a problem's solution has the same
-// bits in every lane on every CPU. This file is included once per instruction set, which explains the include guard.
+// The parts of a Gauss–Newton step (gauss_newton.h) and of its forward kinematics, for vectors of a type V. If V is
+// `Lanes`, every lane belongs to another problem; if V is `Four`, every lane belongs to another limb of one problem.
+// All operations are those of `ComputeFrames` and of the tests' `GaussNewtonStep` in the same order, so in double a
+// problem's solution has the same bits in every lane on every CPU. This file is included once per instruction set,
+// hence the unusual include guard.
 #if defined(ETUDE_GAUSS_NEWTON_KERNEL_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef ETUDE_GAUSS_NEWTON_KERNEL_INL_H_
 #undef ETUDE_GAUSS_NEWTON_KERNEL_INL_H_
@@ -23,7 +24,8 @@ inline constexpr double kSquaredPositionScale = 0.30 * 0.30;
 // ---- Sine and cosine ------------------------------------------------------------------------------------------------
 
 /// Computes sine and cosine of an angle from the sine `s` and cosine `c` of its remainder. The last bits of `shifted`
-/// count quarter turns: an odd count swaps sine and cosine, and the second bit decides the signs.
+/// are the number n of quarter turns. If n is odd, sine and cosine are swapped. The sine changes its sign if the
+/// second bit of n is set, the cosine if that bit of n + 1 is set.
 template <class T>
 HWY_INLINE void AddQuarters(const Lanes<T>& shifted, const Lanes<T>& s, const Lanes<T>& c, Lanes<T>& sine,
                             Lanes<T>& cosine) {

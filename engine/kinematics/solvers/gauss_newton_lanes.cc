@@ -1,5 +1,5 @@
 // Solves many problems of one tree, each in one lane of the CPU's vectors. This file is compiled once per instruction
-// set; the best one is selected at run time (README.md).
+// set; the best set that the CPU supports is selected at run time (README.md).
 #include <algorithm>
 #include <limits>
 #include <vector>
@@ -19,10 +19,10 @@
 HWY_BEFORE_NAMESPACE();
 namespace etude::HWY_NAMESPACE {
 
-/// Solves one problem per lane. Each cycle of `Run` places all poses, passes their residuals to the lanes' courses, and
-/// steps. A lane skips the step of a cycle if its course requests another action, or if it needs one more active-set
-/// pass and fewer than half of the stepping lanes do. The results of a lane depend on its own problem alone; only their
-/// timing depends on the others.
+/// Solves one problem per lane. Each cycle of `Run` places all poses, passes their residuals to the lanes' courses,
+/// and steps. A lane does not step if its course requests another action. If more than half of the stepping lanes
+/// have finished their active sets, the unfinished lanes continue theirs in the next cycle. The results of a lane
+/// depend on its own problem alone; only their timing depends on the others.
 template <class T>
 class GaussNewtonLanes {
  public:

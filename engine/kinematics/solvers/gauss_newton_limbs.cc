@@ -1,7 +1,7 @@
 // Solves problems one after the other, with four limbs side by side in the lanes of a vector. The trunk's joints are
-// computed one by one, with a matrix row per vector. This file is compiled once per instruction set; the best one is
-// selected at run time (README.md). With vectors of any width, numbers are added in the order of the tests'
-// plain_gauss_newton.cc.
+// computed one by one, with a matrix row per vector. This file is compiled once per instruction set; the best set
+// that the CPU supports is selected at run time (README.md). With vectors of any width, numbers are added in the
+// order of the tests' plain_gauss_newton.cc.
 #include <algorithm>
 #include <limits>
 
@@ -134,7 +134,7 @@ class LimbLanes final : public GaussNewtonLimbs {
   /// Eliminates the hinges of four limbs, from their ends to the trunk.
   void EliminateLimbs(std::size_t number, const Four& damping) {
     const LimbPacks::Pack& pack = packs_.packs[number];
-    QuadraticLanes<Four>& sum = sum_[0];  // in memory, because GCC would store a local variable twice
+    QuadraticLanes<Four>& sum = sum_[0];  // a member, because GCC would store a local variable twice
     bool is_empty = true;
     for (int l = pack.first_level + pack.level_count; l-- > pack.first_level;) {
       const LimbPacks::Level& level = packs_.levels[l];
@@ -155,8 +155,8 @@ class LimbLanes final : public GaussNewtonLimbs {
                        sum, hinges_[slot]);
       }
     }
-    // Store by rows what each limb's quadratic is after its hinges are eliminated. EliminateTrunk adds it to the
-    // trunk's quadratic.
+    // Store each limb's quadratic, without the eliminated hinges, row by row. EliminateTrunk adds it to the trunk's
+    // quadratic.
     QuadraticRows* rows = &limb_rows_[number * LimbPacks::kWidth];
     for (int r = 0; r < 6; ++r) PutRows(sum.matrix + 6 * r, [&](int lane) -> SixRow& { return rows[lane].matrix[r]; });
     PutRows(sum.vector, [&](int lane) -> SixRow& { return rows[lane].vector; });

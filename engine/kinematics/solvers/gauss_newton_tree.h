@@ -99,7 +99,7 @@ struct LimbPacks {
   std::vector<Level> levels;  ///< the levels of the first pack from the trunk outwards, then those of the next pack
   std::vector<Ends> ends;
   std::vector<TrunkJoint> trunk;  ///< parents before children, the root first
-  std::vector<Branch> branches;   ///< the first trunk joint's branches, then the next joint's, in the order of addition
+  std::vector<Branch> branches;   ///< by trunk joint, then in the order in which their quadratics are added
   std::vector<int> inwards;       ///< trunk joints without the root, each after its descendants
   std::vector<int> places;        ///< the angle index of each degree of freedom
   std::vector<int> end_places;    ///< for each effector: 4 times its index in `ends`, plus its lane

@@ -47,10 +47,10 @@ class GaussNewtonHelp {
 
   /// Returns true if no pose can meet the problem's targets.
   virtual bool IsOutOfReach(int problem) = 0;
-  /// Returns true if these angles meet the goals, by measuring their errors.
+  /// Measures the errors at these angles. Returns true if they meet the goals.
   virtual bool MeetsGoals(int problem, std::span<const double> angles) = 0;
-  /// Goes to the pose of the restart and sweeps, as `next` prescribes; counts the sweeps in `course`. `angles` are read
-  /// and replaced.
+  /// Replaces `angles` by the pose of restart `next.restart` (0: keeps them), then sweeps up to `next.sweeps` times
+  /// from there. Counts the sweeps in `course`.
   virtual void Sweep(int problem, const GaussNewtonCourse::Next& next, GaussNewtonCourse& course,
                      std::span<double> angles) = 0;
   /// Records the angles after a step.
@@ -60,7 +60,7 @@ class GaussNewtonHelp {
 /// Returns the names of the instruction sets that this CPU supports, widest vectors first. For tests and benchmarks.
 std::vector<std::string> BatchTargets();
 /// Selects one of `BatchTargets` for batches and for solvers made from now on; an empty name selects the widest. For
-/// tests and benchmarks: results are the same.
+/// tests and benchmarks: all targets give the same results.
 void SetBatchTarget(std::string_view name);
 
 // ---- One problem, four limbs in lanes (gauss_newton_limbs.cc) ------------------------------------------------------
@@ -78,8 +78,8 @@ class GaussNewtonLimbs {
   double *angles = nullptr, *lower = nullptr, *upper = nullptr;
   double root[12] = {};  ///< p_WL, then R_WL column by column
 
-  /// Returns the memory of an effector's target: the numbers of `IkBatch::target`, stored four doubles apart, with the
-  /// position weight per square of `kPositionScale`.
+  /// Returns the memory of an effector's target: the numbers of `IkBatch::target`, stored four doubles apart, but with
+  /// the position weight divided by `kPositionScale`².
   virtual double* TargetOf(int effector) = 0;
 
   /// The pose X_WE of an effector at the pose placed last, which is the solution if the course has converged.
@@ -88,7 +88,7 @@ class GaussNewtonLimbs {
   };
   virtual End EndOf(int effector) = 0;
 
-  /// Solves the problem; `course` decides the actions. Calls to `help` name problem 0.
+  /// Solves the problem; `course` decides the actions. It calls `help` with the problem number 0.
   virtual void Solve(const GaussNewtonRules& rules, GaussNewtonCourse& course, GaussNewtonHelp& help) = 0;
 };
 

@@ -7,7 +7,7 @@
 namespace etude {
 namespace {
 
-constexpr double kScatter = 1.5;                     // maximum change of an angle from start to restart
+constexpr double kScatter = 1.5;                     // maximum change of an angle from start to restart, radians
 constexpr double kGoldenShare = 0.6180339887498949;  // multiples of this number modulo 1 are evenly distributed
 // Each angle of a restart differs from its start angle by a periodic function of that start angle, with this many
 // periods per radian. A change by 0.2° covers a whole period, so nearly equal starts get different poses.

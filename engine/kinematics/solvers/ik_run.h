@@ -123,10 +123,10 @@ IkSolution RunFromStart(const KinematicTree& tree, const IkProblem& problem, con
   return run.Finish(std::move(state.angles));
 }
 
-/// Runs a solver that works sweep by sweep and does not need errors itself. `step(sweep, run)` makes one iteration of a
-/// Sweep, constructed from (tree, problem, options, own…), and returns the largest turn. After an iteration,
-/// the errors of `Sweep::Angles()` are measured only if a trace is requested, if the iteration is the last one, or if
-/// `Sweep::MissesGoals()` returns false.
+/// Runs a solver that works sweep by sweep and does not need errors itself. A `Sweep` is constructed from (tree,
+/// problem, options, own…). `step(sweep, run)` makes one iteration with it and returns the largest turn, radians.
+/// After an iteration, the errors of `Sweep::Angles()` are measured only if a trace is requested, if the iteration is
+/// the last one, or if `Sweep::MissesGoals()` returns false.
 template <class Sweep, class Step, class... Own>
 IkSolution RunSweeps(const KinematicTree& tree, const IkProblem& problem, const IkOptions& options, const Step& step,
                      const Own&... own) {

@@ -113,7 +113,8 @@ double DampedInverse::Gain(std::span<const double> step) const {
 
 namespace {
 
-// Computes α JᵀdX at `angles`. An angle at an end of its range gets 0 if its torque points out of the range.
+// Computes the step α JᵀdX at `angles`. An angle at an end of its range does not move if its step points out of the
+// range.
 void ComputeStep(const LinearTargets& linear, std::span<const double> angles, std::span<const AngleRange> ranges,
                  double gain, Eigen::VectorXd& step) {
   const Eigen::Map<const Eigen::MatrixXd> jacobian(linear.jacobian().data(), linear.rows(), linear.columns());
@@ -280,7 +281,7 @@ class Minimiser {
   }
 
  private:
-  /// Computes the forward kinematics at a pose that was not produced by an iteration.
+  /// Computes the forward kinematics at the start of a restart or at the best pose, and counts this additional pass.
   void Place() {
     ComputeFrames(tree_, state_, frames_);
     run_.CountPass();

@@ -29,17 +29,17 @@ class DampedInverse {
   /// smallest pivot is not above 10⁻¹² of its largest.
   bool Step(double damping, std::span<const double> preferred, std::vector<double>& step);
 
-  /// Sets `step` to the best step that keeps `angles` within `ranges`, where they must already be:
+  /// Sets `step` to the best step that stays within `ranges`; `angles` must lie within `ranges`:
   ///     argmin |J dq − e|² + μ |dq − preferred|²   subject to   lower ≤ angles + dq ≤ upper.
-  /// By duality dq = clamp(preferred + Jᵀy) with J dq + μ y = e, a piecewise linear equation with as many unknowns as J
-  /// has rows. It is solved by Newton's method, which here is the primal-dual active set method (Hintermüller, Ito and
-  /// Kunisch 2002): solve for y with some angles fixed at an end of their range, none at first; then fix each angle
-  /// whose preferred + Jᵀy leaves its range at the end where it leaves, and free the others. (Starting from the active
-  /// set of the last step takes more passes.) At most four passes are made; with the damping of `levenberg-marquardt`
-  /// the mean is 1.5 passes; nearly every active set settles in these passes, and few others would settle in more
-  /// passes. The answer always lies within the ranges. It is the optimum if the active set has settled (`is_exact`):
-  /// then the conditions of Karush, Kuhn and Tucker hold. Returns false, like `Step`, if the matrix of the free angles
-  /// is singular.
+  /// By duality dq = clamp(preferred + Jᵀy) with J dq + μ y = e, a piecewise linear equation with as many unknowns as
+  /// J has rows. It is solved by Newton's method, which here is the primal-dual active set method (Hintermüller, Ito
+  /// and Kunisch 2002): solve for y with some angles fixed at an end of their range, none at first; then fix every
+  /// angle whose preferred + Jᵀy is beyond an end of its range at that end, and free the others. (Starting from the
+  /// active set of the last step takes more passes.) At most four passes are made; with the damping of
+  /// `levenberg-marquardt` the mean is 1.5 passes. Nearly every active set settles within four passes; more passes
+  /// would settle few of the others. The answer always lies within the ranges. It is the optimum if the active set
+  /// has settled (`is_exact`), because the conditions of Karush, Kuhn and Tucker then hold. Returns false, like
+  /// `Step`, if the matrix of the free angles is singular.
   bool StepWithin(double damping, std::span<const double> preferred, std::span<const double> angles,
                   std::span<const AngleRange> ranges, std::vector<double>& step);
 
@@ -100,8 +100,8 @@ IkSolution SolveJacobianPinv(const KinematicTree& tree, const IkProblem& problem
 
 struct DampedLeastSquaresOptions {
   /// The damping λ of the first step, by default Marquardt's choice (1963). λ then adapts to the success of the steps,
-  /// so the number of solved problems hardly depends on this value. A larger value keeps hidden angles nearer to the
-  /// start: raise it if the answer should stay there (README.md has the figures).
+  /// so the number of solved problems hardly depends on this value. A larger value keeps angles that no target
+  /// determines nearer to the start: raise it if the answer should stay there (README.md has the figures).
   double first_damping = 1e-2;
   /// The way in which a step keeps the limits. Clamping is the default because most implementations of this method do
   /// it. Clamping is slow along limits, because other angles compensate for a clamped angle only in later steps.
@@ -115,10 +115,11 @@ struct DampedLeastSquaresOptions {
 /// over the angles with Gauss–Newton steps (JᵀJ + λI) Δq = Jᵀ r. The damping follows Marquardt: λ is divided by 5 after
 /// a step that lowers the sum; a step that does not lower the sum is undone, and λ is multiplied by 5. With
 /// `Bounds::kClamped`, each angle moves by at most 0.6 rad a step and is clamped to its limits. With `kActiveSet`,
-/// angles that would leave their limits are fixed there and the step is solved for the others (Baerlocher and Boulic
-/// 2004; here the set is the optimal one, `DampedInverse::StepWithin`), and the whole step is scaled down to at most
-/// 0.6 rad. `IkOptions::weights` and `refresh` do not apply. The solver also stalls if a step lowers the sum by less
-/// than 10⁻⁶ of its value. One iteration is one attempted step and costs one forward-kinematics pass.
+/// angles that would leave their limits are fixed there, and the step is solved for the other angles (Baerlocher and
+/// Boulic 2004; here `DampedInverse::StepWithin` also searches for the optimal set of fixed angles). The whole step
+/// is then scaled down to at most 0.6 rad. `IkOptions::weights` and `refresh` do not apply. The solver also stalls if
+/// a step lowers the sum by less than 10⁻⁶ of its value. One iteration is one attempted step and costs one
+/// forward-kinematics pass.
 IkSolution SolveDampedLeastSquares(const KinematicTree& tree, const IkProblem& problem, const IkOptions& options,
                                    const DampedLeastSquaresOptions& own = {});
 
@@ -130,15 +131,16 @@ struct LevenbergMarquardtOptions {
 };
 
 /// Solves by the dense Levenberg–Marquardt method (Levenberg 1944; Marquardt 1963) with limits as a projected active
-/// set. It is the state of the art for this problem, and the strongest competitor of `gauss-newton`. The method
+/// set. This method is the state of the art for the problem, and the strongest competitor of `gauss-newton`. It
 /// minimises the same sum as `damped-least-squares`,
 ///   Σ_e [ position_weight · (|P_d − P_c| / 30 cm)² + Σ_k axis_weights_k · |u_kd − u_kc|² ],
 /// by the best step within the ranges, argmin |J dq − e|² + μ |dq|². Angles at an end of their range are fixed if the
-/// gradient pushes them out of the range (Bertsekas 1982; `DampedInverse::StepWithin`). The damping μ is the sum of
-/// squares (Sugihara 2011), which makes convergence near the targets quadratic, times a factor that follows the ratio
-/// of actual to predicted reduction (Nielsen 1999). A good step lowers the factor, to no less than a third of its
-/// value. A step that would raise the sum is undone and multiplies the factor: the first such step by 2, the next by 4,
-/// then by 8, and so on. No step turns an angle by more than 0.6 rad.
+/// gradient pushes them out of the range (Bertsekas 1982; `DampedInverse::StepWithin`). The damping μ is the product
+/// of the sum of squares, `damping_share` and a factor. The sum of squares makes convergence near the targets
+/// quadratic (Sugihara 2011). The factor follows the ratio of actual to predicted reduction (Nielsen 1999): a good
+/// step lowers the factor, to no less than a third of its value; a step that would raise the sum is undone and
+/// multiplies the factor, the first such step by 2, the next by 4, then by 8, and so on. No step turns an angle by
+/// more than 0.6 rad.
 ///
 /// A descent is stuck if six steps (a fifth of the allowed iterations, if that is less) have not reduced the sum to 0.7
 /// of its value. Then up to twenty restarts follow, from the same poses around the start that `gauss-newton` uses

@@ -1,4 +1,4 @@
-// The forward kinematics of gauss_newton_lanes.cc. This file is included once per instruction set, which explains the
+// The forward kinematics of gauss_newton_lanes.cc. This file is included once per instruction set, hence the unusual
 // include guard.
 #if defined(ETUDE_LANE_POSES_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef ETUDE_LANE_POSES_INL_H_

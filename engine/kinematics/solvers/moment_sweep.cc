@@ -9,10 +9,10 @@
 //     x cos q + y sin q,   x = M_i·ê_i + M_j·ê_j,   y = M_i·ê_j − M_j·ê_i,
 // where M_i is a row, and ê = (e_W, −p_WJ·e_W) describes an axis e of the frame before the hinge turns: M_i·ê_j sums
 // the current components along i times the desired components along j, all relative to the joint J. So the best angle
-// has the direction (x, y) (paper B's equations 3.10–3.13 for several effectors). The turn by the best angle mixes rows
-// i and j. A step to the parent's joint, at the offset p_PJ, adds p_PJ[r] times the last row to row r. Columns never
-// change. The vectors ê are also enough for forward kinematics: a turn mixes two of them, and a step by p_PJ subtracts
-// p_PJ[k] from the last component of ê_k.
+// has the direction (x, y) (paper B's equations 3.10–3.13 for several effectors). The turn by the best angle rotates
+// the pair of rows i and j. To refer the moments to the parent's joint, p_PJ[r] times the last row is added to row r.
+// Columns never change. The vectors ê are also enough for forward kinematics: a turn rotates a pair of them, and a
+// step by p_PJ subtracts p_PJ[k] from the last component of ê_k.
 #include "engine/kinematics/solvers/moment_sweep.h"
 
 #include <algorithm>
@@ -105,7 +105,7 @@ HWY_INLINE double TurnHinge(const Quad& from, const Quad& towards, HingeState& h
   const double old_c = hinge.c, old_s = hinge.s;
   const double c = is_flat ? old_c : is_inside ? x * scale : end_c;
   const double s = is_flat ? old_s : is_inside ? y * scale : end_s;
-  // Mix rows i and j of the moments.
+  // Store the angle, and turn rows i and j of the moments by it.
   hinge.c = c;
   hinge.s = s;
   row_i = a * c - b * s;

@@ -9,10 +9,11 @@
 
 namespace etude {
 
-/// The sweeps of `CcdSweep` with `CcdJoint::kHinges` and weights refreshed every sweep, in moment form
-/// (moment_sweep.cc). The angles are equal up to rounding, and a sweep is four times as fast. The moment form does not
-/// support `WeightRule::kWangChen`, whose weights differ from joint to joint. The constructor allocates all memory;
-/// `Sweep` allocates nothing. `tree` and `problem` must be free of faults (`FindFault`) and outlive this object.
+/// Computes the sweeps of `CcdSweep` with `CcdJoint::kHinges` and `WeightRefresh::kSweep` from the targets' moments
+/// (moment_sweep.cc). The angles are equal up to rounding, and a sweep is four times as fast. The moment form does
+/// not support `WeightRule::kWangChen`, whose weights differ from joint to joint. The constructor allocates all
+/// memory; `Sweep` allocates nothing. `tree` and `problem` must be free of faults (`FindFault`) and outlive this
+/// object.
 class MomentSweep {
  public:
   MomentSweep(const KinematicTree& tree, const IkProblem& problem, const IkOptions& options);
@@ -21,8 +22,8 @@ class MomentSweep {
   /// Returns true if the moment form supports the weights of these options.
   static bool CanServe(const IkOptions& options);
 
-  /// Turns every joint once, from the leaves to the root. Returns the largest change of an angle, measured by its
-  /// chord, radians.
+  /// Turns every joint once, from the leaves to the root. Returns the largest turn of a hinge as its chord,
+  /// 2 sin(turn / 2), which equals the turn in radians for small turns.
   double Sweep();
 
   /// The two halves of `Sweep`: `Turn` computes new angles, `Measure` computes the limbs' frames and the distances to

@@ -86,7 +86,7 @@ void SweepTree::NameAxes(const KinematicTree& tree) {
       for (int c = 0; c < 3; ++c) joint.R_PJ[r][c] = R_SJ[c][r];
     }
   }
-  // For each hinge, express the two axes that it turns in the limb's frame S.
+  // Replace the two axes that each hinge turns by axes of the limb's frame S.
   for (Step& step : steps) {
     if (step.hinge < 0 || !joints[step.joint].is_aligned) continue;
     const NamedAxis i = NameOf(glm::transpose(R_LS[step.joint])[step.i]);

@@ -6,19 +6,20 @@
 
 namespace etude {
 
-/// A tree in the form that `MomentSweep` needs: plain numbers, and a list of steps that is the same for every problem.
-/// Forwards, the steps are a sweep from the leaves to the root; backwards, they are forward kinematics. Limbs have
-/// their own frames S: if R_PJ of the tree only permutes axes, as at every joint of paper B's body, the limb's axes are
-/// named after the parent's, so that R_PJ becomes the identity and needs no computation. P, J and L below are limbs in
-/// these frames.
+/// A tree in the form that `MomentSweep` needs: plain numbers, and a list of steps that is the same for every
+/// problem. The steps in their order are a sweep from the leaves to the root; in reverse order they are forward
+/// kinematics. Each limb has a frame S instead of the tree's frame. If the tree's R_PJ maps every axis to ± an axis,
+/// as at every joint of paper B's body, S has the axes of the parent's S while all angles of the joint are zero. R_PJ
+/// is then the identity and needs no computation. The names P, J and L have the meaning that `TreeJoint` gives them,
+/// but with the frames S.
 struct SweepTree {
   struct Joint {
     int parent = -1;
     int moments = -1;         ///< index of the moments of its limb
     bool is_first = false;    ///< true if the parent's limb receives this limb's moments before all others
     bool is_aligned = false;  ///< true if `R_PJ` is the identity
-    int base[3] = {};         ///< indices of the limb's axes before its hinges turn; shared axes: the parent's index
-    int axes[3] = {};         ///< indices of the limb's axes after all hinges of the joint have turned
+    int base[3] = {};         ///< indices of the axes before the hinges turn; an axis of the parent keeps its index
+    int axes[3] = {};         ///< indices of the axes after all hinges of the joint have turned
     double R_PJ[3][3] = {};   ///< [row][column]
     double p_PJ[3] = {};
   };

@@ -1,8 +1,8 @@
-// A CPU's vectors as values with operators: a `Lanes` contains one number of each of many problems; a `Four` contains
-// four doubles. This file is included once per instruction set, which explains the include guard. No operation of
+// A CPU's vectors as values with operators: in a `Lanes`, every lane belongs to another problem; a `Four` contains
+// four doubles. This file is included once per instruction set, hence the unusual include guard. No operation of
 // `Lanes` mixes lanes. No operation is a fused multiply-add, which rounds once where CPUs without it round twice.
-// Square roots and quotients are rounded correctly on all CPUs. The results of a problem therefore do not depend on the
-// width of the vectors.
+// Square roots and quotients are rounded correctly on all CPUs. The results of a problem therefore do not depend on
+// the width of the vectors.
 #if defined(ETUDE_VECTORS_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef ETUDE_VECTORS_INL_H_
 #undef ETUDE_VECTORS_INL_H_
