@@ -56,8 +56,8 @@ inline constexpr std::array kNeededJoints = {Role::kLeftShoulder,  Role::kLeftEl
 
 /// Returns true if a person has all of these markers.
 bool HasAll(const MarkerColumns& columns, std::span<const std::string> markers);
-/// Returns the pelvis's markers; the sacrum's marker stands twice if it replaces the markers on the back. nullopt if
-/// markers are missing.
+/// Returns the names of the pelvis's four markers. If the marker on the sacrum replaces the two markers on the back,
+/// its name appears twice. Returns nullopt if markers are missing.
 std::optional<std::array<std::string, 4>> PelvisOf(const MarkerSet& set, const MarkerColumns& columns);
 /// Returns true if the set determines a joint from a person's markers.
 bool Determines(const MarkerSet& set, const MarkerColumns& columns, Role role);

@@ -152,9 +152,10 @@ const Unit* UnitOf(double stature) {
 constexpr double kMaxRatio = 1.25;
 bool AreAlike(double ratio) { return ratio > 1 / kMaxRatio && ratio < kMaxRatio; }
 
-/// Finds the unit by the stature of the rest pose, which all clips of a file share. If the frames' stature differs by
-/// more than kMaxRatio, uses that: some files store all offsets, others scale the hips, only in the frames. `remarks`
-/// gets texts about doubtful statures. If the given unit is implausible, fails, naming `file` and the likely unit.
+/// Finds the unit by the stature of the rest pose, which all clips of a file share. If the stature in the frames
+/// differs from it by a factor of more than kMaxRatio, uses the stature in the frames, because some files store the
+/// offsets of the joints, and others the scale of the hips, only in the frames. `remarks` gets texts about doubtful
+/// statures. If the given unit is implausible, fails, naming `file` and the likely unit.
 Result<void> FindUnit(const BodyPose& rest, const std::vector<BodyPose>& poses, const BodyOptions& options,
                       const std::string& file, BodyConversion& done, std::vector<std::string>& remarks) {
   const std::optional<double>& given = options.metres_per_unit;

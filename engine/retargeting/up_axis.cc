@@ -195,8 +195,8 @@ UpFinding FindUp(std::span<const BodyPose> all, double rate_hz, const UpRule& ru
     most = stance.upright;
     best = &axis;
   }
-  // If only the posture counts, take this axis. A rule of the file or its format stays, and the contradiction is
-  // reported.
+  // Take the axis `best` if the rule's axis is only a guess (kPosture). If the file or its format states the axis, keep
+  // that axis and report the contradiction.
   const std::string usually = fmt::format("{} is {}", AxisName(rule.axis), rule.source);
   if (best != nullptr && rule.evidence == UpEvidence::kPosture) {
     found.axis = *best;

@@ -42,8 +42,8 @@ struct PointColumns {
 /// For each point, finds the smallest signed distance to the cones, pixels, negative inside. If this distance is
 /// smaller than the point's entry in `distance`, the distance replaces the entry, and the index of the cone (of equally
 /// near cones, the lowest index) goes to `owner`. For each block, only cones that can be nearest to a point of the
-/// block are tested: between two points, a signed distance changes by at most their distance. Uses SIMD in double
-/// precision; with any vector width, the bits equal those of `NearestOnCone` (silhouette_cost.cc).
+/// block are tested. (The signed distances of two points to a cone differ by at most the distance between the points.)
+/// Uses SIMD in double precision; with any vector width, the bits equal those of `NearestOnCone` (silhouette_cost.cc).
 void FindNearestCones(const ConeColumns& cones, const PointColumns& points, double* distance, double* owner);
 
 /// The outline points that are nearest to one cone. After the last point, kBlockPoints − 1 further numbers of u and v

@@ -14,7 +14,7 @@
 namespace etude {
 
 /// A camera's projection matrix, normalised so that depths are in metres, with the camera's focal length in pixels.
-/// Frames: W the world, Q any point.
+/// p_WQ is the position of a point Q in the world's frame W, metres.
 class PixelScale {
  public:
   explicit PixelScale(const ProjectionMatrix& matrix) {

@@ -31,8 +31,8 @@ struct TeachOptions {
 
 /// Teaches a move from performances; each is a stream from the performance's beginning to its end. Key poses with
 /// tolerances are found for recognisers that need them, and the examples are kept for recognisers that compare with
-/// examples. Wrong performances are kept as counter-examples. Returns an error if there is no right performance, or if
-/// a performance shows a body for less than half a second or lasts more than a minute.
+/// examples. Wrong performances are kept as counter-examples and are not checked. Returns an error if there is no right
+/// performance, or if a right performance shows a body for less than half a second or lasts more than a minute.
 Result<TaughtMove> TeachMove(const std::string& name, std::vector<SkeletonStream> right,
                              std::vector<SkeletonStream> wrong = {}, const TeachOptions& options = {});
 

@@ -69,8 +69,8 @@ std::vector<std::string> SegmenterNames();
 Segmenter SegmenterNamed(std::string_view name);
 
 struct ChangeOptions {
-  /// A larger difference between hues is a change, radians. Pixel noise of 2 levels rotates the hue of a moderately
-  /// coloured wall (30 levels of chroma) by 4° rms, so this is about four standard deviations.
+  /// The difference between hues, radians, above which a pixel has changed. Pixel noise of 2 levels rotates the hue
+  /// of a moderately coloured wall (30 levels of chroma) by 4° rms, so this is about four standard deviations.
   double hue_threshold = Radians(16);
   /// hue-gated: hues are compared only if pixel and background are more saturated than this.
   double min_saturation = 0.10;

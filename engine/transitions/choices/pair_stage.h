@@ -73,8 +73,9 @@ class PairStage {
   /// Returns one frame of a join of length kLengths_s[length] (`frames` frames), without planted feet and without
   /// shift.
   const BodyPose& LimbsAt(std::size_t length, int frames, JoinStyle way, int frame);
-  /// Returns the steps that PlanSteps plans for a window that WindowFor returned for kLengths_s[length]. If `carried`,
-  /// CarriedShift moved the window. Joins of every style in kWays have the same steps, so the steps are planned once.
+  /// Returns the steps that PlanSteps plans for a window that WindowFor returned for kLengths_s[length]. `carried`
+  /// states whether the window's wanted clip was moved by the shift of ShiftFor. Joins of every style in kWays have
+  /// the same steps, so the steps are planned once.
   const FootPlan& StepsIn(const JoinWindow& window, std::size_t length, bool carried);
   /// Rates a motion: the frames `played` of a join, and after them the wanted clip, moved by `shift`.
   Burden Rate(std::span<const BodyPose> played, const glm::dvec3& shift) const;

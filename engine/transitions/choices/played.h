@@ -10,7 +10,7 @@ struct PlayedOptions {
   /// The excess acceleration, in cm/frame² above the clips' own, that costs as much as one second of waiting or
   /// blending. A smaller value gives smoother, later and longer transitions.
   double excess_per_s = 0.2;
-  /// The deviation from the nearer clip's pose, in cm integrated over seconds, that costs as much as one second of
+  /// The deviation from the nearer clip's pose, integrated over time (cm·s), that costs as much as one second of
   /// waiting or blending.
   double invented_per_s = 5;
   /// The maximum time at the start of the wanted clip that may be skipped, seconds. At most the first third is ever

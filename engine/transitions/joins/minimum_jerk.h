@@ -65,8 +65,8 @@ class WindowTurns {
 ///   Compared with kDecays, the shown motion has less of the two motions' accelerations, and more of the difference
 ///   between the motions.
 /// - kDirect: every limb and the hip centre move with minimum jerk from the old motion's pose to the new motion's pose
-///   at the end of the join, with the motions' velocities at both ends. Accelerations of the motions within the join
-///   are not shown.
+///   at the end of the join, with the motions' velocities at both ends. What the two motions do between these two poses
+///   is not shown.
 class MinimumJerkPlay {
  public:
   /// Plays a join of `frames` frames, from 1 to the window's number of frames. `window` and `turns` must outlive this

@@ -97,10 +97,10 @@ Movement MovementOf(const JoinWindow& window, const LegRoles& leg, const FootSte
   return movement;
 }
 
-/// Returns the cost of a foot's behaviour before and after its step, in centimetres per frame². A foot that keeps a
+/// Returns the cost of a foot's behaviour before and after its step, in metres per frame². A foot that keeps a
 /// position stops or starts abruptly; a foot that follows its clip slides as the clip's standing foot does.
 double StandingPrice(const FootTracks& foot, const FootStep& step) {
-  constexpr double kSliding = 0.3;  // weight of a slid centimetre
+  constexpr double kSliding = 0.3;  // cost of each metre that the foot slides
   const auto &old = foot.window.old, &next = foot.window.next;
   const Role toe = foot.leg.foot;
   double price = 0;
