@@ -173,7 +173,7 @@ class Linearisation {
   CapsuleMotion motion_;
   std::vector<std::pair<int, glm::dvec2>> slopes_;
   Eigen::VectorXd gradient_;
-  Eigen::MatrixXd hessian_;  // for each pair of coordinates, one of the two equal entries is filled; the other is 0
+  Eigen::MatrixXd hessian_;  // symmetric, but of the entries (i, k) and (k, i) only one is filled; the other is 0
 };
 
 // Calls take(coordinate, value, spread) for every squared term (value / spread)² of the priors.

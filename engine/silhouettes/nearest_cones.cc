@@ -108,8 +108,8 @@ std::uint64_t Within(const float* bounds, size_t count, float reach) {
   return set;
 }
 
-/// Returns the index of the first bit that is set, or 64. (No function of the standard library, which the linker could
-/// share with code for older CPUs.)
+/// Returns the index of the first bit that is set, or 64. Uses a builtin: if this file, compiled for newer CPUs,
+/// contained a function of the standard library, the linker could make code for older CPUs call it.
 HWY_INLINE size_t FirstOf(std::uint64_t set) { return set == 0 ? 64 : static_cast<size_t>(__builtin_ctzll(set)); }
 
 /// For each point of one block, stores the distance and index of `cone` if `cone` is nearer than the stored cone, or

@@ -51,7 +51,7 @@ void FindNearestCones(const ConeColumns& cones, const PointColumns& points, doub
 struct ConePoints {
   std::size_t count = 0;
   const double *u = nullptr, *v = nullptr;
-  double counts = 1, reach2 = 1;  ///< of the loss (`LossOf`): 1 / sigma², and reach²
+  double counts = 1, reach2 = 1;  ///< parameters of the loss (`LossOf`): 1 / sigma², and reach² (pixels²)
 };
 /// Sums over points, with r the residual's derivatives with respect to the cone's six numbers: Σ w e r, and Σ w r rᵀ by
 /// columns. Rows 6 and 7 are not used.

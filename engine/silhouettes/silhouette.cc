@@ -66,7 +66,8 @@ class Envelope {
 std::vector<double> SquaresAlongColumns(const Mask& mask) {
   const auto width = static_cast<std::size_t>(mask.width), height = static_cast<std::size_t>(mask.height);
   std::vector<double> squares(mask.pixels.size());
-  // Count the steps from above and from below. All columns advance row by row.
+  // For each pixel, count the rows to the nearest pixel of the other value, first upwards, then downwards. All columns
+  // advance row by row.
   std::vector<double> steps(width, Envelope::kNone);
   const auto walk = [&](std::size_t y, std::size_t before, const auto& take) {
     const std::uint8_t *own = &mask.pixels[y * width], *other = &mask.pixels[before * width];

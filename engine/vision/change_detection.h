@@ -83,8 +83,8 @@ struct ChangeOptions {
   /// range, a shadow or drift of the lamp may be the cause; outside, the pixel has changed.
   double darkest_shadow = 0.45;
   double brightest_light = 1.30;
-  /// rgb: the largest allowed difference of a channel, levels. It is ten standard deviations of pixel noise, because
-  /// light varies slowly over a wall.
+  /// rgb: the largest allowed difference of a channel, levels. It is ten standard deviations of pixel noise, so that a
+  /// slow change of the light on a wall does not count.
   int rgb_threshold = 24;
   /// ratio: the largest allowed distance, levels, of a pixel's colour from the line through black and the background's
   /// colour.

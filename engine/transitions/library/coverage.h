@@ -29,7 +29,8 @@ struct CoverageOptions {
   double budget_s = 1;             ///< maximal wait before a transition, seconds
   bool with_pairs = true;          ///< also compute Coverage::Of
   std::vector<int> wanted = {};    ///< clips for which WithoutWayInto is computed; all if `with_pairs`
-  OnProgress on_progress = {};     ///< receives the number of clips compared; a clip counts once per kind of comparison
+  /// Receives the number of comparisons of a clip done so far, and their total: two per clip, three with `with_pairs`.
+  OnProgress on_progress = {};
 };
 
 /// The coverage of every clip of a library. A clip's last frame is never a match, because it has no next frame.
