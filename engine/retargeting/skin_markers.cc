@@ -31,7 +31,9 @@ constexpr std::array<SkinJoint, 4> kSkinJoints = {{{kLeftKnee, kLeftHip, "KNEEWI
 /// The distances from markers to centres, metres, by role.
 struct SkinDepths {
   std::array<double, kRoleCount> metres{};
-  std::vector<std::string> of_file, of_limb;  ///< kinds of joints with sizes from the file, and from limb lengths
+  /// For users, joints with their mean distance in cm ("knees 6.2"). `of_file`: the distances follow from the file's
+  /// sizes; `of_limb`: from limb lengths.
+  std::vector<std::string> of_file, of_limb;
   bool has_elbow_widths = false;
 };
 

@@ -360,7 +360,7 @@ bool IsTPose(const BodyPose& pose) {
 
 Result<BodyConversion> ToBodyMotion(const Clip& clip, const JointMap& map, const std::string& file,
                                     const BodyOptions& options) {
-  // Determine the up axis. If the body lies along another axis, describe this in `lies`.
+  // Determine the up axis. If Y is up but the body lies along another axis, `lies` states this axis for users.
   if (clip.frames.empty()) return Fail({file}, "no frames; at least one is needed");
   BodySampler sampler(clip, map);
   BodyConversion done;
@@ -391,7 +391,7 @@ Result<BodyConversion> ToBodyMotion(const Clip& clip, const JointMap& map, const
   }
   for (const std::string& remark : remarks) {
     done.changes.push_back(remark);
-    if (!options.metres_per_unit) done.doubts.push_back(remark);  // the user knows the unit
+    if (!options.metres_per_unit) done.doubts.push_back(remark);  // a unit given by the user is not doubted
   }
   if (overstretch > 0)
     done.changes.push_back(fmt::format("the knees are overextended by {:.0f}° on average", Degrees(overstretch)));

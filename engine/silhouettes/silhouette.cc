@@ -170,9 +170,9 @@ Mask CutOut(const Mask& mask, const Box& box) {
   return part;
 }
 
-// Gives the value `kValue` to every pixel whose neighbourhood has a pixel of that value. A neighbour belongs to the
-// neighbourhood if `is_near` is true for the distance from the pixel to the neighbour's border. `reach` is the largest
-// offset of a neighbour.
+// Gives the value `kValue` to every pixel near a pixel of that value: a dilation for 1, an erosion for 0. Pixels are
+// near each other if `is_near` is true for the distance from the centre of one to the border of the other, in mask
+// pixels. Near pixels must be at most `reach` rows and columns apart.
 template <std::uint8_t kValue, typename IsNear>
 Mask Spread(const Mask& mask, int reach, const IsNear& is_near) {
   Mask out = mask;

@@ -198,7 +198,8 @@ class FootPlanner {
     }
   }
 
-  /// Ends a sequence of footfalls at the end of the gap with a stance that begins at `from`, and stores it.
+  /// Completes a sequence of footfalls: the last stance begins at `from` and lasts to the end of the gap. Stores the
+  /// sequence.
   void End(std::vector<Stance> stances, int from) {
     stances.back() = {.from = from, .to = last_, .bears = true, .tip = foot_.Lowered(1)};
     if (stances.size() == 1) stances.front().tip = foot_.Lowered(0);

@@ -35,7 +35,7 @@ struct JoinWindow {
   PosePair shown;                       ///< the last two frames shown
   BodyPose target_before;               ///< the new motion's frame before the point
   std::vector<BodyPose> old, next;      ///< frames of both motions from the point on; same size, at least one
-  int old_frames = 0, next_frames = 0;  ///< number of real frames after the point; the last real frame is repeated
+  int old_frames = 0, next_frames = 0;  ///< frames after the point until the motion ends; its last frame then repeats
   double rate_hz = kJudgedRateHz;
 
   int Frames() const { return static_cast<int>(next.size()) - 1; }

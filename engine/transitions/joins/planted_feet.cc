@@ -134,10 +134,12 @@ double LargestTurn(const FootTracks& foot, const FootStep& step, Frames stands) 
   return meter.largest();
 }
 
-/// Returns the cost of what a step demands of the body, in centimetres per frame²: the turn of the hips against the
-/// standing foot, and the distance by which the foot is out of the leg's reach where the step begins and ends.
+/// Returns the cost of what a step demands of the body, in centimetres per frame². The cost grows with the turn of the
+/// hips against the standing foot, and with the distance by which the foot is out of the leg's reach where the step
+/// begins and ends.
 double BodyPrice(const FootTracks& foot, const FootStep& step, Frames stands) {
-  constexpr double kTurning = 3, kEasyTurn = Radians(30), kStretching = 30;  // per radian; per metre
+  // The cost of each radian beyond kEasyTurn, and of each metre out of reach.
+  constexpr double kTurning = 3, kEasyTurn = Radians(30), kStretching = 30;
   const auto stretch = [&](int frame, const BodyPose& pose) {
     return std::max(glm::distance(foot.hip[frame], pose[foot.leg.ankle]) - foot.length, 0.0);
   };
