@@ -250,7 +250,8 @@ Eigen::VectorXd Step(const Linearisation& linear, const std::vector<bool>& held,
   return -h.llt().solve(g);
 }
 
-// Adds the cost of one picture to `sum`; `flesh` holds the capsules projected in that pose.
+// Adds the cost of one picture to `sum`. `frames` is the body's pose; `flesh` is the body in this pose, projected into
+// the picture.
 void AddPictureCost(const SilhouetteBody& body, const SilhouetteView& view, const SilhouetteCostOptions& options,
                     const SeenFlesh& flesh, const TreeFrames& frames, double& sum) {
   AddLosses(flesh, *view.silhouette, options, sum);

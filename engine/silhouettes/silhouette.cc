@@ -94,8 +94,9 @@ Image<float> SignedDistances(const Mask& mask) {
   const std::vector<double> squares = SquaresAlongColumns(mask);
   Image<float> distances(mask.width, mask.height);
   const double farthest = mask.width + mask.height;
-  // Combine the columns by the lower envelope, for each run of equal pixels of a row. The pixel before the run and the
-  // pixel after it have the other value, so the nearest pixel of that value is in no column beyond these two.
+  // For each run of equal pixels in a row, combine the distances along the columns: each column gives one parabola of
+  // the envelope. The pixels directly before and after the run have the other value, so columns beyond these two pixels
+  // contain no nearer pixel of that value.
   const int longest = mask.width + 2;
   Envelope envelope(longest);
   std::vector<double> heights(longest), nearest(longest);

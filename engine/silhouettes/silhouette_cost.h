@@ -150,8 +150,8 @@ void SumResiduals(const SeenFlesh& flesh, const Silhouette& silhouette, const Si
 void AddLosses(const SeenFlesh& flesh, const Silhouette& silhouette, const SilhouetteCostOptions& options, double& sum);
 
 /// These functions do the work of AddLosses in steps, for a search that tries many positions of a few capsules.
-/// OutlineDistances computes each outline point's smallest signed distance to `flesh`, pixels. If that is less than the
-/// point's entry in `distances` (one per column of the silhouette), it replaces the entry.
+/// OutlineDistances computes each outline point's smallest signed distance to `flesh`, pixels. `distances` has one
+/// entry per column of the silhouette; an entry is replaced if the point's computed distance is smaller.
 void AddContainmentLosses(const std::vector<ProjectedCapsule>& flesh, const Silhouette& silhouette,
                           const SilhouetteCostOptions& options, double& sum);
 void OutlineDistances(const std::vector<ProjectedCapsule>& flesh, const Silhouette& silhouette,

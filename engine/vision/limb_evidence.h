@@ -53,11 +53,11 @@ struct FigureLook {
 ///   inner end. A shoulder lies half an arm's width inside the arm, a hip above the crotch.
 /// - A tip lies about half a width inside the limb's outer end; the head's point lies at a given distance below the
 ///   crown.
-/// All these shares are *ours*, measured from the side on each kind of figure at rest. If another limb or the picture's
-/// edge cuts off a limb, the limb's line ends there. A limb with a hidden end is left out unless its visible piece is
-/// clearly longer than wide and at least a quarter of the limb. A limb that touches no known part is also left out,
-/// because its ends cannot be distinguished. docs/annotator.md states, for each joint, the error of the joint centres
-/// that these rules give.
+/// All these shares are *ours*; they were measured on each kind of figure at rest, seen from the side. If another limb
+/// or the picture's edge cuts off a limb, the limb's line ends there. A limb with a hidden end is left out unless its
+/// visible piece is clearly longer than wide and at least a quarter of the limb. A limb that touches no known part is
+/// also left out, because its ends cannot be distinguished. docs/annotator.md states the error of these rules for each
+/// joint.
 PictureEvidence FindLimbEvidence(const LimbRegions& regions, const FigureLook& look = {});
 
 }  // namespace etude

@@ -19,8 +19,8 @@ import numpy as np
 SHARES = (np.arange(24) + 0.5) / 24        # positions in the example that are compared, as shares of its duration
 LAGS_S = np.arange(-0.3, 1.21, 1 / 15)     # allowed lags of a performance
 PACES = np.array([0.7, 0.8, 0.9, 1.0, 1.1, 1.2, 1.35])  # allowed durations, relative to the example's
-PLAIN = 3                                  # index of PACES: the example's own duration
-WIDTH, RIDGE = 0.5, 0.5                    # of the kernel, and of the ridge regression
+PLAIN = 3                                  # index in PACES of the example's own duration
+WIDTH, RIDGE = 0.5, 0.5                    # factor in the kernel's exponent; strength of the ridge regression
 TRUST = 2                                  # after this many performances, a person's own median counts for half
 PRAISED = 0.9                              # share of right performances above the threshold
 

@@ -26,7 +26,7 @@ struct ThroughClip {
 
 constexpr double kRunUp_s = 2.5;     // a clip may be entered at most this long before it changes its stance
 constexpr double kRunOut_s = 2.5;    // a clip may be left at most this long after it has changed its stance
-constexpr double kMinShown_s = 0.3;  // minimum time that a clip is shown: the shortest join
+constexpr double kMinShown_s = 0.3;  // minimum time for which a clip is shown; it equals the shortest join
 
 /// Tests frames of an intermediate clip. `MayEnter`: can an allowed frame of the playing clip lead to this frame?
 /// `MayLeave`: can this frame lead to an allowed frame of the wanted clip?

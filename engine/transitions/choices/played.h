@@ -52,8 +52,9 @@ const SettingTable<PlayedOptions>& PlayedSettings();
 /// record holds the preferred join (PreferredJoin).
 ///
 /// This choice is ours. It compares the resulting motions instead of the similarity of poses, after Kovar, Gleicher and
-/// Pighin 2002 and Bollo 2018. Support is computed as in the evaluation of transitions, but the choice does not know
-/// the evaluation's limits.
+/// Pighin 2002 and Bollo 2018. Support is computed as in the evaluation of transitions. Of the evaluation's limits, the
+/// choice uses two: at most the first third of the wanted clip is skipped, and more pairs are played if the body is
+/// unsupported for four frames in a row.
 TransitionRecord PlanPlayed(const MotionLibrary& library, const TransitionRequest& request, const MatchRules& rules,
                             const PlayedOptions& options = {});
 

@@ -176,14 +176,15 @@ int FirstFrom(Frames frames, int frame) {
   return later == 0 ? FootStep::kNoFrame : std::countr_zero(later);
 }
 
-/// Returns the frame whose position the foot can keep until `frame`: the first frame of the stance at `frame`, or, in
-/// the air, the last frame of the previous stance; −1 if there is no such stance.
+/// Returns the frame whose position the foot can keep until `frame`. If the foot stands at `frame`, this is the first
+/// frame of that stance. If the foot is in the air, it is the last frame of the previous stance; −1 if there is none.
 int StaysFrom(Frames stands, int frame) {
   const int stood = LastUpTo(stands, frame);
   return stood == frame ? LastUpTo(~stands, frame) + 1 : stood;
 }
-/// Returns the frame whose position the foot can take from `frame` on: the last frame of the stance at `frame` (at most
-/// `last`), or, in the air, the first frame of the next stance; kNoFrame if there is no such stance.
+/// Returns the frame whose position the foot can take from `frame` on. If the foot stands at `frame`, this is the last
+/// frame of that stance, at most `last`. If the foot is in the air, it is the first frame of the next stance; kNoFrame
+/// if there is none.
 int WaitsUntil(Frames stands, int frame, int last) {
   const int lands = FirstFrom(stands, frame);
   return lands == frame ? std::min(FirstFrom(~stands, frame) - 1, last) : lands;
@@ -226,8 +227,8 @@ struct LegPath {
 
 LegPath PathAt(const JoinWindow& window, const LegRoles& leg, const FootStep& step, int frame) {
   const BodyPose& old = window.old[std::min({frame, step.begin, step.stays_from})];
-  // Before the step, show the old motion's leg, or the leg's position in a stance if the foot keeps it; after the step,
-  // the new motion's leg.
+  // Before the step, show the old motion's leg; from the frame `stays_from` on, keep its position in that frame. After
+  // the step, show the new motion's leg; until the frame `waits_until`, show its position in that frame.
   const BodyPose& next = window.next[std::max(frame, step.waits_until)];
   const glm::dvec3 from = old[leg.foot] - old[leg.ankle], to = next[leg.foot] - next[leg.ankle];
   if (frame <= step.begin) return {old[leg.ankle], from};

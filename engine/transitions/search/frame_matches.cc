@@ -121,7 +121,7 @@ class PairSearch {
   const MatchClip& from_;
   const MatchClip& to_;
   std::vector<NearBlock> near_;
-  double travelled_ = 0;  // sum of the distances between queries since the first of the sixteen
+  double travelled_ = 0;  // sum of the distances between consecutive queries since the start of the block of queries
 };
 
 std::vector<int> FindMatchingFrames(const MatchClip& from, const MatchClip& to, const MatchRules& rules) {
