@@ -192,7 +192,7 @@ void MoveLeg(const SideOf& side, const Wands& wands, const UsedWands& used, cons
   side[kLeftAnkle] = Chord(knee, ankle, at_ankle, depths.metres[Index(side.On(kLeftAnkle))]);
 }
 
-/// Returns the elbow's centre if the marker is on the outside of the elbow.
+/// Returns the elbow's centre under the assumption that the marker is on the outside of the elbow.
 glm::dvec3 BesideElbow(const SideOf& side, const SkinDepths& depths) {
   const double depth = depths.metres[Index(side.On(kLeftElbow))];
   // If the file has Plug-in Gait's widths, subtract only a part of the apparent bend, as Plug-in Gait does.
@@ -205,7 +205,7 @@ glm::dvec3 BesideElbow(const SideOf& side, const SkinDepths& depths) {
   return Chord(shoulder, skin, Inward(rough, skin - shoulder, wrist - skin, side.is_left() ? 1 : -1, seeming), depth);
 }
 
-/// Returns the elbow's centre if the marker is on the point of the elbow.
+/// Returns the elbow's centre under the assumption that the marker is on the point of the elbow.
 glm::dvec3 BeforeElbow(const SideOf& side, double depth) {
   const glm::dvec3 wrist = *side[kLeftWrist], skin = *side[kLeftElbow];
   return Chord(wrist, skin, *side[kLeftShoulder] - skin, depth);

@@ -188,7 +188,8 @@ void FindNearest(const ConeColumns& cones, const PointColumns& points, double* d
 /// The numbers of one point: its six derivatives, its weight, and the weight times the residual.
 enum PointNumber { kWeight = 6, kWeightedValue, kNumbers };
 
-/// Adds one point to the sums. Rows 6 and 7 of the sums have no meaning.
+/// Adds one point to the sums. Rows 0 to 5 belong to the six derivatives; rows 6 and 7 fill the vectors and are
+/// ignored.
 HWY_INLINE void AddPoint(const double* point, Vec (&gradient)[kParts], Vec (&hessian)[6][kParts]) {
   const Real real;
   for (size_t part = 0; part < kParts; ++part) {

@@ -84,7 +84,8 @@ struct MadeStream {
   std::size_t lost_frames = 0;  ///< number of the stream's frames without a body
 };
 
-/// Converts a whole recording to a stream. The level is estimated from all frames.
+/// Converts a whole recording to a stream. If gravity and floor must be estimated (StreamOptions::levels), all frames
+/// of the recording are used.
 Result<MadeStream> MakeStream(const StreamRecording& recording, const std::string& file,
                               const StreamOptions& options = {});
 

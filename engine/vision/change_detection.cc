@@ -78,8 +78,9 @@ class ShadeComparison {
   bool IsNoShade(Rgb8 background, Rgb8 pixel) const;
 
   ChangeOptions o_;
-  // Limits for the squared difference of pixel and background. Below `alike2_`, the pixel is near enough to a multiple
-  // of the background's colour. Below `alike_share2_` × the background's squared length, the factor is plausible.
+  // Two limits for the squared distance between the colours of pixel and background. Below `alike2_`, the pixel's
+  // colour is certainly near enough to a multiple of the background's colour. Below `alike_share2_` times the squared
+  // length of the background's colour, the factor of that multiple is certainly plausible.
   double alike2_ = 0;
   double alike_share2_ = 0;
 };

@@ -71,7 +71,8 @@ def measures(limbs, rate_hz, begin, end, example, example_s):
     return np.concatenate([
         np.sqrt(((seen - taught) ** 2).sum(axis=-1).mean(axis=0)),                    # deviation of each limb
         np.sqrt(np.maximum(varies + shall_vary - 2 * together, 0)), np.sqrt(varies),  # variation about the mean
-        1 - (together + 0.02) / (shall_vary + 0.02),                                  # missing share of the amplitude
+        # 1 minus the slope of the regression on the example: the share of the example's amplitude that is missing
+        1 - (together + 0.02) / (shall_vary + 0.02),
         [LAGS_S[lag], np.log(PACES[pace]), first, second, second - first, np.sqrt(costs.min()), np.sqrt(costs[PLAIN].min()),
          np.sqrt(gaps[PLAIN].min(axis=0).mean())]])
 

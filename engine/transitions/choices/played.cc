@@ -116,9 +116,10 @@ constexpr int kFloatingFrames = 4;  // the body floats in a join with this many 
 constexpr int kMinSpacing = 4;      // minimum distance, in frames of the wanted clip, between the pairs of one part
 constexpr std::size_t kMaxCompared = 20'000;  // maximal number of pairs of frames whose features are compared
 
-/// Divides the wait into parts, and finds in each part the nearest pair that can be joined without an intermediate clip
-/// (NeedsClip), if there is such a pair. In a long clip only every `stride`-th frame is compared. Pairs close to those
-/// in `tried` are skipped.
+/// Divides the frames `allowed.leave` into parts, and finds for each part the nearest pair that can be joined without
+/// an intermediate clip (NeedsClip), if there is such a pair. If there are more than kMaxCompared pairs, only every
+/// `stride`-th frame of the wanted clip is compared as soon as the part has a pair. Pairs close to those in `tried`
+/// are skipped.
 std::vector<FramePair> NearestPairs(const MotionLibrary& library, const TransitionRequest& request,
                                     const AllowedFrames& allowed, std::span<const FramePair> tried = {}) {
   const auto &playing = library.features[request.from], &next = library.features[request.to];

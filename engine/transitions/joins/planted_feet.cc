@@ -117,8 +117,8 @@ double StandingPrice(const FootTracks& foot, const FootStep& step) {
   return price;
 }
 
-/// Returns the largest turn of the hips against the foot, radians, in a run of the frames `stands` before or after the
-/// step.
+/// Returns the largest turn of the hips against the foot in any period in which the foot stands, radians. The frames
+/// of `stands` are those in which the foot stands; the frames of the step are left out.
 double LargestTurn(const FootTracks& foot, const FootStep& step, Frames stands) {
   TurnMeter meter;
   for (int f = 1; f <= foot.frames; ++f) {

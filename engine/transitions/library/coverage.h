@@ -11,8 +11,8 @@
 
 namespace etude {
 
-/// The shares of one clip's frames that match a frame of another clip. `Coverage` compares either with one other clip
-/// or with all other clips of the library.
+/// The shares of one clip's frames that match a frame of another clip. `Coverage::Of` returns the shares for one
+/// other clip, `Coverage::IntoAny` for all other clips of the library together.
 struct ClipCoverage {
   double frame_share = 0;   ///< share of all frames that match a frame of the other clip
   double bridge_share = 0;  ///< share of the bridge frames that match a bridge frame of the other clip
