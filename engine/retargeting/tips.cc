@@ -195,8 +195,8 @@ void FindHeadTip(JointMapDraft& draft, const MovingPoses& moving) {
         return glm::distance(body.JointAt(joint), body.At(kShoulderCentre));
       });
     };
-    // The angle of an eye to the trunk's line is the same in motion as at rest. If the crown's angle is large at rest
-    // but not in motion, the rest pose is not a human pose.
+    // An eye or ear lies beside the trunk's line at rest and in motion. The crown lies beside this line at rest only
+    // if the rest pose is not a human pose; in motion, its angle to the line is then much smaller.
     const auto is_on_in_motion = [&](int joint) {
       const double rest_angle = AngleBetween(draft.tree().RestOf(joint) - draft.RestOf(kHead), trunk);
       const double angle = MedianOf(draft, moving, [&](const PosedBody& body) {

@@ -31,7 +31,9 @@ struct BodyOptions {
 /// A clip converted to the twenty joints: metres, Y up, feet on the floor.
 struct BodyConversion {
   double metres_per_unit = 0;
-  std::string unit;  ///< "centimetre", "CMU", …; "unknown" (scaled to a human), "scaled", "given"
+  /// "centimetre", "CMU", …; "given" (by the user); "unknown": the body is scaled to a stature of 1.70 m; "scaled":
+  /// the rest pose has a known unit, and the frames are scaled to the stature at rest.
+  std::string unit;
   UpAxis up = UpAxis::kY;
   UpFinding found_up = {};         ///< the axis of the file that points up, and its evidence
   double floor = 0;                ///< height of the floor along the file's up axis, in the file's unit

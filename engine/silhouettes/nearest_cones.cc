@@ -60,7 +60,7 @@ HWY_INLINE Cone ConeInAllLanes(const ConeColumns& cones, size_t i) {
 }
 
 Axes AxesOf(const ConeColumns& cones) {
-  constexpr double kRounding = 0.1, kRoundingShare = 1e-5;  // pixels, and per pixel of a coordinate
+  constexpr double kRounding = 0.1, kRoundingShare = 1e-5;  // in pixels; as a share of the coordinates
   Axes axes;
   for (size_t i = 0; i < cones.count; ++i) {
     const auto of = [&](ConeRow row) { return cones.rows[row][i]; };

@@ -59,8 +59,8 @@ struct ConeSums {
   double gradient[8] = {};
   double hessian[6][8] = {};
 };
-/// Sums the residuals of the points in their order; the bits equal those of `DistanceTo` and `LossOf`
-/// (silhouette_cost.h).
+/// Computes these sums over the points, in the order of the points. The bits equal those of a loop that calls
+/// `DistanceTo` and `LossOf` (silhouette_cost.h) for each point.
 void SumConePoints(const ConeColumns& cones, std::size_t cone, const ConePoints& points, ConeSums& sums);
 
 }  // namespace etude

@@ -32,7 +32,7 @@ struct TransitionRequest {
   int from = 0;
   int request_frame = 0;
   int to = 0;
-  double budget_s = 1;  ///< maximal wait before the transition, seconds; ours
+  double budget_s = 1;  ///< maximal wait before the transition, seconds *(ours)*
 };
 
 /// The kind of transition that was found.

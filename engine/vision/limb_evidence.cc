@@ -125,7 +125,7 @@ class EvidenceFinder {
 
   // Orients the limb outwards; returns false if its outer end cannot be determined.
   bool TurnOutwards(std::size_t i, Limb& limb) const {
-    // Use the most reliable available evidence, in this order.
+    // Use the first kind of evidence that is available; the most reliable kind comes first.
     glm::dvec2 outwards(0);
     const Region& inner_part = IsAttachedToTrunk(i) ? regions_.trunk : regions_.limbs[i - 1];
     const Region& trunk = regions_.trunk;

@@ -79,7 +79,7 @@ class FuzzyGate {
     bool matches = false;
   };
   /// Compares frame `from` of `playing` with the frames in `entering`, in their order. With MatchRules::within_class,
-  /// frames whose tag differs from that of `from` are left out. The span is valid until the next call.
+  /// frames whose ten tags are not equal to those of `from` are left out. The span is valid until the next call.
   std::span<const Compared> Compare(int from);
 
  private:

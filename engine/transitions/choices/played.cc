@@ -110,7 +110,7 @@ std::optional<ThroughClip> FindThroughClip(const MotionLibrary& library, const T
   return nearest;
 }
 
-constexpr int kPairs = 16;          // number of pairs that are played at a time: one for each part of the wait
+constexpr int kPairs = 16;          // number of pairs that are played at a time: one for each part (NearestPairs)
 constexpr int kRounds = 4;          // maximum number of such sets of pairs (PlayNearestPairs)
 constexpr int kFloatingFrames = 4;  // the body floats in a join with this many consecutive unsupported frames
 constexpr int kMinSpacing = 4;      // minimum distance, in frames of the wanted clip, between the pairs of one part

@@ -24,12 +24,12 @@ const SettingTable<PlayedOptions>& PlayedSettings();
 
 /// Plays candidate transitions and takes the one with the lowest cost.
 ///
-/// Candidates: the wait is divided into sixteen parts. From the pairs that the budget and `most_skipped_s` allow, the
-/// nearest pair of each part by MotionFeatures is taken. Each pair is joined at several lengths from 0.3 to 1.2 s;
-/// lengths for which the wanted clip is too short are left out, except 0.3 s. For each length there are direct joins
-/// and fades (PlayMinimumJerk), with planted feet (PlantFeet); each is placed once by the feet and once where the
-/// body's momentum carries it (CarriedShift). The cheapest candidates are played first, and only as long as they may be
-/// the best (PlayJoins).
+/// Candidates: the playing clip's frames within the budget are divided into sixteen parts. In each part, the pair
+/// with the most similar MotionFeatures is taken; `most_skipped_s` limits the frames of the wanted clip. Each pair is
+/// joined at several lengths from 0.3 to 1.2 s; lengths for which the wanted clip is too short are left out, except
+/// 0.3 s. For each length there are direct joins and fades (PlayMinimumJerk), with planted feet (PlantFeet); each is
+/// placed once by the feet and once where the body's momentum carries it (CarriedShift). The cheapest candidates are
+/// played first, and only as long as they may be the best (PlayJoins).
 ///
 /// The cost in seconds is the sum of
 /// - the wait and the length of the join;

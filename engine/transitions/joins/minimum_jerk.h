@@ -62,8 +62,8 @@ class WindowTurns {
 ///   almost the old motion's next frame, and a jump of the new motion just before the transition point has no effect.
 ///   If the old motion ends at the transition point, velocities are measured from the frame before that point.
 /// - kFades: both motions play, and the share of the new motion grows along a minimum-jerk curve, limb by limb.
-///   Compared with kDecays, the shown motion has less of the two motions' accelerations, and more of the difference
-///   between the motions.
+///   Compared with kDecays, the accelerations of both motions are shown only in part (weighted by the shares), but the
+///   changing difference between the motions causes further accelerations.
 /// - kDirect: every limb and the hip centre move with minimum jerk from the old motion's pose to the new motion's pose
 ///   at the end of the join, with the motions' velocities at both ends. What the two motions do between these two poses
 ///   is not shown.

@@ -79,8 +79,8 @@ struct StepOption {
   Frames stands = 0;  // the frames in which the foot bears weight
 };
 
-/// Returns the minimum-jerk movement of a step, which brings the offset of the old motion's toe from the new motion's
-/// toe to zero.
+/// Returns the minimum-jerk movement of a step. It starts with the vector from the new motion's toe to the old
+/// motion's toe, and ends with the zero vector.
 Movement MovementOf(const JoinWindow& window, const LegRoles& leg, const FootStep& step) {
   const int from = std::min(step.begin, step.stays_from), to = std::max(step.begin, step.waits_until);
   const auto change = [&](const BodyPose& before, const BodyPose& after) {

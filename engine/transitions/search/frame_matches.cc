@@ -64,7 +64,7 @@ class PairSearch {
   struct NearBlock {
     int block;
     double bound;  // lower bound for the distance from any of the sixteen query frames
-    double reach;  // distance at the last comparison plus the value of `travelled_` then
+    double reach;  // distance at the last comparison plus the value that `travelled_` had at that time
   };
 
   /// Collects the target blocks that may contain a match of a query frame in the box `asking`.
