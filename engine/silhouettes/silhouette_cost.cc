@@ -174,7 +174,7 @@ void SumResiduals(const SeenFlesh& flesh, const Silhouette& silhouette, const Si
   std::array<std::size_t, kMaxCones + 1> ends{};
   const std::size_t count = silhouette.outline.size();
   for (std::size_t i = 0; i < count; ++i) ++ends[static_cast<std::size_t>(owner_of(i) + 1)];
-  ends[0] = 0;  // points without a capsule
+  ends[0] = 0;  // points without a capsule are left out
   std::partial_sum(ends.begin(), ends.end(), ends.begin());
   out.u.resize(count + kBlockPoints);
   out.v.resize(count + kBlockPoints);

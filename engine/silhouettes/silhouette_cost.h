@@ -127,7 +127,7 @@ struct SeenFlesh {
   static constexpr std::size_t kInsideSamples = 4;
   std::vector<std::array<DistanceAt, kInsideSamples>> inside;
 };
-/// Computes all distances of `flesh` from `flesh.capsules`.
+/// Computes the other members of `flesh` for the capsules `flesh.capsules`.
 void MeasureFlesh(const Silhouette& silhouette, SeenFlesh& flesh);
 
 /// Appends the residuals of the flesh in one picture to `out`:

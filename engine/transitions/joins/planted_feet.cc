@@ -148,8 +148,9 @@ double BodyPrice(const FootTracks& foot, const FootStep& step, Frames stands) {
                         stretch(step.end, foot.window.next[std::max(step.end, step.waits_until)]));
 }
 
-/// Returns the step with its lift, cost and supporting frames. The cost is the sum of StandingPrice, of BodyPrice and
-/// of the peak accelerations of the minimum-jerk movements for the offset, the velocity and the lift.
+/// Returns the step with its lift, cost and supporting frames. The cost is the sum of StandingPrice, BodyPrice and
+/// the peak accelerations of three minimum-jerk movements: one removes the offset between the motions, one removes
+/// the difference of their velocities, and one lifts the foot.
 StepOption Priced(const FootTracks& foot, const FootStep& step) {
   constexpr double kCm = 100;
   StepOption option{.step = step};
