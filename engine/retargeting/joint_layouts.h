@@ -9,7 +9,7 @@ namespace etude {
 /// The order of the joints in an array.
 struct JointLayout {
   std::string_view name;
-  std::vector<std::string_view> joints;  ///< names that FindMarkerBodies recognises or ignores
+  std::vector<std::string_view> joints;  ///< joint names; FindMarkerBodies ignores those that no marker set contains
 };
 
 /// Lists the known layouts.

@@ -49,11 +49,12 @@ struct JointMapOverrides;
 ///
 /// Poses of `frames` are used if the rest pose is not a human pose. If the rest pose's legs do not point away from the
 /// trunk, the most upright frame replaces this pose; tips that are implausible at rest are searched in motion
-/// (FindTips). The roles in `taught` are assigned before any name is searched, and checked like the others. Fails for
-/// missing limbs (with a list of the file's names), hips without a common ancestor, a knee that does not descend from
-/// its hip and similar errors, hips that are not on opposite sides of their common ancestor, and joints of `taught`
-/// that do not exist (with their line in the joint-map file). ToBodyMotion checks on the moving body that left and
-/// right are not exchanged.
+/// (FindTips). The roles in `taught` are assigned before any name is searched, and checked like the others.
+///
+/// Fails if a limb is missing (the message lists the file's names), if the hips have no common ancestor or are not on
+/// opposite sides of it, if a joint does not descend from the previous joint of its limb (a knee from its hip), if the
+/// joint of the spine, neck or head is part of a limb, or if a joint of `taught` does not exist (the message names its
+/// line in the joint-map file). ToBodyMotion checks on the moving body that left and right are not exchanged.
 Result<JointMap> FindJointMap(const Skeleton& skeleton, const std::string& file,
                               const JointMapOverrides* taught = nullptr, std::span<const LocalPose> frames = {});
 

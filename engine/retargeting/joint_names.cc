@@ -143,7 +143,8 @@ std::string WithoutAccents(std::string_view name) {
   return plain;
 }
 
-/// Returns true if a new word begins at `i` inside a word: "upLeg", "Bip01", "LHip" (a capital before a small letter).
+/// Returns true if a new word begins at the character `i`, which directly follows a letter or a digit: "upLeg",
+/// "Bip01", "LHip" (a capital before a small letter).
 bool BeginsWord(std::string_view name, std::size_t i) {
   const char before = name[i - 1];
   const char here = name[i];

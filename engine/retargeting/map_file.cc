@@ -64,7 +64,7 @@ Result<JointMapOverrides> ReadJointMapFile(std::string_view yaml, const std::str
   if (unit != nullptr) {
     ASSIGN_OR_RETURN(taught.metres_per_unit, ReadUnit(unit->scalar, unit->place));
   }
-  // Read the roles. They may be missing if the file states anything else.
+  // Read the roles. The key `roles` may be missing if the file has at least one of the other keys.
   const bool tells_else = unit != nullptr || taught.up || taught.rate_hz || taught.keep_floor ||
                           !taught.marker_set.empty();
   if (roles == nullptr && tells_else) return taught;

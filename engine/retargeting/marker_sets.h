@@ -56,8 +56,8 @@ inline constexpr std::array kNeededJoints = {Role::kLeftShoulder,  Role::kLeftEl
 
 /// Returns true if a person has all of these markers.
 bool HasAll(const MarkerColumns& columns, std::span<const std::string> markers);
-/// Returns the pelvis's markers; the sacrum's marker stands twice if it replaces the markers on the back. nullopt if
-/// markers are missing.
+/// Returns the names of the pelvis's four markers. If the marker on the sacrum replaces the two markers on the back,
+/// its name appears twice. Returns nullopt if markers are missing.
 std::optional<std::array<std::string, 4>> PelvisOf(const MarkerSet& set, const MarkerColumns& columns);
 /// Returns true if the set determines a joint from a person's markers.
 bool Determines(const MarkerSet& set, const MarkerColumns& columns, Role role);
@@ -74,8 +74,8 @@ struct ChosenSet {
 /// Chooses one of the sets that are complete. If the user wants a set, `wanted` is the set's key, and only that set is
 /// chosen. If `wanted` is "", chooses the set with the highest rank; of equal ranks, the set that determines the most
 /// joints. If no set is complete, makes a set if a naming scheme of skeletons (joint_names.h) names all needed joints.
-/// `roles`, the user's markers of joints, replace the rules of the set, or are a set of their own, which may be
-/// incomplete. `names` are the file's names of all columns.
+/// `roles` states which markers the user takes as joints. They replace the set's rules for the same joints; if there
+/// is no set, they form a set of their own, which may be incomplete. `names` are the file's names of all columns.
 ChosenSet ChooseSet(const MarkerColumns& columns, std::span<const std::string> names, const std::string& wanted,
                     const std::map<Role, std::string>& roles);
 

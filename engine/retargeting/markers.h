@@ -35,8 +35,8 @@ struct MarkerBody {
   std::vector<std::string> changes;
   /// The markers exactly as the file shows them, in all its frames: gaps are not filled, no joint is placed by a rule,
   /// and the floor is not moved. First come the person's markers under their own names without prefix. The joints that
-  /// the set computes from several markers follow, named by role. Metres, Y up. Its notes name the set and the
-  /// assumptions. The motion has no frames unless MarkerOptions::keeps_shown is set.
+  /// the set computes from several markers follow, named by role. Metres, Y up. RawMotion::notes names the set and the
+  /// assumptions. There are no frames unless MarkerOptions::keeps_shown is set.
   RawMotion shown = {};
 
   /// Returns `changes` as one line, separated by semicolons.

@@ -76,7 +76,7 @@ const std::array<Part, 12> kParts = {{
        {"ankle_rotation"}}}},
 }};
 
-/// A left or right part as it is written to the file.
+/// A part of the left side, the right side or the middle, as it is written to the file.
 struct WrittenPart {
   Role end;
   std::array<std::string, 3> names;

@@ -110,8 +110,8 @@ Result<double> CheckSides(std::span<const BodyPose> poses, const JointMap& map, 
   if (sides.shoulders < 0) {
     return Fail({file}, "the left arm is on the side of the right leg: left and right are exchanged");
   }
-  // Each threshold is a mean over limbs and frames. Zero would be too strict: the feet of a lying body, for example,
-  // point slightly backwards.
+  // Compare each threshold with a mean over limbs and frames. A threshold of zero would be too strict: the feet of a
+  // lying body, for example, point slightly backwards.
   constexpr double kBackwards = 0.35;
   const auto count = static_cast<double>(2 * poses.size());
   const bool has_feet = std::ranges::find(map.composed, kLeftFoot) == map.composed.end();

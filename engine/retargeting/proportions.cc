@@ -22,11 +22,10 @@ bool IsTurned(const glm::dquat& a, const glm::dquat& b) {
   return half > std::sin(0.5 * kStill);
 }
 
-// Each joint of a skeleton as a clip moves it: the joint's mean translation, its rotation if that is constant, and
-// whether it rotates.
+// The joints of a skeleton, as measured in a clip's frames.
 struct Measured {
-  LocalPose rest;
-  std::vector<bool> turns;
+  LocalPose rest;           // each joint's mean translation and, if its rotation is constant, that rotation
+  std::vector<bool> turns;  // true for the joints that rotate
 };
 
 // Measures the skeleton in the frames from `first` on.

@@ -8,10 +8,11 @@
 
 namespace etude {
 
-/// Measures the performer of a clip at rest, in metres, Y up, facing +Z. The result is the skeleton's own rest pose;
-/// joints that rotate by less than 0.02° in the clip are merged into their parents. A joint that the clip translates
-/// relative to its parent is put at its mean position. If a role does not descend from the hips (feet with separate
-/// controls), the body consists of the roles only (RestBodyOf). `body` must be the result of ToBodyMotion for the clip.
+/// Measures the resting body of a clip's performer. The body is in metres, Y up, and faces +Z. It is the skeleton's
+/// own rest pose; joints that rotate by less than 0.02° in the clip are merged into their parents. A joint that the
+/// clip translates relative to its parent is put at its mean position. If a role does not descend from the hips (feet
+/// with separate controls), the body consists of the roles only (RestBodyOf). `body` must be the result of
+/// ToBodyMotion for the clip.
 RestBody MeasureBody(const Clip& clip, const JointMap& map, const BodyConversion& body);
 
 /// Transfers a motion to a body with the limb lengths of `body`: every limb keeps its direction, and the hip centre's

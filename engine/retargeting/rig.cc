@@ -48,11 +48,11 @@ namespace {
 
 using enum Role;
 
-/// For each limb, in the order of kLimbs, a direction in the middle of the upper bone's range, in the axes of chest or
-/// hips. The positions of a straight limb do not show its twist. The limb gets the twist that results if it hangs down,
-/// then rotates to this middle direction, and from there to its direction in the pose, both by the shortest rotation.
-/// The twist is discontinuous only opposite to the middle direction. That must lie outside of the range: inward through
-/// the chest, or backward through the hips.
+/// For each limb, in the order of kLimbs, a direction in the middle of the upper bone's range, in the axes of the chest
+/// (arms) or of the hips (legs). The joint positions of a straight limb do not determine its twist, so the twist is
+/// defined as follows: the limb hangs down, is rotated to this middle direction, and from there to its direction in the
+/// pose, both times by the shortest rotation. This twist is discontinuous only where a limb points opposite to its
+/// middle direction. No limb can point there: inward through the chest, or backward through the hips.
 constexpr std::array<glm::dvec3, kLimbs.size()> kMidDirections = {
     {{0.71, 0, 0.71}, {-0.71, 0, 0.71}, {0, -0.87, 0.5}, {0, -0.87, 0.5}}};
 

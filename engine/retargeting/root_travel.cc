@@ -78,7 +78,7 @@ std::string DescribeRootTravel(const Clip& clip, const JointMap& map) {
   if (!(least < kMuchLess * as_it_is)) return "";
   // A factor below 1 slows down all feet, even feet that slide for another reason, so it is reported only if the speed
   // in the file is impossible.
-  constexpr double kAsWell = 1.5, kImpossible = 3;  // kAsWell is a ratio, kImpossible in statures per second
+  constexpr double kAsWell = 1.5, kImpossible = 3;  // a ratio of two speeds; a speed in statures per second
   if (best < 1 && as_it_is < kImpossible) return "";
   if (slide(0) > kAsWell * least) {
     return fmt::format("its feet slide unless the root's positions are {:.4g} times as large: they seem to have "

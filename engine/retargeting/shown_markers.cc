@@ -24,7 +24,8 @@ RawMotion AsShown(double scale, const MarkerMotion& markers, const MarkerSet& se
     shown.joints.push_back(full.substr(full.size() - name.size()));
     own.push_back(column);
   }
-  // A role is played by the marker at the joint, or by an added joint if the joint is computed.
+  // A role is played by the marker at its joint or, if the joint must be computed from markers, by a joint that is
+  // added.
   std::vector<Role> computed;
   const bool is_on_skin = set.has_skin_limbs || set.has_skin_shoulders;
   for (const Role role : AllRoles()) {

@@ -31,7 +31,9 @@ constexpr std::array<SkinJoint, 4> kSkinJoints = {{{kLeftKnee, kLeftHip, "KNEEWI
 /// The distances from markers to centres, metres, by role.
 struct SkinDepths {
   std::array<double, kRoleCount> metres{};
-  std::vector<std::string> of_file, of_limb;  ///< kinds of joints with sizes from the file, and from limb lengths
+  /// For users, joints with their mean distance in cm ("knees 6.2"). `of_file`: the distances follow from the file's
+  /// sizes; `of_limb`: from limb lengths.
+  std::vector<std::string> of_file, of_limb;
   bool has_elbow_widths = false;
 };
 
@@ -190,7 +192,7 @@ void MoveLeg(const SideOf& side, const Wands& wands, const UsedWands& used, cons
   side[kLeftAnkle] = Chord(knee, ankle, at_ankle, depths.metres[Index(side.On(kLeftAnkle))]);
 }
 
-/// Returns the elbow's centre if the marker is on the outside of the elbow.
+/// Returns the elbow's centre under the assumption that the marker is on the outside of the elbow.
 glm::dvec3 BesideElbow(const SideOf& side, const SkinDepths& depths) {
   const double depth = depths.metres[Index(side.On(kLeftElbow))];
   // If the file has Plug-in Gait's widths, subtract only a part of the apparent bend, as Plug-in Gait does.
@@ -203,7 +205,7 @@ glm::dvec3 BesideElbow(const SideOf& side, const SkinDepths& depths) {
   return Chord(shoulder, skin, Inward(rough, skin - shoulder, wrist - skin, side.is_left() ? 1 : -1, seeming), depth);
 }
 
-/// Returns the elbow's centre if the marker is on the point of the elbow.
+/// Returns the elbow's centre under the assumption that the marker is on the point of the elbow.
 glm::dvec3 BeforeElbow(const SideOf& side, double depth) {
   const glm::dvec3 wrist = *side[kLeftWrist], skin = *side[kLeftElbow];
   return Chord(wrist, skin, *side[kLeftShoulder] - skin, depth);

@@ -25,11 +25,12 @@ struct TipLength {
   double shortest;
   double longest;
 };
-// CMU's fingers end at half the length of a hand.
+// In CMU's files, the fingers end at half the length of a hand of these proportions.
 constexpr TipLength kPlausibleHand{0.4, 1.6};
 // The feet of the clip Boxing_Toes are 1.4 times as long as paper B's, the feet of KayKit's toy figures 2.6 times.
 constexpr TipLength kPlausibleFoot{0.4, 3.0};
-// A single "Head" joint lies at the base of the skull, 0.2 trunk lengths above the neck.
+// A skeleton's only head joint often lies at the base of the skull, 0.2 trunk lengths above the neck. The lower limit,
+// 0.25 trunk lengths, excludes it.
 constexpr TipLength kPlausibleHead{0.5, 1.6};
 
 // Tips count as equally far if their distances differ by less than this share, because files may have only six
@@ -194,8 +195,8 @@ void FindHeadTip(JointMapDraft& draft, const MovingPoses& moving) {
         return glm::distance(body.JointAt(joint), body.At(kShoulderCentre));
       });
     };
-    // The angle of an eye to the trunk's line is the same in motion as at rest. If the crown's angle is large at rest
-    // but not in motion, the rest pose is not a human pose.
+    // An eye or ear lies beside the trunk's line at rest and in motion. The crown lies beside this line at rest only
+    // if the rest pose is not a human pose; in motion, its angle to the line is then much smaller.
     const auto is_on_in_motion = [&](int joint) {
       const double rest_angle = AngleBetween(draft.tree().RestOf(joint) - draft.RestOf(kHead), trunk);
       const double angle = MedianOf(draft, moving, [&](const PosedBody& body) {

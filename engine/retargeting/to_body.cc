@@ -152,9 +152,10 @@ const Unit* UnitOf(double stature) {
 constexpr double kMaxRatio = 1.25;
 bool AreAlike(double ratio) { return ratio > 1 / kMaxRatio && ratio < kMaxRatio; }
 
-/// Finds the unit by the stature of the rest pose, which all clips of a file share. If the frames' stature differs by
-/// more than kMaxRatio, uses that: some files store all offsets, others scale the hips, only in the frames. `remarks`
-/// gets texts about doubtful statures. If the given unit is implausible, fails, naming `file` and the likely unit.
+/// Finds the unit by the stature of the rest pose, which all clips of a file share. If the stature in the frames
+/// differs from it by a factor of more than kMaxRatio, uses the stature in the frames, because some files store the
+/// offsets of the joints, and others the scale of the hips, only in the frames. `remarks` gets texts about doubtful
+/// statures. If the given unit is implausible, fails, naming `file` and the likely unit.
 Result<void> FindUnit(const BodyPose& rest, const std::vector<BodyPose>& poses, const BodyOptions& options,
                       const std::string& file, BodyConversion& done, std::vector<std::string>& remarks) {
   const std::optional<double>& given = options.metres_per_unit;
@@ -359,7 +360,7 @@ bool IsTPose(const BodyPose& pose) {
 
 Result<BodyConversion> ToBodyMotion(const Clip& clip, const JointMap& map, const std::string& file,
                                     const BodyOptions& options) {
-  // Determine the up axis. If the body lies along another axis, describe this in `lies`.
+  // Determine the up axis. If Y is up but the body lies along another axis, `lies` states this axis for users.
   if (clip.frames.empty()) return Fail({file}, "no frames; at least one is needed");
   BodySampler sampler(clip, map);
   BodyConversion done;
@@ -390,7 +391,7 @@ Result<BodyConversion> ToBodyMotion(const Clip& clip, const JointMap& map, const
   }
   for (const std::string& remark : remarks) {
     done.changes.push_back(remark);
-    if (!options.metres_per_unit) done.doubts.push_back(remark);  // the user knows the unit
+    if (!options.metres_per_unit) done.doubts.push_back(remark);  // a unit given by the user is not doubted
   }
   if (overstretch > 0)
     done.changes.push_back(fmt::format("the knees are overextended by {:.0f}° on average", Degrees(overstretch)));

@@ -31,7 +31,9 @@ struct BodyOptions {
 /// A clip converted to the twenty joints: metres, Y up, feet on the floor.
 struct BodyConversion {
   double metres_per_unit = 0;
-  std::string unit;  ///< "centimetre", "CMU", …; "unknown" (scaled to a human), "scaled", "given"
+  /// "centimetre", "CMU", …; "given" (by the user); "unknown": the body is scaled to a stature of 1.70 m; "scaled":
+  /// the rest pose has a known unit, and the frames are scaled to the stature at rest.
+  std::string unit;
   UpAxis up = UpAxis::kY;
   UpFinding found_up = {};         ///< the axis of the file that points up, and its evidence
   double floor = 0;                ///< height of the floor along the file's up axis, in the file's unit
@@ -89,14 +91,14 @@ struct Ground {
 
 /// Finds the ground of all clips of one skeleton in one file. The rules of ToBodyMotion are applied to the frames of
 /// all clips together. A person who sits in one clip and stands in another therefore has the same floor in both, and
-/// all clips have the same unit. Values given in `options` are used. Returns nullopt if no clip has a frame, or if a
-/// position is not finite.
+/// all clips have the same unit. An up axis, a floor or a stature given in `options` is taken as it is. Returns nullopt
+/// if no clip has a frame, or if a position is not finite.
 std::optional<Ground> FindGround(std::span<const Clip> clips, const JointMap& map, const BodyOptions& options = {});
 
 /// Removes from a file's frames the scales that its rest pose does not have, such as a scale of the hips. The scales
 /// are removed only if the body at rest has a person's size in some unit, and if the scales alone make the body in the
-/// frames taller or smaller by a factor of more than 1.25 (median over the clips). Returns that factor; nullopt if the
-/// clips are unchanged.
+/// frames taller or smaller by a factor of more than 1.25 (median over the frames of all clips). Returns that factor;
+/// nullopt if the clips are unchanged.
 std::optional<double> UndoScales(std::span<Clip> clips, const JointMap& map);
 
 /// Returns the transform from the file's unit and axes to the world of ToBodyMotion's result. Apply it to the clip's

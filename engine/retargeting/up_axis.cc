@@ -23,11 +23,11 @@ struct Stance {
   double straight = 0;  ///< share of the frames with trunk, head and legs straight along the axis, as in static trials
   double floor = 0;     ///< range of the lowest joint's height (5th to 95th percentile)
   double way = 0;       ///< largest extent of the hip centre's path, perpendicular to the axis
-  double steps = 0;     ///< share of the frames in which the hips travel that also have a standing ankle
+  double steps = 0;     ///< of the frames in which the hips travel, the share in which an ankle stands
   double on_hands = 0;  ///< share of the frames with a wrist beyond the head, as in a handstand
 };
 
-/// A share of the frames below this counts as never.
+/// Shares of the frames that are smaller than this count as never.
 constexpr double kHardlyEver = 0.05;
 
 double MeanLegLength(const BodyPose& pose) {
@@ -105,7 +105,9 @@ Frames FramesOf(std::span<const BodyPose> poses, double rate_hz) {
 }
 
 Stance MeasureStance(const Frames& frames, const glm::dvec3& up) {
-  constexpr double kTravelling = 0.15, kStands = 0.4;  // relative speeds of the hips and of a standing ankle
+  // The hips travel if their speed is at least kTravelling statures per second. Meanwhile an ankle stands if it moves
+  // less than kStands times as far as the hips.
+  constexpr double kTravelling = 0.15, kStands = 0.4;
   Stance stance;
   std::vector<double> lowest;
   double count = 0, travelling = 0;
@@ -195,8 +197,8 @@ UpFinding FindUp(std::span<const BodyPose> all, double rate_hz, const UpRule& ru
     most = stance.upright;
     best = &axis;
   }
-  // If only the posture counts, take this axis. A rule of the file or its format stays, and the contradiction is
-  // reported.
+  // Take the axis `best` if the rule's axis is only a guess (kPosture). If the file or its format states the axis, keep
+  // that axis and report the contradiction.
   const std::string usually = fmt::format("{} is {}", AxisName(rule.axis), rule.source);
   if (best != nullptr && rule.evidence == UpEvidence::kPosture) {
     found.axis = *best;

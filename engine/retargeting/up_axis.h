@@ -49,7 +49,7 @@ struct UpFinding {
 ///     height varies less than along the usual axis;
 ///   - along the other axis, the body's weight is over its feet, and the body stands quite still and straight, as in
 ///     static trials.
-/// In case of doubt, the usual axis is taken. `poses` are in the file's unit and axes, at `rate_hz`, at least one. A
+/// In case of doubt, the usual axis is taken. `poses` contains at least one pose, in the file's unit and axes. A
 /// missing toe must be at the position of its ankle.
 UpFinding FindUp(std::span<const BodyPose> poses, double rate_hz, const UpRule& rule);
 

@@ -173,7 +173,7 @@ class Linearisation {
   CapsuleMotion motion_;
   std::vector<std::pair<int, glm::dvec2>> slopes_;
   Eigen::VectorXd gradient_;
-  Eigen::MatrixXd hessian_;  // for each pair of coordinates, one of the two equal entries is filled; the other is 0
+  Eigen::MatrixXd hessian_;  // symmetric, but of the entries (i, k) and (k, i) only one is filled; the other is 0
 };
 
 // Calls take(coordinate, value, spread) for every squared term (value / spread)² of the priors.
@@ -250,7 +250,8 @@ Eigen::VectorXd Step(const Linearisation& linear, const std::vector<bool>& held,
   return -h.llt().solve(g);
 }
 
-// Adds the cost of one picture to `sum`; `flesh` holds the capsules projected in that pose.
+// Adds the cost of one picture to `sum`. `frames` is the body's pose; `flesh` is the body in this pose, projected into
+// the picture.
 void AddPictureCost(const SilhouetteBody& body, const SilhouetteView& view, const SilhouetteCostOptions& options,
                     const SeenFlesh& flesh, const TreeFrames& frames, double& sum) {
   AddLosses(flesh, *view.silhouette, options, sum);

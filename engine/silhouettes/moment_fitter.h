@@ -33,8 +33,8 @@ class ThicknessEstimate {
 /// online.
 struct TrackOptions {
   SilhouetteCostOptions cost;
-  /// The accuracy of a known start: standard deviations of an angle and of the root's rotation (radians), and of the
-  /// root's position.
+  /// The accuracy of a known start, as standard deviations: of each angle and of the root's rotation (radians), and of
+  /// the root's position (metres).
   double start_angle = Radians(10);
   double start_position_m = 0.1;
   /// The number of frames, evenly spaced over the take, in which the body is searched for if the start is not known.

@@ -60,7 +60,7 @@ HWY_INLINE Cone ConeInAllLanes(const ConeColumns& cones, size_t i) {
 }
 
 Axes AxesOf(const ConeColumns& cones) {
-  constexpr double kRounding = 0.1, kRoundingShare = 1e-5;  // pixels, and per pixel of a coordinate
+  constexpr double kRounding = 0.1, kRoundingShare = 1e-5;  // in pixels; as a share of the coordinates
   Axes axes;
   for (size_t i = 0; i < cones.count; ++i) {
     const auto of = [&](ConeRow row) { return cones.rows[row][i]; };
@@ -108,8 +108,8 @@ std::uint64_t Within(const float* bounds, size_t count, float reach) {
   return set;
 }
 
-/// Returns the index of the first bit that is set, or 64. (No function of the standard library, which the linker could
-/// share with code for older CPUs.)
+/// Returns the index of the first bit that is set, or 64. Uses a builtin: if this file, compiled for newer CPUs,
+/// contained a function of the standard library, the linker could make code for older CPUs call it.
 HWY_INLINE size_t FirstOf(std::uint64_t set) { return set == 0 ? 64 : static_cast<size_t>(__builtin_ctzll(set)); }
 
 /// For each point of one block, stores the distance and index of `cone` if `cone` is nearer than the stored cone, or
@@ -188,7 +188,8 @@ void FindNearest(const ConeColumns& cones, const PointColumns& points, double* d
 /// The numbers of one point: its six derivatives, its weight, and the weight times the residual.
 enum PointNumber { kWeight = 6, kWeightedValue, kNumbers };
 
-/// Adds one point to the sums. Rows 6 and 7 of the sums have no meaning.
+/// Adds one point to the sums. Rows 0 to 5 belong to the six derivatives; rows 6 and 7 fill the vectors and are
+/// ignored.
 HWY_INLINE void AddPoint(const double* point, Vec (&gradient)[kParts], Vec (&hessian)[6][kParts]) {
   const Real real;
   for (size_t part = 0; part < kParts; ++part) {

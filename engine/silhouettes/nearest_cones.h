@@ -42,8 +42,8 @@ struct PointColumns {
 /// For each point, finds the smallest signed distance to the cones, pixels, negative inside. If this distance is
 /// smaller than the point's entry in `distance`, the distance replaces the entry, and the index of the cone (of equally
 /// near cones, the lowest index) goes to `owner`. For each block, only cones that can be nearest to a point of the
-/// block are tested: between two points, a signed distance changes by at most their distance. Uses SIMD in double
-/// precision; with any vector width, the bits equal those of `NearestOnCone` (silhouette_cost.cc).
+/// block are tested. (The signed distances of two points to a cone differ by at most the distance between the points.)
+/// Uses SIMD in double precision; with any vector width, the bits equal those of `NearestOnCone` (silhouette_cost.cc).
 void FindNearestCones(const ConeColumns& cones, const PointColumns& points, double* distance, double* owner);
 
 /// The outline points that are nearest to one cone. After the last point, kBlockPoints − 1 further numbers of u and v
@@ -51,7 +51,7 @@ void FindNearestCones(const ConeColumns& cones, const PointColumns& points, doub
 struct ConePoints {
   std::size_t count = 0;
   const double *u = nullptr, *v = nullptr;
-  double counts = 1, reach2 = 1;  ///< of the loss (`LossOf`): 1 / sigma², and reach²
+  double counts = 1, reach2 = 1;  ///< parameters of the loss (`LossOf`): 1 / sigma², and reach² (pixels²)
 };
 /// Sums over points, with r the residual's derivatives with respect to the cone's six numbers: Σ w e r, and Σ w r rᵀ by
 /// columns. Rows 6 and 7 are not used.
@@ -59,8 +59,8 @@ struct ConeSums {
   double gradient[8] = {};
   double hessian[6][8] = {};
 };
-/// Sums the residuals of the points in their order; the bits equal those of `DistanceTo` and `LossOf`
-/// (silhouette_cost.h).
+/// Computes these sums over the points, in the order of the points. The bits equal those of a loop that calls
+/// `DistanceTo` and `LossOf` (silhouette_cost.h) for each point.
 void SumConePoints(const ConeColumns& cones, std::size_t cone, const ConePoints& points, ConeSums& sums);
 
 }  // namespace etude

@@ -66,7 +66,8 @@ class Envelope {
 std::vector<double> SquaresAlongColumns(const Mask& mask) {
   const auto width = static_cast<std::size_t>(mask.width), height = static_cast<std::size_t>(mask.height);
   std::vector<double> squares(mask.pixels.size());
-  // Count the steps from above and from below. All columns advance row by row.
+  // For each pixel, count the rows to the nearest pixel of the other value, first upwards, then downwards. All columns
+  // advance row by row.
   std::vector<double> steps(width, Envelope::kNone);
   const auto walk = [&](std::size_t y, std::size_t before, const auto& take) {
     const std::uint8_t *own = &mask.pixels[y * width], *other = &mask.pixels[before * width];
@@ -93,8 +94,9 @@ Image<float> SignedDistances(const Mask& mask) {
   const std::vector<double> squares = SquaresAlongColumns(mask);
   Image<float> distances(mask.width, mask.height);
   const double farthest = mask.width + mask.height;
-  // Combine the columns by the lower envelope, for each run of equal pixels of a row. The pixel before the run and the
-  // pixel after it have the other value, so the nearest pixel of that value is in no column beyond these two.
+  // For each run of equal pixels in a row, combine the distances along the columns: each column gives one parabola of
+  // the envelope. The pixels directly before and after the run have the other value, so columns beyond these two pixels
+  // contain no nearer pixel of that value.
   const int longest = mask.width + 2;
   Envelope envelope(longest);
   std::vector<double> heights(longest), nearest(longest);
@@ -169,9 +171,9 @@ Mask CutOut(const Mask& mask, const Box& box) {
   return part;
 }
 
-// Gives the value `kValue` to every pixel whose neighbourhood has a pixel of that value. A neighbour belongs to the
-// neighbourhood if `is_near` is true for the distance from the pixel to the neighbour's border. `reach` is the largest
-// offset of a neighbour.
+// Gives the value `kValue` to every pixel near a pixel of that value: a dilation for 1, an erosion for 0. Pixels are
+// near each other if `is_near` is true for the distance from the centre of one to the border of the other, in mask
+// pixels. Near pixels must be at most `reach` rows and columns apart.
 template <std::uint8_t kValue, typename IsNear>
 Mask Spread(const Mask& mask, int reach, const IsNear& is_near) {
   Mask out = mask;

@@ -19,7 +19,7 @@ struct ConePoint {
 };
 
 // Finds the nearest point of a round cone in two dimensions. Along the axis, the distance minus the radius is minimal
-// where (x − along·length) / distance = −(radius_b − radius_a) / length.
+// where (x − along·length) / distance = −(radius_b − radius_a) / length; x is the pixel's coordinate along the axis.
 ConePoint NearestOnCone(const ProjectedCapsule& capsule, const glm::dvec2& pixel) {
   const glm::dvec2 axis = capsule.b - capsule.a, from_a = pixel - capsule.a;
   const double length2 = glm::dot(axis, axis), widens = capsule.radius_b - capsule.radius_a;
@@ -174,7 +174,7 @@ void SumResiduals(const SeenFlesh& flesh, const Silhouette& silhouette, const Si
   std::array<std::size_t, kMaxCones + 1> ends{};
   const std::size_t count = silhouette.outline.size();
   for (std::size_t i = 0; i < count; ++i) ++ends[static_cast<std::size_t>(owner_of(i) + 1)];
-  ends[0] = 0;  // points without a capsule
+  ends[0] = 0;  // points without a capsule are left out
   std::partial_sum(ends.begin(), ends.end(), ends.begin());
   out.u.resize(count + kBlockPoints);
   out.v.resize(count + kBlockPoints);
@@ -215,7 +215,7 @@ void SumResiduals(const SeenFlesh& flesh, const Silhouette& silhouette, const Si
 void AddLosses(const SeenFlesh& flesh, const Silhouette& silhouette, const SilhouetteCostOptions& options,
                double& sum) {
   if (silhouette.area == 0) return;
-  // Compute the losses by column, where they are vectorised, and add them in the outline's order.
+  // Compute the losses column by column, so that the loop can be vectorised; then add them in the outline's order.
   std::vector<double> losses(flesh.distances.size());
   const double counts = 1 / (options.sigma_px * options.sigma_px);
   const double reach2 = options.outline_reach_px * options.outline_reach_px;

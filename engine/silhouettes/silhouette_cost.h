@@ -14,7 +14,7 @@
 namespace etude {
 
 /// A camera's projection matrix, normalised so that depths are in metres, with the camera's focal length in pixels.
-/// Frames: W the world, Q any point.
+/// p_WQ is the position of a point Q in the world's frame W, metres.
 class PixelScale {
  public:
   explicit PixelScale(const ProjectionMatrix& matrix) {
@@ -127,7 +127,7 @@ struct SeenFlesh {
   static constexpr std::size_t kInsideSamples = 4;
   std::vector<std::array<DistanceAt, kInsideSamples>> inside;
 };
-/// Computes all distances of `flesh` from `flesh.capsules`.
+/// Computes the other members of `flesh` for the capsules `flesh.capsules`.
 void MeasureFlesh(const Silhouette& silhouette, SeenFlesh& flesh);
 
 /// Appends the residuals of the flesh in one picture to `out`:
@@ -150,8 +150,8 @@ void SumResiduals(const SeenFlesh& flesh, const Silhouette& silhouette, const Si
 void AddLosses(const SeenFlesh& flesh, const Silhouette& silhouette, const SilhouetteCostOptions& options, double& sum);
 
 /// These functions do the work of AddLosses in steps, for a search that tries many positions of a few capsules.
-/// OutlineDistances computes each outline point's smallest signed distance to `flesh`, pixels. If that is less than the
-/// point's entry in `distances` (one per column of the silhouette), it replaces the entry.
+/// OutlineDistances computes each outline point's smallest signed distance to `flesh`, pixels. `distances` has one
+/// entry per column of the silhouette; an entry is replaced if the point's computed distance is smaller.
 void AddContainmentLosses(const std::vector<ProjectedCapsule>& flesh, const Silhouette& silhouette,
                           const SilhouetteCostOptions& options, double& sum);
 void OutlineDistances(const std::vector<ProjectedCapsule>& flesh, const Silhouette& silhouette,

@@ -80,7 +80,7 @@ class Tracker {
  private:
   struct Anchor {
     std::size_t frame = 0;
-    Fits fits;  // the start pose at `frame`, and the frames around it that a trial has followed
+    Fits fits;  // the fit of `frame`, and the fits of the frames around it to which TrialCost has followed the body
   };
 
   Anchor AnchorAt(std::size_t frame, SilhouetteFit fit) const {

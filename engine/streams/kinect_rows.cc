@@ -71,9 +71,9 @@ bool CountsWhole(const NumberRows& table) {
 }
 
 /// Returns the length in seconds of the first column's unit, which is a second, a frame at 30 Hz, a millisecond or a
-/// microsecond. The median step between rows decides. Integers with a step below 16 are frame numbers with gaps,
-/// because no skeleton sensor is faster than 60 Hz; a remark reports the gaps. Returns nullopt if the clock stands
-/// still or its steps are too large.
+/// microsecond. The unit follows from the median step between rows. Integers with a median step below 16 are taken as
+/// frame numbers, because no skeleton sensor is faster than 60 Hz; a remark states if this step is 2 or more, as frames
+/// are then missing. Returns nullopt if the clock stands still or its steps are too large.
 std::optional<double> SecondsPerCount(const NumberRows& table, std::vector<std::string>& remarks) {
   constexpr double kMinStepMs = 16;
   std::vector<double> steps;

@@ -111,7 +111,7 @@ Result<std::vector<Label>> ReadCsv(Lines lines, const std::string& file) {
     if (!cell(5).text.empty()) {
       ASSIGN_OR_RETURN(label.person, NameIn(cell(5), file, number, "person"));
     }
-    // Read `from_s` and `to_s`. The cell of `to_s` may be empty, or both cells.
+    // Read `from_s` and `to_s`. Either only the cell of `to_s` or both cells may be empty.
     for (const std::size_t i : {1, 2}) {
       if (cell(i).text.empty()) continue;
       ASSIGN_OR_RETURN((i == 1 ? label.from_s : label.to_s), NumberIn(cell(i), file, number, kMaxTime_s));

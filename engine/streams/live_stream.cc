@@ -16,8 +16,8 @@ bool IsEmptyOrComment(std::string_view line) {
   return line.find_first_not_of(" \t\r") == std::string_view::npos || line.starts_with('#') || line.starts_with("//");
 }
 
-/// Returns true if the clock of a CSV may count milliseconds or a smaller unit, but fewer than six rows are known: the
-/// rows are more than a second apart, and FindTimeScale needs five such steps.
+/// Returns true if more rows are needed to determine the unit of a CSV's clock. If rows seem to be more than a second
+/// apart, the clock may count milliseconds or a smaller unit; FindTimeScale needs five steps, so six rows, to decide.
 bool MayCountLessThanSeconds(const StreamRecording& recording) {
   constexpr std::size_t kRows = 6;
   const std::size_t rows = recording.frames.size();

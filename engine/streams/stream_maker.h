@@ -33,15 +33,16 @@ struct StreamLevel {
 /// the normal of the plane under standing feet if the feet determine the plane: their positions have a standard
 /// deviation of at least 10 cm in both horizontal directions and of at most 3 cm from the plane, and the normal is
 /// within 15° of the trunk. Otherwise up is the trunk's median direction, so a constant lean counts as a tilt of the
-/// sensor. If the result is more than 30° from the file's own up, nothing is rotated. A sensor in portrait or upside
-/// down is turned back first. Such a sensor is recognised by the trunk: in seven of ten frames it is within 30° of
-/// another axis of the file, and hardly ever near the file's up axis. In portrait, the body must also face the sensor,
-/// because a lying body faces up or down. The floor is the 10th percentile of the lower foot's height. `rate_hz` > 0 is
-/// the frames' rate.
+/// sensor. If the result is more than 30° from the file's own up, nothing is rotated. If the sensor was mounted in
+/// portrait or upside down, the frames are first rotated upright, by quarter turns about the line of sight. Such a
+/// sensor is recognised by the trunk: in seven of ten frames the trunk is within 30° of another axis of the file, and
+/// hardly ever near the file's up axis. In portrait, the body must also face the sensor, or away from it, in the median
+/// frame; a body that lies in front of an upright sensor usually faces up or down. The floor is the 10th percentile of
+/// the lower foot's height. `rate_hz` > 0 is the frames' rate.
 StreamLevel EstimateLevel(std::span<const RecordedFrame> frames, double rate_hz);
 
 /// Describes a level for users: "up by the trunk (6.3 degrees), floor 0.83 m below the sensor". Also mentions a sensor
-/// that was turned back, and a trunk that is far from the file's up.
+/// in portrait or upside down, and a trunk that is far from the file's up.
 std::string Describe(const StreamLevel& level);
 
 struct StreamOptions {
@@ -83,7 +84,8 @@ struct MadeStream {
   std::size_t lost_frames = 0;  ///< number of the stream's frames without a body
 };
 
-/// Converts a whole recording to a stream. The level is estimated from all frames.
+/// Converts a whole recording to a stream. If gravity and floor must be estimated (StreamOptions::levels), all frames
+/// of the recording are used.
 Result<MadeStream> MakeStream(const StreamRecording& recording, const std::string& file,
                               const StreamOptions& options = {});
 

@@ -242,7 +242,7 @@ Result<TaughtMove> TeachMove(const std::string& name, std::vector<SkeletonStream
     }
     longest = std::max(longest, SecondsOf(stream));
   }
-  // Find the key poses. The span allows performances slower than the longest example.
+  // Find the key poses. TaughtMove::span_s allows for performances that are slower than the longest example.
   std::vector<TaughtPose> poses = FindKeyPoses(tracks, right.front().rate_hz, options);
   return TaughtMove{.name = name,
                     .poses = std::move(poses),

@@ -8,12 +8,12 @@
 
 namespace etude {
 
-/// Teaches every move that occurs in these parts, by name: right performances become examples, wrong performances
-/// become counter-examples. An action point is a single time; the performance is taken to begin at most two seconds
-/// before and to end at most one second after the action point, but not beyond the middle between two neighbouring
-/// action points (ours). Parts for which `takes` returns false are left out. Fails if `TeachMove` fails. Without
-/// `is_strict`, performances that cannot be used are left out instead, and so are moves without a usable right
-/// performance.
+/// Teaches every move that occurs in these parts, in alphabetical order of the moves' names. Right performances
+/// become examples, wrong performances become counter-examples. An action point is a single time; the performance is
+/// taken to begin at most two seconds before and to end at most one second after the action point, but not beyond the
+/// middle between two neighbouring action points (ours). Parts for which `takes` returns false are left out. Fails if
+/// `TeachMove` fails. Without `is_strict`, performances that cannot be used are left out instead, and so are moves
+/// without a usable right performance. Fails if no move remains.
 Result<std::vector<TaughtMove>> TeachMoves(const std::vector<NamedStream>& streams,
                                            const std::vector<LabelledPart>& parts,
                                            const std::function<bool(const LabelledPart&)>& takes, bool is_strict);

@@ -24,7 +24,7 @@ struct MatchRules {
   /// transitions, but also worse ones (docs/transitions.md).
   double threshold = kPaperThreshold;
   Pick pick = Pick::kFirst;
-  bool within_class = false;  ///< if true, only frames with the same ten tags match; ours
+  bool within_class = false;  ///< if true, only frames with the same ten tags match *(ours)*
 };
 
 /// A request for a transition: clip `from` shows its frame `request_frame` when clip `to` is requested.
@@ -32,7 +32,7 @@ struct TransitionRequest {
   int from = 0;
   int request_frame = 0;
   int to = 0;
-  double budget_s = 1;  ///< maximal wait before the transition, seconds; ours
+  double budget_s = 1;  ///< maximal wait before the transition, seconds *(ours)*
 };
 
 /// The kind of transition that was found.
@@ -95,7 +95,9 @@ struct Candidate {
 struct TransitionRecord {
   Branch branch = Branch::kNone;
   int request_frame = 0;
-  std::vector<Segment> segments;         ///< empty: no transition was found; two: direct; three: through an in-between
+  /// Empty: no transition was found. Two segments: a direct transition (or unbroken motion). Three segments: a
+  /// transition through an in-between, a standing pose or an intermediate clip.
+  std::vector<Segment> segments;
   std::vector<FuzzyDistance> distances;  ///< one per transition point: segments.size() − 1 entries
   /// The taken pair and the best other pairs, at most kMaxCandidates, in order of frames.
   std::vector<Candidate> candidates;

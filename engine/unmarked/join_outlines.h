@@ -11,8 +11,8 @@
 
 namespace etude {
 
-/// Returns the index in `person.people` of person number `number`. `number` counts from 0 and leaves out persons whom
-/// fewer than two cameras see. Returns nullopt if there are not so many persons.
+/// Returns the index in `person.people` of person number `number`. Persons are numbered from 0; persons whom fewer
+/// than two cameras see have no number. Returns nullopt if no person has this number.
 std::optional<std::size_t> IndexOfPerson(const RecoveredPerson& person, std::size_t number);
 
 /// Adjusts a person to keypoints and outlines together *(ours)*: the motion estimated from outlines is an additional

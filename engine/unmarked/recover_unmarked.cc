@@ -219,7 +219,7 @@ class Recovery {
         silhouettes.push_back(MakeSilhouette(masks.back(), {.mask_pixel = kMaskPixel}));
       }
     }
-    // Convert the limits of motion per frame to the rate of the sampled frames.
+    // Convert the expected deviations per frame from 30 Hz to the rate of the sampled frames.
     const double rate = take_.rate_hz * static_cast<double>(frames.size()) / static_cast<double>(FrameCount());
     TrackOptions track = options_.track;
     track.angle_change *= kJudgedRateHz / rate;

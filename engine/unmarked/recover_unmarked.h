@@ -29,7 +29,7 @@ struct PosedViews {
 
 /// Finds the stature with the lowest cost *(ours)*, from 6 % below to 6 % above `stature_m`. At each stature the body
 /// is fitted again to every moment, starting from the moment's pose. The body's thickness relative to an average adult
-/// is kept. Silhouettes determine the stature because calibrated cameras measure metres. `body` must be
+/// is kept. Silhouettes alone suffice for this, because the calibrated cameras give the scale in metres. `body` must be
 /// `MakeSilhouetteBody(AdultLengths(stature_m))`, with any thickness.
 double FitStature(const SilhouetteBody& body, double stature_m, std::span<const PosedViews> moments,
                   const FitOptions& options);

@@ -65,8 +65,8 @@ class ShadeComparison {
   }
 
   bool Differ(Rgb8 background, Rgb8 pixel) const {
-    // Most colours are so alike that neither limit can be exceeded: the factor differs from 1 by at most the length of
-    // the colours' difference divided by the length of the background's colour.
+    // Most pairs of colours are so alike that IsNoShade is certain to return false, so skip it for them. The factor
+    // differs from 1 by at most |pixel − background| / |background|.
     const int r = pixel.r - background.r, g = pixel.g - background.g, b = pixel.b - background.b;
     const int off2 = r * r + g * g + b * b;
     const int length2 = background.r * background.r + background.g * background.g + background.b * background.b;
@@ -78,8 +78,9 @@ class ShadeComparison {
   bool IsNoShade(Rgb8 background, Rgb8 pixel) const;
 
   ChangeOptions o_;
-  // Limits for the squared difference of pixel and background. Below `alike2_`, the pixel is near enough to a multiple
-  // of the background's colour. Below `alike_share2_` × the background's squared length, the factor is plausible.
+  // Two limits for the squared distance between the colours of pixel and background. Below `alike2_`, the pixel's
+  // colour is certainly near enough to a multiple of the background's colour. Below `alike_share2_` times the squared
+  // length of the background's colour, the factor of that multiple is certainly plausible.
   double alike2_ = 0;
   double alike_share2_ = 0;
 };

@@ -69,8 +69,8 @@ std::vector<std::string> SegmenterNames();
 Segmenter SegmenterNamed(std::string_view name);
 
 struct ChangeOptions {
-  /// A larger difference between hues is a change, radians. Pixel noise of 2 levels rotates the hue of a moderately
-  /// coloured wall (30 levels of chroma) by 4° rms, so this is about four standard deviations.
+  /// The difference between hues, radians, above which a pixel has changed. Pixel noise of 2 levels rotates the hue
+  /// of a moderately coloured wall (30 levels of chroma) by 4° rms, so this is about four standard deviations.
   double hue_threshold = Radians(16);
   /// hue-gated: hues are compared only if pixel and background are more saturated than this.
   double min_saturation = 0.10;
@@ -83,8 +83,8 @@ struct ChangeOptions {
   /// range, a shadow or drift of the lamp may be the cause; outside, the pixel has changed.
   double darkest_shadow = 0.45;
   double brightest_light = 1.30;
-  /// rgb: the largest allowed difference of a channel, levels. It is ten standard deviations of pixel noise, because
-  /// light varies slowly over a wall.
+  /// rgb: the largest allowed difference of a channel, levels. It is ten standard deviations of pixel noise, so that a
+  /// slow change of the light on a wall does not count.
   int rgb_threshold = 24;
   /// ratio: the largest allowed distance, levels, of a pixel's colour from the line through black and the background's
   /// colour.

@@ -20,9 +20,9 @@ struct LimbColourOptions {
   FigureLook look;
   int margin_px = kFrayedEdgePx;
   /// The largest distance between the chromaticity of a pixel, (R, G, B) / (R + G + B), and the nearest colour of the
-  /// suit. It must exceed the shift of colours by tinted lamps, and half the distance between neighbours if 14 hues are
-  /// spread over two thirds of the colour circle. Colours of rooms and furniture must differ from the suit's colours by
-  /// at least twice this distance.
+  /// suit. It must exceed the shift of colours by tinted lamps. The default also exceeds half the distance between
+  /// the two most similar colours if 14 hues are spread evenly over two thirds of the colour circle. Colours of rooms
+  /// and furniture must differ from the suit's colours by at least twice this distance.
   double reach = 0.1;
   int darkest = 45;  ///< if R + G + B is lower, noise determines the chromaticity
   /// A limb that other limbs cross has several components. A component is ignored if its size, as a share of the

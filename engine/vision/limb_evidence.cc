@@ -125,7 +125,7 @@ class EvidenceFinder {
 
   // Orients the limb outwards; returns false if its outer end cannot be determined.
   bool TurnOutwards(std::size_t i, Limb& limb) const {
-    // Use the most reliable available evidence, in this order.
+    // Use the first kind of evidence that is available; the most reliable kind comes first.
     glm::dvec2 outwards(0);
     const Region& inner_part = IsAttachedToTrunk(i) ? regions_.trunk : regions_.limbs[i - 1];
     const Region& trunk = regions_.trunk;
@@ -217,9 +217,9 @@ class EvidenceFinder {
     return line.At(std::max(0.5 * (line.low + line.high), line.high - inset));
   }
 
-  // Returns how far a limb's round end is visible beyond the joint where a thinner `next` limb continues at an angle
-  // and covers a part of this end. The round end is a disc whose radius is the limb's half width. The next limb covers
-  // a strip of the disc, of its own half width on each side of its line.
+  // Returns how far a limb is visible beyond its outer joint, in pixels along the limb. The limb ends in a disc around
+  // the joint, whose radius is the limb's half width. The thinner limb `next` begins at the joint, continues at an
+  // angle, and covers a strip of the disc: `next`'s half width on each side of its line.
   static double ReachBeyondJoint(const MiddleLine& limb, const MiddleLine& next) {
     if (!next.IsLong()) return limb.half_width;
     const double between = std::acos(std::clamp(glm::dot(limb.along, next.along), -1.0, 1.0));

@@ -66,7 +66,8 @@ std::optional<PixelSegment> ReadStroke(const Pixels& first, const Pixels& second
     low = std::min(low, along);
     high = std::max(high, along);
   }
-  // The round pen makes the stroke longer than its limb, by half the pen's width at each end.
+  // The round pen makes the stroke longer than its limb: the outermost pixel centres lie half the pen's width, minus
+  // half a pixel, beyond the limb's ends. Shorten the stroke by this length, but by at most a quarter at each end.
   const double pen = std::min((kStrokeWidth - 1) / 2, (high - low) / 4);
   return PixelSegment{mean + (low + pen) * axis, mean + (high - pen) * axis};
 }

@@ -43,14 +43,14 @@ constexpr double kDiscRadius = 4;
 
 /// The marks of one annotation picture; nullopt for a mark that is missing or unreadable.
 struct Marks {
-  std::array<std::optional<PixelSegment>, kStrokeCount> strokes;  ///< from `from` to `to`
+  std::array<std::optional<PixelSegment>, kStrokeCount> strokes;  ///< pixels, from StrokeMark::from to StrokeMark::to
   std::array<std::optional<glm::dvec2>, kEffectorCount> effectors;
 };
 
 /// Reads the marks of one picture. A stroke is the principal axis of its visible pixels, and the stroke's two shades
 /// determine its direction. A stroke is missing if one shade is completely covered. A disc is represented by its
-/// centre: the mean of all centres for which a disc of the marks' radius contains every visible pixel. The rule also
-/// serves for partly covered discs.
+/// centre: the mean of all centres for which a disc of the marks' radius contains every visible pixel. This rule also
+/// locates discs that are partly covered.
 Marks ReadMarks(const ColourImage& annotation);
 
 }  // namespace etude

@@ -22,7 +22,7 @@ int main(int count, char** names) try {
     for (PointPair& pair : pairs) pair.pixel = Project(each.camera, pair.world).value();
     each.camera = Calibrate(pairs, 640, 480).camera;
   }
-  const int left[] = {4, 5, 6, 12, 13, 14};  // roles from the shoulder on; the right side's roles are four higher
+  const int left[] = {4, 5, 6, 12, 13, 14};  // Role numbers of shoulder, elbow, wrist, hip, knee, ankle; right: + 4
   std::vector<SeenPeople> seen(rig.size(), SeenPeople(truth.poses.size(), {SeenPerson{}}));
   for (std::size_t c = 0; c < rig.size(); ++c) {
     for (std::size_t f = 0; f < truth.poses.size(); ++f) {

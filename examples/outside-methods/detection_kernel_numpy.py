@@ -19,8 +19,8 @@ import numpy as np
 SHARES = (np.arange(24) + 0.5) / 24        # positions in the example that are compared, as shares of its duration
 LAGS_S = np.arange(-0.3, 1.21, 1 / 15)     # allowed lags of a performance
 PACES = np.array([0.7, 0.8, 0.9, 1.0, 1.1, 1.2, 1.35])  # allowed durations, relative to the example's
-PLAIN = 3                                  # index of PACES: the example's own duration
-WIDTH, RIDGE = 0.5, 0.5                    # of the kernel, and of the ridge regression
+PLAIN = 3                                  # index in PACES of the example's own duration
+WIDTH, RIDGE = 0.5, 0.5                    # factor in the kernel's exponent; strength of the ridge regression
 TRUST = 2                                  # after this many performances, a person's own median counts for half
 PRAISED = 0.9                              # share of right performances above the threshold
 
@@ -71,7 +71,8 @@ def measures(limbs, rate_hz, begin, end, example, example_s):
     return np.concatenate([
         np.sqrt(((seen - taught) ** 2).sum(axis=-1).mean(axis=0)),                    # deviation of each limb
         np.sqrt(np.maximum(varies + shall_vary - 2 * together, 0)), np.sqrt(varies),  # variation about the mean
-        1 - (together + 0.02) / (shall_vary + 0.02),                                  # missing share of the amplitude
+        # 1 minus the slope of the regression on the example: the share of the example's amplitude that is missing
+        1 - (together + 0.02) / (shall_vary + 0.02),
         [LAGS_S[lag], np.log(PACES[pace]), first, second, second - first, np.sqrt(costs.min()), np.sqrt(costs[PLAIN].min()),
          np.sqrt(gaps[PLAIN].min(axis=0).mean())]])
 

@@ -8,7 +8,7 @@ import numpy as np
 @etude.method(task="inbetween", name="inbetween-cubic-numpy", version="1.0")
 def fill(problem):
     past, target = np.array(problem.past), np.array(problem.future)[0]
-    # Choose the sign of each quaternion that is nearer to the last past frame's.
+    # Each rotation has two quaternions, q and -q; choose the one nearer to the quaternion in the last past frame.
     near = (past[-1, 3:].reshape(-1, 4) * target[3:].reshape(-1, 4)).sum(axis=1, keepdims=True)
     target[3:] = (target[3:].reshape(-1, 4) * np.where(near < 0, -1, 1)).ravel()
     steps = problem.gap + 1

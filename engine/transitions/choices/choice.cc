@@ -110,8 +110,9 @@ TransitionRecord PlanWaitForEnd(const MotionLibrary& library, const TransitionRe
 }
 
 /// Plans unbroken motion, as a reference for measures: the playing clip continues, every join leaves it unchanged, and
-/// the wanted clip is ignored. The record has one transition point, from the request's frame to the same frame.
-/// Measures therefore evaluate unbroken motion at the frames at which other choices change clips.
+/// the wanted clip is ignored. The record has one transition point, at which the playing clip is left and entered again
+/// at the request's frame. Measures therefore evaluate unbroken motion at the frames at which other choices change
+/// clips.
 ///
 /// If the request comes at the clip's last frame, the clip cannot continue, and the record has no segments.
 TransitionRecord PlanUnbroken(const MotionLibrary& library, const TransitionRequest& request, const MatchRules& rules) {

@@ -30,10 +30,9 @@ bool IsBetter(const RankedPair& a, const RankedPair& b) {
   return std::tuple(!a.matches, a.rank) < std::tuple(!b.matches, b.rank);
 }
 
-/// The best pair of each frame at which a transition may leave its clip, and the number of matching pairs.
 struct RankedPairs {
-  std::vector<RankedPair> best;
-  std::int64_t matching = 0;
+  std::vector<RankedPair> best;  ///< the best pair of each frame at which the playing clip may be left
+  std::int64_t matching = 0;     ///< number of matching pairs
 };
 
 /// Ranks all allowed pairs by their cost. If `gate` is null, every pair matches.

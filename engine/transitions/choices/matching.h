@@ -6,7 +6,8 @@
 
 namespace etude {
 
-// The choices in this header rank all pairs of frames that the budget and `least_play_s` allow (AllowedAnyFrames).
+// The choices in this header rank all pairs of frames that the budget and `least_play_s` allow (AllowedAnyFrames). The
+// fuzzy choices rank only the matching pairs among these.
 
 struct PointCloudOptions {
   /// The length of motion in a point cloud, in seconds, centred on the frame. The default, about a third of a second,

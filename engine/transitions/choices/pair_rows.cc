@@ -47,8 +47,8 @@ void FuzzyWindowRows::Compute(int leave_frame, std::span<const int> enter_frames
 
 namespace {
 
-/// Returns the floor point below the hips. All positions of a clip are stored relative to this point of one of its
-/// frames, so that sums of squares keep their precision. Heights are not shifted, because they are compared.
+/// Returns the floor point below the hips. The positions of a clip are stored relative to this point in one of the
+/// clip's frames, so that sums of squares keep their precision. Heights are not shifted, because they are compared.
 glm::dvec3 OnFloor(const BodyPose& pose) { return {pose[Role::kHipCentre].x, 0, pose[Role::kHipCentre].z}; }
 
 int HalfWindow(double window_s, double rate_hz) { return static_cast<int>(std::lround(0.5 * window_s * rate_hz)); }

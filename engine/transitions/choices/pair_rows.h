@@ -99,7 +99,7 @@ class FuzzyRows {
 /// and after the pair, as far as both clips have such frames. Overlapping windows share the comparisons of frames.
 class FuzzyWindowRows : public PairRows {
  public:
-  /// Rows begin at `first_leave_frame`. The playing clip's grades must outlive this object.
+  /// Compute accepts frames from `first_leave_frame` on. The playing clip's grades must outlive this object.
   FuzzyWindowRows(std::span<const Grades> playing, std::span<const Grades> next, int first_leave_frame, int reach,
                   const FeatureWeights& weights);
   void Compute(int leave_frame, std::span<const int> enter_frames, std::span<double> costs) override;
@@ -121,7 +121,7 @@ class FuzzyWindowRows : public PairRows {
 /// both clouds are centred on their frames, because the clips are cut there.
 class PointCloudRows : public PairRows {
  public:
-  /// Rows begin at `first_leave_frame`. `playing` must outlive this object.
+  /// Compute accepts frames from `first_leave_frame` on. `playing` must outlive this object.
   PointCloudRows(const BodyMotion& playing, const BodyMotion& next, int first_leave_frame, double window_s);
   void Compute(int leave_frame, std::span<const int> enter_frames, std::span<double> costs) override;
 

@@ -248,8 +248,9 @@ double PairStage::GlideAt(std::span<const BodyPose> shown, int frame, JointSet s
 }
 
 /// Returns the largest turn of the hips against a foot, radians, in a run of frames of the join in which this foot
-/// supports the body and rests. In each frame, the turn of one of the two clips is subtracted if less remains.
-/// `supports` begins with the join's first frame.
+/// supports the body and rests. If a clip itself contains a part of a frame's turn, that part does not count: the frame
+/// counts with the smallest of its turn and the differences between its turn and each clip's turn. `supports` begins
+/// with the join's first frame.
 double PairStage::LargestTurn(std::span<const BodyPose> shown, std::span<const Support> supports) const {
   double largest = 0;
   for (const LegRoles& leg : kLegs) {
@@ -269,7 +270,7 @@ double PairStage::LargestTurn(std::span<const BodyPose> shown, std::span<const S
         continue;
       }
       const double whole = turn(shown, f);
-      double added = whole;  // the turn, or what remains of it without a clip's turn: the smallest
+      double added = whole;  // the smallest of `whole` and its differences from the clips' own turns
       const auto compare = [&](std::span<const BodyPose> clip, int frame) {
         if (frame < 1 || frame >= static_cast<int>(clip.size())) return;
         const double rest = whole - turn(clip, frame);

@@ -16,15 +16,15 @@ namespace etude {
 constexpr std::array kWays = {JoinStyle::kDirect, JoinStyle::kFades};
 constexpr std::array kLengths_s = {0.3, 0.4, 0.5, 0.65, 0.8, 1.0, 1.2};
 
-/// The second difference of each joint in each frame of the window, metres: the larger of the two motions' values. A
-/// motion that has ended counts as 0.
+/// For each frame of the window and each joint: the length of the second difference of the joint's position, metres.
+/// The larger value of the two motions is taken; a motion that has ended counts as 0.
 using OwnAccelerations = std::vector<std::array<double, kRoleCount>>;
 
 /// Sums up the cost of a join, whose frames are added in order from the transition point on.
 class CostMeter {
  public:
-  /// `usual` is the entry of MotionLibrary::usual_accelerations for the calmer clip. All arguments must outlive this
-  /// object.
+  /// `usual` is the calmer clip's entry of MotionLibrary::usual_accelerations, but at least 9 m/s² (as metres per
+  /// frame²). All arguments must outlive this object.
   CostMeter(const JoinWindow& window, const OwnAccelerations& own, double usual, const PlayedRates& rates)
       : window_(window), own_(own), usual_(usual), rates_(rates), before_(window.shown.before) {}
 
@@ -73,8 +73,9 @@ class PairStage {
   /// Returns one frame of a join of length kLengths_s[length] (`frames` frames), without planted feet and without
   /// shift.
   const BodyPose& LimbsAt(std::size_t length, int frames, JoinStyle way, int frame);
-  /// Returns the steps that PlanSteps plans for a window that WindowFor returned for kLengths_s[length]. If `carried`,
-  /// CarriedShift moved the window. Joins of every style in kWays have the same steps, so the steps are planned once.
+  /// Returns the steps that PlanSteps plans for a window that WindowFor returned for kLengths_s[length]. `carried`
+  /// states whether the window's wanted clip was moved by the shift of ShiftFor. Joins of every style in kWays have
+  /// the same steps, so the steps are planned once.
   const FootPlan& StepsIn(const JoinWindow& window, std::size_t length, bool carried);
   /// Rates a motion: the frames `played` of a join, and after them the wanted clip, moved by `shift`.
   Burden Rate(std::span<const BodyPose> played, const glm::dvec3& shift) const;

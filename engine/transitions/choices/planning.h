@@ -46,7 +46,7 @@ TransitionRecord DirectTransition(const MotionLibrary& library, const Transition
 struct RankedPair {
   int from = 0, to = 0;
   bool matches = false;        ///< the pair may be a transition point
-  double rank = 0;             ///< lower is better; compared among matching pairs, or among pairs that do not match
+  double rank = 0;             ///< lower is better; any matching pair is better than a pair that does not match
   std::optional<double> cost;  ///< the cost that the record states for this pair
 };
 
@@ -79,7 +79,7 @@ class FuzzyGate {
     bool matches = false;
   };
   /// Compares frame `from` of `playing` with the frames in `entering`, in their order. With MatchRules::within_class,
-  /// frames whose tag differs from that of `from` are left out. The span is valid until the next call.
+  /// frames whose ten tags are not equal to those of `from` are left out. The span is valid until the next call.
   std::span<const Compared> Compare(int from);
 
  private:

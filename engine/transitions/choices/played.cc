@@ -26,7 +26,7 @@ struct ThroughClip {
 
 constexpr double kRunUp_s = 2.5;     // a clip may be entered at most this long before it changes its stance
 constexpr double kRunOut_s = 2.5;    // a clip may be left at most this long after it has changed its stance
-constexpr double kMinShown_s = 0.3;  // minimum time that a clip is shown: the shortest join
+constexpr double kMinShown_s = 0.3;  // minimum time for which a clip is shown; it equals the shortest join
 
 /// Tests frames of an intermediate clip. `MayEnter`: can an allowed frame of the playing clip lead to this frame?
 /// `MayLeave`: can this frame lead to an allowed frame of the wanted clip?
@@ -110,15 +110,16 @@ std::optional<ThroughClip> FindThroughClip(const MotionLibrary& library, const T
   return nearest;
 }
 
-constexpr int kPairs = 16;          // number of pairs that are played at a time: one for each part of the wait
+constexpr int kPairs = 16;          // number of pairs that are played at a time: one for each part (NearestPairs)
 constexpr int kRounds = 4;          // maximum number of such sets of pairs (PlayNearestPairs)
 constexpr int kFloatingFrames = 4;  // the body floats in a join with this many consecutive unsupported frames
 constexpr int kMinSpacing = 4;      // minimum distance, in frames of the wanted clip, between the pairs of one part
 constexpr std::size_t kMaxCompared = 20'000;  // maximal number of pairs of frames whose features are compared
 
-/// Divides the wait into parts, and finds in each part the nearest pair that can be joined without an intermediate clip
-/// (NeedsClip), if there is such a pair. In a long clip only every `stride`-th frame is compared. Pairs close to those
-/// in `tried` are skipped.
+/// Divides the frames `allowed.leave` into parts, and finds for each part the nearest pair that can be joined without
+/// an intermediate clip (NeedsClip), if there is such a pair. If there are more than kMaxCompared pairs, only every
+/// `stride`-th frame of the wanted clip is compared as soon as the part has a pair. Pairs close to those in `tried`
+/// are skipped.
 std::vector<FramePair> NearestPairs(const MotionLibrary& library, const TransitionRequest& request,
                                     const AllowedFrames& allowed, std::span<const FramePair> tried = {}) {
   const auto &playing = library.features[request.from], &next = library.features[request.to];

@@ -10,7 +10,7 @@ struct PlayedOptions {
   /// The excess acceleration, in cm/frame² above the clips' own, that costs as much as one second of waiting or
   /// blending. A smaller value gives smoother, later and longer transitions.
   double excess_per_s = 0.2;
-  /// The deviation from the nearer clip's pose, in cm integrated over seconds, that costs as much as one second of
+  /// The deviation from the nearer clip's pose, integrated over time (cm·s), that costs as much as one second of
   /// waiting or blending.
   double invented_per_s = 5;
   /// The maximum time at the start of the wanted clip that may be skipped, seconds. At most the first third is ever
@@ -24,12 +24,12 @@ const SettingTable<PlayedOptions>& PlayedSettings();
 
 /// Plays candidate transitions and takes the one with the lowest cost.
 ///
-/// Candidates: the wait is divided into sixteen parts. From the pairs that the budget and `most_skipped_s` allow, the
-/// nearest pair of each part by MotionFeatures is taken. Each pair is joined at several lengths from 0.3 to 1.2 s;
-/// lengths for which the wanted clip is too short are left out, except 0.3 s. For each length there are direct joins
-/// and fades (PlayMinimumJerk), with planted feet (PlantFeet); each is placed once by the feet and once where the
-/// body's momentum carries it (CarriedShift). The cheapest candidates are played first, and only as long as they may be
-/// the best (PlayJoins).
+/// Candidates: the playing clip's frames within the budget are divided into sixteen parts. In each part, the pair
+/// with the most similar MotionFeatures is taken; `most_skipped_s` limits the frames of the wanted clip. Each pair is
+/// joined at several lengths from 0.3 to 1.2 s; lengths for which the wanted clip is too short are left out, except
+/// 0.3 s. For each length there are direct joins and fades (PlayMinimumJerk), with planted feet (PlantFeet); each is
+/// placed once by the feet and once where the body's momentum carries it (CarriedShift). The cheapest candidates are
+/// played first, and only as long as they may be the best (PlayJoins).
 ///
 /// The cost in seconds is the sum of
 /// - the wait and the length of the join;
@@ -52,8 +52,9 @@ const SettingTable<PlayedOptions>& PlayedSettings();
 /// record holds the preferred join (PreferredJoin).
 ///
 /// This choice is ours. It compares the resulting motions instead of the similarity of poses, after Kovar, Gleicher and
-/// Pighin 2002 and Bollo 2018. Support is computed as in the evaluation of transitions, but the choice does not know
-/// the evaluation's limits.
+/// Pighin 2002 and Bollo 2018. Support is computed as in the evaluation of transitions. Of the evaluation's limits, the
+/// choice uses two: at most the first third of the wanted clip is skipped, and more pairs are played if the body is
+/// unsupported for four frames in a row.
 TransitionRecord PlanPlayed(const MotionLibrary& library, const TransitionRequest& request, const MatchRules& rules,
                             const PlayedOptions& options = {});
 

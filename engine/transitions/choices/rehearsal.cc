@@ -165,7 +165,7 @@ class Rehearsal {
   const TransitionRequest& request_;
   const PlayedRates& rates_;
   const int last_;
-  const double usual_;                                        // MotionLibrary::usual_accelerations of the calmer clip
+  const double usual_;                                        // calmer clip's usual acceleration, ≥ kAlwaysUsual
   std::vector<std::unique_ptr<PairStage>> stages_;            // one per pair, created on first use
   std::vector<OpenWay> open_;                                 // a heap, the cheapest first
   int with_feet_ = 0;                                         // number of joins played with planted feet

@@ -47,7 +47,7 @@ class KeySearch {
   }
 
   /// Returns at most kMaxCandidates / 2 candidates: `key_point`, which is taken, and those of `frames` that are nearest
-  /// to `key_point.key`. Each candidate's `from_frame` is a frame of the clip.
+  /// to `key_point.key`. The index of the clip's frame is stored in `from_frame`, even if the clip is entered there.
   std::vector<Candidate> ListCandidates(const KeyPoint& key_point, std::span<const int> frames) const {
     std::vector<Candidate> listed;
     for (int frame : frames) {

@@ -88,14 +88,14 @@ void GapLibrary::ForEachNear(const Gap& gap, double& limit, const Visit& visit) 
 void GapLibrary::AddMissed(const Gap& gap, const Near& near, Fill fill, double share, std::vector<TreePose>& filled) {
   const std::span<const TreePose> poses = near.entry->motion.poses;
   const std::size_t after = near.frame + gap.frames + 1;
-  // Fill the gap of the library with `fill`. Its true frames are known.
+  // Fill the library's gap `near` with `fill`, as if its frames were missing.
   const Gap own{.tree = gap.tree,
                 .past = poses.first(near.frame + 1),
                 .future = poses.subspan(after, std::min(gap.future.size(), poses.size() - after)),
                 .frames = gap.frames,
                 .rate_hz = gap.rate_hz};
   const std::vector<TreePose> guess = fill(own);
-  // Rotate the errors to this gap's heading, and add them.
+  // Compute the errors from the true frames. Rotate the errors to this gap's heading, and add them.
   const glm::dquat heading = HeadingOf(gap.past.back().turns[0] * glm::conjugate(poses[near.frame].turns[0]));
   for (std::size_t f = 0; f < filled.size(); ++f) {
     const TreePose& truth = poses[near.frame + 1 + f];

@@ -47,7 +47,8 @@ class GapLibrary {
   /// Calls `visit` with every gap whose squared distance is below `limit`. `visit` may lower the limit.
   template <typename Visit>
   void ForEachNear(const Gap& gap, double& limit, const Visit& visit) const;
-  /// Adds to `filled`, multiplied by `share`, the errors that `fill` makes in the library's gap `near`.
+  /// Computes the errors that `fill` makes in the library's gap `near`, and adds `share` times these errors to
+  /// `filled`.
   static void AddMissed(const Gap& gap, const Near& near, Fill fill, double share, std::vector<TreePose>& filled);
 
   std::vector<Entry> entries_;

@@ -61,7 +61,7 @@ struct FootView {
   glm::dvec3 velocity{0};          ///< velocity of `leg.tip` before the gap, metres per second
   std::array<bool, 2> stands{};    ///< [0]: true if the foot stands before the gap; [1]: after the gap
   double length = 0;               ///< length of the stretched leg from hip to tip, metres
-  std::array<double, 2> raised{};  ///< height of the tip beyond 2 cm above the floor, metres; 0 on another surface
+  std::array<double, 2> raised{};  ///< height of the tip above the floor minus 2 cm, metres, ≥ 0; 0 on other surfaces
 };
 
 constexpr double kLowest_m = 0.1, kRest_mps = 0.4, kLanded_m = 0.06, kPassing_m = 0.02, kTravels_mps = 0.5;
@@ -121,7 +121,7 @@ std::optional<std::array<FootView, 2>> ViewFeet(const Gap& gap, std::span<const 
 }
 
 /// Returns the floor's height at each end of the gap: that of the foot's tip if the foot stands; else that of the other
-/// foot's tip; else that at the other end. Returns nullopt if no foot stands at any end.
+/// foot's tip; else that at the other end. Returns nullopt if no foot stands at either end.
 std::optional<std::array<double, 2>> Floors(const FootView& foot, const FootView& other) {
   std::array<std::optional<double>, 2> known;
   for (std::size_t end = 0; end < 2; ++end) {
@@ -198,7 +198,8 @@ class FootPlanner {
     }
   }
 
-  /// Ends a sequence of footfalls at the end of the gap with a stance that begins at `from`, and stores it.
+  /// Completes a sequence of footfalls: the last stance begins at `from` and lasts to the end of the gap. Stores the
+  /// sequence.
   void End(std::vector<Stance> stances, int from) {
     stances.back() = {.from = from, .to = last_, .bears = true, .tip = foot_.Lowered(1)};
     if (stances.size() == 1) stances.front().tip = foot_.Lowered(0);

@@ -101,8 +101,8 @@ const SettingTable<DeadOptions>& DeadSettings() {
 }
 
 Blend DeadBlending(const JoinInput& input, const DeadOptions& options) {
-  // Dead blending's continuation is an inertialisation towards a target at rest in the last shown frame: the offset is
-  // zero, and its velocity is the old motion's velocity.
+  // Compute the continuation of the old motion by inertialisation. Its target is the last shown frame at rest, so the
+  // offset is zero at first, and its velocity is the old motion's velocity.
   const DecayLaw law = [options](const Offset& offset, double seconds) {
     return DecayingWay(offset.velocity, seconds, options.half_life_s);
   };

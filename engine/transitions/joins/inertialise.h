@@ -47,7 +47,7 @@ glm::dvec3 SpringDecay(const Offset& offset, double seconds, const SpringOptions
 Blend InertialiseSpring(const JoinInput& input, const SpringOptions& options = {});
 
 struct QuinticOptions {
-  double blend_s = 0.33;  ///< maximum time until only the new motion is shown, seconds; ours
+  double blend_s = 0.33;  ///< maximum time until only the new motion is shown, seconds (the default is ours)
 };
 const SettingTable<QuinticOptions>& QuinticSettings();
 

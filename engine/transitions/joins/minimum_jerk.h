@@ -35,7 +35,7 @@ struct JoinWindow {
   PosePair shown;                       ///< the last two frames shown
   BodyPose target_before;               ///< the new motion's frame before the point
   std::vector<BodyPose> old, next;      ///< frames of both motions from the point on; same size, at least one
-  int old_frames = 0, next_frames = 0;  ///< number of real frames after the point; the last real frame is repeated
+  int old_frames = 0, next_frames = 0;  ///< frames after the point until the motion ends; its last frame then repeats
   double rate_hz = kJudgedRateHz;
 
   int Frames() const { return static_cast<int>(next.size()) - 1; }
@@ -62,11 +62,11 @@ class WindowTurns {
 ///   almost the old motion's next frame, and a jump of the new motion just before the transition point has no effect.
 ///   If the old motion ends at the transition point, velocities are measured from the frame before that point.
 /// - kFades: both motions play, and the share of the new motion grows along a minimum-jerk curve, limb by limb.
-///   Compared with kDecays, the shown motion has less of the two motions' accelerations, and more of the difference
-///   between the motions.
+///   Compared with kDecays, the accelerations of both motions are shown only in part (weighted by the shares), but the
+///   changing difference between the motions causes further accelerations.
 /// - kDirect: every limb and the hip centre move with minimum jerk from the old motion's pose to the new motion's pose
-///   at the end of the join, with the motions' velocities at both ends. Accelerations of the motions within the join
-///   are not shown.
+///   at the end of the join, with the motions' velocities at both ends. What the two motions do between these two poses
+///   is not shown.
 class MinimumJerkPlay {
  public:
   /// Plays a join of `frames` frames, from 1 to the window's number of frames. `window` and `turns` must outlive this

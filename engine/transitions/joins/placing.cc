@@ -34,7 +34,7 @@ class FloorFit {
     return std::atan2(across, along);
   }
 
-  /// Returns the move that rotates by `yaw` and then takes the shift that fits best.
+  /// Returns the floor move with the rotation `yaw` and the shift that fits best after this rotation.
   FloorMove Turned(double yaw) const {
     const glm::dvec2 onto = onto_ / weight_, point = point_ / weight_;
     const glm::dvec3 moved = FloorMove{.yaw = yaw}.Apply(glm::dvec3(point.x, 0, point.y));

@@ -79,8 +79,8 @@ struct StepOption {
   Frames stands = 0;  // the frames in which the foot bears weight
 };
 
-/// Returns the minimum-jerk movement of a step, which brings the offset of the old motion's toe from the new motion's
-/// toe to zero.
+/// Returns the minimum-jerk movement of a step. It starts with the vector from the new motion's toe to the old
+/// motion's toe, and ends with the zero vector.
 Movement MovementOf(const JoinWindow& window, const LegRoles& leg, const FootStep& step) {
   const int from = std::min(step.begin, step.stays_from), to = std::max(step.begin, step.waits_until);
   const auto change = [&](const BodyPose& before, const BodyPose& after) {
@@ -97,10 +97,10 @@ Movement MovementOf(const JoinWindow& window, const LegRoles& leg, const FootSte
   return movement;
 }
 
-/// Returns the cost of a foot's behaviour before and after its step, in centimetres per frame². A foot that keeps a
+/// Returns the cost of a foot's behaviour before and after its step, in metres per frame². A foot that keeps a
 /// position stops or starts abruptly; a foot that follows its clip slides as the clip's standing foot does.
 double StandingPrice(const FootTracks& foot, const FootStep& step) {
-  constexpr double kSliding = 0.3;  // weight of a slid centimetre
+  constexpr double kSliding = 0.3;  // cost of each metre that the foot slides
   const auto &old = foot.window.old, &next = foot.window.next;
   const Role toe = foot.leg.foot;
   double price = 0;
@@ -117,8 +117,8 @@ double StandingPrice(const FootTracks& foot, const FootStep& step) {
   return price;
 }
 
-/// Returns the largest turn of the hips against the foot, radians, in a run of the frames `stands` before or after the
-/// step.
+/// Returns the largest turn of the hips against the foot in any period in which the foot stands, radians. The frames
+/// of `stands` are those in which the foot stands; the frames of the step are left out.
 double LargestTurn(const FootTracks& foot, const FootStep& step, Frames stands) {
   TurnMeter meter;
   for (int f = 1; f <= foot.frames; ++f) {
@@ -134,10 +134,12 @@ double LargestTurn(const FootTracks& foot, const FootStep& step, Frames stands) 
   return meter.largest();
 }
 
-/// Returns the cost of what a step demands of the body, in centimetres per frame²: the turn of the hips against the
-/// standing foot, and the distance by which the foot is out of the leg's reach where the step begins and ends.
+/// Returns the cost of what a step demands of the body, in centimetres per frame². The cost grows with the turn of the
+/// hips against the standing foot, and with the distance by which the foot is out of the leg's reach where the step
+/// begins and ends.
 double BodyPrice(const FootTracks& foot, const FootStep& step, Frames stands) {
-  constexpr double kTurning = 3, kEasyTurn = Radians(30), kStretching = 30;  // per radian; per metre
+  // The cost of each radian beyond kEasyTurn, and of each metre out of reach.
+  constexpr double kTurning = 3, kEasyTurn = Radians(30), kStretching = 30;
   const auto stretch = [&](int frame, const BodyPose& pose) {
     return std::max(glm::distance(foot.hip[frame], pose[foot.leg.ankle]) - foot.length, 0.0);
   };
@@ -146,8 +148,9 @@ double BodyPrice(const FootTracks& foot, const FootStep& step, Frames stands) {
                         stretch(step.end, foot.window.next[std::max(step.end, step.waits_until)]));
 }
 
-/// Returns the step with its lift, cost and supporting frames. The cost is the sum of StandingPrice, of BodyPrice and
-/// of the peak accelerations of the minimum-jerk movements for the offset, the velocity and the lift.
+/// Returns the step with its lift, cost and supporting frames. The cost is the sum of StandingPrice, BodyPrice and
+/// the peak accelerations of three minimum-jerk movements: one removes the offset between the motions, one removes
+/// the difference of their velocities, and one lifts the foot.
 StepOption Priced(const FootTracks& foot, const FootStep& step) {
   constexpr double kCm = 100;
   StepOption option{.step = step};
@@ -174,14 +177,15 @@ int FirstFrom(Frames frames, int frame) {
   return later == 0 ? FootStep::kNoFrame : std::countr_zero(later);
 }
 
-/// Returns the frame whose position the foot can keep until `frame`: the first frame of the stance at `frame`, or, in
-/// the air, the last frame of the previous stance; −1 if there is no such stance.
+/// Returns the frame whose position the foot can keep until `frame`. If the foot stands at `frame`, this is the first
+/// frame of that stance. If the foot is in the air, it is the last frame of the previous stance; −1 if there is none.
 int StaysFrom(Frames stands, int frame) {
   const int stood = LastUpTo(stands, frame);
   return stood == frame ? LastUpTo(~stands, frame) + 1 : stood;
 }
-/// Returns the frame whose position the foot can take from `frame` on: the last frame of the stance at `frame` (at most
-/// `last`), or, in the air, the first frame of the next stance; kNoFrame if there is no such stance.
+/// Returns the frame whose position the foot can take from `frame` on. If the foot stands at `frame`, this is the last
+/// frame of that stance, at most `last`. If the foot is in the air, it is the first frame of the next stance; kNoFrame
+/// if there is none.
 int WaitsUntil(Frames stands, int frame, int last) {
   const int lands = FirstFrom(stands, frame);
   return lands == frame ? std::min(FirstFrom(~stands, frame) - 1, last) : lands;
@@ -224,8 +228,8 @@ struct LegPath {
 
 LegPath PathAt(const JoinWindow& window, const LegRoles& leg, const FootStep& step, int frame) {
   const BodyPose& old = window.old[std::min({frame, step.begin, step.stays_from})];
-  // Before the step, show the old motion's leg, or the leg's position in a stance if the foot keeps it; after the step,
-  // the new motion's leg.
+  // Before the step, show the old motion's leg; from the frame `stays_from` on, keep its position in that frame. After
+  // the step, show the new motion's leg; until the frame `waits_until`, show its position in that frame.
   const BodyPose& next = window.next[std::max(frame, step.waits_until)];
   const glm::dvec3 from = old[leg.foot] - old[leg.ankle], to = next[leg.foot] - next[leg.ankle];
   if (frame <= step.begin) return {old[leg.ankle], from};

@@ -47,7 +47,8 @@ FootPlan PlanSteps(const JoinWindow& window);
 /// is too short. Limbs keep their lengths, and the first frame does not change.
 void PlantFeet(const JoinWindow& window, const FootPlan& plan, std::vector<BodyPose>& played);
 
-/// Joins by MinimumJerk with PlantFeet. The new motion is aligned by AlignOnPlantedFeet.
+/// Joins by MinimumJerk with PlantFeet. SpliceSegments aligns the new motion by AlignOnPlantedFeet, and shifts it by
+/// CarriedShift if the choice of frames prefers that (PreferredJoin::carried).
 Blend PlantedFeet(const JoinInput& input, const MinimumJerkOptions& options);
 
 }  // namespace etude

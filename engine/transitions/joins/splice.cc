@@ -38,7 +38,7 @@ struct PlacedSegment {
     }
     return next;
   }
-  /// Returns at most `count` of the motion's own frames after `frame`.
+  /// Returns at most `count` frames after `frame`, without the join.
   std::vector<BodyPose> Own(int frame, std::size_t count) const {
     std::vector<BodyPose> next;
     for (std::size_t f = frame + 1; f < frames.size() && next.size() < count; ++f) {

@@ -20,11 +20,11 @@ struct PlacedPoint {
 struct Splice {
   BodyMotion motion;
   std::vector<PlacedPoint> points;  ///< in order
-  /// The last segment's own frames, aligned but without the join, from its first shown frame on. The first entry
-  /// belongs to the frame of the last transition point.
+  /// The last segment's frames as they are in its clip: aligned, but not changed by the join. The first entry belongs
+  /// to the frame of the last transition point.
   std::vector<BodyPose> wanted;
-  /// The own frames, aligned but without the join, of each segment between the first and the last; an empty list for a
-  /// segment whose frames a choice made.
+  /// For each segment between the first and the last: the frames as they are in its clip, aligned, but not changed by
+  /// the join, from the segment's first transition point on; an empty list if a choice made the segment's frames.
   std::vector<std::vector<BodyPose>> between;
 };
 

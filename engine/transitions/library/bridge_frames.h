@@ -34,7 +34,7 @@ struct TaggedClip {
 struct TagRules {
   Memberships memberships = PaperMemberships();
   HeadRule head;
-  int min_clips = 2;  ///< minimum number of clips that contain the ten tags of a bridge frame; ours
+  int min_clips = 2;  ///< minimum number of clips that contain the ten tags of a bridge frame *(ours)*
   /// The maximum number of bridge frames with the same ten tags in one clip. The frames with the smallest differences
   /// from the other clips are kept (RateFrames). 0 keeps all frames: paper A asks for "those of smallest difference",
   /// but also for as many as possible.

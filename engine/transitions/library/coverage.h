@@ -11,8 +11,8 @@
 
 namespace etude {
 
-/// The shares of one clip's frames that match a frame of another clip. `Coverage` compares either with one other clip
-/// or with all other clips of the library.
+/// The shares of one clip's frames that match a frame of another clip. `Coverage::Of` returns the shares for one
+/// other clip, `Coverage::IntoAny` for all other clips of the library together.
 struct ClipCoverage {
   double frame_share = 0;   ///< share of all frames that match a frame of the other clip
   double bridge_share = 0;  ///< share of the bridge frames that match a bridge frame of the other clip
@@ -29,7 +29,8 @@ struct CoverageOptions {
   double budget_s = 1;             ///< maximal wait before a transition, seconds
   bool with_pairs = true;          ///< also compute Coverage::Of
   std::vector<int> wanted = {};    ///< clips for which WithoutWayInto is computed; all if `with_pairs`
-  OnProgress on_progress = {};     ///< receives the number of clips compared; a clip counts once per kind of comparison
+  /// Receives the number of comparisons of a clip done so far, and their total: two per clip, three with `with_pairs`.
+  OnProgress on_progress = {};
 };
 
 /// The coverage of every clip of a library. A clip's last frame is never a match, because it has no next frame.

@@ -146,7 +146,7 @@ InBetweenNet BuildInBetweens(std::span<const TaggedClip> tagged, const InBetween
   InBetweenNet net{.keys = {}, .tween = rules.tween};
   const GradeMetric metric(rules.weights);
   std::vector<FrameBlock> taken;  // the grades of the keys, sixteen in a block
-  std::size_t last = 0;           // the block with a key near the last frame; the next frame is often near it, too
+  std::size_t last = 0;           // the block whose key was near the previous frame; often near the next frame, too
   const auto covers = [&](std::size_t block, const Grades& grades) {
     const int used = static_cast<int>(std::min<std::size_t>(net.keys.size() - block * kBlockLanes, kBlockLanes));
     const BlockResult near = SquaredDistances(metric, grades, taken[block], SquaredLimit(rules.threshold));

@@ -37,7 +37,9 @@ class Tween {
 
  private:
   struct Turn {
-    glm::dvec3 start{0}, axis{0};  ///< unit vectors: of arms and head in the trunk's frame, of other limbs in the world
+    /// Unit vectors: the limb's first direction and its rotation axis, in the trunk's frame for arms and head, in the
+    /// world for the other limbs.
+    glm::dvec3 start{0}, axis{0};
     double angle = 0;
     glm::dvec3 At(double part) const;
   };

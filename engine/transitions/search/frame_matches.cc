@@ -64,7 +64,7 @@ class PairSearch {
   struct NearBlock {
     int block;
     double bound;  // lower bound for the distance from any of the sixteen query frames
-    double reach;  // distance at the last comparison plus the value of `travelled_` then
+    double reach;  // distance at the last comparison plus the value that `travelled_` had at that time
   };
 
   /// Collects the target blocks that may contain a match of a query frame in the box `asking`.
@@ -121,7 +121,7 @@ class PairSearch {
   const MatchClip& from_;
   const MatchClip& to_;
   std::vector<NearBlock> near_;
-  double travelled_ = 0;  // sum of the distances between queries since the first of the sixteen
+  double travelled_ = 0;  // sum of the distances between consecutive queries since the start of the block of queries
 };
 
 std::vector<int> FindMatchingFrames(const MatchClip& from, const MatchClip& to, const MatchRules& rules) {

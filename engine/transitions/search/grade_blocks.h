@@ -59,7 +59,7 @@ struct GradeMetric {
 struct BlockResult {
   alignas(64) BlockLanes squared;  ///< valid for the lanes in `kept`; the other sums may be incomplete
   std::uint32_t kept = 0;          ///< bit i is set if d² in lane i is at most the limit
-  double least = 0;                ///< lower bound of d² in all lanes, kept or not; at most the limit
+  double least = 0;                ///< no lane, kept or not, has a smaller d²; at most the limit
 };
 
 /// Calls `visit` with the index of each set bit, the lowest first.

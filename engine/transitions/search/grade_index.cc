@@ -73,8 +73,9 @@ class Splitter {
   std::vector<Placed> placed_;
 };
 
-/// Returns the indices of all frames in the order of a k-d tree: each `kBlockLanes` consecutive indices are a block of
-/// near frames, each sixteen blocks a node, and so on. Within a block the frames are in time order.
+/// Returns the indices of all frames in the order of a k-d tree: every `kBlockLanes` consecutive indices form a block
+/// of similar frames, every sixteen consecutive blocks form a node of the lowest level, and so on upwards. Within a
+/// block the frames are in time order.
 std::vector<int> OrderForBlocks(std::span<const Grades> frames, const GradeMetric& metric) {
   std::vector<int> order(frames.size());
   std::iota(order.begin(), order.end(), 0);

@@ -116,7 +116,8 @@ TagsComparison CompareTags(const BridgeTags& file, const BridgeTags& now) {
   compare("the set of weights", file.weights, now.weights);
   compare("the body's height", file.standing_hip_height_m, now.standing_hip_height_m);
 
-  // Report missing clips first: without a clip, other poses are frequent, and the other clips have other bridge frames.
+  // Report missing clips first, because without a clip other poses are frequent, so the other clips have other bridge
+  // frames.
   std::map<std::string, const ClipTags*> clips_now;
   for (const ClipTags& clip : now.clips) clips_now[clip.name] = &clip;
   std::vector<std::pair<const ClipTags*, const ClipTags*>> in_both;
