@@ -30,8 +30,9 @@ Axis AxisOf(const std::vector<double>& values, double floor);
 /// Makes a linear axis that holds all values and zero.
 Axis AxisAroundZero(const std::vector<double>& values);
 
-/// Makes a logarithmic axis of one to eight whole decades. The axis ends above the largest value. It begins below the
-/// smallest value, but at most eight decades below the axis's end. Without a value above zero, the axis is 1…10.
+/// Makes a logarithmic axis of one to eight whole decades. The axis ends at or above the largest value. It begins at
+/// or below the smallest positive value, but at most eight decades below the axis's end. Without a value above zero,
+/// the axis is 1…10.
 Axis DecadeAxis(const std::vector<double>& values);
 
 /// Returns the label of a number on a linear axis: "0.01", "12", "−3", "1e-05".

@@ -256,7 +256,8 @@ std::optional<double> TimeOf(const Json& frame) {
   return std::nullopt;
 }
 
-/// Places frames by their times; the unit of the times does not matter. Does nothing if the times do not ascend.
+/// Moves the frames of a film to the positions that their times state, in any unit. Does nothing if the times do not
+/// ascend or are too uneven.
 void LayByTimes(const std::vector<double>& times, PeopleOfFilm& film) {
   std::vector<double> steps;
   for (std::size_t i = 1; i < times.size(); ++i) {

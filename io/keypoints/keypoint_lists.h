@@ -35,8 +35,8 @@ Result<std::vector<SeenPerson>> PeopleOfList(const Json& list, const std::string
 bool IsKeypointList(const Json& json);
 
 /// Reads the keypoints of a whole film from one list. Known forms:
-/// - results of COCO's evaluation and of AlphaPose: objects with `image_id` (a number, or a name with one) and
-///   `keypoints`;
+/// - results of COCO's evaluation and of AlphaPose: objects with `image_id` (a number, or a name whose last number
+///   counts) and `keypoints`;
 /// - MMPose's `instance_info`: objects with `frame_id` and `instances`, names in `meta_info`;
 /// - frames in order, as users of MediaPipe save them: objects with `pose_landmarks`, `landmarks`, `keypoints`,
 ///   `people` or `instances`, or bare lists of people or of points; null means no people.
@@ -47,10 +47,11 @@ bool IsKeypointList(const Json& json);
 Result<PeopleOfFilm> ReadKeypointList(const Json& json, const std::string& layout, const FilmOfKeypoints& of,
                                       const Place& place);
 
-/// Places the frames of a film, one for each name, by the number at the end of each name. This requires names that
-/// begin with the same text, numbers that ascend, and a film whose number of frames differs from the number of names. A
-/// missing number becomes a frame without people, and `told` says so. If only frames at the end are missing, or if more
-/// than nine of ten frames would be empty, the frames stay as they are.
+/// Moves the frames of a film, one per file name, to the positions that the numbers at the ends of the names state.
+/// Inserts a frame without people for each missing number, and `told` says so. Leaves the frames as they are if the
+/// names do not begin with the same text, if the numbers do not ascend or differ by fractions of their median step,
+/// if the film has as many frames as there are names, if frames are missing only at the end, or if the last position
+/// would be at least `of.frames` plus ten times the number of names.
 void LayByNames(std::span<const std::string> names, const FilmOfKeypoints& of, PeopleOfFilm& film);
 
 }  // namespace etude

@@ -30,10 +30,11 @@ struct Judged {
 std::vector<Judged> JudgedOf(const ScenarioSummary& scenario, const std::string& method, const std::string& metric,
                              Against against);
 
-/// Returns the answers about a method, one per condition. Each answer comes with one comparison. If success decided the
-/// answer, or if no world has values of both methods, this is the comparison by success; otherwise it is the comparison
-/// by the value metric. If the tables show the same comparison, it is theirs, because the two intervals may differ a
-/// little. If the summary has no answers, returns the comparisons by the first headline metric.
+/// Returns the answers about a method, one per condition. Each answer comes with one comparison. If success decided
+/// the answer, or if no world has values of both methods, this is the comparison by success; otherwise it is the
+/// comparison by the value metric. If a table shows the same comparison, the table's entry is returned: its interval
+/// comes from other random numbers and may differ a little. If the summary has no answers, returns the comparisons by
+/// the first headline metric.
 std::vector<Judged> AnswersOf(const ScenarioSummary& scenario, const std::string& method, Against against);
 
 /// Returns the answers about a method if `metric` is the scenario's first headline metric, which its question is about;
