@@ -80,7 +80,8 @@ Result<SeenPerson> ToPerson(const std::vector<Keypoint>& points, const std::stri
   if (found) {
     order = (*found)->landmarks;
   } else {
-    // If no layout has this number of keypoints, use the keypoints' names, provided that enough names are known.
+    // If no layout, or more than one, has this number of keypoints, use the keypoints' names, provided that enough
+    // names are known.
     std::size_t known = 0;
     for (const std::string& name : names) {
       order.push_back(LandmarkOfName(name));

@@ -19,15 +19,17 @@ std::vector<std::string> TextsOf(const Json* list);
 /// Reads a list of triples x, y, confidence. A point with a null was not seen.
 Result<std::vector<Keypoint>> Triples(const Json* list, const Place& place);
 
-/// Makes a person from an estimator's keypoints. `layout` gives the keypoints' order. If `layout` is "", the only
-/// layout with this number of keypoints gives the order; if no layout has this number, `names` gives the order. Fails
-/// if none of these gives an order.
+/// Makes a person from an estimator's keypoints. `layout` states which keypoint is which landmark. If `layout` is "",
+/// the only layout with this number of keypoints is used. If none or several have this number, the landmarks are
+/// found from `names`. Fails if fewer than 12 of the names are known.
 Result<SeenPerson> ToPerson(const std::vector<Keypoint>& points, const std::string& layout,
                             const std::vector<std::string>& names, const Place& place);
 
-/// Reads the people of one frame. `list` is a list of objects with `keypoints` (triples, pairs, or one [x, y] each) and
-/// optionally `keypoint_scores` or `scores`; or it is one person's list of points with `x`, `y` and `visibility` or
-/// `score`. null means no people.
+/// Reads the people of one frame. Each entry of `list` is a person: a list of points, or an object that has this list
+/// as `keypoints`, `pose_keypoints_2d`, `pose_keypoints`, `pose_landmarks` or `landmarks`. The points are numbers (x,
+/// y, confidence, x, …); or lists [x, y] or [x, y, score], with all scores optionally in `keypoint_scores` or
+/// `scores`; or objects with `x`, `y` and optionally `visibility`, `score` or `confidence`. If the entries of `list`
+/// are such lists or objects of points themselves, `list` is one person. null means no people.
 Result<std::vector<SeenPerson>> PeopleOfList(const Json& list, const std::string& layout,
                                              const std::vector<std::string>& names, const Place& place);
 

@@ -95,7 +95,7 @@ def _texts_of(scenario, program):
     path = pathlib.Path(scenario)
     with contextlib.ExitStack() as stack:
         files = sorted(path.glob("*.yaml")) if path.is_dir() else [path] if path.exists() else []
-        if not files:  # a folder without scenarios does not hide a shipped scenario of its name
+        if not files:  # use the shipped scenario, even if a folder without scenarios has its name
             scratch = stack.enter_context(tempfile.TemporaryDirectory())
             call("scenario", "copy", scenario, scratch, program=program)
             files = sorted(pathlib.Path(scratch).rglob("*.yaml"))

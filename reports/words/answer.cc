@@ -167,7 +167,7 @@ std::string MiddleOfUnits(const Judged& judged, const MetricWords& words, Sampli
   return is_open && !why.empty() ? text + fmt::format(" For {}: {}.", OtherUnits(unit), why) : text;
 }
 
-/// Returns true if a judged comparison is that of success.
+/// Returns true if the comparison is by the success metric of its answer.
 bool IsOfSuccess(const Judged& judged) {
   const Answer* answer = judged.answer;
   return answer != nullptr && answer->success && answer->success->metric == judged.comparison->metric;
@@ -180,7 +180,7 @@ std::string WhyUndecided(const Judged& judged) {
 }
 
 /// Returns further facts behind an answer under one condition: the difference in the worlds where both methods
-/// succeeded and, if it is undecided whether success differs, success.
+/// succeeded, and the difference in success if the answer is undecided because success is.
 std::string FurtherSteps(const Judged& judged) {
   const Answer* answer = judged.answer;
   if (answer == nullptr) return "";

@@ -57,7 +57,8 @@ const prepare = (world) => {
       }
     }
   }
-  // The colour scale ends at the 90th percentile of errors that exceed 1/50 of the largest error.
+  // The colour scale ends at the 90th percentile of errors that exceed 1/50 of the largest error, rounded up to 1, 2, 3, 5 or 10
+  // times a power of ten.
   const greatest = everyError.reduce((a, b) => Math.max(a, b), 0), seen = everyError.filter((e) => e > greatest / 50).sort((a, b) => a - b);
   const high = seen[Math.floor(.9 * (seen.length - 1))] || 1, power = 10 ** Math.floor(Math.log10(high));
   world.most = [1, 2, 3, 5, 10].find((n) => n * power >= high * .999) * power;
