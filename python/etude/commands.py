@@ -236,7 +236,7 @@ def _answer_all(target, method, answers, progress):
         raise EtudeError(f"{target}: has no problem of task '{spec.task}'")
     for done, path in enumerate(settings):
         player.set(json.loads(path.read_text()), spec.options, str(path.parent))
-        own = path.parent / "problem.json"  # recorded people have a setting each
+        own = path.parent / "problem.json"  # a recorded person's problem has its own setting, in the same folder
         files = [own] if own.exists() else sorted(path.parent.glob("*/problem.json"))
         found = player.answers([json.loads(file.read_text()) for file in files], [str(file.parent) for file in files])
         for file, answer in zip(files, found):

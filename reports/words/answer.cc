@@ -76,7 +76,7 @@ std::string SentenceFor(const Judged& judged, const std::string& other, const Me
 }
 
 // Returns the smallest and the largest difference over conditions: ": 5.1° (95 % CI 4.0–6.2; noise=5) to 12.3°
-// (10.0–14.1; noise=20), on 60 worlds each". If all have the same sign, their sizes are ordered, else their values.
+// (10.0–14.1; noise=20), on 60 worlds each". If no difference is above 0, the smallest one is the one nearest 0.
 std::string RangeOfChanges(const std::vector<Judged>& judged, const MetricWords& words) {
   std::vector<Judged> known;
   std::ranges::copy_if(judged, std::back_inserter(known),

@@ -114,7 +114,7 @@ struct BeyondFinding {
   bool on_these_only = true;  ///< true: no condition has a generalised verdict
   /// True: every condition has a generalised verdict that equals the verdict on the run's worlds.
   bool as_on_these = false;
-  std::optional<Verdict> verdict = {};  ///< the generalised verdict; nullopt if conditions with such a verdict differ
+  std::optional<Verdict> verdict = {};  ///< the generalised verdict; nullopt if there is none, or if conditions differ
   std::string words = {};               ///< "for other clips: worse", "on these clips only (4 clips, 6 are needed)"
 };
 BeyondFinding BeyondInWords(const std::vector<Judged>& judged, SamplingUnit unit);
