@@ -170,7 +170,7 @@ std::string StillElement(const Still& still) {
       EscapeMarkup(still.caption), still.jpeg_base64);
 }
 
-// Put the chart's data as JSON into a script element of a type that the browser does not run, beside the canvas.
+/// Returns a chart as HTML: a canvas, and the chart's data as JSON in a script element that browsers do not run.
 std::string ChartFigure(const Chart& chart, const std::string& id) {
   return fmt::format(
       "<figure class=\"chart{}\"><figcaption>{}</figcaption><div class=\"canvas\">"

@@ -218,7 +218,7 @@ Result<RawMotion> OpenRawMotion(const std::string& reference, const OpenOptions&
     if (IsBodyNpz(arrays)) {
       ASSIGN_OR_RETURN(auto raw, OfArrays(arrays, reference, options));
       if (HasTheRoles(raw, options)) return raw;
-      // The joints' names may be those of markers or of a skeleton, which also name the joints of a body.
+      // The names may be those of a marker set or of a known skeleton, in which ReadOneClip finds the body.
       auto clip = ReadOneClip(reference, how);
       return clip ? RawMotionOf(*std::move(clip), options) : raw;
     }

@@ -16,7 +16,7 @@ const Json* Member(const Json& json, const char* name);
 /// Returns the texts of a list; empty if `list` is no list. An entry that is no text becomes "".
 std::vector<std::string> TextsOf(const Json* list);
 
-/// Reads a list of triples x, y, confidence. A point with a null was not seen.
+/// Reads a flat list of numbers: x, y, confidence, x, …. A point counts as not seen if any of its numbers is null.
 Result<std::vector<Keypoint>> Triples(const Json* list, const Place& place);
 
 /// Makes a person from an estimator's keypoints. `layout` states which keypoint is which landmark. If `layout` is "",

@@ -95,7 +95,7 @@ class TreeMeter {
   Pace mappings_pace_{std::chrono::milliseconds(0)}, kernel_pace_{std::chrono::milliseconds(100)};
   Pace pipes_pace_{std::chrono::milliseconds(0)};
   std::vector<pid_t> processes_;
-  std::vector<double> bounds_mb_;  ///< the private memory of each process, shared pages included
+  std::vector<double> bounds_mb_;  ///< each process's anonymous pages and pages of files, MB; shared ones count in full
   TreeLoad load_;
   double page_tables_mb_ = 0, tcp_mb_ = 0;
   /// The shared pages of the process that maps more shared pages than any other process, MB: now, and the minimum and
