@@ -46,7 +46,7 @@ class FilmWorkers {
   int width() const { return width_; }
   int height() const { return height_; }
   /// Returns the next frame (Canvas::ToI420), valid until the next call, and feeds the data of later frames to the
-  /// processes. Fails if a process has died, and if the feed fails.
+  /// processes. Fails if a process has died or if the feed fails.
   Result<std::span<const std::uint8_t>> Next();
 
  private:

@@ -204,7 +204,7 @@ void Denormalise(const FilmOfKeypoints& of, PeopleOfFilm& film) {
   constexpr double kMaxShare = 1.1;
   constexpr int kSmallPicture = 16;
   if (of.width < kSmallPicture || of.height < kSmallPicture) return;
-  // Return unchanged if any seen keypoint lies outside ±1.1.
+  // Keep the keypoints as they are if a coordinate of any seen keypoint lies outside ±1.1.
   std::size_t seen = 0;
   for (const auto& frame : film.frames) {
     for (const SeenPerson& person : frame) {

@@ -69,7 +69,7 @@ def evaluate(truth=None, *, names=None, rate_hz=None, pairs=None, joints=None, p
     found = load(output, program=program)
     if code != 0:
         rows = [json.loads(line) for line in (output / "cells.jsonl").read_text(encoding="utf-8").splitlines()]
-        rows.sort(key=lambda row: row["status"] == "skipped")  # the reasons of other cells say more
+        rows.sort(key=lambda row: row["status"] == "skipped")  # skipped cells last: their reasons say least
         missed = [row for row in rows if row["status"] != "ok"]
         said_of = [f"{row['method']}, {row['clip']}: {row['reason']}" for row in missed]
         judged = {row["method"] for row in rows if row["status"] == "ok"}

@@ -38,7 +38,7 @@ std::vector<Judged> JudgedOf(const ScenarioSummary& scenario, const std::string&
 std::vector<Judged> AnswersOf(const ScenarioSummary& scenario, const std::string& method, Against against);
 
 /// Returns the answers about a method if `metric` is the scenario's first headline metric, which its question is about;
-/// else its comparisons by `metric`.
+/// else returns the method's comparisons by `metric`.
 std::vector<Judged> QuestionOf(const ScenarioSummary& scenario, const std::string& method, const std::string& metric,
                                Against against);
 

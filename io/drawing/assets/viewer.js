@@ -1,5 +1,6 @@
 // Shows recorded motions: bodies, errors by colour, marks on a time bar (reports/viewer). A button whose data-cell is a
-// recorded cell opens this cell; cards of dots and rows get such a button (event etude:cells).
+// recorded cell opens this cell. The card that report.js opens for a clicked dot or table row also gets a button (event
+// etude:cells).
 const JOINTS = ['hip centre', 'spine', 'shoulder centre', 'head', ...['shoulder elbow wrist hand', 'hip knee ankle foot'].flatMap((limb) =>
   ['left', 'right'].flatMap((side) => limb.split(' ').map((joint) => `${side} ${joint}`)))];
 const PARENT = [-1, 0, 1, 2, 2, 4, 5, 6, 2, 8, 9, 10, 0, 12, 13, 14, 0, 16, 17, 18];
