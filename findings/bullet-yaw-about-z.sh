@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# Bullet 3.24's btMatrix3x3::setEulerYPR turns about Z by the yaw that its documentation, and btQuaternion::setEuler, take about Y.
+# Bullet 3.24's btMatrix3x3::setEulerYPR applies yaw about Z; its documentation and btQuaternion::setEuler use Y.
 #
 # LinearMath/btMatrix3x3.h documents setEulerYPR as "yaw about Y axis, pitch about X axis, roll about Z axis", which
 # is what btQuaternion::setEuler(yaw, pitch, roll) does. But the function calls setEulerZYX(roll, pitch, yaw): yaw

@@ -56,7 +56,7 @@ BVH
   grep -A4 QuatSphericalLinearChannel "$1.osgt" | tail -1 | awk '{print $2, $3, $4, $5}'
 }
 
-meant() {  # ORDER: the same rotation as the file's channel names define it, 40, 50 and 60 degrees about these axes in turn
+meant() {  # ORDER: the rotation that the channel names define: by 40, 50 and 60 degrees about these axes in turn
   python3 - "$1" <<'PY'
 import math, sys
 x, y, z, w = 0.0, 0.0, 0.0, 1.0

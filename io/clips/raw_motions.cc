@@ -153,8 +153,8 @@ bool BeginsAsZip(const std::string& reference) {
   return file.read(head.data(), static_cast<std::streamsize>(head.size())) && IsZip(head);
 }
 
-/// Returns true if the roles that the joints' names state are all that the names can tell: every needed joint plays its
-/// role, and the user's joint map names none of the joints.
+/// Returns true if the joints' names state a joint for every needed role, and the user's joint map names none of these
+/// joints.
 bool HasTheRoles(const RawMotion& raw, const OpenOptions& options) {
   const auto is_told = [&](const std::string& joint) {
     const auto names = [&](const auto& told) { return MarkerKey(told.second.name) == MarkerKey(joint); };

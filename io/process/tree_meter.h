@@ -81,7 +81,8 @@ class TreeMeter {
     double Mb() const;
   };
 
-  /// Reads the memory mappings of all processes. Stops early when the memory of the mappings exceeds the limit.
+  /// Reads the memory mappings of all processes. Stops early when the kernel's memory for the mappings alone exceeds
+  /// the limit.
   void SampleMappings();
   /// Gives the tree the lowest priority if it starves this process; called repeatedly during a measurement.
   void ClaimTime();
