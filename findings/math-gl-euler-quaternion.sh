@@ -3,9 +3,9 @@
 # X, yaw about Z.
 #
 # The documentation calls an Euler's angles roll, pitch and yaw; the default order is RollPitchYaw. The matrix, class
-# Pose and fromQuaternion turn by the first angle about X, whatever the order. getQuaternion assigns the angles to the
-# axes in the order's sequence, which agrees for XYZ only: in the default order, it turns a roll of 30 degrees into a
-# yaw. A quaternion that is read into an Euler and converted back becomes another rotation.
+# Pose and fromQuaternion turn by the first angle about X, whatever the order. getQuaternion turns by each angle about
+# the axis that has the same place in the order, so it agrees for XYZ only: in the default order, ZYX, a roll of 30
+# degrees becomes a yaw. A quaternion that is read into an Euler and converted back becomes another rotation.
 #
 # Needs: npm and node (18 or later). Downloads 0.5 MB, writes to a temporary folder only.
 set -euo pipefail

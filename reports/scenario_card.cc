@@ -30,7 +30,7 @@
 namespace etude {
 namespace {
 
-// The maximum number of points per curve. A screen cannot show more points, and more points would make the page larger.
+// The maximum number of points per curve. More points would make the page larger, and would hardly change the picture.
 constexpr std::size_t kMaxSteps = 120;
 // If the largest value exceeds the smallest by more than this ratio, the axis is logarithmic.
 constexpr double kLogarithmicFrom = 100;

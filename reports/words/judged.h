@@ -48,8 +48,8 @@ std::vector<Judged> ValuesBeside(const ScenarioSummary& scenario, const std::vec
 /// Returns true if the far better and far worse worlds (the tail) decided the answer.
 bool IsDecidedByTail(const Judged& judged);
 
-/// Returns true if the mean difference lies outside the interval of the median difference. The sentence then also
-/// states the mean.
+/// Returns true if the mean difference lies outside the interval of the median difference. The sentence about the
+/// comparison then also states the mean.
 bool MeanTellsMore(const Comparison& c);
 
 /// Returns the answer of a condition that the tail of this comparison's metric decided; null if there is none.
