@@ -1,10 +1,11 @@
 #!/usr/bin/env bash
-# Bullet 3.24's btMatrix3x3::setEulerYPR turns about Z by the yaw that its documentation, and btQuaternion::setEuler, take about Y.
+# Bullet 3.24's btMatrix3x3::setEulerYPR applies yaw about Z; its documentation and btQuaternion::setEuler use Y.
 #
-# LinearMath/btMatrix3x3.h documents setEulerYPR as "yaw about Y axis, pitch about X axis, roll about Z axis", which is what
-# btQuaternion::setEuler(yaw, pitch, roll) does. But the function calls setEulerZYX(roll, pitch, yaw): yaw about Z, pitch about Y,
-# roll about X. getEulerYPR has the same fault, so a round trip through the matrix hides it. Angles that pass between a matrix and a
-# quaternion, or anything else, become another rotation. All angles are valid; none is near a pole.
+# LinearMath/btMatrix3x3.h documents setEulerYPR as "yaw about Y axis, pitch about X axis, roll about Z axis", which
+# is what btQuaternion::setEuler(yaw, pitch, roll) does. But the function calls setEulerZYX(roll, pitch, yaw): yaw
+# about Z, pitch about Y, roll about X. getEulerYPR has the same fault, so a round trip through the matrix hides it.
+# Angles that are written to a matrix and read from a quaternion made of it, or the other way round, become another
+# rotation. All angles are valid; none is near a pole.
 #
 # Needs: curl, dpkg-deb and g++. Downloads 0.4 MB, writes to a temporary folder only.
 set -euo pipefail

@@ -11,7 +11,8 @@ folder=$(mktemp -d)
 trap 'rm -rf "$folder"' EXIT
 cd "$folder"
 
-# Unpacks both versions with their dependencies side by side. apt-get resolves them without changing this system.
+# Unpacks both versions side by side, with the packages that they need. apt-get finds these packages without changing
+# this system.
 unpack() {  # SUITE VERSION
   mkdir -p "$1"/etc/apt/apt.conf.d "$1"/etc/apt/preferences.d "$1"/var/lib/apt/lists/partial "$1"/var/lib/dpkg "$1"/var/cache/apt/archives/partial
   : > "$1/var/lib/dpkg/status"

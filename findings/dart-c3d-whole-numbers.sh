@@ -1,12 +1,13 @@
 #!/usr/bin/env bash
-# DART 6.12.1 misplaces all markers of a C3D file of whole numbers that a DEC machine wrote, and puts lost markers at the origin.
+# DART 6.12.1 misplaces all markers of a C3D file of whole numbers that a DEC machine wrote, and puts lost markers at
+# the origin.
 #
-# A C3D file holds its coordinates as real or as whole numbers, in the format of an Intel, a DEC or a MIPS processor (The C3D
-# File Format: A User Guide). Real numbers of DEC and Intel differ; their whole numbers are the same. DART reads DEC's whole
-# numbers as real ones, two for each. Of the four files below, three give the positions that were written, and the last one gives
-# others. A marker that the cameras lost has a residual of -1 in every format; DART returns no residual, so the marker appears at
-# the origin as if it had been seen there. loadC3DFile returns true. It changes the axes (its x, y, z are the file's y, z, x) and
-# returns metres.
+# A C3D file holds its coordinates as real or as whole numbers, in the format of an Intel, a DEC or a MIPS processor
+# (The C3D File Format: A User Guide). DEC and Intel encode real numbers differently, but whole numbers in the same
+# way. DART reads each pair of DEC's whole numbers as one real number. Of the four files below, three give the
+# positions that were written, and the last one gives others. A marker that the cameras lost has a residual of -1 in
+# every format; DART returns no residual, so the marker appears at the origin as if it had been seen there.
+# loadC3DFile returns true. It changes the axes (its x, y, z are the file's y, z, x) and returns metres.
 #
 # Needs: curl, tar with xz, dpkg-deb, g++ and python3. Downloads 12 MB, writes to a temporary folder only.
 set -euo pipefail

@@ -1,11 +1,12 @@
 #!/usr/bin/env bash
-# three.js r187 and Assimp 5.2.5 read the keys of an FBX file but ignore how it interpolates: constant keys move gradually, splines become
-# straight.
+# three.js r187 and Assimp 5.2.5 ignore how an FBX file interpolates between keys: a step becomes a gradual movement,
+# a spline a straight line.
 #
-# Each key of a curve states its interpolation (KeyAttrFlags: constant, linear, cubic with automatic or given tangents), and the three curves of
-# a rotation interpolate angles. The FBX SDK (in FBX2glTF 0.9.7) does so. The other two make a quaternion of each key and turn from one to the
-# next along the shortest arc: a joint that should stand still until its next key is half-way there at half the time. Even if all keys are
-# linear, a joint that turns about two axes takes another path. Files with a key in every frame hide it. There is no warning.
+# Each key of a curve states its interpolation (KeyAttrFlags: constant, linear, cubic with automatic or given
+# tangents), and the three curves of a rotation interpolate angles. The FBX SDK (in FBX2glTF 0.9.7) does so. The other
+# two make a quaternion of each key and turn from one to the next along the shortest arc: a joint that should stand
+# still until its next key is half-way there at half the time. Even if all keys are linear, a joint that turns about
+# two axes takes another path than in the SDK. Files with a key in every frame hide this. There is no warning.
 #
 # Needs: curl, dpkg-deb, npm and node (18 or later), Debian 12 or later, x86-64. Downloads 23 MB, writes to a temporary folder only.
 set -euo pipefail

@@ -1,10 +1,12 @@
 #!/usr/bin/env bash
-# three.js r187 loses the FBX key that follows a jump of 180 degrees or more: a half turn between two keys does not happen at all.
+# three.js r187 loses the FBX key that follows a jump of 180 degrees or more: a half turn between two keys does not
+# happen at all.
 #
-# FBX keys Euler angles, and an angle moves from key to key. If one changes by 180 degrees or more, FBXLoader replaces this part of the
-# curve by keys of its own, in equal steps from 0 up to 1 without 1 itself, so the file's key is never written. A turn from 0 to 180
-# degrees disappears; one from 0 to 270 goes backwards and ends at -60; and where a recorded angle passes from 179 to -172, as
-# recorders write it, the clip ends before its last key. The FBX SDK (in FBX2glTF 0.9.7) and Assimp 5.2.5 read all keys.
+# An FBX file stores keys of Euler angles, and each angle is interpolated between its keys. If an angle changes by 180
+# degrees or more between two keys, FBXLoader replaces this part of the curve by equally spaced keys of its own. They
+# stop one step before the second key, which is lost. A turn from 0 to 180 degrees disappears; one from 0 to 270 goes
+# backwards and ends at -60; and where a recorded angle passes from 179 to -172, as recorders write it, the clip ends
+# before its last key. The FBX SDK (in FBX2glTF 0.9.7) and Assimp 5.2.5 read all keys.
 #
 # Needs: curl, dpkg-deb, npm and node (18 or later), Debian 12 or later, x86-64. Downloads 23 MB, writes to a temporary folder only.
 set -euo pipefail

@@ -1,9 +1,10 @@
 #!/usr/bin/env bash
-# An FBX joint without RotationActive has no rotation order and no pre-rotation; three.js r187 and Assimp 5.2.5 apply both all the same.
+# An FBX joint without RotationActive has no rotation order and no pre-rotation; three.js r187 and Assimp 5.2.5 apply
+# both all the same.
 #
-# Autodesk's reference of FbxNode::SetRotationActive: when the flag is false, as it is by default, rotation order, pre- and
-# post-rotation and limits should be ignored. The FBX SDK (in FBX2glTF 0.9.7) does so. The other two readers never look at the flag,
-# and agree with each other on another pose. With the flag all three agree.
+# Autodesk's reference of FbxNode::SetRotationActive: when the flag is false, as it is by default, rotation order,
+# pre- and post-rotation and limits should be ignored. The FBX SDK (in FBX2glTF 0.9.7) does so. The other two readers
+# never look at the flag; both give the same pose, which is not the SDK's. If the flag is true, all three agree.
 #
 # Needs: curl, dpkg-deb, npm and node (18 or later), Debian 12 or later, x86-64. Downloads 23 MB, writes to a temporary folder only.
 set -euo pipefail

@@ -1,9 +1,11 @@
 #!/usr/bin/env bash
-# GLM 0.9.9.8 finds an angle of 45 degrees in every rotation matrix, so that interpolate(a, b, 1) is not b but a, turned by 45 degrees.
+# GLM 0.9.9.8 finds an angle of 45 degrees in every rotation matrix, so that interpolate(a, b, 1) is not b but a,
+# turned by 45 degrees.
 #
-# axisAngle of GLM_GTX_matrix_interpolation returns the right axis, but a quarter of pi for every matrix: a guard against an acos of
-# more than 1 compares the wrong way, and always applies. The extension "allows to directly interpolate two matrices"; half-way between
-# 10 and 30 degrees it gives 32.5. The version is Debian 12's and 13's; 1.0.1 is right. Quaternions and their slerp are right in both.
+# axisAngle of GLM_GTX_matrix_interpolation returns the right axis, but a quarter of pi for every matrix: a guard
+# against an acos of more than 1 compares the wrong way, and always applies. The extension "allows to directly
+# interpolate two matrices"; half-way between 10 and 30 degrees it gives 32.5. Debian 12 and 13 contain this version;
+# 1.0.1 is right. Quaternions and their slerp are right in both.
 #
 # Needs: curl, dpkg-deb and g++. Downloads 0.2 MB, writes to a temporary folder only.
 set -euo pipefail

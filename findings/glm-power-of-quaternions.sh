@@ -1,10 +1,11 @@
 #!/usr/bin/env bash
 # GLM 0.9.9.8's pow(q, 1) is not q for one unit quaternion in forty, and angle(q) belongs to another rotation.
 #
-# If |w| exceeds cos(1/2), both compute the angle from the vector part, which keeps more digits, but ignore the sign of w: below -0.878
-# the angle is wrong. A turn of 344 degrees, which equals one of -16, becomes one of 16, the opposite turn; and pow(q, 0.5), by which
-# poses are blended, becomes half of that. Half of all products of quaternions have a negative w. axis(q) and slerp are right. The
-# version is Debian 12's and 13's; 1.0.1 corrects angle, but not pow.
+# If |w| exceeds cos(1/2), pow and angle compute the angle from the vector part, which keeps more digits, but ignore
+# the sign of w: below -0.878 the angle is wrong. For a turn of 344 degrees, which is the same rotation as one of -16,
+# they get 16 degrees, the opposite rotation; pow(q, 0.5), which blends poses, then turns by 8 degrees instead of -8.
+# Half of all products of quaternions have a negative w. axis(q) and slerp are right. Debian 12 and 13 contain this
+# version; 1.0.1 corrects angle, but not pow.
 #
 # Needs: curl, dpkg-deb and g++. Downloads 0.2 MB, writes to a temporary folder only.
 set -euo pipefail

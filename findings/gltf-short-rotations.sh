@@ -1,9 +1,10 @@
 #!/usr/bin/env bash
-# Assimp 5.2.5 reads rotations that gltfpack 1.3.0 writes by default as NaN and 1e37, and reports success.
+# Assimp 5.2.5 misreads the rotations that gltfpack 1.3.0 writes by default: it gets NaN and 1e37, and reports success.
 #
-# glTF 2.0 lets an animation's rotations be normalized bytes or shorts (section 3.11), and gltfpack stores them as shorts unless it is told
-# otherwise. Assimp copies the bytes of such a key into floats without looking at the component type. A turn about Z by 90 degrees, in
-# three keys of floats, is read right; once gltfpack has packed it, not one of the keys is a rotation. The file is valid.
+# glTF 2.0 lets an animation's rotations be normalized bytes or shorts (section 3.11), and gltfpack stores them as
+# shorts unless it is told otherwise. Assimp copies the bytes of such a key into floats without looking at the
+# component type. A turn about Z by 90 degrees, in three keys of floats, is read right; once gltfpack has packed it,
+# not one of the keys is a rotation. The file is valid.
 #
 # Needs: curl, dpkg-deb, g++, python3, npm and node (18 or later), Debian 12, x86-64. Downloads 7 MB, writes to a temporary folder only.
 set -euo pipefail

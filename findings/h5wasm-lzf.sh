@@ -13,7 +13,7 @@ cd "$folder"
 
 npm install --silent --no-audit --no-fund --ignore-scripts h5wasm@0.10.3 > /dev/null
 
-# Unpacks h5py with its dependencies. apt-get resolves them without changing this system.
+# Unpacks h5py and the packages that it needs. apt-get finds these packages without changing this system.
 mkdir -p apt/etc/apt/apt.conf.d apt/etc/apt/preferences.d apt/var/lib/apt/lists/partial apt/var/lib/dpkg apt/var/cache/apt/archives/partial
 : > apt/var/lib/dpkg/status
 echo "deb [signed-by=/usr/share/keyrings/debian-archive-keyring.gpg] http://deb.debian.org/debian bookworm main" > apt/etc/apt/sources.list

@@ -1,10 +1,11 @@
 #!/usr/bin/env bash
 # Ignition Math 6.10.0's RotationSpline and OnePoleQuaternion take the long way round if a quaternion's sign changes, as at yaw 180.
 #
-# q and -q are one rotation. RotationSpline::Interpolate takes the shortest path by default, as documented, but its tangents do not:
-# keys at 140, 160 and -170 degrees of yaw, 20 and 30 apart, are joined through all directions. OnePoleQuaternion, a low-pass filter,
-# has no shortest path: after a step of 20 degrees across 180 it turns by 340. Quaternions from Euler angles, as here, change their
-# sign there. Keys at the same steps from 40 degrees on are joined smoothly.
+# q and -q are one rotation. RotationSpline::Interpolate takes the shortest path by default, as documented, but its
+# tangents do not: between keys at 140, 160 and -170 degrees of yaw, which are 20 and 30 degrees apart, the spline
+# swings far beyond both keys. OnePoleQuaternion, a low-pass filter, does not choose the shortest path: after a step of
+# 20 degrees across 180 it turns by 340. Quaternions from Euler angles, as here, change their sign at a yaw of 180
+# degrees. Keys at the same steps from 40 degrees on are joined smoothly.
 #
 # Needs: curl, dpkg-deb and g++. Downloads 0.3 MB, writes to a temporary folder only.
 set -euo pipefail

@@ -1,10 +1,11 @@
 #!/usr/bin/env bash
-# math.gl 4.1.0's Euler.getQuaternion gives each angle to another axis than Euler.getRotationMatrix: roll turns about Z, yaw about X.
+# math.gl 4.1.0's Euler.getQuaternion applies roll about Z and yaw about X; Euler.getRotationMatrix applies roll about
+# X, yaw about Z.
 #
-# The documentation calls an Euler's angles roll, pitch and yaw; the default order is RollPitchYaw. The matrix, class Pose and
-# fromQuaternion turn by the first angle about X, whatever the order. getQuaternion assigns the angles to the axes in the order's
-# sequence, which agrees for XYZ only: it makes a yaw of a roll of 30 degrees. A quaternion that is read into an Euler and converted
-# back is another one.
+# The documentation calls an Euler's angles roll, pitch and yaw; the default order is RollPitchYaw. The matrix, class
+# Pose and fromQuaternion turn by the first angle about X, whatever the order. getQuaternion turns by each angle about
+# the axis that has the same place in the order, so it agrees for XYZ only: in the default order, ZYX, a roll of 30
+# degrees becomes a yaw. A quaternion that is read into an Euler and converted back becomes another rotation.
 #
 # Needs: npm and node (18 or later). Downloads 0.5 MB, writes to a temporary folder only.
 set -euo pipefail

@@ -1,9 +1,10 @@
 #!/usr/bin/env bash
-# ODE 0.16.2's dRFromEulerAngles turns by the opposite angle of dRFromAxisAndAngle: a half radian about X is minus a half radian.
+# ODE 0.16.2's dRFromEulerAngles turns the opposite way to dRFromAxisAndAngle: an angle of 0.5 about X gives a
+# rotation by -0.5.
 #
-# The manual says of both only that they create a rotation matrix from angles. About one and the same axis, one matrix is the transpose
-# of the other. dQFromAxisAndAngle follows the right hand, as dRFromAxisAndAngle does, so that a pose made from Euler angles is the
-# inverse of the turn that the rest of the library means.
+# The manual says of both only that they create a rotation matrix from angles. For the same angle about the same axis,
+# one matrix is the transpose of the other. dQFromAxisAndAngle follows the right-hand rule, as dRFromAxisAndAngle
+# does, so a rotation made from Euler angles is the inverse of the one that these two functions make.
 #
 # Needs: curl, dpkg-deb and gcc, x86-64. Downloads 1 MB, writes to a temporary folder only.
 set -euo pipefail

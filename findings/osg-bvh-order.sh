@@ -11,7 +11,7 @@ folder=$(mktemp -d)
 trap 'rm -rf "$folder"' EXIT
 cd "$folder"
 
-# Unpacks the program with its dependencies. apt-get resolves them without changing this system.
+# Unpacks the program and the packages that it needs. apt-get finds these packages without changing this system.
 mkdir -p apt/etc/apt/apt.conf.d apt/etc/apt/preferences.d apt/var/lib/apt/lists/partial apt/var/lib/dpkg apt/var/cache/apt/archives/partial
 : > apt/var/lib/dpkg/status
 echo "deb [signed-by=/usr/share/keyrings/debian-archive-keyring.gpg] http://deb.debian.org/debian bookworm main" > apt/etc/apt/sources.list
@@ -56,7 +56,7 @@ BVH
   grep -A4 QuatSphericalLinearChannel "$1.osgt" | tail -1 | awk '{print $2, $3, $4, $5}'
 }
 
-meant() {  # ORDER: the same rotation as the file's channel names define it, 40, 50 and 60 degrees about these axes in turn
+meant() {  # ORDER: the rotation that the channel names define: by 40, 50 and 60 degrees about these axes in turn
   python3 - "$1" <<'PY'
 import math, sys
 x, y, z, w = 0.0, 0.0, 0.0, 1.0

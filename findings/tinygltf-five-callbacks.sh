@@ -1,9 +1,11 @@
 #!/usr/bin/env bash
-# tinygltf 2.9.5 needs a fifth file callback; a program that sets the four of 2.7.0 gets the built-in reader, and loads.
+# tinygltf 2.9.5 needs a fifth file callback; a program that sets only the four of 2.7.0 loads files with the built-in
+# reader.
 #
-# FsCallbacks has gained GetFileSizeInBytes, and SetFsCallbacks has gained a result. A program that sets the four callbacks of 2.7.0 by
-# name and calls SetFsCallbacks still compiles. The call now returns false and the loader keeps its built-in callbacks: files that
-# the program meant to serve from memory are read from the disk, its callbacks are never called, and loading succeeds.
+# FsCallbacks has gained GetFileSizeInBytes, and SetFsCallbacks has gained a result. A program that sets the four
+# callbacks of 2.7.0 by name and calls SetFsCallbacks still compiles. The call now returns false and the loader keeps
+# its built-in callbacks: files that the program meant to serve from memory are read from the disk, its callbacks are
+# never called, and loading succeeds.
 #
 # Needs: curl, dpkg-deb and g++. Downloads 0.5 MB, writes to a temporary folder only.
 set -euo pipefail

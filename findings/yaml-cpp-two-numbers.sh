@@ -1,10 +1,12 @@
 #!/usr/bin/env bash
-# yaml-cpp 0.7.0 reads the scalar 010 as 8 for an int and as 10 for a double, and the octal number of YAML 1.2, 0o10, as neither.
+# yaml-cpp 0.7.0 reads the scalar 010 as 8 for an int and as 10 for a double, and the octal number of YAML 1.2, 0o10,
+# as neither.
 #
-# In YAML 1.2.2's core schema (section 10.3.2) 010 is ten and 0o10 is eight. yaml-cpp is a YAML 1.2 parser, but passes scalars to a C++
-# stream, which takes a leading zero for octal if the result is an integer. One setting then has two values, depending on the type that
-# the program asks for: frames 001 to 012 of a file end at 10, and 008 and 009 are refused as integers. Hexadecimal numbers are the
-# reverse: they are read as integers, but not as doubles.
+# In YAML 1.2.2's core schema (section 10.3.2) 010 is ten and 0o10 is eight. yaml-cpp is a YAML 1.2 parser, but passes
+# scalars to a C++ stream, which reads a number with a leading zero as octal if the result is an integer. One setting
+# then has two values, depending on the type that the program asks for: as an integer, frame 012 becomes 10, and 008
+# and 009 are refused; as a double, they are 12, 8 and 9. Hexadecimal numbers are the reverse: they are read as
+# integers, but not as doubles.
 #
 # Needs: curl, dpkg-deb and g++, Debian 12 or later, x86-64. Downloads 0.3 MB, writes to a temporary folder only.
 set -euo pipefail

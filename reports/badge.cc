@@ -14,8 +14,8 @@ std::string_view VerdictClass(const std::optional<Verdict>& verdict) {
   return verdict ? kClasses[static_cast<std::size_t>(*verdict)] : "mixed";
 }
 
-/// Returns true if the verdict on the worlds of this run is not undecided but does not generalise: the verdict for
-/// other clips or people differs or is missing.
+/// Returns true if the verdict on the worlds of this run is decided, but the verdict for other clips or people differs
+/// or is missing.
 bool HoldsHereOnly(const Comparison& c) { return c.verdict != Verdict::kUndecided && c.beyond.verdict != c.verdict; }
 
 }  // namespace

@@ -69,8 +69,8 @@ Line LineOf(const ConditionSummary& condition, const Comparison& c, SamplingUnit
   return line;
 }
 
-/// Returns a verdict as a label, with the reason below it if there is none, if it is undecided or if the tail decided
-/// it.
+/// Returns a verdict as a label, or kNoValue if there is no verdict. Below it stands `why`, unless `why` is empty: why
+/// there is no verdict, why the verdict is undecided, or how the tail decided it.
 std::string BadgeWithReason(const std::optional<Verdict>& verdict, const std::string& why) {
   return (verdict ? VerdictBadge(verdict) : std::string(kNoValue)) +
          (why.empty() ? "" : fmt::format("<small>{}</small>", EscapeMarkup(why)));

@@ -14,8 +14,8 @@ struct GateTableRow {
   std::string before, after;  ///< the metric's aggregate over all worlds: in the baseline, and in this run
   std::string difference;     ///< median (or mean) of the paired differences, now − baseline, and its interval
   std::string p;              ///< p-value after Holm's correction; kNoValue if nothing was tested
-  std::string worlds;         ///< number of worlds whose values differ, "12 of 60"; numbers of lost values, gained
-                              ///< values and far worse worlds
+  std::string worlds;         ///< number of worlds whose values differ, "12 of 60", then the numbers of lost values,
+                              ///< gained values and far worse worlds that are above 0
   std::string verdict;        ///< text of MovementWords, or "worse in 5 worlds" if the far worse worlds decided
   bool fails = false;
 };

@@ -16,10 +16,10 @@ struct PageCheck {
   bool has_media = false, has_takes = false;  ///< true if the page has such an enclosed part, which is not compared
 };
 
-/// Compares a page with `bare`, the page of the same run whose enclosed parts are empty. An enclosed part of the page
-/// may hold any text, and the HTML elements of pictures and films, or of table rows. Each element must be closed within
-/// the part. The pages count as different if a style, a script or anything else in an enclosed part could affect the
-/// rest of the page.
+/// Compares a page with `bare`, the page of the same run with empty enclosed parts. A part between kMediaBegin and
+/// kMediaEnd may contain text and the HTML elements of pictures, films and captions; a part between kTakesBegin and
+/// kTakesEnd may contain text and table rows. Each element must be closed within its part. The pages count as
+/// different if a style, a script or anything else in an enclosed part could affect the rest of the page.
 PageCheck CheckPage(std::string_view page, std::string_view bare);
 
 }  // namespace etude

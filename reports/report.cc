@@ -98,7 +98,8 @@ Result<ReportCheck> CheckReport(const RunData& run, const std::filesystem::path&
     if (found != text) check.differences.push_back((folder / path).string() + kOtherwise);
   }
   // Compare the page. The rows of real films do not belong to the run and are not compared. If the page has a
-  // section of real films, one empty take gives the new page this section too, so that all other parts can be compared.
+  // section of real films, the new page is made with one empty take: it then has this section, too, and all other
+  // parts can be compared.
   bool has_media = false;
   if (const FilePath page = folder / kPage; Exists(page)) {
     ++check.files;

@@ -43,7 +43,8 @@ struct ReportCheck {
 /// pictures, films and captures of real films.
 Result<ReportCheck> CheckReport(const RunData& run, const std::filesystem::path& run_folder);
 
-/// Compares the files that `etude gate` wrote beside the report with the output of a gate without a baseline.
+/// Runs the gate without a baseline, and compares its output with the files that `etude gate` wrote beside the report.
+/// Files of a gate with a baseline are listed as not compared.
 Result<ReportCheck> CheckGate(const FinishedRun& run, const std::filesystem::path& run_folder);
 
 }  // namespace etude

@@ -30,7 +30,7 @@
 namespace etude {
 namespace {
 
-// The maximum number of points per curve. A screen cannot show more points, and more points would make the page larger.
+// The maximum number of points per curve. More points would make the page larger, and would hardly change the picture.
 constexpr std::size_t kMaxSteps = 120;
 // If the largest value exceeds the smallest by more than this ratio, the axis is logarithmic.
 constexpr double kLogarithmicFrom = 100;
@@ -170,7 +170,7 @@ std::string StillElement(const Still& still) {
       EscapeMarkup(still.caption), still.jpeg_base64);
 }
 
-// Put the chart's data as JSON into a script element of a type that the browser does not run, beside the canvas.
+/// Returns a chart as HTML: a canvas, and the chart's data as JSON in a script element that browsers do not run.
 std::string ChartFigure(const Chart& chart, const std::string& id) {
   return fmt::format(
       "<figure class=\"chart{}\"><figcaption>{}</figcaption><div class=\"canvas\">"

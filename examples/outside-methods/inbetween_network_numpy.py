@@ -21,7 +21,7 @@ def make_tiny(hidden=64, examples=4000):
     dice = np.random.default_rng(1)
     x = np.hstack([dice.uniform(0, 1, (examples, 1)), dice.normal(0, 1, (examples, 6))])
     s, leave, way = x[:, :1], x[:, 1:4], x[:, 4:]
-    wanted = (1 - s) * (leave - way)  # a cubic that begins with the velocity `leave` and ends with the mean velocity
+    wanted = (1 - s) * (leave - way)  # for a cubic with velocity `leave` at the start and `way` (the mean) at the end
     w0, b0 = dice.normal(0, 0.3, (7, hidden)), dice.normal(0, 0.3, hidden)
     seen = np.hstack([np.tanh(x @ w0 + b0), np.ones((examples, 1))])
     w1 = np.linalg.lstsq(seen, wanted, rcond=None)[0]

@@ -93,8 +93,8 @@ std::optional<std::string> ReceiveBlock(int socket, std::size_t maximum, bool& i
   return ReceiveAll(socket, bytes.data(), size) ? std::optional(std::move(bytes)) : std::nullopt;
 }
 
-/// Runs in the child process. Answers each file with kSaidGlb, two lines (the reader's name, the longest time between
-/// keys) and the GLB file; or with kSaidComplaint and a complaint.
+/// Runs in the child process. Answers each file with kSaidGlb, two lines (the reader's name, and `longest_s` of
+/// GlbOfFbxBytes) and the GLB file; or with kSaidComplaint and a complaint.
 int ReadFilesInChild(int socket) {
   Limit(RLIMIT_AS, MappedBytes() + kMemoryBytes);
   Limit(RLIMIT_CORE, 0);

@@ -10,8 +10,8 @@
 namespace etude {
 
 /// The function of the module `etude_clips_assimp.so`. It converts the bytes of an FBX file to a GLB file. On success
-/// it returns true; `said` then holds the GLB bytes, and `longest_s` the longest time between two different keys of a
-/// joint, in seconds. On failure it returns false, and `said` holds a complaint.
+/// it returns true; `said` then holds the GLB bytes, and `longest_s` the longest time, in seconds, between two
+/// consecutive keys of one channel whose values differ. On failure it returns false, and `said` holds a complaint.
 using GlbOfFbxBytes = bool(std::string_view bytes, std::string& said, double& longest_s);
 
 /// Returns true if `bytes` begin like a binary or text FBX file.

@@ -222,7 +222,8 @@ Result<std::vector<SourceClip>> ReadClips(const std::string& reference, const Op
   const auto shown_of = [&](std::size_t i) {
     return file.shown.empty() ? nullptr : std::make_shared<const RawMotion>(std::move(file.shown[i]));
   };
-  // If the format holds one motion, '#' in the reference has no meaning, except for the layout of an .npy array.
+  // If the file holds one motion and its format has no named animations, refuse '#' in the reference, except for the
+  // layout of an .npy array.
   const bool has_animations =
       file.format == ClipFormat::kGltf || file.format == ClipFormat::kGlb || file.format == ClipFormat::kFbx;
   const bool is_one = !has_animations && !is_recording && file.clips.size() == 1;

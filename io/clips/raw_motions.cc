@@ -153,8 +153,8 @@ bool BeginsAsZip(const std::string& reference) {
   return file.read(head.data(), static_cast<std::streamsize>(head.size())) && IsZip(head);
 }
 
-/// Returns true if the roles that the joints' names state are all that the names can tell: every needed joint plays its
-/// role, and the user's joint map names none of the joints.
+/// Returns true if the joints' names state a joint for every needed role, and the user's joint map names none of these
+/// joints.
 bool HasTheRoles(const RawMotion& raw, const OpenOptions& options) {
   const auto is_told = [&](const std::string& joint) {
     const auto names = [&](const auto& told) { return MarkerKey(told.second.name) == MarkerKey(joint); };
@@ -218,7 +218,7 @@ Result<RawMotion> OpenRawMotion(const std::string& reference, const OpenOptions&
     if (IsBodyNpz(arrays)) {
       ASSIGN_OR_RETURN(auto raw, OfArrays(arrays, reference, options));
       if (HasTheRoles(raw, options)) return raw;
-      // The joints' names may be those of markers or of a skeleton, which also name the joints of a body.
+      // The names may be those of a marker set or of a known skeleton, in which ReadOneClip finds the body.
       auto clip = ReadOneClip(reference, how);
       return clip ? RawMotionOf(*std::move(clip), options) : raw;
     }

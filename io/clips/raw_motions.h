@@ -23,9 +23,9 @@ Result<RawMotion> RawMotionOf(SourceClip source, const OpenOptions& options, boo
 /// read.
 Result<std::string> DigestOfFile(const std::string& reference, const OpenOptions& options);
 
-/// Reads one motion as ReadOneClip does, but arrays of positions by ReadRawNpz if their joints' names state the roles
-/// of all needed joints, or if ReadOneClip finds no body in them. Markers of no known set become joints without roles,
-/// and the notes state why. `keeps_rig` has the same meaning as in RawMotionOf.
+/// Reads one motion. Arrays of positions are read by ReadRawNpz if their joints' names state a joint for every needed
+/// role, or if ReadOneClip finds no body in them; everything else is read by ReadOneClip. Markers of no known set
+/// become joints without roles, and the notes state why. `keeps_rig` has the same meaning as in RawMotionOf.
 Result<RawMotion> OpenRawMotion(const std::string& reference, const OpenOptions& options, bool keeps_rig = false);
 
 }  // namespace etude

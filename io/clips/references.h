@@ -33,7 +33,7 @@ constexpr std::size_t kMaxLibraryClips = 100'000;
 /// "builtin:songs" for all songs), a clip of a package ("assimp:01_01", "assimp:*"; of Debian's assimp-testmodels), or
 /// a file or pattern ("mocap/*.bvh", sorted; `~/` is the home folder), optionally with "#animation". If a file of
 /// exactly that name exists, patterns and '#' are not interpreted. Relative names start at the current folder. Fails at
-/// `place` if nothing matches, or if more than `most` clips match.
+/// `place` if nothing matches, if more than `most` clips match, or if the name of a match is not UTF-8.
 Result<std::vector<std::string>> ExpandReference(const std::string& reference, const Place& place,
                                                  std::size_t most = kMaxClips);
 

@@ -46,7 +46,7 @@ class FilmWorkers {
   int width() const { return width_; }
   int height() const { return height_; }
   /// Returns the next frame (Canvas::ToI420), valid until the next call, and feeds the data of later frames to the
-  /// processes. Fails if a process has died, and if the feed fails.
+  /// processes. Fails if a process has died or if the feed fails.
   Result<std::span<const std::uint8_t>> Next();
 
  private:
@@ -54,7 +54,7 @@ class FilmWorkers {
     /// The socket carries single bytes. The drawing process sends a byte for "drawn"; this process sends a byte for
     /// "the next frame's data have arrived", or, without a feed, for "a slot is free".
     std::optional<ForkedCopy> copy;
-    int fed = 0, taken = 0;  ///< number of the drawing process's frames that have their data; number that Next returned
+    int fed = 0, taken = 0;  ///< counts of the worker's frames: data sent to it, pictures taken from it
   };
   struct Unmap {
     std::size_t bytes;

@@ -22,16 +22,18 @@ struct Axis {
 };
 
 /// Makes an axis that holds all values. It is logarithmic if `floor` is above 0, no value is below 0, and the values
-/// above 0 and `floor` span more than two decades. Much smaller values than `floor` are then drawn at its lower end,
-/// labelled "≤1e-3"; if all of these are 0, this end is a further decade, labelled "0". Without values, the axis is
-/// 0…1.
+/// above 0, with those below `floor` raised to `floor`, span more than two decades. A logarithmic axis begins and ends
+/// at whole powers of ten. Values above 0 that lie below its lower end are drawn there, and the end is labelled
+/// "≤1e-3". If there are none, but a value is 0, the axis begins one decade lower, at the label "0". Without values,
+/// the axis is 0…1.
 Axis AxisOf(const std::vector<double>& values, double floor);
 
 /// Makes a linear axis that holds all values and zero.
 Axis AxisAroundZero(const std::vector<double>& values);
 
-/// Makes a logarithmic axis of one to eight whole decades. The axis ends above the largest value. It begins below the
-/// smallest value, but at most eight decades below the axis's end. Without a value above zero, the axis is 1…10.
+/// Makes a logarithmic axis of one to eight whole decades. The axis ends at or above the largest value. It begins at
+/// or below the smallest positive value, but at most eight decades below the axis's end. Without a value above zero,
+/// the axis is 1…10.
 Axis DecadeAxis(const std::vector<double>& values);
 
 /// Returns the label of a number on a linear axis: "0.01", "12", "−3", "1e-05".

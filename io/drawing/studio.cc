@@ -42,8 +42,8 @@ std::uint32_t ToPixel(const glm::vec3& paint) {
   return ToLevel(paint.r) << 16 | ToLevel(paint.g) << 8 | ToLevel(paint.b);
 }
 
-/// Returns a pixel of the floor: `line` is the share of the grid's colour, `light` is a factor on the brightness, and
-/// `fade` is the share of floor against backdrop.
+/// Returns a pixel of the floor, blended over the backdrop. `line` is the share of the grid's colour in the floor's
+/// colour, `light` is a factor on the brightness, and `fade` is the floor's opacity (0 shows only the backdrop).
 std::uint32_t FloorPixel(float line, float light, float fade) {
   const auto level = [&](int i) {
     const float paint = (kFloorPaint[i] + (kGridPaint[i] - kFloorPaint[i]) * line) * light;

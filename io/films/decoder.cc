@@ -35,7 +35,7 @@ Result<Child> StartReading(const Words& words, const Place& place) {
   int ends[2];
   if (!child.log || pipe2(ends, O_CLOEXEC) != 0)
     return FailOfMachine("no connection to {}: {}", words[0], std::strerror(errno));
-  constexpr int kPipeBytes = 1 << 20;  // fewer changes between the two programs; the default size serves as well
+  constexpr int kPipeBytes = 1 << 20;  // for fewer context switches; if the kernel refuses, the default size will do
   fcntl(ends[1], F_SETPIPE_SZ, kPipeBytes);
   const int error = SpawnProgram(words, kNowhere, ends[1], child.log.get(), child.pid);
   close(ends[1]);

@@ -19,7 +19,7 @@ namespace {
 
 // The size of an uncompressed picture with kMaxPictureSide pixels per side, rounded up.
 constexpr std::uintmax_t kMaxPictureFileBytes = std::uintmax_t{1} << 28;
-// The maximum side, pixels, of pictures that no camera took; GL and the JPEG reader have the same limit.
+// The maximum side of a picture that DecodeColourPng accepts, pixels. GL and the JPEG reader have the same limit.
 constexpr std::uint32_t kMaxSide = 16'384;
 constexpr int kRunLengthOnly = 3;  // the value of zlib's Z_RLE
 

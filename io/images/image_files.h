@@ -11,8 +11,9 @@
 
 namespace etude {
 
-// Encodes and decodes pictures. Only this folder uses the libraries for PNG and OpenEXR. Pictures with more than
-// kMaxPictureSide pixels per side are refused before memory is allocated. Errors name the file unless stated otherwise.
+// Encodes and decodes pictures. Only this folder uses the libraries for PNG and OpenEXR. Files with more than
+// kMaxPictureSide pixels per side are refused before memory is allocated. Errors name the file unless stated
+// otherwise.
 
 /// Returns the bytes of a PNG file, for embedding in a page. The same picture gives the same bytes. `image` must have
 /// at least one pixel. With `pixels_per_metre` above 0, the file states the size at which the picture is printed.
@@ -26,8 +27,8 @@ std::string EncodePpm(const ColourImage& image);
 
 /// Reads any PNG as 8-bit RGB; transparent pixels are blended with black.
 Result<ColourImage> LoadColourPng(const std::string& path);
-/// Decodes the bytes of a PNG file of at most `max_pixels` pixels. Transparency is ignored: pixels keep their stored
-/// colours. The error names no file.
+/// Decodes the bytes of a PNG file of at most `max_pixels` pixels, and of at most 16,384 pixels per side.
+/// Transparency is ignored: pixels keep their stored colours. The error names no file.
 Result<ColourImage> DecodeColourPng(std::string_view bytes, std::size_t max_pixels);
 
 /// A picture of one number per pixel, as segmenters write it.

@@ -80,7 +80,8 @@ Result<SeenPerson> ToPerson(const std::vector<Keypoint>& points, const std::stri
   if (found) {
     order = (*found)->landmarks;
   } else {
-    // If no layout has this number of keypoints, use the keypoints' names, provided that enough names are known.
+    // If no layout, or more than one, has this number of keypoints, use the keypoints' names, provided that enough
+    // names are known.
     std::size_t known = 0;
     for (const std::string& name : names) {
       order.push_back(LandmarkOfName(name));
@@ -256,7 +257,8 @@ std::optional<double> TimeOf(const Json& frame) {
   return std::nullopt;
 }
 
-/// Places frames by their times; the unit of the times does not matter. Does nothing if the times do not ascend.
+/// Moves the frames of a film to the positions that their times state, in any unit. Does nothing if the times do not
+/// ascend or are too uneven.
 void LayByTimes(const std::vector<double>& times, PeopleOfFilm& film) {
   std::vector<double> steps;
   for (std::size_t i = 1; i < times.size(); ++i) {

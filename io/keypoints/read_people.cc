@@ -204,7 +204,7 @@ void Denormalise(const FilmOfKeypoints& of, PeopleOfFilm& film) {
   constexpr double kMaxShare = 1.1;
   constexpr int kSmallPicture = 16;
   if (of.width < kSmallPicture || of.height < kSmallPicture) return;
-  // Return unchanged if any seen keypoint lies outside ±1.1.
+  // Keep the keypoints as they are if a coordinate of any seen keypoint lies outside ±1.1.
   std::size_t seen = 0;
   for (const auto& frame : film.frames) {
     for (const SeenPerson& person : frame) {
@@ -280,7 +280,8 @@ std::string DoubtOf(const std::string& layout, const SeenPeople& frames) {
                        hips.between, hips.people);
   }
   if (layout != "body_25b") return "";
-  // In body_25b these are the landmarks with the indices that body_25 gives to the mid-hip and the hips.
+  // The mid-hip and the two hips of body_25 have the numbers 8, 9 and 12. In body_25b, these numbers stand for the
+  // right elbow, the left wrist and the right hip.
   const Midway hips = CountMidway(frames, Landmark::kRightElbow, Landmark::kLeftWrist, Landmark::kRightHip);
   if (!hips.Are()) return "";
   return fmt::format(

@@ -187,7 +187,7 @@ Fence Fence::Find() {
     return none;
   }
   Fence fence = Of(*program);
-  // Bubblewrap runs `bwrap --version` in the complete fence.
+  // Run `bwrap --version` inside the fence: if it answers, programs can run there.
   const std::string said = FirstLineOf(fence, {*program, "--version"});
   fence.description_ = said;
   if (said.starts_with("bubblewrap ")) {

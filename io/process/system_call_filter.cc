@@ -45,12 +45,12 @@ constexpr auto kRefused = std::to_array<Refusal>({
     {SYS_splice, EINVAL},
     {SYS_tee, EINVAL},
     {SYS_sendfile, EINVAL},
-    {SYS_seccomp, EINVAL},  // a megabyte of filters per thread, from a pool that the whole machine shares
+    {SYS_seccomp, EINVAL},  // filters take up to 1 MB per thread from a pool of the whole machine
     {SYS_userfaultfd, ENOSYS},
     {SYS_io_setup, ENOSYS},
     {SYS_landlock_create_ruleset, ENOSYS},
     {SYS_fanotify_init, ENOSYS},
-    {SYS_setxattr, EOPNOTSUPP},  // these three calls: memory of file attributes in tmpfs counts for no process
+    {SYS_setxattr, EOPNOTSUPP},  // this and the next two calls: the kernel charges attributes in tmpfs to no process
     {SYS_lsetxattr, EOPNOTSUPP},
     {SYS_fsetxattr, EOPNOTSUPP},
     // Refuse threads with their own descriptor tables, and processes that share a table, because open files and locks

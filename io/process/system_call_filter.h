@@ -9,8 +9,8 @@ namespace etude {
 /// - memory that TreeMeter and Fence::MeasureScratch cannot measure;
 /// - resources that are counted per user or machine and have no limit in a namespace;
 /// - the user's keys, or the kernel's log;
-/// - sockets, except UNIX, INET, INET6 and NETLINK. Network namespaces do not isolate all other families: AF_VSOCK
-///   reaches the host.
+/// - sockets, except UNIX, INET, INET6 and NETLINK, because a network namespace does not isolate every family: through
+///   AF_VSOCK, a program could reach the host.
 std::string SystemCallFilter();
 
 }  // namespace etude

@@ -38,8 +38,8 @@ bool Starves(const ElapsedTime& measuring, double cores_of_tree, double cores);
 /// each page once, however many processes share it, and adds the kernel's memory for the processes.
 ///
 /// A sample reads two small files per process, about 30 µs. These files give an upper bound on memory, which usually
-/// suffices. Expensive files are read less often, or only if the bound is near the limit. A tree that starves us gets
-/// the lowest priority from then on.
+/// suffices. Expensive files are read less often, or only if the bound is near the limit. A tree that starves this
+/// process (Starves) gets the lowest priority from then on.
 class TreeMeter {
  public:
   /// `limit_mb` is the memory that the tree may hold.
@@ -60,7 +60,7 @@ class TreeMeter {
     bool IsDue(Clock::time_point now) const { return now >= next_; }
     void Took(Clock::time_point start) {
       const Clock::time_point now = Clock::now();
-      constexpr std::chrono::milliseconds kMaxPause{300};  // a slow action must still be repeated
+      constexpr std::chrono::milliseconds kMaxPause{300};  // the maximum, so that a slow action is repeated in time
       next_ = std::max<Clock::time_point>(start + min_interval_,
                                           now + std::min<Clock::duration>(19 * (now - start), kMaxPause));
     }
@@ -81,7 +81,8 @@ class TreeMeter {
     double Mb() const;
   };
 
-  /// Reads the memory mappings of all processes. Stops early when the memory of the mappings exceeds the limit.
+  /// Reads the memory mappings of all processes. Stops early when the kernel's memory for the mappings alone exceeds
+  /// the limit.
   void SampleMappings();
   /// Gives the tree the lowest priority if it starves this process; called repeatedly during a measurement.
   void ClaimTime();
@@ -95,7 +96,7 @@ class TreeMeter {
   Pace mappings_pace_{std::chrono::milliseconds(0)}, kernel_pace_{std::chrono::milliseconds(100)};
   Pace pipes_pace_{std::chrono::milliseconds(0)};
   std::vector<pid_t> processes_;
-  std::vector<double> bounds_mb_;  ///< the private memory of each process, shared pages included
+  std::vector<double> bounds_mb_;  ///< each process's anonymous pages and pages of files, MB; shared ones count in full
   TreeLoad load_;
   double page_tables_mb_ = 0, tcp_mb_ = 0;
   /// The shared pages of the process that maps more shared pages than any other process, MB: now, and the minimum and

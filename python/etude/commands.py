@@ -95,7 +95,7 @@ def _texts_of(scenario, program):
     path = pathlib.Path(scenario)
     with contextlib.ExitStack() as stack:
         files = sorted(path.glob("*.yaml")) if path.is_dir() else [path] if path.exists() else []
-        if not files:  # a folder without scenarios does not hide a shipped scenario of its name
+        if not files:  # use the shipped scenario, even if a folder without scenarios has its name
             scratch = stack.enter_context(tempfile.TemporaryDirectory())
             call("scenario", "copy", scenario, scratch, program=program)
             files = sorted(pathlib.Path(scratch).rglob("*.yaml"))
@@ -236,7 +236,7 @@ def _answer_all(target, method, answers, progress):
         raise EtudeError(f"{target}: has no problem of task '{spec.task}'")
     for done, path in enumerate(settings):
         player.set(json.loads(path.read_text()), spec.options, str(path.parent))
-        own = path.parent / "problem.json"  # recorded people have a setting each
+        own = path.parent / "problem.json"  # a recorded person's problem has its own setting, in the same folder
         files = [own] if own.exists() else sorted(path.parent.glob("*/problem.json"))
         found = player.answers([json.loads(file.read_text()) for file in files], [str(file.parent) for file in files])
         for file, answer in zip(files, found):

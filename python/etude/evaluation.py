@@ -43,11 +43,11 @@ def evaluate(truth=None, *, names=None, rate_hz=None, pairs=None, joints=None, p
         if names is None or rate_hz is None:
             raise TypeError(f"the array of {name} needs names and rate_hz")
         if not re.fullmatch(r"[A-Za-z0-9_][A-Za-z0-9_.-]*", name):
-            raise ValueError(f"{name!r} is no name of a method")  # it names a file
+            raise ValueError(f"{name!r} is no name of a method")  # the name becomes a file name
         content = _npz(motion, list(names), rate_hz, {"unit": unit, "up": up}, name)
         path = pathlib.Path(f"{output}.motions") / f"{name}.npz"
         path.parent.mkdir(parents=True, exist_ok=True)
-        with path.open("wb" if overwrite else "xb") as file:  # an earlier run needs its arrays
+        with path.open("wb" if overwrite else "xb") as file:  # do not replace the arrays of an earlier run
             file.write(content)
         return str(path)
 
@@ -69,7 +69,7 @@ def evaluate(truth=None, *, names=None, rate_hz=None, pairs=None, joints=None, p
     found = load(output, program=program)
     if code != 0:
         rows = [json.loads(line) for line in (output / "cells.jsonl").read_text(encoding="utf-8").splitlines()]
-        rows.sort(key=lambda row: row["status"] == "skipped")  # the reasons of other cells say more
+        rows.sort(key=lambda row: row["status"] == "skipped")  # skipped cells last: their reasons say least
         missed = [row for row in rows if row["status"] != "ok"]
         said_of = [f"{row['method']}, {row['clip']}: {row['reason']}" for row in missed]
         judged = {row["method"] for row in rows if row["status"] == "ok"}

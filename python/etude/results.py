@@ -286,7 +286,7 @@ class Run:
         tracks = {track["name"]: track for track in told["tracks"]}
         joints = [(joint, dict(self._joints)[joint]) for joint in told["joints"]]
         extras = told.get("extras") or {}
-        if not tracks and {"truth", "answer"} <= set(extras):  # a pair of files has the joints that were compared
+        if not tracks and {"truth", "answer"} <= set(extras):  # a pair of files: the extras hold motions and joints
             tracks = {track: {"name": track, "rate_hz": extras["rate_hz"], "poses": extras[track]}
                       for track in ("truth", "answer")}
             joints = [(joint, extras["joints"][above] if above >= 0 else None)

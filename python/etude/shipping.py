@@ -215,7 +215,7 @@ def _names_used(source, whose):
 
     try:
         look(symtable.symtable(source, "method", "exec"))
-    except SyntaxError as error:  # a `nonlocal` without its function
+    except SyntaxError as error:  # `nonlocal` names a variable outside the source
         raise ValueError(f"{whose} cannot be sent by its source: {error}. A state of the function around it is open: "
                          "remember it in a class") from None
     found.pop("__class__", None)

@@ -23,7 +23,7 @@ class CapturePanel {
   int Frames() const { return static_cast<int>(truth_.poses.size()); }
   double RateHz() const { return truth_.rate_hz; }
   std::size_t Cameras() const { return extras_.views.size(); }
-  /// Returns a camera's name: "First camera".
+  /// Returns a camera's name: "First camera" or "Second camera" if there are two cameras, else "Camera 3".
   std::string CameraName(std::size_t camera) const;
   /// Returns the picture that each camera took at the middle frame of the motion.
   std::vector<Still> Stills() const;

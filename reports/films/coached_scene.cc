@@ -74,7 +74,8 @@ namespace {
 constexpr Rgb8 kSky{176, 212, 232}, kHills{122, 160, 138}, kGrass{126, 168, 92}, kTrunk{112, 84, 60};
 constexpr std::array<Rgb8, 3> kCrowns = {{{66, 118, 72}, {82, 136, 78}, {52, 100, 68}}};
 
-/// Returns a flat polygon whose visible side is towards +Z or up. `corners` are in order along the polygon's boundary.
+/// Returns a flat convex polygon. `corners` are in counter-clockwise order, seen from the side to which `normal`
+/// points.
 Surface Sheet(const std::vector<glm::dvec3>& corners, const glm::dvec3& normal, Rgb8 colour) {
   Surface sheet;
   sheet.positions = corners;

@@ -298,7 +298,7 @@ void ConvergencePanel::Draw(Canvas& canvas, const Box& panel, Renderer& renderer
     figure(y, label, ShortNumber(now) + suffix, now < goal ? kGood : kInk);
   };
   canvas.DrawText({x, panel.y + 36}, path_.method, 25, colour_, panel.width - 36, true);
-  // Show the iteration of the film's clock, which both methods share, because recordings leave out some iterations.
+  // Show the film's current iteration instead of the last recorded one, because recordings leave out some iterations.
   const int reached = std::min(static_cast<int>(iteration), path_.iterations.back());
   figure(84, "iteration", FormatCount(reached), kInk);
   error(164, "worst position error", path_.position_cm, kGoalCm, " cm");

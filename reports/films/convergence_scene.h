@@ -23,8 +23,8 @@ class RaceClock {
 
   int LastIteration() const { return last_; }
   int Frames() const { return kOpening + run_ + kEnding; }
-  /// Returns the iteration at a frame, 0 … the last iteration; it never decreases. The fraction of the result is the
-  /// progress within an iteration.
+  /// Returns the iteration at a frame, 0 … the last iteration; it never decreases. The fractional part of the result
+  /// is the progress within an iteration.
   double IterationAt(int frame) const;
   /// Returns the position of an iteration, 0…1, on an axis along which the film advances at constant speed.
   double ShareOf(double iteration) const;

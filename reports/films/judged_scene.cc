@@ -278,7 +278,7 @@ void JudgedScene::DrawAngles(Canvas& canvas, int now) const {
   const std::vector<Feature> features = FeaturesOf(asked.poses);
   const double rows = static_cast<double>(features.size()) + 1;
   const double height = std::min(84.0, kStripsHeight / rows - kStripGap);
-  // In a damaged recording, the event may have no frames; the last shown frame must still be at least 0.
+  // In a damaged recording, the performance may end at frame 0; show at least this frame.
   const int shown_to = std::max(0, std::min(now, asked.end_frame - 1));
   const auto strip_at = [&](std::size_t row, double highest) {
     return Strip{

@@ -39,7 +39,7 @@ struct JudgedSessionFacts {
   BodyMotion truth;
   SeenStream seen;
   std::vector<double> evidence;     ///< the first method's score, one per frame; empty if the first method has no score
-  std::optional<double> threshold;  ///< the threshold on the evidence for the verdict "right"
+  std::optional<double> threshold;  ///< the evidence that the verdict "right" requires; nullopt if not recorded
 
   int Frames() const { return static_cast<int>(seen.filtered.frames.size()); }
 };

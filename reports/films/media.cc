@@ -46,8 +46,8 @@ void MakeStageFilm(const RunData& run, const MediaPaths& paths, const FilmWatch&
     why = "There are no pictures: " + ToString(renderer.error());
     return;
   }
-  // `shoot` renders a scene as the film. It adds the film's `why_not` to `why`, which holds the reasons why other
-  // pictures could not be made, and sets `why_not` to all these reasons.
+  // `shoot` renders a scene as the film of the run. `why` collects the reasons why pictures or films could not be made;
+  // the film's `why_not` is first added to it, and then states all these reasons.
   const auto shoot = [&](Scene&& scene) {
     Film film = Shoot(scene, paths.films / kRunFilm, watch);
     if (!film.why_not.empty()) Note(why, film.why_not);

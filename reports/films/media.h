@@ -31,7 +31,7 @@ struct Media {
   std::vector<Still> stills;                 ///< the middle frame of the capture as each camera took it
   std::string strip_scenario;                ///< the scenario whose card shows the strip and the stills
   std::vector<ScenarioPicture> plates;       ///< for capture scenarios: pictures of all processing stages (DrawPlate)
-  std::vector<ScenarioFilm> scenario_films;  ///< films of one scenario each: compared methods, and sessions
+  std::vector<ScenarioFilm> scenario_films;  ///< films of single scenarios: of compared methods, or of a session
 };
 
 /// The folders for files beside the page.

@@ -14,9 +14,10 @@ struct ShownCell {
   const Recording* recording;
 };
 
-/// Chooses the cell that a film of the task `task` shows. Candidates are recorded cells with status ok and the track
-/// `track`, preferably cells of the method that the scenario's question is about. Returns the candidate with the median
-/// value of the first headline metric: a typical cell, not the best one.
+/// Chooses the cell that a film of the task `task` shows. Candidates are the recorded cells with status ok and the
+/// track `track` in the first scenario of the task that has any, preferably cells of the method that the scenario's
+/// question is about. Returns the candidate with the median value of the first headline metric: a typical cell, not
+/// the best one.
 std::optional<ShownCell> ChooseCell(const RunData& run, std::string_view task, std::string_view track);
 
 /// Chooses a cell of one scenario by the rule of the function above.

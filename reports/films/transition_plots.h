@@ -33,10 +33,10 @@ const Paint& PaintOfSegment(const TransitionFacts& facts, std::size_t points_bef
 constexpr double kDistanceBarsHeight = 120;
 
 /// Draws a transition point's ten partial distances as bars with the features' names. Partial distances are the terms
-/// of the distance d between the two frames that the transition joins. The line above the bars gives d, the threshold
-/// and the kind of transition. A full bar means that this partial distance alone reaches the threshold. `point` is the
-/// index of the transition point. The bars are empty if `point` is nullopt, or if the recording has no partial
-/// distances. The box is kDistanceBarsHeight high.
+/// of d², where d is the distance between the two frames that the transition joins. The line above the bars gives d,
+/// the threshold and the kind of transition. A partial distance of the squared threshold fills its bar; without a
+/// threshold, the largest partial distance fills its bar. `point` is the index of the transition point. The bars are
+/// empty if `point` is nullopt, or if the recording has no partial distances. The box is kDistanceBarsHeight high.
 void DrawDistanceBars(Canvas& canvas, const Box& box, const TransitionFacts& facts, std::optional<std::size_t> point);
 
 /// Describes a transition point: "distance 0.384 < 0.4 · front half"; if the path has two points, "1 of 2 · distance

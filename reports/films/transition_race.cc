@@ -37,8 +37,8 @@ std::vector<const RecordedTransition*> ShownOf(const RecordedRequest& world, con
 }
 
 constexpr int kBefore = kFilmRate, kAfter = 3 * kFilmRate / 2;
-// The time, in frames after the request, of the latest transition for which the film is made longer. A later transition
-// is not shown: the film ends while the method still waits.
+// The film lasts until kAfter frames after the last transition, but transitions later than kLatest frames after the
+// request do not count: if a method makes its transition much later, the film ends while the method still waits.
 constexpr int kLatest = 4 * kFilmRate;
 // The numbers of frames before and after a transition point that are repeated in slow motion.
 constexpr int kSlowBefore = kFilmRate / 3, kSlowAfter = 2 * kFilmRate / 3;

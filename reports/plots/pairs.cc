@@ -28,7 +28,7 @@ constexpr const char* kCurves[] = {"mpjpe_unaligned_mm", "mpjpe_root_mm"};
 struct Pair {
   std::string name;
   std::vector<const Row*> cells;
-  double worst_mm = 0;  ///< largest value of kCurves[0], the error of the pictures, of any frame and method
+  double worst_mm = 0;  ///< the largest value of kCurves[0] over all frames and methods
 };
 
 /// Returns the indices of the frames with the largest errors, the largest first (non-maximum suppression: frames near a

@@ -49,8 +49,8 @@ MoveConfusion ConfusionOf(std::span<const JudgedPerformance> performances);
 struct FaultCount {
   int all = 0, found = 0;
 };
-/// Returns two counts for each worst fault, by its name: performances in which the fault is slight (severity up to ½),
-/// and performances in which it is more severe.
+/// Groups faulty performances by the name of their worst fault. Returns two counts per fault: performances with a
+/// slight fault (severity up to ½), and performances with a more severe one.
 std::map<std::string, std::pair<FaultCount, FaultCount>> FoundByFault(std::span<const JudgedPerformance> performances);
 
 /// The number of mistakes in a person's session: right performances that were not called right, and wrong performances

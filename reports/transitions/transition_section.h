@@ -19,8 +19,8 @@ constexpr std::string_view kFeatureLegend =
     "jumping; Trunk: its lean; RF, LF: angles by which the legs are spread; RFK, LFK: their knees.";
 
 /// A table of the ten partial distances of transition points, one row per point, with a bar for each partial distance.
-/// A full bar means that this partial distance alone reaches the threshold. The table's first rows list the feature
-/// weights, one row for all methods with the same weights.
+/// A partial distance of the squared threshold fills its bar; without a threshold, the row's largest one does. The
+/// table's first rows list the feature weights, one row for all methods with the same weights.
 class DistanceTable {
  public:
   void AddWeights(const std::string& method, const FeatureWeights& weights);

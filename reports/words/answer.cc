@@ -76,7 +76,7 @@ std::string SentenceFor(const Judged& judged, const std::string& other, const Me
 }
 
 // Returns the smallest and the largest difference over conditions: ": 5.1° (95 % CI 4.0–6.2; noise=5) to 12.3°
-// (10.0–14.1; noise=20), on 60 worlds each". If all have the same sign, their sizes are ordered, else their values.
+// (10.0–14.1; noise=20), on 60 worlds each". If no difference is above 0, the smallest one is the one nearest 0.
 std::string RangeOfChanges(const std::vector<Judged>& judged, const MetricWords& words) {
   std::vector<Judged> known;
   std::ranges::copy_if(judged, std::back_inserter(known),
@@ -167,7 +167,7 @@ std::string MiddleOfUnits(const Judged& judged, const MetricWords& words, Sampli
   return is_open && !why.empty() ? text + fmt::format(" For {}: {}.", OtherUnits(unit), why) : text;
 }
 
-/// Returns true if a judged comparison is that of success.
+/// Returns true if the comparison is by the success metric of its answer.
 bool IsOfSuccess(const Judged& judged) {
   const Answer* answer = judged.answer;
   return answer != nullptr && answer->success && answer->success->metric == judged.comparison->metric;
@@ -180,7 +180,7 @@ std::string WhyUndecided(const Judged& judged) {
 }
 
 /// Returns further facts behind an answer under one condition: the difference in the worlds where both methods
-/// succeeded and, if it is undecided whether success differs, success.
+/// succeeded, and the difference in success if the answer is undecided because success is.
 std::string FurtherSteps(const Judged& judged) {
   const Answer* answer = judged.answer;
   if (answer == nullptr) return "";
@@ -192,7 +192,7 @@ std::string FurtherSteps(const Judged& judged) {
     text += fmt::format(" Where both succeed ({}): {} {}{}.", Plural(both->pairs, "world"), words.label,
                         ShortDifference(*both->difference, words), interval);
   }
-  // Success that never differs does not keep an answer undecided.
+  // If both methods have the same success in every world, success is not why the answer is undecided.
   if (const auto& success = answer->success; success && !IsOfSuccess(judged) && success->ci_low &&
                                              success->differing > 0 && success->verdict == Verdict::kUndecided &&
                                              judged.Here() == Verdict::kUndecided) {

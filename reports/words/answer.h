@@ -9,9 +9,10 @@
 namespace etude {
 
 /// Returns a scenario's answer in one line: how `method` compares with its baseline, and with the strongest other
-/// method: "better than “fixed”; needs 140 × the solver steps of “gauss-newton”". If one cost is at least twice the
-/// other, the line states the ratio of the costs, else the verdict. If no other method is compared, the line ends after
-/// the comparison with the baseline. If there is no verdict generalised to other clips or people, the line says so.
+/// method: "better than “fixed”; needs 140 × the solver steps of “gauss-newton”". If the method is worse and
+/// its cost is at least twice the other method's, the line states the ratio of the costs instead of the verdict. If
+/// no other method is compared, the line ends after the comparison with the baseline. If there is no verdict
+/// generalised to other clips or people, the line says so.
 std::string HeadlineOf(const ScenarioSummary& scenario, const std::string& method, const std::string& metric);
 
 /// The ratio of two methods' costs: the smallest and the largest ratio over conditions.

@@ -164,7 +164,7 @@ std::string WorldsLostTo(const ScenarioSummary& scenario, const std::string& ask
     }
     if (pairs > 0) return fmt::format("{}/{}", FormatCount(lost), FormatCount(pairs));
   }
-  return "";  // two methods are the strongest, each on half of the worlds
+  return "";  // the rival is a pair of methods, one for each half of the worlds
 }
 
 KeyFigures KeyFiguresOf(const ScenarioSummary& scenario, const std::string& asked, Times& times,

@@ -8,8 +8,8 @@
 namespace etude {
 namespace {
 
-// If one cost is at least this many times the other cost, the answer states the ratio of the costs instead of the
-// difference.
+// If the cost of a method that is worse is at least this many times the other method's cost, the answer states the
+// ratio of the costs instead of the difference.
 constexpr double kMinTellingRatio = 2;
 // A cost below this fraction of the practical threshold counts as zero, because a ratio with such a small denominator
 // would be meaningless.

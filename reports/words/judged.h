@@ -30,14 +30,15 @@ struct Judged {
 std::vector<Judged> JudgedOf(const ScenarioSummary& scenario, const std::string& method, const std::string& metric,
                              Against against);
 
-/// Returns the answers about a method, one per condition. Each answer comes with one comparison. If success decided the
-/// answer, or if no world has values of both methods, this is the comparison by success; otherwise it is the comparison
-/// by the value metric. If the tables show the same comparison, it is theirs, because the two intervals may differ a
-/// little. If the summary has no answers, returns the comparisons by the first headline metric.
+/// Returns the answers about a method, one per condition. Each answer comes with one comparison. If success decided
+/// the answer, or if no world has values of both methods, this is the comparison by success; otherwise it is the
+/// comparison by the value metric. If a table shows the same comparison, the table's entry is returned: its interval
+/// comes from other random numbers and may differ a little. If the summary has no answers, returns the comparisons by
+/// the first headline metric.
 std::vector<Judged> AnswersOf(const ScenarioSummary& scenario, const std::string& method, Against against);
 
 /// Returns the answers about a method if `metric` is the scenario's first headline metric, which its question is about;
-/// else its comparisons by `metric`.
+/// else returns the method's comparisons by `metric`.
 std::vector<Judged> QuestionOf(const ScenarioSummary& scenario, const std::string& method, const std::string& metric,
                                Against against);
 
@@ -47,8 +48,8 @@ std::vector<Judged> ValuesBeside(const ScenarioSummary& scenario, const std::vec
 /// Returns true if the far better and far worse worlds (the tail) decided the answer.
 bool IsDecidedByTail(const Judged& judged);
 
-/// Returns true if the mean difference lies outside the interval of the median difference. The sentence then also
-/// states the mean.
+/// Returns true if the mean difference lies outside the interval of the median difference. The sentence about the
+/// comparison then also states the mean.
 bool MeanTellsMore(const Comparison& c);
 
 /// Returns the answer of a condition that the tail of this comparison's metric decided; null if there is none.
@@ -113,7 +114,7 @@ struct BeyondFinding {
   bool on_these_only = true;  ///< true: no condition has a generalised verdict
   /// True: every condition has a generalised verdict that equals the verdict on the run's worlds.
   bool as_on_these = false;
-  std::optional<Verdict> verdict = {};  ///< the generalised verdict; nullopt if conditions with such a verdict differ
+  std::optional<Verdict> verdict = {};  ///< the generalised verdict; nullopt if there is none, or if conditions differ
   std::string words = {};               ///< "for other clips: worse", "on these clips only (4 clips, 6 are needed)"
 };
 BeyondFinding BeyondInWords(const std::vector<Judged>& judged, SamplingUnit unit);

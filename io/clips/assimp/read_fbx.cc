@@ -48,8 +48,7 @@ class MotionGlb {
     for (unsigned i = 0; i < scene.mNumAnimations; ++i) AddAnimation(*scene.mAnimations[i]);
   }
 
-  /// Returns the longest time between two consecutive keys of one channel, in seconds; only pairs of different keys
-  /// count.
+  /// Returns the longest time, in seconds, between two consecutive keys of one channel whose values differ.
   double longest_s() const { return longest_s_; }
 
   std::string Bytes() {
@@ -178,8 +177,8 @@ class MotionGlb {
         for (const float number : numbers_of(keys[i].mValue)) values.push_back(number);
       }
       if (count == 0) return;
-      // Two keys are equal if their numbers (quaternion components, metres, scale factors) differ by less than this
-      // constant.
+      // Two keys have the same value if all their numbers (quaternion components, metres, scale factors) differ by
+      // less than this constant.
       constexpr float kSame = 0.01f;
       const std::size_t width = values.size() / count;
       for (std::size_t i = width; i < values.size(); ++i) {

@@ -1,5 +1,6 @@
 // Shows recorded motions: bodies, errors by colour, marks on a time bar (reports/viewer). A button whose data-cell is a
-// recorded cell opens this cell; cards of dots and rows get such a button (event etude:cells).
+// recorded cell opens this cell. The card that report.js opens for a clicked dot or table row also gets a button (event
+// etude:cells).
 const JOINTS = ['hip centre', 'spine', 'shoulder centre', 'head', ...['shoulder elbow wrist hand', 'hip knee ankle foot'].flatMap((limb) =>
   ['left', 'right'].flatMap((side) => limb.split(' ').map((joint) => `${side} ${joint}`)))];
 const PARENT = [-1, 0, 1, 2, 2, 4, 5, 6, 2, 8, 9, 10, 0, 12, 13, 14, 0, 16, 17, 18];
@@ -57,7 +58,8 @@ const prepare = (world) => {
       }
     }
   }
-  // The colour scale ends at the 90th percentile of errors that exceed 1/50 of the largest error.
+  // The colour scale ends at the 90th percentile of errors that exceed 1/50 of the largest error, rounded up to 1, 2, 3, 5 or 10
+  // times a power of ten.
   const greatest = everyError.reduce((a, b) => Math.max(a, b), 0), seen = everyError.filter((e) => e > greatest / 50).sort((a, b) => a - b);
   const high = seen[Math.floor(.9 * (seen.length - 1))] || 1, power = 10 ** Math.floor(Math.log10(high));
   world.most = [1, 2, 3, 5, 10].find((n) => n * power >= high * .999) * power;
