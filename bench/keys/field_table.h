@@ -280,9 +280,9 @@ std::vector<Value> ReadListed(Fields& fields, const std::string& key, const std:
 
 enum class Keep { kThese, kOthers };
 
-/// Returns fields of another task's table for reading into a part of `Options`: the fields that `keys` name (kThese),
-/// or all others (kOthers). A key that two tasks share is thus declared once. `part` is the member of `Options`, or a
-/// Path to it.
+/// Returns fields of `table`, the table of another task, as fields of `Options`: those that `keys` name (kThese), or
+/// all others (kOthers). The fields read into `part`, which is a member of `Options` or a Path to one. A key that two
+/// tasks share is thus declared once.
 template <typename Options, typename Part, typename Member>
 std::vector<Field<Options>> FieldsOf(const FieldTable<Part>& table, Member part, Keep keep,
                                      const std::vector<std::string>& keys) {

@@ -91,9 +91,9 @@ struct FloorErrors {
 };
 FloorErrors MeasureFloor(const PointTracks& found);
 
-/// The global rotations of answer and truth as channels (QuaternionChannels). Each quaternion of the answer has the
-/// sign that is nearer to the truth's quaternion. A value is NaN unless the joint is seen in both motions. There are no
-/// channels if answer or truth has no rotations.
+/// The global rotations of answer and truth as channels (QuaternionChannels). The sign of the answer's first known
+/// quaternion of each joint is chosen by the truth's quaternion at the same frame (`like`). A value is NaN unless the
+/// joint is seen in both motions. There are no channels if answer or truth has no rotations.
 struct RotationChannels {
   ChannelTracks found, truth;
 };

@@ -264,8 +264,8 @@ class BesideClip {
   }
 
   std::span<const BodyPose> poses() const { return poses_; }
-  /// Returns the index in poses() of a shown frame, if this joint supports the clip's body in that frame, or if no
-  /// joint does. Returns nullopt otherwise.
+  /// Returns the index in poses() that belongs to frame `frame` of the shown motion. Returns nullopt if this index lies
+  /// outside poses(), or if the clip's body is supported there, but not by this joint.
   std::optional<int> BearsAt(int frame, std::size_t joint) const {
     const int now = frame - begin_;
     if (now < 0 || now >= static_cast<int>(poses_.size())) return std::nullopt;

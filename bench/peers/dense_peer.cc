@@ -172,7 +172,8 @@ class DensePeer final : public IkPeer {
         pose.dof_points[d] = frame.position;
       }
     }
-    // For each effector: add the squared distance and the squared chords between the axes.
+    // For each effector, add to the cost the weighted squares of its distance from the target and of the chords from
+    // its axes to the target's axes.
     pose.cost = 0;
     double farthest = 0, longest = 0;
     for (int e = 0; e < ends_; ++e) {

@@ -62,7 +62,7 @@ struct ReplayOutcome {
 Result<ReplayOutcome> ReplayRun(const ReplayOptions& options);
 Result<ReplayOutcome> ReplayPrepared(const ReplayOptions& options, const RunData& run, const PreparedRun& prepared);
 
-/// If the replay starts programs of outside methods, adds an entry to the secret key's list of uses (NoteRepeat).
+/// If the replay starts outside programs, adds an entry to the secret key's list of uses (NoteRepeat).
 /// `target` is the replayed folder or file.
 Result<void> NoteKey(const std::string& target, const SuiteSetup& suite, std::span<const PreparedScenario> scenarios,
                      const std::optional<SecretKey>& key);

@@ -24,9 +24,10 @@ struct OutsideRules {
 OutsideOptions OptionsOf(const PreparedScenario& scenario, const ScenarioProgram& program,
                          const std::string& error_folder, const Fence& fence);
 
-/// Adds to a manifest what identifies each outside program: the name and version of its greeting (null if the greeting
-/// is invalid), and the digests of the files that `exec` and `files` name and, without `files`, of the scripts beside
-/// its script. Every program is started once. Fails if this machine cannot start one.
+/// Adds to a manifest what identifies each outside program: the name and version that it states in the handshake (null
+/// if the handshake fails), and the digests of its files. These are the files that its keys `exec` and `files` name. If
+/// `files` is empty, they are also the files beside its script that have the script's extension. Every program is
+/// started once. Fails if this machine cannot start one.
 Result<void> AddPrograms(std::span<const PreparedScenario> scenarios, const Fence& fence, Json& manifest);
 
 /// Lists every method and every metric that is a program, e.g. "python3 my_solver.py (ik-weights/mine)".
