@@ -18,7 +18,7 @@ struct AngleTracks {
 
 /// Returns the angles of hips, knees, ankles, shoulders, elbows, wrists, trunk and head: `left_hip_flexion`,
 /// `left_hip_abduction`, `left_hip_rotation`, … A joint is left out if the motion lacks its role. Returns no angles if
-/// the motion has no rotations or lacks a hip.
+/// the motion has no rotations or lacks a hip, or if one hip lies exactly above the other at rest.
 ///
 /// The angles of a joint describe the rotation of the segment below it (the file's rotation of that joint) relative to
 /// the segment above. The pelvis is the nearest common ancestor of both hips, the thorax that of both shoulders.

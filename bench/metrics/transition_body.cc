@@ -105,7 +105,7 @@ double Overlap(const BodyPose& pose) {
 struct BodyFrame {
   bool flight = false;
   std::optional<double> zmp_cm, slip_mps2;  // nullopt if no joint supports the body
-  double glide_cm = 0;                      // distance that the slowest supporting joint moves in this frame
+  double glide_cm = 0;                      // travel of the slowest supporting joint or foot (MeasureBody)
   double beyond_deg = 0, overlap_cm = 0, sunk_cm = 0;
   std::array<std::optional<double>, 2> twist = {};  // heading of the hips relative to each resting foot, radians
 };
@@ -130,7 +130,8 @@ BodyFrame FrameOf(const Moving& moving, int f, const Support& support) {
   const BodyPose &pose = moving.poses[f], &velocity = moving.velocities[f];
   BodyFrame frame;
   frame.flight = support.flight;
-  // Compute the force per mass that the ground must exert (slip), and the point at which it acts (ZMP).
+  // From the force that the ground must exert, compute the part per mass that friction or contact cannot provide
+  // (slip), and the point at which the force acts (ZMP).
   if (!support.flight && support.joints.any()) {
     const glm::dvec3 &a = moving.accelerations[f], &c = moving.centres[f];
     const double up = a.y + kGravity;

@@ -45,10 +45,10 @@ struct ConformanceCheck {
 
 /// Sends the sample problems of the method's task (MakeSpecimens) to the method and calls `report` after every check.
 /// The checks are: the method answers the handshake; its answers can be scored; they depend on the problem alone, not
-/// on earlier problems or settings; it accepts long lines; it ends when its input ends; and it solves some problems if
-/// a plain built-in method solves some (if not, the report says whether the answered angles seem to be in radians).
-/// Stops after a failed handshake or an answer that cannot be scored. Returns true if all checks passed. Fails if
-/// MakeSpecimens fails, or if the program cannot be found.
+/// on earlier problems or settings; it accepts long lines; it answers every question once; it ends when its input ends;
+/// and it solves some problems if a plain built-in method solves some (if not, the report says whether the answered
+/// angles seem to be in radians). Stops after a failed handshake or an answer that cannot be scored. Returns true if
+/// all checks passed. Fails if MakeSpecimens fails, or if the program cannot be started or ends at the first problem.
 Result<bool> CheckConformance(const OutsideOptions& options, const std::string& seat,
                               const std::function<void(const ConformanceCheck&)>& report,
                               const LabelledStreams* recordings = nullptr);

@@ -15,7 +15,7 @@ namespace fs = std::filesystem;
 
 constexpr std::streamsize kMaxScriptBytes = 4096;
 constexpr int kMaxLinks = 40;
-/// How the names of scripts end. Of other arguments it is unknown whether they name a file that must exist.
+/// The extensions of scripts. An argument with one of them must name an existing file; any other argument need not.
 constexpr std::string_view kScriptEndings[] = {".py", ".sh", ".js", ".mjs", ".rb", ".pl", ".jl", ".R", ".lua", ".php"};
 
 /// Returns the absolute, normalised path without a slash at its end.

@@ -23,10 +23,11 @@ struct ProgramView {
 /// program's working folder is the first folder shown.
 ProgramView ViewOf(const std::vector<std::string>& command, const std::vector<std::string>& files);
 
-/// Returns the files and folders that a program may lack if it did not start in a sandbox. Candidates are the target of
-/// the program if it is a link, the paths in its text if it is a script, and the paths in `words`, its last output.
-/// Candidates that the sandbox shows are left out; any other candidate is replaced by the folder of its installation.
-/// Empty = nothing is known to be missing.
+/// Returns the files and folders that a program may need but that its sandbox does not show. Call it if the program
+/// failed to start in the sandbox. Candidates are the file pyvenv.cfg if the program belongs to a Python virtual
+/// environment, the target of the program if it is a link, the paths in its text if it is a script, and the paths in
+/// `words`, its last output. Candidates that do not exist, that the sandbox shows, or that are too wide to be shown are
+/// left out; any other candidate is replaced by the folder of its installation. Empty = nothing is known to be missing.
 std::vector<std::filesystem::path> FindUnseen(const ProgramView& view, std::string_view words);
 
 /// Returns the text of a key `files` with which the sandbox shows a program `unseen` in addition to the files shown

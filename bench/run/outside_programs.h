@@ -38,9 +38,10 @@ Result<void> CheckPrograms(const std::string& file, std::span<const PreparedScen
                            const OutsideRules& rules);
 
 /// Makes the sandbox for the outside programs of these scenarios. The sandbox hides the run's `folder` ("" = none).
-/// Without outside programs, the sandbox is empty. Fails if worlds are secret and this machine cannot make a sandbox,
-/// unless the rules switch the sandbox off. Fails also if an outside program could read the key's file, the run's
-/// folder, or the file of a scenario with secret worlds.
+/// Returns an empty Fence if there are no outside programs. Fails if a program's key `exec` or `files` names a file
+/// that does not exist, or if `files` names a folder to which programs write. If worlds are secret and the rules do not
+/// switch the sandbox off, fails also if this machine cannot make a sandbox, or if an outside program could read the
+/// key's file, the run's folder or the scenario's file.
 Result<Fence> FenceFor(std::span<const PreparedScenario> scenarios, const OutsideRules& rules,
                        const std::filesystem::path& folder, const std::optional<SecretKey>& key);
 

@@ -96,8 +96,9 @@ struct RunOutcome {
 
 /// Runs scenarios and writes a result folder. All input is checked before anything is written. Each finished cell is
 /// written to journal.jsonl immediately; the journal is synchronised to the disk in groups of cells. A run that was
-/// ended at any moment, by a kill or a power cut, can be resumed, and the result has the same bytes. A shard keeps its
-/// journal for Merge. If no cell is finished, a new folder is removed again.
+/// ended at any moment, by a kill or a power cut, can be resumed; its results then have the same bytes as those of a
+/// run without interruption, apart from times. A shard keeps its journal for Merge. If no cell is finished, a new
+/// folder is removed again.
 Result<RunOutcome> Run(const RunOptions& options, const std::function<void(const Progress&)>& on_progress);
 
 struct MergeOptions {
