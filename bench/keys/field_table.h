@@ -60,7 +60,8 @@ struct Field {
   KeyInfo info;
   std::function<void(Fields&, Options&)> read;
 
-  /// Makes a field for a number: a double, an int (integers only), or a std::optional of one of these.
+  /// Makes a field for a number: a double, an int, or a std::optional of a double or of a std::uint64_t. A member of an
+  /// integer type accepts only integers.
   template <typename Member>
   static Field Number(const std::string& key, Member member, Range range, std::string meaning) {
     using Value = std::remove_cvref_t<std::invoke_result_t<Member, Options&>>;

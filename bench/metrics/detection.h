@@ -71,9 +71,9 @@ struct MomentMatch {
   std::optional<double> FScore() const;
 };
 
-/// Matches detections with action points of the same move that are at most `tolerance_s` away. Each point gets at most
-/// one detection and each detection at most one point, and the number of pairs is the maximum. Further detections of
-/// one point are false positives (Fothergill et al. 2012).
+/// Matches detections with action points of the same move that are at most `tolerance_s` away. A point is paired
+/// with at most one detection, and a detection with at most one point; the number of pairs is as large as possible.
+/// Further detections of a point are false positives (Fothergill et al. 2012).
 MomentMatch MatchMoments(std::span<const Moment> points, std::span<const Moment> detections, double tolerance_s);
 
 /// Returns the mean of the F-scores of all moves that occur among points or detections, as defined in MSRC-12's paper.

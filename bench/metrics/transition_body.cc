@@ -104,7 +104,8 @@ double Overlap(const BodyPose& pose) {
 /// The measurements of one frame.
 struct BodyFrame {
   bool flight = false;
-  std::optional<double> zmp_cm, slip_mps2;  // nullopt if no joint supports the body
+  // nullopt if no joint supports the body; zmp_cm also if the ground bears less than half of the weight
+  std::optional<double> zmp_cm, slip_mps2;
   double glide_cm = 0;                      // travel of the slowest supporting joint or foot (MeasureBody)
   double beyond_deg = 0, overlap_cm = 0, sunk_cm = 0;
   std::array<std::optional<double>, 2> twist = {};  // heading of the hips relative to each resting foot, radians
@@ -324,8 +325,8 @@ double SlowestOf(const JointSet& joints, const Speed& speed) {
   return slowest.value_or(0);
 }
 
-/// Sets each measurement of a frame to 0 if the measurement is at most 1.25 times the largest value that the clips
-/// themselves reach within three frames of this frame.
+/// Sets zmp_cm, slip_mps2, beyond_deg and overlap_cm of a frame to 0, each if it is at most 1.25 times the largest
+/// value that the clips themselves reach within three frames of this frame.
 void Excuse(std::span<const BesideClip> clips, int shown_frame, BodyFrame& frame) {
   constexpr int kReach = 3;
   constexpr double kAllowance = 1.25;
@@ -359,8 +360,8 @@ BodyMeasures MeasureBody(const JoinView& view, std::span<const Support> support)
   // Measure each frame of the join.
   JointSet feet;
   for (const Side side : kSides) feet.set(Index(OnSide(side, kLeftAnkle))).set(Index(OnSide(side, kLeftFoot)));
-  // Velocities and accelerations depend on four frames on either side; at an end of the motion, they depend on nine
-  // frames on one side.
+  // A velocity depends on one frame on either side, an acceleration on four. At an end of the motion, an acceleration
+  // depends on the nine frames at this end.
   constexpr int kReach = 8;
   const int from = std::max(view.first - kReach, 0);
   const Moving moving(view.shown.subspan(from, std::min<std::size_t>(end + kReach + 1, view.shown.size()) - from),
@@ -370,9 +371,10 @@ BodyMeasures MeasureBody(const JoinView& view, std::span<const Support> support)
     const Support& held = support[f - view.first];
     BodyFrame frame = FrameOf(moving, f - from, held);
     Excuse(clips, f, frame);
-    // Glide is the distance moved by the slowest supporting joint or, without support, by the slowest joint of the
-    // feet. If this joint also supports the body in a clip, the joint's own movement or its movement relative to the
-    // clip is taken, whichever is shorter.
+    // Glide is the distance moved by the slowest supporting joint. If no joint supports the body, it is the distance
+    // moved by the slowest joint of the feet; in flight, it is 0. If the joint also supports the body in a clip, or
+    // if no joint supports the body in the clip, the joint's movement relative to the clip counts instead if it is
+    // shorter.
     if (!held.flight) {
       frame.glide_cm = SlowestOf(held.joints.any() ? held.joints : feet, [&](std::size_t j) {
         double slowest = TravelOf(view.shown, f, j).value_or(0);

@@ -36,7 +36,8 @@ Result<Json> ReadAnswer(const std::string& line, const std::string& id);
 /// Reads the answer to step `number` of a session, like ReadAnswer. A message of type "answer" must repeat the number.
 Result<Json> ReadStepAnswer(const std::string& line, const std::string& id, int number);
 
-/// The problem, and the step of a session, to which a line is the answer. `id` is "" if the line is not an answer.
+/// The question that a line answers: the id of the problem or session and, in a session, the number of the step. `id`
+/// is "" if the line is not an answer.
 struct Answered {
   std::string id;
   std::optional<int> step = {};

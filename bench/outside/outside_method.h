@@ -44,8 +44,8 @@ double MaxAskSeconds(double time_s);
 struct OutsideReply {
   Status status = Status::kFailed;  ///< kOk: `answer` is valid; else `reason` says why there is none
   std::string reason;
-  /// False if this machine or its set-up is the cause: the program was not asked, or never replied to its first
-  /// handshake. `reason` then says why.
+  /// False if this machine or its set-up is the cause of the failure: for example, the program could not be started, or
+  /// never replied to its first handshake. `reason` then says why.
   bool was_asked = true;
   JsonPtr answer;      ///< an object with finite numbers
   double cpu_s = 0;    ///< processor time since the last reply; 0 if the program ended before the first sample

@@ -41,7 +41,8 @@ std::string FilesThatShow(const std::vector<std::filesystem::path>& unseen, cons
 Result<void> CheckNames(const std::vector<std::string>& command, const std::vector<Place>& places = {});
 
 /// Returns the folder of Etude's Python package: `share/etude/python` of an installation, else `python` in a folder
-/// above the running program; "" if there is none. Every outside program sees this folder and has it in its PYTHONPATH.
+/// above the running program; "" if there is none. Every outside program has this folder in its PYTHONPATH, and its
+/// sandbox shows the package in it.
 std::filesystem::path PythonFolder();
 
 }  // namespace etude

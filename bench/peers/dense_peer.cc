@@ -57,8 +57,9 @@ struct Joint {
 
 struct Goal {
   Vector axes[3], position;
-  double scale, axis_scale;  // square roots of the weights of position rows (per kPositionScale of length) and axis
-                             // rows (per radian)
+  // Factors of the rows of the Jacobian and the residuals: √weight / kPositionScale for positions, √(2 · weight) for
+  // rotations (radians).
+  double scale, axis_scale;
 };
 
 struct Pose {
@@ -241,8 +242,8 @@ class DensePeer final : public IkPeer {
     }
   }
 
-  // Solves (JJᵀ + μI) y = duals_ in place, where JJᵀ is without the columns of the fixed angles. Gaussian elimination
-  // works on the upper triangle, in whole SIMD vectors.
+  // Solves (JJᵀ + μI) y = duals_ in place, where J lacks the columns of the fixed angles. Gaussian elimination works on
+  // the upper triangle, in whole SIMD vectors.
   bool SolveDuals(double mu) {
     std::memcpy(factor_, gram_, sizeof(gram_));
     for (int d = 0; d < dofs_; ++d) {

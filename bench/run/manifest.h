@@ -48,7 +48,7 @@ std::vector<JsonDifference> CompareManifests(const Json& then, const Json& now);
 std::string InWords(std::span<const JsonDifference> differences);
 /// Returns the differences that concern outside programs (AddPrograms).
 std::vector<JsonDifference> OfPrograms(const std::vector<JsonDifference>& differences);
-/// Fails if a scenario has outside programs, but the manifest that the file at `place` contains does not list them.
+/// Fails if a scenario has outside programs that `manifest` does not list. `place` is the place of the error.
 Result<void> RequirePrograms(const Json& manifest, std::span<const PreparedScenario> scenarios, const Place& place);
 /// Returns true if the differences concern only libraries: every path begins with "libraries.".
 bool AreOfLibraries(std::span<const JsonDifference> differences);
