@@ -12,9 +12,9 @@
 
 namespace etude {
 
-/// Collects what a gate needs to know about a scenario that has been run. `clip_digests` are the digests of the loaded
-/// clips, in order. The digests of worlds depend only on what determines the worlds. A baseline therefore stays valid
-/// if questions, expectations, gate rules or comments are edited.
+/// Collects what a gate needs to know about a scenario that has been run. `clip_digests` are the digests of the
+/// loaded clips, in order. A condition's digest covers only the task, the task's own keys and the clips. A baseline
+/// therefore stays valid if questions, expectations, gate rules or comments are edited.
 FinishedScenario FinishScenario(const Scenario& scenario, const ScenarioSetup& setup,
                                 std::span<const std::string> clip_digests);
 

@@ -22,9 +22,9 @@ const MetricInfo* FindGateMetric(std::string_view id);
 
 enum class Movement {
   kSame,       ///< all values are the same in both snapshots
-  kBetter,     ///< the value is clearly better, by at least the practical threshold
-  kWorse,      ///< the value is clearly worse, by at least the practical threshold
-  kNoMatter,   ///< the difference is clearly below the practical threshold
+  kBetter,     ///< the value is better: the difference is significant and at least the practical threshold
+  kWorse,      ///< the value is worse: the difference is significant and at least the practical threshold
+  kNoMatter,   ///< the whole interval of the difference lies within ± the practical threshold
   kUndecided,  ///< values differ, but the test supports none of the results above; or the metric has no direction
   kChanged,    ///< values differ in a scenario whose gate rule is `exact`
 };

@@ -28,11 +28,11 @@ struct Specimen {
   bool has_plain_method = false;  ///< true: method 0 is a built-in method that solves some of the specimen's worlds
 };
 
-/// Makes two specimens of a task with different conditions and three problems each. The specimens are the same in every
-/// call. Fails if there is no such task, if its worlds cannot be made on this machine (no renderer), or if `seat` is
-/// not one of the task's seats ("" if the task has no seats). With `recordings`, the worlds are the recorded people,
-/// with one problem for each of the first three people; only task detection has such worlds. `recordings` must outlive
-/// the result.
+/// Makes two specimens of a task, each with another condition and with three problems. The specimens are the same in
+/// every call. With `recordings`, both specimens have the same condition, and one problem for each of the first three
+/// recorded people; only task detection has such worlds. `recordings` must outlive the result. Fails if there is no
+/// such task, if its worlds cannot be made on this machine (no renderer), or if `seat` is not one of the task's seats
+/// ("" if the task has no seats).
 Result<std::vector<Specimen>> MakeSpecimens(const std::string& task, const std::string& seat,
                                             const LabelledStreams* recordings = nullptr);
 

@@ -312,8 +312,9 @@ class DensePeer final : public IkPeer {
     return gain;
   }
 
-  // Reduces the cost by damped steps from the current pose. Ends when the problem is solved, or when kMaxPatience steps
-  // in a row have not reduced the cost below `progress` times the cost before them.
+  // Reduces the cost by damped steps from the current pose. Ends when the problem is solved, when the steps are used
+  // up, when kMaxPatience steps in a row have not reduced the cost below `progress` times the cost before them, when
+  // the damping factor exceeds kMaxFactor, or when a step turns no angle by kMinTurn.
   void Descend(double progress) {
     double fallen_to = pose_.cost, factor = 1, growth = 2;
     bool has_moved = true;

@@ -21,8 +21,8 @@ struct CellCheck {
   std::string cell;
   bool same = false;
   /// The name of the first difference: a stage whose digest differs, else "status", "reason", a metric, "curves" or
-  /// "recording". If the rows belong to different cells: "scenario", "task", "cell", "clip" or "units". "" if nothing
-  /// differs.
+  /// "recording". "status" comes first if a status depends on the machine (DependsOnMachine). If the rows belong to
+  /// different cells: "scenario", "task", "cell", "clip" or "units". "" if nothing differs.
   std::string stage;
   std::string then, now;  ///< the value in the old row and in the new row
   /// The new row without curves and recording, if `options.cells` names the cell.

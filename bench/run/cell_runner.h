@@ -72,8 +72,9 @@ class CellRunner {
   std::string WhyNotAsked(std::size_t method, const std::string& reason) const;
   CellResult RunWithProgram(std::size_t method, CellUsage& usage);
   std::size_t IndexInTask(std::size_t method) const;
-  /// Returns the data that all problems of a condition share (Task::Setting), or those of the world alone if the task
-  /// HasOwnSettings. If they cannot be made, returns the failure as the result of the cell.
+  /// Returns the setting of the open world: the data that all problems of its condition share (Task::Setting) or, if
+  /// each world has a setting of its own (Task::HasOwnSettings), the data of this world alone. If the setting cannot
+  /// be made, returns the failure as the result of the cell.
   tl::expected<const Payload*, CellResult> OpenSetting();
   std::string SettingId() const;
 

@@ -41,8 +41,8 @@ struct JsonDifference {
   bool operator==(const JsonDifference&) const = default;
 };
 
-/// Returns all values that differ between an earlier and the present manifest. Of a text with several lines, the first
-/// line that differs is told: `path` ends with its number.
+/// Returns all values that differ between an earlier and the present manifest. If a text has several lines, the
+/// difference shows only the first line that differs; `path` ends with this line's number.
 std::vector<JsonDifference> CompareManifests(const Json& then, const Json& now);
 /// Describes the first few differences in words: "seed was 1 and is 2; …".
 std::string InWords(std::span<const JsonDifference> differences);

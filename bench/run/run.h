@@ -113,10 +113,10 @@ struct MergeOptions {
   const std::atomic<bool>* stop = nullptr;
 };
 
-/// Merges the shards of a run. The result has the same bytes as the result of a run without shards. Fails, with a list,
-/// if shards have different builds, suites or seeds, if shards overlap, or if cells are missing. If the user stops the
-/// merge, no files are left. `on_progress` receives the share of rows that have been read and written. Even if this
-/// share is 1, the merge has succeeded only when this function returns.
+/// Merges the shards of a run. The manifest, rows, curves, recordings and summary have the same bytes as those of a
+/// run without shards. Fails, with a list, if shards have different builds, suites or seeds, if shards overlap, or if
+/// cells are missing. If the user stops the merge, no files are left. `on_progress` receives the share of rows that
+/// have been read and written. Even if this share is 1, the merge has succeeded only when this function returns.
 Result<RunOutcome> Merge(const MergeOptions& options, const std::function<void(double share)>& on_progress);
 
 }  // namespace etude

@@ -195,7 +195,7 @@ Result<void> RunFolder::Lock() {
       is_ours_ = false;
       return Fail({file.string()}, "is no file");
     }
-    if (lock_ < 0 && (errno == EROFS || errno == EACCES)) return {};  // no process can write here, so no lock is needed
+    if (lock_ < 0 && (errno == EROFS || errno == EACCES)) return {};  // this process may not write here: needs no lock
     if (lock_ < 0) return CannotWrite(file.string(), "cannot be made", errno);
     if (::flock(lock_, LOCK_EX | LOCK_NB) != 0) {
       const int reason = errno;

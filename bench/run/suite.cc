@@ -120,8 +120,8 @@ Result<std::vector<std::string>> KeepLabels(const std::string& path, SourceTexts
   return files;
 }
 
-/// Fails if a path in `paths` has no scenario that can use an option. `with_use` contains the scenario files that can
-/// use it. One such file per path is enough.
+/// Fails if, for one of `paths`, no scenario file can use an option of the command line. `with_use` contains the
+/// scenario files that can use the option; `why` names the option and says why the others cannot.
 Result<void> CheckThatUsed(const std::vector<std::string>& paths, const std::set<std::string>& with_use,
                            std::string_view why) {
   for (const std::string& path : paths) {
