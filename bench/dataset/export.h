@@ -20,7 +20,7 @@ struct ExportOptions {
   std::vector<std::string> clips;      ///< if not empty, replaces the scenarios' clips
   std::string joint_map;               ///< if not empty, replaces the scenarios' joint maps
   std::string clip_facts = {};         ///< additional lines of the joint map (RunOptions::clip_facts)
-  /// True: the pictures of the truth are also written (TaskWorld::MakeTruePictures).
+  /// True: the true pictures of each world (depth, labels) are also written (TaskWorld::MakeTruePictures).
   bool depth = false;
   std::string output;
   std::string program_version;

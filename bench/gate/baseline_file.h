@@ -25,7 +25,8 @@ Result<std::string> WriteBaseline(const Snapshot& snapshot);
 
 /// Reads a baseline strictly, because a gate with an incomplete baseline would check less than it reports. Fails on a
 /// missing, unknown or duplicate entry or key; on a wrong type, schema or length; on an unknown status letter or
-/// metric; if the number of nulls is not the declared one; if no cell is ok or unsolved; and on a broken seal (see
+/// metric; if the number of nulls is not the declared one; if no cell has an answer (ok or unsolved); if a method has
+/// no answer under a condition, although not all of these cells were skipped; and on a broken seal (see
 /// BaselineSeal). The error names the line if possible.
 Result<Snapshot> ReadBaseline(const std::string& text, const std::string& file,
                               BaselineSeal seal = BaselineSeal::kMustHold);

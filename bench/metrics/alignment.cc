@@ -62,7 +62,8 @@ std::optional<Similarity> AlignByQuaternion(const PointMoments& moments) {
   return similarity;
 }
 
-/// Returns `fit`, which has a scale. If `with_scale` is false, returns the rigid transformation with the same rotation.
+/// Returns `fit` if `with_scale` is true, else the rigid transformation with the same rotation. `moments` are the sums
+/// from which `fit` was computed. Returns nothing if there is no fit.
 std::optional<Similarity> WithScale(const std::optional<Similarity>& fit, const PointMoments& moments,
                                     bool with_scale) {
   if (!fit || with_scale) return fit;

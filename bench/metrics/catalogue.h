@@ -44,7 +44,7 @@ struct MetricVector {
   std::string_view source;         ///< origin of the known value: "derived: …" or "published: …"
 };
 
-/// The definition of a metric. Tables, comparisons and other implementations use this entry.
+/// The definition of a metric. Tables and comparisons use it; MetricsJson exports it for other implementations.
 struct MetricInfo {
   std::string id;     ///< e.g. "position_error_cm"; it ends with the unit
   int version = 1;    ///< raised if the definition changes; values of two versions are never mixed

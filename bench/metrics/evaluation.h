@@ -81,7 +81,8 @@ std::optional<double> SkateFromHeight(const PointTracks& feet, double rate_hz);
 /// Returns the mean speed of ankles and toes over the frames in which `contacts` (frames × columns of feet) states a
 /// contact with the floor, m/s, as Kimodo's code computes it.
 std::optional<double> SkateFromContacts(const PointTracks& feet, const std::vector<bool>& contacts, double rate_hz);
-/// Returns the F1 score of the answer's contacts against the true contacts; nothing if neither states a contact.
+/// Returns the F1 score of the answer's contacts against the true contacts. Returns nothing if only one of the two
+/// files states contacts, or if there is no contact in either.
 std::optional<double> ContactF1(const std::vector<bool>& found, const std::vector<bool>& truth);
 /// Returns PFC (physical foot contact) as EDGE's code computes it, but with Y up and at the motion's own rate.
 std::optional<double> PhysicalFootContact(const PointTracks& feet, std::span<const glm::dvec3> root, double rate_hz);

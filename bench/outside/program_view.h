@@ -18,9 +18,9 @@ struct ProgramView {
 };
 
 /// Makes the view of `command`: a program as returned by FindProgram, and its arguments. The sandbox shows `files` and
-/// the files that the command names. If `files` is empty, it shows the folder of the program's executable instead or,
-/// if the executable belongs to the system, the folder of its script (the first file among the arguments). The
-/// program's working folder is the first folder shown.
+/// the files that the command names. If `files` is empty, the sandbox shows the whole folder of the first of these
+/// files that does not belong to the system: of the program's executable, or else of its script. It shows only the
+/// file if this folder contains a scratch folder. The program's working folder is the first folder shown.
 ProgramView ViewOf(const std::vector<std::string>& command, const std::vector<std::string>& files);
 
 /// Returns the files and folders that a program may need but that its sandbox does not show. Call it if the program

@@ -335,7 +335,7 @@ class DensePeer final : public IkPeer {
         factor *= growth;
         growth *= 2;
       }
-      // Count the steps since the cost last fell enough.
+      // If the cost has fallen enough, allow kMaxPatience further steps; otherwise, allow one step less than before.
       if (pose_.cost < progress * fallen_to) {
         fallen_to = pose_.cost;
         left = kMaxPatience;

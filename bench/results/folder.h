@@ -88,8 +88,8 @@ Result<void> CheckStillThere(const std::filesystem::path& folder, const RunData&
 class FolderBegun {
  public:
   explicit FolderBegun(const std::filesystem::path& folder);
-  /// Returns the result of reading. If reading failed and the folder was replaced, the returned error says that it was
-  /// replaced.
+  /// Returns `read`, the result of reading the folder. If reading failed and the folder was replaced meanwhile,
+  /// returns an error that says so.
   template <typename Value>
   Result<Value> Tell(Result<Value> read) const {
     if (read || IsThere()) return read;

@@ -19,8 +19,8 @@ struct OutsideRules {
   bool allow_exec = false;  ///< true: also run programs that a manifest or a pack names, which may come from a stranger
 };
 
-/// Returns the options with which a program of a scenario is started. `error_folder` is the folder of its standard
-/// error (ErrorFileOf).
+/// Returns the options with which a program of a scenario is started. The program's standard error goes to a file in
+/// `error_folder` (ErrorFileOf).
 OutsideOptions OptionsOf(const PreparedScenario& scenario, const ScenarioProgram& program,
                          const std::string& error_folder, const Fence& fence);
 

@@ -65,8 +65,8 @@ struct Progress {
   /// The share of the results that has been summarised and written; nullopt while cells still run.
   std::optional<double> written = {};
 
-  /// Estimates the time until all cells are done, seconds; 0 = unknown. The expected speed counts as if it had been
-  /// measured on a tenth of the work.
+  /// Estimates the time until all cells are done, seconds; 0 = unknown. The expected time per unit of work
+  /// (`seconds_per_work`) has the weight of a measurement over a tenth of the work.
   double SecondsToGo() const {
     const double expected = seconds_per_work > 0 ? 0.1 * work : 0, done = expected + work_done - work_before;
     return done <= 0 ? 0 : (expected * seconds_per_work + seconds) / done * (work - work_done);

@@ -198,7 +198,7 @@ Result<ScenarioSetup> SetUp(Scenario& scenario, const std::string& file, const s
   if (options.skip_refused) RETURN_IF_ERROR(LeaveOutRefused(setup, sources));
   ASSIGN_OR_RETURN(setup.labels, KeepLabels(scenario.streams.labels, sources));
   RETURN_IF_ERROR(FindFiles(scenario, sources, setup));
-  if (!setup.files.empty()) {  // each pair of files is one trial; --trials limits the number of pairs
+  if (!setup.files.empty()) {  // each world made of files is one trial; --trials limits the number of these worlds
     if (options.key)
       return Fail({file, 0, 0}, "--seed-file: scenario {} uses no random numbers, because it judges files",
                   scenario.name);
