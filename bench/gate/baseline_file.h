@@ -9,7 +9,8 @@ namespace etude {
 
 /// The version of the format of a baseline file. It is raised when older programs can no longer read the file.
 constexpr int kBaselineSchema = 2;
-/// The last format version without a seal. ReadBaseline still reads it and sets Snapshot::unsealed.
+/// The last format version without a seal. ReadBaseline reads such a file only with BaselineSeal::kMayBreak, and then
+/// sets Snapshot::unsealed.
 constexpr int kUnsealedSchema = 1;
 
 /// What to do if a baseline does not match its seal.

@@ -79,8 +79,10 @@ std::vector<std::string> DescribeSilentMethods(const FinishedRun& run);
 /// Returns true if the change of this metric makes the gate fail.
 bool IsRegression(const MetricMove& move);
 
-/// Returns the verdict of the gate. A run with missing cells is incomplete, not regressed, however bad its other cells
-/// are; the report still lists the changes. An undecided expectation, rule on processor times or difference passes.
+/// Returns the verdict of the gate. If `report.incomplete` is not empty, the verdict is kIncomplete, however bad the
+/// results are. The report then lists the changes since the baseline, but not if rows are missing or the run did not
+/// end (JudgeRun). An expectation, a rule on processor times or a change that is undecided does not make the gate
+/// fail.
 GateVerdict GateVerdictOf(const GateReport& report);
 
 }  // namespace etude

@@ -53,7 +53,8 @@ struct MetricMove {
   int gained = 0;     ///< number of worlds with a value in the second snapshot only
   std::optional<double> before, after;  ///< the metric's aggregate over the values in each snapshot
   Comparison comparison;  ///< paired comparison, later − earlier, of the worlds with a value in both snapshots
-  /// True if `movement` follows from the difference of means; false if it follows from the metric's own aggregate.
+  /// True if the means decided about the values, not the metric's own aggregate. `presence` and the tail rule may
+  /// change `movement` afterwards.
   bool by_mean = false;
   std::optional<Comparison> presence;  ///< comparison of "has a value" (1 or 0), if values were lost or gained
   /// Far worse worlds: first those that lost their value, then the others, the worst first.

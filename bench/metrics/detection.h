@@ -50,8 +50,8 @@ struct MoveCall {
   int frame = 0;
 };
 
-/// Returns the share of right performances in which the requested move was called at least once. The result is empty
-/// if there are no right performances.
+/// Returns the share of right performances in whose window the requested move was called at least once. The result is
+/// empty if there are no right performances.
 std::optional<double> RightSpotted(std::span<const MoveWindow> right, std::span<const MoveCall> calls);
 
 /// Returns `false_alarms_per_min`. The whole session counts as time, including performances. `session_s` must be

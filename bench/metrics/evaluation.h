@@ -101,8 +101,8 @@ struct RotationChannels {
 std::optional<RotationChannels> RotationsOf(const EvaluatedPair& pair);
 
 /// Returns the mean absolute error of the bend angles, degrees. Each entry of `bends` holds three points (hip, knee,
-/// ankle; or shoulder, elbow, wrist); the bend angle is at the middle point. Returns nothing if in no frame all three
-/// points of an entry are seen in both motions.
+/// ankle; or shoulder, elbow, wrist); the bend angle is at the middle point. A frame counts for an entry if the entry's
+/// three points are seen in both motions. Returns nothing if no frame counts.
 std::optional<double> BendErrorDeg(const PointTracks& found, const PointTracks& truth,
                                    std::span<const std::array<std::size_t, 3>> bends);
 

@@ -38,7 +38,7 @@ Result<std::vector<Specimen>> MakeSpecimens(const std::string& task, const std::
 
 /// One requirement for an outside method, and the result of its check.
 struct ConformanceCheck {
-  std::string name;  ///< a sentence that is true if the method passes
+  std::string name;  ///< what a method that passes does, e.g. "ends when its input ends"
   bool passed = false;
   std::string found;  ///< what was observed, also if the method passed
 };

@@ -44,7 +44,8 @@ struct Answered {
 };
 Answered QuestionAnsweredBy(const std::string& line);
 
-/// Returns the first `max_bytes` bytes of a text in single quotes. Bytes that are not printable ASCII become \xNN.
+/// Puts a text in single quotes. If the text is longer than `max_bytes`, keeps only its first `max_bytes` bytes and
+/// adds "…". Bytes that are not printable ASCII become \xNN.
 std::string Printable(std::string_view text, std::size_t max_bytes = 80);
 
 }  // namespace etude

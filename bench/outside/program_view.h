@@ -36,8 +36,8 @@ std::vector<std::filesystem::path> FindUnseen(const ProgramView& view, std::stri
 std::string FilesThatShow(const std::vector<std::filesystem::path>& unseen, const ProgramView& view,
                           bool as_options = false);
 
-/// Fails if a command names a program by its path, or a script, that does not exist. The error is at the word's entry
-/// in `places`, if there is one.
+/// Fails if the command contains the path of a program or the name of a script, but no such file exists. The error's
+/// place is the word's entry in `places`, if there is one.
 Result<void> CheckNames(const std::vector<std::string>& command, const std::vector<Place>& places = {});
 
 /// Returns the folder of Etude's Python package: `share/etude/python` of an installation, else `python` in a folder

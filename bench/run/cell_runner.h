@@ -90,7 +90,8 @@ class CellRunner {
   std::string why_world_not_run_;
   CellUsage world_usage_;
   PeakMemory peak_memory_;
-  /// The open world's data for outside methods; null until an outside method needs them.
+  /// Data for outside methods; null until an outside method needs them. `setting_` belongs to `condition_of_setting_`
+  /// and, if each world has a setting of its own, to `trial_of_setting_`; `problem_` belongs to the open world.
   std::unique_ptr<Payload> setting_, problem_;
   int condition_of_setting_ = -1, trial_of_setting_ = -1;
 };

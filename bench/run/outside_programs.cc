@@ -127,7 +127,8 @@ Json DigestsOf(const MethodEntry& program) {
 }  // namespace
 
 Result<void> AddPrograms(std::span<const PreparedScenario> scenarios, const Fence& fence, Json& manifest) {
-  std::optional<TemporaryFolder> errors;  // the reason of a failure quotes the program's standard error
+  // The folder for the programs' standard error, which the reason of a failure quotes.
+  std::optional<TemporaryFolder> errors;
   for (std::size_t s = 0; s < scenarios.size(); ++s) {
     for (const ScenarioProgram& program : ProgramsIn(scenarios[s].scenario())) {
       if (!errors) {

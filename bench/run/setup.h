@@ -25,8 +25,8 @@ struct RefusedClip {
   friend bool operator==(const RefusedClip&, const RefusedClip&) = default;
 };
 
-/// The inputs from which a scenario's worlds are made. With SuiteSetup::sources, the same worlds can be made on any
-/// machine.
+/// The inputs from which a scenario's worlds are made. With SuiteSetup::sources and the files of the clips and
+/// recordings, the same worlds can be made on any machine.
 struct ScenarioSetup {
   std::string file;  ///< name of the scenario's file, a key of SuiteSetup::sources
   std::string name;  ///< name of the scenario; a file may contain several scenarios
