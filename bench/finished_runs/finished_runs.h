@@ -40,7 +40,8 @@ enum class Held {
 };
 
 /// Reads a result folder with its scenarios and times. A run that has not ended or was interrupted has no data, only
-/// the reason. Fails like LoadRun, and if cells.jsonl has a duplicate row or a row that the manifest does not list.
+/// the reason (`incomplete`). Fails as LoadRun and CheckRows do. Fails also if this program has another version of a
+/// metric than the manifest, or if a rule on processor times needs times that the run does not have.
 Result<FinishedRun> LoadFinishedRun(const std::filesystem::path& folder, Sealing sealing = Sealing::kRequired,
                                     Held held = Held::kAll);
 

@@ -22,9 +22,9 @@ Result<std::string> ProblemLine(const std::string& id, const Json& content, cons
 Result<std::string> BeginLine(const std::string& id, const Json& content, const std::string& files);
 Result<std::string> StepLine(const std::string& id, int number, const Json& content, const std::string& files);
 
-/// A program's reply to the handshake. Each function below reads one type of line. The function fails on invalid JSON,
-/// another type, another problem, a missing field, or a field of the wrong type; the error says what was found. Unknown
-/// fields are ignored.
+/// A program's reply to the handshake. Each function below reads one type of line. It fails if the line is not valid
+/// JSON, is of another type, answers another problem, lacks a field, or has a field of the wrong type; the error says
+/// what was found. Unknown fields are ignored.
 struct HelloReply {
   std::string name;
   std::string version;

@@ -29,7 +29,7 @@ struct CellCheck {
   std::optional<Row> row = std::nullopt;
 };
 
-/// Compares to which cells two rows belong: scenario, task, cell identity, clip and sampling units.
+/// Compares the identities of two rows: scenario, task, cell, clip and sampling units.
 CellCheck CompareIdentity(const Row& then, const Row& now);
 /// Compares a row with the row of the second run: identity, stages, status, reason, metrics.
 CellCheck CompareRows(const Row& then, const Row& now);

@@ -78,7 +78,8 @@ Result<RunData> LoadRun(const std::filesystem::path& folder, Sealing sealing = S
 /// one by one.
 Result<RunData> LoadRunRowByRow(const std::filesystem::path& folder, Sealing sealing = Sealing::kRequired);
 
-/// Reads everything except rows, series and recordings.
+/// Reads everything except rows, series, recordings and times. If the rows are stored as columns, `RunData::source`
+/// reads them.
 Result<RunData> LoadRunOutline(const std::filesystem::path& folder, Sealing sealing = Sealing::kRequired);
 
 /// Fails if another run has replaced the folder since `run` was loaded.

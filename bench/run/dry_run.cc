@@ -60,8 +60,8 @@ bool AreInstalled(const std::vector<std::string>& references, const Place& place
 }
 
 /// Returns true if the cost of a scenario can be forecast without loading its input. Everything that the scenario names
-/// must come with the program, so that the input is as valid as when the stored cost was measured. The number of
-/// sampling units must be known.
+/// must come with the program or with a package, so that the input is as valid as when the stored cost was measured.
+/// The number of sampling units must be known.
 bool IsKnown(const Scenario& scenario, const ScenarioSetup& setup, const KeptCost& cost) {
   const bool names_no_file = setup.streams.empty() && setup.labels.empty() && setup.files.empty() &&
                              ProgramsIn(scenario).empty() &&

@@ -41,8 +41,9 @@ struct JsonDifference {
   bool operator==(const JsonDifference&) const = default;
 };
 
-/// Returns all values that differ between an earlier and the present manifest. If a text has several lines, the
-/// difference shows only the first line that differs; `path` ends with this line's number.
+/// Returns the values that differ between an earlier and the present manifest. If a text has several lines, the
+/// difference shows only the first line that differs; `path` ends with this line's number. If a text of the suite
+/// differs, the digests of scenarios are left out.
 std::vector<JsonDifference> CompareManifests(const Json& then, const Json& now);
 /// Describes the first few differences in words: "seed was 1 and is 2; …".
 std::string InWords(std::span<const JsonDifference> differences);

@@ -129,11 +129,12 @@ Result<void> FindFiles(const Scenario& scenario, const SourceTexts& texts, Scena
 /// Returns the options with which the motions of a scenario are opened.
 Result<OpenOptions> OpenOptionsOf(const ScenarioSetup& setup, const SourceTexts& texts);
 
-/// Returns true if a condition of the scenario has `sensor: cameras`: another task then uses task capture's cameras.
+/// Returns true if a condition of the scenario has `sensor: cameras`. The scenario's task then uses the cameras of task
+/// capture.
 bool IsFilmed(const Scenario& scenario);
 
 /// Returns the number of people in a scenario's recordings; nullopt if its worlds are not made from recordings. `texts`
-/// contains the labels. A file that a folder or pattern in `setup.streams` contains but that cannot be read is added to
+/// contains the labels. Files in the folders and patterns of `setup.streams` that cannot be read are added to
 /// `setup.refused`.
 Result<std::optional<int>> CountRecordedPeople(ScenarioSetup& setup, const StreamSource& source,
                                                const SourceTexts& texts);
