@@ -272,8 +272,8 @@ Result<ExportOutcome> ExportSuite(const ExportOptions& options, const OnProgress
                                        [&](std::size_t part) { on_progress(w * Exporter::kParts + part, parts); }));
     on_progress((w + 1) * Exporter::kParts, parts);
   }
-  // Write the index, the README and the manifest. The index is sorted, because the order of secret worlds would reveal
-  // their trials.
+  // Write the index, the README and the manifest. If the worlds are secret, sort the index, because the order of
+  // writing would reveal their trials.
   const auto save = [&](const char* name, const std::string& text) {
     return WriteFileAtomically(folder.partial() / name, text);
   };

@@ -20,7 +20,7 @@ struct ExportOptions {
   std::vector<std::string> clips;      ///< if not empty, replaces the scenarios' clips
   std::string joint_map;               ///< if not empty, replaces the scenarios' joint maps
   std::string clip_facts = {};         ///< additional lines of the joint map (RunOptions::clip_facts)
-  /// True: the pictures of the truth are also written (TaskWorld::MakeTruePictures).
+  /// True: the true pictures of each world (depth, labels) are also written (TaskWorld::MakeTruePictures).
   bool depth = false;
   std::string output;
   std::string program_version;
@@ -42,8 +42,9 @@ struct ExportOutcome {
 ///
 /// The names and the order of secret worlds do not reveal their trials, and the index leaves out trial and clip. The
 /// data set is written completely and synced to disk, or not at all. Fails before writing if the folder is not empty or
-/// another export is writing it. The process must be in the pinned environment, so that pictures are the same on every
-/// machine. `on_progress` counts three steps per world: problem made, problem written, truth written.
+/// another export is writing it. The process must have the pinned environment (io/process/pinned_environment.h), so
+/// that pictures are the same on every machine. `on_progress` counts three steps per world: problem made, problem
+/// written, truth written.
 Result<ExportOutcome> ExportSuite(const ExportOptions& options, const OnProgress& on_progress);
 
 /// The layout version of a data set, stored as the key `data_set` of its manifest. A data set whose manifest lacks this

@@ -37,8 +37,8 @@ using PredictionFiles = std::vector<std::optional<FilePath>>;
 
 /// Finds SCENARIO/CONDITION/TRIAL.json in `folder` for every world of the plan. TRIAL is a number, with or without
 /// leading zeros, or the name of a secret world. In `faults`, links (which could lead to the truth) and pipes are
-/// listed as broken, all other files as extra. Names that begin with a dot are ignored. Fails if the folder cannot be
-/// read.
+/// listed as broken, a second file for a world as duplicate, and files that answer no world as extra. Names that begin
+/// with a dot are ignored. Fails if the folder cannot be read.
 Result<PredictionFiles> FindPredictions(const std::filesystem::path& folder, const Plan& plan,
                                         PredictionFaults& faults);
 

@@ -99,7 +99,8 @@ FinishedCell JudgeWorld(const Plan& plan, std::size_t w, const std::optional<Fil
   const bool is_filmed = scenario.scenario().recordings.KeepsTrial(world.trial);
   const auto built =
       scenario.task(world.condition).MakeWorld(scenario.KeyOf(world.condition, world.trial), is_filmed || has_programs);
-  // A skipped world gives the row of a skipped cell. A missing or broken answer gives the row of a failed cell.
+  // End the cell without judging if the world is skipped (status skipped), or if the answer is missing (failed) or
+  // broken (bad_output).
   if (const auto why = built->WhySkipped()) {
     if (file) faults.extra.push_back(fmt::format("{}.json ({})", NameOf(plan, w), *why));
     return ended(Status::kSkipped, *why);

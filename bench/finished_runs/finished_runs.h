@@ -12,9 +12,9 @@
 
 namespace etude {
 
-/// Collects what a gate needs to know about a scenario that has been run. `clip_digests` are the digests of the loaded
-/// clips, in order. The digests of worlds depend only on what determines the worlds. A baseline therefore stays valid
-/// if questions, expectations, gate rules or comments are edited.
+/// Collects what a gate needs to know about a scenario that has been run. `clip_digests` are the digests of the
+/// loaded clips, in order. A condition's digest covers only the task, the task's own keys and the clips. A baseline
+/// therefore stays valid if questions, expectations, gate rules or comments are edited.
 FinishedScenario FinishScenario(const Scenario& scenario, const ScenarioSetup& setup,
                                 std::span<const std::string> clip_digests);
 
@@ -40,7 +40,8 @@ enum class Held {
 };
 
 /// Reads a result folder with its scenarios and times. A run that has not ended or was interrupted has no data, only
-/// the reason. Fails like LoadRun, and if cells.jsonl has a duplicate row or a row that the manifest does not list.
+/// the reason (`incomplete`). Fails as LoadRun and CheckRows do. Fails also if this program has another version of a
+/// metric than the manifest, or if a rule on processor times needs times that the run does not have.
 Result<FinishedRun> LoadFinishedRun(const std::filesystem::path& folder, Sealing sealing = Sealing::kRequired,
                                     Held held = Held::kAll);
 

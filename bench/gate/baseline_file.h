@@ -9,10 +9,11 @@ namespace etude {
 
 /// The version of the format of a baseline file. It is raised when older programs can no longer read the file.
 constexpr int kBaselineSchema = 2;
-/// The last format version without a seal. ReadBaseline still reads it and sets Snapshot::unsealed.
+/// The last format version without a seal. ReadBaseline reads such a file only with BaselineSeal::kMayBreak, and then
+/// sets Snapshot::unsealed.
 constexpr int kUnsealedSchema = 1;
 
-/// What to do if a baseline does not match its seal.
+/// What ReadBaseline does if a baseline does not match its seal, or has no seal.
 enum class BaselineSeal {
   kMustHold,  ///< ReadBaseline fails
   kMayBreak,  ///< ReadBaseline succeeds and sets Snapshot::unsealed
@@ -25,7 +26,8 @@ Result<std::string> WriteBaseline(const Snapshot& snapshot);
 
 /// Reads a baseline strictly, because a gate with an incomplete baseline would check less than it reports. Fails on a
 /// missing, unknown or duplicate entry or key; on a wrong type, schema or length; on an unknown status letter or
-/// metric; if the number of nulls is not the declared one; if no cell is ok or unsolved; and on a broken seal (see
+/// metric; if the number of nulls is not the declared one; if no cell has an answer (ok or unsolved); if a method has
+/// no answer under a condition, although not all of these cells were skipped; and on a broken seal (see
 /// BaselineSeal). The error names the line if possible.
 Result<Snapshot> ReadBaseline(const std::string& text, const std::string& file,
                               BaselineSeal seal = BaselineSeal::kMustHold);

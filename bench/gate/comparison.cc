@@ -135,8 +135,8 @@ int CountDiffering(const SnapshotCells& before, const SnapshotCells& after, cons
 }
 
 /// Multiplies both values of each world by the world's weight (MetricInfo::weight), divided by the mean weight of the
-/// worlds with both values. The plain mean of the products is then the weighted mean. Does nothing if the metric has no
-/// weight, or if the snapshot does not contain the weights.
+/// worlds with both values. The plain mean of the products is then the weighted mean. The weights are those in `cells`,
+/// the earlier snapshot. Does nothing if the metric has no weight, or if `cells` has no weights above 0.
 void Weigh(const SnapshotCells& cells, const MetricInfo& metric, MoveColumns& columns) {
   const SnapshotValues* weights = metric.weight.empty() ? nullptr : FindValues(cells, metric.weight);
   if (weights == nullptr) return;

@@ -23,7 +23,7 @@ struct SnapshotComparison {
 /// of the task, clips, or versions of a metric. Empty if the worlds can be paired.
 std::vector<std::string> WhyNotComparable(const Snapshot& before, const Snapshot& after);
 
-/// Removes the scenarios that cannot be compared from both snapshots, and returns the reasons (WhyNotComparable).
+/// Removes from both snapshots the scenarios that cannot be compared, and returns the reasons (WhyNotComparable).
 std::vector<std::string> DropIncomparable(Snapshot& before, Snapshot& after);
 
 /// Compares two snapshots world by world, and judges each difference with JudgeMoves, then with JudgeTail. `exact`

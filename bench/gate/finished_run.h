@@ -12,8 +12,8 @@
 
 namespace etude {
 
-/// Names (of conditions, methods or worlds), each with the digest of everything on which its values depend. Equal
-/// digests mean that the values must be equal.
+/// Names of conditions, methods or worlds, each with the digest of the keys and files that determine it. If two runs
+/// have the same seed and equal digests, only a change of the software can make their values differ.
 using NamedDigests = std::vector<std::pair<std::string, std::string>>;
 
 struct FinishedScenario {
@@ -37,9 +37,9 @@ struct FinishedRun {
 /// Returns the identities of all cells that a scenario requires, in canonical order: condition, trial, method.
 std::vector<std::string> CellsOf(const Study& study);
 
-/// Checks that the run has one row for each cell that the scenarios require, and no other rows. Missing rows are added
-/// to `incomplete`. Fails on a duplicate row, on a row that no scenario requires and, if the run has more than 100,000
-/// rows, on a missing row.
+/// Checks that the run has one row for each cell that the scenarios require, and no other rows. Fails on a duplicate
+/// row and on a row that no scenario requires; adds missing rows to `run.incomplete`. If the run has more than
+/// 100,000 rows, fails also on a missing row and on rows that are not in canonical order.
 Result<void> CheckRows(FinishedRun& run, const Place& place);
 
 /// The values of one metric, by trial; nullopt if the cell of a trial has no value.

@@ -13,7 +13,8 @@ namespace etude {
 struct RatioResult {
   std::string scenario;
   TimeRatio rule;
-  /// Number of worlds, over all conditions, in which neither method timed out, crashed or ran out of memory.
+  /// Number of worlds, over all conditions, in which both methods have a processor time. A cell has none if it timed
+  /// out, crashed, ran out of memory, or took less time than the clock can resolve.
   int pairs = 0;
   /// Median over worlds of the ratio of processor times, `rule.of` / `rule.over`, and the median's 95 % interval.
   std::optional<double> median, ci_low, ci_high;
@@ -46,7 +47,8 @@ struct GateReport {
   std::string baseline_version;  ///< the version of the program that made the baseline
   std::string program_version;   ///< the version of the program that made the run
   std::vector<GateExpectation> expectations;
-  /// Comparisons of methods with their baseline methods; only those in `fallen` affect the gate's verdict.
+  /// The run's verdicts on methods against their baseline methods, for the report. They do not affect the gate's
+  /// verdict by themselves; only changes since the baseline do (`fallen`).
   std::vector<GateAnswer> answers;
   std::vector<RatioResult> ratios;
   SnapshotComparison comparison;
@@ -79,8 +81,10 @@ std::vector<std::string> DescribeSilentMethods(const FinishedRun& run);
 /// Returns true if the change of this metric makes the gate fail.
 bool IsRegression(const MetricMove& move);
 
-/// Returns the verdict of the gate. A run with missing cells is incomplete, not regressed, however bad its other cells
-/// are; the report still lists the changes. An undecided expectation, rule on processor times or difference passes.
+/// Returns the verdict of the gate. If `report.incomplete` is not empty, the verdict is kIncomplete, however bad the
+/// results are. The report then lists the changes since the baseline, but not if rows are missing or the run did not
+/// end (JudgeRun). An expectation, a rule on processor times or a change that is undecided does not make the gate
+/// fail.
 GateVerdict GateVerdictOf(const GateReport& report);
 
 }  // namespace etude

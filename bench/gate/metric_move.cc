@@ -37,8 +37,8 @@ Movement MovementOf(const Comparison& comparison, const MetricInfo& metric) {
   return Movement::kUndecided;
 }
 
-/// Returns the result that comes first in the order worse, better, undecided. Both results are about the same metric.
-/// Returns kNoMatter if neither `a` nor `b` is one of these.
+/// Combines two results for one metric: returns whichever of `a` and `b` comes first in the order worse, better,
+/// undecided. Returns kNoMatter if neither is one of these three.
 Movement MoreImportant(Movement a, Movement b) {
   for (Movement movement : {Movement::kWorse, Movement::kBetter, Movement::kUndecided}) {
     if (a == movement || b == movement) return movement;

@@ -22,9 +22,9 @@ const MetricInfo* FindGateMetric(std::string_view id);
 
 enum class Movement {
   kSame,       ///< all values are the same in both snapshots
-  kBetter,     ///< the value is clearly better, by at least the practical threshold
-  kWorse,      ///< the value is clearly worse, by at least the practical threshold
-  kNoMatter,   ///< the difference is clearly below the practical threshold
+  kBetter,     ///< the value is better: the difference is significant and at least the practical threshold
+  kWorse,      ///< the value is worse: the difference is significant and at least the practical threshold
+  kNoMatter,   ///< the whole interval of the difference lies within ± the practical threshold
   kUndecided,  ///< values differ, but the test supports none of the results above; or the metric has no direction
   kChanged,    ///< values differ in a scenario whose gate rule is `exact`
 };
@@ -53,7 +53,8 @@ struct MetricMove {
   int gained = 0;     ///< number of worlds with a value in the second snapshot only
   std::optional<double> before, after;  ///< the metric's aggregate over the values in each snapshot
   Comparison comparison;  ///< paired comparison, later − earlier, of the worlds with a value in both snapshots
-  /// True if `movement` follows from the difference of means; false if it follows from the metric's own aggregate.
+  /// True if the means decided about the values, not the metric's own aggregate. `presence` and the tail rule may
+  /// change `movement` afterwards.
   bool by_mean = false;
   std::optional<Comparison> presence;  ///< comparison of "has a value" (1 or 0), if values were lost or gained
   /// Far worse worlds: first those that lost their value, then the others, the worst first.

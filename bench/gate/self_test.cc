@@ -61,7 +61,8 @@ void Inject(SnapshotValues& values, double size, std::uint64_t seed) {
   }
 }
 
-// Two worsenings of a world, as multiples of the tail rule's `times`: the gate must find the first and not the second.
+// Two amounts by which a world is made worse, as multiples of the tail rule's `times`: the gate must find the first and
+// not the second.
 constexpr double kBeyondRule = 2, kWithinRule = 0.9;
 
 template <typename AnySnapshot>

@@ -35,7 +35,8 @@ struct SelfTestReport {
   std::vector<PowerResult> injected;  ///< power for random differences of known mean, added to one metric of one method
   /// Power for a few worlds that become far worse or lose a value, in the metric of `injected`.
   std::vector<PowerResult> tails;
-  std::vector<PowerResult> real;  ///< power for another method in place of the first one; one entry for each method
+  /// Power for another method in place of the scenario's first one; one entry for each method but the first.
+  std::vector<PowerResult> real;
 
   /// Returns true if the gate works as specified: it never reports a regression between two runs of one seed, the
   /// interval of the false alarms does not lie above kFalseAlarmLimit, and the tail rule finds exactly the changes that
@@ -55,14 +56,16 @@ using RunUnderSeed = std::function<Result<FinishedRun>(std::uint64_t seed)>;
 ///   distribution, so the sign of every difference is random, and every reported regression is false. The differences
 ///   are far larger than in a real gate, because the worlds differ; the test is the same. The tail rule, which requires
 ///   equal worlds, is off.
-/// - reruns: compares the first seed with a second run of this seed.
-/// - injected: compares the first seed with a copy in which a random difference is added to every value of one metric,
-///   under the first method and condition. The metric is the first compared metric that is aggregated by the median and
-///   has a direction.
-///   The differences are normal: mean k practical thresholds (worse), standard deviation three thresholds.
-/// - tails: compares the first seed with a copy in which the metric of `injected` is changed in a few worlds
-///   (InjectedTails).
-/// - real: compares the first seed's first method with each other method under the first method's name.
+/// - reruns: compares two runs of the first seed.
+/// - injected: compares the run of the first seed with three copies of this run. In each copy, random differences are
+///   added to the values of one metric of the first method under the first condition. The metric is the first compared
+///   metric that is aggregated by the median and has a direction. The differences have a normal distribution. Their
+///   mean makes the values worse by one, two or four practical thresholds; their standard deviation is three
+///   thresholds. The tail rule is off.
+/// - tails: compares the run of the first seed with copies in which the metric of `injected` is changed in a few
+///   worlds (InjectedTails).
+/// - real: in the run of the first seed, compares the first method with each other method as if this were a new
+///   version of the first. The tail rule is off.
 /// Fails if a run fails, or if the scenario has no metric for injection.
 Result<SelfTestReport> RunSelfTest(const RunUnderSeed& run, int repetitions);
 

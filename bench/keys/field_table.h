@@ -60,7 +60,8 @@ struct Field {
   KeyInfo info;
   std::function<void(Fields&, Options&)> read;
 
-  /// Makes a field for a number: a double, an int (integers only), or a std::optional of one of these.
+  /// Makes a field for a number: a double, an int, or a std::optional of a double or of a std::uint64_t. A member of an
+  /// integer type accepts only integers.
   template <typename Member>
   static Field Number(const std::string& key, Member member, Range range, std::string meaning) {
     using Value = std::remove_cvref_t<std::invoke_result_t<Member, Options&>>;
@@ -280,9 +281,9 @@ std::vector<Value> ReadListed(Fields& fields, const std::string& key, const std:
 
 enum class Keep { kThese, kOthers };
 
-/// Returns fields of another task's table for reading into a part of `Options`: the fields that `keys` name (kThese),
-/// or all others (kOthers). A key that two tasks share is thus declared once. `part` is the member of `Options`, or a
-/// Path to it.
+/// Returns fields of `table`, the table of another task, as fields of `Options`: those that `keys` name (kThese), or
+/// all others (kOthers). The fields read into `part`, which is a member of `Options` or a Path to one. A key that two
+/// tasks share is thus declared once.
 template <typename Options, typename Part, typename Member>
 std::vector<Field<Options>> FieldsOf(const FieldTable<Part>& table, Member part, Keep keep,
                                      const std::vector<std::string>& keys) {

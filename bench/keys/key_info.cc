@@ -109,7 +109,8 @@ void RefuseMisplacedKeys(Fields& mapping, std::span<const KeyInfo> keys) {
   for (const KeyInfo& key : keys) {
     const Node* written = mapping.Raw(key.key);
     if (written == nullptr) continue;
-    std::vector<std::string> allowed;  // the chooser's values that allow a key of this name, for all such keys
+    // The values with which a key of this name is allowed: values of the key that the condition names (the chooser).
+    std::vector<std::string> allowed;
     const bool may_stand = std::ranges::any_of(keys, [&](const KeyInfo& other) {
       if (other.key != key.key) return false;
       allowed.insert(allowed.end(), other.only_with.values.begin(), other.only_with.values.end());

@@ -18,7 +18,7 @@ bool BothSeen(const glm::dvec3& a, const glm::dvec3& b) { return !std::isnan(a.x
 /// the result inaccurate. The rotation is the eigenvector of the largest eigenvalue of Horn's 4 × 4 matrix (Horn 1987).
 /// Newton's method finds that eigenvalue as a root of the characteristic polynomial (Theobald 2005).
 std::optional<Similarity> AlignByQuaternion(const PointMoments& moments) {
-  const glm::dmat3& s = moments.covariance;  // s[a][b] = Σ over points of point[a] · target[b]
+  const glm::dmat3& s = moments.covariance;  // s[a][b] = Σ over points of point[a] · target[b], relative to the means
   const glm::dvec3 skew(s[1][2] - s[2][1], s[2][0] - s[0][2], s[0][1] - s[1][0]);
   const double xy = s[0][1] + s[1][0], yz = s[1][2] + s[2][1], zx = s[2][0] + s[0][2];
   const double trace = s[0][0] + s[1][1] + s[2][2];
@@ -62,7 +62,8 @@ std::optional<Similarity> AlignByQuaternion(const PointMoments& moments) {
   return similarity;
 }
 
-/// Returns `fit`, which has a scale. If `with_scale` is false, returns the rigid transformation with the same rotation.
+/// Returns `fit` if `with_scale` is true, else the rigid transformation with the same rotation. `moments` are the sums
+/// from which `fit` was computed. Returns nothing if there is no fit.
 std::optional<Similarity> WithScale(const std::optional<Similarity>& fit, const PointMoments& moments,
                                     bool with_scale) {
   if (!fit || with_scale) return fit;

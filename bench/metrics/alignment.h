@@ -10,8 +10,8 @@
 namespace etude {
 
 /// The way in which the answer is aligned with the truth before the comparison. The transformation is rigid, or a
-/// similarity for names that end in `Scaled`. It is fitted to the joints seen in answer and truth, and is never a
-/// reflection.
+/// similarity for names that end in `Scaled`. From kFirst on, it is fitted to the joints seen in answer and truth, and
+/// is never a reflection.
 enum class Alignment {
   kNone,
   kRoot,         ///< each frame is moved so that the roots coincide

@@ -78,7 +78,7 @@ std::vector<std::ptrdiff_t> FramesOf(std::span<const double> beats_s, double rat
 /// `others`. Returns nothing if either list is empty.
 std::optional<double> MeanNearness(std::span<const std::ptrdiff_t> ours, std::span<const std::ptrdiff_t> others) {
   if (ours.empty() || others.empty()) return std::nullopt;
-  constexpr double kSigma = 3;  // σ of the mean nearness, frames
+  constexpr double kSigma = 3;  // σ of the formula above, frames
   double sum = 0;
   for (const std::ptrdiff_t beat : ours) {
     std::ptrdiff_t nearest = std::abs(others.front() - beat);

@@ -25,7 +25,7 @@ enum class Reading {
   kAmount,  ///< an amount in the metric's unit, or a count
   kYesNo,   ///< 1 or 0; the value of a run is the share of cells with 1
   kShare,   ///< a share of something within the cell, 0…1; the value of a run is the mean
-  kScore,   ///< a quantity from 0 to 1 with a name of its own: F1, recall
+  kScore,   ///< a score from 0 to 1, e.g. F1 or recall
 };
 
 /// A key of the JSON input of a metric's test vectors.
@@ -44,7 +44,7 @@ struct MetricVector {
   std::string_view source;         ///< origin of the known value: "derived: …" or "published: …"
 };
 
-/// The definition of a metric. Tables, comparisons and other implementations use this entry.
+/// The definition of a metric. Tables and comparisons use it; MetricsJson exports it for other implementations.
 struct MetricInfo {
   std::string id;     ///< e.g. "position_error_cm"; it ends with the unit
   int version = 1;    ///< raised if the definition changes; values of two versions are never mixed

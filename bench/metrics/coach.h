@@ -57,8 +57,8 @@ std::optional<double> DecisionDelaySeconds(const CoachedSession& session);
 /// Returns `feedback_delay_s`: the Kaplan–Meier median of the time from the decision to correct until the first frame
 /// of the correcting act, censored at the session's end. Empty if the survival curve never falls to one half.
 std::optional<double> FeedbackDelaySeconds(const CoachedSession& session);
-/// Returns `feedback_delay_max_s`: the longest time from a decision to its correcting act, among the acts that began.
-/// Empty if none began.
+/// Returns `feedback_delay_max_s`: the longest time from a decision to correct until the first frame of the
+/// correcting act. Decisions whose act never began are left out. Empty if no act began.
 std::optional<double> MaxFeedbackDelaySeconds(const CoachedSession& session);
 
 /// Returns `repetitions_until_right`. `moves` holds, for each move, the truth of its performances in order of time. For

@@ -50,8 +50,8 @@ struct MoveCall {
   int frame = 0;
 };
 
-/// Returns the share of right performances in which the requested move was called at least once. The result is empty
-/// if there are no right performances.
+/// Returns the share of right performances in whose window the requested move was called at least once. The result is
+/// empty if there are no right performances.
 std::optional<double> RightSpotted(std::span<const MoveWindow> right, std::span<const MoveCall> calls);
 
 /// Returns `false_alarms_per_min`. The whole session counts as time, including performances. `session_s` must be
@@ -71,9 +71,9 @@ struct MomentMatch {
   std::optional<double> FScore() const;
 };
 
-/// Matches detections with action points of the same move that are at most `tolerance_s` away. Each point gets at most
-/// one detection and each detection at most one point, and the number of pairs is the maximum. Further detections of
-/// one point are false positives (Fothergill et al. 2012).
+/// Matches detections with action points of the same move that are at most `tolerance_s` away. A point is paired
+/// with at most one detection, and a detection with at most one point; the number of pairs is as large as possible.
+/// Further detections of a point are false positives (Fothergill et al. 2012).
 MomentMatch MatchMoments(std::span<const Moment> points, std::span<const Moment> detections, double tolerance_s);
 
 /// Returns the mean of the F-scores of all moves that occur among points or detections, as defined in MSRC-12's paper.

@@ -69,7 +69,7 @@ std::optional<double> ShareBelow(std::span<const double> values, double limit_mm
 std::optional<double> AucTo150(std::span<const double> values) {
   constexpr int kThresholds = 31;
   constexpr double kStep_mm = 5;
-  std::size_t below = 0, count = 0;  // numbers of pairs (value, higher threshold) and of values
+  std::size_t below = 0, count = 0;  // number of pairs of a value and a threshold above it; number of values
   for (const double value : values) {
     if (std::isnan(value)) continue;
     ++count;

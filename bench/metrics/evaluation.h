@@ -81,7 +81,8 @@ std::optional<double> SkateFromHeight(const PointTracks& feet, double rate_hz);
 /// Returns the mean speed of ankles and toes over the frames in which `contacts` (frames × columns of feet) states a
 /// contact with the floor, m/s, as Kimodo's code computes it.
 std::optional<double> SkateFromContacts(const PointTracks& feet, const std::vector<bool>& contacts, double rate_hz);
-/// Returns the F1 score of the answer's contacts against the true contacts; nothing if neither states a contact.
+/// Returns the F1 score of the answer's contacts against the true contacts. Returns nothing if only one of the two
+/// files states contacts, or if there is no contact in either.
 std::optional<double> ContactF1(const std::vector<bool>& found, const std::vector<bool>& truth);
 /// Returns PFC (physical foot contact) as EDGE's code computes it, but with Y up and at the motion's own rate.
 std::optional<double> PhysicalFootContact(const PointTracks& feet, std::span<const glm::dvec3> root, double rate_hz);
@@ -91,17 +92,17 @@ struct FloorErrors {
 };
 FloorErrors MeasureFloor(const PointTracks& found);
 
-/// The global rotations of answer and truth as channels (QuaternionChannels). Each quaternion of the answer has the
-/// sign that is nearer to the truth's quaternion. A value is NaN unless the joint is seen in both motions. There are no
-/// channels if answer or truth has no rotations.
+/// The global rotations of answer and truth as channels (QuaternionChannels). The sign of the answer's first known
+/// quaternion of each joint is chosen by the truth's quaternion at the same frame (`like`). A value is NaN unless the
+/// joint is seen in both motions. There are no channels if answer or truth has no rotations.
 struct RotationChannels {
   ChannelTracks found, truth;
 };
 std::optional<RotationChannels> RotationsOf(const EvaluatedPair& pair);
 
 /// Returns the mean absolute error of the bend angles, degrees. Each entry of `bends` holds three points (hip, knee,
-/// ankle; or shoulder, elbow, wrist); the bend angle is at the middle point. Returns nothing if in no frame all three
-/// points of an entry are seen in both motions.
+/// ankle; or shoulder, elbow, wrist); the bend angle is at the middle point. A frame counts for an entry if the entry's
+/// three points are seen in both motions. Returns nothing if no frame counts.
 std::optional<double> BendErrorDeg(const PointTracks& found, const PointTracks& truth,
                                    std::span<const std::array<std::size_t, 3>> bends);
 

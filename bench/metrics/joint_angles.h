@@ -18,16 +18,16 @@ struct AngleTracks {
 
 /// Returns the angles of hips, knees, ankles, shoulders, elbows, wrists, trunk and head: `left_hip_flexion`,
 /// `left_hip_abduction`, `left_hip_rotation`, … A joint is left out if the motion lacks its role. Returns no angles if
-/// the motion has no rotations or lacks a hip.
+/// the motion has no rotations or lacks a hip, or if one hip lies exactly above the other at rest.
 ///
 /// The angles of a joint describe the rotation of the segment below it (the file's rotation of that joint) relative to
 /// the segment above. The pelvis is the nearest common ancestor of both hips, the thorax that of both shoulders.
 /// Rotations are measured from a neutral pose: the file's rest pose, with thighs, shanks, upper arms and forearms
-/// turned by the shortest arc until they hang down. A T-pose and an A-pose at rest therefore give the same angles.
-/// Axes: X to the left (hip to hip at rest, horizontal), Y up, Z ahead. Cardan sequence X, Z', Y'': flexion, abduction,
-/// rotation. Positive are flexion (for the ankle: dorsiflexion), abduction away from the middle, and inward rotation;
-/// for trunk and head: bending forward, bending to the left, and turning left. At 90° of abduction, flexion and
-/// rotation cannot be distinguished (gimbal lock).
+/// turned by the shortest arc until they hang down; a hand turns with its forearm. A T-pose and an A-pose at rest
+/// therefore give the same angles. Axes: X to the left (hip to hip at rest, horizontal), Y up, Z ahead. Cardan sequence
+/// X, Z', Y'': flexion, abduction, rotation. Positive angles mean flexion (for the ankle: dorsiflexion), abduction away
+/// from the middle, and inward rotation; for trunk and head: bending forward, bending to the left, and turning left. At
+/// 90° of abduction, flexion and rotation cannot be distinguished (gimbal lock).
 AngleTracks AnglesOfRotations(const RawMotion& motion);
 
 /// Sums over the frames of one pair of angle curves. The agreement of the two curves is computed from them.

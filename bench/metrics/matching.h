@@ -7,8 +7,8 @@
 
 namespace etude {
 
-/// Counts pairs of frames, and the pairs among them that match by a threshold on a distance. The pairs combine every
-/// bridge frame of the old clip within the allowed wait with every bridge frame of the new clip
+/// The number of pairs of bridge frames, and how many of them match: their distance is below a threshold. Each bridge
+/// frame of the old clip within the allowed wait forms a pair with each bridge frame of the new clip
 /// (docs/reference/metrics.md, Matching).
 struct MatchTally {
   std::int64_t pairs = 0;

@@ -10,7 +10,8 @@ namespace etude {
 
 /// Returns SPARC, the spectral arc length of a speed profile (Balasubramanian et al. 2015). 0 is the smoothest; less
 /// smooth profiles have larger negative values. The amplitude threshold is 0.05, the cut-off frequency 10 Hz, and the
-/// padding level 4. Empty for fewer than two samples, or if nothing moves.
+/// padding level 4. Empty for fewer than two samples, if nothing moves, or if only one frequency bin reaches the
+/// threshold.
 std::optional<double> SpectralArcLength(std::span<const double> speed, double rate_hz);
 
 /// Returns the speed profile from which a transition's SPARC is computed, metres per second: the mean over joints of

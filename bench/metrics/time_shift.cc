@@ -11,8 +11,9 @@ namespace {
 constexpr double kNotShown = std::numeric_limits<double>::quiet_NaN();
 constexpr std::size_t kMinFrames = 5;
 
-/// Returns a joint's position at the time `at`, in frames. NaN if the joint is not seen in one of the four frames
-/// around that time.
+/// Returns a joint's position at the time `at`, which is counted in frames: in a whole frame, the position in this
+/// frame; between frames, a Catmull-Rom cubic through the four frames around `at`. NaN if one of these frames does
+/// not exist or does not show the joint.
 glm::dvec3 CubicAt(const PointTracks& tracks, double at, std::size_t joint) {
   constexpr double kSameFrame = 1e-9;
   const double whole = std::round(at), frames = static_cast<double>(tracks.FrameCount());

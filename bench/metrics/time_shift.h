@@ -34,8 +34,9 @@ constexpr double kMaxTimeShift_s = 2;
 /// The interval comes from a jackknife over ten equal parts of the motion (Student's t), because the errors of
 /// successive frames are correlated. The interval does not include the effect of different joint positions.
 ///
-/// Returns nothing if fewer than five frames are seen in both, if the best shift lies at the end of the range, or if no
-/// distance between joints changes because the truth stands still or moves rigidly.
+/// Returns nothing if the numbers of joints differ or are below two, if fewer than five frames are seen in both, if the
+/// best shift of step 1 lies at the end of the range, if step 2 does not converge or moves the shift by more than two
+/// frames, or if no distance between joints changes because the truth stands still or moves rigidly.
 std::optional<TimeShift> FindTimeShift(const PointTracks& truth, double truth_rate_hz, const PointTracks& answer,
                                        double answer_rate_hz);
 

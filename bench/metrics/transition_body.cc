@@ -104,8 +104,9 @@ double Overlap(const BodyPose& pose) {
 /// The measurements of one frame.
 struct BodyFrame {
   bool flight = false;
-  std::optional<double> zmp_cm, slip_mps2;  // nullopt if no joint supports the body
-  double glide_cm = 0;                      // distance that the slowest supporting joint moves in this frame
+  // nullopt if no joint supports the body; zmp_cm also if the ground bears less than half of the weight
+  std::optional<double> zmp_cm, slip_mps2;
+  double glide_cm = 0;                      // travel of the slowest supporting joint or foot (MeasureBody)
   double beyond_deg = 0, overlap_cm = 0, sunk_cm = 0;
   std::array<std::optional<double>, 2> twist = {};  // heading of the hips relative to each resting foot, radians
 };
@@ -130,7 +131,8 @@ BodyFrame FrameOf(const Moving& moving, int f, const Support& support) {
   const BodyPose &pose = moving.poses[f], &velocity = moving.velocities[f];
   BodyFrame frame;
   frame.flight = support.flight;
-  // Compute the force per mass that the ground must exert (slip), and the point at which it acts (ZMP).
+  // From the force that the ground must exert, compute the part per mass that friction or contact cannot provide
+  // (slip), and the point at which the force acts (ZMP).
   if (!support.flight && support.joints.any()) {
     const glm::dvec3 &a = moving.accelerations[f], &c = moving.centres[f];
     const double up = a.y + kGravity;
@@ -264,8 +266,8 @@ class BesideClip {
   }
 
   std::span<const BodyPose> poses() const { return poses_; }
-  /// Returns the index in poses() of a shown frame, if this joint supports the clip's body in that frame, or if no
-  /// joint does. Returns nullopt otherwise.
+  /// Returns the index in poses() that belongs to frame `frame` of the shown motion. Returns nullopt if this index lies
+  /// outside poses(), or if the clip's body is supported there, but not by this joint.
   std::optional<int> BearsAt(int frame, std::size_t joint) const {
     const int now = frame - begin_;
     if (now < 0 || now >= static_cast<int>(poses_.size())) return std::nullopt;
@@ -323,8 +325,8 @@ double SlowestOf(const JointSet& joints, const Speed& speed) {
   return slowest.value_or(0);
 }
 
-/// Sets each measurement of a frame to 0 if the measurement is at most 1.25 times the largest value that the clips
-/// themselves reach within three frames of this frame.
+/// Sets zmp_cm, slip_mps2, beyond_deg and overlap_cm of a frame to 0, each if it is at most 1.25 times the largest
+/// value that the clips themselves reach within three frames of this frame.
 void Excuse(std::span<const BesideClip> clips, int shown_frame, BodyFrame& frame) {
   constexpr int kReach = 3;
   constexpr double kAllowance = 1.25;
@@ -358,8 +360,8 @@ BodyMeasures MeasureBody(const JoinView& view, std::span<const Support> support)
   // Measure each frame of the join.
   JointSet feet;
   for (const Side side : kSides) feet.set(Index(OnSide(side, kLeftAnkle))).set(Index(OnSide(side, kLeftFoot)));
-  // Velocities and accelerations depend on four frames on either side; at an end of the motion, they depend on nine
-  // frames on one side.
+  // A velocity depends on one frame on either side, an acceleration on four. At an end of the motion, an acceleration
+  // depends on the nine frames at this end.
   constexpr int kReach = 8;
   const int from = std::max(view.first - kReach, 0);
   const Moving moving(view.shown.subspan(from, std::min<std::size_t>(end + kReach + 1, view.shown.size()) - from),
@@ -369,9 +371,10 @@ BodyMeasures MeasureBody(const JoinView& view, std::span<const Support> support)
     const Support& held = support[f - view.first];
     BodyFrame frame = FrameOf(moving, f - from, held);
     Excuse(clips, f, frame);
-    // Glide is the distance moved by the slowest supporting joint or, without support, by the slowest joint of the
-    // feet. If this joint also supports the body in a clip, the joint's own movement or its movement relative to the
-    // clip is taken, whichever is shorter.
+    // Glide is the distance moved by the slowest supporting joint. If no joint supports the body, it is the distance
+    // moved by the slowest joint of the feet; in flight, it is 0. If the joint also supports the body in a clip, or
+    // if no joint supports the body in the clip, the joint's movement relative to the clip counts instead if it is
+    // shorter.
     if (!held.flight) {
       frame.glide_cm = SlowestOf(held.joints.any() ? held.joints : feet, [&](std::size_t j) {
         double slowest = TravelOf(view.shown, f, j).value_or(0);

@@ -31,9 +31,11 @@ constexpr std::array kBodyRules = {
 /// The measured values, one for each of kBodyRules; nullopt if a value is missing.
 using BodyMeasures = std::array<std::optional<double>, kBodyRules.size()>;
 
-/// Measures by how much the body's motion during a join is impossible. `support` is the result of JoinSupport: one
-/// entry per frame from `view.first` on. A value does not count against the join if a clip itself reaches it at that
-/// time. docs/reference/metrics.md gives the rule of each measure.
+/// Measures the body's motion during a join by kBodyRules: the values say how far the motion is from one that a human
+/// body can perform. `support` is the result of JoinSupport: one entry per frame from `view.first` on. Faults of the
+/// clips themselves do not count against the join: a value becomes 0 if it is at most 1.25 times the value of a clip
+/// at that time, and glide_cm and sunk_cm are measured relative to the clips. docs/reference/metrics.md gives the
+/// rule of each measure.
 BodyMeasures MeasureBody(const JoinView& view, std::span<const Support> support);
 
 /// Returns true if no value exceeds its limit by more than rounding. A missing value exceeds no limit.

@@ -79,8 +79,8 @@ class RealFrames {
 /// transition point, centimetre seconds.
 double StrangeCmSeconds(const JoinView& view, const RealFrames& real);
 
-/// Returns the support of the body in each frame from the first transition point to the join's end, or for at least 1.2
-/// s if the motion is that long. Support is found from the clips, never from the shown frames (FindSupport).
+/// Returns the support of the body in each frame from the first transition point to the join's end, but for at least
+/// 1.2 s if the motion is that long. Support is found from the clips, never from the shown frames (FindSupport).
 std::vector<Support> JoinSupport(const JoinView& view);
 
 /// A transition counts as floating if the body is unsupported for at least this many frames in a row. Shorter gaps are

@@ -114,8 +114,8 @@ std::vector<double> NaturalJumpsCm(const BodyMotion& clip) {
 double NaturalLimitCm(std::vector<double> natural_jumps) { return Quantile(natural_jumps, 0.95); }
 
 bool IsNatural(std::optional<double> jump_cm, std::vector<double> natural_jumps_cm) {
-  // With few windows, the percentile is the value of one window. Without a tolerance, rounding could then make a motion
-  // exceed its own limit.
+  // If there is only one natural jump, it is the limit. Without a tolerance, rounding could then make the motion with
+  // this jump exceed its own limit.
   constexpr double kSlack = 1 + 1e-9;
   return jump_cm && *jump_cm <= kSlack * NaturalLimitCm(std::move(natural_jumps_cm));
 }

@@ -44,9 +44,8 @@ bool IsNatural(std::optional<double> jump_cm, std::vector<double> natural_jumps_
 
 /// Returns the foot slide in the second after frame `point`: the mean over both feet of v_xz · clamp(2 − 2^(h / 2.5
 /// cm), 0, 1), cm/s. v_xz is the foot's horizontal speed and h its height above y = 0, the floor on which every clip of
-/// a stage was placed. A frame after the transition point is required. (`FootSlide` of engine/motion/statistics
-/// measures heights from each foot's lowest point, because the floor is unknown there; a join can push a foot below the
-/// floor.)
+/// a stage was placed. A frame after the transition point is required. (MeasureFootSlide in
+/// engine/motion/statistics.h estimates the height of the floor from the motion, because there the floor is unknown.)
 double FootSlideCmps(const BodyMotion& motion, int point);
 /// Returns the foot slide over the steps from frame `first` to frame `last`, cm/s. Frames after the motion's end are
 /// ignored.

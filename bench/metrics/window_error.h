@@ -17,10 +17,10 @@ struct ChannelTracks {
   std::size_t FrameCount() const { return channels == 0 ? 0 : values.size() / channels; }
 };
 
-/// Returns rotations (frames × joints; NaN: unknown) as channels: w, x, y, z of each joint. A quaternion and its
-/// negative are the same rotation; the sign is chosen that is nearer to the joint's last known quaternion. For a
-/// joint's first quaternion, the sign is chosen that is nearer to `like`, the channels of other rotations at the same
-/// frame. If `like` is empty or unknown there, the first quaternion keeps its sign.
+/// Returns rotations (frames × joints; NaN: unknown) as channels: w, x, y, z of each joint. The quaternions q and −q
+/// are the same rotation; the channels contain the one that is nearer to the joint's last known quaternion. For a
+/// joint's first known quaternion, they contain the one that is nearer to `like`, the channels of other rotations at
+/// the same frame. If `like` is empty or unknown there, the first quaternion keeps its sign.
 ChannelTracks QuaternionChannels(std::span<const glm::dquat> rotations, std::size_t joints,
                                  std::span<const double> like = {});
 

@@ -31,7 +31,8 @@ View RowsOf(const View& all, const RowRange& rows) {
   return view;
 }
 
-/// All camera effects except motion blur, as strong as in a cheap camera.
+/// All camera effects except motion blur and constant errors of exposure and white balance, as strong as in a cheap
+/// camera.
 constexpr CameraEffects kAll{.sync_offset_ms = 10,
                              .clock_drift_ppm = 100,
                              .rolling_shutter_ms = 20,

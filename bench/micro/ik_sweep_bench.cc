@@ -1,7 +1,7 @@
-// Times one sweep of cyclic coordinate descent (CCD). Paper B's sweep visits one effector after the other, with whole
-// joints or with hinges; the moment form of hinges treats all effectors at once. For comparison, the program also times
-// forward kinematics alone. The counter `per_sweep` is the time per problem and sweep, including forward kinematics and
-// error measurement.
+// Times one sweep of cyclic coordinate descent (CCD). CcdSweep, the sweep of paper B (engine/kinematics/README.md),
+// visits one effector after the other, with whole joints or with hinges; the moment form of hinges treats all effectors
+// at once. For comparison, the program also times forward kinematics alone. The counter `per_sweep` is the time per
+// problem and sweep, including forward kinematics and error measurement.
 #include <benchmark/benchmark.h>
 
 #include <cmath>

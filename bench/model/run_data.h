@@ -21,7 +21,7 @@ class RowSource {
   virtual ~RowSource() = default;
   virtual std::size_t size() const = 0;
   /// Chooses evenly spaced worlds and returns the indices of all their rows. The result has about `rows` indices. If
-  /// the run has fewer rows, the result has the indices of all rows.
+  /// the run has fewer rows, the result has the indices of all rows. A source of OpenTextRows returns no indices.
   virtual std::vector<std::size_t> SampleRowIndices(std::size_t rows) const = 0;
   /// Replaces `row` by the row at index `place`, reusing its memory. Series and recording are not read.
   virtual void Read(std::size_t place, Row& row) const = 0;

@@ -20,7 +20,8 @@ struct Expectation {
   /// Bounds of `statistic` of the method `of`. They are set only if `of` is not compared with another method.
   std::optional<double> at_most, at_least;
   std::string statistic = "median";  ///< "median", "mean" or "p95"; used only for bounds
-  double confidence = 0.95;  ///< confidence level of a comparison's interval; the level of its test is 1 − confidence
+  /// Confidence level of a comparison's interval. The significance level of the comparison's test is 1 − confidence.
+  double confidence = 0.95;
   std::vector<SweptValue> where;  ///< the conditions under which the claim is judged; empty = all conditions
   Place place;
 };

@@ -194,7 +194,7 @@ struct AcrossVerdict {
     std::optional<double> difference;
   };
   std::vector<Each> each;
-  Verdict verdict = Verdict::kUndecided;  ///< the verdict under all values, or undecided if they differ
+  Verdict verdict = Verdict::kUndecided;  ///< the verdict if it is the same under all values, else undecided
 
   bool Holds() const { return verdict != Verdict::kUndecided; }
 };

@@ -116,7 +116,7 @@ struct Attempt {
   Status status = Status::kFailed;
   std::string said;
   std::string fault;    ///< why this result is not allowed; "" = it is allowed
-  bool was_put = true;  ///< false: the program could not be started, so it was not asked
+  bool was_put = true;  ///< false: the program could not be started, or ended instead of answering
 };
 
 /// Returns a copy of an answer in which all angles (numbers below keys that end in "_deg") are multiplied by `factor`.

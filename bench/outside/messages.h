@@ -22,9 +22,9 @@ Result<std::string> ProblemLine(const std::string& id, const Json& content, cons
 Result<std::string> BeginLine(const std::string& id, const Json& content, const std::string& files);
 Result<std::string> StepLine(const std::string& id, int number, const Json& content, const std::string& files);
 
-/// A program's reply to the handshake. Each function below reads one type of line. The function fails on invalid JSON,
-/// another type, another problem, a missing field, or a field of the wrong type; the error says what was found. Unknown
-/// fields are ignored.
+/// A program's reply to the handshake. Each function below reads one type of line. It fails if the line is not valid
+/// JSON, is of another type, answers another problem, lacks a field, or has a field of the wrong type; the error says
+/// what was found. Unknown fields are ignored.
 struct HelloReply {
   std::string name;
   std::string version;
@@ -36,14 +36,16 @@ Result<Json> ReadAnswer(const std::string& line, const std::string& id);
 /// Reads the answer to step `number` of a session, like ReadAnswer. A message of type "answer" must repeat the number.
 Result<Json> ReadStepAnswer(const std::string& line, const std::string& id, int number);
 
-/// The problem, and the step of a session, to which a line is the answer. `id` is "" if the line is not an answer.
+/// The question that a line answers: the id of the problem or session and, in a session, the number of the step. `id`
+/// is "" if the line is not an answer.
 struct Answered {
   std::string id;
   std::optional<int> step = {};
 };
 Answered QuestionAnsweredBy(const std::string& line);
 
-/// Returns the first `max_bytes` bytes of a text in single quotes. Bytes that are not printable ASCII become \xNN.
+/// Puts a text in single quotes. If the text is longer than `max_bytes`, keeps only its first `max_bytes` bytes and
+/// adds "…". Bytes that are not printable ASCII become \xNN.
 std::string Printable(std::string_view text, std::size_t max_bytes = 80);
 
 }  // namespace etude

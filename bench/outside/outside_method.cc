@@ -89,7 +89,7 @@ struct OutsideMethod::State {
   };
   std::optional<Session> session;  ///< the session in progress
   std::set<std::string> answered;  ///< ids of the questions that the running program was asked before
-  int repeated = 0;                ///< number of lines ignored since the problem was sent
+  int repeated = 0;                ///< number of lines ignored since the last reply
 
   struct Failures {
     int times = 0;  ///< number of successive failures of one step
@@ -340,7 +340,7 @@ OutsideReply OutsideMethod::State::ReplyOf(Outcome<Json> said) {
   return reply;
 }
 
-/// Makes the reply for a step that has no answer.
+/// Makes the reply to an exchange without an answer: the handshake, or the beginning of a session.
 OutsideReply OutsideMethod::State::ReplyToStep(const Outcome<void>& done) {
   OutsideReply reply = ReplyOf(done ? Outcome<Json>(Json{{"type", "answer"}, {"answer", Json::object()}})
                                     : tl::unexpected(done.error()));

@@ -28,7 +28,8 @@ struct OutsideOptions {
   double start_s = 30;
   Fence fence = {};                     ///< the sandbox in which the program runs
   std::vector<std::string> files = {};  ///< files that the sandbox shows the program (ProgramView)
-  /// True: options of a command line, not keys of a scenario, name the files; advice on them is then worded so.
+  /// True: the user names `files` by options of the command line; false: by a key of the scenario. Error messages then
+  /// show how to name further files in the same way.
   bool by_options = false;
   /// The seed of the random ids that replace the names of settings and problems. With a secret seed the program is
   /// restarted for every setting, so that its memory carries nothing from one condition to the next.
@@ -43,8 +44,8 @@ double MaxAskSeconds(double time_s);
 struct OutsideReply {
   Status status = Status::kFailed;  ///< kOk: `answer` is valid; else `reason` says why there is none
   std::string reason;
-  /// False if this machine or its set-up is the cause: the program was not asked, or never replied to its first
-  /// handshake. `reason` then says why.
+  /// False if this machine or its set-up is the cause of the failure: for example, the program could not be started, or
+  /// never replied to its first handshake. `reason` then says why.
   bool was_asked = true;
   JsonPtr answer;      ///< an object with finite numbers
   double cpu_s = 0;    ///< processor time since the last reply; 0 if the program ended before the first sample
@@ -62,7 +63,8 @@ class OutsideMethod {
   OutsideMethod(OutsideMethod&&) noexcept;
   ~OutsideMethod();
 
-  /// Starts the program, unless it runs already, and lets it greet. If the status is kOk, ProgramName is known.
+  /// Starts the program and exchanges the handshake, unless the program runs already. If the status is kOk, ProgramName
+  /// is known.
   OutsideReply Greet();
 
   /// Sends one problem and waits for the reply. `setting` is sent first, unless it was the last setting sent;

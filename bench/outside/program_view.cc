@@ -15,7 +15,7 @@ namespace fs = std::filesystem;
 
 constexpr std::streamsize kMaxScriptBytes = 4096;
 constexpr int kMaxLinks = 40;
-/// How the names of scripts end. Of other arguments it is unknown whether they name a file that must exist.
+/// The extensions of scripts. An argument with one of them must name an existing file; any other argument need not.
 constexpr std::string_view kScriptEndings[] = {".py", ".sh", ".js", ".mjs", ".rb", ".pl", ".jl", ".R", ".lua", ".php"};
 
 /// Returns the absolute, normalised path without a slash at its end.
@@ -41,9 +41,10 @@ bool IsTooWide(const fs::path& folder) {
   return above == "/" || above == "/home" || folder == "/" || Fence::HoldsScratch(folder);
 }
 
-/// Returns the installation folder that contains `path`, a path that the sandbox does not show. This is the first of
-/// these folders that fits: the program's folder, or the folder above it, if `path` lies below it; the folder above the
-/// path's `bin` folder; the folder that contains `path`. Returns `path` itself if the folder is too wide (IsTooWide).
+/// Returns the folder of the installation to which `path` belongs; the sandbox does not show `path`. Tries in this
+/// order: the program's folder and the folder above that, if they contain `path`; if `path` is a folder `bin` or lies
+/// in one, the folder above `bin`; the folder that contains `path`, or `path` if it is a folder. Leaves out folders
+/// that are too wide (IsTooWide). Returns `path` if no folder is left.
 fs::path InstallationOf(const fs::path& path, const fs::path& program) {
   fs::path common;
   for (auto [a, b] = std::pair(path.begin(), program.begin()); a != path.end() && b != program.end() && *a == *b;) {

@@ -9,8 +9,8 @@
 
 namespace etude {
 
-/// An outside method that replaces one part of a world's loop (its seat). After its first failure, the program is not
-/// asked again.
+/// An outside program that takes a seat: it replaces one part of the loop that a task simulates (TaskKind::seats),
+/// and is asked for an answer at every step. After its first failure, the program is not asked again.
 class SeatedProgram : public LiveProgram {
  public:
   /// `id` names the program's sessions. `method` and `setting` must outlive this object.

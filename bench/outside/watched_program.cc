@@ -207,7 +207,8 @@ OutsideOutcome<void> WatchedProgram::Measure() {
   errors_.Trim();
   const TreeLoad load = meter_->Count();
   const ScratchUse scratch = options_.fence.MeasureScratch(child_->FirstStarted());
-  // The reported peak has a tolerance of 10 % + 4 MB. Within this tolerance, an upper bound is good enough.
+  // Without a control group, precise measurements are expensive. HeldMb may return an upper bound instead, as long as
+  // this is at most 10 % + 4 MB above the peak so far: the reported peak has this tolerance.
   const double held_mb = group_.IsUp() ? group_.HeldMb() + scratch.names_mb
                                        : meter_->HeldMb(scratch.Mb(), std::min(options_.memory_mb, 1.1 * peak_mb_ + 4));
   cpu_s_ = std::max(cpu_s_, load.cpu_s);  // load.cpu_s is smaller if a process has ended meanwhile

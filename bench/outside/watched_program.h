@@ -18,7 +18,7 @@ namespace etude {
 /// contains only this program's lines, while the file mixes the lines of all workers.
 class ErrorLog {
  public:
-  /// The largest size of the file, and of the output that is kept between two calls of Save, bytes.
+  /// The largest size of the file, bytes. Output beyond this size is not saved.
   static constexpr long kMaxBytes = 1 << 20;
 
   /// Save appends the collected output to `file`. If `file` is "", nothing is collected.
@@ -30,7 +30,8 @@ class ErrorLog {
   /// Returns the path that must be opened as the program's standard error; "" if the program shares Etude's standard
   /// error.
   std::string path() const;
-  /// Shortens the collected output to the limit. The end of the output is kept.
+  /// Frees the memory of collected output beyond kMaxBytes. The last 4 KiB are kept for LastLine, unless the program
+  /// has written more than 128 MiB.
   void Trim();
   /// Returns the last non-empty line since the last Save; "" if there is none.
   std::string LastLine() const;
@@ -66,8 +67,8 @@ class WatchedProgram {
   /// Starts the program. Fails if this machine cannot start it.
   OutsideOutcome<void> Start();
   bool IsRunning() const { return child_.has_value(); }
-  /// Closes the program's input, waits `patience_ms`, then kills the program. Returns how the program ended, or "not
-  /// running".
+  /// Closes the program's input, waits up to `patience_ms` for the program to end, then kills it. Returns how the
+  /// program ended, or "not running".
   std::string Stop(int patience_ms);
 
   /// Sends a line. If the program has closed its input, the next WaitForLine fails. The functions from Send to
@@ -86,7 +87,7 @@ class WatchedProgram {
   /// Returns the number of bytes that were sent to the program and that the program has not read yet.
   std::size_t UnreadBytes() const { return child_->UnreadBytes(); }
 
-  /// Returns the folder that holds the folders of attachments. The returned folder exists from the first start on.
+  /// Returns the folder that holds the folders of attachments. Start makes it, so Start must have been called.
   const std::filesystem::path& attachment_root() const { return attachment_root_->path(); }
   /// Returns a text in which "FILES" replaces the path of the attachments' folder, because this path differs in every
   /// run.
@@ -97,7 +98,8 @@ class WatchedProgram {
   /// Returns the largest memory measured since ForgetPeak, MB.
   double peak_mb() const { return peak_mb_; }
   void ForgetPeak() { peak_mb_ = 0; }
-  /// Returns advice on how to show the program the files that it seems to lack in its sandbox; "" if none are known.
+  /// Returns advice on how to show the program the files that it seems to lack in its sandbox; "" if it seems to lack
+  /// none or has no sandbox.
   std::string CureOfStart() const;
   /// Saves the program's standard error.
   void SaveErrors() { errors_.Save(); }

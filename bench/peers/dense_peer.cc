@@ -57,8 +57,9 @@ struct Joint {
 
 struct Goal {
   Vector axes[3], position;
-  double scale, axis_scale;  // square roots of the weights of position rows (per kPositionScale of length) and axis
-                             // rows (per radian)
+  // Factors of the rows of the Jacobian and the residuals: √weight / kPositionScale for positions, √(2 · weight) for
+  // rotations (radians).
+  double scale, axis_scale;
 };
 
 struct Pose {
@@ -172,7 +173,8 @@ class DensePeer final : public IkPeer {
         pose.dof_points[d] = frame.position;
       }
     }
-    // For each effector: add the squared distance and the squared chords between the axes.
+    // For each effector, add to the cost the weighted squares of its distance from the target and of the chords from
+    // its axes to the target's axes.
     pose.cost = 0;
     double farthest = 0, longest = 0;
     for (int e = 0; e < ends_; ++e) {
@@ -240,8 +242,8 @@ class DensePeer final : public IkPeer {
     }
   }
 
-  // Solves (JJᵀ + μI) y = duals_ in place, where JJᵀ is without the columns of the fixed angles. Gaussian elimination
-  // works on the upper triangle, in whole SIMD vectors.
+  // Solves (JJᵀ + μI) y = duals_ in place, where J lacks the columns of the fixed angles. Gaussian elimination works on
+  // the upper triangle, in whole SIMD vectors.
   bool SolveDuals(double mu) {
     std::memcpy(factor_, gram_, sizeof(gram_));
     for (int d = 0; d < dofs_; ++d) {
@@ -310,8 +312,9 @@ class DensePeer final : public IkPeer {
     return gain;
   }
 
-  // Reduces the cost by damped steps from the current pose. Ends when the problem is solved, or when kMaxPatience steps
-  // in a row have not reduced the cost below `progress` times the cost before them.
+  // Reduces the cost by damped steps from the current pose. Ends when the problem is solved, when the steps are used
+  // up, when kMaxPatience steps in a row have not reduced the cost below `progress` times the cost before them, when
+  // the damping factor exceeds kMaxFactor, or when a step turns no angle by kMinTurn.
   void Descend(double progress) {
     double fallen_to = pose_.cost, factor = 1, growth = 2;
     bool has_moved = true;
@@ -332,7 +335,7 @@ class DensePeer final : public IkPeer {
         factor *= growth;
         growth *= 2;
       }
-      // Count the steps since the cost last fell enough.
+      // If the cost has fallen enough, allow kMaxPatience further steps; otherwise, allow one step less than before.
       if (pose_.cost < progress * fallen_to) {
         fallen_to = pose_.cost;
         left = kMaxPatience;

@@ -106,7 +106,7 @@ Method Plain() {
   });
 }
 
-// Returns the method that solves one problem after the other, with a tree prepared once, like the models of the other
+// Returns the method that solves one problem after the other. Its tree is prepared once, as are the models of the other
 // libraries.
 Method Single(const std::string& target) {
   SetBatchTarget(target);

@@ -12,7 +12,9 @@
 namespace etude {
 namespace {
 
-constexpr double kUnlimitedSpeed = 1e3;  // effectively no limit; limiting only the angles gave better results
+// The limit on the speed of the effectors, too high to have an effect. The online solver gave better results if only
+// the change of the angles per step was limited (KdlSettings::max_turn).
+constexpr double kUnlimitedSpeed = 1e3;
 
 KDL::Vector ToVector(const glm::dvec3& v) { return {v.x, v.y, v.z}; }
 KDL::Rotation ToRotation(const glm::dmat3& m) { return {ToVector(m[0]), ToVector(m[1]), ToVector(m[2])}; }

@@ -70,7 +70,7 @@ void KeepPersonByContours(const cv::Mat& changed, int max_hole_px, Mask& out) {
   }
   if (best < 0) return;
   cv::Mat person(out.height, out.width, CV_8U, out.pixels.data());
-  // With maxLevel 1, the children of the contour, its holes, are drawn too.
+  // With maxLevel 1, drawContours leaves the children of the contour, its holes, unfilled.
   cv::drawContours(person, contours, best, 1, cv::FILLED, cv::LINE_8, hierarchy, 1);
   FillSmallHoles(contours, hierarchy, best, max_hole_px, person);
 }

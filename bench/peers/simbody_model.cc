@@ -91,7 +91,8 @@ SimbodyModel::SimbodyModel(const std::vector<Joint>& joints, const std::vector<E
     parts_->markers->addMarker(limb, ToVec(effector.offset));
     parts_->sensors->addOSensor(limb, SimTK::Rotation());
   }
-  // Weights of single markers are relative to each other. This is the weight of all markers relative to all sensors.
+  // The weight of a single marker counts relative to other markers. `position_weight` is the weight of all markers
+  // relative to all sensors.
   assembler.adoptAssemblyGoal(parts_->markers, settings.position_weight);
   assembler.adoptAssemblyGoal(parts_->sensors);
   assembler.setAccuracy(settings.accuracy);

@@ -12,7 +12,7 @@ struct SimbodySettings {
 };
 
 /// Simbody's model of a kinematic tree, with its Assembler. Simbody's headers do not compile as C++20. This class is
-/// therefore compiled as C++17, and its interface has only plain types.
+/// therefore compiled as C++17, and its interface uses no type of Simbody.
 class SimbodyModel {
  public:
   struct Frame {

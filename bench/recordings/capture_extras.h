@@ -14,10 +14,13 @@
 namespace etude {
 
 /// The extras of task `capture`: the data of a recording that is needed, in addition to its tracks "truth" and
-/// "recovered", to draw the stereo views again. The tracks have 30 Hz; brightness[k] and masks[k] belong to frame k of
-/// the tracks. To show frame k of camera c: render the truth, dressed in `colours` (or as its stage dresses it), in
-/// Room{texture_seed, brightness[k], casts_shadows} from cameras[c].truth, draw masks[k] over the picture, and project
-/// the recovered joints with MatrixOf(cameras[c].truth).
+/// "recovered", to draw the stereo views again. The tracks have 30 Hz; brightness[k] and views[c].masks[k] belong to
+/// frame k of the tracks. To show frame k of camera c:
+/// 1. Render the truth, dressed in `colours`, in Room{texture_seed, brightness[k], casts_shadows} from views[c].truth.
+///    A stage (StagedRoom in sim/stage) adds furniture and moving objects, chooses the clothes, and multiplies the
+///    brightness by its flicker.
+/// 2. Draw views[c].masks[k] over the picture.
+/// 3. Project the recovered joints with MatrixOf(views[c].truth).
 ///
 /// As JSON (the content of `Recording::extras_json`):
 ///
@@ -62,7 +65,7 @@ struct CaptureExtras {
   bool wears_everyday = false;     ///< true: the performer wears everyday clothes (only if `scene` > 0)
   bool wears_coded = false;        ///< true: the performer wears the suit with coded colours
   std::array<Rgb8, 16> colours{};  ///< the performer's colours, indexed by Part
-  std::vector<double> brightness;  ///< brightness of the light, one per frame
+  std::vector<double> brightness;  ///< brightness of the light, one per frame; without flicker
   std::vector<View> views;
   std::vector<Moment> moments;
   std::string bvh;

@@ -135,8 +135,8 @@ struct CoachExtras {
   std::vector<std::string> joint_states;
 };
 
-/// The extras of task `plausibility`: the faults of the motion in the track "answer". This track has the frame rate and
-/// the heights of the judged file.
+/// The extras of task `plausibility`: the faults of the motion in the track "answer". The track keeps the frame rate of
+/// the judged file and the joints' heights in this file (Y, metres).
 struct PlausibilityExtras {
   struct Fault {
     std::string kind, text;              ///< name of the fault (FaultName), and its description (MotionFault::text)

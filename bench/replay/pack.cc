@@ -196,7 +196,8 @@ Result<std::optional<CellCheck>> ReplayPack(const std::string& file, const Outsi
   if (cell == plan.cell_count()) return Fail({file, 0, 0}, "its scenario makes no cell '{}'", pack.row.Id());
   const std::size_t world = plan.WorldOf(cell);
   std::optional<CellCheck> check;
-  const std::string errors = (folder.path() / "stderr").string();  // quoted in the reason of a failure
+  // The folder for the programs' standard error, which the reason of a failure quotes.
+  const std::string errors = (folder.path() / "stderr").string();
   RETURN_IF_ERROR(RunOrders(pack.suite, plan, {{world, {cell - plan.CellAt(world, 0)}}},
                             {.program = ThisProgram(), .error_folder = errors, .fence = fence, .jobs = 1, .stop = stop},
                             [&](const DeliveredCell& again) -> Result<void> {

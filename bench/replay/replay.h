@@ -21,15 +21,15 @@ struct CellCheck {
   std::string cell;
   bool same = false;
   /// The name of the first difference: a stage whose digest differs, else "status", "reason", a metric, "curves" or
-  /// "recording". If the rows belong to different cells: "scenario", "task", "cell", "clip" or "units". "" if nothing
-  /// differs.
+  /// "recording". "status" comes first if a status depends on the machine (DependsOnMachine). If the rows belong to
+  /// different cells: "scenario", "task", "cell", "clip" or "units". "" if nothing differs.
   std::string stage;
   std::string then, now;  ///< the value in the old row and in the new row
   /// The new row without curves and recording, if `options.cells` names the cell.
   std::optional<Row> row = std::nullopt;
 };
 
-/// Compares to which cells two rows belong: scenario, task, cell identity, clip and sampling units.
+/// Compares the identities of two rows: scenario, task, cell, clip and sampling units.
 CellCheck CompareIdentity(const Row& then, const Row& now);
 /// Compares a row with the row of the second run: identity, stages, status, reason, metrics.
 CellCheck CompareRows(const Row& then, const Row& now);
@@ -62,7 +62,7 @@ struct ReplayOutcome {
 Result<ReplayOutcome> ReplayRun(const ReplayOptions& options);
 Result<ReplayOutcome> ReplayPrepared(const ReplayOptions& options, const RunData& run, const PreparedRun& prepared);
 
-/// If the replay starts programs of outside methods, adds an entry to the secret key's list of uses (NoteRepeat).
+/// If the replay starts outside programs, adds an entry to the secret key's list of uses (NoteRepeat).
 /// `target` is the replayed folder or file.
 Result<void> NoteKey(const std::string& target, const SuiteSetup& suite, std::span<const PreparedScenario> scenarios,
                      const std::optional<SecretKey>& key);

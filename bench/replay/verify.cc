@@ -232,8 +232,8 @@ Result<bool> AreSame(const FilePath& a, const FilePath& b) {
   }
 }
 
-/// Writes the columns again from the rows and compares the bytes. Otherwise a column could contain numbers that belong
-/// to no row but are used by other programs.
+/// Writes the columns again from the rows and compares the bytes. Without this check, a column could contain numbers
+/// that belong to no row, and other programs that read the column would use them.
 Result<Verified> VerifyColumns(const FilePath& folder, const FinishedRun& run) {
   Verified verified{"columns: the same bytes as made from the rows", {}};
   std::size_t place = 0;

@@ -88,7 +88,7 @@ Result<Verified> VerifyManifest(const FilePath& folder, const FinishedRun& run, 
   };
   for (const char* key : kSaidByMachine) keep(then, now, key);
   if (then.contains("scored") && now.contains("scored")) {
-    for (const char* key : {"answers", "digest"}) {  // describe the scored answers, which are not in the folder
+    for (const char* key : {"answers", "digest"}) {  // they describe the scored answers, which are not in the folder
       if (const Json& scored = then.at("scored"); scored.contains(key)) now["scored"][key] = scored.at(key);
     }
   }

@@ -12,8 +12,8 @@ namespace etude {
 Result<std::vector<Scenario>> ScenariosOf(const FilePath& folder);
 
 /// Compares the manifest with the manifest that a run of these scenarios would write, apart from the description of the
-/// machine. If `scenarios` is empty, the descriptions of clips are not compared either. `programs` is what AddPrograms
-/// tells of the outside programs now; if it is null, they are not compared.
+/// machine. If `scenarios` is empty, the descriptions of clips are not compared either. `programs` is the JSON to which
+/// AddPrograms has added the outside programs as they are now; if it is null, programs are not compared.
 Result<Verified> VerifyManifest(const FilePath& folder, const FinishedRun& run, const SuiteSetup& suite,
                                 std::span<const PreparedScenario> scenarios, const Json& programs);
 

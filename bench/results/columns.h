@@ -30,7 +30,7 @@ constexpr const char* kCurveEnds = ".ends";
 
 /// Everything about the rows of one scenario that is not a number. It is stored in columns/SCENARIO/index.json.
 struct ColumnIndex {
-  static constexpr int kOwnReason = -1;  ///< the value is missing for the reason of the row itself
+  static constexpr int kOwnReason = -1;  ///< the value is missing for the row's reason, CellResult::reason
   /// The data that several rows share: their metrics, stages and curves, in order, and the reasons of missing values.
   struct Kind {
     std::vector<std::string> metrics;

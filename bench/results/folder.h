@@ -78,7 +78,8 @@ Result<RunData> LoadRun(const std::filesystem::path& folder, Sealing sealing = S
 /// one by one.
 Result<RunData> LoadRunRowByRow(const std::filesystem::path& folder, Sealing sealing = Sealing::kRequired);
 
-/// Reads everything except rows, series and recordings.
+/// Reads everything except rows, series, recordings and times. If the rows are stored as columns, `RunData::source`
+/// reads them.
 Result<RunData> LoadRunOutline(const std::filesystem::path& folder, Sealing sealing = Sealing::kRequired);
 
 /// Fails if another run has replaced the folder since `run` was loaded.
@@ -88,8 +89,8 @@ Result<void> CheckStillThere(const std::filesystem::path& folder, const RunData&
 class FolderBegun {
  public:
   explicit FolderBegun(const std::filesystem::path& folder);
-  /// Returns the result of reading. If reading failed and the folder was replaced, the returned error says that it was
-  /// replaced.
+  /// Returns `read`, the result of reading the folder. If reading failed and the folder was replaced meanwhile,
+  /// returns an error that says so.
   template <typename Value>
   Result<Value> Tell(Result<Value> read) const {
     if (read || IsThere()) return read;

@@ -12,7 +12,7 @@ namespace {
 
 constexpr std::string_view kDigestPrefix = "digest_";
 
-/// Returns a swept value as a number if its text is a number, so that tables can plot it; otherwise as text.
+/// Returns a swept value as a number if its text is a number, so that readers of rows can plot it; otherwise as text.
 Json ValueAsJson(const std::string& text) {
   if (const auto number = ParseFinite(text)) return *number;
   return text;

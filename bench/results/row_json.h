@@ -5,8 +5,9 @@
 
 namespace etude {
 
-/// Encodes a row as a line of cells.jsonl: one flat object. The identity comes first, then the metrics with their ids
-/// as keys. A missing value is null, and its reason is in "null_reasons". Stage digests have keys "digest_<stage>".
+/// Encodes a row as a line of cells.jsonl: one object, flat except for the keys "units" and "null_reasons". The
+/// identity comes first, then the metrics with their ids as keys. A missing value is null, and its reason is in
+/// "null_reasons". Stage digests have keys "digest_<stage>".
 Json EncodeRow(const Row& row);
 Result<Row> DecodeRow(const Json& json, const Place& place);
 

@@ -20,9 +20,9 @@ namespace fs = std::filesystem;
 using Bytes = std::vector<unsigned char>;
 
 // These are sizes in minisign's files, in bytes (https://jedisct1.github.io/minisign/#signature-format). A public key
-// consists of the algorithm (2), the key's number and the key. A secret key consists of the algorithms of signature,
-// password and checksum (2, 2, 2), salt and costs (32, 8, 8; zero without a password), the number, the key and a
-// checksum.
+// consists of the algorithm (2), the key ID (kNumber) and the key. A secret key consists of the algorithms of
+// signature, password and checksum (2, 2, 2), salt and costs (32, 8, 8; zero without a password), the key ID, the key
+// and a checksum (kSum).
 constexpr std::size_t kNumber = 8, kBeforeSecret = 54, kSum = 32;
 constexpr std::size_t kSecretSize = kBeforeSecret + kNumber + crypto_sign_SECRETKEYBYTES + kSum;
 constexpr std::size_t kPublicSize = 2 + kNumber + crypto_sign_PUBLICKEYBYTES;
@@ -102,7 +102,7 @@ Result<std::string> ListDigests(const fs::path& folder) {
   return text;
 }
 
-/// Returns a key's number as minisign shows it: in hexadecimal digits, the last byte first.
+/// Returns a key ID as minisign shows it: in hexadecimal digits, the last byte first.
 std::string NumberOf(std::span<const unsigned char> bytes) {
   std::string text;
   for (std::size_t i = kNumber; i-- > 0;) text += fmt::format("{:02X}", bytes[i]);

@@ -17,9 +17,9 @@ namespace etude {
 /// password.
 Result<void> SignRun(const std::filesystem::path& folder, const std::string& secret_key);
 
-/// Checks the signature and all files. `public_key` is the path of minisign's file, or its text (RW…). Returns the
-/// key's number as minisign shows it. Fails, naming the file, at the first file that was changed after the run was
-/// signed.
+/// Checks the signature and all files. `public_key` is the path of a file with a public key of minisign, or the key
+/// itself as text ("RW…"). Returns the key ID as minisign shows it. Fails, naming the file, at the first file that was
+/// changed after the run was signed.
 Result<std::string> CheckSignature(const std::filesystem::path& folder, const std::string& public_key);
 
 }  // namespace etude

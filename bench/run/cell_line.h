@@ -22,8 +22,8 @@ namespace etude {
 /// If metrics that outside programs compute are still missing, the line begins with `answered` instead of `cell`, and
 /// the cell's motion is in `recording`. Empty members and an empty `reason` are left out. The last two numbers of
 /// `usage` are the time of building the world; only the first cell of a world has them. A series of category indices
-/// has the names of the categories after its values. A value that is not finite, or a metric that the catalogue does
-/// not know, turns the cell's status into bad_output.
+/// has the names of the categories after its values. A value that is not finite, or a metric that FindMetric does not
+/// know, turns the cell's status into bad_output.
 std::string EncodeCellLine(std::size_t cell, FinishedCell finished);
 
 /// The first members of a cell's line, which can be read quickly.

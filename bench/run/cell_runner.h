@@ -36,11 +36,11 @@ class CellRunner {
   /// Builds the world of a trial under a condition. If the world cannot be built, all its cells end with the same
   /// failure.
   void Open(int condition, int trial);
-  /// Runs a method in the open world. An exception gives a row of status `failed`. If memory runs out, there are two
-  /// cases. If the cell held more memory than the scenario allows, its status is `out_of_memory`; if it held less, the
-  /// machine has too little memory, and the cell counts as not run. Outside metric programs do not measure the cell
-  /// here but in Measure: they receive the truth of the world, which no outside method may learn before it has
-  /// answered.
+  /// Runs a method in the open world. If the method throws an exception, the cell's status is `failed`, unless memory
+  /// ran out: if this process then held more memory than the scenario allows, the status is `out_of_memory`; if it
+  /// held less, the machine has too little memory, and the cell counts as not run. Outside metric programs measure
+  /// the cell later, in Measure, because they receive the truth of the world, which no outside method may learn
+  /// before it has answered.
   FinishedCell Run(std::size_t method);
   /// Lets the outside metric programs measure an answered cell. A run calls this function after all methods have
   /// answered (RunOrders).
@@ -63,8 +63,8 @@ class CellRunner {
   /// Returns the result of a cell that ended with an exception. If this machine caused the exception, sets
   /// `why_not_run_`.
   CellResult Thrown(const std::string& when, const std::exception& error);
-  /// Removes the motion of a measured cell if it must not be recorded, and adds the metrics that the cell does not
-  /// report.
+  /// Removes the recording of a measured cell unless the scenario keeps it, and adds the metrics that the row lacks
+  /// (PreparedScenario::CompleteMetrics).
   void Complete(int condition, Row& row) const;
   CellResult RunMethod(std::size_t method, CellUsage& usage);
   CellResult AskOutside(std::size_t method, CellUsage& usage);
@@ -72,8 +72,9 @@ class CellRunner {
   std::string WhyNotAsked(std::size_t method, const std::string& reason) const;
   CellResult RunWithProgram(std::size_t method, CellUsage& usage);
   std::size_t IndexInTask(std::size_t method) const;
-  /// Returns the data that all problems of a condition share (Task::Setting), or those of the world alone if the task
-  /// HasOwnSettings. If they cannot be made, returns the failure as the result of the cell.
+  /// Returns the setting of the open world: the data that all problems of its condition share (Task::Setting) or, if
+  /// each world has a setting of its own (Task::HasOwnSettings), the data of this world alone. If the setting cannot
+  /// be made, returns the failure as the result of the cell.
   tl::expected<const Payload*, CellResult> OpenSetting();
   std::string SettingId() const;
 
@@ -89,7 +90,8 @@ class CellRunner {
   std::string why_world_not_run_;
   CellUsage world_usage_;
   PeakMemory peak_memory_;
-  /// The open world's data for outside methods; null until an outside method needs them.
+  /// Data for outside methods; null until an outside method needs them. `setting_` belongs to `condition_of_setting_`
+  /// and, if each world has a setting of its own, to `trial_of_setting_`; `problem_` belongs to the open world.
   std::unique_ptr<Payload> setting_, problem_;
   int condition_of_setting_ = -1, trial_of_setting_ = -1;
 };

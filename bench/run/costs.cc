@@ -44,8 +44,8 @@ void DoOneYardstick(std::array<double, 512>& values) {
   }
 }
 
-/// Repeats a fixed computation (a yardstick) until `seconds` have passed. Returns how many were done, the wall time and
-/// the processor time, as JSON.
+/// Repeats a fixed computation (a yardstick) until `seconds` have passed. Returns a JSON array: the number of
+/// repetitions, their wall time and their processor time, seconds.
 std::string DoYardsticks(double seconds) {
   std::array<double, 512> values{};
   const auto start = Clock::now();

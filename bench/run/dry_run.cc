@@ -35,9 +35,9 @@ int CountUnitsOf(const PreparedScenario& prepared) {
   return static_cast<int>(units.size());
 }
 
-/// Returns a number of conditions. If costs are measured on every condition that is this number after the last one
-/// (modulo all conditions), the order has no trend. Costs change along a sweep, so the order of the sweep would bias
-/// the measurement.
+/// Returns the step between the conditions on which costs are measured: condition c is followed by condition (c + step)
+/// modulo `conditions`. Every condition is reached, in an order without a trend. Costs change along a sweep, so the
+/// first conditions of the sweep alone would give a biased mean.
 int StepOver(int conditions) {
   constexpr double kGolden = 0.618;
   int step = std::max(1, static_cast<int>(std::lround(kGolden * conditions)));
@@ -60,8 +60,8 @@ bool AreInstalled(const std::vector<std::string>& references, const Place& place
 }
 
 /// Returns true if the cost of a scenario can be forecast without loading its input. Everything that the scenario names
-/// must come with the program, so that the input is as valid as when the stored cost was measured. The number of
-/// sampling units must be known.
+/// must come with the program or with a package, so that the input is as valid as when the stored cost was measured.
+/// The number of sampling units must be known.
 bool IsKnown(const Scenario& scenario, const ScenarioSetup& setup, const KeptCost& cost) {
   const bool names_no_file = setup.streams.empty() && setup.labels.empty() && setup.files.empty() &&
                              ProgramsIn(scenario).empty() &&
@@ -90,9 +90,9 @@ double SpreadOf(const Study& study, const ScenarioTable& table, const std::strin
   return deviations.empty() ? 0 : Quantile(deviations, 0.5);
 }
 
-/// Runs at least one world, and further worlds until the clock reaches `until`. Returns the mean time of a world,
-/// seconds, and adds the worlds' cells to `table`. The first world includes one-time costs, so the mean leaves it out
-/// if other worlds were run.
+/// Runs at least one world, and further worlds until all are done or `until` seconds have passed since `start`. Returns
+/// the mean time of a world, seconds, and adds the worlds' cells to `table`. The first world includes one-time costs,
+/// so the mean leaves it out if other worlds were run.
 double MeasureSecondsPerWorld(const PreparedScenario& prepared, const Fence& fence, double until,
                               Clock::time_point start, ScenarioTable& table) {
   const Scenario& scenario = prepared.scenario();

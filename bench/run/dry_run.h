@@ -30,8 +30,8 @@ struct ScenarioForecast {
   std::string metric = {};
   /// The standard deviation, over worlds, of the paired differences in `metric`, in the metric's unit. The compared
   /// methods are the first method that has a baseline, and its baseline. The value is the median over conditions. The
-  /// value is stored, or computed from the worlds that were run to measure the time. 0 = there are fewer than
-  /// kMinSample pairs.
+  /// value is stored, or computed from the worlds that were run to measure the time. 0 = no condition has kMinSample
+  /// pairs, or no method has a baseline.
   double spread = 0;
 };
 
@@ -43,9 +43,11 @@ struct Forecast {
   Pace pace;
 };
 
-/// Checks all input as Run does, estimates the time, and writes nothing. If a shipped scenario uses its own clips and
-/// recordings, its stored cost is scaled by this machine's speed; clips are not read and recognisers are not trained.
-/// For the other scenarios, worlds are run for `sample_seconds` in all, and at least one world of each scenario.
+/// Estimates the time of a run, and writes nothing. If a scenario's cost is stored (ReadKeptCosts) and no option
+/// changes its clips or recordings, the stored cost is scaled by this machine's speed. The input of such a scenario
+/// is loaded only if a part of it comes neither with the program nor with a package, or if its sampling units must be
+/// counted. The input of all other scenarios is checked as in Run; their worlds are run for `sample_seconds` in all,
+/// and at least one world of each scenario.
 Result<Forecast> DryRun(const RunOptions& options, double sample_seconds);
 
 }  // namespace etude

@@ -25,8 +25,8 @@ bool Draws(const PreparedScenario& prepared) {
   return IsFilmed(scenario) || FindTaskKind(scenario.task)->platform != nullptr;
 }
 
-/// Makes a renderer in a forked copy of this process. If memory is short, Mesa ends the process that uses it, here only
-/// the copy.
+/// Makes a renderer in a forked copy of this process. If memory is short, Mesa ends the process in which it runs, so
+/// only the copy ends.
 Result<void> TryRendererInACopy() {
   constexpr int kNotLoaded = 2;
   ASSIGN_OR_RETURN(ForkedCopy copy, ForkedCopy::Start([](int) {

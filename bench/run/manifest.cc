@@ -127,7 +127,7 @@ Result<Json> DescribeLibraries() {
 constexpr const char* kUnknownPrograms =
     "it is unknown which versions of its outside programs ran: an earlier etude, which did not record them, wrote it";
 
-/// Returns up to 60 bytes of `line`, from shortly before byte `at` on, in quotes.
+/// Returns a part of `line` in quotes: about 60 bytes, beginning shortly before byte `at`.
 std::string ShowPart(const std::string& line, std::size_t at) {
   constexpr std::size_t kBefore = 20, kShown = 60;
   // Returns true if byte `i` continues a UTF-8 character that began at an earlier byte.

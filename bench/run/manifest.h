@@ -41,14 +41,15 @@ struct JsonDifference {
   bool operator==(const JsonDifference&) const = default;
 };
 
-/// Returns all values that differ between an earlier and the present manifest. Of a text with several lines, the first
-/// line that differs is told: `path` ends with its number.
+/// Returns the values that differ between an earlier and the present manifest. If a text has several lines, the
+/// difference shows only the first line that differs; `path` ends with this line's number. If a text of the suite
+/// differs, the digests of scenarios are left out.
 std::vector<JsonDifference> CompareManifests(const Json& then, const Json& now);
 /// Describes the first few differences in words: "seed was 1 and is 2; …".
 std::string InWords(std::span<const JsonDifference> differences);
 /// Returns the differences that concern outside programs (AddPrograms).
 std::vector<JsonDifference> OfPrograms(const std::vector<JsonDifference>& differences);
-/// Fails if a scenario has outside programs, but the manifest that the file at `place` contains does not list them.
+/// Fails if a scenario has outside programs that `manifest` does not list. `place` is the place of the error.
 Result<void> RequirePrograms(const Json& manifest, std::span<const PreparedScenario> scenarios, const Place& place);
 /// Returns true if the differences concern only libraries: every path begins with "libraries.".
 bool AreOfLibraries(std::span<const JsonDifference> differences);

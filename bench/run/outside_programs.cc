@@ -92,7 +92,7 @@ void AddFolder(const std::string& folder, Json& files) {
   files[folder + " (names and sizes)"] = digest.Hex();
 }
 
-/// Adds the digests of the files beside `script` whose names end as its name does: a script may import them.
+/// Adds the digests of the files in the folder of `script` that have its extension, because the script may import them.
 void AddNeighbours(const fs::path& script, Json& files) {
   std::error_code error;
   const fs::path folder = script.has_parent_path() ? script.parent_path() : fs::path(".");
@@ -127,7 +127,8 @@ Json DigestsOf(const MethodEntry& program) {
 }  // namespace
 
 Result<void> AddPrograms(std::span<const PreparedScenario> scenarios, const Fence& fence, Json& manifest) {
-  std::optional<TemporaryFolder> errors;  // the reason of a failure quotes the program's standard error
+  // The folder for the programs' standard error, which the reason of a failure quotes.
+  std::optional<TemporaryFolder> errors;
   for (std::size_t s = 0; s < scenarios.size(); ++s) {
     for (const ScenarioProgram& program : ProgramsIn(scenarios[s].scenario())) {
       if (!errors) {

@@ -19,14 +19,15 @@ struct OutsideRules {
   bool allow_exec = false;  ///< true: also run programs that a manifest or a pack names, which may come from a stranger
 };
 
-/// Returns the options with which a program of a scenario is started. `error_folder` is the folder of its standard
-/// error (ErrorFileOf).
+/// Returns the options with which a program of a scenario is started. The program's standard error goes to a file in
+/// `error_folder` (ErrorFileOf).
 OutsideOptions OptionsOf(const PreparedScenario& scenario, const ScenarioProgram& program,
                          const std::string& error_folder, const Fence& fence);
 
-/// Adds to a manifest what identifies each outside program: the name and version of its greeting (null if the greeting
-/// is invalid), and the digests of the files that `exec` and `files` name and, without `files`, of the scripts beside
-/// its script. Every program is started once. Fails if this machine cannot start one.
+/// Adds to a manifest what identifies each outside program: the name and version that it states in the handshake (null
+/// if the handshake fails), and the digests of its files. These are the files that its keys `exec` and `files` name. If
+/// `files` is empty, they are also the files beside its script that have the script's extension. Every program is
+/// started once. Fails if this machine cannot start one.
 Result<void> AddPrograms(std::span<const PreparedScenario> scenarios, const Fence& fence, Json& manifest);
 
 /// Lists every method and every metric that is a program, e.g. "python3 my_solver.py (ik-weights/mine)".
@@ -37,9 +38,10 @@ Result<void> CheckPrograms(const std::string& file, std::span<const PreparedScen
                            const OutsideRules& rules);
 
 /// Makes the sandbox for the outside programs of these scenarios. The sandbox hides the run's `folder` ("" = none).
-/// Without outside programs, the sandbox is empty. Fails if worlds are secret and this machine cannot make a sandbox,
-/// unless the rules switch the sandbox off. Fails also if an outside program could read the key's file, the run's
-/// folder, or the file of a scenario with secret worlds.
+/// Returns an empty Fence if there are no outside programs. Fails if a program's key `exec` or `files` names a file
+/// that does not exist, or if `files` names a folder to which programs write. If worlds are secret and the rules do not
+/// switch the sandbox off, fails also if this machine cannot make a sandbox, or if an outside program could read the
+/// key's file, the run's folder or the scenario's file.
 Result<Fence> FenceFor(std::span<const PreparedScenario> scenarios, const OutsideRules& rules,
                        const std::filesystem::path& folder, const std::optional<SecretKey>& key);
 

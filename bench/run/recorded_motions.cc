@@ -21,7 +21,7 @@ namespace {
 namespace fs = std::filesystem;
 
 /// Returns the recordings of a cell. If `cell` names a world but no method, returns the recordings of all methods in
-/// it.
+/// this world.
 std::vector<FilePath> RecordingsOf(const fs::path& run, const std::string& cell) {
   if (FilePath own = RecordingFile(run, cell); Exists(own)) return {std::move(own)};
   const std::string world = RecordingFile(run, cell + "/").whole().stem().string();

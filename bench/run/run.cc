@@ -84,7 +84,7 @@ Result<void> CheckManifest(const fs::path& folder, const std::string& manifest, 
 /// Fails if the outside programs differ from those of the manifest at `path`, which the run repeats.
 Result<void> CheckSamePrograms(const std::string& path, const Json& now, std::span<const PreparedScenario> scenarios) {
   ASSIGN_OR_RETURN(const auto then, ReadJsonFile(path));
-  if (then.contains("data_set")) return {};  // of etude export, which runs no program
+  if (then.contains("data_set")) return {};  // `etude export` wrote the manifest; it runs no program
   RETURN_IF_ERROR(RequirePrograms(then, scenarios, {path}));
   const auto differences = OfPrograms(CompareManifests(then, now));
   if (differences.empty()) return {};

@@ -65,8 +65,8 @@ struct Progress {
   /// The share of the results that has been summarised and written; nullopt while cells still run.
   std::optional<double> written = {};
 
-  /// Estimates the time until all cells are done, seconds; 0 = unknown. The expected speed counts as if it had been
-  /// measured on a tenth of the work.
+  /// Estimates the time until all cells are done, seconds; 0 = unknown. The expected time per unit of work
+  /// (`seconds_per_work`) has the weight of a measurement over a tenth of the work.
   double SecondsToGo() const {
     const double expected = seconds_per_work > 0 ? 0.1 * work : 0, done = expected + work_done - work_before;
     return done <= 0 ? 0 : (expected * seconds_per_work + seconds) / done * (work - work_done);
@@ -96,8 +96,9 @@ struct RunOutcome {
 
 /// Runs scenarios and writes a result folder. All input is checked before anything is written. Each finished cell is
 /// written to journal.jsonl immediately; the journal is synchronised to the disk in groups of cells. A run that was
-/// ended at any moment, by a kill or a power cut, can be resumed, and the result has the same bytes. A shard keeps its
-/// journal for Merge. If no cell is finished, a new folder is removed again.
+/// ended at any moment, by a kill or a power cut, can be resumed; its results then have the same bytes as those of a
+/// run without interruption, apart from times. A shard keeps its journal for Merge. If no cell is finished, a new
+/// folder is removed again.
 Result<RunOutcome> Run(const RunOptions& options, const std::function<void(const Progress&)>& on_progress);
 
 struct MergeOptions {
@@ -112,10 +113,10 @@ struct MergeOptions {
   const std::atomic<bool>* stop = nullptr;
 };
 
-/// Merges the shards of a run. The result has the same bytes as the result of a run without shards. Fails, with a list,
-/// if shards have different builds, suites or seeds, if shards overlap, or if cells are missing. If the user stops the
-/// merge, no files are left. `on_progress` receives the share of rows that have been read and written. Even if this
-/// share is 1, the merge has succeeded only when this function returns.
+/// Merges the shards of a run. The manifest, rows, curves, recordings and summary have the same bytes as those of a
+/// run without shards. Fails, with a list, if shards have different builds, suites or seeds, if shards overlap, or if
+/// cells are missing. If the user stops the merge, no files are left. `on_progress` receives the share of rows that
+/// have been read and written. Even if this share is 1, the merge has succeeded only when this function returns.
 Result<RunOutcome> Merge(const MergeOptions& options, const std::function<void(double share)>& on_progress);
 
 }  // namespace etude

@@ -177,11 +177,13 @@ void RunFolder::Keep() {
   if (std::exchange(is_kept_, true)) return;
   is_ours_ = false;
   std::error_code ignored;
-  // Rename the old run before it is deleted. If the process is killed during the deletion, the rest does not look like
-  // a run.
+  // Rename the old run before it is deleted. If the process is killed during the deletion, the remaining files must not
+  // count as a run that can be restored (TakeUp).
   if (aside_) fs::rename(aside_->path() / kOldRun, aside_->path() / kGone, ignored);
   aside_.reset();
-  FindLeft();  // if this run resumed a killed run with `--overwrite`: deletes the folders that the killed run left
+  // Delete the temporary folders that killed runs with `--overwrite` left; the destructors of the result delete them.
+  // There are such folders if this run resumed a killed run.
+  FindLeft();
 }
 
 Result<void> RunFolder::Lock() {

@@ -14,9 +14,11 @@
 namespace etude {
 
 enum class FolderState {
-  kFree,        ///< the folder is missing, empty, or left by a run or merge that ended before its first result
+  /// The folder is missing or empty, or it has neither a journal nor host.json: a run ended before it began its
+  /// journal, or a merge ended before it had written all results.
+  kFree,
   kUnfinished,  ///< the folder has a journal: it belongs to an interrupted run, a run in progress, or a shard
-  kFinished,    ///< the folder has the results of a whole run and no journal; host.json, which is written last, exists
+  kFinished,    ///< the folder has no journal, but has host.json, which is written after all results of a whole run
 };
 
 /// Examines the contents of a folder. Fails if the folder contains anything that is not part of a run, because a run
@@ -55,19 +57,19 @@ class RunFolder {
   std::vector<TemporaryFolder> FindLeft() const;
 
   std::filesystem::path path_;
-  bool is_ours_;          ///< true: this run made the folder, and the folder has no results to keep yet
+  bool is_ours_;          ///< true: this run made or emptied the folder, which has no results to keep yet
   bool is_kept_ = false;  ///< true: Keep was called
   int lock_ = -1;         ///< file descriptor of the lock file; the system releases the lock when the process ends
-  /// The temporary folder with the replaced run, named `kOldRun`; nullopt if nothing is replaced.
+  /// The temporary folder whose subfolder `kOldRun` is the replaced run; nullopt if nothing is replaced.
   std::optional<TemporaryFolder> aside_;
   std::string why_unlocked_;
 };
 
-/// Writes the results of a whole run into its folder: cells, series, recordings, summary, timings, and last host.json.
-/// Then removes the journal, so that the folder counts as finished. `cells` must be complete. `jobs` processes share
-/// the statistics of large runs. `goes_on` receives the share of this work that is done, after every few thousand rows
-/// and after each part of the statistics. If `goes_on` returns false, this function stops and returns false, and the
-/// folder stays unfinished. Otherwise returns true.
+/// Writes the results of a whole run into its folder: cells, series, recordings, summary and timings, then host.json,
+/// and last the seal. Then removes the journal, so that the folder counts as finished. `cells` must be complete. If the
+/// run is large, `jobs` processes compute the statistics. `goes_on` receives the finished share of all this work, after
+/// every few thousand rows and after each part of the statistics. If `goes_on` returns false, this function stops and
+/// returns false, and the folder stays unfinished. Otherwise returns true.
 Result<bool> FinishRun(const std::filesystem::path& folder, const Plan& plan, CellTable& cells, const Json& host,
                        int jobs, const std::function<bool(double share)>& goes_on);
 

@@ -15,8 +15,9 @@ struct SecretKey {
 };
 
 /// Reads the key from `file`, which contains 64 hexadecimal digits or 32 raw bytes. If `file` is "", reads the key from
-/// the environment variable ETUDE_SEED_KEY and erases the variable's value. Returns nullopt if both `file` and the
-/// variable are empty. Error messages never show the key.
+/// the environment variable ETUDE_SEED_KEY and erases the variable's value. Returns nullopt if `file` is "" and the
+/// variable does not exist. Fails if the key has another form, or if `file` has a second hard link. Error messages
+/// never show the key.
 Result<std::optional<SecretKey>> FindSecretKey(const std::string& file);
 
 /// Secret worlds are made by a rule with a version. Fails if `version` differs from the version of this program.

@@ -25,8 +25,8 @@ struct RefusedClip {
   friend bool operator==(const RefusedClip&, const RefusedClip&) = default;
 };
 
-/// The inputs from which a scenario's worlds are made. With SuiteSetup::sources, the same worlds can be made on any
-/// machine.
+/// The inputs from which a scenario's worlds are made. With SuiteSetup::sources and the files of the clips and
+/// recordings, the same worlds can be made on any machine.
 struct ScenarioSetup {
   std::string file;  ///< name of the scenario's file, a key of SuiteSetup::sources
   std::string name;  ///< name of the scenario; a file may contain several scenarios
@@ -39,7 +39,7 @@ struct ScenarioSetup {
   /// References to recordings: the scenario's own, or those of the option --streams.
   std::vector<std::string> streams = {};
   std::vector<std::string> labels = {};   ///< names of label files, keys of SuiteSetup::sources
-  std::vector<RefusedClip> refused = {};  ///< files left out of `clips`, `libraries` and `streams`
+  std::vector<RefusedClip> refused = {};  ///< files left out of `clips`, `libraries`, `streams` and `files`
   std::vector<JudgedFiles> files = {};    ///< the worlds of a task that judges files, by trial
   /// True: every cell is recorded (--keep motions); false: only the cells that `video` names.
   bool keeps_motions = false;
@@ -98,8 +98,9 @@ class PreparedScenario {
   /// Returns a cell's row, still without a result.
   Row IdentityOf(int condition, int trial, std::size_t method) const;
   Row EndedRow(int condition, int trial, std::size_t method, Status status, const std::string& reason) const;
-  /// Adds the metrics that `row` lacks. Each added metric gets the value that the task defines for failed cells. If the
-  /// task defines none, the metric is missing, with the row's reason.
+  /// Adds the metrics that `row` lacks, unless its status is ok. Each added metric gets the value that the task defines
+  /// for failed cells. If the task defines none, or if the cell was skipped, the metric is missing, with the row's
+  /// reason.
   void CompleteMetrics(int condition, Row& row) const;
 
  private:
@@ -120,18 +121,20 @@ class PreparedScenario {
   std::vector<std::string> dice_names_;
 };
 
-/// Finds the files of a scenario whose task judges files, and sets the number of trials to the number of worlds found.
-/// Does nothing for other tasks. Files that are left out are added to `setup.refused`.
+/// Finds the files of a scenario whose task judges files, and stores the worlds made of them in `setup.files`. Does
+/// nothing for other tasks. Files that are left out are added to `setup.refused`. Fails if two conditions of the
+/// scenario judge different files.
 Result<void> FindFiles(const Scenario& scenario, const SourceTexts& texts, ScenarioSetup& setup);
 
 /// Returns the options with which the motions of a scenario are opened.
 Result<OpenOptions> OpenOptionsOf(const ScenarioSetup& setup, const SourceTexts& texts);
 
-/// Returns true if a condition of the scenario has `sensor: cameras`: another task then uses task capture's cameras.
+/// Returns true if a condition of the scenario has `sensor: cameras`. The scenario's task then uses the cameras of task
+/// capture.
 bool IsFilmed(const Scenario& scenario);
 
 /// Returns the number of people in a scenario's recordings; nullopt if its worlds are not made from recordings. `texts`
-/// contains the labels. A file that a folder or pattern in `setup.streams` contains but that cannot be read is added to
+/// contains the labels. Files in the folders and patterns of `setup.streams` that cannot be read are added to
 /// `setup.refused`.
 Result<std::optional<int>> CountRecordedPeople(ScenarioSetup& setup, const StreamSource& source,
                                                const SourceTexts& texts);
@@ -155,9 +158,9 @@ Result<PreparedScenario> Prepare(const SuiteSetup& suite, const ScenarioSetup& s
 /// Prepares all scenarios of a suite. Fails if there are more than kMaxCells cells.
 Result<std::vector<PreparedScenario>> PrepareAll(const SuiteSetup& suite);
 
-/// Adds a method with answers from files after the scenario's own methods; it is compared with the scenario's first
-/// method. If `method.alone` is true, it replaces all methods, and the expectations are dropped. Fails if its name is
-/// in use or is not a plain name.
+/// Adds `method`, whose answers come from files, as the last method of the scenario. It is compared with the scenario's
+/// first method. If `method.alone` is true, it replaces all methods, and the expectations and gate rules are dropped.
+/// Fails if its name is in use or is not a plain name.
 Result<void> AddScoredMethod(const ScoredMethod& method, Scenario& scenario);
 
 }  // namespace etude

@@ -67,7 +67,8 @@ fs::path FindShipped(const std::string& name) {
 tl::unexpected<Error> NotShipped(const std::string& path) {
   std::vector<std::string> names = ShippedScenarios();
   names.insert(names.end(), std::begin(kSuites), std::end(kSuites));
-  // A path within a clone of the repository is the name of a shipped scenario between "scenarios/" and ".yaml".
+  // In the path of a file in a clone of the repository, such as "scenarios/quick/ik.yaml", the name of the scenario is
+  // the text between "scenarios/" and ".yaml".
   std::string name = fs::path(path).lexically_normal().string();
   const std::string folder = std::string(kScenarioFolder) + "/";
   if (const std::size_t at = name.rfind(folder); at != std::string::npos) name.erase(0, at + folder.size());

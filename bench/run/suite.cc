@@ -120,8 +120,8 @@ Result<std::vector<std::string>> KeepLabels(const std::string& path, SourceTexts
   return files;
 }
 
-/// Fails if a path in `paths` has no scenario that can use an option. `with_use` contains the scenario files that can
-/// use it. One such file per path is enough.
+/// Fails if, for one of `paths`, no scenario file can use an option of the command line. `with_use` contains the
+/// scenario files that can use the option; `why` names the option and says why the others cannot.
 Result<void> CheckThatUsed(const std::vector<std::string>& paths, const std::set<std::string>& with_use,
                            std::string_view why) {
   for (const std::string& path : paths) {
@@ -198,7 +198,7 @@ Result<ScenarioSetup> SetUp(Scenario& scenario, const std::string& file, const s
   if (options.skip_refused) RETURN_IF_ERROR(LeaveOutRefused(setup, sources));
   ASSIGN_OR_RETURN(setup.labels, KeepLabels(scenario.streams.labels, sources));
   RETURN_IF_ERROR(FindFiles(scenario, sources, setup));
-  if (!setup.files.empty()) {  // each pair of files is one trial; --trials limits the number of pairs
+  if (!setup.files.empty()) {  // each world made of files is one trial; --trials limits the number of these worlds
     if (options.key)
       return Fail({file, 0, 0}, "--seed-file: scenario {} uses no random numbers, because it judges files",
                   scenario.name);
