@@ -149,8 +149,8 @@ TEST(Match, TheRootIsTheFilesOwnIfBothHaveOneElseTheMiddleOfTheHips) {
   }
 }
 
-/// Returns the motion as a skeleton of a file with names of its own: the role spine is played by "Chest", the head's
-/// joint is another than the crown, and further joints play no role.
+/// Returns the motion as a file's skeleton with other joint names: "Chest" plays the spine, and the End Site "Head_End"
+/// plays the head.
 RawMotion AsSkeleton(const RawMotion& motion) {
   RawMotion own = motion;
   for (const Role role : AllRoles()) own.joints[Index(role)] = "bone " + std::to_string(Index(role));
