@@ -108,7 +108,7 @@ struct SkeletonSensorOptions {
   // The pose-dependent part: a smooth random function of the joint positions. A second such function selects the mode:
   // where it exceeds a threshold, the error jumps, as if the sensor preferred another estimate of the body.
   double pose_length_m = 0.25;     ///< correlation length over the joint's own position
-  double far_pose_length_m = 0.8;  ///< the same over the arms' positions, in the errors of trunk and legs (ours)
+  double far_pose_length_m = 0.8;  ///< correlation length over the arms' positions, for trunk and legs (ours)
   double mode_share = 0.12;        ///< share of all poses in the second mode (ours)
   double mode_ratio = 4;           ///< size of errors in the second mode ÷ size in the first (ours)
 

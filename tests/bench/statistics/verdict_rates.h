@@ -25,7 +25,7 @@ enum class SampleLaw {
   kBimodal,      ///< −1 or 1, with normal noise of 0.3
 };
 inline constexpr int kSampleLaws = 8;
-inline constexpr int kWorldLaws = 5;  ///< number of laws, the first ones, that worlds draw from
+inline constexpr int kWorldLaws = 5;  ///< number of the laws that are drawn for each world: the first five
 std::string_view SampleLawName(SampleLaw law);
 
 /// The design of a random sample.
@@ -35,7 +35,7 @@ struct SampleDesign {
   int trials = 1;    ///< worlds per unit; with `in_pairs`, worlds in all
   /// Correlation of two worlds of one unit, 0…1 (for kTies and kCensored before ties and limit apply)
   double alike = 0;
-  bool in_pairs = false;  ///< a world is drawn from two units in two roles; each role carries half of the correlation
+  bool in_pairs = false;  ///< true: each world has two units in two roles; each role carries half of the correlation
   double part_alike = 0;  ///< correlation of one unit's contributions in the two roles
 };
 

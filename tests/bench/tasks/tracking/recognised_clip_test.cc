@@ -17,8 +17,8 @@
 #include "tests/bench/tasks/base/cell_values.h"
 #include "tests/bench/tasks/tracking/some_clips.h"
 
-// An attack: somebody with the program, all public clips and the problem finds the clip and frame, and answers from it.
-// Distances between ends are compared, so turn, place and scale do not matter.
+// An attack: somebody who has the program, all public clips and a problem finds the problem's clip and frame, and
+// answers with the clip's angles. Only distances between ends are compared, so turn, place and scale do not matter.
 
 namespace etude {
 namespace {
