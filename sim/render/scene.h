@@ -76,7 +76,7 @@ struct Figure {
 constexpr std::size_t kMaxPaints = 64;
 
 /// Returns the colours of the captured performer: clothes and skin with warm hues (from 335° through red to 45°). These
-/// colours differ in hue by at least 85° from everything in the room, because segmentation compares hues.
+/// colours differ in hue by at least 85° from everything in the studio, because segmentation compares hues.
 PartColours PerformerColours();
 
 /// A box that stands still in the room, rotated about the vertical like Cuboid (sim/body/shape.h). Its pixels are

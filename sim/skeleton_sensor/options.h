@@ -76,9 +76,10 @@ double DepthDeviation(DepthLaw law, double z);
 /// The errors of a Kinect-like skeleton sensor: `SensorV1()`, `SensorV2()` or a file (docs/sensor.md). Comments at the
 /// presets state the sources of the values.
 struct SkeletonSensorOptions {
-  /// Multiplies the errors of joints; the probabilities of wrong guesses and outliers (up to 1) and of swaps;
-  /// `dropout_share` (up to 0.9); and, below 1, the lag. The strength does not change the sizes of wrong guesses and
-  /// outliers, nor which joints are hidden or out of view. At 0, every joint in view is reported at its true position.
+  /// The strength of the errors: a factor on the errors of joints, on the probabilities of wrong guesses, outliers
+  /// (both up to 1) and swaps, and on `dropout_share` (up to 0.9). A strength below 1 also multiplies the lag. The
+  /// strength does not change the sizes of wrong guesses and outliers, nor which joints are hidden or out of view. At
+  /// 0, every joint in view is reported at its true position.
   double strength = 1.0;
 
   Intrinsics view;  ///< intrinsics of the depth camera

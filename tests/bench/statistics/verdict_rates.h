@@ -76,9 +76,11 @@ struct VerdictRepetitions {
 /// Draws the samples of a design, and judges each as the only comparison of its run.
 VerdictRates MeasureVerdicts(const SampleDesign& design, const VerdictRepetitions& repetitions);
 
-/// Returns the designs of docs/findings/verdicts.md: 6, 8, 12 and 30 units × 1, 3 and 10 worlds per unit × correlations
-/// of 0, 0.5 and 0.9 × every law of worlds; 60 worlds drawn from two units each, of 6, 8, 12 and 30; then uneven units:
-/// one world each of 6 to 60 units.
+/// Returns the designs of docs/findings/verdicts.md:
+///   - 6, 8, 12 and 30 units × 1, 3 and 10 worlds per unit × correlations of 0, 0.5 and 0.9 × every law of worlds;
+///   - 60 worlds with two units each, drawn from 6, 8, 12 and 30 units, × the same correlations × two values of
+///     `part_alike` × three laws;
+///   - uneven units: 6 to 60 units with one world each × the normal law and the laws of units.
 std::vector<SampleDesign> PublishedDesigns();
 
 /// Returns true if the verdicts of a design keep the promise, as far as the samples of `designs` designs can tell:

@@ -221,7 +221,7 @@ TEST(Match, AJointThatIsAnotherPointOfTheBodyIsNamed) {
   const auto said =
       HasSubstr("head 101 mm away, all frames alike (median joint 9.9 mm): the same point in both files?");
   EXPECT_THAT(Judged(Gliding(30, 30), off_by(Role::kHead, 0.1, 0.01)).reason, said);
-  // Not if the whole body is away, or if the joint comes and goes.
+  // The reason does not ask this if the whole body is displaced, or if the joint is displaced in some frames only.
   const auto silent = ::testing::Not(HasSubstr("the same point"));
   EXPECT_THAT(Judged(Gliding(30, 30), off_by(Role::kHead, 0.1, 0.1)).reason, silent);
   RawMotion flickering = off_by(Role::kHead, 0, 0.01);

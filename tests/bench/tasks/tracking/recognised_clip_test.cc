@@ -43,7 +43,8 @@ double Misfit(const Ends& a, const Ends& b) {
   return sum;
 }
 
-/// Returns the angles per frame of the library's clip window, over every begin and pace, that fits the problem best.
+/// Tries every window of every clip of the library, with several paces, and returns the angles, frame by frame, of the
+/// window that fits the problem best.
 std::vector<std::vector<double>> LookUp(const TrackingWorld& world, const std::vector<LibraryClip>& clips,
                                         double rate_hz) {
   constexpr double kFiner = 4;  // begins and paces between frames are tried, too
