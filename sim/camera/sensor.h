@@ -102,8 +102,8 @@ using Mosaic = Image<float>;
 /// Returns the colour (0, 1, 2 for r, g, b) that a pixel of the mosaic holds.
 constexpr int BayerColour(int x, int y) { return (x & 1) + (y & 1); }
 
-/// Interpolates the two missing colours of each pixel as means: over the two or four nearest pixels that sense the
-/// missing colour. This bilinear demosaicing is the usual baseline. The mosaic must have at least 2 × 2 pixels; it is
+/// Interpolates the two missing colours of each pixel: each is the mean of the two or four nearest pixels that sense
+/// this colour. This bilinear demosaicing is the usual baseline. The mosaic must have at least 2 × 2 pixels; it is
 /// mirrored at its edges.
 /// @param out must have the mosaic's size
 void Demosaic(const Mosaic& mosaic, LightImage& out);

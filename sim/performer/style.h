@@ -9,9 +9,9 @@
 
 namespace etude {
 
-/// Offsets of every control that vary smoothly over one performance with the performance's length as their period: for
-/// each control, a constant and three harmonics. The offsets of left and right are correlated. The spot of a standing
-/// foot gets only a constant offset, because the foot must not slide.
+/// Random offsets, one per control. An offset varies smoothly over one performance and is periodic with the
+/// performance's length: it is the sum of a constant and three harmonics. The offsets of left and right are correlated.
+/// The spot of a standing foot gets only a constant offset, because the foot must not slide.
 class SmoothOffsets {
  public:
   SmoothOffsets() = default;

@@ -26,7 +26,7 @@ struct WorldKey {
 class RandomStream {
  public:
   /// Makes the stream of one purpose, such as "joint-noise" or "camera-0/pixel-noise". The stream is independent of all
-  /// other streams. The seed must be open.
+  /// other streams. The seed must be open (Seed::IsOpen).
   RandomStream(const WorldKey& world, std::string_view purpose);
 
   std::uint64_t Bits();

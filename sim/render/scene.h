@@ -43,9 +43,9 @@ struct SurfacePaint {
 /// The colours of the parts of a body, indexed by Part.
 using PartColours = std::array<Rgb8, 16>;
 
-/// Triangles in the world with one colour, a paint or a texture. Both sides are drawn. Triangles are left out if a
-/// corner or normal is not finite or a corner is 1000 km from the camera. Parts nearer to it than 1 cm are
-/// clipped.
+/// Triangles in the world with one colour, a paint or a texture. Both sides are drawn. A triangle is left out if a
+/// corner or a normal is not finite, or if a corner is 1000 km or more from the camera along an axis. Parts nearer than
+/// 1 cm to the camera are clipped.
 struct Surface {
   std::vector<glm::dvec3> positions;                    ///< metres
   std::vector<glm::dvec3> normals;                      ///< unit vectors, one per position
@@ -76,7 +76,7 @@ struct Figure {
 constexpr std::size_t kMaxPaints = 64;
 
 /// Returns the colours of the captured performer: clothes and skin with warm hues (from 335° through red to 45°). These
-/// colours differ in hue by at least 85° from everything in the room, because segmentation compares hues.
+/// colours differ in hue by at least 85° from everything in the studio, because segmentation compares hues.
 PartColours PerformerColours();
 
 /// A box that stands still in the room, rotated about the vertical like Cuboid (sim/body/shape.h). Its pixels are

@@ -199,9 +199,10 @@ SkeletonSensorOptions SensorV1() {
   SkeletonSensorOptions v1;
   v1.view = {.width = 640, .height = 480, .fx = 580, .fy = 580, .cx = 320, .cy = 240, .skew = 0};  // view 57° × 43°
   v1.depth_law = DepthLaw::kStructuredLight;
-  // The sizes of torso and head, hands and feet reproduce the published errors in a dance. The sizes of elbows and
-  // knees lie between them (ours). Errors are larger in depth than across the line of sight; published ratios for a v2
-  // are 1.2–1.8 at knees and feet, and the ratios of all groups are in this range.
+  // The values of `size` for the trunk and the ends of limbs reproduce the published errors of torso, head, hands and
+  // feet in a dance. The values for elbows and knees lie in between (ours). Errors are larger in depth than across the
+  // line of sight; published ratios for a v2 are 1.2–1.8 at knees and feet, and the ratios of all groups are in this
+  // range.
   constexpr GroupErrors kTrunk{.size = 0.025, .depth_ratio = 1.4, .still = 0.0014, .white = 0.0002};
   constexpr GroupErrors kMiddle{.size = 0.038, .depth_ratio = 1.4, .still = 0.0020, .white = 0.0006};
   constexpr GroupErrors kEnds{.size = 0.066, .depth_ratio = 1.4, .still = 0.0030, .white = 0.0010};

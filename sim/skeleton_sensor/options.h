@@ -76,9 +76,10 @@ double DepthDeviation(DepthLaw law, double z);
 /// The errors of a Kinect-like skeleton sensor: `SensorV1()`, `SensorV2()` or a file (docs/sensor.md). Comments at the
 /// presets state the sources of the values.
 struct SkeletonSensorOptions {
-  /// Multiplies the errors of joints; the probabilities of wrong guesses and outliers (up to 1) and of swaps;
-  /// `dropout_share` (up to 0.9); and, below 1, the lag. The strength does not change the sizes of wrong guesses and
-  /// outliers, nor which joints are hidden or out of view. At 0, every joint in view is reported at its true position.
+  /// The strength of the errors: a factor on the errors of joints, on the probabilities of wrong guesses, outliers
+  /// (both up to 1) and swaps, and on `dropout_share` (up to 0.9). A strength below 1 also multiplies the lag. The
+  /// strength does not change the sizes of wrong guesses and outliers, nor which joints are hidden or out of view. At
+  /// 0, every joint in view is reported at its true position.
   double strength = 1.0;
 
   Intrinsics view;  ///< intrinsics of the depth camera
@@ -108,7 +109,7 @@ struct SkeletonSensorOptions {
   // The pose-dependent part: a smooth random function of the joint positions. A second such function selects the mode:
   // where it exceeds a threshold, the error jumps, as if the sensor preferred another estimate of the body.
   double pose_length_m = 0.25;     ///< correlation length over the joint's own position
-  double far_pose_length_m = 0.8;  ///< the same over the arms' positions, in the errors of trunk and legs (ours)
+  double far_pose_length_m = 0.8;  ///< correlation length over the arms' positions, for trunk and legs (ours)
   double mode_share = 0.12;        ///< share of all poses in the second mode (ours)
   double mode_ratio = 4;           ///< size of errors in the second mode ÷ size in the first (ours)
 

@@ -47,10 +47,10 @@ FreeFloor FloorOf(std::span<const BodyPose> poses) {
 Movers::Movers(std::uint64_t seed, double scene, double colour_share, const FurnishedRoom& room, const FreeFloor& free)
     : seed_(seed), scene_(scene), colour_share_(colour_share), places_(room.places) {
   const WorldKey key{seed, "stage", 0};
-  // Place the plant's leaves around the pot, each turned by the golden angle from the previous leaf.
   RandomStream plant(key, "leaves"), ball(key, "ball"), person(key, "bystander");
 
   leaf_colour_ = ToRgb(Mixed({150, 0.5, 0.5}, {plant.Uniform(80, 130), 0.5, plant.Uniform(0.35, 0.6)}, colour_share));
+  // Place the plant's leaves around the pot, each turned by the golden angle from the previous leaf.
   const double tall = plant.Uniform(0.35, 0.9);
   constexpr int kLeaves = 14;
   for (int i = 0; i < kLeaves; ++i) {

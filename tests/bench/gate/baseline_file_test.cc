@@ -32,7 +32,7 @@ Snapshot Example() {
 
 std::string Text() { return *WriteBaseline(Example()); }
 
-/// Returns the complaint about a text read without its seal, which no edited text fits.
+/// Returns the complaint about a text. A wrong seal is accepted, because the seal of an edited text is always wrong.
 std::string ComplaintAbout(const std::string& text) {
   return testing::Refusal(ReadBaseline(text, "b.json", BaselineSeal::kMayBreak));
 }

@@ -8,8 +8,8 @@
 
 namespace etude {
 
-/// Readers of parts of test vectors' inputs (docs/reference/metrics.md, "The vectors' inputs"). All throw
-/// Json::exception for input that does not fit; `EvaluateMetric` turns it into an Error.
+/// These functions read the input of a metric's test vector (docs/reference/metrics.md, "The vectors' inputs"). They
+/// throw Json::exception if the input does not fit; `EvaluateMetric` turns the exception into an Error.
 
 /// Reads [x, y, z].
 glm::dvec3 ReadPoint(const Json& json);

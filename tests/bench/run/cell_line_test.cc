@@ -112,7 +112,7 @@ TEST(CellLine, OfAnAnsweredCellSaysThatItHasYetToBeMeasured) {
   EXPECT_EQ(back->row.result.recording->tracks.size(), 1u);
   back->is_measured = true;
   EXPECT_EQ(EncodeCellLine(12, *std::move(back)), EncodeCellLine(12, SampleCell())) << "to every digit";
-  // Values that cannot be written as JSON make the cell's output invalid; the cell is done.
+  // Values that cannot be written as JSON make the cell's output invalid. Such a cell counts as measured.
   cell.row.result.recording->tracks[0].motion.poses[0][Role::kSpine].y = std::numeric_limits<double>::quiet_NaN();
   EXPECT_TRUE(ReadCellLineHead(EncodeCellLine(12, cell))->is_measured);
   EXPECT_EQ(ReadCellLineHead(EncodeCellLine(12, cell))->status, Status::kBadOutput);

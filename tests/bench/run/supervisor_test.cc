@@ -207,7 +207,7 @@ TEST_F(SupervisorTest, AWorkerWhoseAnswersCannotBeWrittenEnds) {
   }
 }
 
-/// A scenario with an outside metric. Workers are scripts: what they answer to a world, and to an answered cell.
+/// A scenario with an outside metric. Workers are scripts with a fixed reply to each world and to each answered cell.
 class MeasuringSupervisorTest : public SupervisorTest {
  protected:
   MeasuringSupervisorTest()

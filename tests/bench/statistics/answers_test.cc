@@ -67,7 +67,8 @@ TEST(McNemarMidP, AgreesWithFagerlandLydersenAndLaake) {
 }
 
 TEST(WorldsNeeded, IsWhereTheLargestDifferenceIsDecided) {
-  // b is better by more in each world, and c is the same as a: nothing speaks against b but the number of worlds.
+  // b is better than a in every world, by a different amount in each, and c equals a. So only the number of worlds can
+  // leave the verdict on b open.
   const auto verdict_on = [](Study study, double a_solves) {
     return AnswerOf(study, [&](int trial) -> std::array<CellValues, 3> {
       return {{{a_solves, 9.0 + trial}, {1, 1}, {a_solves, 9.0 + trial}}};
@@ -79,7 +80,7 @@ TEST(WorldsNeeded, IsWhereTheLargestDifferenceIsDecided) {
   };
   EXPECT_EQ(WorldsNeeded(IkStudy(4)), 6);
   EXPECT_EQ(least(IkStudy(4), 0), 6) << "by success; McNemar's mid-p is 1 / 64";
-  Study graded = IkStudy(4);  // a score, two comparisons: 2 / 2ⁿ ≤ 0.025
+  Study graded = IkStudy(4);  // success is a score; with two comparisons, p = 2 / 2ⁿ must be at most 0.025
   graded.task = "detection";
   graded.success = "f1";
   graded.metrics = {"f1", "precision"};

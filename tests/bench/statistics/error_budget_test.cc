@@ -61,7 +61,8 @@ const BudgetShare& ShareOf(const ErrorBudget& budget, const std::string& stage) 
   return *std::ranges::find(budget.shares, stage, &BudgetShare::stage);
 }
 
-// By hand: marks save 10 alone and 4 after lengths; lengths save 8 alone and 2 after marks.
+// By hand: true marks reduce the error by 10 on their own and by 4 after true lengths; true lengths reduce it by 8 on
+// their own and by 2 after true marks.
 TEST(ErrorBudget, OfAllSubsetsAreShapleyValues) {
   const Study study = StudyOf(ParseOne(kWholeYaml));
   const auto budgets = BudgetsOf(study, [](const std::string& method, int trial) {

@@ -37,7 +37,7 @@ TEST(Holm, NeverExceedsOneNorForgetsAQuestion) {
   const auto corrected = Corrected({0.9, std::nullopt, 0.02});
   EXPECT_EQ(*corrected[0], 1);
   EXPECT_FALSE(corrected[1]);
-  EXPECT_DOUBLE_EQ(*corrected[2], 0.06);  // three comparisons, not two
+  EXPECT_DOUBLE_EQ(*corrected[2], 0.06);  // three comparisons, although one has no p
   EXPECT_TRUE(Corrected({}).empty());
 }
 

@@ -55,7 +55,7 @@ TEST(FindRival, TakesTheBestOtherMethodThatCompetes) {
 }
 
 TEST(FindRival, IsNeverTheBaseline) {
-  // The baseline is best in half of the worlds. A rival "a or c" would compare b with a twice.
+  // a is the baseline and is best in half of the worlds. If it could also be a rival, b would be compared with a twice.
   const Study study = StudyOf(ParseOne(kRivalYaml));
   const ScenarioTable table = TableOf(study, [](const std::string& method, int trial) {
     if (method == "c") return 5.0;
@@ -106,7 +106,8 @@ TEST(FindRival, AsksTheNextMetricOfWhatTheFirstDoesNotTellApart) {
 }
 
 TEST(FindRival, ChoosesOnOtherWorldsThanThoseItIsJudgedOn) {
-  // c is chosen on the worlds where b is best, and vice versa, because choosing on the judged worlds rewards luck.
+  // Choosing the rival on the judged worlds would reward luck. b is best in even trials and c in odd trials, so the
+  // rival of even trials, which is chosen on odd trials, is c, and the rival of odd trials is b.
   const Study study = StudyOf(ParseOne(kRivalYaml));
   const ScenarioTable table = TableOf(study, [](const std::string& method, int trial) {
     if (method == "a") return 5.0;

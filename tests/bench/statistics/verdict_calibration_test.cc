@@ -150,8 +150,9 @@ TEST(MeasureVerdicts, HEAVY_FindsThePublishedRatesAndKeepsThePromise) {
   if (HasFailure()) std::cout << text;  // the new table, for the page if the change is right
 }
 
-// Values at each bound keep the promise. Of 10,000 samples at 5 % more than 577 alarm with probability 0.05 / 280 (500
-// + 3.57 × 21.8 = 578); at 6 %, more than 684.
+// The values of `rates` lie at the bounds of the promise and still keep it. By the score test with 280 designs (level
+// 0.05 / 280, z = 3.57), a true rate of 5 % is rejected if more than 577 of 10,000 samples give a false alarm (500 +
+// 3.57 × 21.8 = 578), and a true rate of 6 % if more than 684 do.
 TEST(KeepsPromise, NeedsFewFalseAlarmsForCertainAndIntervalsThatHoldTheTruth) {
   constexpr std::size_t kDesigns = 280;
   VerdictRates rates{.false_alarms = {.count = 577, .of = 10'000, .percent = 5.77, .low = 5.3, .high = 6.5}};

@@ -251,8 +251,9 @@ std::string PurposeOf(const SampleDesign& design, double effect) {
                      design.in_pairs, design.part_alike, effect);
 }
 
-/// Returns the true pseudo-median of the units' means under an effect: If the effect only shifts a law, it shifts with
-/// the mean. If the effect changes the shape, it is the median of 20,000 means of two units.
+/// Returns the true pseudo-median of the units' means under an effect. If the effect only shifts a law, the
+/// pseudo-median shifts by as much as the mean. If the effect changes the law's shape, the pseudo-median is estimated
+/// by the median of 20,000 means of two units.
 double TruthOf(const SampleDesign& design, double effect) {
   // If each unit has one yes-or-no world, the verdict is about the mean.
   const bool changes_shape = design.law == SampleLaw::kTies || design.law == SampleLaw::kCensored ||

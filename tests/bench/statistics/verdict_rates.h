@@ -25,7 +25,7 @@ enum class SampleLaw {
   kBimodal,      ///< −1 or 1, with normal noise of 0.3
 };
 inline constexpr int kSampleLaws = 8;
-inline constexpr int kWorldLaws = 5;  ///< number of laws, the first ones, that worlds draw from
+inline constexpr int kWorldLaws = 5;  ///< number of the laws that are drawn for each world: the first five
 std::string_view SampleLawName(SampleLaw law);
 
 /// The design of a random sample.
@@ -35,7 +35,7 @@ struct SampleDesign {
   int trials = 1;    ///< worlds per unit; with `in_pairs`, worlds in all
   /// Correlation of two worlds of one unit, 0…1 (for kTies and kCensored before ties and limit apply)
   double alike = 0;
-  bool in_pairs = false;  ///< a world is drawn from two units in two roles; each role carries half of the correlation
+  bool in_pairs = false;  ///< true: each world has two units in two roles; each role carries half of the correlation
   double part_alike = 0;  ///< correlation of one unit's contributions in the two roles
 };
 
@@ -76,9 +76,11 @@ struct VerdictRepetitions {
 /// Draws the samples of a design, and judges each as the only comparison of its run.
 VerdictRates MeasureVerdicts(const SampleDesign& design, const VerdictRepetitions& repetitions);
 
-/// Returns the designs of docs/findings/verdicts.md: 6, 8, 12 and 30 units × 1, 3 and 10 worlds per unit × correlations
-/// of 0, 0.5 and 0.9 × every law of worlds; 60 worlds drawn from two units each, of 6, 8, 12 and 30; then uneven units:
-/// one world each of 6 to 60 units.
+/// Returns the designs of docs/findings/verdicts.md:
+///   - 6, 8, 12 and 30 units × 1, 3 and 10 worlds per unit × correlations of 0, 0.5 and 0.9 × every law of worlds;
+///   - 60 worlds with two units each, drawn from 6, 8, 12 and 30 units, × the same correlations × two values of
+///     `part_alike` × three laws;
+///   - uneven units: 6 to 60 units with one world each × the normal law and the laws of units.
 std::vector<SampleDesign> PublishedDesigns();
 
 /// Returns true if the verdicts of a design keep the promise, as far as the samples of `designs` designs can tell:

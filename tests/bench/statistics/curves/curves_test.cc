@@ -124,7 +124,8 @@ TEST(JackknifedAuc, HasAnIntervalOverGroups) {
   EXPECT_NEAR(JackknifedAuc(alike, groups)->value, 1, 1e-12);
   EXPECT_NEAR(JackknifedAuc(alike, groups)->low, 1, 1e-6);
   EXPECT_DOUBLE_EQ(JackknifedAuc(different, groups)->value, 0.5);
-  // Without one of the three winners the area is 2/5; without one of the losers, 3/5. Jackknife: √(5/6 · 6 · 0.01).
+  // Without one of the three winners the area is 2/5; without one of the losers, 3/5. The jackknife's standard error is
+  // therefore √(5/6 · 6 · 0.01).
   EXPECT_NEAR(JackknifedAuc(different, groups)->low, 0.5 - 1.96 * std::sqrt(0.05), 1e-12);
   EXPECT_FALSE(JackknifedAuc(std::vector{Right(0.9), Wrong(0.1)}, std::vector{0, 1}))
       << "a group is needed for the curve";

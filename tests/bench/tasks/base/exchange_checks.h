@@ -47,7 +47,8 @@ inline std::string ComplaintWith(TaskWorld& world, Json answer, const char* poin
   return ComplaintAbout(world, answer);
 }
 
-/// Returns the complaint about a good answer after an edit "PLACE = VALUE" or "PLACE erased", or about another answer.
+/// Returns the complaint about a changed answer. `edit` is "PLACE = VALUE" or "PLACE erased", which changes the good
+/// `answer`, or it is another answer in JSON.
 inline std::string ComplaintOfEdit(TaskWorld& world, Json answer, const std::string& edit) {
   if (!edit.starts_with('/')) return ComplaintAbout(world, Json::parse(edit));
   const std::size_t end = edit.find(' ');

@@ -156,7 +156,8 @@ TEST(CaptureTask, IsCalibratedWithPointsOrWithBoardsFoundInThePictures) {
   EXPECT_GT(errors("calibration_noise_px: 0\ncalibration_measure_mm: 20\n").first, 1);
 }
 
-// In everyday clothes the trunk's hues are lost, so the person falls into pieces. More pieces cover more of them.
+// In everyday clothes the trunk's hues are lost, so the silhouette falls into pieces. Several pieces together cover
+// more of the person than the largest piece does.
 TEST(CaptureTask, FindsMoreOfThePersonInSeveralPieces) {
   ASSERT_OK(
       task,

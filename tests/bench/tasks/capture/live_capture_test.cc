@@ -40,7 +40,7 @@ Told Whole(const StudioOptions& options, const CaptureMethod& method, const std:
   return PosesOf(run->frames);
 }
 
-/// Captures frame by frame, with two poses ahead.
+/// Captures frame by frame: requests each frame as soon as the two poses after it have been added.
 Told Live(const StudioOptions& options, const CaptureMethod& method, const std::vector<BodyPose>& motion) {
   auto live = LiveCapture::Begin(options, method, BookingOf(motion), kLiveKey);
   EXPECT_TRUE(live) << ToString(live.error());

@@ -114,8 +114,8 @@ TEST_F(MarkingTest, FramesThatNobodyIsAskedToMarkStayEmpty) {
   }
 }
 
-// `FigureLook::figure` was read off clothed people who hold their arms out, seen from the front. With capsules' shares,
-// hips and shoulders would be far off.
+// The proportions of dressed people (FigureKind::kDressed) were measured on clothed people who hold their arms out,
+// seen from the front. With the proportions of capsules, hips and shoulders would be far off.
 TEST(SeePicture, KnowsWherePeopleInClothesHaveTheirJoints) {
   ASSERT_OK(renderer, SharedRenderer());
   const Camera camera = LookAt({}, {0, 1.2, 3.6}, {0, 1, 0});
@@ -149,8 +149,8 @@ TEST(SeePicture, KnowsWherePeopleInClothesHaveTheirJoints) {
 TEST(HeadBelowCrown, FollowsFromTheShapeWhateverThePose) {
   BodyPose pose = StandingBody();
   const double standing = HeadBelowCrown({BodyCapsules(pose)}, pose);
-  // A trunk of 50 cm has a skull of radius 9.25 cm, whose centre is 3 cm beyond 17 cm above the neck's base; the head
-  // joint lies 25.1 cm above it.
+  // For a trunk of 50 cm, the skull is a capsule of radius 9.25 cm whose axis ends 17 + 3 cm above the base of the
+  // neck. The head joint is √(25² + 2²) = 25.1 cm from the base of the neck.
   EXPECT_NEAR(standing, (0.17 + 0.03 + 0.0925 - std::hypot(0.25, 0.02)) / 0.0925, 1e-9);
   const glm::dvec3 neck = pose[Role::kShoulderCentre];
   const glm::dvec3 head = pose[Role::kHead] - neck;

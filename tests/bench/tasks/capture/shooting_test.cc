@@ -67,7 +67,7 @@ TEST(Shooting, ShowsWhatStandsThereAtTheCamerasOwnTime) {
   EXPECT_NE(shooting.Shoot(0, 4, Targets::kAll).colour.pixels, punctual.Shoot(0, 0, Targets::kAll).colour.pixels);
 }
 
-// A figure from a file, half way through a clip that leads away from the middle.
+// The figure is a file's own. The world shows it from frame 4 on of a clip that moves away from the origin.
 TEST(Shooting, ShowsAClipsOwnFigureWhereItsBodyIs) {
   ASSERT_OK(renderer, SharedRenderer());
   const auto mannequin = std::make_shared<const Character>(MannequinCharacter());

@@ -15,7 +15,7 @@
 
 namespace etude {
 
-/// Returns the stage for sessions of scripted players, whose truth needs no learner.
+/// Returns the stage of a song, for sessions with scripted players instead of learners.
 inline const CoachStage& StageOf(std::string_view song) {
   static std::map<std::string, CoachStage, std::less<>> stages;
   auto found = stages.find(song);

@@ -143,7 +143,7 @@ TEST(CoachSession, HasTheSensorThatASessionRecordedWouldHave) {
   const auto ready = CoachesOf(stage, {MethodOf("at-first-mistake")});
   Mimic player(stage);
   const SessionLog log = SessionWith(ready[0], world, player);
-  BodyMotion danced = log.learner;  // the last frames had other successors, so their reports may differ
+  BodyMotion danced = log.learner;  // without the poses planned beyond the end, so the last reports may differ
   const SkeletonStream whole = SenseSkeleton(danced, world.sensor, world.occluders, world.errors, world.key);
   for (std::size_t t = 0; t + SkeletonSensor::kAhead < log.sensed.frames.size(); ++t) {
     for (const Role role : AllRoles()) {

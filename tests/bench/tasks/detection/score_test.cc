@@ -45,8 +45,8 @@ TEST(ScoreSession, MatchesAVectorWorkedByHand) {
   for (std::size_t faulty : {1, 3, 4}) world.events[faulty].faults = {{Fault::kAmplitude, 0.5}};
   world.events[0].faults = {{Fault::kLate, 0}};  // a fault of size 0 is not a fault
   SessionVerdict verdict;
-  // Called right 0.1 s after the truth; called right 0.3 s after it; missed; a wrong one called right; a wrong one
-  // called wrong; grey.
+  // Three right performances: called right 0.1 s late, called right 0.3 s late, and missed. Two wrong performances:
+  // called right, and called wrong. A grey performance: called right.
   verdict.events = {Called(33, 0.9), Called(39, 0.8),         Called(std::nullopt, 0.4),
                     Called(20, 0.6), Called(std::nullopt, 0), Called(50, 0.7)};
   verdict.named = {1, 1, 2, 1, 0, std::nullopt};
@@ -63,7 +63,7 @@ TEST(ScoreSession, MatchesAVectorWorkedByHand) {
   EXPECT_DOUBLE_EQ(Value(cell, "grey_called_right"), 1);
   EXPECT_DOUBLE_EQ(Value(cell, "right_spotted"), 1.0 / 3);
   EXPECT_DOUBLE_EQ(Value(cell, "move_named"), 3.0 / 5);  // no performance belongs to one of them
-  EXPECT_DOUBLE_EQ(Value(cell, "roc_auc"), 5.0 / 6);     // 0.4 loses against 0.6
+  EXPECT_DOUBLE_EQ(Value(cell, "roc_auc"), 5.0 / 6);     // 1 of 6 pairs is wrong: right 0.4, wrong 0.6
   // The waits are 0.1 s, 0.3 s, and more than 1 s: the median is 0.3 s. The median of those that ended would be 0.2 s.
   EXPECT_NEAR(Value(cell, "latency_s"), 0.3, 1e-9);
   EXPECT_DOUBLE_EQ(Value(cell, "false_alarms_per_min"), 6.0);

@@ -149,8 +149,8 @@ TEST(Match, TheRootIsTheFilesOwnIfBothHaveOneElseTheMiddleOfTheHips) {
   }
 }
 
-/// Returns the motion as a skeleton of a file with names of its own: the role spine is played by "Chest", the head's
-/// joint is another than the crown, and further joints play no role.
+/// Returns the motion as a file's skeleton with other joint names: "Chest" plays the spine, and the End Site "Head_End"
+/// plays the head.
 RawMotion AsSkeleton(const RawMotion& motion) {
   RawMotion own = motion;
   for (const Role role : AllRoles()) own.joints[Index(role)] = "bone " + std::to_string(Index(role));
@@ -221,7 +221,7 @@ TEST(Match, AJointThatIsAnotherPointOfTheBodyIsNamed) {
   const auto said =
       HasSubstr("head 101 mm away, all frames alike (median joint 9.9 mm): the same point in both files?");
   EXPECT_THAT(Judged(Gliding(30, 30), off_by(Role::kHead, 0.1, 0.01)).reason, said);
-  // Not if the whole body is away, or if the joint comes and goes.
+  // The reason does not ask this if the whole body is displaced, or if the joint is displaced in some frames only.
   const auto silent = ::testing::Not(HasSubstr("the same point"));
   EXPECT_THAT(Judged(Gliding(30, 30), off_by(Role::kHead, 0.1, 0.1)).reason, silent);
   RawMotion flickering = off_by(Role::kHead, 0, 0.01);

@@ -137,7 +137,7 @@ TEST(IkWorld, AnUnreachableTargetIsJustBeyondEveryPose) {
       if (target.position == near.problem.targets[e].position) continue;
       ++pulled;
       was_pulled[e] = true;
-      // The target lies outside the reach, but 5.01 cm nearer to the root it could be inside.
+      // The target is out of reach; at 5.01 cm nearer to the root, IsOutOfReach no longer excludes it.
       const glm::dvec3 outward = glm::normalize(target.position - world.problem.start.root_position);
       EXPECT_GT(glm::dot(outward, glm::normalize(near.problem.targets[e].position)), 1 - 1e-12);
       target.position -= 0.0501 * outward;

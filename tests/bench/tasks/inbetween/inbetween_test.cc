@@ -145,11 +145,11 @@ TEST(Inbetween, KnowsTheTruthAndWhatIsDoneToIt) {
   EXPECT_NEAR(Measured(lifted, "mpjpe_unaligned_mm"), 100, 1e-9);
   EXPECT_NEAR(Measured(lifted, "l2q@lafan1"), 0, 1e-12);
   EXPECT_GT(Measured(lifted, "jitter@wham"), 2 * Measured(own, "jitter@wham"));
-  // It glides along X by 1 cm per frame.
+  // The body glides along X by 1 cm per frame.
   const CellResult glides = JudgedAfter(*world, [](Json& pose, int f) { pose[0] = pose[0].get<double>() + 0.01 * f; });
   EXPECT_GT(Measured(glides, "foot_slide_cmps"), Measured(own, "foot_slide_cmps") + 5);
   EXPECT_EQ(Measured(glides, "clean_share"), 0);
-  // It shakes by 2 mm.
+  // The body shakes along Z by ±2 mm.
   const CellResult shakes =
       JudgedAfter(*world, [](Json& pose, int f) { pose[2] = pose[2].get<double>() + (f % 2 ? 0.002 : -0.002); });
   EXPECT_GT(Measured(shakes, "jitter@wham"), Measured(own, "jitter@wham") + 10);

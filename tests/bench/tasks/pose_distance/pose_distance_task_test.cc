@@ -50,8 +50,8 @@ class PoseDistanceTask : public ::testing::Test {
   std::optional<Fields> fields_;
 };
 
-// The first list (pose gap, cm) had a body whose arms end 0.48 m from the shoulder; the canonical arms end 0.73 m from
-// it, and its feet reach beyond the ankles. Leg distances agree.
+// The gaps are those of the canonical body, cm. Its straight arm ends 0.73 m from the shoulder, so an arm to the front
+// and an arm to the side end 0.73 √2 = 1.03 m apart.
 TEST_F(PoseDistanceTask, EveryBlindSpotIsCalledAlikeByPaperAsDistance) {
   ASSERT_OK(task, Make("{pairs: blindspots}", "{name: fuzzy}", {}));
   const double gaps[] = {103, 103, 86, 77, 75, 25, 25, 16};

@@ -17,13 +17,13 @@
 #include "tests/bench/tasks/base/cell_values.h"
 #include "tests/bench/tasks/tracking/some_clips.h"
 
-// An attack: somebody with the program, all public clips and the problem finds the clip and frame, and answers from it.
-// Distances between ends are compared, so turn, place and scale do not matter.
+// An attack: somebody who has the program, all public clips and a problem finds the problem's clip and frame, and
+// answers with the clip's angles. Only distances between ends are compared, so turn, place and scale do not matter.
 
 namespace etude {
 namespace {
 
-using Ends = std::vector<double>;  // distances of the root and the ends from each other, over the length of all limbs
+using Ends = std::vector<double>;  // distances between root and end effectors, divided by the total length of all bones
 
 Ends EndsOf(const KinematicTree& tree, const TreeState& root, const std::vector<EffectorTarget>& targets) {
   double size = 0;
@@ -43,7 +43,8 @@ double Misfit(const Ends& a, const Ends& b) {
   return sum;
 }
 
-/// Returns the angles per frame of the library's clip window, over every begin and pace, that fits the problem best.
+/// Tries every window of every clip of the library, with several paces, and returns the angles, frame by frame, of the
+/// window that fits the problem best.
 std::vector<std::vector<double>> LookUp(const TrackingWorld& world, const std::vector<LibraryClip>& clips,
                                         double rate_hz) {
   constexpr double kFiner = 4;  // begins and paces between frames are tried, too
@@ -150,7 +151,8 @@ TEST(RecognisedClip, TellsNoTruthOfASecretWorld) {
   EXPECT_GT(gains["position_error_cm"].looked_up, 100 * gains["position_error_cm"].ours);
   EXPECT_GT(gains["orientation_error_deg"].looked_up, 100 * gains["orientation_error_deg"].ours);
   // Taking undetermined angles from the public clip is little better than taking them from the frame before: 12.4°
-  // against 15.8°, 27 mm against 32 mm. (With the clip's own open angles: 2.7° and 10.1°, 4 mm and 24 mm.)
+  // against 15.8°, 27 mm against 32 mm. If the disguise left these angles as they are in the clip, the errors would be
+  // 2.7° against 10.1°, and 4 mm against 24 mm.
   EXPECT_GT(gains["hidden_angle_error_deg"].solved_near, 0.7 * gains["hidden_angle_error_deg"].ours);
   EXPECT_GT(gains["mpjpe_mm"].solved_near, 0.6 * gains["mpjpe_mm"].ours);
 }
