@@ -116,7 +116,7 @@ struct PersonOptions {
   Segmenter segmenter = Segmenter::kHue;
   ChangeOptions change;
   PersonPieces pieces = PersonPieces::kLargest;
-  /// kLarge: smaller components are noise. A hand four metres away has 120 pixels in a picture of 640 × 480.
+  /// kLarge: components with fewer pixels count as noise.
   int min_piece_px = 120;
   /// kLarge: the largest distance between the bounding boxes of a component and of the largest component, pixels. It is
   /// the length of a forearm four metres away.

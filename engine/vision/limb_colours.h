@@ -28,7 +28,7 @@ struct LimbColourOptions {
   /// A limb that other limbs cross has several components. A component is ignored if its size, as a share of the
   /// largest component's size, is smaller than this.
   double piece_share = 0.2;
-  int min_piece_px = 20;  ///< pixels; a hand four metres away has about 80 in a picture of 640 × 480
+  int min_piece_px = 20;  ///< components with fewer pixels are ignored
   /// Every component must contain a square with this side, pixels: along edges two colours mix, and the mixture
   /// resembles a third colour.
   int min_side_px = 4;

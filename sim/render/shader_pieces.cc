@@ -73,9 +73,9 @@ const char* const kShadowLight = R"glsl(
 uniform sampler2D kept_room;
 uniform float brightness;
 
-// The alpha of 0.5 marks a shadow (FrameTargets). `point` of the room is in E. `inside` is the depth of the light's
-// path inside the body: 0 at its skin, 1 through its middle. The shadow is full from `softness` on; its outermost edge
-// is where the label ends.
+// The alpha of 0.5 marks a shadow (FrameTargets). `point` is the point of the room, in the eye's frame E. `inside` is
+// the depth of the light's path inside the body: 0 at its skin, 1 through its middle. The shadow is full from
+// `softness` on; its outermost edge is where the label ends.
 vec4 RoomInShadow(RoomHit hit, vec3 point, float inside, float softness) {
   vec2 light = RoomLight(eye + point, RoomNormal(hit.is_wall));
   float left_over = 1.0 - smoothstep(0.0, softness, inside) * light.y / (light.x + light.y);
@@ -128,7 +128,7 @@ uniform vec4 wall_tiles[64];
 
 int Wrap(float tile) { return int(tile - 8.0 * floor(tile / 8.0)); }
 
-// The studio's hues are between 140 and 240 degrees; those of people are not.
+// The studio's hues are between 150 and 230 degrees; those of people are not (stage/palette.h).
 vec3 SpotPaint(float tone, bool is_wall) {
   float pick = fract(tone * 7.0);
   if (!is_wall) return mix(vec3(0.26, 0.50, 0.62), vec3(0.34, 0.60, 0.64), pick);
