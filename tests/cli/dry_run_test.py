@@ -33,7 +33,7 @@ class DryRun(EtudeCase):
         told = self.tell(clips)
         self.assertTrue(told.endswith("The time is an estimate: the costs of s are not known, so its first worlds were measured just now.\n"))
         self.assertIn("1 condition × 8 worlds × 2 methods = 16 cells", told)
-        # 8 pairs: (t(0.975) + t(0.8)) / √8 of 7 degrees of freedom; 6 clips likewise.
+        # For 8 pairs, (t(0.975) + t(0.8)) / √8 = 1.15, where t has 7 degrees of freedom; likewise for 6 clips.
         self.assertIn("1 comparison shows a mean difference of 1.15 or more standard deviations of the worlds' differences", told)
         self.assertIn("a difference of 1.42 or more standard deviations of the mean differences of 6 clips", told)
 

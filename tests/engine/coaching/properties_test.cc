@@ -35,7 +35,7 @@ class RandomPlayers : public ::testing::TestWithParam<int> {
 
   const CoachOutput& Next() {
     DoAnything(dice_, session_.player);
-    // Music near the right time.
+    // Now and then the music jumps by up to 0.3 s.
     if (session_.music_s && dice_.Chance(0.02)) *session_.music_s += dice_.Uniform(-0.3, 0.3);
     return session_.Next();
   }
