@@ -21,7 +21,7 @@ std::size_t IndexOf(const char* name) {
   return static_cast<std::size_t>(std::ranges::find(AllMoves(), name, &Move::name) - AllMoves().begin());
 }
 
-/// A coach under the test's control: dances moves and acts after each.
+/// A learner, and functions by which a test shows it a coach's dance and acts.
 class Coaching {
  public:
   explicit Coaching(const LearnerOptions& options = {}, People people = People::kAdult, int trial = 4)
