@@ -204,7 +204,8 @@ class Capture(EtudeCase):
         beside = self.etude(*self.capture("-o", self.folder / "n.csv", "--reference", trc, "--distances", distances)).stdout
         self.assertRegex(beside, r"LWrist +0\.0 +0\.0 +0\.0 +0\.0\n")
         self.assertIn("agreement, not error", beside)
-        # A reference of joints, in Etude's format, is compared with the skeleton's; one of other markers is refused.
+        # A reference with the names of Etude's joints is compared with the joints of the captured skeleton; a
+        # reference with other markers is refused.
         joints = self.etude(*self.capture("-o", self.folder / "j.csv", "--reference", self.folder / "m.trc")).stdout
         self.assertRegex(joints, r"left_wrist +0\.0 +")
         strange = self.folder / "strange.trc"

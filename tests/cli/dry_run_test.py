@@ -33,7 +33,7 @@ class DryRun(EtudeCase):
         told = self.tell(clips)
         self.assertTrue(told.endswith("The time is an estimate: the costs of s are not known, so its first worlds were measured just now.\n"))
         self.assertIn("1 condition × 8 worlds × 2 methods = 16 cells", told)
-        # 8 pairs: (t(0.975) + t(0.8)) / √8 of 7 degrees of freedom; 6 clips likewise.
+        # For 8 pairs, (t(0.975) + t(0.8)) / √8 = 1.15, where t has 7 degrees of freedom; likewise for 6 clips.
         self.assertIn("1 comparison shows a mean difference of 1.15 or more standard deviations of the worlds' differences", told)
         self.assertIn("a difference of 1.42 or more standard deviations of the mean differences of 6 clips", told)
 
@@ -59,7 +59,7 @@ class DryRun(EtudeCase):
         one, = told["scenarios"]
         self.assertTrue(one["kept"])
         cost = kept[one["work"]]
-        # The forecast scales the stored costs of a world and of the run by one pace.
+        # The forecast multiplies both stored costs, that of a world and that of the run, by the same factor.
         pace = one["world_s"] * one["conditions"] / cost["trial"]
         self.assertAlmostEqual(told["run_s"] * told["workers"], pace * (cost["once"] + 5 * cost["trial"]), 9)
 
@@ -111,7 +111,7 @@ class DryRun(EtudeCase):
         self.assertNotIn("standard deviations", told)
         self.assertNotIn("80 %", told)
         self.assertEqual(self.facts("quick/ik", "--trials", 7)["scenarios"][0]["worlds_needed"], 8)
-        # The control: with 14 worlds every one of 50 comparisons can: 2 / 2ⁿ ≤ 0.05 / 50 needs 11.
+        # The control: 14 worlds are enough for each of 50 comparisons, because 2 / 2ⁿ ≤ 0.05 / 50 needs 11 worlds.
         self.assertNotIn("possible", self.etude("run", "quick/ik", "--trials", 14, "--dry-run").stdout)
         self.assertIn("with fewer than 11 worlds, none of 50 comparisons can be better or worse",
                       self.etude("run", "quick/ik", "--trials", 9, "--dry-run").stdout)

@@ -63,7 +63,7 @@ def worst_mm(path, facts):
         assert dropped == 0 or (body["dropped_t_pose"] and dropped > 0), (path, dropped)
         apart.append(ours[role] - place[dropped:])
     apart = numpy.array(apart)
-    apart[..., 1] -= apart[..., 1].mean()  # subtract the floor, which `info` finds at another rate
+    apart[..., 1] -= apart[..., 1].mean()  # subtract the floor's height, which `info` finds at another rate
     return 1000 * numpy.linalg.norm(apart, axis=2).max(), len(apart)
 
 

@@ -117,7 +117,7 @@ class Transition(EtudeCase):
         seen = self.etude("clip", "info", out)
         self.assertEqual(seen.returncode, 0, seen.stderr)
         self.assertIn(f"{told['duration_s']:.2f} s", seen.stdout)
-        # Another method as text, and refusals.
+        # Without --json, another method is described as text. A request after the clip's end is refused.
         said = self.etude("transition", "builtin:groove", "builtin:clap", "--at", "1", "-o", self.folder / "cut.trc", "--choice",
                           "now", "--join", "cut")
         self.assertEqual(said.returncode, 0, said.stderr)

@@ -81,7 +81,7 @@ methods: [{name: hue}]
         rows = [row for row in (self.out / "cells.jsonl").read_text().splitlines()]
         self.assertEqual(len(rows), 10 * 2 * 2)
         crashed = [row for row in rows if '"crashed"' in row]
-        self.assertIn(len(crashed), (1, 2))  # its current cell, or both while it built their world
+        self.assertIn(len(crashed), (1, 2))  # the worker's cell, or both cells of a world that it was making
         self.assertIn("signal 6 (Aborted)", crashed[0])
 
     def test_two_runs_never_share_a_folder(self):

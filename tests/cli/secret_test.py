@@ -144,7 +144,8 @@ class SecretWorlds(EtudeCase):
         of_shard = self.out / "manifest.json"
         of_shard.write_text(re.sub(r'"secret_worlds":\s*3', '"secret_worlds":2', of_shard.read_text()))
         self.assertIn(says, self.refuse(*shard, "--resume"))
-        # A run with a plain seed has no such version, so its seed differs.
+        # A run with a plain seed has no version of secret worlds, so it is refused as another run, not for its
+        # version.
         plain = ["run", self.scenario, "--shard", "1/2", "-o", self.folder / "plain"]
         self.ends(0, *plain)
         told = self.refuse(*plain, "--resume", "--seed-file", self.key)

@@ -89,7 +89,8 @@ class Streams(EtudeCase):
         self.ends(0, "report", self.out, "--no-video")
         page = (self.out / "report" / "index.html").read_text()
         self.assertIn("the moves that nearest named instead of the danced moves", page)
-        # The manifest alone repeats the run, also in shards; a packed cell needs no recording.
+        # The run is repeated from its manifest and in shards, with the same results. The replay of a packed cell
+        # needs no recording.
         again = self.folder / "again"
         self.ends(0, "run", "--from", self.out / "manifest.json", "-o", again)
         self.assert_same(again)

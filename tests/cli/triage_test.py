@@ -115,7 +115,8 @@ class Triage(EtudeCase):
         for words in ("0 of 2 clips without a fault, 1 beyond the limits, 1 more not judged.",
                       "| popping | m | 1 |  | left\\_hand pops by 50 cm", "| floating | m | 1 | beyond |"):
             self.assertIn(words, summary)
-        # Nothing stands before the clips with faults but how many were judged, and nothing is said about comparisons.
+        # The summary starts with the number of measured cells and the clips with faults; it does not mention
+        # comparisons.
         self.assertTrue(summary.startswith("# evaluate\n\n2 of 3 cells were measured, 1 broke.\n\n\n## Clips with faults"))
         for words in "undecided", "expectation", "nothing to compare", "Holm":
             self.assertNotIn(words, summary)

@@ -110,7 +110,8 @@ def beyond(differences, units, comparisons):
     middle = sum(left_out) / n
     error = math.sqrt((n - 1) / n * sum((value - middle) ** 2 for value in left_out))
     half = student_quantile(0.975, n - 1) * error
-    # A unit's value is its mean; if a world has several units, it is the jackknife's pseudo-value.
+    # A unit's value is the mean over its worlds. If worlds belong to several units, it is the unit's jackknife
+    # pseudo-value.
     values = means if one_way else [n * estimate - (n - 1) * without for without in left_out]
     if 2 ** (1 - n) * comparisons <= 0.05:
         p = signed_ranks(values)

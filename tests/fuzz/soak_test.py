@@ -7,7 +7,7 @@ from pathlib import Path
 
 import soak
 
-# Two readers: each round tries `good` 100 times, and `bad` 7 times, where it leaves a breaking input.
+# A fuzzer with two readers: in each round, `good` reads 100 inputs; `bad` reads 7 and leaves an input that breaks it.
 FUZZER = """#!/bin/sh
 corpus=$2; seed=${3#-seed=}
 for argument; do case $argument in

@@ -26,8 +26,9 @@ class Site:
     column: int
     original: str
     mutations: list  # one text per mutant
-    # ("open" | "close", offset, the extent's other end, text) or ("replace", start, end, text); {0}, {1} … stand for
-    # the mutants' numbers. Of edits with the same extent, a logical operator's are the inner ones.
+    # Tuples ("open" or "close", offset, offset of the extent's other end, inserted text) and ("replace", start, end,
+    # new text). In texts, {0}, {1} … stand for the mutants' numbers. Where several sites have the same extent,
+    # rewrite.py inserts a logical operator's texts inside the others.
     edits: list = field(default_factory=list)
 
 

@@ -173,7 +173,7 @@ class BesideWorkers(unittest.TestCase):
     def test_distances(self):
         self.same("pose-distance", "digest_verdict", {"distance": "fuzzy"}, clips=["clap.bvh", "wave.bvh"])
 
-    def test_inverse_kinematics(self):  # the start is the middle of all ranges, which degrees would round
+    def test_inverse_kinematics(self):  # angles in degrees would be rounded, so all start mid-range
         self.same("ik", "digest_solution", {"solver": "gauss-newton"}, start="middle")
 
     def test_a_request_becomes_the_motion_that_is_judged(self):

@@ -80,7 +80,7 @@ TEST(CurveChart, OfAMeanOverEffectorsIsThatOfTheWorst) {
 TEST(CurveChart, IsTheSameWhateverCellsKeepOfSingleEffectors) {
   const RunData plain = ExampleRun();
   RunData with = EffectorRun();
-  // Also if the effectors' curves come first.
+  // Single effectors' curves come first, which must not matter either.
   for (CellSeries& cell : with.series) std::ranges::reverse(cell.series);
   EXPECT_EQ(CurveChart(with, with.scenarios[2])->json, CurveChart(plain, plain.scenarios[2])->json);
 }

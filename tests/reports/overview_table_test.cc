@@ -54,7 +54,7 @@ TEST(OverviewTable, HidesOtherMetricsUntilTheyAreAskedFor) {
   const std::string html = OverviewTableHtml({}, scenario);
   EXPECT_THAT(html, HasSubstr("<th scope=\"col\" class=\"n\" title=\"jump_cm\">"));
   EXPECT_THAT(html, HasSubstr("<th scope=\"col\" class=\"n more\" title=\"wait_s\">"));
-  EXPECT_EQ(OverviewTableMarkdown(scenario), "");  // the answer already states it
+  EXPECT_EQ(OverviewTableMarkdown(scenario), "");  // the answer already states the only headline metric
 }
 
 TEST(OverviewTable, SaysWhatIsMissingAndWhyThoseOfOneReasonTogether) {

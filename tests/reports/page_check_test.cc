@@ -41,7 +41,7 @@ TEST(CheckPage, WhateverIsAddedOrAlteredOutsideIsNoticed) {
   const std::string page = With(kPicture, kPicture);
   ASSERT_TRUE(CheckPage(page, kBare).same);
   for (std::size_t at = 0; at < page.size(); ++at) {
-    // Every place outside captions where words may occur.
+    // A caption may have any words, so a letter is added only before the first and after the last media.
     const bool is_outside = at <= page.find("<!--media-->") || at > page.rfind("<!--/media-->");
     std::string more = page;
     more.insert(at, "<style>main{display:none}</style>");

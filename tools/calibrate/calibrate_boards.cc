@@ -27,8 +27,9 @@ std::vector<double> ResidualsOf(const RefinedRig& rig, std::span<const TargetVie
   return rms;
 }
 
-/// Calibrates the rig. If the board is OpenCV's, leaves out the pictures whose residual exceeds three times the median,
-/// because in such pictures the board is blurred or has moved, and calibrates again, at most three times.
+/// Calibrates the rig. If the board is OpenCV's, leaves out the pictures whose residual exceeds 0.3 pixels and three
+/// times the median, because in such pictures the board is blurred or has moved, and calibrates again, at most three
+/// times.
 Result<RefinedRig> CalibrateWithoutOutliers(const BoardViews& search, const CalibrateOptions& options,
                                            std::vector<TargetView>& views) {
   std::erase_if(views, [](const TargetView& view) { return !HomographyOf(view.pairs); });

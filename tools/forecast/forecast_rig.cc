@@ -60,8 +60,8 @@ Result<glm::dvec2> MiddleOf(const std::vector<NamedCamera>& cameras, const std::
     normal += across;
     right += across * camera.p_WC;
   }
-  // The minimum of det(`normal`) / (number of cameras)³. Below this value, all optical axes are within about 2° of each
-  // other.
+  // The minimum of det(`normal`) / (number of cameras)³. Below this value, the optical axes deviate from one
+  // direction by less than about 2° (root mean square).
   constexpr double kParallel = 1e-3;
   if (!(glm::determinant(normal) > kParallel * std::pow(static_cast<double>(cameras.size()), 3))) {
     return Fail({file}, "its cameras are parallel, so they have no common middle; give it by --middle X,Z in m");

@@ -80,7 +80,7 @@ TEST(SynchronisedViews, OfAnotherRateStandAtTheFirstFilmsMoments) {
   std::vector<Camera> truth;
   const auto sightings = SightingsOf({.other_period_s = periods[1]}, truth);
   const auto views = SynchronisedViews(sightings, periods, delay_s);
-  ASSERT_EQ(views.size(), sightings.size());  // no view is lost: views between the first film's frames stay single
+  ASSERT_EQ(views.size(), sightings.size());  // no view is lost: views between the first film's looks get own targets
   ASSERT_OK(rig, CalibrateFromPlanes(kSizes, views));
   EXPECT_LT(rig->rms_px, 0.4);
   EXPECT_NEAR(glm::distance(rig->cameras[0].p_WC, rig->cameras[1].p_WC), glm::distance(truth[0].p_WC, truth[1].p_WC),

@@ -20,10 +20,10 @@
 namespace etude {
 namespace {
 
-/// A board in a picture: its plane's point p has the pixel (H p) / w.
+/// A board and its place in a picture.
 struct Laid {
   Board board;
-  glm::dmat3 to_board;  ///< from pixels
+  glm::dmat3 to_board;  ///< homography from pixels to points of the board, metres
 };
 
 Laid AnyLaid(testing::Dice& dice, const Board& board, const glm::dvec2& middle, double square_px) {

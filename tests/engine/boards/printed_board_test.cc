@@ -117,7 +117,8 @@ TEST(PrintedBoard, CornersOfAChessboardAreWhereTheyWereDrawn) {
   EXPECT_TRUE((*finder)->Find(ColourImage(320, 240)).empty());
 }
 
-/// Returns a picture through a homography, bilinear; `at` maps its pixels to the source.
+/// Returns `picture` warped with bilinear interpolation; the homography `to_source` maps the result's points to those
+/// of `picture`.
 ColourImage Warped(const ColourImage& picture, const glm::dmat3& to_source, int width, int height) {
   ColourImage warped(width, height, {120, 120, 120});
   for (int y = 0; y < height; ++y) {

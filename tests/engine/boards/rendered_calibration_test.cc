@@ -107,7 +107,7 @@ std::optional<BoardViews> SearchFor(const Sheet& sheet) {
 struct Measured {
   double corner_px = 0;  ///< RMS distance of the corners from the truth
   int calibrations = 0, covered = 0;
-  double bias_px = 0, scatter_px = 0, told_px = 0;  ///< of the focal length: bias, scatter, and mean reported ±
+  double bias_px = 0, scatter_px = 0, told_px = 0;  ///< focal length: mean error, RMS error, mean of the reported ±
 };
 
 /// Calibrates a camera from `pictures` pictures, `calibrations` times.

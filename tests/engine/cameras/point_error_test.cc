@@ -31,7 +31,7 @@ std::vector<Camera> RandomRig(RandomStream& dice) {
   return cameras;
 }
 
-/// Returns the camera as a calibration with one random error sees it.
+/// Returns the camera with random calibration errors of its rotation, position and focal length.
 Camera Miscalibrated(Camera camera, const CalibrationDeviation& deviation, RandomStream& dice) {
   const glm::dvec3 turn = deviation.turn * dice.Normal3();
   const double angle = glm::length(turn);

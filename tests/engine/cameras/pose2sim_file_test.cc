@@ -123,7 +123,8 @@ TEST(Pose2SimFile, ReadsPlannedCameras) {
   ASSERT_OK(back, planned("fov_deg = 90\n" + seat));
   const Camera& camera = back->front().camera;
   EXPECT_LT(glm::distance(camera.p_WC, glm::dvec3(1, 2, -3)), 1e-12);
-  // With 90°, the picture's edge is as far aside as the target is away; a point above the target is higher in it.
+  // At a field of view of 90°, a point beside the target by the target's distance is at the picture's edge. A point
+  // above the target is higher in the picture.
   const glm::dvec3 target(1, 1, 0);
   const double away = glm::distance(camera.p_WC, target);
   EXPECT_LT(glm::distance(*Project(camera, target), glm::dvec2(400, 300)), 1e-9);

@@ -56,7 +56,7 @@ TEST(PoseFitter, FindsPosesOfPaperBsBodyWithinIt) {
   }
 }
 
-// The spine is hidden: it is placed as backs bend, and all other joints stay exact.
+// The spine has no target. The fitter chooses how the back bends, and places all other joints exactly.
 TEST(PoseFitter, LeavesWhatNobodySeesToTheBody) {
   const CaptureBody body = PlainBody();
   const PoseFitter fitter(body);

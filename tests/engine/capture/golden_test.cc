@@ -17,8 +17,8 @@ namespace {
 
 using testing::Fingerprint;
 
-/// Returns marks of a dance in three cameras. Most are off by some pixels, some by many; some are missing, also for
-/// several frames; some strokes are short.
+/// Returns marks of a dance in three cameras. Their errors are up to `noise_px` per axis, in one of 30 points up to
+/// 60 pixels. Some marks are missing, also for several frames; some strokes are short.
 TakeMarks CarelessMarks(testing::Dice& dice, int frames, double noise_px, double pace = 0.1) {
   std::vector<BodyPose> poses;
   for (int k = 0; k < frames; ++k) poses.push_back(ModelPose(pace * k));

@@ -101,7 +101,7 @@ TEST(Coaching, GoldenSessionsOfEveryPolicy) {
   EXPECT_TRUE(testing::AreKept(print.said, "tests/engine/coaching/said.txt"));
 }
 
-// A choice that finds no transition from some clips: it shows nothing, or only the current clip.
+// A choice finds no transition: its plan has no segment, or only a segment of the current clip.
 TEST(Coaching, CutsWhereItsWayFindsNoTransition) {
   static const Choice* const now = FindChoice("now");
   static std::size_t kept_segments;

@@ -35,7 +35,7 @@ class RandomPlayers : public ::testing::TestWithParam<int> {
 
   const CoachOutput& Next() {
     DoAnything(dice_, session_.player);
-    // Music near the right time.
+    // Now and then the music jumps by up to 0.3 s.
     if (session_.music_s && dice_.Chance(0.02)) *session_.music_s += dice_.Uniform(-0.3, 0.3);
     return session_.Next();
   }
@@ -100,7 +100,7 @@ TEST_P(RandomPlayers, EveryDueTagIsHandledOnce) {
     const auto& tags = session_.coach().dance().tags;
     const bool is_due = expected < static_cast<int>(tags.size()) &&
                         out.clip_frame >= static_cast<double>(tags[expected].frame) && session_.music_s;
-    // A tag in the music's first frame comes with the next frame.
+    // If a tag is due in the frame in which the music starts, it is handled in the next frame.
     if (is_due) {
       EXPECT_EQ(out.music.kind, MusicCommand::Kind::kPlayFrom) << i;
     }

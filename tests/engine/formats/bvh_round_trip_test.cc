@@ -19,7 +19,7 @@ using testing::RandomClip;
 using testing::Resting;
 using testing::WorstDistance;
 
-// Half of the sixth decimal, for three numbers.
+// The largest errors of a position and of a rotation whose three numbers are rounded to six decimals.
 const double kPrintedLength = 0.5e-6 * std::sqrt(3.0) * (1 + 1e-6);
 const double kPrintedTurn = Radians(3 * 0.5e-6) * (1 + 1e-6);
 

@@ -44,8 +44,8 @@ struct BlindSpot {
   double stated_gap_cm;
 };
 
-// The eight measured pairs that fool the distance: distant poses, d nearly zero. The figures come from a body with
-// other limb lengths, hence the tolerances (its twisted shoulders were 11 cm off; these are broader).
+// Eight pairs of very different poses whose fuzzy distance d is nearly zero. The figures come from a body with other
+// limb lengths, hence the tolerances (with its narrower shoulders, the twist by 60° moved joints by only 11 cm).
 TEST(FuzzyDistance, IsBlindToTheEightMeasuredPairs) {
   PosedBody twisted{.twist = Radians(60)};
   const BlindSpot pairs[] = {

@@ -54,7 +54,8 @@ TEST(CaptureBody, ThatIsFittedStandsWithHangingArms) {
   }
 }
 
-// 18 limbs point freely; pelvis, chest, upper arms, a thigh and the shank climbed from the foot also twist.
+// Each of 18 limbs has two degrees of freedom. Six of them also twist: the pelvis, the chest, the upper arms, a
+// thigh, and the shank of the foot that is the root.
 TEST(CaptureBody, ThatIsFittedHasTwoDegreesOfFreedomAndThreeWhereTwistsAreSeen) {
   EXPECT_EQ(FittedBody(PlainRestBody())->tree.dof_count(), 2 * 18 + 6);
   const CaptureBody jointed = FittedBody(JointedRestBody()).value();
@@ -73,7 +74,7 @@ TEST(CaptureBody, AsksOfEveryEndWhatASingleLimbShows) {
   }
 }
 
-// Targets from a pose's pictures are met by this pose.
+// In the pose from which the targets were made, no target has an error.
 TEST(CaptureBody, IsAtItsTargetsInThePoseThatWasSeen) {
   for (const CaptureBody& body : FittedBodies()) {
     for (int trial = 0; trial < 10; ++trial) {

@@ -180,7 +180,7 @@ TEST(WithoutScales, KeepsEveryJointWhereItIs) {
 }
 
 TEST(WithoutScales, TurnsJointsAsTheirScaledAxesDo) {
-  // Closed form: uniform scales turn nothing, so rotations stay.
+  // Uniform scales do not turn the axes, so all rotations stay the same.
   Clip clip = RandomClip(7, {.rest_rotations = true});
   for (LocalPose& pose : clip.frames) {
     for (LocalTransform& local : pose) local.scale = glm::dvec3(1.7);

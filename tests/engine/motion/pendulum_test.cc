@@ -46,7 +46,8 @@ TEST(ZeroMomentPoint, IsWhereAPendulumStands) {
 }
 
 TEST(ZeroMomentOffset, LiesAheadOfABodyThatBrakes) {
-  // At 3 m/s² and a height of 1 m the point is 3/9.81 m in front of the mass, which is above the bearing foot.
+  // The centre of mass is 1 m above the supporting foot and brakes at 3 m/s², so the zero-moment point is 3/9.81 m in
+  // front of the foot.
   const BodyPose pose = Standing();
   const glm::dvec3 foot = pose[Role::kLeftFoot];
   const auto centres = Centres(9, [&](double t) {

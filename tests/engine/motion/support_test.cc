@@ -174,7 +174,7 @@ TEST(FindSupport, HoldsBodiesThatLieKneelOrStandOnTheirHands) {
   for (Role role : {kLeftHand, kRightHand}) hands[role] = {hands[role].x, 1.9, 0};
   for (const BodyPose& pose : {kneeling, Tilted(Standing(), -kPi / 2), Tilted(hands, kPi)}) {
     const Poses clip = Still(pose);
-    // The body sways, as in no clip, but stays on the joints that bear it.
+    // The body sways, unlike the body in the clip, but the same joints bear it.
     const Poses sways = ClipOf(pose, [](BodyPose& p, int f) { Carry(p, {0.02 * std::sin(f / 5.0), 0, 0}); });
     EXPECT_EQ(Floating(sways, clip), 0);
     EXPECT_GE(Floating(ClipOf(pose, [](BodyPose& p, int f) { Carry(p, {0, f > kPoint ? 0.05 : 0.0, 0}); }), clip), 30);

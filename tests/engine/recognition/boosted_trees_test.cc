@@ -25,8 +25,9 @@ std::vector<LabelledBag> SomeBags(int count) {
   return bags;
 }
 
-/// A second implementation of Newton boosting: tries every split of every measure by summing over all members, and
-/// checks trees against it. Of equal gains any split is accepted.
+/// A second implementation of Newton boosting. It computes the gain of every candidate split of every measure by
+/// summing over all members, and checks that a tree's splits have the largest gain. If several splits have this gain,
+/// any of them is accepted.
 class PlainBoosting {
  public:
   PlainBoosting(const std::vector<LabelledBag>& bags, const BoostingOptions& options)

@@ -111,7 +111,7 @@ TEST(Smooth, StartsAnewAfterAJointWasNotTracked) {
     stream.frames[3][Role::kHead].state = TrackingState::kNotTracked;
     const SkeletonStream smoothed = Smooth(stream, {.kind = FilterOf(name)});
     EXPECT_EQ(HeightAt(smoothed, 3), 0.0) << name;                        // unfiltered
-    EXPECT_NEAR(HeightAt(smoothed, 4), 2.0, kExact) << name;              // the filter forgot the floor
+    EXPECT_NEAR(HeightAt(smoothed, 4), 2.0, kExact) << name;              // the filter starts anew at 2 m
     EXPECT_LT(smoothed.frames[4][Role::kSpine].position.y, 2.0) << name;  // the control: this joint was never lost
   }
 }

@@ -36,7 +36,7 @@ std::vector<PerformanceMeasures> NearestMeasures(const std::vector<std::pair<std
   return nearest;
 }
 
-/// Returns the motion after standing still for `seconds`.
+/// Returns a motion that stands still for `seconds` and continues with `motion`.
 BodyMotion Lagging(BodyMotion motion, double seconds) {
   const BodyMotion rest = Rest(seconds);
   motion.poses.insert(motion.poses.begin(), rest.poses.begin(), rest.poses.end());

@@ -46,7 +46,8 @@ struct Recognition {
   std::vector<std::string> told;  ///< detections, such as "raise 32"
 };
 
-/// Recognises moves that are requested in the order of time; detections may follow each other at once.
+/// Judges the performances in `asked`, which are in the order of time, and detects moves with the default
+/// DecisionOptions.
 Recognition RecogniseIn(const SkeletonStream& stream, const std::vector<AskedMove>& asked,
                         const std::vector<TaughtMove>& taught = kTaught, const RecogniserOptions& options = {}) {
   const SeenStream seen = SeeStream(stream, {});
@@ -171,7 +172,8 @@ TEST(Recognise, AnswersLaterByTheFramesInWhichNobodyWasSeen) {
 TEST(Recognise, GoesByItsOptions) {
   const RecogniserOptions quick{.settings = {1, 0.8, 1}};
   EXPECT_EQ(RecogniseIn(RaisedArm(), {{kRaise, {15, 75}}}, kTaught, quick).judgements[0].recognised_at, kUp - 15);
-  // The arm is up as requested, but the untracked left elbow is not; adaptive weights ignore it.
+  // The right arm is up as taught, but the left elbow's angle is wrong. Adaptive weights ignore this angle, because
+  // the left wrist is not tracked.
   TaughtMove both = RaisedTo("both", 180);
   both.poses[0].targets.push_back({Feature::kLHE, 150, 20});
   SkeletonStream stream = RaisedArm();

@@ -96,7 +96,7 @@ TEST(DoubtsOnBody, AreNoneOfBodiesAndNameJointsThatAreNoBodys) {
     }
   }
   EXPECT_THAT(DoubtsOnBody(squats, kRate_hz), ElementsAre(HasSubstr("is an axis mirrored?")));
-  // Every joint has the name of the next one.
+  // Every role has the position of the next role's joint.
   std::vector<JointPositions> shifted = Dance("boxing");
   for (JointPositions& frame : shifted) std::ranges::rotate(frame, frame.begin() + 1);
   EXPECT_THAT(DoubtsOnBody(shifted, kRate_hz), Contains(HasSubstr("left_foot is torn off in all frames")));

@@ -172,7 +172,7 @@ TEST(RetargetingGolden, OfOddPeople) {
   EXPECT_TRUE(testing::AreKept(told, "tests/engine/retargeting/odd_people.txt"));
 }
 
-/// Returns a move with gaps as markers of a set.
+/// Returns the markers of `set` that follow the joints of `motion`, with random offsets and gaps.
 MarkerMotion MarkersOfSet(const MarkerSet& set, const BodyMotion& motion, testing::Dice& dice, double unit) {
   MarkerMotion take{
       .rate_hz = 20, .names = {}, .frames = std::vector<std::vector<std::optional<glm::dvec3>>>(motion.poses.size())};

@@ -245,7 +245,7 @@ TEST(JointMap, ComposesInMotionWhatTheRestPosePointsElsewhere) {
 }
 
 TEST(JointMap, IsOneForASkeletonWhoseTipsAreEndSitesOrNodes) {
-  // As CMU's converters write it: the neck is at the chest, and no joint is called a head.
+  // CMU's converters put the neck at the chest, and call no joint a head.
   Skeleton sites = testing::PersonSkeleton();
   sites.joints[sites.Find("Head_End")].name = "Neck1_End";
   sites.joints[sites.Find("Head")].name = "Neck1";

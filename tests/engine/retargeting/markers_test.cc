@@ -129,7 +129,8 @@ BodyPose Stirred(BodyPose pose, std::size_t frame) {
   return pose;
 }
 
-/// On the back, head along −Z, heels on the floor, knees slightly bent.
+/// Returns a body that lies on its back, with the head towards −Z, the heels on the floor and the knees slightly
+/// bent.
 BodyPose Lying(std::size_t frame) {
   BodyPose pose = StandingAt(0);
   for (glm::dvec3& joint : pose.joints) joint = {joint.x, 0.1 + joint.z, -joint.y};
@@ -597,7 +598,7 @@ TEST(Markers, OfNoKnownSetAreRefusedWithWhatIsLacking) {
               HasSubstr("are not of a known set (nearest: Etude's joints lacks left_knee); known: "));
 }
 
-/// Markers with names of a skeleton of Bandai-Namco; the neck is no needed joint.
+/// Markers with the joint names of Bandai-Namco's skeleton. The neck is not one of the needed joints.
 const std::vector<Placed> kOfASkeleton = {
     {"UpperArm_L", Role::kLeftShoulder},  {"LowerArm_L", Role::kLeftElbow},  {"Hand_L", Role::kLeftWrist},
     {"UpperLeg_L", Role::kLeftHip},       {"LowerLeg_L", Role::kLeftKnee},   {"Foot_L", Role::kLeftAnkle},
@@ -630,12 +631,13 @@ TEST(Markers, PlayTheRolesThatTheUserGives) {
   EXPECT_THAT(bodies->front().Note(), HasSubstr("the joint map; placed by rule: hip_centre, spine, head"));
   EXPECT_EQ(bodies->front().shown.At(7, bodies->front().shown.roles[Index(Role::kShoulderCentre)]),
             StandingAt(7)[Role::kShoulderCentre]);
-  // The user's role replaces that of a known set, whose other rules remain. Names that the file lacks are another's.
+  // The user's marker for a role replaces the known set's rule for this role; the set's other rules remain. Markers
+  // that the file lacks are ignored.
   ASSERT_OK(known, FindMarkerBodies(Take(kOfASkeleton), "a.trc",
                                     {.roles = {{Role::kLeftWrist, "LowerArm_L"}, {Role::kHead, "no such"}}}));
   EXPECT_THAT(known->front().Note(), HasSubstr("the joint map, and joint names of a skeleton"));
   EXPECT_EQ(known->front().motion.poses[7][Role::kLeftWrist], known->front().motion.poses[7][Role::kLeftElbow]);
-  // An incomplete map is refused with what it lacks.
+  // The refusal of an incomplete map names the role that the map lacks.
   options.roles.erase(Role::kLeftKnee);
   EXPECT_THAT(testing::Refusal(FindMarkerBodies(Take(odd), "a.trc", options)),
               HasSubstr("(nearest: the joint map lacks left_knee)"));

@@ -37,7 +37,8 @@ Skeleton Named(const Scheme& scheme) {
       if (joint.name == from + "_End") joint.name = to + "_End";
     }
   };
-  // First to numbers, because a scheme may use another scheme's name for a different joint.
+  // Rename all joints twice: first to "#" and the old name, because a scheme may give a joint's old name to a
+  // different joint.
   constexpr std::array kTrunk = {"Hips", "Spine", "Neck", "Head"};
   constexpr std::array kArm = {"Shoulder", "Arm", "ForeArm", "Hand"};
   constexpr std::array kLeg = {"UpLeg", "Leg", "Foot", "ToeBase"};

@@ -312,7 +312,8 @@ TEST(BodyNpz, IsInTheUnitAndOnTheAxisThatTheFileOrTheUserTells) {
     EXPECT_LT(off(written(unit, true, text, "Z")), 1e-9) << text;
     EXPECT_LT(off(written(unit, true, "", ""), {.metres_per_unit = unit, .up = UpAxis::kZ}), 1e-9) << text;
   }
-  // Without a key, a body of 170 m is read as centimetres, with a note; 17 m is refused.
+  // Without a unit or with "m", a body 170 or 1700 units tall is read as centimetres or millimetres, with a note; one
+  // of 17 units is refused.
   for (const double unit : {0.01, 0.001}) {
     for (const char* said : {"", "m"}) {
       const Npz arrays = written(unit, false, said, "");

@@ -53,8 +53,9 @@ double WorstLength(const BodyMotion& motion, const BodyPose& body) {
   return worst;
 }
 
-/// Returns the distance (m) of the fastest joint's step into a frame, without hands: files end hands anywhere from
-/// wrist to finger tips, so a new hand may be three times as long and fast.
+/// Returns the distance (m) that the fastest joint moves from the previous frame to `frame`. Hands are left out: in
+/// files they end anywhere from the wrist to the finger tips, so a hand with new proportions may be three times as
+/// long and fast.
 double FastestStep(const BodyMotion& motion, std::size_t frame) {
   double fastest = 0;
   for (const Role role : AllRoles()) {

@@ -13,7 +13,7 @@ namespace {
 using enum Role;
 using ::testing::HasSubstr;
 
-/// A limb in a plane; its hinge axis `axis` points to the body's left.
+/// The unit directions of the two parts of a limb that bends about the X axis, which points to the body's left.
 struct Bent {
   glm::dvec3 upper, lower;
 };

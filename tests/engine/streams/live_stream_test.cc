@@ -63,7 +63,8 @@ void ExpectAsRecorded(const std::string& text) {
 TEST(LiveStream, HearsWhatARecordingSays) {
   ExpectAsRecorded(WriteJointCsv(WavingMotion(90)));
   ExpectAsRecorded(WriteJointCsv(WavingMotion(90, 15)));
-  // A Kinect's level is estimated from a still trunk, from any part of the file alike.
+  // A Kinect's vertical is estimated from the trunk, which is still here, so every part of the file gives the same
+  // vertical.
   ExpectAsRecorded(KinectV1Text(WavingMotion(90), "2"));
   ExpectAsRecorded(WithClock(KinectV1Text(WavingMotion(90), "1", 0.1), 44155936, 1e6 / 30));
 }

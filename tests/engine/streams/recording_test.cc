@@ -92,7 +92,8 @@ TEST(Streams, AClockMayCountMicrosecondsMillisecondsSecondsOrFrames) {
   const std::string rows = KinectV1Text(WavingMotion());
   for (const double step : {1e6 / 30, 1e3 / 30, 1.0 / 30, 1.0})
     EXPECT_EQ(Made(WithClock(rows, 100 * step, step)).stream.frames.size(), 60u) << step;
-  // UTKinect keeps every second frame, or every sixth; no sensor has milliseconds at 166 Hz.
+  // Files of UTKinect count frames at 30 Hz and have a row for every second or every sixth frame. A step of 6 does
+  // not count milliseconds, because no sensor has 166 Hz.
   EXPECT_EQ(Made(WithClock(rows, 252, 2)).stream.frames.size(), 119u);
   const MadeStream sixth = Made(WithClock(rows, 252, 6));
   EXPECT_EQ(sixth.stream.frames.size(), 355u);

@@ -53,7 +53,7 @@ class WalkPast {
 };
 
 struct Wrong {
-  int missed = 0, taken = 0;  ///< pixels of the person missed, and of the room taken
+  int missed = 0, taken = 0;  ///< pixels of the person outside the mask, and pixels of the room in the mask
 };
 
 Wrong WrongIn(const Mask& mask, int left) {

@@ -127,7 +127,7 @@ TEST(VisionGolden, LimbsOfColouredSuits) {
       if (stroke) print.Add(stroke->a).Add(stroke->b);
     }
     print.Add(marks.effectors);
-    // Regions with missing limbs, borders and trunk, which the picture above lacks.
+    // Cover regions that lack some limbs, some borders or the trunk.
     for (int variant = 0; variant < 4; ++variant) {
       LimbRegions less = found;
       for (std::size_t i = 0; i < kStrokeCount; ++i) {

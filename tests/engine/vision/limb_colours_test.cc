@@ -166,7 +166,7 @@ TEST(ReadLimbColours, TakesNoLineOfMixedColoursForALimb) {
   const Marks marks = ReadLimbColours(canvas.picture, canvas.person, suit);
   EXPECT_TRUE(marks.strokes[kThigh]);
   EXPECT_EQ(CountMarks(marks), 1u);
-  // The control: a line as thick as a head is one.
+  // The control: a line that is as thick as a head is read as a head.
   canvas.Draw({100, 5}, {100, 35}, 15, suit.limbs[12], true);
   EXPECT_EQ(CountMarks(ReadLimbColours(canvas.picture, canvas.person, suit)), 3u);
 }

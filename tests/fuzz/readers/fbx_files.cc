@@ -151,7 +151,8 @@ std::vector<std::string> FbxSeeds() {
 constexpr std::size_t kSigns = 4096, kSigned = 60;
 __attribute__((used, section("__libfuzzer_extra_counters"))) std::uint8_t signs[kSigns];
 
-/// Marks that a file ended with this message; numbers and names in it are ignored.
+/// Sets the coverage counter of the message `told`, which the reading of a file returned. Digits and quoted names in
+/// the message are ignored.
 void Sign(std::string_view told) {
   std::size_t hash = 0;
   bool is_quoted = false;
@@ -162,8 +163,8 @@ void Sign(std::string_view told) {
   signs[hash % kSigns] = 1;
 }
 
-/// Reads a file as users do, in a limited child that stays for 10,000 files, because a new process takes fifty times as
-/// long. The child's end frees what assimp leaks.
+/// Reads a file as users do, in a child process with limits. The child reads up to 10,000 files, because starting a
+/// process takes fifty times as long as reading a file. When the child ends, the memory that assimp leaked is freed.
 void Fbx(std::string_view bytes) {
   constexpr int kFilesOfChild = 10'000;
   static std::optional<FbxReader> reader;

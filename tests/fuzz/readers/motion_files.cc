@@ -29,7 +29,7 @@
 namespace etude::fuzz {
 namespace {
 
-/// Does what follows for every clip, whatever its format.
+/// Finds the roles of a clip and makes the body's motion, as is done for clips of every format.
 void MakeBody(const Clip& clip) {
   const auto map = FindJointMap(clip.skeleton, kFile);
   if (map) ToBodyMotion(clip, *map, kFile);

@@ -96,7 +96,7 @@ TEST_F(RawMotionsTest, ArraysOfAnyJointsAreABodyByTheirNames) {
   EXPECT_EQ(body->motion.rate_hz, 50);
   ASSERT_EQ(body->motion.poses.size(), 30u);
   EXPECT_NEAR(glm::distance(body->motion.poses[7][Role::kLeftKnee], motion.poses[7][Role::kLeftKnee]), 0, 1e-9);
-  // In the declared unit.
+  // With a declared unit of 0.9 m, the body is smaller.
   OpenOptions told;
   told.body.metres_per_unit = 0.9;
   const auto smaller = OpenBodyInPlace(file, told);
@@ -175,9 +175,9 @@ TEST_F(RawMotionsTest, MarkersOfNoKnownSetHaveNoRolesUnlessAJointMapNamesThem) {
   ASSERT_EQ(raw->notes.size(), 2u);
   EXPECT_THAT(raw->notes[0], HasSubstr("its markers (Q0, Q1, "));
   EXPECT_EQ(raw->notes[1], "Z is up (told)");
-  // For any use but a comparison, they are no body.
+  // For any use but a comparison, markers of unknown names are refused.
   EXPECT_THAT(testing::Refusal(OpenBodyInPlace(trc, told)), HasSubstr("are not of a known set"));
-  // A map of the needed joints makes them one, in a marker file as in an array.
+  // With a joint map of the needed joints they are read as a body, from a marker file and from an array.
   told.roles.emplace();
   using enum Role;
   for (const auto& [name, role] : {std::pair("Shoulder", kLeftShoulder),

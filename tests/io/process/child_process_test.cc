@@ -142,7 +142,7 @@ TEST(ChildProcess, ADeadChildsGroupIsKilledToo) {
   EXPECT_TRUE(VanishesSoon(grandchild));
 }
 
-// In a process of its own, because adopting orphans requires having no other children.
+// Each case runs in a forked process, because a process that adopts orphans must have no other children.
 TEST(ChildProcess, WhoAdoptsOrphansEndsTheDaemonThatAChildStartsAsItEnds) {
   for (const bool adopts : {false, true}) {
     const std::string file = ::testing::TempDir() + "daemon-" + std::to_string(adopts);

@@ -19,7 +19,8 @@ const Move& Clap() {
   return move;
 }
 
-/// Ten seconds: clap is danced as taught from frame 30 on, then the person stands still; clap is requested both times.
+/// Returns a recording of ten seconds. Clap is requested twice: first the person dances it as taught, from frame 30
+/// on; then the person stands still.
 Recording SessionRecording(bool calls_right) {
   const BodyMotion& dance = Clap().motion;
   const auto end = static_cast<int>(30 + dance.poses.size());

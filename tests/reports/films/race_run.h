@@ -11,7 +11,7 @@ namespace etude {
 struct Settling {
   std::string method;
   int trial = 0;
-  double rate = 0.1;            ///< natural logarithm per iteration; errors start at 20 cm and 40°
+  double rate = 0.1;            ///< errors are multiplied by exp(−rate) per iteration, from 20 cm and 40° on
   std::vector<int> iterations;  ///< recorded iterations; none = no recording
   Status status = Status::kOk;
   std::string reason = "";

@@ -89,7 +89,7 @@ TEST(PaperBSection, SurvivesHostileNames) {
 TEST(PaperBSection, OpensEveryFloatThatItClosesAndKeepsThemShort) {
   const RunData run = EffectorRun();
   const std::string latex = PaperBLatex(run, run.scenarios[2]);
-  // Per condition: 5 + 5 tables of errors, one float each five; 4 and 8 tables of angles, three per float.
+  // Each condition has twice 5 tables of errors, 5 in a float, and 4 and 8 tables of angles, at most 3 in a float.
   EXPECT_EQ(CountOf(latex, "\\begin{table}"), 3 * (1 + 2 + 1 + 3));
   EXPECT_EQ(CountOf(latex, "\\end{table}"), CountOf(latex, "\\begin{table}"));
   EXPECT_EQ(CountOf(latex, "\\begin{tabular}"), 3 * (5 + 4 + 5 + 8));

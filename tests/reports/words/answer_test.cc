@@ -32,7 +32,8 @@ MethodSummary Method(const std::string& name, double error_deg, double iteration
   return method;
 }
 
-/// 560 iterations: better than its baseline, and as exact as gauss-newton, which takes 4.
+/// `adaptive` is better than its baseline `fixed`. It is as exact as gauss-newton, but takes 560 iterations instead
+/// of 4.
 ScenarioSummary SolverSummary() {
   ScenarioSummary scenario{.methods = {"fixed", "adaptive", "gauss-newton"}};
   scenario.headline_metrics = {"orientation_error_deg", "iterations"};

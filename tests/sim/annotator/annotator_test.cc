@@ -38,7 +38,7 @@ TEST(Annotator, WithASteadyHandDrawsTheEvidenceAndNothingElse) {
   }
 }
 
-// The three parts of a mark's variance add up to its own; each joint's share is its relative deviation.
+// The variances of the three parts of a mark's error add up to (error_px times the joint's relative deviation)².
 TEST(Annotator, ErrsByItsDeviation) {
   constexpr int kTrials = 300;
   const PictureEvidence seen = SeePicture(FrontView().picture());

@@ -153,8 +153,8 @@ TEST(RollingShutter, IsExactInEachOfItsBands) {
   EXPECT_EQ(next, kHeight);
 }
 
-// Blur turns a moving edge into a ramp as wide as its way during the exposure; the standard deviation of nine equal
-// steps measures the width.
+// Motion blur turns a moving edge into a ramp, which is as wide as the distance that the edge moves during the
+// exposure. The ramp has nine equal steps; its width is computed from their standard deviation.
 double BlurPixels(double blur, double pixels_per_frame) {
   CameraModel model = Wide({.motion_blur = blur, .noise = 0});
   const ColourImage picture =

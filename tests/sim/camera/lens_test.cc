@@ -33,7 +33,8 @@ Painter Stripes(const CameraModel& model, bool upright) {
   };
 }
 
-/// Finds where brightness crosses its middle along rows (vertical stripes) or columns, followed from row to row.
+/// Finds the points at which the brightness along every fourth row (for vertical stripes) or column crosses its
+/// middle, and links them to one curve per edge.
 std::vector<Curve> FindEdges(const ColourImage& picture, bool upright) {
   constexpr double kMiddle = 0.35;
   const int along = upright ? picture.height : picture.width, across = upright ? picture.width : picture.height;

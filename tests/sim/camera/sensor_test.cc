@@ -61,7 +61,7 @@ TEST(Bayer, IsExactOnRampsWithinThePicture) {
   }
 }
 
-// The textbook's convolution of the pixels of a colour with [1 2 1; 2 4 2; 1 2 1]/4, and a cross for green.
+// Demosaicing convolves red and blue with [1 2 1; 2 4 2; 1 2 1]/4, and green with [0 1 0; 1 4 1; 0 1 0]/4.
 TEST(Bayer, IsTheConvolutionOfTheTextbook) {
   constexpr int kSide = 13;
   RandomStream random(kShotWorld, "bayer");

@@ -65,7 +65,8 @@ struct Worst {
   }
 };
 
-/// Returns the speed (m/s) along the floor of toes on it and of the ankles of flat feet.
+/// Returns the highest horizontal speed (m/s) of toes that touch the floor and of ankles of flat feet, and the number
+/// of such speeds.
 Worst FootSpeed(const BodyMotion& motion) {
   struct Point {
     Role role;

@@ -129,8 +129,8 @@ TEST(BuiltinSongs, DanceTheirMovesAsTheyAreBetweenTheJoins) {
   }
 }
 
-/// Returns the largest allowed jump at a join: the 95th percentile within the dance, or 5 % more than that of both
-/// moves at their own beginnings.
+/// Returns the largest allowed jump at a join: the 95th percentile of the jumps within moves, or 5 % more than
+/// `of_neighbours`, the largest jump of the two moves danced alone, whichever is larger.
 double AllowedJump(std::vector<double> within, double of_neighbours) {
   std::ranges::sort(within);
   return std::max(within[within.size() * 95 / 100], 1.05 * of_neighbours);

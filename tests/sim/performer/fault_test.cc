@@ -71,7 +71,7 @@ TEST(Stray, IsOfThePersonsOwnMotionSoThatNoHabitIsAFault) {
   }
 }
 
-/// Grows with either part of a stray.
+/// Returns a number that grows with `limb_deg` and with `timing_beats`.
 double Badness(const Stray& stray) { return stray.limb_deg / 25 + stray.timing_beats / 0.5; }
 
 TEST(Stray, GrowsWithTheSeverityOfEveryFault) {

@@ -21,7 +21,7 @@ std::size_t IndexOf(const char* name) {
   return static_cast<std::size_t>(std::ranges::find(AllMoves(), name, &Move::name) - AllMoves().begin());
 }
 
-/// A coach under the test's control: dances moves and acts after each.
+/// A learner, and functions by which a test shows it a coach's dance and acts.
 class Coaching {
  public:
   explicit Coaching(const LearnerOptions& options = {}, People people = People::kAdult, int trial = 4)
@@ -302,7 +302,7 @@ TEST_P(UnderEveryLaw, TheMoreFrequentFeedbackTheLessEachTeaches) {
       taught.Wait(3);
       if (fed_before) taught.Do(Shown::Act::kDemonstrate, clap, 3);
     }
-    // What is left to be learnt differs, so the gain is measured on it.
+    // The two learners differ in how much they have left to learn, so the gain is measured as a share of it.
     const double before = 1 - taught.Kept(clap);
     taught.Wait(3);
     taught.Do(Shown::Act::kDemonstrate, clap, 3);

@@ -32,7 +32,7 @@ TEST(Person, AToddlerIsNoSmallAdult) {
   EXPECT_NEAR(adult.HipHeight(), 0.53, 0.01);
   const auto trunk = [](const BodyDimensions& body) { return body.spine + body.chest; };
   EXPECT_GT(trunk(toddler), 1.08 * trunk(adult));
-  // Crowns are at height 1; the head's top is about a tenth above its middle.
+  // The crown is at 1 m, which is about 0.08 m above the head joint.
   for (const BodyDimensions& body : {toddler, adult}) {
     EXPECT_NEAR(body.HipHeight() + trunk(body) + body.head_rise, 0.92, 0.025);
   }
@@ -128,7 +128,8 @@ bool IsTwistOfAStraightArm(const KinematicTree& tree, const TreeState& state, in
   return false;
 }
 
-/// Returns the excess of every angle over all moves of some people; `wrung` over-twists the left arm inwards.
+/// Returns by how much each angle exceeds its limits in all moves of 12 people. `wrung` is subtracted from the left
+/// arm's twist, radians.
 std::map<int, BeyondLimits> Beyond(double wrung) {
   std::map<int, BeyondLimits> found;
   for (int trial = 0; trial < 12; ++trial) {

@@ -251,7 +251,7 @@ TEST_F(RenderedSurfaces, ObeyTheRoomsBrightnessAndItsShadows) {
   EXPECT_EQ(std::ranges::count(Draw(figures, {.casts_shadows = false}).labels.pixels, kShadow), 0);
 }
 
-// Returns four fields: red, green over blue, white.
+// Returns a texture of four squares: red and green above, blue and white below.
 SharedTexture FourFields(int side = 64) {
   auto texture = std::make_shared<Texture>();
   texture->picture = ColourImage(side, side);

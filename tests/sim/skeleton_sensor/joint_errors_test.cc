@@ -208,7 +208,8 @@ TEST(SlowNoise, HasUnitVarianceAndItsTimeConstantWithAndWithoutSmoothing) {
     const double t = kLag / 30.0, a = 0.4, b = smoothing;
     const double expected = (a * std::exp(-t / a) - (b > 0 ? b * std::exp(-t / b) : 0)) / (a - b);
     EXPECT_NEAR(lagged / squares, expected, 0.03);
-    // The jitter between frames is a fifth of the whole without smoothing, and a twentieth with it.
+    // Second differences are as large as those of white noise with a standard deviation of 0.23, or of 0.035 with
+    // smoothing.
     EXPECT_NEAR(std::sqrt(differences / 6), smoothing > 0 ? 0.035 : 0.23, 0.02);
   }
 }

@@ -306,7 +306,7 @@ bool Tells(const MotionFault& fault, FaultKind kind, const Inserted& inserted) {
   const bool is_kind = fault.kind == kind || (kind == kTorn && fault.kind == kPops);
   if (!is_kind || (inserted.joint && fault.joint != inserted.joint)) return false;
   if (fault.kind == kPops && kind == kTorn) return std::abs(fault.from_s - inserted.from_s) < 0.5;
-  if (kind == kRate) return true;  // its time is that of the flight that shows it
+  if (kind == kRate) return true;  // the fault has the time of the flight that shows the wrong rate
   if (kind == kSkates && inserted.joint)
     return fault.to_s > inserted.from_s && fault.from_s < inserted.to_s;  // fault while the foot steps
   // The fault covers at least half of the time, and its ends are at most half a second off.

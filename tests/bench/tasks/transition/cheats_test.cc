@@ -1,5 +1,6 @@
-// Transitions that no body can make. Each follows quintics to the wanted pose, and is chosen among forty by the metric
-// that must not credit it. `ETUDE_CHEAT_CLIPS` replaces the built-in moves by another library, one pattern per line
+// Transitions that no body can make. The joints follow quintics to the wanted pose, changed by a cheat. For each
+// request up to 48 candidates (8 pairs of frames, 6 lengths) are judged; the metric may credit a candidate in at most
+// 10 % of the requests. `ETUDE_CHEAT_CLIPS` replaces the built-in moves by another library, one pattern per line
 // (`scripts/soak cheats`).
 
 #include <fmt/format.h>

@@ -60,7 +60,8 @@ class Controls : public TransitionFixture {
     return sum / count;
   }
 
-  /// Changes to the wanted clip at once; frame k is shown as `shown(k, the frame left, frame k)`.
+  /// Returns a way that changes to the wanted clip at once, and shows `shown(k, outcome, wanted pose)` k frames after
+  /// the transition point.
   static Way AtOnce(std::function<BodyPose(int, const TransitionOutcome&, const BodyPose&)> shown) {
     return [shown](const TransitionRequest& request) -> std::optional<TransitionOutcome> {
       TransitionOutcome outcome = Outcome(request, Plan("now", request), "cut");

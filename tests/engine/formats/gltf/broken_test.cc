@@ -291,7 +291,7 @@ TEST(BrokenGltf, IsRefusedForMoreAnimationsThanAnyoneMakes) {
 }
 
 TEST(BrokenGltf, IsRefusedForALongTailBelowACycle) {
-  // A cycle: 0 → 1 → … → 199 hangs below 200 → 201 → 200.
+  // The chain 0 → 1 → … → 199 hangs below the cycle 200 → 201 → 200.
   std::string nodes;
   for (int i = 1; i < 200; ++i) nodes += fmt::format(R"({{"children":[{}]}},)", i);
   nodes += R"({},{"children":[0,201]},{"children":[200]})";

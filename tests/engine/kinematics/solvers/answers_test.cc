@@ -40,7 +40,7 @@ struct Runs {
   }
 };
 
-// A start 15° off, with uneven weights; in trial 3 an end is out of the way.
+// Returns a problem with uneven weights whose start is disturbed by 15°; in trial 3 one target is moved by 15 cm.
 IkProblem UnevenBodyProblem(int trial) {
   IkProblem problem = DisturbedProblem(Body(), RandomPose(Body(), trial, 0.9), trial, 15);
   problem.targets[trial % 4].axis_weights = {0.5, 0, 2};

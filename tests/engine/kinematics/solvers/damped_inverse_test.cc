@@ -216,7 +216,8 @@ TEST(DampedInverse, TellsWhatAStepGainsToFirstOrder) {
   EXPECT_GT(gain, 0);
 }
 
-// With fixed angles, fewer than three remain for three coordinates: without damping there is no solution.
+// Four of the six angles are fixed. The other two cannot satisfy three coordinates, so without damping there is no
+// solution.
 TEST(DampedInverse, SaysWhenLimitsLeaveNoStep) {
   const KinematicTree arm = Arm({0.5, 0.4}, 3);
   const IkProblem problem = Reach(arm, {0, 0, 0, 0.5, 0, 0}, {0.02, -0.17, 1.82});

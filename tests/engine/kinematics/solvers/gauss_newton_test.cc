@@ -74,7 +74,7 @@ TEST(GaussNewton, FindsTheNearestSolutionToTheStart) {
   EXPECT_LE(nearest_of_other, 25) << "a solver that does not look for it must show";
 }
 
-// Starts near the truth, with poses over the whole ranges: many angles are at their limits.
+// The solver starts near the true pose. True poses use the whole ranges, so many angles reach their limits.
 TEST(GaussNewton, ExtraPassesOfItsActiveSetBringItNearerToTheStartInFewerSteps) {
   const auto count_far = [](const GaussNewtonOptions& own) {
     int far = 0;

@@ -211,7 +211,8 @@ double GaussNewtonStep::Build(const TreeFrames& frames) {
   return squares;
 }
 
-// Sets `out` to the quadratic of one target in the movement of its limb. Returns its part of |e|².
+// Sets `out` to the cost of one target as a quadratic function of its limb's movement. Returns the target's part of
+// |e|².
 double GaussNewtonStep::LineariseTarget(const EffectorTarget& target, const LimbFrame& X_WE, const glm::dvec3& p_WR,
                                         Quadratic& out) {
   // Compute η and |e|²: `pull` is the weighted position error; `twist` is its moment about the root plus the axes'

@@ -111,7 +111,7 @@ Step TakeStep(const KinematicTree& tree, const IkProblem& problem, std::span<con
 
 TEST(GaussNewtonStep, MeetsTheConditionsOfAnOptimumOnTheBody) {
   constexpr int kTrials = 200;
-  // The shares that end exactly are 0.635, 0.825 and 1 here; over 800 trials 0.61, 0.80 and 1.
+  // The shares of trials whose step is exact are 0.635, 0.825 and 1; over 800 trials they are 0.61, 0.80 and 1.
   for (const auto& [damping, at_least] : {std::pair(1e-6, 0.61), {1e-3, 0.8}, {0.1, 0.99}}) {
     int exact = 0, held = 0;
     double slope_clipped = 0;

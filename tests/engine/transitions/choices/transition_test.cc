@@ -67,7 +67,7 @@ void ExpectCandidates(const TransitionRecord& record) {
 
 constexpr double kMaxLength_s = 60;  // seconds, the largest setting of `played`
 
-/// Returns the latest time of the choice, seconds.
+/// Returns the longest wait, seconds, that the record's branch permits.
 double LatestWait(const TransitionRecord& record, const MotionLibrary& library, const TransitionRequest& request) {
   const TaggedClip& playing = library.tagged[request.from];
   const double tweens = LongestInBetween(library.in_betweens.tween, playing.rate_hz);

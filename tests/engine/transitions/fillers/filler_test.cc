@@ -150,7 +150,7 @@ struct Walker {
   TreePose At(double x, double z) const {
     return {{x, 0.95, z}, std::vector<glm::dquat>(tree.size(), glm::dquat(1, 0, 0, 0))};
   }
-  /// Fills a second between two places where the body stands.
+  /// Fills 30 frames at 30 Hz between the body at rest at the origin and the pose `end`.
   std::vector<TreePose> Filled(const char* filler, const TreePose& end, bool knows_roles = true) const {
     const std::vector<TreePose> past(10, At(0, 0)), future(1, end);
     const auto none = RawMotion::NoRoles();

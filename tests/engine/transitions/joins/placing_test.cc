@@ -62,7 +62,8 @@ TEST(Splice, BrakesEvenlyWhereMomentumCarriesIt) {
   };
   const std::vector<BodyPose> carried = joined(true);
   EXPECT_NEAR(carried.back()[Role::kHipCentre].z - carried[40][Role::kHipCentre].z, 0.5 * kSpeed * kSeconds, 1e-9);
-  // The quintic from speed v to rest at its middle decelerates by 6 v s (1 − s)/T, at most 1.5 v/T.
+  // A quintic that goes in time T from speed v to rest over the distance v T/2 has the deceleration 6 v s (1 − s)/T
+  // at time s T, at most 1.5 v/T.
   EXPECT_NEAR(hardest(carried), 1.5 * kSpeed / kSeconds, 0.01);
   for (std::size_t f = 40; f + 1 < carried.size(); ++f) {
     EXPECT_GE(carried[f + 1][Role::kHipCentre].z, carried[f][Role::kHipCentre].z - 1e-9) << "it never goes back";

@@ -143,7 +143,8 @@ TEST(PlanSteps, SharesATurnOfTheBodyAmongBothFeet) {
   constexpr double kTurn = 100;
   const JoinWindow window = Window(Stride(0.1), FloorMove{.yaw = Radians(kTurn)}.Apply(Stride(0.1)), 36);
   for (const FootStep& step : PlanSteps(window).steps) {
-    // The hips turn by the minimum-jerk curve; a foot carries the turn before its step and the turn after it.
+    // The hips turn by the minimum-jerk curve. A standing foot is twisted against the hips by their turn before its
+    // step, and after its step by the rest of the turn.
     const double before = kTurn * Smootherstep(step.begin / 36.0), after = kTurn * (1 - Smootherstep(step.end / 36.0));
     EXPECT_LE(std::max(before, after), 0.6 * kTurn) << step.begin << " to " << step.end;
   }
@@ -235,7 +236,7 @@ TEST(CarriedOffset, TurnsWithTheLeg) {
   EXPECT_LT(glm::distance(carried, glm::dvec3(0, 0.1, 0)), 1e-12);
 }
 
-/// Stride with both knees bent backwards by as much.
+/// Returns Stride with each knee mirrored to the back of the line from hip to ankle.
 BodyPose Overextended(double ahead) {
   BodyPose pose = Stride(ahead);
   for (const LegRoles& leg : kLegs) {

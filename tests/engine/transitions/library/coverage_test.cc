@@ -14,7 +14,8 @@ namespace {
 using ::testing::ElementsAre;
 using ::testing::IsEmpty;
 
-/// 30 frames, of which 10 and 14 match the second clip; the third clip matches nothing.
+/// Returns three clips. The first has 30 frames and the bridge frames 2, 10 and 14; its frames 10, 14 and 20 match
+/// the second clip. The third clip matches nothing.
 std::vector<TaggedClip> ThreeClips() {
   std::vector<double> levels(30, 5.0);
   levels[10] = levels[14] = levels[20] = 0;
