@@ -44,7 +44,7 @@ BodyMotion Lagging(BodyMotion motion, double seconds) {
 }
 
 TEST(MeasuringRecogniser, LaysAPerformanceOnTheExampleAtItsPaceAndLag) {
-  // A seventh longer and 0.4 s late; then in time with one arm down; then as taught.
+  // Three performances: 15 % longer and 0.4 s late; in time, but with one arm down; exactly as taught.
   const auto measured =
       NearestMeasures({{0, Lagging(Swing(2, 2, 2.3), 0.4)}, {0, Swing(2, 0, 2)}, {0, Swing(2, 2, 2)}});
   const auto rigid = [&](std::size_t i, std::size_t which) { return measured[i][kRigidSlice.first + which]; };

@@ -630,7 +630,8 @@ TEST(Markers, PlayTheRolesThatTheUserGives) {
   EXPECT_THAT(bodies->front().Note(), HasSubstr("the joint map; placed by rule: hip_centre, spine, head"));
   EXPECT_EQ(bodies->front().shown.At(7, bodies->front().shown.roles[Index(Role::kShoulderCentre)]),
             StandingAt(7)[Role::kShoulderCentre]);
-  // The user's role replaces that of a known set, whose other rules remain. Names that the file lacks are another's.
+  // A role from the user replaces the same role of a known set; the set's other rules remain. Names that the file
+  // lacks are ignored, because they may belong to another file.
   ASSERT_OK(known, FindMarkerBodies(Take(kOfASkeleton), "a.trc",
                                     {.roles = {{Role::kLeftWrist, "LowerArm_L"}, {Role::kHead, "no such"}}}));
   EXPECT_THAT(known->front().Note(), HasSubstr("the joint map, and joint names of a skeleton"));

@@ -207,7 +207,7 @@ TEST(Headline, GivesTheLeastAndTheLargestDifferenceOverConditions) {
   scenario.conditions.push_back(scenario.conditions.front());
   scenario.conditions[1].comparisons[0].difference = -7.85;
   EXPECT_THAT(HeadlineOfSolvers(scenario), HasSubstr("than “fixed” (effector orientation error −7.85 to −1.00°);"));
-  // The sentence has the same ends, also if the differences have different signs.
+  // The sentence also gives the smallest and the largest difference if their signs differ.
   scenario.conditions.push_back(scenario.conditions.front());
   scenario.conditions[2].comparisons[0].difference = 0.5;
   EXPECT_THAT(CompareInWords(scenario, "adaptive", "orientation_error_deg", Against::kBaseline).sentence,

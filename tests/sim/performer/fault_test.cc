@@ -41,7 +41,7 @@ TEST(Stray, OfTheClockIsCountedInBeats) {
   EXPECT_NEAR(TimingStrayBeats(
                   even, [](double due) { return due - 0.25; }, 4),
               std::sqrt((1.0 / 3 + 3) / 4), 1e-3);
-  // A sine of amplitude 0.1 of eight beats: 0.8 / √2.
+  // A sine whose amplitude is 0.1 of the eight beats, which is 0.8 beats, has the RMS 0.8 / √2.
   EXPECT_NEAR(TimingStrayBeats(
                   even, [](double due) { return due + 0.1 * std::sin(kPi * due); }, 8),
               0.8 / std::sqrt(2), 1e-2);

@@ -308,7 +308,7 @@ bool Tells(const MotionFault& fault, FaultKind kind, const Inserted& inserted) {
   if (fault.kind == kPops && kind == kTorn) return std::abs(fault.from_s - inserted.from_s) < 0.5;
   if (kind == kRate) return true;  // its time is that of the flight that shows it
   if (kind == kSkates && inserted.joint)
-    return fault.to_s > inserted.from_s && fault.from_s < inserted.to_s;  // fault while the foot steps
+    return fault.to_s > inserted.from_s && fault.from_s < inserted.to_s;  // the times overlap
   // The fault covers at least half of the time, and its ends are at most half a second off.
   constexpr double kOff_s = 0.5;
   return std::abs(fault.from_s - inserted.from_s) < kOff_s && std::abs(fault.to_s - inserted.to_s) < kOff_s;
@@ -357,7 +357,7 @@ TEST(InsertedFaults, HEAVY_AreFoundNamedAndDated) {
       const TriedClip& clip = Tried()[dice.IndexBelow(Tried().size())];
       if (!clip.IsFaultless() || clip.IsDrawn()) continue;
       const bool is_always = std::string_view(kind.name).ends_with("always");
-      if (is_always && clip.own.is_floor_found) continue;  // a clip without a floor may be at any height
+      if (is_always && clip.own.is_floor_found) continue;  // a floor found at the feet rises with the body
       BodyMotion motion = clip.motion;
       const auto inserted = kind.insert(motion, dice);
       if (!inserted) continue;

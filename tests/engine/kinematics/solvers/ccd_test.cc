@@ -84,7 +84,9 @@ TEST(Ccd, EveryWeightPullsAHingeAsItsFormulaSays) {
       100 * std::sqrt(kLever * kLever + kDistance * kDistance - 2 * kLever * kDistance * std::cos(kAlpha));
   struct Row {
     WeightRule rule;
-    double position, axis;  // weights per cm²; axis 0 is the hinge's, so its weight turns nothing
+    // The weight of the squared distance in cm², and the weight of axes 1 and 2. Axis 0 is parallel to the hinge, so
+    // its weight has no effect.
+    double position, axis;
   };
   for (const Row& row : {Row{WeightRule::kFixed, 1, 1}, Row{WeightRule::kFixedTuned, 0.0015, 1},
                          Row{WeightRule::kAdaptive, apart_cm, Degrees(-kBeta)},

@@ -177,7 +177,7 @@ TEST(JacobianTranspose, OneHingeTurnsByItsTorqueOverTheSquareOfItsLever) {
   const IkProblem problem = Reach(arm, {0.3}, {0, -0.5 * std::sin(0.5), 1 + 0.5 * std::cos(0.5)});
   for (const double gain : {1.0, 0.25}) {
     IkOptions options{.max_iterations = 1};
-    // J is the lever, 0.5 m across the limb. Only dX along J counts: 0.5 m times the sine of 0.2 rad.
+    // J is a vector of 0.5 m at right angles to the limb. Only the part of dX along J counts: 0.5 m · sin(0.2 rad).
     EXPECT_NEAR(SolveJacobianTranspose(arm, problem, options, {.gain = gain}).angles[0], 0.3 + gain * std::sin(0.2),
                 1e-12);
   }
