@@ -137,7 +137,8 @@ TEST(FitSilhouettes, NearestCapsulesAreThoseThatAComparisonOfAllFinds) {
       std::vector<SilhouetteResidual> found;
       MeasureFlesh(silhouette, seen);
       AppendResiduals(seen, silhouette, options, found);
-      // Each outline point has the distance to its nearest capsule, bit for bit; of equally near ones, the first counts.
+      // Each outline point has the distance to its nearest capsule, bit for bit; of equally near capsules, the first
+      // counts.
       ASSERT_GE(found.size(), silhouette.outline.size());
       for (std::size_t i = 0; i < silhouette.outline.size(); ++i, ++compared) {
         SilhouetteResidual least{.value = 1e9};
