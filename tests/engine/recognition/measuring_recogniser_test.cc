@@ -15,7 +15,8 @@ std::vector<TaughtMove> ArmsUpAndLeftUp() {
           {.name = "left", .span_s = 4, .examples = {StreamOf(Swing(2, 0, 1))}}};
 }
 
-/// Returns the measures for each move requested in its window of 2.5 s: the nearest performance of each window.
+/// Plays each performance while its move is requested. Returns, for each request, the measures with the smallest
+/// distance among all that the recogniser computed during the request.
 std::vector<PerformanceMeasures> NearestMeasures(const std::vector<std::pair<std::size_t, BodyMotion>>& performances) {
   std::vector<PerformanceMeasures> nearest;
   const auto recogniser = MakeMeasuringRecogniser(

@@ -240,7 +240,7 @@ TEST(Headline, SaysWhereItIsAboutTheseClipsOnly) {
   scenario.unit = SamplingUnit::kWorld;
   EXPECT_THAT(sentence(), Not(HasSubstr("For other")));
   scenario.unit = SamplingUnit::kClip;
-  // A verdict against the strongest other method says so, too, also if it is undecided for other clips.
+  // A verdict against the strongest other method also says “on these clips” if it is undecided for other clips.
   EXPECT_THAT(HeadlineOfSolvers(scenario), HasSubstr("no different from “gauss-newton” (+1.00°)"));
   scenario.conditions[0].rivals[0].beyond.verdict = Verdict::kUndecided;
   EXPECT_THAT(HeadlineOfSolvers(scenario), HasSubstr("no different from “gauss-newton” on these clips (+1.00°)"));

@@ -155,7 +155,7 @@ TEST(Bayer, KeepsTheNoiseOfTheColoursThatAreThere) {
 }
 
 struct Patch {
-  double stops = 0;   ///< brightness against the truth
+  double stops = 0;   ///< brightness relative to the truth
   double warmth = 0;  ///< ratio of red to blue, stops
 };
 

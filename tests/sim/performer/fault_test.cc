@@ -28,7 +28,7 @@ TEST(Stray, OfOneLimbIsItsAngle) {
   const auto meant = [](double) { return ArmRaised(30); };
   EXPECT_NEAR(LimbStrayDeg(meant, [](double) { return ArmRaised(50); }), 20, 1e-6);
   EXPECT_EQ(LimbStrayDeg(meant, meant), 0);
-  // A quarter of the time: the RMS is the square root of a quarter.
+  // The arm is 20° off for a quarter of the time: the RMS is 20° times the square root of a quarter.
   EXPECT_NEAR(LimbStrayDeg(meant, [](double share) { return ArmRaised(share < 0.25 ? 50 : 30); }), 10, 1e-6);
   // A linear rise to 60 degrees away has the RMS 60 / √3, up to the error of 32 samples.
   EXPECT_NEAR(LimbStrayDeg(meant, [](double share) { return ArmRaised(30 + 60 * share); }), 60 / std::sqrt(3), 0.02);

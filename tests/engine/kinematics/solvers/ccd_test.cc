@@ -184,7 +184,8 @@ TEST(Ccd, TheOrderInWhichEffectorsAreListedDoesNotMatter) {
   for (std::size_t i = 0; i < listed.angles.size(); ++i) EXPECT_NEAR(listed.angles[i], swapped.angles[i], 1e-9);
 }
 
-// Tables 3.3 and 5.1: untuned fixed weights meet positions but not axes; updated weights meet both.
+// Tables 3.3 and 5.1: with untuned fixed weights, positions reach their targets but axes do not; with updated
+// weights, both do.
 TEST(Ccd, UpdatedWeightsBringTheAxesHomeThatFixedOnesLeaveOff) {
   for (int trial = 0; trial < 4; ++trial) {
     const IkProblem problem = DisturbedProblem(Body(), RandomPose(Body(), trial, 0.5), trial, 15);

@@ -98,7 +98,7 @@ TEST(DampedLeastSquares, NeverRaisesTheSumOfSquaresWithOrWithoutAnActiveSet) {
   EXPECT_GT(at_ends, 100) << "else no bound was put to the test";
 }
 
-// Far from the limits both methods are equal, except for how long steps are shortened.
+// Far from the limits, both methods differ only in the rule by which they shorten a long step.
 TEST(DampedLeastSquares, StepsAlikeWithAndWithoutAnActiveSetFarFromTheLimits) {
   for (int trial = 0; trial < 10; ++trial) {
     const IkProblem problem = DisturbedProblem(Body(), RandomPose(Body(), trial, 0.5), trial, 3);
