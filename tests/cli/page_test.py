@@ -168,7 +168,7 @@ class Page(EtudeCase):
         self.assertEqual(browser.ask("[...document.querySelectorAll('.row-card code')].map((c) => c.textContent.split(' ').at(-1))"), told["cells"])
         self.assertTrue(browser.ask("document.querySelector('.row-card .watched') !== null"))
         browser.ask("rows.find((r) => /longer-than-any/.test(r.dataset.ids)).cells[1].click()")
-        self.assertEqual({cell.split("/")[2] for cell in browser.ask("told.cells")}, {"003"})  # one has a film
+        self.assertEqual({cell.split("/")[2] for cell in browser.ask("told.cells")}, {"003"})  # the world with a film
         browser.ask("[...document.querySelectorAll('tr[data-ids]')].find((r) => r.dataset.ids.startsWith('change/')).cells[1].click()")
         self.assertEqual({cell.split("/")[2] for cell in browser.ask("told.cells")}, {"000"})  # no world has a film
 

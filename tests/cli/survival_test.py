@@ -42,7 +42,7 @@ class Survival(EtudeCase):
         cells = []
         while len(cells) < KILLS:
             run = self.start("--resume")
-            # A moment within the next sixty cells, or before or after all cells.
+            # Kill the run after up to 59 further cells; this may be before the first cell or after the last one.
             moment = cells_in_journal(self.out) + dice.randrange(60)
             while run.poll() is None and cells_in_journal(self.out) < moment:
                 time.sleep(0.001)

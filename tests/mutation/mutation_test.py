@@ -209,7 +209,7 @@ class Soak(unittest.TestCase):
                 "target_include_directories(etude_tests_engine_toy PRIVATE ../../../engine/toy)\n"
                 "add_test(NAME engine/toy COMMAND etude_tests_engine_toy)\n",
             "engine/toy/toy.h": (HERE / "toy/toy.h").read_text(),
-            # With a sum of strings, which cannot become a difference, and a number that must be constant.
+            # Some mutants do not compile, because strings have no difference and the size of an array must be constant.
             "engine/toy/toy.cc": (HERE / "toy/toy.cc").read_text() +
                 "\n#include <string>\nstd::string Twice(const std::string& a) { return a + a; }\n"
                 "extern int sized[3];\nint sized[3];\nint Unused(int a) { return a + 7; }\n",

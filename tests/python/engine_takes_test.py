@@ -101,8 +101,8 @@ class BesideCpp(unittest.TestCase):
             np.testing.assert_array_equal(np.ravel(found), told[name], err_msg=name)
 
 
-# Answers exported problems by the engine: a line each with the trial and the digest of the answer's numbers, as in a cell's
-# row.
+# Solves exported problems with the engine. For each problem, prints a line with the trial and the digest of the
+# answer's numbers, as in a cell's row.
 ANSWERS = """import csv, ctypes, json, pathlib, sys
 sys.path[:0] = sys.argv[3:]
 import numpy as np

@@ -101,7 +101,7 @@ TEST(ComparisonTable, TellsOfNoPairTwice) {
   Comparison again = scenario.conditions[0].comparisons[0];
   scenario.conditions[0].rivals = {again};
   EXPECT_EQ(CountComparisons(scenario), all);
-  std::swap(again.method, again.baseline);  // nor with the methods exchanged
+  std::swap(again.method, again.baseline);  // the same pair with its methods exchanged
   scenario.conditions[0].rivals.push_back(again);
   EXPECT_EQ(CountComparisons(scenario), all);
   again.method = "another";

@@ -218,7 +218,7 @@ def carry(noises):
             return None
         problem = message["problem"]
         start = problem["start_angles_deg"]
-        # The limbs' ends are at the truth, whatever the noise.
+        # The targets do not depend on the noise, so their digest identifies the world.
         world = hashlib.sha256(json.dumps(problem["targets"]).encode()).hexdigest()[:8]
         asked_now[world] = start
         for before, other in enumerate(known):

@@ -135,7 +135,7 @@ CALLS = {  # what a specimen has done if its call neither fails nor returns Fals
     "leaves_its_root": ("changed its root", lambda: os.chroot("/tmp")),
     "speaks_to_the_host": ("opened a socket to the host of this machine", lambda: socket.socket(40, socket.SOCK_STREAM).close()),  # AF_VSOCK
     "reads_the_users_keys": ("reached the user's keys", lambda: LIBC.syscall(KEYS[os.uname().machine], 0, -3, 0) >= 0),
-    # Open files that a look at the process misses (CLONE_FILES), and locks without an owner.
+    # unshare(CLONE_FILES): the thread has open files that a count of its process's open files misses.
     "has_files_of_its_own_in_a_thread": ("has open files that nobody counts", lambda: LIBC.unshare(0x400) == 0),
     "keeps_memory_in_attributes": ("keeps memory in attributes", lambda: [
         append("/tmp/zoo-attributes"), os.setxattr("/tmp/zoo-attributes", "user.zoo", bytes(4096))]),

@@ -49,7 +49,7 @@ class ClipActor {
 };
 
 /// The direction from which the camera sees the body, relative to the body's heading in the first frame: from the
-/// front, from 40 degrees beside the front, or from the side.
+/// front, 40 degrees to the side of the front, or from the side.
 enum class Viewpoint { kFront, kThreeQuarter, kSide };
 
 /// A clip in front of the camera: the figure, and the figure's position in every frame.

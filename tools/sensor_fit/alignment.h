@@ -10,8 +10,8 @@
 namespace etude {
 
 /// The alignment of a recording with its twin, which is the optical recording of the same motion. The alignment
-/// explains that part of the difference between recording and twin which is no error of the sensor, as far as one
-/// recording can show this.
+/// accounts for the differences between recording and twin that are not errors of the sensor, as far as one recording
+/// can separate the two.
 struct TwinAlignment {
   /// The twin's time at the recording's time 0: the difference of the clocks plus the sensor's lag.
   double shift_s = 0;

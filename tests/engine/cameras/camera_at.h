@@ -7,7 +7,8 @@
 
 namespace etude {
 
-/// Returns the position (metres) of a camera that looks at a person from `degrees` beside the front.
+/// Returns the position (metres) of a camera that looks at a person who faces +Z. The camera stands `degrees` from
+/// the front, towards +X.
 inline glm::dvec3 EyeAt(double degrees) {
   const double a = Radians(degrees);
   return {3.8 * std::sin(a), 1.4, 3.8 * std::cos(a)};

@@ -18,7 +18,7 @@ Result<Camera> ReadBack(const std::string& text) {
   return rig.front().camera;
 }
 
-/// Returns the numbers of the named matrix, read as any YAML reader does.
+/// Returns the numbers of the named matrix, without the library's reader.
 std::vector<double> MatrixNamed(const std::string& text, const std::string& name) {
   std::size_t at = text.find("\n" + name + ": !!opencv-matrix");
   at = text.find("data: [", at) + 7;

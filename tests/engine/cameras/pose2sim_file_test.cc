@@ -46,7 +46,7 @@ TEST(Pose2SimFile, KeepsAThirdRadialCoefficientWhereThereIsOne) {
   EXPECT_EQ(back->front().camera.distortion, camera.camera.distortion);
 }
 
-/// Returns the numbers after a key, read by this test alone.
+/// Returns the numbers after a key, without the library's reader.
 std::vector<double> NumbersBehind(const std::string& text, const std::string& key) {
   std::string list = text.substr(text.find("\n" + key + " = ") + key.size() + 4);
   list = list.substr(0, list.find('\n'));
@@ -74,7 +74,7 @@ TEST(Pose2SimFile, ProjectsAsPose2SimWould) {
   const double angle = std::sqrt(r[0] * r[0] + r[1] * r[1] + r[2] * r[2]);
   const glm::dvec3 axis(r[0] / angle, r[1] / angle, r[2] / angle);
   const glm::dvec3 ours(0.4, 1.6, -0.3);
-  const glm::dvec3 theirs(ours.z, ours.x, ours.y);  // Z up; its (y, z, x) is ours
+  const glm::dvec3 theirs(ours.z, ours.x, ours.y);  // with Z up; ours is (theirs.y, theirs.z, theirs.x)
   const glm::dvec3 turned = std::cos(angle) * theirs + std::sin(angle) * glm::cross(axis, theirs) +
                             (1 - std::cos(angle)) * glm::dot(axis, theirs) * axis;
   const glm::dvec3 seen = turned + glm::dvec3(t[0], t[1], t[2]);

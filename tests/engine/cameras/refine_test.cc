@@ -25,7 +25,8 @@ RandomStream Dice(int seed, const char* purpose) {
   return RandomStream(WorldKey{.suite_seed = 1, .scenario = "refine", .trial = seed}, purpose);
 }
 
-/// Returns points in a box about the middle with their pixels, each coordinate with an error of deviation `sigma_px`.
+/// Returns random points in a box of 2 m with their pixels. Both coordinates of each pixel have a normal error of
+/// standard deviation `sigma_px`.
 std::vector<PointPair> Pairs(const Camera& camera, int count, int seed, double sigma_px) {
   RandomStream places = Dice(seed, "places"), errors = Dice(seed, "errors");
   std::vector<PointPair> pairs;

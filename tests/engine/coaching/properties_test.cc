@@ -63,7 +63,7 @@ TEST_P(RandomPlayers, AreAskedForNothingThatTheCoachHasNotDancedFromItsBeginning
     const CoachOutput& out = Next();
     if (!out.asks || !out.open) continue;
     const Repetition& asked = session_.coach().dance().repetitions[static_cast<std::size_t>(out.open->repetition)];
-    EXPECT_LE(out.clip_frame, static_cast<double>(asked.first) + 9 + 3) << i;  // reaction time and catching up
+    EXPECT_LE(out.clip_frame, static_cast<double>(asked.first) + 9 + 3) << i;  // 9 frames to react, 3 to catch up
   }
 }
 

@@ -70,7 +70,7 @@ class SmallSession {
     bool moment = false;
   } player;
 
-  /// Plays `frames` frames, or until the coach decides this event; returns false if it did not.
+  /// Plays at most `frames` frames, until the coach records `event`. Returns false if it does not record `event`.
   bool Until(CoachEvent event, int frames = 3000) {
     for (int i = 0; i < frames; ++i) {
       Next();

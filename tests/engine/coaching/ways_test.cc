@@ -67,8 +67,8 @@ TEST(Ways, NoneTakesLongerThanTheWaitAndTheLongestInBetween) {
   }
 }
 
-// Paper A's saving: bridge frames, and one set of in-betweens between them, join all these pairs, so that nobody draws
-// an in-between for a pair.
+// Paper A's method saves work: bridge frames and one common set of in-betweens join all these pairs, so nobody has to
+// draw in-betweens for each pair.
 TEST(Ways, AreAllCarriedByBridgeFrames) {
   for (const std::string& song : BuiltinSongNames()) {
     const Ways ways = WaysOf(song, "fuzzy-bridge");

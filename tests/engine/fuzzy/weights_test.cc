@@ -49,7 +49,7 @@ TEST(FitWeights, ClipsAFeatureThatPointsTheWrongWay) {
   std::vector<LabelledPair> pairs;
   AddPairs(pairs, PerFeature{}, 50);
   AddPairs(pairs, OnlyGap(0, 1), 10);
-  AddPairs(pairs, OnlyGap(1, 1), 90);  // larger gaps are closer here, which no distance may express
+  AddPairs(pairs, OnlyGap(1, 1), 90);  // pairs with a gap are close more often here, which no distance can express
   const WeightFit fit = FitWeights(pairs);
   ASSERT_EQ(fit.status, WeightFitStatus::kFitted);
   EXPECT_EQ(fit.weights[1], 0);

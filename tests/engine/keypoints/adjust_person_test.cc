@@ -38,7 +38,8 @@ struct WalkedTake {
   bool Adjust() { return AdjustPerson(cameras, person.people[0], {.rate_hz = kTakeRate}, person); }
 };
 
-/// Returns the distances (mm) of all joints with landmarks from the walker's, from one frame on.
+/// Returns the distances (mm) between the person's and the walker's joints, from frame `first` on, for all joints
+/// that have landmarks.
 std::vector<double> JointErrorsMm(const RecoveredPerson& person, std::size_t first = 0) {
   constexpr double kMm = 1000;
   std::vector<double> errors;

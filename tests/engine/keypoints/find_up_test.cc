@@ -246,7 +246,8 @@ TEST(FindUp, HEAVY_TheTruthIsWithinTheAngleToldInNinetyFiveTakesOfAHundred) {
 }
 
 TEST(FindUp, AFilesOwnAxisIsKeptWhateverThePosture) {
-  // Pose2Sim's world is ours. In a world with Z up, the file's axis is found, not the person's.
+  // The world of a Pose2Sim rig has Y up, like ours. If a file's world has Z up, exactly Z is found, and not an axis
+  // estimated from the posture.
   for (std::size_t i = 0; i < kPostures.size(); ++i) {
     Dice dice(40 + i);
     const auto motion = Motion(kPostures[i], dice);

@@ -100,7 +100,7 @@ TEST(PlaceRig, TakesTheUnitThatIsToldAndNoOtherPersonThanOne) {
                 HasSubstr("allowed: 0.25 to 1.1 m; for a person of 1.7 m: about --rig-unit 0.25"))
         << unit;
   }
-  // A person whose legs are short by 12 % is no reason to scale a right rig.
+  // If a person's legs are 12 % short, the message suggests the correct unit, and not a scale that lengthens the legs.
   const auto shorter = Stander([](glm::dvec3 p) { return 0.88 * p; });
   EXPECT_EQ(
       testing::Message(PlaceRig(SomeRig(), shorter, kPlaceRate, {.unit = "mm"})),

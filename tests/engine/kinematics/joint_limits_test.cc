@@ -220,7 +220,7 @@ TEST(JointLimits, LeadEveryLimbAsFarAsTheMovementThatItMakes) {
   }
 }
 
-// The control: exchanging any two unequal ranges is noticed, and nothing else.
+// The control: if one angle's asymmetric range is mirrored, exactly the two movements of this angle are reported.
 TEST(JointLimits, ThatAreExchangedAreFlagged) {
   int exchanged = 0;
   for (std::size_t column = 0; column < kSets.size(); ++column) {

@@ -55,7 +55,8 @@ TEST(Body, FacesWhereItIsTurnedAndComesBackToTheOrigin) {
 }
 
 TEST(Body, FacesForwardWhereNothingTellsWhere) {
-  // All joints at one point; then a body on its side, with both rows of the torso upright.
+  // First all joints are at one point; then a body lies on its side, so the lines through its hips and through its
+  // shoulders are vertical.
   EXPECT_EQ(Facing(BodyPose()), glm::dvec3(0, 0, 1));
   BodyPose lying;
   lying[kLeftHip] = lying[kLeftShoulder] = {0, 0.5, 0};

@@ -77,7 +77,7 @@ TEST(Deform, KeepsNormalsUprightOnAStretchedSurface) {
   Arm arm;
   // A slope along (1, −1, 0), hence its normal.
   arm.Add({0, 0, 0}, glm::normalize(glm::dvec3(1, 1, 0)), 1, 0);
-  arm.Add({0, 0, 0}, glm::normalize(glm::dvec3(1, 1, 0)), 0.5, 0.5);  // the blended path must give the same
+  arm.Add({0, 0, 0}, glm::normalize(glm::dvec3(1, 1, 0)), 0.5, 0.5);  // the code for blended weights agrees
   arm.pose[0].scale = {3, 1, 1};
   arm.pose[1].translation = {1, 0, 0};
   const DeformedMesh deformed = arm.Deformed();

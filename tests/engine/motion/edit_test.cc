@@ -191,7 +191,7 @@ TEST(WithoutScales, TurnsJointsAsTheirScaledAxesDo) {
       EXPECT_NEAR(std::abs(glm::dot(unscaled.frames[f][i].rotation, clip.frames[f][i].rotation)), 1, 1e-14);
     }
   }
-  // With sheared axes, no rotation nearby is closer.
+  // With sheared axes, no nearby rotation is closer to the axes than the chosen one.
   const Clip sheared = RandomClip(8, {.rest_rotations = true, .scales = true});
   const Clip straight = WithoutScales(sheared);
   std::vector<GlobalTransform> axes, rotations;

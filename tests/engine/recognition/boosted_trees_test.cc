@@ -46,8 +46,8 @@ class PlainBoosting {
 
   double Measure(std::size_t i, std::size_t m) const { return bags_[i].performances[0][m]; }
 
-  /// Returns the negative gradient and the curvature plus ridge of the loss, summed over members; both kinds of bags
-  /// have equal weight.
+  /// Returns two sums over the members: the negative gradient of the loss, and its curvature plus the ridge. All right
+  /// bags together weigh as much as all wrong bags.
   std::pair<double, double> Pull(const Members& members, const std::vector<double>& log_odds) const {
     double pull = 0, stiffness = options_.ridge;
     const auto count = static_cast<double>(bags_.size());

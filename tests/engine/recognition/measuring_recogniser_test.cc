@@ -15,7 +15,8 @@ std::vector<TaughtMove> ArmsUpAndLeftUp() {
           {.name = "left", .span_s = 4, .examples = {StreamOf(Swing(2, 0, 1))}}};
 }
 
-/// Returns the measures for each move requested in its window of 2.5 s: the nearest performance of each window.
+/// Plays each performance while its move is requested. Returns, for each request, the measures with the smallest
+/// distance among all that the recogniser computed during the request.
 std::vector<PerformanceMeasures> NearestMeasures(const std::vector<std::pair<std::size_t, BodyMotion>>& performances) {
   std::vector<PerformanceMeasures> nearest;
   const auto recogniser = MakeMeasuringRecogniser(
@@ -44,7 +45,7 @@ BodyMotion Lagging(BodyMotion motion, double seconds) {
 }
 
 TEST(MeasuringRecogniser, LaysAPerformanceOnTheExampleAtItsPaceAndLag) {
-  // A seventh longer and 0.4 s late; then in time with one arm down; then as taught.
+  // Three performances: 15 % longer and 0.4 s late; in time, but with one arm down; exactly as taught.
   const auto measured =
       NearestMeasures({{0, Lagging(Swing(2, 2, 2.3), 0.4)}, {0, Swing(2, 0, 2)}, {0, Swing(2, 2, 2)}});
   const auto rigid = [&](std::size_t i, std::size_t which) { return measured[i][kRigidSlice.first + which]; };

@@ -42,7 +42,8 @@ class AnyRecogniser : public ::testing::TestWithParam<const RecogniserKind*> {
     const auto recogniser = *MakeRecogniser({.kind = GetParam(), .weights = weights}, Taught());
     return *FollowStream(*recogniser, 2, SeeStream(stream, {}), {{AskedMove{1, {30, End(stream)}}}});
   }
-  /// Recognisers trained on other dances only rank; their scale does not fit these moves.
+  /// Returns true if the recogniser was trained on other dances. Then the scale of its evidence does not fit these
+  /// moves: a wrong performance ranks below a right one, but may exceed the threshold.
   static bool IsLearnt() { return IsTrained(*GetParam()); }
   static int End(const SkeletonStream& stream) { return static_cast<int>(stream.frames.size()) - 15; }
 };

@@ -28,7 +28,8 @@ constexpr std::array kNames = {"Hips",         "LeftUpLeg", "LeftLeg", "LeftFoot
                                "RightFoot",    "Spine",     "LeftArm", "LeftForeArm", "LeftHand",   "RightArm",
                                "RightForeArm", "RightHand", "Neck",    "Head",        "rig:Neck",   "Head_End"};
 
-/// Returns joints with known names, mostly in a usual order, each below one of the last few, of any number, also none.
+/// Returns a clip of joints with a person's names and random offsets. Now and then a joint has another joint's name
+/// or a random parent, or its offset or scale is zero.
 Clip AnyClip(Dice& dice) {
   Clip clip{.name = "any", .skeleton = {}, .rate_hz = 30, .frames = {}};
   for (std::size_t i = 0; i < kNames.size(); ++i) {

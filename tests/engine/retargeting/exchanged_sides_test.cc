@@ -78,7 +78,7 @@ TEST(DoubtsOnBody, AreNoneOfBodiesAndNameJointsThatAreNoBodys) {
   for (const char* move : {"aerobic", "boxing", "jump", "robot", "side_kick"}) {
     EXPECT_THAT(DoubtsOnBody(Dance(move), kRate_hz), IsEmpty()) << move;
   }
-  // An axis is mirrored; of a body without toes, its knees show it.
+  // A mirrored axis is noticed; on a body without toes, the knees show it.
   std::vector<JointPositions> mirrored = Dance("side_kick");
   for (JointPositions& frame : mirrored) {
     for (MarkerPosition& place : frame) place->x = -place->x;

@@ -316,7 +316,7 @@ glm::dquat FromX(const glm::dvec3& direction) {
   return glm::normalize(glm::dquat(1 + to.x, glm::cross(glm::dvec3(1, 0, 0), to)));
 }
 
-/// Returns the person with X of every joint's frame along the bone to its first child. At zero rotations the limbs
+/// Returns the person. Each joint's X axis points along the bone to its first child, so at zero rotations the limbs
 /// coincide, as in LAFAN1's files.
 Clip FoldedAtRest() {
   Clip clip = testing::AtRest(testing::PersonSkeleton());

@@ -339,7 +339,7 @@ TEST(BodyNpz, IsInTheUnitAndOnTheAxisThatTheFileOrTheUserTells) {
   EXPECT_LT(off(seen), 1e-12);
   EXPECT_THAT(ReadRawNpz(seen, "a.npz")->notes, ::testing::ElementsAre(HasSubstr("as in a camera's frame")));
   EXPECT_THAT(ReadRawNpz(seen, "a.npz", {.up = UpAxis::kY})->notes, ::testing::IsEmpty());
-  // A declared up axis along which the body lies or stands on its head is doubted.
+  // A declared up axis is doubted if by this axis the body lies on the floor or stands on its head.
   for (const auto& [up, said] : {std::pair("z", "lies along the floor"), {"y", "lies along the floor"}}) {
     EXPECT_THAT(ReadRawNpz(written(1, *up == 'y', "", up), "a.npz")->notes,
                 ::testing::Contains(HasSubstr(fmt::format("by the file's `up: {}`, the body {}", up, said))));

@@ -50,7 +50,8 @@ struct Shown {
   }
 };
 
-// Small pictures, 17 mm per pixel at the body, of the fitted body itself, so that outlines err by a pixel.
+// Returns options for small pictures of the fitted body itself: a pixel is 17 mm at the body, and outlines err by
+// about a pixel.
 SilhouetteCostOptions SmallPictures() { return {.sigma_px = 1, .outline_reach_px = 8, .inside_reach_px = 22}; }
 
 std::vector<double> Scatter(int size, double by) {
@@ -136,7 +137,8 @@ TEST(FitSilhouettes, NearestCapsulesAreThoseThatAComparisonOfAllFinds) {
       std::vector<SilhouetteResidual> found;
       MeasureFlesh(silhouette, seen);
       AppendResiduals(seen, silhouette, options, found);
-      // Every outline point in order: the first of the nearest capsules, bit for bit.
+      // Each outline point has the distance to its nearest capsule, bit for bit; of equally near capsules, the first
+      // counts.
       ASSERT_GE(found.size(), silhouette.outline.size());
       for (std::size_t i = 0; i < silhouette.outline.size(); ++i, ++compared) {
         SilhouetteResidual least{.value = 1e9};

@@ -114,7 +114,7 @@ TEST(SilhouetteLoss, IsGemanAndMcClures) {
     const Loss outline = LossOf({.value = e}, options), inside = LossOf({.value = e, .is_inside = true}, options);
     EXPECT_NEAR(outline.loss, e * e / (1 + e * e / 100) / 4, 1e-12);
     EXPECT_NEAR(inside.loss, 3 * e * e / (1 + e * e / 1600) / 4, 1e-12);
-    // The weight is half the loss's slope divided by e, as for a square with the same slope.
+    // The weight is w = slope / (2 e), so that the squared error w e² has the slope of the loss.
     const double step = 1e-5;
     const auto slope = [&](bool is_inside) {
       return (LossOf({.value = e + step, .is_inside = is_inside}, options).loss -

@@ -9,8 +9,8 @@
 namespace etude {
 namespace {
 
-/// Results of an independent smoother in numpy for eight frames: the filter in information form and the process by Van
-/// Loan's matrix exponential; ours uses Joseph's form and closed integrals.
+/// Results of an independent smoother in numpy for eight frames. It filters in information form and computes the
+/// process noise by Van Loan's matrix exponential; SmoothTrack uses Joseph's form and closed formulas of the integrals.
 struct VectorFrame {
   std::array<double, 3> measured;
   std::array<double, 9> information;
@@ -94,7 +94,7 @@ std::vector<double> SolveBatch(const std::vector<double>& y, const std::vector<d
   Eigen::VectorXd right = Eigen::VectorXd::Zero(2 * n);
   normal(0, 0) = 1 / (motion.first_position_m * motion.first_position_m);
   normal(1, 1) = 1 / (motion.first_velocity_mps * motion.first_velocity_mps);
-  // The process integrated in ten thousand small steps.
+  // Integrate the process in ten thousand small steps.
   constexpr int kSteps = 10'000;
   const double step = motion.frame_s / kSteps;
   Eigen::Matrix2d one, F = Eigen::Matrix2d::Identity(), Q = Eigen::Matrix2d::Zero();

@@ -39,7 +39,7 @@ BodyMotion RestlessMotion(const std::string& move, double spread) {
   return motion;
 }
 
-/// Describes a text read with these settings: the recording, its streams, and the stream as it comes live.
+/// Describes a text read with these settings: the recording, its streams, and what LiveStream reads line by line.
 void Tell(std::vector<std::string>& told, const std::string& text, const StreamReading& reading = {}) {
   const auto recording = ReadStreamRecording(text, "s", reading);
   if (!recording) told.push_back(ToString(recording.error()));

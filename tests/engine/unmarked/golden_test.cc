@@ -68,7 +68,7 @@ void AddRecovered(Fingerprint& print, const Result<UnmarkedMotion>& found) {
   print.Add(found->stature_m).Add(found->held).Add(found->cost).Add(found->motion.rate_hz);
   for (const BodyPose& pose : found->motion.poses) print.Add(pose.joints);
   for (const LocalPose& pose : found->clip.frames) {
-    // The last joint is the end of `head`, where it has no offset.
+    // Leave out the last joint: it is the end site of `head`, at the same place.
     for (const LocalTransform& joint : std::span(pose).first(pose.size() - 1))
       print.Add(joint.translation).Add(joint.rotation);
   }

@@ -89,9 +89,9 @@ TEST(RecoverUnmarked, FindsThePersonTheStatureAndTheRoomInFilmsAlone) {
   }
   EXPECT_LT(unlike, all / 200) << "pixels of the rooms that are not the room's";
   EXPECT_EQ(found->silhouettes[2].size(), static_cast<std::size_t>(kUnmarkedFrames));
-  // The clip has the same motion.
+  // The clip has as many frames as the films.
   EXPECT_EQ(found->clip.frames.size(), static_cast<std::size_t>(kUnmarkedFrames));
-  // Its skeleton has the joints of one that is made from keypoints; BVH gives no name to the end of a branch.
+  // `head` is a joint with an end site, as in clips from keypoints, because BVH gives end sites no name.
   EXPECT_TRUE(found->clip.skeleton.Find("head") >= 0);
 }
 

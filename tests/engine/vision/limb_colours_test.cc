@@ -43,8 +43,8 @@ struct Canvas {
 };
 
 /// A leg of capsules, each thicker one in front of the thinner one, both joints bent by 60° or more, so that each limb
-/// ends a radius beyond its joint. The trunk crosses the thigh as far below the hip as a pelvis 1.37 times as thick
-/// does (√(1.37² − 1) = 0.94).
+/// ends a radius beyond its joint. The trunk covers the thigh down to 0.94 thigh radii below the hip, as a ball with
+/// a radius of 1.37 thigh radii around the hip would (√(1.37² − 1) = 0.94).
 struct Leg {
   static constexpr double kThighRadius = 10, kShankRadius = 7, kFootRadius = 5;
   glm::dvec2 hip, knee, ankle, toe, down;

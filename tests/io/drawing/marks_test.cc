@@ -50,7 +50,7 @@ Rgb OkLab(const Rgb& c) {
           0.0259040371 * l + 0.7827717662 * m - 0.8086757660 * s};
 }
 
-/// Returns the smallest distance of two colours under any of the visions.
+/// Returns the smallest distance between two of the colours, over all kinds of colour vision.
 double SmallestDistance(const std::vector<std::string_view>& colours) {
   double smallest = 1;
   for (const Matrix& vision : kVisions) {

@@ -199,8 +199,8 @@ TEST(ChildProcess, DiesWithUs) {
   ::close(report[1]);
 }
 
-/// A child starts a process in its own session, which notices nothing. The child alone is killed from outside. Returns
-/// true if the other process ends, too, without our doing.
+/// A child starts a process in a session of its own, so no signal tells this process that the child has ended. Only
+/// the child is killed from outside. Returns true if the other process ends, too, without our doing.
 bool IsEndedWithTheChild(bool contained) {
   auto child = ChildProcess::Start(
       {.program = "/bin/sh", .arguments = {"-c", "setsid sleep 100 & echo; read x"}, .contained = contained});

@@ -22,7 +22,7 @@ TEST(LoadedLibraries, NamesEachByItsBuild) {
   for (const auto& [name, build] : libraries) EXPECT_THAT(build, MatchesRegex("([0-9a-f]{40})?")) << name;
 }
 
-// A second reader: the bytes of the file named by our memory map.
+// A second reader finds the build ID in the bytes of the file that our memory map names.
 TEST(LoadedLibraries, HasTheBuildIdThatStandsInTheFile) {
   std::ifstream maps("/proc/self/maps");
   std::string path;

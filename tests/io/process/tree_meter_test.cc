@@ -17,7 +17,7 @@
 namespace etude {
 namespace {
 
-constexpr double kAlways = 0, kNever = 1e9;  // MB from which on a look counts precisely
+constexpr double kAlways = 0, kNever = 1e9;  // values of HeldMb's `precise_from_mb`, MB
 constexpr double kNoLimit = 1e9;
 
 std::string NextAnswer(ChildProcess& child) {
@@ -134,7 +134,8 @@ TEST(TreeMeter, CountsSharedMemoryByAllPartsThatWereEverMapped) {
   EXPECT_NEAR(held(), whole - 60, 2) << "nobody maps any of it";
 }
 
-// All pages of a piece but one were unmapped before the first look; the meter saw its pages come and go.
+// All pages of a shared mapping but one are unmapped before the meter first reads the mappings. Count has seen the
+// number of shared pages rise and fall.
 TEST(TreeMeter, CountsSharedMemoryBehindAPageThatStaysMapped) {
   ChildProcess child = Python(
       "libc = ctypes.CDLL(None); libc.munmap.argtypes = [ctypes.c_void_p, ctypes.c_size_t]\n"
@@ -149,7 +150,7 @@ TEST(TreeMeter, CountsSharedMemoryBehindAPageThatStaysMapped) {
     EXPECT_EQ(NextAnswer(child), "held");
   };
   go_on();
-  meter.Count();  // without a look at mappings
+  meter.Count();  // does not read the mappings
   go_on();
   ::usleep(110000);
   EXPECT_NEAR(Look(meter), before + 30, 4);
@@ -244,7 +245,7 @@ TEST(TreeMeter, CountsDescriptorsPipesAndThreads) {
   EXPECT_EQ(load.sockets, 0u) << "those of a network that it shares with us are not its own";
 }
 
-// Sockets in flight, or queued at a listener that never accepts, are in no process's list.
+// Sockets in transit over other sockets, or queued at a listener that never accepts, are open in no process.
 TEST(TreeMeter, CountsSocketsThatNoProcessHasOpen) {
   const Fence fence = Fence::Find();
   if (!fence.IsUp()) GTEST_SKIP() << fence.description();

@@ -75,7 +75,7 @@ Recording SessionRecording() {
   return {{{"coach", motion}, {"truth", motion}, {"sensed", motion}}, WriteExtras(extras)};
 }
 
-/// A recorded cell that must keep its address.
+/// A recorded cell. The result of `Cell` points to the members, so this object must not move.
 struct RecordedSession {
   ScenarioSummary scenario;
   Row row;

@@ -208,7 +208,7 @@ TEST(Headline, GivesTheLeastAndTheLargestDifferenceOverConditions) {
   scenario.conditions.push_back(scenario.conditions.front());
   scenario.conditions[1].comparisons[0].difference = -7.85;
   EXPECT_THAT(HeadlineOfSolvers(scenario), HasSubstr("than “fixed” (effector orientation error −7.85 to −1.00°);"));
-  // The sentence has the same ends, also if the differences have different signs.
+  // The sentence also gives the smallest and the largest difference if their signs differ.
   scenario.conditions.push_back(scenario.conditions.front());
   scenario.conditions[2].comparisons[0].difference = 0.5;
   EXPECT_THAT(CompareInWords(scenario, "adaptive", "orientation_error_deg", Against::kBaseline).sentence,
@@ -241,7 +241,7 @@ TEST(Headline, SaysWhereItIsAboutTheseClipsOnly) {
   scenario.unit = SamplingUnit::kWorld;
   EXPECT_THAT(sentence(), Not(HasSubstr("For other")));
   scenario.unit = SamplingUnit::kClip;
-  // A verdict against the strongest other method says so, too, also if it is undecided for other clips.
+  // A verdict against the strongest other method also says “on these clips” if it is undecided for other clips.
   EXPECT_THAT(HeadlineOfSolvers(scenario), HasSubstr("no different from “gauss-newton” (+1.00°)"));
   scenario.conditions[0].rivals[0].beyond.verdict = Verdict::kUndecided;
   EXPECT_THAT(HeadlineOfSolvers(scenario), HasSubstr("no different from “gauss-newton” on these clips (+1.00°)"));

@@ -58,7 +58,7 @@ TEST(Figures, AnEndOfAnIntervalNeverLosesItsSign) {
   EXPECT_EQ(FormatInterval(-30.4, 2e-5, plain), "−30.4 to 2.0e-05");
   EXPECT_EQ(FormatInterval(0.04, 30.4, plain), "0.0400–30.4");
   EXPECT_EQ(FormatInterval(0, 30.4, plain), "0.0–30.4");
-  // Whatever the ends are, the text shows the side of 0 for each.
+  // The text shows on which side of 0 each end lies, whatever the ends are.
   for (const double high : {0.02, 1.5, 30.4, 1234.0}) {
     for (double low = 1e-7; low < high; low *= 1.7) {
       EXPECT_THAT(FormatInterval(-low, high, plain), StartsWith("−")) << low << " " << high;

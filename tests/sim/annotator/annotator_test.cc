@@ -160,7 +160,7 @@ TEST(Annotator, DrawsStrokesTooShortOnTheirLine) {
     const Marks marks = MarkOnce(FrontView().picture(), 2, trial);
     const auto &stroke = marks.strokes[thigh], &next = marks.strokes[StrokeTo(kLeftAnkle)];
     if (!stroke || !next) continue;
-    // The strokes' true ends are unknown, but their mean length shows the error: E|N| = √(2/π) at both ends.
+    // Each end of a stroke leaves out the share kShortShare · |N| of the limb, with N standard normal; E|N| = √(2/π).
     left_out +=
         1 - glm::distance(stroke->a, stroke->b) / glm::distance(seen.limbs[thigh]->line.a, seen.limbs[thigh]->line.b);
     ++count;

@@ -15,8 +15,9 @@ PictureEvidence See(const BodyPose& pose, const Camera& camera) {
   return SeePicture(Shown(LabelsOf(BodyCapsules(pose), camera)).picture());
 }
 
-/// Returns the largest allowed distance (pixels) of the evidence from the true joint centre: limb ends are exact except
-/// for pixels and perspective; joints inside the trunk are estimated from outside.
+/// Returns the largest allowed distance (pixels) of the evidence from the true joint centre. At the ends of limbs,
+/// only pixel rounding and perspective cause errors; joints inside the trunk are extrapolated from the limbs' visible
+/// parts.
 double LargestBias(Role role) {
   if (role == kLeftHip || role == kRightHip || role == kLeftShoulder || role == kRightShoulder) return 7;
   if (role == kShoulderCentre || role == kHead) return 10;

@@ -191,7 +191,7 @@ TEST(CuboidHitDistance, AgreesWithSteppingAlongTheRay) {
     if (stepped < 12) {
       EXPECT_NEAR(hit, stepped, 2 * kStep);
       ++hits;
-    } else if (hit < 11) {  // only a grazed edge
+    } else if (hit < 11) {  // grazes an edge: the ray is in the box for less than a step
       EXPECT_FALSE(IsInBox(box, origin + (hit + 5 * kStep) * direction));
     } else {
       ++misses;

@@ -63,7 +63,8 @@ TEST(CameraModel, IsChangedByEachEffectAndByNoneOfStrengthZero) {
   }
 }
 
-// Any such effect makes the model compute in linear light. An effect too weak to be seen must leave the same bytes.
+// Each of these effects makes the model compute in linear light. If the effect is too weak to be seen, the bytes must
+// stay the same.
 TEST(CameraModel, TheWayThroughLightGivesTheBytesOfTheShortWay) {
   const ColourImage plain = ShotWith({.noise = 1});
   for (double CameraEffects::*strength : {&CameraEffects::vignette, &CameraEffects::exposure_ev,

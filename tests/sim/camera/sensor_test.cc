@@ -89,7 +89,7 @@ TEST(Bayer, IsTheConvolutionOfTheTextbook) {
 }
 
 // In a grey grating of f cycles per pixel, interpolating red from both neighbours leaves cos 2πf of the contrast.
-// Returns from that the share of the mosaic in the picture.
+// Computes from this contrast the share of the mosaic in the picture.
 double ShareOfBayer(double strength) {
   constexpr double kCycles = 0.11;
   CameraModel model = ModelOf({.bayer = strength, .noise = 0}, PlainCamera(200, 40));
@@ -155,7 +155,7 @@ TEST(Bayer, KeepsTheNoiseOfTheColoursThatAreThere) {
 }
 
 struct Patch {
-  double stops = 0;   ///< brightness against the truth
+  double stops = 0;   ///< brightness relative to the truth
   double warmth = 0;  ///< ratio of red to blue, stops
 };
 
@@ -257,8 +257,8 @@ double RoundingVariance(int code) {
   return width * width / 12;
 }
 
-// The photon transfer curve (Janesick): variance against mean over flat fields. Its slope is the light of an electron,
-// its intercept the read-out variance.
+// The photon transfer curve (Janesick): variance against mean over flat fields. Its slope is the light per electron,
+// and its intercept is the variance of the read-out noise.
 Line PhotonTransfer(const CameraEffects& effects) {
   std::vector<std::pair<double, double>> points;
   CameraModel model = ModelOf(effects);

@@ -36,7 +36,7 @@ TEST(PeriodicCurve, IsExactlyConstantBetweenEqualKeys) {
   EXPECT_EQ(PeriodicCurve({{1, 0.3}}, 4).At(2.2), 0.3);
 }
 
-/// One-sided slope and second derivative at `at` (step < 0: from the left), exact up to the fourth derivative.
+/// The one-sided first and second derivative at a point, by finite differences that are exact for cubics.
 struct Derivatives {
   double slope, bend;
 };

@@ -179,7 +179,8 @@ TEST(DepthCamera, WhatIsSeenAtASlantIsLost) {
   EXPECT_FALSE(lost_at(86, 0));
 }
 
-/// Returns the share of pixels that show the near surface, of those `pixels_away` on the far side of an edge.
+/// Returns the share that measures the near surface, among the pixels of the far surface that are `pixels_away` from
+/// an edge; 0 = next to the edge.
 double ShareOfNear(const DepthCameraOptions& options, int pixels_away) {
   int shown = 0, all = 0;
   for (int trial = 0; trial < 8; ++trial) {

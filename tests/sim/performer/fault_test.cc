@@ -28,7 +28,7 @@ TEST(Stray, OfOneLimbIsItsAngle) {
   const auto meant = [](double) { return ArmRaised(30); };
   EXPECT_NEAR(LimbStrayDeg(meant, [](double) { return ArmRaised(50); }), 20, 1e-6);
   EXPECT_EQ(LimbStrayDeg(meant, meant), 0);
-  // A quarter of the time: the RMS is the square root of a quarter.
+  // The arm is 20° off for a quarter of the time: the RMS is 20° times the square root of a quarter.
   EXPECT_NEAR(LimbStrayDeg(meant, [](double share) { return ArmRaised(share < 0.25 ? 50 : 30); }), 10, 1e-6);
   // A linear rise to 60 degrees away has the RMS 60 / √3, up to the error of 32 samples.
   EXPECT_NEAR(LimbStrayDeg(meant, [](double share) { return ArmRaised(30 + 60 * share); }), 60 / std::sqrt(3), 0.02);
@@ -41,7 +41,7 @@ TEST(Stray, OfTheClockIsCountedInBeats) {
   EXPECT_NEAR(TimingStrayBeats(
                   even, [](double due) { return due - 0.25; }, 4),
               std::sqrt((1.0 / 3 + 3) / 4), 1e-3);
-  // A sine of amplitude 0.1 of eight beats: 0.8 / √2.
+  // A sine whose amplitude is 0.1 of the eight beats, which is 0.8 beats, has the RMS 0.8 / √2.
   EXPECT_NEAR(TimingStrayBeats(
                   even, [](double due) { return due + 0.1 * std::sin(kPi * due); }, 8),
               0.8 / std::sqrt(2), 1e-2);

@@ -114,7 +114,7 @@ TEST(Session, SweepingSeverityChangesNoDice) {
   }
 }
 
-/// Returns the first frame in which a hand reaches its greatest height in the event.
+/// Returns the time (s) at which a hand is first at its greatest height within the event's window.
 double TimeOfHighestHand(const Performance& performance, const SessionEvent& event) {
   std::size_t best = 0;
   double height = -1;

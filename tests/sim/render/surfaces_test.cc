@@ -110,7 +110,7 @@ TEST_F(RenderedSurfaces, OfFineTrianglesLookLikeTheCapsuleTheyFollow) {
     }
     EXPECT_GT(body, 4000);
     EXPECT_GT(shadow, 2000);
-    // Tessellation shortens outlines, some 300 pixels long, by a hundredth of a pixel.
+    // Tessellation moves outlines, which are about 300 pixels long, inwards by a hundredth of a pixel.
     EXPECT_LT(other_label, 10);
     EXPECT_LT(other_depth, 20);
     EXPECT_LE(worst_body, 2);

@@ -142,7 +142,7 @@ TEST(Visibility, IsWhatTheRendererDrawsForAllButOneJointInAThousand) {
     const auto told = HiddenOver(motion, occluders, eye);
     CompareWithPictures(**renderer, motion.poses[0], occluders, eye, told[0], agreement);
     if (i % 3 == 0) continue;
-    // The control: rays that ignore furniture.
+    // The control: rays that ignore furniture and bystanders.
     CompareWithPictures(**renderer, motion.poses[0], occluders, eye, HiddenOver(motion, {}, eye)[0], blind);
   }
   EXPECT_GE(agreement.joints, 2000);

@@ -1,5 +1,5 @@
-// Inserts faults into real clips. FindMotionFaults must find, name and date each fault, and report nothing in unchanged
-// clips. `ETUDE_FAULT_CLIPS` names further clips, one pattern per line; `scripts/soak faults` sets it.
+// Inserts faults into real clips. FindMotionFaults must find, name and date at least 95 % of them, and report nothing
+// in unchanged clips. `ETUDE_FAULT_CLIPS` names further clips, one pattern per line; `scripts/soak faults` sets it.
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 #include <gtest/gtest.h>
@@ -176,7 +176,7 @@ std::optional<Inserted> Stretched(BodyMotion& motion, RandomStream& dice) {
   return Between(motion, window->first, window->second, end);
 }
 
-/// Rises from 0 to 1 in a quarter of a second, and falls at the end.
+/// Returns a weight that rises from 0 to 1 in the window's first quarter of a second, and falls to 0 in its last one.
 double Eased(const BodyMotion& motion, int f, const std::pair<int, int>& window) {
   constexpr double kEase_s = 0.25;
   return std::clamp(std::min(f - window.first, window.second - f) / (kEase_s * motion.rate_hz), 0.0, 1.0);
@@ -308,7 +308,7 @@ bool Tells(const MotionFault& fault, FaultKind kind, const Inserted& inserted) {
   if (fault.kind == kPops && kind == kTorn) return std::abs(fault.from_s - inserted.from_s) < 0.5;
   if (kind == kRate) return true;  // the fault has the time of the flight that shows the wrong rate
   if (kind == kSkates && inserted.joint)
-    return fault.to_s > inserted.from_s && fault.from_s < inserted.to_s;  // fault while the foot steps
+    return fault.to_s > inserted.from_s && fault.from_s < inserted.to_s;  // found while the foot skates
   // The fault covers at least half of the time, and its ends are at most half a second off.
   constexpr double kOff_s = 0.5;
   return std::abs(fault.from_s - inserted.from_s) < kOff_s && std::abs(fault.to_s - inserted.to_s) < kOff_s;
@@ -357,7 +357,7 @@ TEST(InsertedFaults, HEAVY_AreFoundNamedAndDated) {
       const TriedClip& clip = Tried()[dice.IndexBelow(Tried().size())];
       if (!clip.IsFaultless() || clip.IsDrawn()) continue;
       const bool is_always = std::string_view(kind.name).ends_with("always");
-      if (is_always && clip.own.is_floor_found) continue;  // a clip without a floor may be at any height
+      if (is_always && clip.own.is_floor_found) continue;  // a floor found at the feet rises with the body
       BodyMotion motion = clip.motion;
       const auto inserted = kind.insert(motion, dice);
       if (!inserted) continue;

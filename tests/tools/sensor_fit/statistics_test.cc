@@ -94,7 +94,7 @@ TEST(SensorStatistics, SeeWhiteNoiseOfAQuietTorsoAndNotItsSlowSway) {
 
 TEST(SensorStatistics, MeasureLengthsInPercentAndJumpsInCentimetres) {
   const BodyPose pose = LoadBuiltinMove("sway")->motion.poses.front();
-  // The left hand moves along its bone by a tenth of it; once in forty frames the right hand jumps.
+  // The left hand moves along its bone by a tenth of the bone's length; once in forty frames the right hand jumps.
   const glm::dvec3 bone = pose[kLeftHand] - pose[kLeftWrist];
   const auto [recording, match] = Standing([&](std::size_t t, Role role) {
     if (role == kLeftHand) return (t % 2 == 0 ? 0.1 : -0.1) * bone;

@@ -166,7 +166,8 @@ TEST_F(Controls, AGlideLiftedOffTheFloorFoolsTheFootSlideAloneAndIsNotClean) {
     return outcome;
   };
   EXPECT_LE(ShareOf("join_slide_cmps", lifted), 2) << "what it fools";
-  // Two thirds of the credited requests go to or from the boxer, who holds a heel that high while bouncing on his toes.
+  // Two thirds of the requests that count as clean go to or from the boxer, whose heel is as high while he bounces on
+  // his toes.
   EXPECT_LE(ShareOf("clean_share", lifted, kManyRequests), 0.1);
 }
 

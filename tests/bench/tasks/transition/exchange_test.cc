@@ -65,7 +65,8 @@ class TransitionExchange : public TransitionFixture {
     return answer;
   }
 
-  /// Measured over all pairs that a built-in choice accepts; an outside method has no threshold.
+  /// Returns true if a metric is computed over all pairs that a built-in choice accepts by its threshold. An outside
+  /// method has no threshold.
   static bool IsOfAThreshold(const std::string& id) {
     return id == "direct_match" || id == "matching_share" || id == "false_smooth_share";
   }

@@ -116,7 +116,7 @@ TEST(BrokenGltf, MayLackWhatTheFormatLeavesOpen) {
 }
 
 TEST(BrokenGltf, IsRefusedForUrisThatLeaveItsFolder) {
-  // As they stand in JSON.
+  // The URIs are written as in JSON, with its escapes.
   for (const char* uri :
        {"../bear.bin", "/etc/passwd", "file:///etc/passwd", "http://example.org/bear.bin", "C:bear.bin",
         "%2e%2e/bear.bin", "%2E%2E%2Fbear.bin", "parts/../../bear.bin", "parts/%2e%2e/x", "..", "~/bear.bin",

@@ -32,7 +32,8 @@ inline std::string Glb(std::string json, std::string binary = "") {
   return "glTF" + RawBytes<std::uint32_t>({2}) + size(12 + chunks.size()) + chunks;
 }
 
-/// A body of two bones in one triangle that bows within two seconds; small enough to damage every part.
+/// A figure with two joints and a mesh of one triangle; the figure bows within two seconds. The text is so small that
+/// tests can damage every part.
 inline constexpr std::string_view kSmallGltf = R"({"asset":{"version":"2.0"},
 "scene":0,"scenes":[{"nodes":[0,2]}],
 "nodes":[{"name":"Hips","children":[1],"translation":[0,1,0]},{"name":"Spine","translation":[0,0.5,0]},

@@ -88,7 +88,7 @@ TEST(CcdAnderson, NeverRaisesWhatSweepsLower) {
       EXPECT_LE(merit, last * (1 + 1e-9) + 1e-14);
       last = merit;
     }
-    // Passes: one for the start, one per sweep, and one per dropped extrapolation.
+    // Forward kinematics runs once for the start, once per sweep, and once per dropped extrapolation.
     dropped += solution.fk_evaluations - solution.iterations - 1;
   }
   EXPECT_GT(dropped, 0) << "no extrapolation had to be dropped: nothing was tested";

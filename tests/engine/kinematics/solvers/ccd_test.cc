@@ -84,7 +84,9 @@ TEST(Ccd, EveryWeightPullsAHingeAsItsFormulaSays) {
       100 * std::sqrt(kLever * kLever + kDistance * kDistance - 2 * kLever * kDistance * std::cos(kAlpha));
   struct Row {
     WeightRule rule;
-    double position, axis;  // weights per cm²; axis 0 is the hinge's, so its weight turns nothing
+    // The weight of the squared distance in cm², and the weight of axes 1 and 2. Axis 0 is parallel to the hinge, so
+    // its weight has no effect.
+    double position, axis;
   };
   for (const Row& row : {Row{WeightRule::kFixed, 1, 1}, Row{WeightRule::kFixedTuned, 0.0015, 1},
                          Row{WeightRule::kAdaptive, apart_cm, Degrees(-kBeta)},
@@ -182,7 +184,8 @@ TEST(Ccd, TheOrderInWhichEffectorsAreListedDoesNotMatter) {
   for (std::size_t i = 0; i < listed.angles.size(); ++i) EXPECT_NEAR(listed.angles[i], swapped.angles[i], 1e-9);
 }
 
-// Tables 3.3 and 5.1: untuned fixed weights meet positions but not axes; updated weights meet both.
+// Tables 3.3 and 5.1: with untuned fixed weights, positions reach their targets but axes do not; with updated
+// weights, both do.
 TEST(Ccd, UpdatedWeightsBringTheAxesHomeThatFixedOnesLeaveOff) {
   for (int trial = 0; trial < 4; ++trial) {
     const IkProblem problem = DisturbedProblem(Body(), RandomPose(Body(), trial, 0.5), trial, 15);

@@ -98,7 +98,7 @@ TEST(DampedLeastSquares, NeverRaisesTheSumOfSquaresWithOrWithoutAnActiveSet) {
   EXPECT_GT(at_ends, 100) << "else no bound was put to the test";
 }
 
-// Far from the limits both methods are equal, except for how long steps are shortened.
+// Far from the limits, both methods differ only in the rule by which they shorten a long step.
 TEST(DampedLeastSquares, StepsAlikeWithAndWithoutAnActiveSetFarFromTheLimits) {
   for (int trial = 0; trial < 10; ++trial) {
     const IkProblem problem = DisturbedProblem(Body(), RandomPose(Body(), trial, 0.5), trial, 3);
@@ -177,7 +177,7 @@ TEST(JacobianTranspose, OneHingeTurnsByItsTorqueOverTheSquareOfItsLever) {
   const IkProblem problem = Reach(arm, {0.3}, {0, -0.5 * std::sin(0.5), 1 + 0.5 * std::cos(0.5)});
   for (const double gain : {1.0, 0.25}) {
     IkOptions options{.max_iterations = 1};
-    // J is the lever, 0.5 m across the limb. Only dX along J counts: 0.5 m times the sine of 0.2 rad.
+    // J is a vector of 0.5 m at right angles to the limb. Only the part of dX along J counts: 0.5 m · sin(0.2 rad).
     EXPECT_NEAR(SolveJacobianTranspose(arm, problem, options, {.gain = gain}).angles[0], 0.3 + gain * std::sin(0.2),
                 1e-12);
   }

@@ -52,7 +52,7 @@ TEST_P(EveryStarter, ReturnsAStartThatHasNoError) {
   }
 }
 
-// The control: a wrong start is moved, and gets nearer for either body.
+// The control: a wrong start is moved, and gets nearer to the targets for every body.
 TEST_P(EveryStarter, MovesOneThatIsOff) {
   for (const SomeBody& some : Bodies()) {
     const TreeState truth = RandomPose(some.body.tree, 1, some.share);

@@ -48,8 +48,8 @@ TEST(Inertialise, StartsInTheShownPoseWithTheShownSpeed) {
   EXPECT_NEAR(SpeedAtStart(QuinticLaw(), 0.3, 0.5), 0, 1e-3) << "the quintic does not";
 }
 
-/// Returns the speed (degrees per second) with which an elbow's offset continues. The elbow is raised sideways by
-/// `before` 1/30 s before the transition point and by `now` at it; in the new motion it hangs still.
+/// Returns the speed (degrees per second) with which an elbow's offset continues. At the transition point, the elbow
+/// is raised sideways by `now` degrees; 1/30 s earlier, by `before` degrees. In the new motion it hangs still.
 double SpeedOfElbow(double before, double now) {
   const auto raised = [](double degrees) {
     PosedBody body;

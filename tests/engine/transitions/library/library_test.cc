@@ -25,7 +25,7 @@ TEST(MotionFeatures, DoNotSeeWhereADanceTakesPlaceNorWhichWayItFaces) {
 TEST(MotionFeatures, HaveVectorsOfStandardDeviationOne) {
   const BodyMotion clips[] = {WavingClip(50), WavingClip(70, 2)};
   const auto features = ComputeMotionFeatures(clips);
-  constexpr std::size_t kLeftHand = 2;  // index, after the feet
+  constexpr std::size_t kLeftHand = 2;  // the index of its vector; the feet come first
   double variance = 0;
   for (std::size_t axis = 3 * kLeftHand; axis < 3 * kLeftHand + 3; ++axis) {
     double sum = 0, squares = 0;

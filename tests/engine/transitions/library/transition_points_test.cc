@@ -26,7 +26,7 @@ TEST(FindTransitionPoint, TakesTheFirstMatchInPlayingOrderThenTargetOrder) {
 
 TEST(FindTransitionPoint, LooksAtTheFrontHalfBeforeTheRearHalf) {
   const TaggedClip playing = ClipOfLevels({0, 0}, {0, 1});
-  // By smallest distance: the rear half has an exact match, the front half only a fair one.
+  // By the smallest distance: the front half is preferred, although only the rear half has an exact match.
   const TaggedClip next = ClipOfLevels({5, 0.3, 0.2, 5, 0, 5}, {1, 2, 4});
   MatchRules smallest;
   smallest.pick = Pick::kSmallest;

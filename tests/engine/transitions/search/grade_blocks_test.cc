@@ -88,8 +88,8 @@ TEST_F(GradeBlocks, BoundNoPairOfTwoBoxesTooHigh) {
   });
 }
 
-// Boxes are stored in single precision: each of 24 terms is at most 2⁻²⁴ too wide, so the bound is at most √ΣS · 2⁻²⁴
-// (a term counts 1) too low, and never too high.
+// Boxes are stored in single precision: in each of the 24 terms, a box is at most 2⁻²⁴ too wide. With ΣS the sum of
+// the terms' weights, the bound is at most √ΣS · 2⁻²⁴ too low, and never too high.
 TEST_F(GradeBlocks, BoundAFrameThatIsABoxByItsDistanceRoundedOutwards) {
   RandomStream dice = SearchDice("single");
   const GradeMetric metric(PaperWeights());
