@@ -290,7 +290,7 @@ void AddUnsealed(CLI::App& command, Sealing& sealing) {
 
 void AddOutsideRules(CLI::App& command, OutsideRules& rules) {
   command.add_flag("!--no-fence", rules.is_fenced, "Run outside methods without a fence, to debug them");
-  command.add_flag("--allow-exec", rules.allow_exec, "Allow programs that a manifest, a run or a pack names to be run");
+  command.add_flag("--allow-exec", rules.allow_exec, "Allow running programs that a manifest, a run or a pack names");
 }
 
 CLI::Validator OneOf(const std::vector<std::string>& names) {

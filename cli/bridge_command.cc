@@ -71,7 +71,7 @@ BridgeCommandOptions OptionsOf(const BridgeTags& tags, BridgeCommandOptions opti
 
 Result<int> CheckTags(const BridgeCommandOptions& options) {
   if (options.clips.empty() && !options.fuzzy.empty()) {
-    return Fail({"--fuzzy"}, "is only used to tag clips again; name the clips that the file belongs to");
+    return Fail({"--fuzzy"}, "has no effect on --check without clips; name the clips that the tags file belongs to");
   }
   ASSIGN_OR_RETURN(const auto text, ReadWholeFile(options.check));
   ASSIGN_OR_RETURN(const auto tags, ReadTagsFile(text, options.check));

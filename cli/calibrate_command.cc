@@ -96,7 +96,7 @@ constexpr const char* kCalibrateExamples =
     "  etude calibrate left/ right/ --board 8x8x0.1 -o rig.yaml         folders of PNG or JPG pictures\n"
     "  etude calibrate left.mp4 right.mp4 --board 8x8x0.1 -o rig.yaml   films that began together\n"
     "  etude calibrate a.mp4 b.mp4 --board charuco:5x7x0.04 --sync 2 --picture found.png -o rig.yaml\n"
-    "  etude calibrate a.mp4 b.mp4 --board charuco:4x5x0.054 -o rig.yaml   a board of OpenCV's, squares counted\n"
+    "  etude calibrate a.mp4 b.mp4 --board charuco:4x5x0.054 -o rig.yaml   an OpenCV board: count its squares\n"
     "  etude calibrate pairs.csv --size 1920x1080 -o rig.yaml           measured points";
 
 }  // namespace
@@ -149,7 +149,7 @@ void DefineCalibrate(CLI::App& app, Action& action) {
                       "Also draw the corners that were found, and their residuals (.png)");
   command->add_option("--beside", options->beside,
                       "Another calibration of these cameras, for a comparison of focal lengths, distances and "
-                      "residuals; opencv: calibrateCamera, for each camera alone");
+                      "residuals; or opencv, for OpenCV's calibrateCamera on each camera alone");
   CLI::Option* print =
       command->add_option("--print", options->print, "Only write the board as a picture (.png) for printing");
   AddOverwrite(*command, asked->overwrite);

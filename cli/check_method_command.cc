@@ -122,9 +122,9 @@ void DefineCheckMethod(CLI::App& app, Action& action) {
       ->capture_default_str();
   command
       ->add_option("--files", options->files,
-                   "Files and folders that it can read inside the fence (default: its own folder)")
+                   "Files and folders that the program can read inside the fence (default: its own folder)")
       ->allow_extra_args(false);
-  command->add_flag("!--no-fence", options->is_fenced, "Run it without a fence, to debug it");
+  command->add_flag("!--no-fence", options->is_fenced, "Run the program without a fence, to debug it");
   AddJson(*command, options->as_json);
   command->callback([=, &action] {
     action = [=] {

@@ -58,7 +58,7 @@ void DefineCite(CLI::App& app, Action& action) {
         const bool is_plain = !text.empty() && std::ranges::all_of(text, [](char c) {
           return c > ' ' && c <= '~' && std::string_view("{}\\\"%").find(c) == std::string_view::npos;
         });
-        return is_plain ? "" : "an address without spaces, braces, quotes, '%' and '\\'";
+        return is_plain ? "" : "is not an address; allowed: ASCII without spaces, braces, double quotes, '%' and '\\'";
       });
   auto as_json = std::make_shared<bool>(false);
   AddJson(*command, *as_json);

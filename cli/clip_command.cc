@@ -222,7 +222,7 @@ void PrintRoles(const Skeleton& skeleton, const JointMap& map) {
   for (const Role role : AllRoles()) {
     const bool composed = std::ranges::find(map.composed, role) != map.composed.end();
     fmt::print("{:<16} {}{}\n", RoleName(role), Quote(skeleton.joints[map[role].joint].name),
-               composed ? " (composed: no joint has this role; it is a point fixed to this joint)" : "");
+               composed ? " (composed: no joint has this role; a point fixed to this joint plays it)" : "");
   }
 }
 

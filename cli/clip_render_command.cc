@@ -95,7 +95,10 @@ Result<void> WriteSheet(const ClipRenderOptions& options) {
 /// Makes a film of one clip. Returns false if Ctrl-C stopped the film.
 Result<bool> WriteFilm(const ClipRenderOptions& options) {
   ASSIGN_OR_RETURN(const auto size, ReadSize(options.size, {720, 720}));
-  if (size.width % 2 != 0 || size.height % 2 != 0) return Fail({}, "--size: films need even numbers of pixels");
+  if (size.width % 2 != 0 || size.height % 2 != 0) {
+    return Fail({}, "--size: {}x{} has an odd side; allowed for films: even numbers of pixels", size.width,
+                size.height);
+  }
   ASSIGN_OR_RETURN(auto actors, Cast(options));
   if (actors.size() > 1) {
     return Fail({}, "a film shows one clip, found {}; a contact sheet (.png) shows all of them", actors.size());

@@ -92,7 +92,7 @@ Result<void> TeachMoves(const std::string& path, std::vector<TaughtMove>& taught
     if (danced == taught.end()) {
       std::string names;
       for (const TaughtMove& known : taught) names += (names.empty() ? "" : ", ") + known.name;
-      return Fail({path}, "teaches '{}', which this song does not contain; it contains: {}", move.name, names);
+      return Fail({path}, "teaches '{}', which this song does not contain; the song contains: {}", move.name, names);
     }
     *danced = std::move(move);
   }

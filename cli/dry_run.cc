@@ -54,18 +54,21 @@ bool Print(const ScenarioForecast& one) {
   const int worlds = static_cast<int>(one.worlds);
   const SamplingUnit world = one.unit == SamplingUnit::kPerson ? one.unit : SamplingUnit::kWorld;
   const std::string among = one.comparisons == 1 ? "1 comparison" : fmt::format("{} comparisons", one.comparisons);
+  const std::string_view shows = one.comparisons == 1 ? "shows" : "show";
   const int for_values = PairsNeeded(one.comparisons, kAlpha);
   if (worlds < one.needed) {
     fmt::print("  on these worlds: neither better nor worse is possible with fewer than {}; there are {}\n",
                CountUnits(one.needed, world), worlds);
   } else if (worlds < for_values) {
-    fmt::print("  on these worlds: with fewer than {}, none of {} can be better or worse; success or the tail can\n",
-               CountUnits(for_values, world), among);
+    fmt::print(
+        "  on these worlds: with fewer than {}, values cannot show better or worse in {}; success or the tail can\n",
+        CountUnits(for_values, world), among);
   } else {
     const double least = MinDetectableDifference(worlds, one.comparisons);
     fmt::print(
-        "  on these worlds: {} {} a mean difference of {:.2f} or more standard deviations of the worlds' differences{}\n",
-        among, one.comparisons == 1 ? "shows" : "show", least, InUnit(one, least));
+        "  on these worlds: {} {} a mean difference of {:.2f} or more standard deviations of the worlds' "
+        "differences{}\n",
+        among, shows, least, InUnit(one, least));
   }
   if (WorldsAreUnits(one.unit)) return worlds >= for_values;
   if (one.units < kMinUnits) {
@@ -73,8 +76,8 @@ bool Print(const ScenarioForecast& one) {
                CountUnits(one.units, one.unit), kMinUnits);
     return worlds >= for_values;
   }
-  fmt::print("  for {}: a difference of {:.2f} or more standard deviations of the mean differences of {}\n",
-             OtherUnits(one.unit), MinDetectableDifference(one.units, one.comparisons),
+  fmt::print("  for {}: {} {} a difference of {:.2f} or more standard deviations of the mean differences of {}\n",
+             OtherUnits(one.unit), among, shows, MinDetectableDifference(one.units, one.comparisons),
              CountUnits(one.units, one.unit));
   return true;
 }
@@ -127,7 +130,7 @@ int DryRunCommand(const RunOptions& options, bool as_json) {
              CountOf(static_cast<std::size_t>(forecast->workers), "worker"),
              shows_differences ? " The differences above are found with a probability of 80 %." : "");
   if (!guessed.empty()) {
-    fmt::print("The time is an estimate: the costs of {} are not known, so its first worlds were measured just now.\n",
+    fmt::print("The time is an estimate: the costs of {} are not known, so the first worlds were measured just now.\n",
                Join(guessed, ", "));
   }
   return kSuccess;

@@ -60,7 +60,7 @@ void PrintLines(std::string_view heading, const std::vector<std::string>& lines)
   constexpr std::size_t kMaxLines = 20;
   fmt::print("{} {}{}\n", lines.size(), heading, lines.empty() ? "" : ":");
   for (const std::string& line : std::span(lines).first(std::min(lines.size(), kMaxLines))) fmt::print("  {}\n", line);
-  if (lines.size() > kMaxLines) fmt::print("  and {} more: etude rows\n", lines.size() - kMaxLines);
+  if (lines.size() > kMaxLines) fmt::print("  and {} more; etude rows prints all\n", lines.size() - kMaxLines);
 }
 
 }  // namespace

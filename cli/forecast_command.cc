@@ -150,21 +150,22 @@ void DefineForecast(CLI::App& app, const std::string& command_line, Action& acti
       command->add_option("--noise-px", options->errors.noise_px, "Standard deviation of keypoints along each axis, px")
           ->check(NumberWithin(0.001, 1000, "deviation in px"))
           ->capture_default_str();
-  auto* films =
-      command->add_option("--films", options->take.films, "Measure the deviation: films of any take with the rig");
+  auto* films = command->add_option("--films", options->take.films,
+                                    "Films of any take with this rig, from which to measure the deviation");
   auto* keypoints = command
                         ->add_option("--keypoints", options->take.keypoints,
-                                     "... and a folder with keypoints for each film, as for `etude capture`")
+                                     "With --films: a folder with keypoints for each film, as for `etude capture`")
                         ->excludes(noise)
                         ->needs(films);
   films->needs(keypoints);
   command
       ->add_option("--layout", options->take.layout,
-                   "... the order of these keypoints, if their number does not determine it")
+                   "With --films: the order of the keypoints, if their number does not determine it")
       ->check(OneOf(KeypointLayoutNames()))
       ->needs(keypoints);
   command
-      ->add_option("--fit", options->take.fit, "... and how the rig's pictures were changed into films of another size")
+      ->add_option("--fit", options->take.fit,
+                   "With --films: how the rig's pictures were changed into films of another size")
       ->check(OneOf({"none", "letterbox", "stretch", "crop"}))
       ->needs(keypoints)
       ->capture_default_str();

@@ -54,7 +54,7 @@ constexpr const char* kExamples =
     "  etude calibrate left/ right/ -o rig.yaml       cameras from pictures of a board, or from measured points\n"
     "  etude capture --rig rig.yaml left.mp4 right.mp4 --keypoints json/ -o motion.bvh     a motion from films\n\n"
     "Exit codes: 0 fine, 1 a method has no answer (gate: regression; replay, verify: a difference), 2 bad input\n"
-    "(nothing is written), 3 incomplete, 130 interrupted.";
+    "(nothing is written), 3 incomplete or prevented by this machine, 130 interrupted.";
 
 /// Lists the options and subcommands that may be used in place of a wrong word.
 std::vector<std::string> KnownWords(const CLI::App& app) {

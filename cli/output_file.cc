@@ -11,13 +11,15 @@ namespace etude {
 Result<void> CheckOutput(const std::string& path, bool overwrite, std::string_view ending) {
   namespace fs = std::filesystem;
   if (path.empty()) return {};
-  if (!path.ends_with(ending)) return Fail({path, 0, 0}, "is not the name of such a file; allowed: {}", ending);
+  if (!path.ends_with(ending)) return Fail({path, 0, 0}, "has the wrong ending; allowed: {}", ending);
   std::error_code ignored;
   const fs::file_status there = fs::symlink_status(path, ignored);
   if (!fs::exists(there)) return {};
   if (fs::is_directory(path, ignored)) return Fail({path, 0, 0}, "is a folder; the name of a file is needed");
   // Refuse devices and pipes: WriteFileAtomically would replace a device instead of sending data to it.
-  if (!fs::is_regular_file(there) && !fs::is_symlink(there)) return Fail({path, 0, 0}, "exists and is not a file");
+  if (!fs::is_regular_file(there) && !fs::is_symlink(there)) {
+    return Fail({path, 0, 0}, "is a device, pipe or socket; the name of a file is needed");
+  }
   if (overwrite) return {};
   return Fail({path, 0, 0}, "already exists; --overwrite replaces it");
 }

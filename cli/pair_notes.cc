@@ -47,7 +47,8 @@ void PrintPairNotes(const PairNotes& notes) {
     constexpr std::size_t kMaxLines = 10;
     for (const std::string& line : std::span(lines).first(std::min(lines.size(), kMaxLines)))
       fmt::print("  {}\n", line);
-    if (lines.size() > kMaxLines) fmt::print("  and {} more kinds of notes: etude rows\n", lines.size() - kMaxLines);
+    if (lines.size() > kMaxLines)
+      fmt::print("  and {} more kinds of notes; etude rows prints all\n", lines.size() - kMaxLines);
   };
   print(notes.judged.Lines());
   if (!notes.every_not_judged.empty()) fmt::print("{} not judged:\n", notes.every_not_judged.size());

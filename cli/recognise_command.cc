@@ -162,7 +162,8 @@ std::string Percent(const std::optional<double>& share) {
 Result<void> Print(const LabelScores& scores, bool as_json) {
   const std::vector<JudgedEvent>& performances = scores.Performances();
   const Confusion confusion = CountConfusion(performances);
-  if (scores.Untaught() > 0) fmt::print(stderr, "{} labels of moves that were not taught\n", scores.Untaught());
+  if (scores.Untaught() > 0)
+    fmt::print(stderr, "{} labels name moves that were not taught; they were not scored\n", scores.Untaught());
   const auto right = std::ranges::count_if(performances, &JudgedEvent::is_right);
   const auto called = std::ranges::count_if(performances, &JudgedEvent::called_right);
   if (right == 0 || right == std::ssize(performances)) {
@@ -255,7 +256,8 @@ Result<int> RecogniseLeavingOneOut(const RecogniseCommandOptions& options) {
     PrintMistakes(out.verdicts);
   }
   if (out.untaught_performances > 0)
-    fmt::print("  {} of moves that nobody else performed\n", out.untaught_performances);
+    fmt::print("  {} performances are of moves that nobody else performed; they count as errors\n",
+               out.untaught_performances);
   if (!out.points.empty()) {
     fmt::print("F-score of {} action points within {:.0f} ms, averaged over the moves: {}\n", out.points.size(),
                1000 * kActionPointTolerance, Percent(f_score));
@@ -267,7 +269,7 @@ Result<int> RecogniseLeavingOneOut(const RecogniseCommandOptions& options) {
 
 Result<int> RecogniseCommand(const RecogniseCommandOptions& options) {
   if (options.leave_one_person_out) return RecogniseLeavingOneOut(options);
-  if (options.moves.empty()) return Fail({"--moves"}, "needed: a moves file (etude teach writes one)");
+  if (options.moves.empty()) return Fail({"--moves"}, "is missing; it names the moves file (etude teach writes one)");
   ASSIGN_OR_RETURN(const auto taught, LoadTaught(options));
   const bool is_live = std::ranges::find(options.streams, "-") != options.streams.end();
   if (is_live && (options.streams.size() > 1 || !options.labels.empty())) {
@@ -301,7 +303,9 @@ void DefineRecognise(CLI::App& app, Action& action) {
   command->add_option("--filter", options->filter, "Filter that smooths the joints before recognition")
       ->check(OneOf(FilterNames()))
       ->capture_default_str();
-  command->add_option("--weights", options->weights, "Weights of the angles: all equal, or by how well they are seen")
+  command
+      ->add_option("--weights", options->weights,
+                   "Weights of the angles: all equal (fixed), or by how well they are seen (adaptive)")
       ->check(OneOf({"fixed", "adaptive"}))
       ->capture_default_str();
   command

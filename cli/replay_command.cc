@@ -85,7 +85,7 @@ Json FactsOf(const std::vector<CellCheck>& checks, const Snapshot* baseline) {
 Result<int> ReplayFile(const std::string& file, const OutsideRules& outside, const std::optional<SecretKey>& key,
                        bool as_json, const Interrupt& interrupt) {
   ASSIGN_OR_RETURN(const auto check, ReplayPack(file, outside, key, interrupt.requested()));
-  if (!check) return TellStopped({{}, "stopped; its cell was not run again"});
+  if (!check) return TellStopped({{}, "stopped; the cell was not run again"});
   if (as_json) {
     RETURN_IF_ERROR(PrintFacts("replay", FactsOf({*check}, nullptr)));
     return check->same ? kSuccess : kNothingWorked;

@@ -240,7 +240,7 @@ Result<std::optional<RunOutcome>> RunWithProgress(RunOptions options) {
     Complain(
         {{(outcome.folder / kJournalFile).string(), line, 0}, "is ignored: damaged, or a second line for its cell"});
   }
-  if (outcome.fence.starts_with("none")) Complain({{}, "methods outside ran without a fence: " + outcome.fence});
+  if (outcome.fence.starts_with("none")) Complain({{}, "outside methods ran without a fence: " + outcome.fence});
   // If the run was stopped, say that the finished cells are kept for --resume.
   if (!outcome.stopped) return std::optional(std::move(outcome));
   const std::size_t kept = outcome.cells + outcome.cells_answered;

@@ -23,8 +23,9 @@ namespace {
 constexpr const char* kSensorExamples =
     "\nA recording is a Kinect v2's text (25 joints a line: x y z, or x y z and a quaternion) or joint CSV (etude "
     "clip\n"
-    "convert writes such files). A reference is the same motion from a trusted system: 17 rigid targets of an optical\n"
-    "system a line, or joint CSV. docs/sensor.md explains the formats and each statistic.\n\n"
+    "convert writes such files). A reference is the same motion from a trusted system: text with 17 rigid targets of "
+    "an\n"
+    "optical system per line, or joint CSV. docs/sensor.md explains the formats and each statistic.\n\n"
     "Try:\n"
     "  etude sensor stats kinect.txt                                        statistics of the recording alone\n"
     "  etude sensor stats kinect.txt --reference vicon.txt --simulate v2    compared with a simulated sensor\n"
@@ -59,7 +60,7 @@ Result<RealRecording> LoadRealRecording(const std::string& path, const SensorRea
                    ReadTwinMotion(text, reading.reference, reading.reference_rate, recording.DurationSeconds()));
   auto real = MakeRealRecording(std::move(recording), std::move(twin));
   if (real) return *std::move(real);
-  return Fail({path}, "cannot be compared with {}: they need at least three joints in common for a second",
+  return Fail({path}, "cannot be compared with {}: both must show three or more of the same joints for a second",
               reading.reference);
 }
 
@@ -86,7 +87,7 @@ std::string DescribeTurn(const JointRecording& recording) {
   const StreamLevel level = recording.sensor_at ? EstimateLevel(frames, recording.rate_hz) : StreamLevel{};
   if (level.turn_deg != 0) return fmt::format("; the sensor is rotated by {} degrees", level.turn_deg);
   if (level.trunk_deg == 0) return "";
-  return fmt::format("; trunks are {:.0f} degrees from up: a lying person, or a tilted sensor", level.trunk_deg);
+  return fmt::format("; trunks are {:.0f} degrees from vertical: a lying person, or a tilted sensor", level.trunk_deg);
 }
 
 std::string DescribeRecording(const JointRecording& recording) {
@@ -111,7 +112,7 @@ Json FactsOf(const Agreement& agreement) { return {{"within", agreement.within},
 
 std::string DescribeMatch(const RealRecording& real) {
   const TwinAlignment& alignment = real.match.alignment;
-  return fmt::format("{} frames at {:g} Hz, {:.1f} s; begins {:+.3f} s from the recording; {:.1f} mm RMS left",
+  return fmt::format("{} frames at {:g} Hz, {:.1f} s; begins {:+.3f} s after the recording; {:.1f} mm RMS remain",
                      real.twin.frames.size(), real.twin.rate_hz, real.twin.DurationSeconds(), -alignment.shift_s,
                      1000 * alignment.rms_m);
 }
@@ -197,8 +198,9 @@ Result<int> SensorStatsCommand(const SensorStatsOptions& options) {
   }
   fmt::print("\n{}", StatisticsTable(columns, compares));
   if (!has_simulated) return kSuccess;
-  fmt::print("\n{} of {} within {:.0f} % (correlations: {:.2f}); the others are marked with !\n", agreement.within,
-             agreement.compared, 100 * kSizeTolerance, kCorrelationTolerance);
+  fmt::print(
+      "\n{} of {} statistics are within {:.0f} % of the recording's (correlations: {:.2f}); ! marks the others\n",
+      agreement.within, agreement.compared, 100 * kSizeTolerance, kCorrelationTolerance);
   return kSuccess;
 }
 
@@ -236,8 +238,8 @@ Json PrintComparison(const char* title, const char* real_name, const RealRecordi
   const SensorStatistics simulated = SimulatedStatistics(real, sensor, kCheckWorlds, worlds).mean;
   const Agreement agreement = AgreementOf(measured, simulated);
   fmt::print("\n{}\n{}", title, StatisticsTable({{real_name, measured}, {"simulated", simulated}}, true));
-  fmt::print("{} of {} within {:.0f} % (correlations: {:.2f})\n", agreement.within, agreement.compared,
-             100 * kSizeTolerance, kCorrelationTolerance);
+  fmt::print("{} of {} statistics are within {:.0f} % of the recording's (correlations: {:.2f})\n", agreement.within,
+             agreement.compared, 100 * kSizeTolerance, kCorrelationTolerance);
   Json check = FactsOf(agreement);
   check["of"] = real_name;
   return check;

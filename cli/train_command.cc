@@ -115,8 +115,8 @@ Result<Split> LoadSplit(const TrainOptions& options) {
     motions.push_back(std::move(clip.motion));
   }
   if (names.size() > kMaxTrainingClips) {
-    return Fail({}, "{} clips; allowed: at most {}, because the number of pairs grows with the square", names.size(),
-                kMaxTrainingClips);
+    return Fail({}, "{} clips; allowed: at most {}, because the number of pairs grows with the square of that of clips",
+                names.size(), kMaxTrainingClips);
   }
   ASSIGN_OR_RETURN(const auto held_out, ChooseHeldOut(names, options));
 

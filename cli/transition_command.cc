@@ -64,7 +64,7 @@ Result<int> TransitionCommand(TransitionCommandOptions asked) {
                options.from, made.left_s, made.wait_s,
                made.through.empty() ? "" : fmt::format(", and {} in between", made.through), options.to,
                made.entered_s);
-    fmt::print("  {}\n  as a body: twenty joints, 30 Hz, {:.2f} s, the change at", made.why, made.duration_s);
+    fmt::print("  {}\n  as a body: twenty joints, 30 Hz, {:.2f} s, joined at", made.why, made.duration_s);
     for (const double point : made.points_s) fmt::print(" {:.2f} s", point);
     fmt::print("\n");
   }

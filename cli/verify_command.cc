@@ -51,7 +51,7 @@ std::string CheckSample(const std::string& text) {
 /// Draws an unpredictable seed. It has 53 bits, because JSON readers that use doubles keep such a number exactly.
 Result<std::uint64_t> FreshDice() {
   std::uint64_t dice = 0;
-  if (::getrandom(&dice, sizeof dice, 0) != sizeof dice) return FailOfMachine("did not return random numbers");
+  if (::getrandom(&dice, sizeof dice, 0) != sizeof dice) return FailOfMachine("getrandom returned no random numbers");
   return dice >> 11;
 }
 
@@ -68,16 +68,17 @@ std::string SampleInWords(const CellChoice& choice) {
   for (const MissedForgery& one : WhatIsMissed(choice)) {
     const std::string share = ShareInWords(one.chance);
     if (!one.method.empty()) {
-      missed.push_back(fmt::format("{} of forgers who change half of {} ({})", share, one.method, one.forged));
+      missed.push_back(fmt::format("{} of the forgers who change half of {} ({})", share, one.method, one.forged));
     } else if (missed.empty()) {
-      missed.push_back(fmt::format("{} of forgers who change 5 % of the {} cells ({})", share, one.cells, one.forged));
+      missed.push_back(
+          fmt::format("{} of the forgers who change 5 % of the {} cells ({})", share, one.cells, one.forged));
     } else {
-      missed.push_back(fmt::format("{} of forgers who change one cell", share));
+      missed.push_back(fmt::format("{} of the forgers who change one cell", share));
     }
   }
   if (missed.empty()) return "Every cell that can be run again was run again.";
   return fmt::format(
-      "The sample does not detect {}. --sample all detects every forger; --sample-seed {} draws this sample again.",
+      "The sample misses {}. --sample all detects every forger; --sample-seed {} draws this sample again.",
       Join(missed), choice.dice);
 }
 
@@ -208,7 +209,7 @@ void DefineVerify(CLI::App& app, Action& action) {
   command->add_option("--sign", options->sign,
                       "Sign the run with this secret key if everything agrees (minisign -G -W)");
   command->add_option("--check", options->check,
-                      "Check its signature with this public key, or with a file of it (minisign)");
+                      "Check the run's signature with this public key, or with a file that holds the key (minisign)");
   AddSeedFile(*command, options->key_file);
   AddOutsideRules(*command, options->replay.outside);
   AddJobs(*command, options->replay.jobs);

@@ -152,7 +152,7 @@ Result<std::optional<BlindTrial>> MakeBlindTrial(const RunData& run, const Blind
   }
   if (shown.empty()) {
     return Fail({},
-                "in no world are the motions of two of these methods recorded: {}; etude run --keep motions, or the "
+                "no world has recorded motions of two of these methods: {}; etude run --keep motions, or the "
                 "key 'video', records them",
                 fmt::join(options.methods, ", "));
   }

@@ -100,7 +100,7 @@ void TakeScalesOut(ClipFile& file, const std::string& path, const OpenOptions& o
   if (!map) return;
   if (const auto ratio = UndoScales(file.clips, *map)) {
     file.remarks.push_back(fmt::format(
-        "removed scales of the frames that the rest pose does not have; they made the body {:.3g} times as tall",
+        "removed the frames' scales, which the rest pose does not have; they made the body {:.3g} times as tall",
         *ratio));
   }
 }
@@ -135,7 +135,7 @@ std::string DescribeSecondBody(const Skeleton& skeleton, const JointMap& map) {
   if (!second) return "";
   const auto at = std::ranges::find(place, (*second)[Role::kLeftHip].joint) - place.begin();
   return fmt::format(
-      "the file contains a second body, with the left hip {}; the body with {} is used (--map chooses another)",
+      "the file contains a second body, with the left hip {}; the body with {} is used (--joint-map chooses another)",
       Quote(skeleton.joints[static_cast<std::size_t>(at)].name),
       Quote(skeleton.joints[static_cast<std::size_t>(map[Role::kLeftHip].joint)].name));
 }

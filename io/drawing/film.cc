@@ -119,7 +119,7 @@ Result<std::span<const std::uint8_t>> FilmWorkers::Next() {
   RETURN_IF_ERROR(FeedAhead());
   const std::size_t worker = WorkerOf(next_);
   if (next_ >= frames_ || !ReceiveByte(workers_[worker].copy->socket()))
-    return Fail({}, "a drawing process has ended before its frames");
+    return Fail({}, "a drawing process ended before it had drawn its frames");
   ++next_;
   return SlotOf(worker, workers_[worker].taken).picture;
 }

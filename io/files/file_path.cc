@@ -100,7 +100,7 @@ Result<FileSpot> FileSpot::Find(const FilePath& path, bool makes_folders) {
   Walk walk = WalkDown(path.given(), path.below().parent_path(), makes_folders);
   if (walk.end.number() < 0) return WhyNot(walk, path, makes_folders);
   if (spot.name_.empty() || spot.name_ == "." || spot.name_ == "..") {
-    return Fail({path.string()}, "is no name of a file");
+    return Fail({path.string()}, "is not the name of a file");
   }
   spot.folder_ = std::move(walk.end);
   return spot;

@@ -81,6 +81,7 @@ double RatioOf(const std::string& text) {
 
 Result<FilmFacts> ProbeFilm(const std::filesystem::path& path, const std::string& program) {
   const Place place{.file = path.string()};
+  if (std::filesystem::is_directory(path)) return Fail(place, "is a folder; the name of a film is needed");
   if (!std::filesystem::is_regular_file(path)) return Fail(place, "no such file");
   // Ask for the size, the rates, the number of packets and the rotation of the first video stream.
   ASSIGN_OR_RETURN(

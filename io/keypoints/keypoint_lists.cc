@@ -66,7 +66,9 @@ Result<std::vector<Keypoint>> Triples(const Json* list, const Place& place) {
     for (std::size_t k = 0; k < 3; ++k) {
       const Json& number = (*list)[i + k];
       v[k] = number.is_number() ? number.get<double>() : std::nan("");
-      if (!(std::abs(v[k]) <= kMaxListedPixel)) return Fail(place, "a keypoint's number is {}", number.dump());
+      if (!(std::abs(v[k]) <= kMaxListedPixel)) {
+        return Fail(place, "a keypoint's number is {}; allowed: at most {:g}", number.dump(), kMaxListedPixel);
+      }
     }
     points.push_back({glm::dvec2(v[0], v[1]) + kHalfPixel, v[2]});
   }

@@ -60,7 +60,8 @@ Result<RealTake> ReadRealTake(std::string_view text, const std::string& file) {
   take.rate_hz = fields.Number("rate_hz", 0, {0.01, 1e6});
   const Node* distances = fields.Raw("distances");
   if (distances == nullptr || distances->items.empty()) {
-    fields.Complain(distances == nullptr ? node.place : distances->place, "'distances' needs one for some cameras");
+    fields.Complain(distances == nullptr ? node.place : distances->place,
+                    "'distances' is missing or empty; allowed: at least one, of some cameras");
   }
   if (take.recovery.empty()) fields.Complain(node.place, "'recovery' is missing");
   if (distances != nullptr) {

@@ -85,7 +85,7 @@ def _fitting(entries, task):
 def _refuse_unused(entries, tasks):
     for wanted, entry in entries:
         if wanted is not None and wanted not in tasks:
-            raise EtudeError(f"method '{entry['name']}' is of task '{wanted}'; the scenario has "
+            raise EtudeError(f"method '{entry['name']}' is of task '{wanted}'; the scenario's tasks are "
                              f"{', '.join(sorted(map(str, tasks)))}")
 
 
@@ -111,13 +111,14 @@ def _with_methods(name, text, entries):
     """Returns `text`, the text of a scenario, with `entries` added at the end of its list of methods. The rest of the
     text stays unchanged."""
     if re.search(r"^include:", text, re.MULTILINE):
-        raise EtudeError(f"{name}: includes another file, which a copy would not find: write the methods into it")
+        raise EtudeError(f"{name}: includes another file, which a copy would not find: write the methods into the "
+                         "scenario")
     if not entries:
         return text
     lines = text.splitlines(keepends=True)
     heads = [i for i, line in enumerate(lines) if re.match(r"methods:\s*(#.*)?$", line.rstrip("\n"))]
     if len(heads) != 1:
-        raise EtudeError(f"{name}: has no list of methods with a line each, to which others could be added")
+        raise EtudeError(f"{name}: has no list `methods` with one line per entry, to which methods could be added")
     # The list ends before the first line that is neither indented nor an entry.
     end = heads[0] + 1
     indent = None
@@ -153,7 +154,7 @@ def _with_metrics(name, text, entries):
         return text.rstrip("\n") + f"\nmetrics: [{added}]\n"
     listed = re.compile(r"^metrics:[ \t]*\[([^\[\]{}#]*)\]", re.MULTILINE).match(text, heads[0].start())
     if len(heads) > 1 or not listed:
-        raise EtudeError(f"{name}: has no list of metrics in brackets, to which others could be added")
+        raise EtudeError(f"{name}: its `metrics` is not one list in brackets, to which metrics could be added")
     names = listed[1].strip().rstrip(",")
     return text[:listed.start()] + f"metrics: [{names}{', ' if names else ''}{added}]" + text[listed.end():]
 

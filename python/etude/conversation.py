@@ -161,7 +161,7 @@ class Player:
         if self.spec.batch:
             answers = list(_call(self._function(), (asked,), **{**self._offered, "files": files}))
             if len(answers) != len(asked):
-                raise ValueError(f"{len(asked)} problems, but {len(answers)} answers")
+                raise ValueError(f"{self.spec.name} gave {len(answers)} answers to {len(asked)} problems")
             return [self._told(answer) for answer in answers]
         found = []
         for problem, folder in zip(asked, files):

@@ -4,5 +4,5 @@ try:
 except ImportError as error:
     if error.name != "etude_engine":
         raise  # it is installed, but one of its own imports is missing
-    raise ImportError("etude.engine is the module etude_engine: python3 -m build --wheel --no-isolation python/engine, then "
-                      "pip install the wheel") from error
+    raise ImportError("the module etude_engine is not installed: python3 -m build --wheel --no-isolation python/engine "
+                      "makes its wheel, for pip install") from error

@@ -27,7 +27,7 @@ def estimation(pairs, **named):
     if not isinstance(pairs, Pairs):
         pairs = pairs.pairs(**named)
     if not len(pairs):
-        raise EtudeError(f"no world in which both '{pairs.method_name}' and '{pairs.baseline_name}' have a value")
+        raise EtudeError(f"no world has values of both '{pairs.method_name}' and '{pairs.baseline_name}'")
     figure = Figure(figsize=(8, 3.6), layout="constrained")
     values, differences = figure.subplots(1, 2)
     # Dots are coloured by sampling unit, or by method if every world is its own unit.
@@ -122,7 +122,7 @@ def error_budget(run, *, scenario=None, condition=None, method=None):
             for budget in of.get("error_budgets", ()):
                 if condition in (None, condition_text(of["condition"])) and method in (None, budget["method"]):
                     return _waterfall(budget, run.metrics.get(budget["metric"]))
-    raise EtudeError("no error budget: methods of it differ in their `oracle` alone")
+    raise EtudeError("no error budget: it needs methods that differ in their `oracle` alone")
 
 
 def _waterfall(budget, metric):

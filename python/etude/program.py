@@ -19,8 +19,9 @@ class EtudeError(Exception):
     """An error that the program reported, or something that a run does not have.
 
     text: the error. place: the error's `file:line:column`, else "". exit_code: the program's exit code (1: a method has
-    no answer; 2: bad input, nothing was written; 3: this machine prevented it), None if the program did not run. said:
-    the program's whole output on standard error. run: the Run if the program wrote one nevertheless, else None.
+    no answer; 2: bad input, nothing was written; 3: the run is incomplete, or this machine prevented it), None if the
+    program did not run. said: the program's whole output on standard error. run: the Run if the program wrote one
+    nevertheless, else None.
     """
 
     def __init__(self, text, exit_code=None, said="", run=None):
@@ -110,8 +111,8 @@ def needed(module):
     except ModuleNotFoundError as error:
         if error.name != name:
             raise
-        raise ModuleNotFoundError(f"this needs {name}: pip install {name}, or Debian's python3-{name}, which a virtual environment "
-                                  "sees that was made by python3 -m venv --system-site-packages", name=name) from None
+        raise ModuleNotFoundError(f"this needs {name}: pip install {name}, or Debian's python3-{name}, which virtual "
+                                  "environments see if python3 -m venv --system-site-packages made them", name=name) from None
 
 
 def _tell(line, progress):

@@ -23,7 +23,7 @@ def load(folder, *, unsealed=False, program=None):
     if not (folder / "manifest.json").is_file():
         raise EtudeError(f"{folder}: is not a result folder: it has no manifest.json", 2)
     if not (folder / "summary.json").is_file():
-        raise EtudeError(f"{folder}: did not come to its end; etude.run(…, resume=True) continues it", 3)
+        raise EtudeError(f"{folder}: the run did not finish; etude.run(…, resume=True) continues it", 3)
     if not unsealed:
         call("cite", folder, program=program)
     return Run(folder, catalogue.metrics(program), catalogue.joints(program))
@@ -276,8 +276,8 @@ class Run:
         if name in methods and name != own:
             cell, own = f"{world}/{name}", name
         if cell not in recorded:
-            raise EtudeError(f"cell '{cell}' left no recording: the scenario's key `video`, or --keep motions, says which do"
-                             f"{nearest(cell, recorded)}; there are {', '.join(recorded) or 'none'}")
+            raise EtudeError(f"cell '{cell}' left no recording: the scenario's key `video`, or --keep motions, says which "
+                             f"cells leave one{nearest(cell, recorded)}; there are {', '.join(recorded) or 'none'}")
         path = self.folder / "recordings" / (cell.replace("/", "~") + ".json")
         told = json.loads(path.read_text(encoding="utf-8"))
         if told.get("recording") != 2:

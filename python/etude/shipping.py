@@ -124,8 +124,8 @@ class _Pieces:
         try:
             source = _source_of(thing)
         except (OSError, TypeError, SyntaxError):
-            raise ValueError(f"{whose} cannot be sent: the source of '{name}' is not known (it was typed where none is "
-                             "kept; put it into a file)") from None
+            raise ValueError(f"{whose} cannot be sent: the source of '{name}' is not known (it was typed where no "
+                             "source is kept; put it into a file)") from None
         self._seen[name] = thing
         for used in _names_used(source, whose):
             if used != name:
@@ -167,7 +167,7 @@ class _Pieces:
             self._seen[name] = value
             self._lines.append(f"{name} = {text}\n")
         else:
-            raise ValueError(f"{whose} uses '{name}', an open {type(value).__name__}, which cannot be sent: make it "
+            raise ValueError(f"{whose} uses '{name}', of type {type(value).__name__}, which cannot be sent: make it "
                              "within the method, or in a class's __init__, or read it from a file that its `files` lists")
 
     def _import(self, module, line):
@@ -254,8 +254,8 @@ def _find(thing, name, whose):
         except ValueError:
             return False, None
         if isinstance(value, (list, dict, set, bytearray)):
-            raise ValueError(f"{whose} uses '{name}', an open {type(value).__name__} of the function around it, which "
-                             "cannot be sent: what is put into it would be lost. A tuple can be sent; remember in a class")
+            raise ValueError(f"{whose} uses '{name}', a {type(value).__name__} of the function around it, which cannot "
+                             "be sent: its changes would be lost. Use a tuple, or remember it in a class")
         return True, value
     around = vars(sys.modules[thing.__module__]) if thing.__module__ in sys.modules else {}
     for function in _functions_of(thing):

@@ -126,7 +126,7 @@ Result<CapturePanel> CapturePanel::Make(const RunData& run, const ShownCell& cel
   const Place place{.file = "recording " + cell.row->Id()};
   const BodyMotion* truth = FindTrack(*cell.recording, "truth");
   const BodyMotion* recovered = FindTrack(*cell.recording, "recovered");
-  if (truth == nullptr || recovered == nullptr) return Fail(place, "it lacks the track truth or recovered");
+  if (truth == nullptr || recovered == nullptr) return Fail(place, "has no tracks 'truth' and 'recovered'");
   ASSIGN_OR_RETURN(auto extras, ReadCaptureExtras(cell.recording->extras_json));
 
   const std::size_t frames = truth->poses.size();

@@ -56,7 +56,7 @@ bool AreErrors(const std::vector<double>& values, std::size_t count) {
 Result<IkExtras> ExtrasOf(const Row& row, const Recording& recording) {
   const Place place{.file = "recording " + row.Id()};
   const BodyMotion* motion = FindTrack(recording, "solution");
-  if (motion == nullptr || motion->poses.empty()) return Fail(place, "it lacks the track solution");
+  if (motion == nullptr || motion->poses.empty()) return Fail(place, "has no track 'solution'");
   auto extras = ReadExtras<IkExtras>(recording.extras_json);
   if (!extras) return Fail(place, "its extras are {}", extras.error().message);
   const std::size_t count = motion->poses.size();
@@ -104,7 +104,7 @@ Result<IkRace> MakeRace(const std::array<RecordedCell, 2>& cells) {
   race.world = cells[0].World();
   const BodyMotion* truth = FindTrack(*cells[0].recording, "truth");
   if (truth == nullptr || truth->poses.empty()) {
-    return Fail({.file = "recording " + cells[0].row->Id()}, "it lacks the track truth");
+    return Fail({.file = "recording " + cells[0].row->Id()}, "has no track 'truth'");
   }
   race.truth = truth->poses.front();
   // The positions of the targets. Both methods solve the same world, so the targets are the same for both.
@@ -148,7 +148,8 @@ Result<IkRace> FindIkRace(const RunData& run, const ScenarioSummary& scenario) {
   const std::vector<RecordedCell> cells = RecordedCells(run, scenario);
   const std::vector<std::string> methods = MethodsOf(cells, scenario);
   // Check that two methods have recordings.
-  if (methods.empty()) return Fail(nowhere, "this run kept no recordings of this scenario (its key 'video')");
+  if (methods.empty())
+    return Fail(nowhere, "this run kept no recordings of this scenario, whose key 'video' selects them");
   if (methods.size() == 1) {
     return Fail(nowhere, "this run kept recordings of only one method; two in the same world are needed");
   }

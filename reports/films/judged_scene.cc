@@ -131,7 +131,7 @@ Result<JudgedSessionFacts> ReadJudgedSession(const RunData& run, const ShownCell
   facts.performances = PerformancesIn(extras, facts.seen);
   facts.judges.push_back(JudgeIn(extras, cell.row->method));
   RETURN_IF_ERROR(AddOtherJudges(run, cell, facts));
-  if (facts.performances.empty()) return Fail(place, "nothing was asked for");
+  if (facts.performances.empty()) return Fail(place, "no performance was requested");
   // Use the evidence curve (a score per frame) only if the curve has one value for every frame.
   const Series* score = FindSeries(run, *cell.row, "score");
   if (score != nullptr && score->values.size() == sensed->poses.size()) facts.evidence = score->values;

@@ -120,7 +120,7 @@ std::string FilmName(const RunData& run, std::size_t index, std::string_view wha
 /// impossible, the returned film states the reason.
 Film MakeSessionFilm(const std::optional<ShownCell>& cell, const std::string& which, const FilePath& path,
                      const MediaOptions& options) {
-  if (!cell) return NoFilm(path, "There is no film of a session: no motion of one was kept.");
+  if (!cell) return NoFilm(path, "There is no film of a session: this run kept no recording of one.");
   auto facts = ReadCoachedSession(*cell);
   const auto renderer = facts ? SharedRenderer() : Result<Renderer*>(nullptr);
   if (!facts || !renderer) {

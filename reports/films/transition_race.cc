@@ -85,9 +85,9 @@ Result<TransitionRace> FindTransitionRace(const RunData& run, const ScenarioSumm
     shown = candidates;
   }
   if (worlds.empty()) {
-    return Fail({}, "this run kept no recordings of transitions of this scenario (its key 'video')");
+    return Fail({}, "this run kept no recordings of transitions of this scenario, whose key 'video' selects them");
   }
-  if (shown < 2) return Fail({}, "in no world are two methods with a transition recorded");
+  if (shown < 2) return Fail({}, "no world has recordings of two methods with a transition");
   TransitionRace race = RaceIn(*best, scenario, scenario.methods);
   race.choice = fmt::format("the first world in which the most methods have a transition, of {}",
                             Plural(static_cast<long long>(worlds.size()), "recorded world"));

@@ -172,8 +172,8 @@ Table PaperTerms() {
 }
 
 constexpr std::string_view kMisprints =
-    "Repaired misprints: equation 9 (printed a second “sit”, meant is “stand”); the distance is equation 1 (the text "
-    "says 7); “hands (RF, LF, RFK, LFK)” are RH, LH, RHE, LHE.";
+    "Repaired misprints: equation 9 (printed as a second “sit”; “stand” is meant); the distance is equation 1 (the "
+    "text says 7); “hands (RF, LF, RFK, LFK)” are RH, LH, RHE, LHE.";
 
 }  // namespace
 
@@ -196,7 +196,7 @@ const std::vector<PaperAFigure>& PaperAFigures() {
       {8,
        kTrunk,
        "trunk bent",
-       "180 degrees less the lean",
+       "180 degrees minus the lean",
        {12, 11},
        "The grades do not sum to 1; they are as printed."},
       {9, kRF, "leg spread", "degrees between thigh and down", {13, 14}, ""},

@@ -222,8 +222,7 @@ std::string WhatItDoes(const Beyond& beyond, const LeftOut& extreme, double prac
   if (!matters && std::abs(extreme.difference) >= practical) {
     return fmt::format("this {} hides a difference that matters", OneOf(unit));
   }
-  return fmt::format("that it {} does not depend on any single {}", matters ? "matters" : "does not matter",
-                     OneOf(unit));
+  return fmt::format("no single {} decides whether it matters", OneOf(unit));
 }
 
 double PracticalOf(const Comparison& c) {

@@ -27,9 +27,11 @@ struct Censored {
   std::string_view metric;
   std::string_view done;   ///< a metric that is 1 if the event happened; "" if every value means that it happened
   std::string_view share;  ///< label of the vertical axis, which shows a share of the cells
+  std::string_view never;  ///< name of the cells in which the event never happened
 };
 constexpr std::array<Censored, 2> kCensored = {
-    {{"iterations", "solved_practical", "worlds not yet solved"}, {"wait_s", "", "requests still waiting"}}};
+    {{"iterations", "solved_practical", "worlds not yet solved", "Worlds that were never solved"},
+     {"wait_s", "", "requests still waiting", "Requests without a transition"}}};
 
 /// Returns the time until the event happened in the cell, infinite if the event never happened; nullopt for a skipped
 /// cell.
@@ -95,10 +97,10 @@ std::string PanelOf(const RunData& run, const ScenarioSummary& scenario, const C
   const std::string condition_label = ConditionLabel(condition.condition);
   const MetricWords words = WordsFor(std::string(rule.metric));
   return fmt::format(
-      "<figure><figcaption>{}{}: {}, per cent, by {}{}. Worlds that were never solved stay in the "
+      "<figure><figcaption>{}{}: {}, per cent, by {}{}. {} stay in the "
       "denominator.</figcaption>{}{}{}{}</svg></figure>",
       EscapeMarkup(condition_label), condition_label.empty() ? "How long it takes" : "", rule.share,
-      EscapeMarkup(words.plain_label), words.suffix.empty() ? "" : " (" + words.suffix.substr(1) + ")",
+      EscapeMarkup(words.plain_label), words.suffix.empty() ? "" : " (" + words.suffix.substr(1) + ")", rule.never,
       BeginPanel(kCurveHeight, described), VerticalAxisGrid(share), HorizontalAxisGrid(time, kCurveTop, kCurveBottom),
       lines);
 }

@@ -155,8 +155,9 @@ void AddMethod(const ScenarioSummary& scenario, std::size_t method, const Method
   }
   if (const auto at = OperatedAt(events)) {
     curves.operated[method] = *at;
-    told += fmt::format("; praises {:.0f} % of the right and {:.0f} % of the wrong; best F1 of any threshold {:.2f}",
-                        100 * at->second, 100 * at->first, *BestF1(events));
+    told += fmt::format(
+        "; calls right {:.0f} % of the right and {:.0f} % of the wrong performances; best F1 of any threshold {:.2f}",
+        100 * at->second, 100 * at->first, *BestF1(events));
   }
   if (const SharePoints by_severity = FoundBySeverity(verdicts.performances); by_severity.size() > 1) {
     curves.found[method] = by_severity;

@@ -297,9 +297,9 @@ class Writer {
   int Add(const std::string& method, const DetectionExtras& extras) {
     for (const DetectionExtras::Event& event : extras.events) {
       Mark("danced", event.begin_frame, event.end_frame, event.truth, Performed(event.move, event.truth, event.fault));
-      MarkJudgement(
-          method, event.called_frame.value_or(event.end_frame), event.truth, event.called_right,
-          fmt::format("{}: {}, score {:.2f}", event.move, event.called_right ? "praised" : "not praised", event.score));
+      MarkJudgement(method, event.called_frame.value_or(event.end_frame), event.truth, event.called_right,
+                    fmt::format("{}: {}, score {:.2f}", event.move,
+                                event.called_right ? "called right" : "called wrong", event.score));
     }
     for (const DetectionExtras::Alarm& alarm : extras.alarms) {
       Mark(method, alarm.frame, alarm.frame, "miss", "false alarm: " + alarm.move);

@@ -91,7 +91,7 @@ class Blind(EtudeCase):
         bare = self.folder / "bare"
         self.ends(0, "run", self.write("bare.yaml", SCENARIO.rsplit("video", 1)[0]), "-o", bare)
         self.refusal("report", bare, "--blind", "abrupt-one", "faded-one",
-                     says="in no world are the motions of two of these methods recorded: abrupt-one, faded-one")
+                     says="no world has recorded motions of two of these methods: abrupt-one, faded-one")
 
     @unittest.skipUnless(shutil.which("ffmpeg"), "without ffmpeg")
     def test_a_side_is_empty_where_its_motion_is_not_recorded(self):

@@ -114,7 +114,7 @@ class Capture(EtudeCase):
 
     def test_refuses_what_is_no_calibration(self):
         self.rig.unlink()
-        self.assertIn("--size ''; needed", self.refusal("calibrate", self.pairs, "-o", self.rig))
+        self.assertIn("--size '': not a size", self.refusal("calibrate", self.pairs, "-o", self.rig))
         five = self.write("five.csv", "camera,x,y,z,u,v\n" + "a,1,2,3,4,5\n" * 5)
         self.assertIn("camera a: cannot calibrate a camera: 5 point pairs; at least 6",
                       self.refusal("calibrate", five, "--size", "640x480", "-o", self.rig))
@@ -149,7 +149,7 @@ class Capture(EtudeCase):
         said = self.ends(0, "calibrate", written(bad), "--size", size, "--lens", "none", "--overwrite", "-o", self.rig).stdout
         self.assertRegex(said, r"pair 5 disagrees with the others, which place \(.*\) 1[0-4]\.\d px from its pixel")
         millimetres = self.ends(0, "calibrate", written(noisy, 1000), "--size", size, "--lens", "none", "--overwrite", "-o", self.rig).stdout
-        self.assertRegex(millimetres, r"middle: \d{4} m from its first point; points are metres: are these millimetres\?")
+        self.assertRegex(millimetres, r"middle: the camera is \d{4} m from its first point; points must be in metres: are they in millimetres\?")
         self.assertRegex(self.refusal("calibrate", self.pairs, "--size", "160x120", "--overwrite", "-o", self.rig),
                          r"camera left: the pixel \(.*\) is outside of its picture of 160x120; is the size right\?")
 
@@ -257,7 +257,7 @@ class Capture(EtudeCase):
         alone = ["capture", "--rig", self.rig, *still, "--silhouettes", "-o", self.folder / "m.bvh"]
         self.assertIn("there is no frame in which two films show a moving person", self.refusal(*alone))
         self.assertIn("no keypoints to write", self.refusal(*alone, "--points", self.folder / "p.trc"))
-        self.assertIn("20 frames, the film", self.refusal(*alone, "--keypoints", self.keypoints))
+        self.assertIn("20 frames, but the film", self.refusal(*alone, "--keypoints", self.keypoints))
         self.assertIn("--stature requires --silhouettes", self.refusal(*self.capture("-o", "m.bvh", "--stature", "1.8")))
         rooms = self.folder / "rooms"
         rooms.mkdir()
@@ -292,7 +292,7 @@ class Capture(EtudeCase):
         self.assertIn("30 frames a second", self.refusal(*self.capture("-o", out, films=film("slow", "320x240", 25, FRAMES))))
         self.assertIn("20 frames", self.refusal(*self.capture("-o", out, films=film("short", "320x240", RATE, 18))))
         (self.keypoints / "left_json" / "left_19.json").unlink()
-        self.assertIn("19 frames, the film", self.refusal(*self.capture("-o", out)))
+        self.assertIn("19 frames, but the film", self.refusal(*self.capture("-o", out)))
         (self.keypoints / "left_json" / "left_4.json").write_text('{"people": [{"pose_keypoints_2d": [1, 2]}]}')
         self.assertIn("left_4.json: not a list of keypoints", self.refusal(*self.capture("-o", out)))
         self.assertFalse(out.exists(), "nothing is written")

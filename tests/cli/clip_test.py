@@ -170,7 +170,7 @@ class Convert(Clips):
         self.refuses("convert", WALK, self.folder, says=["is a folder"])
         for name, make in (("pipe.bvh", os.mkfifo), ("link.bvh", lambda link: os.symlink("nowhere.bvh", link))):
             make(self.folder / name)
-        self.refuses("convert", WALK, self.folder / "pipe.bvh", "--overwrite", says=["exists and is not a file"])
+        self.refuses("convert", WALK, self.folder / "pipe.bvh", "--overwrite", says=["is a device, pipe or socket"])
         self.refuses("convert", WALK, self.folder / "link.bvh", says=["already exists"])
         for name in ("pipe.bvh", "link.bvh"):
             (self.folder / name).unlink()

@@ -49,7 +49,7 @@ class Crowd(EtudeCase):
         for arguments, says in ((("--characters", "0"), "--characters"),
                                 (("--seconds", "0.05"), "--seconds: 0.05 s at 60 Hz are 3 frames; allowed: 4 or more"),
                                 (("--seconds", "nan"), "--seconds"),
-                                (("-o", self.folder / "crowd.gif"), "is not the name of such a file; allowed: .mp4")):
+                                (("-o", self.folder / "crowd.gif"), "has the wrong ending; allowed: .mp4")):
             self.refusal("crowd", *arguments, says=says)
         self.assertFalse((self.folder / "crowd.gif").exists())
 

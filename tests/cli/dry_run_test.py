@@ -31,7 +31,7 @@ class DryRun(EtudeCase):
     def test_counts_cells_and_what_could_be_shown(self):
         clips = ["builtin:clap", "builtin:boxing", "builtin:robot", "builtin:sway", "builtin:stretch", "builtin:side_kick"]
         told = self.tell(clips)
-        self.assertTrue(told.endswith("The time is an estimate: the costs of s are not known, so its first worlds were measured just now.\n"))
+        self.assertTrue(told.endswith("The time is an estimate: the costs of s are not known, so the first worlds were measured just now.\n"))
         self.assertIn("1 condition × 8 worlds × 2 methods = 16 cells", told)
         # For 8 pairs, (t(0.975) + t(0.8)) / √8 = 1.15, where t has 7 degrees of freedom; likewise for 6 clips.
         self.assertIn("1 comparison shows a mean difference of 1.15 or more standard deviations of the worlds' differences", told)
@@ -113,7 +113,7 @@ class DryRun(EtudeCase):
         self.assertEqual(self.facts("quick/ik", "--trials", 7)["scenarios"][0]["worlds_needed"], 8)
         # The control: 14 worlds are enough for each of 50 comparisons, because 2 / 2ⁿ ≤ 0.05 / 50 needs 11 worlds.
         self.assertNotIn("possible", self.etude("run", "quick/ik", "--trials", 14, "--dry-run").stdout)
-        self.assertIn("with fewer than 11 worlds, none of 50 comparisons can be better or worse",
+        self.assertIn("with fewer than 11 worlds, values cannot show better or worse in 50 comparisons",
                       self.etude("run", "quick/ik", "--trials", 9, "--dry-run").stdout)
 
 

@@ -89,7 +89,7 @@ class Forecast(EtudeCase):
                 ([four, "--calibration", "5,0.1"], "--calibration"),
                 ([self.write("rig.txt", "cameras?")], "rig.txt: not a calibration"),
                 ([self.write("mm.yaml", rig([[1000 * x for x in place] for place in CORNERS]))], "m apart; allowed: 0.03 to 100 m, or give the unit by --rig-unit"),
-                *(([four, f"--{option}", self.folder / "a.jpg"], f"a.jpg: is not the name of such a file; allowed: {ending}")
+                *(([four, f"--{option}", self.folder / "a.jpg"], f"a.jpg: has the wrong ending; allowed: {ending}")
                   for option, ending in (("picture", ".png"), ("table", ".csv"), ("report", ".html")))):
             with self.subTest(words):
                 refused = self.etude("forecast", *arguments)

@@ -495,7 +495,7 @@ class Formats(MotionFileCase):
             path.write_bytes(whole)
             edit_glb(path, scale)
             note = self.info(path)["clips"][0]["body"]["note"]
-            self.assertIn(f"removed scales of the frames that the rest pose does not have; they made the body {factor:g} times as tall", note)
+            self.assertIn(f"removed the frames' scales, which the rest pose does not have; they made the body {factor:g} times as tall", note)
             for a, b in zip(before, self.joints(path)):
                 for name in a:
                     numpy.testing.assert_allclose(b[name], a[name], atol=1e-6, err_msg=f"{factor} {name}")

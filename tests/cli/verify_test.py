@@ -157,7 +157,7 @@ class Verify(EtudeCase):
             self.assertEqual((missed["method"], missed["forged"], missed["cells"]), (method, forged, cells))
             self.assertAlmostEqual(missed["chance"], math.comb(20 - forged, 7) / math.comb(20, 7), 12)
         said = self.verify("--sample", 7, "--sample-seed", 5, expect=0)
-        self.assertIn("65 % of forgers who change 5 % of the 20 cells (1), 1 in 12 of forgers who change half of ik/fixed (5)", said)
+        self.assertIn("65 % of the forgers who change 5 % of the 20 cells (1), 1 in 12 of the forgers who change half of ik/fixed (5)", said)
         self.assertIn("--sample-seed 5 draws this sample again", said)
         self.assertEqual(self.facts("verify", self.out, "--sample", "all")["sample"]["missed"], [])
         self.assertIn("'some' is not a sample; allowed: 0 to 10000000, or 'all'", self.verify("--sample", "some", expect=2))

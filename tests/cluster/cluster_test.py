@@ -142,9 +142,9 @@ class Cluster(unittest.TestCase):
             ("-n", "4", "nowhere.yaml"): "no scenario 'nowhere.yaml'",
             ("-n", "4", "quic"): "no scenario 'quic'",
             ("-n", "4", "quick/i"): "no scenario 'quick/i'",
-            ("-n", "4", "quick", "full/ik_weights", "--jobs", "2"): "--jobs: the array gives that itself",
+            ("-n", "4", "quick", "full/ik_weights", "--jobs", "2"): "--jobs: the job array sets this option itself",
             ("-n", "4", "--seed", "2", SUITE): "options of the run come after SCENARIO",
-            ("-n", "4", SUITE, "--jobs", "2"): "--jobs: the array gives that itself",
+            ("-n", "4", SUITE, "--jobs", "2"): "--jobs: the job array sets this option itself",
             ("-n", "4", "-o", str(SCRIPTS), SUITE): "exists already",
         }.items():
             result = run(SCRIPTS / "cluster/submit", *arguments)

@@ -162,8 +162,8 @@ class Figures(unittest.TestCase):
         self.assert_flagged("<!-- figures -->\n" + right + "<!-- end of figures -->\n", "README.md:2: a table is not of three seeds")
         for old, new, complaint in [("5.0", "5.1", "README.md:8: 5.1 is 5.0 in quick: s/n=2/a/jump_cm"),
                                     ("3 and −1 of 4", "3", "the cell '3' has 1 numbers for 2 results"),
-                                    ("| 7 |", "| 7 | 7 |", "a row of 4 cells is given 3 columns"),
-                                    ("| - | a/solved", "| a/solved", "a table of 3 rows is given 2"),
+                                    ("| 7 |", "| 7 | 7 |", "a row has 4 cells, its directive 3 columns"),
+                                    ("| - | a/solved", "| a/solved", "a table has 3 rows, its directive 2"),
                                     ("columns: n=1", "columns: n=3", "no jump_cm of a under n=3 in s"),
                                     ("<!-- end -->", "", "a <!-- table: is not written as")]:
             with self.subTest(complaint):
@@ -199,7 +199,7 @@ class Figures(unittest.TestCase):
         self.assert_flagged(self.LARGE, "no scenarios/baselines/large.json")
         code, output = self.figures("--take", "large", run)
         self.assertEqual(code, 0, output)
-        self.assert_flagged(self.LARGE, "README.md:7: the age of its results is another now")
+        self.assert_flagged(self.LARGE, "README.md:7: the age of its results is out of date")
         self.figures("--write")
         text = (self.root / "README.md").read_text()
         self.assert_right(text)
@@ -231,8 +231,8 @@ class Figures(unittest.TestCase):
                 now = (self.root / "README.md").read_text()
                 self.assertIn(says or page, now)
                 self.assertEqual(self.figures()[0], 0)
-        self.assert_flagged(now.split("<!-- age")[0], "binds large and does not say once how old they are")
-        self.assert_flagged(now + now[now.index("<!-- age"):], "binds large and does not say once how old they are")
+        self.assert_flagged(now.split("<!-- age")[0], "binds large and must have exactly one <!-- age -->")
+        self.assert_flagged(now + now[now.index("<!-- age"):], "binds large and must have exactly one <!-- age -->")
 
 
 if __name__ == "__main__":

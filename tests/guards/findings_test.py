@@ -90,17 +90,17 @@ class Findings(unittest.TestCase):
         self.let(broken="")
         code, output = self.findings("transition-acts")
         self.assertEqual(code, 2)
-        self.assertIn("transition_acts.yaml did not end", output)
+        self.assertIn("transition_acts.yaml did not finish", output)
         self.assertEqual((self.root / "docs/figures/transition-acts.json").read_text(), before)
 
     def test_probe_the_stages_of_the_first_world(self):
-        self.assertIn("kept before stages were", self.findings("--probe", "transition-acts")[1])
+        self.assertIn("stored without digests of stages", self.findings("--probe", "transition-acts")[1])
         self.findings("transition-acts")
         self.assertEqual(self.findings("--probe", "transition-acts")[0], 0)
         self.let(stage="another")
         code, output = self.findings("--probe", "transition-acts")
         self.assertEqual(code, 1)
-        self.assertIn("transition-acts: transition-acts: its stages come to something else", output)
+        self.assertIn("transition-acts: transition-acts: its stages have other digests", output)
 
     def test_list_tables_and_refuse_unknown_ones(self):
         code, output = self.findings("--list", "transition-acts")

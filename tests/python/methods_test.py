@@ -114,7 +114,7 @@ class Shipped(PythonCase):
 
         appends, counts, _ = make([], 1.0)
         lambdas = etude.method(task="ik")(lambda problem: problem.start_angles_deg)
-        for method, says in ((reads, "uses 'opened', an open TextIOWrapper"), (appends, "uses 'kept', an open list"),
+        for method, says in ((reads, "uses 'opened', of type TextIOWrapper"), (appends, "uses 'kept', a list"),
                              (counts, "nonlocal 'count'.*remember it in a class"),
                              (misses, "'not_there', which is not def"),
                              (lambdas, "is a lambda")):
@@ -198,7 +198,7 @@ class Metrics(PythonCase):
             kept.append(cell)
             return len(kept)
 
-        with self.assertRaisesRegex(ValueError, "metric 'sums' uses 'kept', an open list"):
+        with self.assertRaisesRegex(ValueError, "metric 'sums' uses 'kept', a list"):
             shipping.ship(sums)
         self.assertNotEqual(shipping.ship(first_m)["exec"][1].split("/")[-3], "methods")
         with self.assertRaisesRegex(TypeError, "is not a metric"):
@@ -281,7 +281,7 @@ class Runs(PythonCase):
         said, _ = child.communicate(timeout=60)
         self.assertIn("interrupted: etude: ", said)
         self.assertIn("--resume", said)
-        with self.assertRaisesRegex(etude.EtudeError, "did not come to its end"):
+        with self.assertRaisesRegex(etude.EtudeError, "the run did not finish"):
             etude.load(self.folder / "slow")
 
     def test_methods_go_to_the_end_of_a_scenario_s_list(self):

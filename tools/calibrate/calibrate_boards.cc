@@ -91,8 +91,9 @@ Result<std::vector<TargetView>> SynchroniseFilms(const CalibrateOptions& options
                     seen[i].name, kMs * std::abs(delay_s), std::abs(delay_s) / seen[i].period_s * seen[i].every,
                     delay_s > 0 ? "later" : "earlier", seen.front().name));
     if (std::abs(delay_s) > max_delay_s - 0.5 * period_s.front()) {
-      options.listener.print(fmt::format(
-          "doubtful: this is the end of the searched range; --sync {:.1f} searches further\n", 2 * max_delay_s + 0.1));
+      options.listener.print(
+          fmt::format("doubtful: this delay is at the end of the searched range; --sync {:.1f} searches further\n",
+                      2 * max_delay_s + 0.1));
     }
   }
   if (steps.after_px < steps.before_px) {
@@ -179,7 +180,7 @@ Result<void> CompareBeside(const CalibrateOptions& options, const RefinedRig& ri
     if (same == theirs.end() && !NumberAtEnd(own.name).empty()) {
       same = std::ranges::find(theirs, NumberAtEnd(own.name), [](const NamedCamera& c) { return NumberAtEnd(c.name); });
     }
-    if (same == theirs.end()) return Fail({file}, "no camera {}, by name or by number", own.name);
+    if (same == theirs.end()) return Fail({file}, "has no camera {}, neither by name nor by number", own.name);
     cameras.push_back(same->camera);
   }
   // Find the boards' poses with the other calibration, then compare intrinsics, residuals and distances of cameras.

@@ -49,7 +49,8 @@ Result<Board> ReadCodedBoard(const std::string& text) {
                         IsWholeWithin(first->front(), 0, kCodeCount);
   if (!is_board) {
     return Fail({},
-                "--board {}: not a board; allowed: 3 to {} squares a side and their metres, as 8x8x0.2 or 8x8x0.2@32",
+                "--board {}: not a board; allowed: 3 to {} squares along each side, and a square's side in metres, as "
+                "8x8x0.2 or 8x8x0.2@32",
                 text, kMaxSquares);
   }
   const Board board{.columns = static_cast<int>((*numbers)[0]),
@@ -57,7 +58,7 @@ Result<Board> ReadCodedBoard(const std::string& text) {
                     .square = (*numbers)[2],
                     .first_code = static_cast<int>(first->front())};
   if (board.first_code + CountCodes(board) > kCodeCount) {
-    return Fail({}, "--board {}: it takes codes {} to {}; allowed: below {}", text, board.first_code,
+    return Fail({}, "--board {}: it takes codes {} to {}; allowed: codes below {}", text, board.first_code,
                 board.first_code + CountCodes(board) - 1, kCodeCount);
   }
   return board;
@@ -78,7 +79,7 @@ Result<void> SetSize(const std::string& text, std::vector<CameraPairs>& cameras)
     if (camera.width > 0) continue;
     const auto size = NumbersByX(text);
     if (!size || size->size() != 2 || !IsWholeWithin((*size)[0], 1, 65536) || !IsWholeWithin((*size)[1], 1, 65536)) {
-      return Fail({}, "--size '{}'; needed with point pairs as CSV: the pictures' width and height, as 1920x1080",
+      return Fail({}, "--size '{}': not a size; point pairs as CSV need the pictures' width and height, as 1920x1080",
                   text);
     }
     camera.width = static_cast<int>((*size)[0]);
@@ -165,8 +166,10 @@ Result<Calibrated> FromPairs(const CalibrateOptions& options) {
     const double distance = glm::distance(rig.cameras.back().camera.p_WC, of.pairs.front().world);
     constexpr double kFar_m = 500;
     if (distance > kFar_m) {
-      options.listener.print(fmt::format("{}: {:.0f} m from its first point; points are metres: are these millimetres?\n",
-                                         of.name, distance));
+      options.listener.print(
+          fmt::format("{}: the camera is {:.0f} m from its first point; points must be in metres: are they in "
+                      "millimetres?\n",
+                      of.name, distance));
     }
   }
   return rig;
@@ -190,7 +193,7 @@ std::string TextOf(const Calibrated& rig) {
     };
     text += fmt::format("  focal lengths    {}, {} px   principal point {}, {} px{}\n", with(in.fx, s ? s->fx : 0),
                         with(in.fy, s ? s->fy : 0), with(in.cx, s ? s->cx : 0), with(in.cy, s ? s->cy : 0),
-                        s ? "   (± for 95 of 100)" : "");
+                        s ? "   (±: 95 % interval)" : "");
     if (!d.IsNone())
       text += fmt::format("  lens             k1 {:.5f}  k2 {:.5f}  p1 {:.6f}  p2 {:.6f}  k3 {:.5f}\n", d.k1, d.k2, d.p1, d.p2,
                  d.k3);

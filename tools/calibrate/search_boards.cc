@@ -115,7 +115,8 @@ Result<BoardViews> SearchFor(const CalibrateOptions& options) {
   }
   ASSIGN_OR_RETURN(const PrintedBoard board, *printed);
   if (options.boards.size() > 1)
-    return Fail({}, "--board: one chessboard or ChArUco board; there are {}", options.boards.size());
+    return Fail({}, "--board: found {} boards; allowed: one, if it is a chessboard or ChArUco board",
+                options.boards.size());
   if (!board.is_charuco && (board.columns + board.rows) % 2 == 0 && options.inputs.size() > 1) {
     return Fail({},
                 "--board {}: it looks the same when turned by 180°, so two cameras cannot be related; allowed: an odd "

@@ -27,13 +27,13 @@ Result<SeenPeople> ReadPeople(const CaptureFilmsOptions& options, FilmedView& vi
   if (!film.doubt.empty()) told.Tell(fmt::format("doubtful: {}: {}", entry.filename().string(), film.doubt));
   // Check that the file has the film's number of frames and, up to a rotation by 90°, the film's picture size.
   if (film.frames.size() != static_cast<std::size_t>(view.facts.frames)) {
-    return Fail({entry.string()}, "{} frames, the film {} {}", film.frames.size(), view.path.string(),
+    return Fail({entry.string()}, "{} frames, but the film {} has {}", film.frames.size(), view.path.string(),
                 view.facts.frames);
   }
   const bool is_turned = film.width == view.facts.height && film.height == view.facts.width;
   if (film.width != 0 && !is_turned && (film.width != view.facts.width || film.height != view.facts.height)) {
-    return Fail({entry.string()}, "made on pictures of {} x {} pixels; the film has {} x {}", film.width, film.height,
-                view.facts.width, view.facts.height);
+    return Fail({entry.string()}, "made from pictures of {} x {} pixels, but the film has {} x {}", film.width,
+                film.height, view.facts.width, view.facts.height);
   }
   view.is_sized = film.width != 0;
   return std::move(film.frames);

@@ -75,9 +75,10 @@ Result<ReducedTake> ReadTake(const CaptureFilmsOptions& options, const std::vect
   std::size_t pictures = 0;
   for (const FilmedView& view : views) pictures += view.facts.frames;
   if (pictures > kMaxPictures) {
-    return Fail({views.front().path.string()},
-                "{} films of {} frames in all; at most {} pictures are held in memory, that is {} frames of each",
-                views.size(), pictures, kMaxPictures, kMaxPictures / views.size());
+    return Fail(
+        {views.front().path.string()},
+        "{} films have {} frames in all; allowed: at most {} pictures in memory, that is {} frames of each film",
+        views.size(), pictures, kMaxPictures, kMaxPictures / views.size());
   }
   ReducedTake take;
   // Read each film's masks, or its pictures and the picture of the empty room, at the times of the first film's frames.

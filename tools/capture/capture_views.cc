@@ -45,7 +45,7 @@ Result<NamedCamera> CameraOfFilm(const CaptureFilmsOptions& options, const std::
   for (const NamedCamera& camera : rig) {
     if (Bare(camera.name) == Bare(wanted)) return camera;
   }
-  if (!options.cameras.empty()) return Fail({options.rig}, "no camera {}; there are {}", wanted, NamesOf(rig));
+  if (!options.cameras.empty()) return Fail({options.rig}, "has no camera {}; it has {}", wanted, NamesOf(rig));
   return Fail({options.films[film]}, "the rig has no camera of that name; it has {}. Name the cameras by --cameras",
               NamesOf(rig));
 }
@@ -116,7 +116,7 @@ Result<void> CheckTogether(const std::vector<FilmedView>& views, bool may_differ
   const FilmedView& first = views.front();
   for (const FilmedView& view : views) {
     if (!(view.facts.rate_hz > 0)) {
-      return Fail({view.path.string()}, "it does not state its frame rate");
+      return Fail({view.path.string()}, "does not state its frame rate");
     }
     if (may_differ_in_time) continue;
     const bool is_one_rate = std::abs(view.facts.rate_hz - first.facts.rate_hz) <= kSameRateTolerance * first.facts.rate_hz;
@@ -244,9 +244,9 @@ MarkerMotion SynchroniseWith(const MarkerMotion& motion, MarkerMotion reference,
     const bool is_mended = clock && clock->after < 0.5 * clock->before;
     std::string said = "; no marker of both shows how their clocks drift apart";
     if (clock) {
-      said =
-          fmt::format(": {:+.2f} frames of drift measured, {:+.2f} in the middle{}", clock->DriftOver(frames),
-                      clock->at + 0.5 * clock->DriftOver(frames), is_mended ? "; undone" : ", too little to correct");
+      said = fmt::format(": {:+.2f} frames of drift measured, {:+.2f} in the middle{}", clock->DriftOver(frames),
+                         clock->at + 0.5 * clock->DriftOver(frames),
+                         is_mended ? "; corrected" : ", too little to correct");
     }
     told.Tell(fmt::format("reference: {:g} frames per second, films {:g}, taken as the same rate{}", own_rate,
                           motion.rate_hz, said));

@@ -141,7 +141,7 @@ Result<std::vector<Mask>> ReadMasks(const std::string& folder, std::optional<int
   if (static_cast<std::size_t>(empty) == masks.size()) {
     return Fail({entry.string()}, "no mask shows a person: {}",
                 ids.empty() ? "all pixels are 0"
-                : id        ? fmt::format("there is no --mask-id {}, but {}", *id, Join(ids))
+                : id        ? fmt::format("no pixel has the value {} of --mask-id; found: {}", *id, Join(ids))
                             : fmt::format("the largest value is {}; allowed: 1, 255, shades from 128 on", largest));
   }
   // Report suspicious masks.

@@ -121,7 +121,7 @@
     const film = article.querySelector('.film') ?? document.querySelector('.film');
     if (film && cells.some((id) => kept.includes(id))) {
       film.id ||= 'film-of-' + article.id;
-      card.append(make('a', 'It was recorded: to the film', {href: '#' + film.id, onclick: () => film.closest('details')?.setAttribute('open', '')}));
+      card.append(make('a', 'Recorded: go to the film', {href: '#' + film.id, onclick: () => film.closest('details')?.setAttribute('open', '')}));
     }
     const end = button('×', 'Close', close);
     card.append(end);

@@ -92,8 +92,9 @@ TEST_F(OpenClipTest, AnimationsOfOneNameAndASecondBodyAreSaid) {
   source.clip = pair;
   const auto both = UnderstandClip(source, {});
   ASSERT_TRUE(both) << ToString(both.error());
-  EXPECT_THAT(both->body.doubts, ElementsAre("the file contains a second body, with the left hip "
-                                             "'left_hip#2'; the body with 'left_hip' is used (--map chooses another)"));
+  EXPECT_THAT(both->body.doubts,
+              ElementsAre("the file contains a second body, with the left hip "
+                          "'left_hip#2'; the body with 'left_hip' is used (--joint-map chooses another)"));
 }
 
 TEST_F(OpenClipTest, AnAnimationIsChosenByNameOrByItsEnd) {

@@ -93,7 +93,7 @@ TEST_F(ReadMasksTest, OfSeveralPeopleNeedTheNumberOfOne) {
   EXPECT_THAT(Reason(), HasSubstr("masks of several people or things: 1, 2; choose one by --mask-id"));
   ASSERT_OK(second, Read(2));
   EXPECT_EQ(std::ranges::count((*second)[0].pixels, 1), 2 * 40);
-  EXPECT_THAT(Reason(3), HasSubstr("there is no --mask-id 3, but 1, 2"));
+  EXPECT_THAT(Reason(3), HasSubstr("no pixel has the value 3 of --mask-id; found: 1, 2"));
 }
 
 TEST_F(ReadMasksTest, SayWhatLooksWrong) {
