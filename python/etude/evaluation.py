@@ -43,7 +43,7 @@ def evaluate(truth=None, *, names=None, rate_hz=None, pairs=None, joints=None, p
         if names is None or rate_hz is None:
             raise TypeError(f"the array of {name} needs names and rate_hz")
         if not re.fullmatch(r"[A-Za-z0-9_][A-Za-z0-9_.-]*", name):
-            raise ValueError(f"{name!r} is no name of a method")  # the name becomes a file name
+            raise ValueError(f"{name!r} is not the name of a method; allowed: letters, digits, '_', '.', '-'")
         content = _npz(motion, list(names), rate_hz, {"unit": unit, "up": up}, name)
         path = pathlib.Path(f"{output}.motions") / f"{name}.npz"
         path.parent.mkdir(parents=True, exist_ok=True)

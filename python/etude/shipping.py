@@ -216,8 +216,8 @@ def _names_used(source, whose):
     try:
         look(symtable.symtable(source, "method", "exec"))
     except SyntaxError as error:  # `nonlocal` names a variable outside the source
-        raise ValueError(f"{whose} cannot be sent by its source: {error}. A state of the function around it is open: "
-                         "remember it in a class") from None
+        raise ValueError(f"{whose} cannot be sent by its source: {error}. It changes a variable of the function around "
+                         "it: remember it in a class") from None
     found.pop("__class__", None)
     return list(found)
 
