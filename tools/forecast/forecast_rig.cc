@@ -64,7 +64,9 @@ Result<glm::dvec2> MiddleOf(const std::vector<NamedCamera>& cameras, const std::
   // direction by less than about 2° (root mean square).
   constexpr double kParallel = 1e-3;
   if (!(glm::determinant(normal) > kParallel * std::pow(static_cast<double>(cameras.size()), 3))) {
-    return Fail({file}, "its cameras look along parallel lines, so no point is nearest to them; give the middle by --middle X,Z in m");
+    return Fail({file},
+                "its cameras look along parallel lines, so no point is nearest to them; give the middle by --middle "
+                "X,Z in m");
   }
   const glm::dvec3 middle = glm::inverse(normal) * right;
   return glm::round(kMmPerM * glm::dvec2(middle.x, middle.z)) / kMmPerM;
