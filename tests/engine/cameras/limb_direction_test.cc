@@ -12,7 +12,8 @@
 namespace etude {
 namespace {
 
-/// Runs paper B's case of two cameras; `angle` replaces the smallest plane angle.
+/// Computes the direction from two cameras, which is paper B's case. `angle`, if given, replaces the default of the
+/// smallest allowed angle between the two planes.
 template <typename... Angle>
 LimbDirection DirectionOfTwo(const ProjectionMatrix& matrix1, const PixelSegment& stroke1,
                              const ProjectionMatrix& matrix2, const PixelSegment& stroke2, Angle... angle) {
@@ -103,7 +104,8 @@ TEST(LimbDirection, IsIllConditionedForALimbInAPlaneThroughBothCameras) {
 }
 
 TEST(LimbDirection, NeedsPlanesThatAreFartherFromParallelThanAsked) {
-  // Level cameras at ±half see an upright limb on the axis in planes 2 · half apart.
+  // The cameras are at ±`half` degrees around the Y axis and at the limb's height. Their planes through an upright limb
+  // on this axis meet at an angle of 2 · `half`.
   auto status_at = [](double half, double smallest) {
     auto level = [](double degrees) {
       const double a = Radians(degrees);

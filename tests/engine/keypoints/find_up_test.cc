@@ -292,7 +292,7 @@ TEST(FindUp, AHandstandIsNotTurnedUpsideDownAndMayBeAskedFor) {
 TEST(FindUp, JumpsTellGravityWhereFeetAndCamerasTellLittle) {
   // Two neighbouring cameras, both rolled by 4°: only the free flight shows gravity.
   Dice dice(12);
-  const auto standing = Motion("sits", dice);  // legs tucked in the air
+  const auto standing = Motion("sits", dice);  // a sitting pose: the legs are tucked in the jump
   std::vector<LandmarkPositions> motion;
   for (int k = 0; k < 60; ++k) {
     LandmarkPositions frame = standing.front();

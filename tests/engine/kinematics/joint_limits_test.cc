@@ -23,9 +23,9 @@ constexpr std::array<LimitSet, 5> kSets = {LimitSet::kAaos, LimitSet::kKendall, 
 enum class Way { kForward, kBackward, kUp, kDown, kAway, kInwards, kFrontAway, kFrontInwards, kNowhere };
 using enum Way;
 
-// A second copy of table 3.1, typed from the paper; gaps use its first column, and `adult` follows. `right_axis` is the
-// axis (right-hand rule) about which the movement turns the right limb's outer part, for a body that faces +Z with
-// palms forward.
+// A second copy of table 3.1, typed from the paper. Values that a column of the table lacks are from its first column;
+// after the table's four columns follows `adult`. `right_axis` is the axis (right-hand rule) about which the movement
+// turns the right limb's outer part, for a body that faces +Z with palms forward.
 struct TableRow {
   std::string_view movement;
   BodyTreeJoint right, left;
@@ -160,7 +160,7 @@ TEST(JointLimits, AreThoseOfTheTreeForAdults) {
   }
 }
 
-// Returns where the outer part's far end (or front) goes if only this angle is `radians`.
+// Returns the direction in which the outer part of a limb moves if the angle `dof` is `radians` and all others are 0.
 Way WayOf(const KinematicTree& body, int joint, int dof, double radians) {
   std::vector<double> angles(body.limits.size(), 0.0);
   angles[dof] = radians;

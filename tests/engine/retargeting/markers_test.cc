@@ -201,7 +201,7 @@ std::vector<BodyPose> Frames(BodyPose (*posture)(std::size_t), std::size_t count
 glm::dvec3 ZUp(glm::dvec3 p) { return {p.x, -p.z, p.y}; }
 glm::dvec3 YUp(glm::dvec3 p) { return p; }
 
-/// Returns the largest height error of hips and head, above the lowest joint.
+/// Returns the largest difference, over all frames, between the vectors from hip centre to head.
 double OffUp(const MarkerBody& body, const std::vector<BodyPose>& wanted) {
   double off = 0;
   for (std::size_t t = 0; t < wanted.size(); ++t) {

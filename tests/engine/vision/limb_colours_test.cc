@@ -42,9 +42,9 @@ struct Canvas {
   Marks Read() const { return ReadLimbColours(picture, person, Suit()); }
 };
 
-/// A leg of capsules, each thicker one in front of the thinner one, both joints bent by 60° or more, so that each limb
-/// ends a radius beyond its joint. The trunk crosses the thigh as far below the hip as a pelvis 1.37 times as thick
-/// does (√(1.37² − 1) = 0.94).
+/// A leg of capsules. Thicker limbs are in front of thinner ones, and both joints are bent by 60° or more, so that
+/// thigh and shank visibly end a radius beyond the joint. The trunk covers the thigh down to 0.94 thigh radii below
+/// the hip, as a spherical pelvis with 1.37 times the thigh's radius does (√(1.37² − 1) = 0.94).
 struct Leg {
   static constexpr double kThighRadius = 10, kShankRadius = 7, kFootRadius = 5;
   glm::dvec2 hip, knee, ankle, toe, down;

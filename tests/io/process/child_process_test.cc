@@ -199,8 +199,8 @@ TEST(ChildProcess, DiesWithUs) {
   ::close(report[1]);
 }
 
-/// A child starts a process in its own session, which notices nothing. The child alone is killed from outside. Returns
-/// true if the other process ends, too, without our doing.
+/// Starts a child that starts another process in a new session, so that no signal to the child reaches this process.
+/// Kills only the child. Returns true if the other process ends, too.
 bool IsEndedWithTheChild(bool contained) {
   auto child = ChildProcess::Start(
       {.program = "/bin/sh", .arguments = {"-c", "setsid sleep 100 & echo; read x"}, .contained = contained});

@@ -173,7 +173,7 @@ TEST(Answer, ShowsOneIntervalOfOneDifference) {
   of_table.ci_low = -0.71;
   const auto shown = [&] { return AnswersOf(scenario, "adaptive", Against::kRival).front().comparison->ci_low; };
   EXPECT_EQ(shown(), -0.71);
-  of_table.pairs = 19;  // the control: other worlds, because a failed cell has no success in the table
+  of_table.pairs = 19;  // the control: the table compares fewer worlds than the answer
   EXPECT_EQ(shown(), -0.70);
 }
 

@@ -19,7 +19,8 @@ double CostAt(const IkProblem& problem, const std::vector<double>& angles) {
   return LinearTargets(Body(), problem.targets).Cost(ComputeFrames(Body(), state));
 }
 
-// An elbow that bends by at most 0.9 rad: one angle alone decides the tip's smallest distance.
+// The elbow bends by at most 0.9 rad. With the elbow at this limit, only the shoulder's angle decides how near the
+// tip is to the target.
 TEST(LevenbergMarquardt, FindsTheNearestPoseWhereALimitBinds) {
   KinematicTree arm = Arm({0.5, 0.4}, 1);
   arm.limits[1] = {0, 0.9};

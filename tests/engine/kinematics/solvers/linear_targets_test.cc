@@ -40,7 +40,7 @@ TEST(LinearTargets, SquaresOfTheResidualsAreTheSumNearTheTarget) {
 }
 
 TEST(LinearTargets, TheJacobianFollowsWhatSmallTurnsDoToTheResiduals) {
-  const IkProblem problem = Weighted(Body(), 0);  // at the target, where residuals are linear to second order
+  const IkProblem problem = Weighted(Body(), 0);  // at the target, where residuals are linear in small turns
   LinearTargets here(Body(), problem.targets), there(Body(), problem.targets);
   here.Build(ComputeFrames(Body(), problem.start));
   ASSERT_LT(Square(here.residuals()), 1e-20);
