@@ -81,7 +81,8 @@ TEST(LimbDirection, BelievesThePictureInWhichTheLimbIsLessForeshortened) {
 }
 
 TEST(LimbDirection, ReportsTheAngleBetweenThePlanes) {
-  // Cameras at ±40° at the limb's height see an upright limb on the axis in planes 80° apart.
+  // The cameras are at ±40° around the Y axis and at the limb's height, so their planes through an upright limb on this
+  // axis meet at 80°.
   auto level = [](double degrees) {
     const double a = Radians(degrees);
     return MatrixOf(LookAt({}, {4 * std::sin(a), 1, 4 * std::cos(a)}, {0, 1, 0}));
@@ -151,7 +152,7 @@ std::vector<LimbSighting> Sightings(int count, double error_px = 0) {
   return sightings;
 }
 
-/// Returns Σ (N · d)² over cameras, each divided by the effect of a pixel at the stroke's ends.
+/// Returns Σ (N · d / c)² over the cameras; c is the change of N · d per pixel of error at the stroke's ends.
 double SumOfSquares(const std::vector<LimbSighting>& sightings, const glm::dvec3& direction) {
   double sum = 0;
   for (const LimbSighting& s : sightings) {

@@ -22,8 +22,8 @@ TakeMarks LateMarks(const std::vector<ProjectionMatrix>& cameras, const std::vec
   return marks;
 }
 
-// Exact marks give 0.04 of a frame, because the misfit is not a parabola. A search between frames would be better here,
-// but off by half a frame with noisy marks.
+// With exact marks the error is up to 0.04 of a frame, because the misfit is not a parabola. A search between frames
+// would be better here, but would be off by half a frame with noisy marks.
 TEST(Synchronise, FindsHowLateEveryCameraIs) {
   const std::vector<ProjectionMatrix> cameras = ThreeCameras();
   for (const std::vector<double>& offsets :

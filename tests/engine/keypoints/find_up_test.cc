@@ -31,7 +31,7 @@ glm::dmat3 AboutX(double radians) { return glm::mat3_cast(glm::angleAxis(radians
 glm::dmat3 AboutY(double radians) { return glm::mat3_cast(glm::angleAxis(radians, glm::dvec3(0, 1, 0))); }
 glm::dmat3 AboutZ(double radians) { return glm::mat3_cast(glm::angleAxis(radians, glm::dvec3(0, 0, 1))); }
 
-/// A posture's angles, radians: limbs from straight down, trunk from up, both towards the front (z).
+/// A posture's angles, radians, positive towards the front (+Z): limbs from straight down, the trunk from straight up.
 struct Posture {
   double trunk = 0, thigh = 0, shank = 0, arm = 0;
   double foot = 0;        ///< angle of the sole from level, toes down

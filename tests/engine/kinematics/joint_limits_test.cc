@@ -18,8 +18,9 @@ namespace {
 constexpr std::array<LimitSet, 5> kSets = {LimitSet::kAaos, LimitSet::kKendall, LimitSet::kHoppenfeld, LimitSet::kAma,
                                            LimitSet::kAdult};
 
-// The direction in which a movement takes the outer part of a limb, seen from the inner part: that of its far end or,
-// in a turn about the limb, of its front. Away means from the body's midline; for the trunk, to the left.
+// The direction in which a movement takes the outer part of a limb, relative to the inner part: the direction of the
+// outer part's far end or, if the limb turns about its own axis, of its front. "Away" is away from the body's midline;
+// for the trunk, it is to the left.
 enum class Way { kForward, kBackward, kUp, kDown, kAway, kInwards, kFrontAway, kFrontInwards, kNowhere };
 using enum Way;
 

@@ -476,7 +476,8 @@ TEST(Markers, InAWrongUnitAreTakenForAPersonOrRefused) {
 }
 
 TEST(Markers, OfPlugInGaitGiveJointsInsideTheLimbs) {
-  // Front markers at (±a, h, f), back markers at (±b, h, −f): Harrington's regression by hand.
+  // The pelvis has front markers at (±a, h, back + f) from the hip centre, and back markers at (±0.05, h, back − f).
+  // The expected hip joint is Harrington's regression, computed by hand.
   using enum Role;
   const double a = 0.12, f = 0.07, h = 0.0829, back = -0.0265;
   MarkerMotion take = TakeOfBothSides({{"LFHD", kHead, {0.07, 0, 0.09}},

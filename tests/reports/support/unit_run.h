@@ -4,11 +4,13 @@
 
 namespace etude {
 
-/// Returns ExampleRun with both verdicts and with rivals, as current runs have them. Worlds of ik are units; capture's
-/// worlds come from 4 clips (too few for a verdict on other clips), detection's from 6 and transition's from 8 clips.
+/// Returns ExampleRun with rivals, and with verdicts on other sampling units (Beyond), as current runs have them.
+/// Worlds of ik are units; capture's worlds come from 4 clips (too few for a verdict on other clips), detection's
+/// from 6 and transition's from 8 clips.
 RunData UnitRun();
 
-/// Adds both verdicts to a scenario as UnitRun does; its worlds then come from `clips` clips.
+/// Adds rivals and verdicts on other sampling units to a scenario, as UnitRun does. Its worlds then come from `clips`
+/// clips, unless worlds are the units.
 void AddUnits(RunData& run, ScenarioSummary& scenario, int clips);
 
 }  // namespace etude

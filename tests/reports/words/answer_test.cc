@@ -32,7 +32,8 @@ MethodSummary Method(const std::string& name, double error_deg, double iteration
   return method;
 }
 
-/// 560 iterations: better than its baseline, and as exact as gauss-newton, which takes 4.
+/// Returns a summary in which "adaptive" is better than its baseline, and as exact as gauss-newton, but needs 560
+/// iterations instead of 4.
 ScenarioSummary SolverSummary() {
   ScenarioSummary scenario{.methods = {"fixed", "adaptive", "gauss-newton"}};
   scenario.headline_metrics = {"orientation_error_deg", "iterations"};
@@ -56,7 +57,7 @@ TEST(Headline, AnswersAgainstTheBaselineAndAgainstTheBestOther) {
             "(+1.00°), but needs 140 × the solver steps");
 }
 
-/// Adds answers to the solvers; against gauss-newton, success decides: 58 points worse.
+/// Adds answers to SolverSummary. Against gauss-newton, success decides: its share is 58 percentage points lower.
 ScenarioSummary AnsweredSummary() {
   ScenarioSummary scenario = SolverSummary();
   ConditionSummary& condition = scenario.conditions[0];

@@ -91,9 +91,9 @@ TEST(LinearTargets, StepsEndAtTheRangesAndAreShortenedAsAWhole) {
   EXPECT_EQ(angles[2], 0);
 }
 
-// Forward kinematics by products of exponentials (Brockett 1984; Lynch and Park 2017, chapter 4). Each angle is a screw
-// in the world at zero angles; a point is moved by the screws from its limb to the root. No frame of a posed limb is
-// used.
+// Forward kinematics by products of exponentials (Brockett 1984; Lynch and Park 2017, chapter 4). Each angle rotates
+// about its axis in the world at zero angles (a screw). A point is moved by the screws of all angles from its limb to
+// the root, one after the other. No frame of a posed limb is used.
 class Screws {
  public:
   Screws(const KinematicTree& tree, const TreeState& state) : tree_(tree), angles_(state.angles) {

@@ -11,7 +11,7 @@ namespace {
 
 using testing::Fingerprint;
 
-/// Returns moves with feet, and dances with limbs that swing in any direction.
+/// Returns built-in moves, and random clips in which limbs swing in any direction.
 std::vector<BodyMotion> JoinedClips() {
   std::vector<BodyMotion> clips = LibraryOfMoves().motions;
   RandomStream dice({.suite_seed = 6, .scenario = "golden", .trial = 0}, "joins");
