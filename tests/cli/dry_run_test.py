@@ -105,7 +105,7 @@ class DryRun(EtudeCase):
         self.assertAlmostEqual(float(amount), 1.364 * spread, delta=0.01 * spread)
 
     def test_promises_nothing_where_no_p_can_reach_the_level(self):
-        # Ten answers by success (shares): 1 / 2ⁿ ≤ 0.05 / 10 needs 8 worlds.
+        # Success decides ten answers. With n worlds the smallest mid-p is 1 / 2ⁿ, so 1 / 2ⁿ ≤ 0.05 / 10 needs 8 worlds.
         told = self.etude("run", "quick/ik", "--trials", 7, "--dry-run").stdout
         self.assertIn("neither better nor worse is possible with fewer than 8 worlds; there are 7", told)
         self.assertNotIn("standard deviations", told)

@@ -171,7 +171,8 @@ class Formats(MotionFileCase):
     def assert_read_back(self, path, places, most=1e-5, **options):
         names, read = self.body(path)
         self.assertEqual(read.shape, places.shape)
-        floor = read[0, names.index("head"), 1] - places[0, names.index("head"), 1]  # a file of markers finds its own
+        # In a file of markers, the program finds the floor itself.
+        floor = read[0, names.index("head"), 1] - places[0, names.index("head"), 1]
         self.assertLess(abs(floor), 0.05)
         numpy.testing.assert_allclose(read - [0, floor, 0], places, atol=most)
 

@@ -135,7 +135,8 @@ class Gate(EtudeCase):
             self.assertIn(f"{self.baseline}: was changed after gate --update wrote it: its seal does not match", told)
             told = self.gate(self.out, "--baseline", self.baseline, "--unsealed", expect=0)
             self.assertIn("etude: read unsealed: ", told)
-        # Without its seal a baseline is refused. As one of an older schema it is read with --unsealed only. --update seals it.
+        # A baseline without its seal is refused. A baseline of an older schema has no seal, and is read only with
+        # --unsealed; --update gives it a seal.
         self.baseline.write_text(re.sub(r',\n"seal":"\w+"', "", whole))
         self.assertIn("a baseline of schema 2 lacks its 'seal'", self.gate(self.out, "--baseline", self.baseline, expect=2))
         self.baseline.write_text(re.sub(r',\n"seal":"\w+"', "", whole).replace('"schema":2', '"schema":1'))

@@ -169,7 +169,7 @@ metrics: [position_error_cm, {{name: rate, exec: [python3, {self.folder}/ours/me
                 self.assertIn(f"{file}:9:{column}: ", said)
         said = self.refusal("check-method", "--task", "ik", "--", "python3", self.folder / "ours/slover.py", says="slover.py")
         self.assertNotIn("ours/ours", said)
-        # The control: a text of -c, and a file that a program may itself make, are no misspelt scripts.
+        # The control: the text after -c, and a file that a program may itself make, are not taken for misspelt scripts.
         self.ends(1, "check-method", "--task", "ik", "--", "python3", "-c", "print(1) # x.py")
         self.assertEqual(self.etude("run", self.scenario, "--dry-run", "--no-fence").returncode, 0)
 

@@ -81,7 +81,7 @@ class Recognise(EtudeCase):
                                  f"three,{3 * i},{3 * i + 3},raise,right\n" for i in range(3))))
         self.assertIn("recogniser whole-body, recommended for these moves", told(several).stderr)
         self.assertEqual(re.search(r"span_s: (\S+)", several.read_text())[1], "3.9")
-        # Moves with key poses only give nothing to learn from.
+        # Moves that have key poses but no examples cannot be learnt.
         poses = re.sub(r"(?m)^    right:\n(      .*\n|        .*\n)*", "    right: []\n", moves.read_text())
         written = self.write("poses.yaml", poses)
         default, paper = told(written), told(written, "--recogniser", "key-pose")

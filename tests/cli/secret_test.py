@@ -278,7 +278,7 @@ class SecretWorlds(EtudeCase):
         self.assertEqual(len(used()), 1)
 
     def test_shards_of_one_key_are_merged_and_of_another_refused(self):
-        key = self.folder / "copy"  # a copy of the key with an own list of uses
+        key = self.folder / "copy"  # a copy of the key has its own list of uses
         shutil.copy(self.key, key)
         shard = lambda index, key, *more: self.etude("run", self.scenario, "--seed-file", key, "--shard", f"{index}/2", *more)
         for index in (1, 2):

@@ -30,7 +30,7 @@ def kinect_and_targets(seconds=8):
 
     kinect = [" ".join(" ".join(f"{x + dice.gauss(0, 0.01):.6f}" for x in place(joint, k / 30)) + " 0 0 0 1"
                        for joint in range(25)) for k in range(30 * seconds)]
-    # Joints of one target follow it only roughly, which counts as their error.
+    # Several joints share a target, but each swings in its own way; the difference counts as their error.
     targets = [" ".join(" ".join(f"{1000 * x:.3f}" for x in place(joint, k / 60)) + " 0 0 0 1"
                         for joint in joint_of_target) for k in range(60 * seconds)]
     return "\n".join(kinect) + "\n", "\n".join(targets) + "\n"

@@ -69,7 +69,7 @@ class Results(PythonCase):
         self.assertEqual([row["cell"] for row in table.rows()], [row["cell"] for row in wanted])
         moody_table = self.run_["ik"].where(method="moody")
         self.assertIn("not in the mood", "".join(filter(None, moody_table.reasons("orientation_error_deg"))))
-        # What no cell of a part has is no mistake if other cells have it.
+        # A method that is missing in a part of the table is no mistake, because the whole table has it.
         self.assertEqual(len(table.where(status="crashed").where(method="moody")), 0)
 
     def test_verdicts_are_those_of_the_page(self):

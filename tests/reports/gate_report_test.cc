@@ -56,7 +56,8 @@ TEST(GateMarkdown, ShowsAReviewerWhatFailsBeforeWhatElseMoved) {
   EXPECT_THAT(text, Not(HasSubstr("effector position error")));  // an unchanged metric is not mentioned
 }
 
-/// Returns a move with five of 60 worlds far worse, two of them lost.
+/// Returns the movement of a metric that is far worse in five of 60 worlds; in two of them, a value or an answer is
+/// lost.
 MetricMove TailMove(Movement movement) {
   MetricMove move = MoveOf("adaptive", "orientation_error_deg", movement, 2, 2);
   move.by_tail = movement == Movement::kWorse;

@@ -16,8 +16,8 @@ ETUDE = pathlib.Path(os.environ["ETUDE"])
 PYTHON = "/usr/bin/python3"
 LOOKUP = pathlib.Path(__file__).with_name("lookup.py")
 SEED = "2"
-# Seats whose first step is the same in every world; a transition's request has public clips and a frame, but no measured
-# number.
+# Seats in which a method's first message does not tell the world. A coach's is the same in every world; a transition's
+# request has public clips and a frame, but no measured number.
 TOLD_NOTHING_AT_FIRST = ["coach/policy", "coach/learner", "transition"]
 
 # By task and seat: a scenario's keys after its name, and its method's keys.
@@ -76,7 +76,7 @@ class Lookup(unittest.TestCase):
         rows, said = self.run_against("secret", text, "--seed-file", self.key())
         if "no memory" in said:
             self.skipTest("the kernel does not tell which pages it holds")
-        # It remembers all earlier problems, but none helps.
+        # The method remembers all earlier problems, but none helps it.
         self.assertEqual(re.findall(r"remembers (\d) worlds", said), ["0", "3", "6"])
         self.assertNotIn("a world that was met before", said)
         self.assertGreater(min(later(rows)), 0.1)

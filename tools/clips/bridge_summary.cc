@@ -22,7 +22,8 @@ struct ClipSummary {
   int frames = 0, bridge_frames = 0;
   int poses = 0;           ///< number of different tag combinations among the clip's bridge frames
   int reached = 0;         ///< number of other clips that this clip leads into; only if pairs are made
-  double frame_share = 0;  ///< like in_between_share: if pairs are made, the mean over the other clips
+  /// The two shares of ClipCoverage; if pairs are made, their means over the other clips.
+  double frame_share = 0;
   double in_between_share = 0;
   std::optional<double> worst_wait_s;  ///< longest wait; if pairs are made, over the clips that this clip leads into
 };

@@ -72,7 +72,7 @@ struct RigForecast {
   std::vector<NamedCamera> cameras;   ///< cameras in the world, metres, Y up
   std::string placed;                 ///< the file's format, its unit and its axes, in words for users
   std::optional<KeypointNoise> measured;  ///< noise measured from the take's keypoints; absent without a take
-  glm::dvec2 middle_m{0};                 ///< middle of the volume on the floor (x, z); a found one in whole mm
+  glm::dvec2 middle_m{0};                 ///< middle of the volume on the floor (x, z); if computed, in whole mm
   std::vector<ForecastPlace> places;      ///< places sorted by height, then z, then x; in whole micrometres
   double seen = 0;                    ///< share of places in the pictures of at least two cameras
   double median_mm = 0, p95_mm = 0;   ///< median and 95th percentile of the error over the places that are seen

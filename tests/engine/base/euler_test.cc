@@ -62,7 +62,8 @@ TEST(Euler, SmallestRotationOfOppositeVectorsIsHalfATurn) {
 }
 
 TEST(Euler, SmallestRotationOfOppositeVectorsTurnsAboutTheCoordinateAxisLeastAlongThem) {
-  // A half turn about a keeps a. For vectors normal to a coordinate axis, a is this axis.
+  // The matrix of a half turn about the unit vector a is 2aaᵀ − I. For vectors normal to one coordinate axis, this axis
+  // must be a.
   const auto axis_of = [](const glm::dvec3& v) {
     const glm::dmat3 rotation = SmallestRotation(v, -v);
     return glm::dvec3(rotation[0][0], rotation[1][1], rotation[2][2]);  // 2 a² − 1 per component

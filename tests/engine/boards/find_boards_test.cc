@@ -60,8 +60,8 @@ Around PartWith(const std::vector<Shown>& boards, const Camera& camera) {
   return {static_cast<int>(low.x), static_cast<int>(low.y), static_cast<int>(high.x), static_cast<int>(high.y)};
 }
 
-/// A second implementation of pictures: each pixel is the mean of 25 rays to the boards' planes. Their lattice is fine
-/// along both axes, because a square lattice renders straight edges in steps of a fifth.
+/// A second implementation of pictures: each pixel is the mean of 25 rays to the boards' planes. The rays have 25
+/// different offsets along each axis; a lattice of 5 × 5 rays would render upright and level edges in steps of a fifth.
 ColourImage Photograph(const std::vector<Shown>& boards, const Camera& camera, double noise, RandomStream& random) {
   constexpr int kRays = 25;
   const Intrinsics& inside = camera.intrinsics;

@@ -138,7 +138,7 @@ ColourImage Warped(const ColourImage& picture, const glm::dmat3& to_source, int 
   return warped;
 }
 
-/// Checks that the corners of a board in a warped picture are at the warped positions, by name.
+/// Checks that every corner of a board in a warped picture is where the warp puts the corner of its column and row.
 class WarpedCorners {
  public:
   std::size_t Expect(const std::vector<SeenCorner>& seen, const glm::dmat3& to_source) {
@@ -150,7 +150,8 @@ class WarpedCorners {
     }
     return seen.size();
   }
-  /// Returns a weighted sum of all corners. OpenCV's vector code may change the last digits; its settings change more.
+  /// Returns a weighted sum of all corners. OpenCV's vector code may change its last digits; a changed setting of
+  /// OpenCV changes more.
   double sum() const { return sum_; }
 
  private:

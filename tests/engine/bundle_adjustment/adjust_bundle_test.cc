@@ -152,7 +152,8 @@ TEST(AdjustBundle, EndsWhereFiniteDifferencesOfTheWholeSumVanish) {
 
   constexpr double kStep = 1e-4;
   int checked = 0;
-  // The cost is a parabola of `by`, so its slope must vanish relative to the slope a degree away.
+  // Near its minimum the cost is a parabola of `by`. A slope below 1e-4 · bend means that the minimum is less than 1e-4
+  // (m or rad) away.
   const auto expect_minimum = [&](const auto& cost) {
     const double slope = (cost(kStep) - cost(-kStep)) / (2 * kStep);
     const double bend = (cost(kStep) + cost(-kStep) - 2 * found.last_cost) / (kStep * kStep);

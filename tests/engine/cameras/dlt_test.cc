@@ -108,7 +108,7 @@ TEST_P(Dlt, RefusesNumbersThatAreNotFinite) {
 }
 
 TEST_P(Dlt, RefusesPairsThatManyCamerasFit) {
-  // All points but one in a plane: that point's distance and the camera's are ambiguous.
+  // All points but one lie in a plane, so they give 8 + 2 independent equations for the 11 unknowns of the matrix.
   std::vector<PointPair> pairs = Pairs(10);
   for (std::size_t i = 1; i < pairs.size(); ++i) {
     pairs[i].world.y = 0.5;

@@ -12,7 +12,8 @@
 namespace etude {
 namespace {
 
-/// Runs paper B's case of two cameras; `angle` replaces the smallest plane angle.
+/// Computes the direction from two cameras, which is paper B's case. `angle`, if given, replaces the default of the
+/// smallest allowed angle between the two planes.
 template <typename... Angle>
 LimbDirection DirectionOfTwo(const ProjectionMatrix& matrix1, const PixelSegment& stroke1,
                              const ProjectionMatrix& matrix2, const PixelSegment& stroke2, Angle... angle) {
@@ -80,7 +81,8 @@ TEST(LimbDirection, BelievesThePictureInWhichTheLimbIsLessForeshortened) {
 }
 
 TEST(LimbDirection, ReportsTheAngleBetweenThePlanes) {
-  // Cameras at ±40° at the limb's height see an upright limb on the axis in planes 80° apart.
+  // The cameras are at ±40° around the Y axis and at the limb's height, so their planes through an upright limb on this
+  // axis meet at 80°.
   auto level = [](double degrees) {
     const double a = Radians(degrees);
     return MatrixOf(LookAt({}, {4 * std::sin(a), 1, 4 * std::cos(a)}, {0, 1, 0}));
@@ -103,7 +105,8 @@ TEST(LimbDirection, IsIllConditionedForALimbInAPlaneThroughBothCameras) {
 }
 
 TEST(LimbDirection, NeedsPlanesThatAreFartherFromParallelThanAsked) {
-  // Level cameras at ±half see an upright limb on the axis in planes 2 · half apart.
+  // The cameras are at ±`half` degrees around the Y axis and at the limb's height. Their planes through an upright limb
+  // on this axis meet at an angle of 2 · `half`.
   auto status_at = [](double half, double smallest) {
     auto level = [](double degrees) {
       const double a = Radians(degrees);
@@ -149,7 +152,7 @@ std::vector<LimbSighting> Sightings(int count, double error_px = 0) {
   return sightings;
 }
 
-/// Returns Σ (N · d)² over cameras, each divided by the effect of a pixel at the stroke's ends.
+/// Returns Σ (N · d / c)² over the cameras; c is the change of N · d per pixel of error at the stroke's ends.
 double SumOfSquares(const std::vector<LimbSighting>& sightings, const glm::dvec3& direction) {
   double sum = 0;
   for (const LimbSighting& s : sightings) {

@@ -31,8 +31,8 @@ TEST(Triangulation, FindsThePointThatTwoOrMoreCamerasSee) {
 }
 
 TEST(Triangulation, SplitsADisagreementEvenlyBetweenEqualCameras) {
-  // The cameras see the point h pixels too high and too low. The rows differ in v only, so the point stays, and each
-  // picture is off by h.
+  // One camera sees the point 2 px too low, the other one 2 px too high. These errors cancel, so the triangulated point
+  // stays in place, and its residual is 2 px in each picture.
   const glm::dvec3 point(0, 0.9, 0);
   Sighting left = SightingOf(CameraAt(-40), point), right = SightingOf(CameraAt(40), point);
   left.pixel.y += 2;
@@ -94,7 +94,8 @@ struct Vector {
   glm::dvec3 alike, by_pixels;
 };
 
-// The points by numpy: lstsq of the rows over |h₃|, then three times with the rows over the depth.
+// The expected points, computed by numpy: `alike` by lstsq with each row divided by |h₃|, and `by_pixels` by three more
+// lstsq with each row divided by the point's depth.
 const std::vector<Vector> kVectors = {
     {{
          {{{{{-948.087947, -514.157818, -1837.001172, 5065.350543}, {-266.023824, -1922.68834, -41.779107, 5182.375886}, {-3.771323, -1.606743, -0.592287, 15.82922}}}}, {285.786, 167.792}},

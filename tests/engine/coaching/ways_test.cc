@@ -18,7 +18,7 @@ namespace {
 constexpr int kWindowLag = 9;  // frames after the repetition, the coaches' default
 constexpr double kWaitLimit_s = TransitionRequest{}.budget_s;
 
-/// Counts over all those transitions.
+/// Counts over all transitions of a song.
 struct Ways {
   int count = 0, through_in_betweens = 0, unmatched = 0;
   double longest_s = 0;

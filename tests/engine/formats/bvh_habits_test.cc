@@ -105,7 +105,7 @@ TEST(BvhHabits, IncludeOneNameForSeveralJointsWhichCanStillBeTold) {
 }
 
 TEST(BvhHabits, IncludeJointsWithoutOrWithFewChannels) {
-  // An arm without channels, or the word CHANNELS, stays at rest.
+  // An arm without the line CHANNELS stays at rest.
   std::string text = Replaced(kSmallBvh, "    CHANNELS 3 Zrotation Yrotation Xrotation\n", "");
   text = ReplacedEverywhere(text, "1 2 3 0 0 0 90 0 0", "1 2 3 0 0 0");
   text = ReplacedEverywhere(text, "1 2 3 90 0 0 0 0 0", "1 2 3 90 0 0");

@@ -31,7 +31,7 @@ glm::dmat3 AboutX(double radians) { return glm::mat3_cast(glm::angleAxis(radians
 glm::dmat3 AboutY(double radians) { return glm::mat3_cast(glm::angleAxis(radians, glm::dvec3(0, 1, 0))); }
 glm::dmat3 AboutZ(double radians) { return glm::mat3_cast(glm::angleAxis(radians, glm::dvec3(0, 0, 1))); }
 
-/// A posture's angles, radians: limbs from straight down, trunk from up, both towards the front (z).
+/// A posture's angles, radians, positive towards the front (+Z): limbs from straight down, the trunk from straight up.
 struct Posture {
   double trunk = 0, thigh = 0, shank = 0, arm = 0;
   double foot = 0;        ///< angle of the sole from level, toes down
@@ -293,7 +293,7 @@ TEST(FindUp, AHandstandIsNotTurnedUpsideDownAndMayBeAskedFor) {
 TEST(FindUp, JumpsTellGravityWhereFeetAndCamerasTellLittle) {
   // Two neighbouring cameras, both rolled by 4°: only the free flight shows gravity.
   Dice dice(12);
-  const auto standing = Motion("sits", dice);  // legs tucked in the air
+  const auto standing = Motion("sits", dice);  // a sitting pose: the legs are tucked in the jump
   std::vector<LandmarkPositions> motion;
   for (int k = 0; k < 60; ++k) {
     LandmarkPositions frame = standing.front();

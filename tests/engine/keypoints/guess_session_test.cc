@@ -44,7 +44,7 @@ void ChangePixels(PictureOfFilm& film, const std::function<glm::dvec2(const glm:
   }
 }
 
-/// Returns the largest distance of a keypoint from another film's, pixels.
+/// Returns the largest distance, pixels, between a keypoint of `people` and the same keypoint of `truth`.
 double FurthestPx(const std::vector<SeenPeople>& people, const std::vector<PictureOfFilm>& truth) {
   double furthest = 0;
   for (std::size_t c = 0; c < truth.size(); ++c) {
@@ -70,7 +70,7 @@ std::vector<std::string> Doubts(const std::vector<PictureOfFilm>& films) {
   return RigWarnings(cameras, std::span(kFilms).first(films.size()), person, 0.1);
 }
 
-/// Two neighbouring cameras: rays through the other's pixels run along picture rows.
+/// Returns films of two cameras side by side with parallel axes, so that epipolar lines are picture rows.
 std::vector<PictureOfFilm> SideBySide() {
   std::vector<PictureOfFilm> films = FilmedWalker(2, 0);
   RandomStream dice = WalkersDice("rows");

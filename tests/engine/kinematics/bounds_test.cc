@@ -1,4 +1,4 @@
-// Faults at their bounds, and the bounds of equal positions and of reach.
+// Tries values just within and just beyond the thresholds of equal positions, limb lengths, reach, and FindFault.
 #include <gtest/gtest.h>
 
 #include "engine/kinematics/capture_body.h"

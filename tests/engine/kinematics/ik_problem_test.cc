@@ -12,7 +12,7 @@ namespace {
 
 constexpr int kEndRightFoot = 0, kEndLeftHand = 1, kEndRightHand = 2, kEndHead = 3;  // effectors
 
-// Returns the problem of a standing body whose positions are met; only `effectors` count.
+// Returns a problem whose targets are a standing body's own effectors. Only the positions of `effectors` have weight.
 IkProblem PositionsOf(std::initializer_list<int> effectors) {
   IkProblem problem = DisturbedProblem(Body(), StandingState(Body()), 0, 0);
   for (EffectorTarget& target : problem.targets) {

@@ -18,14 +18,15 @@ namespace {
 constexpr std::array<LimitSet, 5> kSets = {LimitSet::kAaos, LimitSet::kKendall, LimitSet::kHoppenfeld, LimitSet::kAma,
                                            LimitSet::kAdult};
 
-// The direction in which a movement takes the outer part of a limb, seen from the inner part: that of its far end or,
-// in a turn about the limb, of its front. Away means from the body's midline; for the trunk, to the left.
+// The direction in which a movement takes the outer part of a limb, relative to the inner part: the direction of the
+// outer part's far end or, if the limb turns about its own axis, of its front. "Away" is away from the body's midline;
+// for the trunk, it is to the left.
 enum class Way { kForward, kBackward, kUp, kDown, kAway, kInwards, kFrontAway, kFrontInwards, kNowhere };
 using enum Way;
 
-// A second copy of table 3.1, typed from the paper; gaps use its first column, and `adult` follows. `right_axis` is the
-// axis (right-hand rule) about which the movement turns the right limb's outer part, for a body that faces +Z with
-// palms forward.
+// A second copy of table 3.1, typed from the paper. Values that a column of the table lacks are from its first column;
+// after the table's four columns follows `adult`. `right_axis` is the axis (right-hand rule) about which the movement
+// turns the right limb's outer part, for a body that faces +Z with palms forward.
 struct TableRow {
   std::string_view movement;
   BodyTreeJoint right, left;
@@ -160,7 +161,7 @@ TEST(JointLimits, AreThoseOfTheTreeForAdults) {
   }
 }
 
-// Returns where the outer part's far end (or front) goes if only this angle is `radians`.
+// Returns the direction in which the outer part of a limb moves if the angle `dof` is `radians` and all others are 0.
 Way WayOf(const KinematicTree& body, int joint, int dof, double radians) {
   std::vector<double> angles(body.limits.size(), 0.0);
   angles[dof] = radians;

@@ -7,7 +7,8 @@ namespace {
 
 using enum Role;
 
-// Returns limbs that point up, 0.1 m long, 0.02 m longer in the second pose; the hips are apart.
+// Returns a pose in which all limbs have the same length, metres. They point up, except that the left hip is beside the
+// hip centre.
 BodyPose Stretched(double length) {
   BodyPose pose;
   for (const Bone& bone : AllBones()) {

@@ -78,8 +78,9 @@ Passage Pass(const Matches& matches, int hold_frames, int span_frames) {
   return passage;
 }
 
-/// Brute force over the definition: the best pair of stretches of `hold` frames in order, by its worst frame. The first
-/// ends at or after `from`, the second at or before `to`, or exactly at `to` if `ends`.
+/// Tries all pairs of intervals of `hold` frames, one with pose 0 and a later one with pose 1. A pair is as good as its
+/// worst frame; returns the value of the best pair. The first interval ends at or after `from`, the second at or before
+/// `to`, or exactly at `to` if `ends`.
 double BestPair(const Matches& matches, int hold, int from, int to, bool ends) {
   const auto held = [&](int end, std::size_t pose) {
     double worst = 1;

@@ -100,7 +100,7 @@ TEST(DoubtsOnBody, AreNoneOfBodiesAndNameJointsThatAreNoBodys) {
   std::vector<JointPositions> shifted = Dance("boxing");
   for (JointPositions& frame : shifted) std::ranges::rotate(frame, frame.begin() + 1);
   EXPECT_THAT(DoubtsOnBody(shifted, kRate_hz), Contains(HasSubstr("left_foot is torn off in all frames")));
-  // Of points that are no body, and of too few frames, nothing is said.
+  // Frames without points give no message, nor does a recording without frames.
   EXPECT_THAT(DoubtsOnBody(std::vector<JointPositions>(20), kRate_hz), IsEmpty());
   EXPECT_THAT(DoubtsOnBody({}, kRate_hz), IsEmpty());
 }

@@ -170,7 +170,7 @@ TEST(JointMap, TakesNoThumbForTheTipOfAHand) {
 TEST(JointMap, ChoosesAmongEquallyFarTipsAlikeOnBothSides) {
   using Both = std::pair<std::string, std::string>;
   const glm::dvec3 straight(18, 0, 0), aside(18 * 0.6, 0, 18 * 0.8);
-  // The rounding of six decimals in metres, with opposite signs on both sides.
+  // Adds an error, such as the rounding to six decimals of a metre, with opposite signs on both sides.
   const auto choose = [&](const std::string& a, const std::string& b, double rounding) {
     Skeleton person = WithFingers({{a, straight}, {b, aside}});
     person.joints[person.Find("Left" + a)].rest.translation.x += rounding;

@@ -202,7 +202,7 @@ std::vector<BodyPose> Frames(BodyPose (*posture)(std::size_t), std::size_t count
 glm::dvec3 ZUp(glm::dvec3 p) { return {p.x, -p.z, p.y}; }
 glm::dvec3 YUp(glm::dvec3 p) { return p; }
 
-/// Returns the largest height error of hips and head, above the lowest joint.
+/// Returns the largest difference, over all frames, between the vectors from hip centre to head.
 double OffUp(const MarkerBody& body, const std::vector<BodyPose>& wanted) {
   double off = 0;
   for (std::size_t t = 0; t < wanted.size(); ++t) {
@@ -477,7 +477,8 @@ TEST(Markers, InAWrongUnitAreTakenForAPersonOrRefused) {
 }
 
 TEST(Markers, OfPlugInGaitGiveJointsInsideTheLimbs) {
-  // Front markers at (±a, h, f), back markers at (±b, h, −f): Harrington's regression by hand.
+  // The pelvis has front markers at (±a, h, back + f) from the hip centre, and back markers at (±0.05, h, back − f).
+  // The expected hip joint is Harrington's regression, computed by hand.
   using enum Role;
   const double a = 0.12, f = 0.07, h = 0.0829, back = -0.0265;
   MarkerMotion take = TakeOfBothSides({{"LFHD", kHead, {0.07, 0, 0.09}},

@@ -431,7 +431,7 @@ TEST(BodyNpz, IsRefusedBeyondItsLimits) {
   Npz twice = arrays;
   twice.texts["names"][3] = twice.texts["names"][2];
   EXPECT_THAT(testing::Refusal(ReadRawNpz(twice, "a.npz")), HasSubstr("twice"));
-  // Unreadable names are not the twenty roles.
+  // A file without names has the twenty roles, but names that cannot be read are refused.
   Npz pickled = arrays;
   pickled.texts.erase("names");
   std::erase(pickled.skipped, "names");

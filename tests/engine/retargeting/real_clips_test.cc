@@ -61,7 +61,8 @@ TEST_P(RealClips, ComeBackFromWritingToThePrintedPrecision) {
                                 std::min(glm::length(a.rotation - b.rotation), glm::length(a.rotation + b.rotation)));
     }
   }
-  // Half a unit of the sixth decimal for three numbers; degrees become half radians.
+  // Each of three numbers is rounded by at most half a unit of the sixth decimal. Angles are in degrees; the distance
+  // of unit quaternions is half the angle in radians.
   EXPECT_LT(worst_translation, 0.9e-6);
   EXPECT_LT(worst_rotation, 3 * 0.5e-6 * (std::numbers::pi / 180) / 2);
 }

@@ -113,7 +113,7 @@ TEST_P(PoseRigAlongAMove, PutsEveryJointWhereThePoseHasIt) {
   ASSERT_OK(move, LoadBuiltinMove(GetParam()));
   for (BodyPose pose : move->motion.poses) {
     EXPECT_LT(WorstJoint(rest, pose), 1e-12);
-    // A child's limb lengths, different from the rest pose's.
+    // The limbs may have other lengths than in the rest pose.
     for (std::size_t i = 0; i < kRoleCount; ++i) pose.joints[i] *= 0.6 + 0.01 * static_cast<double>(i);
     EXPECT_LT(WorstJoint(rest, pose), 1e-12);
   }

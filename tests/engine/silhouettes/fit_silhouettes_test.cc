@@ -83,7 +83,8 @@ TEST(FitSilhouettes, GradientIsThatOfTheCost) {
       step[i] = by;
       return CostOf(body, views, Moved(body.tree, at, step), &prior, options, workspace).cost;
     };
-    // The gradient of half the cost. It is not smooth everywhere, because nearest pieces change where outlines cross.
+    // `gradient` is that of half the cost. The cost has kinks where outlines cross, because the nearest piece
+    // changes.
     EXPECT_NEAR(found.gradient[i], (cost(kStep) - cost(-kStep)) / (4 * kStep),
                 2e-3 * std::abs(found.gradient[i]) + 0.05)
         << "coordinate " << i;

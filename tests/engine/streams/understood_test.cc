@@ -174,11 +174,12 @@ TEST(Streams, FilesThatSayMoreAreUnderstoodAsTheyWere) {
   EXPECT_TRUE(testing::AreKept(told, "tests/engine/streams/files.txt"));
 }
 
-/// Writes NTU's text of bodies that come and go; each is in the frames of its span.
+/// A body that stands at `place` in the frames from `first` to `last`.
 struct ComingBody {
   int id, first, last;
   glm::dvec3 place;
 };
+/// Returns a recording of these bodies in NTU's text format.
 std::string CrowdText(const std::vector<ComingBody>& bodies, int frames) {
   std::string text = fmt::format("{}\n", frames);
   for (int f = 0; f < frames; ++f) {

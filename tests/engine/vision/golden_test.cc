@@ -56,8 +56,8 @@ struct SuitPicture {
   Mask person{119, 142};
 };
 
-/// Returns a person in a suit, in any pose and place; limbs cover each other in any order, are thin or thick, and may
-/// be missing; there are noise, spots in their colours, and a frayed mask.
+/// Returns a person in a suit, in any pose and place. Limbs cover each other in any order, are thin or thick, and may
+/// be missing. The picture has noise, and spots in colours of the suit; the mask has holes.
 SuitPicture AnyoneInSuit(testing::Dice& dice, bool is_flat) {
   SuitPicture made;
   const LimbColours suit = SuitOfHues();

@@ -59,7 +59,8 @@ std::string Raw(Number number) {
   return bytes;
 }
 
-/// Returns the element in binary form from byte `at` of a file on: its end, its values, its children.
+/// Returns the element in binary form, for a file in which the element begins at byte `at`: header, name, values and
+/// children.
 std::string InBytes(const Element& element, std::size_t at) {
   std::string values;
   const auto add = [&](const auto& value) {

@@ -14,8 +14,8 @@
 namespace etude {
 namespace {
 
-/// Returns, as text, an arm with a pre-rotation below hips; translation, rotation and scale have `keys` keys each
-/// within a second, and it moves from x = 10 to 20.
+/// Returns an FBX text with hips and an arm, which is their child and has a pre-rotation. The arm's translation,
+/// rotation and scale have `keys` keys each within one second, in which the arm moves from x = 10 to x = 20.
 std::string ArmWithKeys(int keys) {
   std::string objects, links;
   const auto model = [&](int id, const char* name, const char* more) {

@@ -48,7 +48,7 @@ TEST(ErrorPlot, DrawsTheCurveAsFarAsItIsKnown) {
   const ErrorPlot plot("error, cm", " cm", 0.1, {{{0, 1, 10, 100}, {40, 3, 0.5, 0.01}, kCurveRed}}, clock);
   const Columns start = CurveAt(plot, 0), middle = CurveAt(plot, 50), end = CurveAt(plot, 100);
   const double length = end.last - start.last;
-  EXPECT_NEAR(end.first, start.first, 6);  // the dot at the pen has gone
+  EXPECT_NEAR(end.first, start.first, 6);  // the dot, first at the curve's start, has moved on
   EXPECT_NEAR((middle.last - start.last) / length, clock.ShareOf(10), 0.01);
   EXPECT_GT(length, 400);
 }

@@ -146,7 +146,7 @@ TEST(CapturePanel, DrawsTheSkeletonOverThePersonAndKeepsBothInThePicture) {
   EXPECT_LT(lowest, pixels.height - 1);
 }
 
-// Returns the plate of the example's capture, with these moments of every stage.
+// Returns the plate of the example's capture, whose recording has these moments.
 std::optional<Picture> PlateOf(const std::vector<CaptureExtras::Moment>& moments, Renderer& renderer) {
   RunData run = ExampleRun();
   AddRecordings(run);

@@ -54,7 +54,7 @@ TEST(WorstSessions, AreThoseWithTheLargestShareOfMistakes) {
   add(1, 1, false);
   add(1, 1, true);
   add(1, 0, false);
-  add(1, 0.5, true);  // grey does not count
+  add(1, 0.5, true);  // neither right nor wrong, so no answer is a mistake
   add(2, 0, true);
   add(2, 1, true);
   const auto worst = WorstSessions(all);

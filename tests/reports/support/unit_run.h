@@ -9,7 +9,8 @@ namespace etude {
 /// transition's from 8 clips.
 RunData UnitRun();
 
-/// Adds both verdicts to a scenario as UnitRun does; its worlds then come from `clips` clips.
+/// Adds rivals and verdicts on other sampling units to a scenario, as UnitRun does. Its worlds then come from `clips`
+/// clips, unless worlds are the units.
 void AddUnits(RunData& run, ScenarioSummary& scenario, int clips);
 
 }  // namespace etude

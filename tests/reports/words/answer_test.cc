@@ -57,7 +57,7 @@ TEST(Headline, AnswersAgainstTheBaselineAndAgainstTheBestOther) {
             "(+1.00°), but needs 140 × the solver steps");
 }
 
-/// Adds answers to the solvers; against gauss-newton, success decides: 58 points worse.
+/// Adds answers to SolverSummary. Against gauss-newton, success decides: its share is 58 percentage points lower.
 ScenarioSummary AnsweredSummary() {
   ScenarioSummary scenario = SolverSummary();
   ConditionSummary& condition = scenario.conditions[0];
@@ -174,7 +174,7 @@ TEST(Answer, ShowsOneIntervalOfOneDifference) {
   of_table.ci_low = -0.71;
   const auto shown = [&] { return AnswersOf(scenario, "adaptive", Against::kRival).front().comparison->ci_low; };
   EXPECT_EQ(shown(), -0.71);
-  of_table.pairs = 19;  // the control: other worlds, because a failed cell has no success in the table
+  of_table.pairs = 19;  // the control: the table compares fewer worlds than the answer
   EXPECT_EQ(shown(), -0.70);
 }
 

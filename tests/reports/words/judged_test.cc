@@ -108,7 +108,7 @@ TEST(Yardstick, IsNobodysBaseline) {
   EXPECT_TRUE(IsComparedWithNone(scenario, "wait-for-end"));
   const ScenarioFindings findings = FindingsOf(ExampleRun(), scenario);
   EXPECT_TRUE(findings.yardsticks.empty());
-  EXPECT_EQ(findings.methods.size(), 3u);  // nor does it get a verdict
+  EXPECT_EQ(findings.methods.size(), 3u);  // like a yardstick, a mere baseline gets no verdict
 }
 
 TEST(Yardstick, IsNobodyWhereNothingIsCompared) {

@@ -232,8 +232,9 @@ MiddleLine LineOf(const std::vector<Capsule>& body, const Camera& camera, Part p
   return FindMiddleLine(regions[part]);
 }
 
-// A cylinder's outline lies in two tangent planes through the camera, at equal angles to the plane through its axis. So
-// the middle of both lines is off the axis's image by less than the difference of two tangents.
+// A cylinder's outline lies in two tangent planes through the camera, at equal angles δ to the plane through its axis.
+// In the picture, the outline is at tan(θ ± δ) and the axis at tan θ, in focal lengths. So the middle of the outline is
+// off the axis by only about δ² tan θ / cos² θ, here less than a pixel.
 TEST(FindMiddleLine, OfACapsuleSeenWholeIsItsAxisToAPixelWithBothEnds) {
   const Camera camera = LookAt({}, {0.3, 1.2, 3.5}, {0, 1, 0});
   const ProjectionMatrix matrix = MatrixOf(camera);

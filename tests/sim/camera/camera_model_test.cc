@@ -102,7 +102,7 @@ TEST(CameraModel, ShowsTheBackgroundWithDiceOfItsOwn) {
 
 constexpr int kWidth = 640, kHeight = 96;
 
-/// Paints bright left of an edge that is at `edge(frame)`.
+/// Returns a painter of a scene that is bright left of column `edge(frame)`, and dark right of it.
 Painter MovingEdge(const std::function<double(double)>& edge) {
   return [edge](int x, int, double frame) { return x + 0.5 < edge(frame) ? Rgb8{230, 230, 230} : Rgb8{30, 30, 30}; };
 }

@@ -87,7 +87,8 @@ TEST(Defocus, SpreadsAPointAlikeInBothDirections) {
   EXPECT_NEAR(sum, 1, 1e-5);
 }
 
-// Returns the exponent of a flat field's falloff as a power of cos² of the angle to the axis.
+// Returns the exponent e with which the picture of a flat field falls off as (cos⁴ α)ᵉ; α is the angle to the optical
+// axis.
 double FalloffOf(const CameraEffects& effects) {
   CameraModel model = ModelOf(effects, PlainCamera());
   const ColourImage picture = ShootFlat(model, {220, 220, 220});

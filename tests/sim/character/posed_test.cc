@@ -14,8 +14,9 @@
 namespace etude {
 namespace {
 
-// An arm along +X: shoulder at the origin, elbow at 1, and a joint without a role in the hand's place. The first of
-// three triangles hangs from the shoulder, the second is shared, the last is carried by that joint.
+// An arm along +X: shoulder at the origin, elbow at 1, and in the hand's place a joint without a role ("glove"). Of
+// three triangles, the first follows the shoulder, the second follows shoulder and elbow, and the third follows the
+// glove.
 Character Arm() {
   Character arm;
   const auto at = [](double x) { return LocalTransform{.translation = {x, 0, 0}}; };
@@ -119,7 +120,8 @@ TEST(PosedFigure, OfABodysPoseHasItsJointsThere) {
 }
 
 TEST(PosedFigure, FillsABodyOfOtherProportions) {
-  // Short legs, a long trunk, broad hips. The corners are half-way along a thigh, and at the hip in the pelvis.
+  // Short legs, a long trunk, broad hips. The three vertices are half-way along the left thigh, at the end of the
+  // pelvis (left hip), and at the end of the upper trunk (shoulder centre).
   BodyPose other = StandingPose();
   for (glm::dvec3& joint : other.joints) joint *= glm::dvec3(1.5, joint.y < 0.95 ? 0.6 : 1.2, 1);
   const auto half_thigh = [](const BodyPose& pose) { return 0.5 * (pose[Role::kLeftHip] + pose[Role::kLeftKnee]); };

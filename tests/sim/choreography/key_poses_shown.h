@@ -21,8 +21,8 @@ inline bool ShowsKeyPose(const KeyPose& key_pose, const BodyPose& pose, double s
 }
 
 /// Returns the first time (s from the motion's first frame) by which every key pose was shown in frames of [from_s,
-/// to_s], in any order; nothing if one is never shown. A move must contain all key poses that recognisers learn, but
-/// this is no truth to judge recognisers by.
+/// to_s], in any order; nothing if one is never shown. Tests use it to check that moves contain the key poses that
+/// recognisers learn. It is not the truth by which recognisers are judged.
 inline std::optional<double> FirstReached(std::span<const KeyPose> key_poses, const BodyMotion& motion, double from_s,
                                           double to_s) {
   if (motion.poses.empty()) return std::nullopt;

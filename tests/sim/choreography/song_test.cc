@@ -323,7 +323,7 @@ TEST(SequenceAt, LeavesTheFeetToOneTurnAtATime) {
   for (Side side : {Side::kLeft, Side::kRight}) {
     for (SideControl control : {SideControl::kLegFree, SideControl::kLegSide, SideControl::kFootSide,
                                 SideControl::kFootAhead, SideControl::kFootLift, SideControl::kFootTurn}) {
-      // During the blend boxing runs to its beat 8, and the kick's clock is still before its beginning.
+      // During the blend, boxing runs on to its beat 8, and the beats of the kick are still negative.
       for (double beat : {11.1, 11.6, 11.99}) {
         EXPECT_EQ(SequenceAt(turns, beat).Of(side, control), Boxing().curves.At(beat - 4).Of(side, control));
       }

@@ -17,7 +17,8 @@ Camera ACamera(const Distortion& distortion) {
   return camera;
 }
 
-/// Returns the depth that each ray meets at `distance` along it; the ray's z is 1 in the camera's frame.
+/// Returns a depth image. `distance(ray)` is the t for which the camera's centre + t · ray lies on the surface; rays
+/// have z = 1 in the camera's frame, so t is the depth.
 template <typename Distance>
 DepthImage DepthsOf(const Camera& camera, Distance distance) {
   DepthImage depth(160, 120);

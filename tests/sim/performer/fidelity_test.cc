@@ -1,7 +1,8 @@
-// Simulated people differ as real people do. Recordings of 20 people and 14 moves (10 people and 10 actions), compared
-// by dynamic time warping, RMS per joint, trunk scaled to 50 cm: the same move by another person is 10.4 cm (16–28)
-// away, the nearest other move 11.5 cm (15–38). With one taught clip by one other person, one-nearest-neighbour
-// classification finds 82 %. Durations vary with a coefficient of variation of 0.2–0.4.
+// Simulated people differ as real people do. Two sets of recordings were compared by dynamic time warping, RMS per
+// joint, trunk scaled to 50 cm. Among 20 people and 14 moves, the same move by another person is 10.4 cm away, and
+// the nearest other move 11.5 cm. Among 10 people and 10 actions, these distances are 16 to 28 cm and 15 to 38 cm.
+// With one taught clip by one other person, one-nearest-neighbour classification finds 82 %. Durations vary with a
+// coefficient of variation of 0.2–0.4.
 
 #include <gtest/gtest.h>
 

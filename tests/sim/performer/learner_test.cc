@@ -28,7 +28,7 @@ class Coaching {
       : learner_(Key(trial), DrawPerson(Key(trial), people), AllMoves(), AllShowable(), options) {}
 
   Learner& learner() { return learner_; }
-  /// What is kept of a move.
+  /// Returns the retained probability that a performance of this move is right.
   double Kept(std::size_t move) const { return learner_.RetainedChanceOfRight(move, 0); }
   const std::vector<BodyPose>& poses() const { return poses_; }
 
@@ -54,7 +54,7 @@ class Coaching {
     Show({});
   }
   void Correct(std::size_t move) { Do(Shown::Act::kCorrect, move); }
-  /// Dances a move until its truth is this one.
+  /// Dances a move again and again until a performance has this truth.
   void DanceUntil(std::size_t move, Truth truth) {
     for (int i = 0; i < 40; ++i) {
       const Truth was = Dance(move);

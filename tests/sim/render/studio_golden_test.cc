@@ -18,8 +18,8 @@
 namespace etude {
 namespace {
 
-// Recorded when the shadows of capsules left GL, which changed 77 of 23 million levels of a contact sheet by one each.
-// Pixels are Mesa's in the pinned environment, equal for OSMesa and EGL (ctest runs both). Another Mesa may differ.
+// Digests of pictures that Mesa renders in the pinned environment. They are equal for OSMesa and EGL (ctest runs both).
+// Another Mesa may differ.
 struct GoldenPictures {
   const char* mesa;
   std::array<const char*, 3> digests;

@@ -89,7 +89,7 @@ TEST(SkeletonSensor, WandersByMillimetresWithATimeConstantOfHalfASecondWhenTheBo
   EXPECT_GT(ends.white_mm, 0.5);
 }
 
-/// Returns the lengths of errors (cm) in dances, sorted, pooled over moves and worlds.
+/// Returns the distances (cm) of sensed joints from the true ones in dances, pooled over moves and worlds, sorted.
 template <std::size_t N>
 std::vector<double> DancingErrorsCm(const std::array<Role, N>& roles, double strength) {
   std::vector<double> lengths;
@@ -175,7 +175,8 @@ TEST(SkeletonSensor, LosesTheWholeBodyInTwoPercentOfFrames) {
   EXPECT_NEAR(lost / 300000.0, 0.02, 0.003);
 }
 
-/// A stretch of frames with one guess; on a still body, an episode.
+/// Consecutive frames in which the guess has the same offset. On a still body, each episode of a wrong guess is one
+/// stretch.
 struct Stretch {
   int frames;
   double off_m;

@@ -88,7 +88,7 @@ TEST(StagedRoom, WhatIsThereStaysThereAsTheSceneGrows) {
 TEST(StagedRoom, DiceDoNotDependOnTheScene) {
   for (std::uint64_t seed = 1; seed <= 12; ++seed) {
     const StagedRoom some = MakeStage(seed, 0.9), all = MakeStage(seed, 1);
-    // Shapes, patterns and cuts are equal; only strengths, and so colours, differ.
+    // Shapes, patterns and the lengths of sleeves and skirts are equal; only colours differ.
     ASSERT_EQ(some.interior()->wall.pattern, all.interior()->wall.pattern);
     ASSERT_EQ(some.interior()->floor.size, all.interior()->floor.size);
     const auto a = some.BystanderAt(1.5), b = all.BystanderAt(1.5);

@@ -47,7 +47,8 @@ using Insert = std::function<std::optional<Inserted>(BodyMotion& motion, RandomS
 
 double EndOf(const BodyMotion& motion) { return static_cast<double>(motion.poses.size() - 1) / motion.rate_hz; }
 
-/// Returns the frames of `seconds`, with half a second before and after; nothing if the motion is shorter.
+/// Returns the first and last frame of a random interval of `seconds`, at least half a second from both ends of the
+/// motion; nothing if the motion is too short.
 std::optional<std::pair<int, int>> Window(const BodyMotion& motion, double seconds, RandomStream& dice) {
   constexpr double kMargin_s = 0.5;
   const double room = EndOf(motion) - seconds - 2 * kMargin_s;

@@ -14,7 +14,7 @@ namespace {
 
 using ::testing::HasSubstr;
 
-/// Returns the gap of two poses with the lowest joint on the floor, as in a library.
+/// Returns the gap of two poses, each moved vertically until its lowest joint is on the floor, as in a library.
 double LevelGap(BodyPose a, BodyPose b) {
   for (BodyPose* pose : {&a, &b}) {
     double low = 1e9;

@@ -130,7 +130,7 @@ TEST_F(Controls, TeleportingWhereTheOldClipIsFastestIsNotClean) {
 }
 
 TEST_F(Controls, WaitingIsNotClean) {
-  // Waits for a minute: the old clip is repeated, then follows the best available join.
+  // Leaves the old clip only at its last frame, at least 1.5 s after the request, and plants the feet.
   const Way wait = [](const TransitionRequest& request) -> std::optional<TransitionOutcome> {
     TransitionRequest patient = request;
     patient.budget_s = 60;
@@ -149,7 +149,8 @@ TEST_F(Controls, WaitingIsNotClean) {
 }
 
 TEST_F(Controls, AGlideLiftedOffTheFloorFoolsTheFootSlideAloneAndIsNotClean) {
-  // Limbs without feet, 2.8 cm above the floor during the join; at that height no foot counts as sliding.
+  // A minimum-jerk join, which plants no foot, lifted to 2.8 cm above the floor; at that height no foot counts as
+  // sliding.
   const Way lifted = [](const TransitionRequest& request) -> std::optional<TransitionOutcome> {
     TransitionOutcome outcome = Outcome(request, Plan("motion-matching", request), "minimum-jerk");
     std::vector<BodyPose>& poses = outcome.splice.motion.poses;

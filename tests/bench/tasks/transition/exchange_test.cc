@@ -192,7 +192,8 @@ TEST_F(TransitionExchange, ScoresAWorseAnswerWorse) {
   const Json late = {{"leave_frame", clip.size() - 1}, {"enter_frame", 0}};
   EXPECT_LT(ValueOf(*world->Judge(soon), "wait_s"), ValueOf(*world->Judge(late), "wait_s"));
 
-  Json stay = soon, leap = soon;  // the frame left is held for a frame; or the whole body moves five metres sideways
+  // Both answers show one frame in between: the pose at which the clip is left, in `leap` moved five metres sideways.
+  Json stay = soon, leap = soon;
   BodyPose pose = *ReadPose(clip[request], "");
   stay["between"] = Json::array({EncodePose(pose)});
   for (glm::dvec3& joint : pose.joints) joint.x += 5;
@@ -262,7 +263,7 @@ TEST_F(TransitionExchange, TellsTheJumpThatStillCountsAsNatural) {
   for (int trial = 0; trial < 8; ++trial) {
     const auto world = task_->MakeWorld(Trial(trial), false);
     const double limit = (*world->MakeTruth()->json)["natural_limit_cm"];
-    const CellResult cell = world->Run(1);  // the second join of paper A's choice
+    const CellResult cell = world->Run(1);  // paper A's choice with the second join
     if (cell.status != Status::kOk) continue;
     EXPECT_EQ(ValueOf(cell, "natural_share"), ValueOf(cell, "jump_cm") <= limit * (1 + 1e-9) ? 1 : 0);
   }

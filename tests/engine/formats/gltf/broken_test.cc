@@ -24,7 +24,8 @@ using testing::Replaced;
 using testing::SmallBinary;
 using ::testing::StartsWith;
 
-/// What tinygltf and the JSON parser refuse, in their words. The file beside this one has the others.
+/// A change of kSmallGltf that tinygltf or the JSON parser refuses, and the complaint in their words. The complaints in
+/// Etude's own words are in broken.txt.
 struct BrokenText {
   const char* what;
   const char* from;

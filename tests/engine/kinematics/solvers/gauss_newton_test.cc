@@ -46,7 +46,8 @@ TEST(GaussNewton, SolvesHardProblems) {
   EXPECT_EQ(cold.outside, 0);
 }
 
-// Returns the largest change of a further step towards the start, which is zero at the nearest solution.
+// Returns the largest change of an angle in one more step towards the start. It is zero at the solution that is nearest
+// to the start.
 double LeftToGain(const IkProblem& problem, const IkSolution& solution) {
   TreeState state = problem.start;
   state.angles = solution.angles;

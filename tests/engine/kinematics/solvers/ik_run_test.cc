@@ -200,7 +200,7 @@ TEST(Restarts, BeginAtOtherPosesAroundTheStartWithinTheRanges) {
   EXPECT_EQ(std::ranges::adjacent_find(poses), poses.end()) << "each is a try of its own";
 }
 
-// Where no limit cuts the interval of 3 rad, each tenth of it gets a tenth of the numbers.
+// If no limit cuts the interval of 3 rad, each tenth of the interval gets a tenth of the restarts.
 TEST(Restarts, AreSpreadEvenly) {
   const std::vector<AngleRange> wide(6, {-100, 100});
   const std::vector<double> start = {0, 0.3, -0.7, 1.1, 2, -2};

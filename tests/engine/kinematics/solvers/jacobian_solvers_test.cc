@@ -65,7 +65,7 @@ TEST(DampedLeastSquares, TurnsAHingeByDampedStepsOfBoundedLength) {
 TEST(DampedLeastSquares, StallsOnlyOnceAStepGainsNextToNothing) {
   const IkProblem problem = DisturbedProblem(Body(), RandomPose(Body(), 3, 0.5), 3, 30);
   IkOptions options;
-  options.angle_change_tolerance = Radians(4);  // no pose this near meets the targets
+  options.angle_change_tolerance = Radians(4);  // no pose within 4° of the start meets the targets
   options.trace = true;
   const IkSolution solution = SolveDampedLeastSquares(Body(), problem, options);
   EXPECT_EQ(solution.status, IkStatus::kStalled);

@@ -19,7 +19,8 @@ double CostAt(const IkProblem& problem, const std::vector<double>& angles) {
   return LinearTargets(Body(), problem.targets).Cost(ComputeFrames(Body(), state));
 }
 
-// An elbow that bends by at most 0.9 rad: one angle alone decides the tip's smallest distance.
+// The elbow bends by at most 0.9 rad. With the elbow at this limit, only the shoulder's angle decides how near the
+// tip is to the target.
 TEST(LevenbergMarquardt, FindsTheNearestPoseWhereALimitBinds) {
   KinematicTree arm = Arm({0.5, 0.4}, 1);
   arm.limits[1] = {0, 0.9};
@@ -170,7 +171,7 @@ TEST(LevenbergMarquardt, StaysFiniteWithWeightsAndLimbsOfAbsurdSizes) {
 }
 
 // A hinge points slightly beside a target far beyond its reach, so undamped steps overshoot. With lever 1, distance D
-// and angle a, the step D sin a / (1 + μ) raises the sum while it exceeds 2a.
+// and angle a to the target, the step is D sin a / (1 + μ). A step of more than 2a raises the sum.
 TEST(LevenbergMarquardt, DampsARejectedStepByNielsensRule) {
   const KinematicTree arm = Arm({1.0}, 1);
   constexpr double kDistance = 8, kOff = 0.1, kShare = 1e-3;

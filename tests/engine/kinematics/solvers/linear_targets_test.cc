@@ -40,7 +40,7 @@ TEST(LinearTargets, SquaresOfTheResidualsAreTheSumNearTheTarget) {
 }
 
 TEST(LinearTargets, TheJacobianFollowsWhatSmallTurnsDoToTheResiduals) {
-  const IkProblem problem = Weighted(Body(), 0);  // at the target, where residuals are linear to second order
+  const IkProblem problem = Weighted(Body(), 0);  // at the target, where residuals are linear in small turns
   LinearTargets here(Body(), problem.targets), there(Body(), problem.targets);
   here.Build(ComputeFrames(Body(), problem.start));
   ASSERT_LT(Square(here.residuals()), 1e-20);
@@ -91,9 +91,9 @@ TEST(LinearTargets, StepsEndAtTheRangesAndAreShortenedAsAWhole) {
   EXPECT_EQ(angles[2], 0);
 }
 
-// Forward kinematics by products of exponentials (Brockett 1984; Lynch and Park 2017, chapter 4). Each angle is a screw
-// in the world at zero angles; a point is moved by the screws from its limb to the root. No frame of a posed limb is
-// used.
+// Forward kinematics by products of exponentials (Brockett 1984; Lynch and Park 2017, chapter 4). Each angle rotates
+// about its axis in the world at zero angles (a screw). A point is moved by the screws of all angles from its limb to
+// the root, one after the other. No frame of a posed limb is used.
 class Screws {
  public:
   Screws(const KinematicTree& tree, const TreeState& state) : tree_(tree), angles_(state.angles) {

@@ -191,8 +191,8 @@ GaussNewtonStep::GaussNewtonStep(const KinematicTree& tree, std::span<const Effe
       change_(tree.limits.size()) {}
 
 double GaussNewtonStep::Build(const TreeFrames& frames) {
-  // Compute the screw of every hinge: its axis, and the translation per radian of that point of the limb which is at
-  // the root.
+  // Compute the screw of every hinge: its axis, and the velocity per radian of the moved limb's point that coincides
+  // with the root joint.
   const glm::dvec3 p_WR = frames.joints[0].position;
   for (const int n : inwards_) {
     const TreeJoint& joint = tree_.joints[n];

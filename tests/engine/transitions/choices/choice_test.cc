@@ -35,7 +35,8 @@ TEST(FuzzyBridge, TellsOfThePairsItDidNotTake) {
   library.tagged[0] = ClipOfLevels({0, 0.3, 5, 0, 0}, {0, 1, 2, 3});
   const TransitionRecord record =
       FindChoice("fuzzy-bridge")->plan(library, {.from = 0, .request_frame = 0, .to = 2}, {}, {});
-  // Frames 0 and 3 have distances 0.05, 0.15, 0.25, 0.35 below 0.4; frame 1 has the first seven of 0.05 … 2.05.
+  // Clip 2 has the levels 0.05, 0.15, … 2.05. The first four match frames 0 and 3 (level 0, threshold 0.4), and the
+  // first seven match frame 1 (level 0.3); none matches frame 2.
   EXPECT_EQ(record.pairs_seen, 4 * 20);
   EXPECT_EQ(record.pairs_matched, 4 + 7 + 4);
   ASSERT_EQ(record.candidates.size(), 5u) << "the taken pair, and the nearest other of each bridge frame";

@@ -11,7 +11,7 @@ namespace {
 
 using testing::Fingerprint;
 
-/// Returns moves with feet, and dances with limbs that swing in any direction.
+/// Returns built-in moves, and random clips in which limbs swing in any direction.
 std::vector<BodyMotion> JoinedClips() {
   std::vector<BodyMotion> clips = LibraryOfMoves().motions;
   RandomStream dice({.suite_seed = 6, .scenario = "golden", .trial = 0}, "joins");
@@ -29,7 +29,8 @@ void AddTo(Fingerprint& print, const Splice& splice) {
   for (const std::vector<BodyPose>& poses : splice.between) print.Add(JointsOf(poses));
 }
 
-/// Returns ways of two and three clips, at first and last frames, and with in-between frames, placed and not.
+/// Returns sequences of two or three segments. Some begin or end at a clip's first or last frame. Some have in-between
+/// frames, which are already aligned with the last shown frame (`in_place`) or not.
 std::vector<std::vector<Segment>> Ways(const std::vector<BodyMotion>& clips, std::optional<PreferredJoin> preferred) {
   const auto last = [&](int clip) { return static_cast<int>(clips[clip].poses.size()) - 1; };
   const auto to = [&](int clip, int first, int end) {

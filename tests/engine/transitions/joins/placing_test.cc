@@ -38,7 +38,7 @@ TEST(CarriedShift, StopsAPointMassOverItsCapturePoint) {
 
 TEST(CarriedShift, LetsABodyGoOnThatKeepsItsSpeed) {
   const BodyMotion glides = Gliding(60, 1.7);
-  // It is entered at frame 12 instead of 30, so its own path continues 18 frames further on.
+  // The same clip is left at frame 30 and entered at frame 12, so its path is shifted by the way of 18 frames.
   const glm::dvec3 shift = CarriedShift(EndOf(glides, 30), glides.poses[30], EndOf(glides, 24), 12);
   EXPECT_NEAR(shift.z, 1.7 * 18 / kRate, 1e-12);
 }

@@ -129,7 +129,8 @@ std::vector<double> LevelsOf(const InBetweenNet& net, const std::vector<TaggedCl
   return levels;
 }
 
-// Class 0 is in one clip and eight frames, 1 in two and four, 2 in two and five, 3 in three and three; classes differ.
+// Number of clips and of frames with each class: 1 and 8 (class 0), 2 and 4 (1), 2 and 5 (2), 3 and 3 (3). Frames of
+// different classes are farther apart than the threshold.
 TEST(InBetweenNet, TakesItsKeysFromTheMostFrequentPoseToTheRarest) {
   const std::vector<TaggedClip> clips = {
       ClipOfClasses({0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 1.0, 1.0, 2.0, 2.0, 2.0, 3.0}, "00000000112223"),
