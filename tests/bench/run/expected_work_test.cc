@@ -35,7 +35,8 @@ TEST(Progress, EstimatesByTheMeasuredPaceAndFirstByTheExpectedOne) {
   // Without stored costs: 10 of 100 cells took 5 s, so the others take 45 s.
   EXPECT_DOUBLE_EQ((Progress{.work = 100, .work_done = 10, .seconds = 5}.SecondsToGo()), 45);
   EXPECT_EQ((Progress{.work = 100, .seconds = 5}.SecondsToGo()), 0);
-  // A run of 60 s whose expensive cells come first: 1 % of its cells, but 10 % of its work. By cells it would be 594 s.
+  // A run of 60 s whose expensive cells come first. After 6 s, 1 % of its cells but 10 % of its work is done, so an
+  // estimate by cells would be 594 s.
   Progress known{.work = 60, .seconds_per_work = 1};
   EXPECT_DOUBLE_EQ(known.SecondsToGo(), 60);
   known.work_done = known.seconds = 6;
