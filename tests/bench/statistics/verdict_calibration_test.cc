@@ -150,8 +150,8 @@ TEST(MeasureVerdicts, HEAVY_FindsThePublishedRatesAndKeepsThePromise) {
   if (HasFailure()) std::cout << text;  // the new table, for the page if the change is right
 }
 
-// Values at each bound keep the promise. Of 10,000 samples at 5 % more than 577 alarm with probability 0.05 / 280 (500
-// + 3.57 × 21.8 = 578); at 6 %, more than 684.
+// Values at each bound keep the promise. If the true rate is 5 %, more than 577 of 10,000 samples alarm with
+// probability 0.05 / 280 (500 + 3.57 × 21.8 = 578). If the true rate is 6 %, the bound is 684.
 TEST(KeepsPromise, NeedsFewFalseAlarmsForCertainAndIntervalsThatHoldTheTruth) {
   constexpr std::size_t kDesigns = 280;
   VerdictRates rates{.false_alarms = {.count = 577, .of = 10'000, .percent = 5.77, .low = 5.3, .high = 6.5}};

@@ -72,7 +72,8 @@ double CoinsDiffer(double effect, RandomStream& dice) {
 
 double PenalisedCost(double log_cost) { return log_cost > LogLimit() ? 2 * std::exp(LogLimit()) : std::exp(log_cost); }
 
-/// Return the expectations of a penalised cost whose logarithm is normal around `shift`, and of its square.
+/// Return the expectation of a penalised cost whose logarithm is normal around `shift` with variance 1, and the
+/// expectation of its square for `shift` 0.
 double MeanCost(double shift) {
   const double below = LogLimit() - shift;
   return std::exp(shift + 0.5) * NormalCdf(below - 1) + 2 * std::exp(LogLimit()) * NormalCdf(-below);
@@ -155,8 +156,8 @@ class Sampler {
         return dice_.Chance(kUntied) ? untied : 0;
       }
       case SampleLaw::kShares:
-        // Each world takes its unit's draw with probability √alike, so two worlds of a unit are equal with probability
-        // `alike`, which is then their correlation.
+        // Each world takes its unit's draw with probability √alike, so two worlds of a unit both take it with
+        // probability `alike`, which is then their correlation.
         return dice_.Chance(std::sqrt(design_.alike)) ? brings_[static_cast<std::size_t>(units.front())].coins
                                                       : CoinsDiffer(effect_, dice_);
       case SampleLaw::kCensored:

@@ -114,8 +114,8 @@ TEST_F(MarkingTest, FramesThatNobodyIsAskedToMarkStayEmpty) {
   }
 }
 
-// `FigureLook::figure` was read off clothed people who hold their arms out, seen from the front. With capsules' shares,
-// hips and shoulders would be far off.
+// The proportions for FigureKind::kDressed were measured on clothed people who hold their arms out, seen from the
+// front. With the proportions for FigureKind::kCapsules, hips and shoulders would be far from the true joints.
 TEST(SeePicture, KnowsWherePeopleInClothesHaveTheirJoints) {
   ASSERT_OK(renderer, SharedRenderer());
   const Camera camera = LookAt({}, {0, 1.2, 3.6}, {0, 1, 0});

@@ -318,7 +318,8 @@ TEST(JudgeMotion, TakesStatisticsAndBeats) {
   ASSERT_TRUE(beats);
   side.music_beats_s = *beats;
   const CellResult result = JudgeMotion(*matched, side);
-  // Without means and with one deviation, the distance is the norm of all differences in tenths of a metre.
+  // The means cancel, and all deviations are 0.1 m. So a frame's distance is the norm of all its differences in tenths
+  // of a metre.
   double sum = 0;
   for (std::size_t f = 0; f < 90; ++f) {
     double square = 0;
