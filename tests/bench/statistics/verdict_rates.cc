@@ -130,7 +130,7 @@ class Sampler {
  private:
   /// The contributions of one unit to its worlds.
   struct Brings {
-    std::array<double, 2> own{}, other{};  ///< in the first and the second role; of the method and of the baseline
+    std::array<double, 2> own{}, other{};  ///< own: in the first role, other: in the second; [method, baseline]
     double coins = 0;
   };
 
@@ -252,8 +252,9 @@ std::string PurposeOf(const SampleDesign& design, double effect) {
                      design.in_pairs, design.part_alike, effect);
 }
 
-/// Returns the true pseudo-median of the units' means under an effect: If the effect only shifts a law, it shifts with
-/// the mean. If the effect changes the shape, it is the median of 20,000 means of two units.
+/// Returns the true pseudo-median of the units' means under an effect. If the effect only shifts a law, the
+/// pseudo-median shifts as much as the mean. If the effect changes the law's shape, the pseudo-median is estimated by
+/// the median of 20,000 means of two units.
 double TruthOf(const SampleDesign& design, double effect) {
   // If each unit has one yes-or-no world, the verdict is about the mean.
   const bool changes_shape = design.law == SampleLaw::kTies || design.law == SampleLaw::kCensored ||
@@ -323,7 +324,7 @@ VerdictRates MeasureVerdicts(const SampleDesign& design, const VerdictRepetition
 
 std::vector<SampleDesign> PublishedDesigns() {
   std::vector<SampleDesign> designs;
-  // One unit per world.
+  // Each world is drawn from one unit.
   for (int units : {6, 8, 12, 30}) {
     for (int trials : {1, 3, 10}) {
       for (double alike : {0.0, 0.5, 0.9}) {

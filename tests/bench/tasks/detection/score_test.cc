@@ -62,7 +62,7 @@ TEST(ScoreSession, MatchesAVectorWorkedByHand) {
   EXPECT_DOUBLE_EQ(Value(cell, "fault_found"), 1.0 / 3);
   EXPECT_DOUBLE_EQ(Value(cell, "grey_called_right"), 1);
   EXPECT_DOUBLE_EQ(Value(cell, "right_spotted"), 1.0 / 3);
-  EXPECT_DOUBLE_EQ(Value(cell, "move_named"), 3.0 / 5);  // no performance belongs to one of them
+  EXPECT_DOUBLE_EQ(Value(cell, "move_named"), 3.0 / 5);  // of six events, one has no performance
   EXPECT_DOUBLE_EQ(Value(cell, "roc_auc"), 5.0 / 6);     // 0.4 loses against 0.6
   // The waits are 0.1 s, 0.3 s, and more than 1 s: the median is 0.3 s. The median of those that ended would be 0.2 s.
   EXPECT_NEAR(Value(cell, "latency_s"), 0.3, 1e-9);

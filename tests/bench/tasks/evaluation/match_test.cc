@@ -164,7 +164,7 @@ RawMotion AsSkeleton(const RawMotion& motion) {
 
 TEST(Match, MarkersNamedAsASkeletonsJointsHaveTheirRoles) {
   const RawMotion truth = AsSkeleton(Gliding(30, 5));
-  // The same points without the End Site. A joint called "spine" is another than the skeleton's spine, by 40 cm.
+  // The same points without the End Site. The answer's "spine" is the head's point, 40 cm from the skeleton's spine.
   RawMotion answer = truth;
   answer.parents.clear();
   answer.added.clear();
