@@ -146,7 +146,7 @@ TEST(MeasureBeyond, KnowsNothingBeyondWhatEveryWorldShows) {
   EXPECT_EQ(*one.difference, -4);
   EXPECT_TRUE(one.left_out.empty());
   EXPECT_FALSE(one.verdict);
-  // Every world leaves the same clip.
+  // In every world the transition leaves or enters clip 0.
   UnitSample sample = OneWay({0, -1, -3, -2, -5, -4, -3});
   for (std::vector<int>& units : sample.units) {
     if (units.front() != 0) units.push_back(0);

@@ -356,7 +356,8 @@ std::vector<SampleDesign> PublishedDesigns() {
 bool KeepsPromise(const VerdictRates& rates, std::size_t designs) {
   const Percentage& alarms = rates.false_alarms;
   if (alarms.of == 0) return false;
-  // The score test of "at most what is promised", one-sided: the lower end of Wilson's interval of twice its level.
+  // A one-sided score test finds a rate above the promised one if the Wilson interval of confidence 1 − 2 · level lies
+  // above the promised rate.
   const double level = 0.05 / static_cast<double>(designs), promised = IsOfUnits(rates.design.law) ? 0.06 : 0.05;
   return WilsonInterval(alarms.count, alarms.of, 1 - 2 * level).low <= promised && alarms.high <= 6.5 &&
          rates.coverage_without >= 93;

@@ -178,7 +178,8 @@ TEST(Match, MarkersNamedAsASkeletonsJointsHaveTheirRoles) {
     EXPECT_NEAR(ValueIn(result, "mpjpe_root_mm"), 0, 1e-9);
     EXPECT_THAT(result.reason, HasSubstr("19 joints (the truth or the answer lacks head), root bone 0"));
   }
-  // If one needed joint has no namesake, the names are not those of the skeleton: the lone spine is refused.
+  // If one joint has no namesake, the answer's names are not the skeleton's names. Only the role spine is then common,
+  // and one joint is too few.
   answer.joints[Index(Role::kLeftKnee)] = "knee";
   EXPECT_THAT(testing::Refusal(Match(truth, answer, "roles", Lag::kNone)),
               HasSubstr("has 1 joint in common with the truth (joints: roles), but its joints are bone 0, Chest, "));
