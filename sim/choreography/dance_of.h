@@ -24,13 +24,13 @@ std::string HintOf(const Move& move);
 
 /// Reads the times of the beats of a piece of music, seconds from the beginning of the music. Each line begins with a
 /// number, as in the output of beat trackers and in Audacity's label tracks; the rest of the line is ignored. Empty
-/// lines and lines that begin with '#' are skipped. Fails, with file and line, if a line does not begin with a number,
-/// the beats do not ascend, two neighbours are less than 0.2 s or more than 3 s apart, or there are fewer than 8 or
-/// more than 10,000 beats.
+/// lines and lines that begin with '#' are skipped. Fails, with file and line, at a line that does not begin with a
+/// number of at least 0, at a beat that is less than 0.2 s or more than 3 s after the previous beat, and at beat
+/// 10,001. Fails, with the file, if there are fewer than 8 beats.
 Result<std::vector<double>> ReadBeats(std::string_view text, const std::string& file);
 
-/// Returns the tempo of at least two beats: 60 s divided by the median interval between the beats, in beats a minute,
-/// rounded to 0.01.
+/// Returns the tempo of at least two beats: 60 s divided by the upper median of the intervals between the beats, in
+/// beats a minute, rounded to 0.01.
 double TempoOf(const std::vector<double>& beats_s);
 
 /// Aligns the dance of a song with given beats: every music tag moves to the time of its beat, interpolated between

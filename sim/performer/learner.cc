@@ -128,9 +128,9 @@ struct Learner::Layer {
 
   double Weight(double time_s) const { return Smootherstep((time_s - seen_s) / blend_s); }
 
-  /// Returns the share of the performance that a person in perfect time has danced: to the beat that the coach showed
-  /// one lag ago. Before the first beat, the share accelerates from rest; after the last shown beat, it grows at the
-  /// move's tempo.
+  /// Returns the share of the performance that is due: a person in perfect time has reached the beat that the coach
+  /// showed one lag ago. Before the first beat, the share accelerates from rest; after the last shown beat, it grows at
+  /// the move's tempo.
   double DueAt(double time_s) const {
     const Move& move = rendition->style().move();
     const double beats_per_s = move.tempo_bpm / 60, length_s = move.beats / beats_per_s;

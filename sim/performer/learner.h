@@ -64,7 +64,7 @@ struct LearnerPerformance {
 /// Learners follow the coach with their lag and in their own style (Style). They make mistakes according to their
 /// skills; there is one skill for every fault of every move. The random numbers of a performance are keyed by its move
 /// and its attempt and never by time, so they are the same under every coach. Practice teaches a little, a
-/// demonstration more, and a correction most; but a correction teaches only about the faults of the corrected mistake.
+/// demonstration more, and a correction most; but a correction teaches only about the corrected performance's faults.
 /// Feedback also guides: its effect on the next performances is larger than the part that is retained. Praise for a
 /// mistake removes learning. Wrong praise and a correction without a mistake cost patience; without patience a learner
 /// gives up and stands still. The constants are in learner.cc, with their sources or marked as ours.

@@ -45,7 +45,7 @@ class Skill {
   void Practise(double units);
   /// Adds `units` ≥ 0 of learning between performances: the coach's corrections and demonstrations.
   void Learn(double units);
-  /// Removes `units` of learning. Under the two-rate law both states shrink by exp(−rate · units).
+  /// Removes `units` of learning. Under the two-rate law both states are multiplied by exp(−rate · units).
   void Unlearn(double units);
   /// Lets the time of `performances` performances pass without practice.
   void Rest(int performances);

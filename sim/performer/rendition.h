@@ -82,7 +82,7 @@ class Rendition {
 
 /// Returns true if this fault alone, at its worst, makes a performance of `move` truly wrong; the person otherwise
 /// dances as taught. A move that equals its own mirror image, shifted by half a performance, has no wrong side.
-/// `choice` has the meaning of GradedFault::choice; `instead` is used for kWrongMove.
+/// `instead` is the move that kWrongMove dances; other faults do not use it.
 bool CanShow(const GradedFault& fault, const Move& move, const Move* instead);
 
 /// For each move, the faults that the move can show, which are the same for every person. The search takes some

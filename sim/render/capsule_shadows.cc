@@ -51,9 +51,9 @@ class Caster {
     const glm::dvec3 apart = tile.middle - middle_;
     const double both = tile.spread + spread_ + kFloatMargin;
     if (glm::dot(apart, apart) > both * both) return false;
-    // Compute the distance of the capsule's axis from the line through the lamp in the tile's middle direction. A ray
-    // whose direction differs from the middle direction by up to `spread` passes a point at distance d at most d ·
-    // `spread` closer.
+    // Compute the distance of the capsule's axis from the line through the lamp in the tile's middle direction. The
+    // tile's other rays deviate from this direction by up to `spread`. At a distance d from the lamp, such a ray is at
+    // most d · `spread` closer to the axis.
     const auto across = [&](const glm::dvec3& v) { return v - glm::dot(v, tile.middle) * tile.middle; };
     const glm::dvec3 from = across(start_), direction = across(along_);
     const double square = glm::dot(direction, direction);

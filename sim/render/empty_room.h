@@ -44,7 +44,7 @@ struct RoomTile {
 /// The points of the empty room that a picture shows, relative to the lamp: one value per pixel, row by row.
 struct LampView {
   glm::dvec3 lamp{0};           ///< position of the lamp in the world, metres
-  std::vector<float> x, y, z;   ///< points relative to the lamp, world axes, metres; next to the lamp = no room is seen
+  std::vector<float> x, y, z;   ///< points relative to the lamp, world axes, metres; 1 mm above the lamp: no room there
   std::vector<RoomTile> tiles;  ///< the tiles in which the room is visible
 };
 

@@ -33,7 +33,7 @@ PoseLengths LengthsOf(const SkeletonSensorOptions& options) {
   return {.own = options.pose_length_m, .far = options.far_pose_length_m};
 }
 
-constexpr double kFullSpeed = 0.5;  // m/s; at this speed of a joint the fast part has its full size
+constexpr double kFullSpeed = 0.5;  // m/s; FastGain is 1 if the mean of the joint's and the body's speeds is this
 constexpr double kSpeedCap = 1.3;   // as a multiple of kFullSpeed; above this speed the fast part does not grow
 
 double FastGain(const JointSpeeds& speeds, std::size_t joint, const SkeletonSensorOptions& options) {

@@ -197,7 +197,7 @@ int SkeletonSensorOptions::Lag() const { return static_cast<int>(std::lround(std
 
 SkeletonSensorOptions SensorV1() {
   SkeletonSensorOptions v1;
-  v1.view = {.width = 640, .height = 480, .fx = 580, .fy = 580, .cx = 320, .cy = 240, .skew = 0};  // view 57° × 43°
+  v1.view = {.width = 640, .height = 480, .fx = 580, .fy = 580, .cx = 320, .cy = 240, .skew = 0};  // view 58° × 45°
   v1.depth_law = DepthLaw::kStructuredLight;
   // The values of `size` for the trunk and the ends of limbs reproduce the published errors of torso, head, hands and
   // feet in a dance. The values for elbows and knees lie in between (ours). Errors are larger in depth than across the

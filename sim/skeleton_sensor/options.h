@@ -130,7 +130,7 @@ struct SkeletonSensorOptions {
   double wrong_guess_chance = 0.6;  ///< probability of a wrong guess; a right guess errs like a seen joint (ours)
 
   double dropout_share = 0.02;    ///< share of all frames in which the whole body is lost
-  double swaps_per_minute = 1.0;  ///< exchanges of left and right arms or legs in profile, 1/3 s each (ours)
+  double swaps_per_minute = 1.0;  ///< rate in profile; a swap exchanges left and right arms or legs for 1/3 s (ours)
   bool swaps_when_facing = true;  ///< false: rate proportional to 1 − cos(the body's turn from the sensor) (ours)
   /// Probability of an outlier, per joint and frame (ours). Gaussian noise with uniform outliers: arXiv 1512.04134.
   double outlier_chance = 0.001;

@@ -92,7 +92,7 @@ class Swaps {
   Swap Next(double turn);
 
  private:
-  double usual_chance_;  ///< probability that a swap starts in a frame, for the usual rate
+  double usual_chance_;  ///< probability that a swap starts in a frame, for a body in profile
   bool when_facing_;
   int length_;  ///< length of a swap, frames
   RandomStream dice_;

@@ -18,7 +18,7 @@ enum class Wardrobe {
 /// Returns the coded suit. The suit's colours are plain and saturated, and as bright as possible without clipping under
 /// the drifting lamp. The hues are 18.5° apart, in the 240° of the circle that are at least 20° away from the hues of
 /// the studio's wall and floor (150–230°). The hues of adjacent limbs differ by 92° or more, and the hues of the two
-/// limbs of a pair by 120°. Furnished rooms have objects of any hue, but with paler colours (palette.h).
+/// limbs of a pair by 129°. Furnished rooms have objects of any hue, but with paler colours (palette.h).
 PartColours CodedSuit();
 
 /// Draws the clothes of the person `who` on the stage with this seed. Builds, cuts and patterns depend only on the seed

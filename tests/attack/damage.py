@@ -21,7 +21,7 @@ methods:
 video: {compare: [fixed, least-squares], trials: [0]}
 """
 RESULTS = ("cells.jsonl", "summary.json")
-LOCK = shutil.ignore_patterns("lock")  # which nobody may read
+LOCK = shutil.ignore_patterns("lock")  # the file "lock", which nobody may read, is not copied
 READERS = {
     "report": ["report", "--no-video", "RUN"],
     "gate": ["gate", "RUN", "--baseline", "BASELINE"],

@@ -68,7 +68,7 @@ def kill_once(etude, targets, moment_s, at_fence=False):
         launchers = [launcher for worker in workers for launcher in children(worker)]
         victims = ([run.pid] if "run" in targets else []) + (workers if "worker" in targets else [])
         victims += launchers if "launcher" in targets else []
-        # Every process below a victim must end. A process that is started in its place need not.
+        # Every process that is now below a victim must end. A process that replaces it later may live on.
         below, look = set(), list(victims)
         while look:
             process = look.pop()

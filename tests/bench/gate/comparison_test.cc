@@ -135,7 +135,7 @@ TEST(Snapshots, CountFailuresAndLostValuesAgainstTheMethod) {
     EXPECT_EQ(lost.comparison.pairs, 12);
     EXPECT_EQ(lost.movement, Movement::kWorse);  // the remaining values did not change
   }
-  for (Status status : {Status::kFailed, Status::kUnsolved}) {  // kUnsolved loses its value here, too
+  for (Status status : {Status::kFailed, Status::kUnsolved}) {  // Ending leaves out the value of kUnsolved, too
     EXPECT_EQ(MoveOf(Ending(status, 1), "position_error_cm").movement, Movement::kWorse);
     EXPECT_EQ(MoveOf(Ending(status, 1), "position_error_cm", {}, kNoTails).movement, Movement::kUndecided);
   }

@@ -146,7 +146,8 @@ TEST(Gate, FailsIfAnAnswerFlipsAlthoughNoMethodGotWorse) {
   EXPECT_THAT(fallen_of(2), testing::Pair(ElementsAre("s, joint_noise_deg=1: b against a: better before, now worse",
                                                       "s, joint_noise_deg=2: b against a: better before, now worse"),
                                           GateVerdict::kRegressed));
-  // If the verdict becomes "no difference", the gate reports it but passes. If a improves less, the verdict stays.
+  // If the verdict becomes "no difference", the gate reports it but passes. If method a improves by less than that, the
+  // verdict does not change.
   EXPECT_THAT(fallen_of(0.99), testing::Pair(ElementsAre(HasSubstr("b against a: better before, now no difference"),
                                                          HasSubstr("b against a: better before, now no difference")),
                                              GateVerdict::kPassed));

@@ -21,7 +21,7 @@ struct Evaluator {
 /// Return the evaluators of each domain; `EvaluateMetric` searches all of them.
 std::span<const Evaluator> IkEvaluators();  ///< also of task tracking
 std::span<const Evaluator> CaptureEvaluators();
-std::span<const Evaluator> TransitionEvaluators();  ///< also of transition points' matching
+std::span<const Evaluator> TransitionEvaluators();  ///< also of the metrics of matching transition points
 std::span<const Evaluator> PoseDistanceEvaluators();
 std::span<const Evaluator> DetectionEvaluators();
 std::span<const Evaluator> CoachEvaluators();

@@ -22,7 +22,7 @@ NEWER = {"natural_share": 3, "solved_practical": 2, "solved_tight": 2, "iteratio
          # the root is the file's own root joint
          **dict.fromkeys(["mpjpe_root_mm", "mpjpe_root_scaled_mm", "pck_150mm@mpi_inf_3dhp", "auc_150mm@mpi_inf_3dhp", "rte@wham",
                           "accel_error_mps2@wham", "pfc@edge"], 2),
-         # torn joints, one-footed skating and further pops are faults, too
+         # version 2 also counts torn joints, skating on one foot, and further kinds of pops as faults
          **dict.fromkeys(["faults", "skates_share", "skates_max_cmps", "pops", "pops_max_cm", "fault_free", "within_limits"],
                          2)}  # all other metrics are of version 1
 

@@ -40,7 +40,7 @@ class StandingJoin {
 TEST(JoinSupport, IsOfOneSecondAndAFifthAtLeastAsFarAsTheMotionGoes) {
   const StandingJoin stands(Lifted(0, 0, 0));
   EXPECT_EQ(JoinSupport(stands.View()).size(), 37u);
-  const StandingJoin settles_late(Lifted(0.06, 60, 65));  // further than the distance that counts as arrived
+  const StandingJoin settles_late(Lifted(0.06, 60, 65));  // 6 cm: farther than kArrived
   EXPECT_EQ(JoinSupport(settles_late.View()).size(), 66u - kPoint + 1);
   JoinView ends = stands.View();
   ends.shown = ends.shown.first(40);

@@ -22,7 +22,8 @@ TEST(ExpectedWork, TakesStoredCostsAndTheirMeanForOtherScenarios) {
   const ExpectedWork unknown(plan, {});
   EXPECT_EQ(unknown.OfWorld(0), 1);
   EXPECT_EQ(unknown.SecondsEach(2), 0);
-  // The cost of the first scenario is spread over its cells; the second is unknown, so its cells cost as much.
+  // The cost of the first scenario is spread over its cells. The second scenario's cost is unknown, so its cells are
+  // expected to cost as much as those of the first.
   std::map<std::string, KeptCost> kept;
   kept[WorkOf(prepared[0].scenario())] = {.once = 42, .trial = 6};
   const ExpectedWork known(plan, kept);

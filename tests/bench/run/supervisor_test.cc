@@ -109,8 +109,8 @@ TEST_F(HurriedSupervisorTest, AWorkerThatComputesTooLongIsEnded) {
 TEST_F(SupervisorTest, NeitherWaitingNorWhatWasBeforeAWorldIsATimeout) {
   FinishedCell finished;
   finished.row.result = CellResult::Ended(Status::kOk, "");
-  // The set-up computes for longer than the limit; then twice the limit passes in wall-clock time only, as on a busy
-  // machine. All workers after the first give up.
+  // The set-up computes for longer than the limit. Then the worker waits, as on a busy machine, twice for 0.6 s of
+  // wall-clock time, which is twice the limit. Later workers exit when they get an order.
   const auto whole = RunWith(
       "[ ! -e $0.was ] || exec sh -c 'echo ready; read order'\n: > $0.was\n"
       "i=0\nwhile [ $i -lt 400000 ]; do i=$((i+1)); done\necho ready\nread -r order\nsleep 0.6\necho built\n"

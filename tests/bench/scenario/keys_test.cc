@@ -25,7 +25,7 @@ Names NamesOf(const std::vector<KeyInfo>& keys) {
   return names;
 }
 
-/// Returns the keys that the complaint about kNobodyKnows lists as allowed; fails if it is another complaint.
+/// Returns the keys that a complaint about kNobodyKnows lists as allowed; fails the test for any other complaint.
 Names AllowedBy(const std::string& complaint) {
   const std::string about = fmt::format("'{}'. Allowed: ", kNobodyKnows);
   const std::size_t at = complaint.find(about);

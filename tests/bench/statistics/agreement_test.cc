@@ -70,8 +70,8 @@ TEST(MeasureAgreement, OnePersonHasNoLimits) {
   EXPECT_FALSE(agreement.low.value);
 }
 
-// Biases have deviation 2 over people, noise has deviation 1 over frames: the limits of one more difference are ±1.96 ·
-// √5, and the bias's intervals contain 0 as often as they claim.
+// The biases of people have standard deviation 2, and the noise of frames has standard deviation 1. So the limits of
+// agreement are ±1.96 · √5, and the intervals of the mean bias must contain 0 as often as they claim.
 TEST(MeasureAgreement, IntervalsAreOverPeople) {
   constexpr int kStudies = 60, kPeople = 12, kFrames = 50;
   int covered = 0, too_narrow = 0;

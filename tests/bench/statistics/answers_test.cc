@@ -15,7 +15,7 @@ namespace {
 
 constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
 
-/// One cell: whether it solved its world, and its error; without an error it crashed.
+/// The values of one cell: 1 if it solved its world, and its position error; NaN (kNone) if the cell crashed.
 struct CellValues {
   double solved = 1, error_cm = 1;
 };

@@ -15,7 +15,8 @@ using ::testing::HasSubstr;
 
 const MetricInfo& Metric() { return *FindMetric("mpjpe_mm"); }  // lower is better, threshold 1 mm
 
-/// Returns worlds of one unit each. `means` are the units' means; worlds vary by ±1 around them.
+/// Returns a sample in which each world belongs to one unit. Unit i has `worlds_each` worlds, whose differences are in
+/// steps of 1 around means[i].
 UnitSample OneWay(const std::vector<double>& means, int worlds_each = 3) {
   UnitSample sample;
   for (std::size_t unit = 0; unit < means.size(); ++unit) {
@@ -97,11 +98,12 @@ TEST(MeasureBeyond, SaysNoDifferenceOnlyOfUnitsThatDiffer) {
   const Beyond equal = Judged(OneWay({0, 0, 0, 0, 0, 0, 0, 0}));
   EXPECT_EQ(equal.verdict, Verdict::kUndecided);
   EXPECT_THAT(equal.why_open, HasSubstr("0 of 8 clips differ"));
-  // The adjusted Wald interval is for shares, so it does not apply to millimetres.
+  // The adjusted Wald interval is for shares, so it does not apply to millimetres. It adds one gain and one loss to
+  // these 8 units, so their mean has the variance (0.1 + 0.1) / 10.
   EXPECT_EQ(std::pair(*equal.low, *equal.high), std::pair(0.0, 0.0));
   UnitSample shares = OneWay({0, 0, 0, 0, 0, 0, 0, 0}, 1);
   shares.yes_or_no = true;
-  EXPECT_NEAR(*MeasureBeyond(shares, 1).high, 1.96 * std::sqrt(0.2 / 10), 1e-3);  // (1 + 1) / 10 / 10
+  EXPECT_NEAR(*MeasureBeyond(shares, 1).high, 1.96 * std::sqrt(0.2 / 10), 1e-3);  // Bonett and Price
 }
 
 /// Returns each pair of clips once; a pair's difference is the sum of its clips' effects.
@@ -144,7 +146,7 @@ TEST(MeasureBeyond, KnowsNothingBeyondWhatEveryWorldShows) {
   EXPECT_EQ(*one.difference, -4);
   EXPECT_TRUE(one.left_out.empty());
   EXPECT_FALSE(one.verdict);
-  // Every world leaves the same clip.
+  // In every world the transition leaves or enters clip 0.
   UnitSample sample = OneWay({0, -1, -3, -2, -5, -4, -3});
   for (std::vector<int>& units : sample.units) {
     if (units.front() != 0) units.push_back(0);

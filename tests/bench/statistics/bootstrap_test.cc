@@ -127,7 +127,8 @@ TEST(BootstrapInterval, DrawsTheMediansThatAPlainBootstrapDraws) {
   }
 }
 
-/// The medians equal those of a summary's draws bit for bit, also in resamples with a median far from the sample's.
+/// Bit for bit, the interval equals the one from the medians of resamples that this test draws itself with the same
+/// random numbers, even if some of these medians are far from the sample's median.
 TEST(BootstrapInterval, HasTheMediansOfItsOwnDraws) {
   std::vector<int> sizes = {6, 7, 1000, 4001};
   for (int n = 20; n < 100; ++n) sizes.push_back(n);

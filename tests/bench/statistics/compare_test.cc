@@ -110,7 +110,8 @@ TEST(AreShares, IsSoWhereEveryValueOfBothMethodsIsZeroOrOne) {
   EXPECT_FALSE(AreShares(std::vector<Pair>{{0, 0}, {0, 1}}, Metric(Direction::kLowerIsBetter, 0.05)));
 }
 
-// The mean of shares gets an interval of the counts of worlds gained and lost; any other mean gets a bootstrap's.
+// If the values are shares, the mean's interval is computed from the numbers of worlds gained and lost. Otherwise it is
+// a bootstrap interval.
 TEST(AreShares, DecidesHowTheMeansIntervalIsMade) {
   MetricInfo metric = Metric(Direction::kHigherIsBetter, 0.05);
   metric.aggregate = Aggregate::kMean;

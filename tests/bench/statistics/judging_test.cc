@@ -112,7 +112,7 @@ TEST(JudgeFamily, TellsATestThatFoundSomethingFromOneThatDidNot) {
   EXPECT_EQ(found.verdict, Verdict::kUndecided);
   EXPECT_THAT(found.why_open, HasSubstr("the test finds a difference (p = 0.00049 among 2), but the interval of its "
                                         "median reaches zero"));
-  // Twelve equal worlds of a share: no pair differs, but the interval is wide.
+  // In twelve worlds, both methods have the same value of a share: no pair differs, but the interval is wide.
   std::vector<etude::Pair> equal(12, etude::Pair{1, 1});
   Comparison same = ComparePaired(equal, *FindMetric("solved_practical"), 1, "x");
   EXPECT_EQ(JudgedAmong(1, same).why_open,
@@ -143,7 +143,8 @@ TEST(JudgeFamily, FindsNobodyBetterWhoFailsWhereTheOtherDoesNot) {
     worlds.method_failed.resize(method_failed);
     return JudgedAmong(1, Compared(Falling(20)), ComparePaired(WithFailures(worlds, metric)->pairs, metric, 1, "x"));
   };
-  // Two failures do not change twenty wins, but twelve do. Failures of the baseline count for the method.
+  // The method wins twenty worlds. Two failures of the method leave the verdict better; twelve make it undecided. A
+  // failure of the baseline counts as a win of the method.
   EXPECT_EQ(judged(0, 2).verdict, Verdict::kBetter);
   EXPECT_EQ(judged(20, 0).verdict, Verdict::kBetter);
   const Comparison open = judged(0, 12);

@@ -151,7 +151,7 @@ TEST(SignFlip, IsExactForAMeanOfDifferencesOfOneSign) {
 }
 
 TEST(SignFlip, CountsNoSignsOfRounding) {
-  for (const int roundings : {5, 30}) {  // enumerated, and drawn at random
+  for (const int roundings : {5, 30}) {  // 5: the test enumerates all signs; 30: it draws signs at random
     std::vector<double> differences(static_cast<std::size_t>(roundings), 1e-16);
     differences.insert(differences.end(), {1, 2});
     EXPECT_EQ(*SignFlipTest(differences, Aggregate::kMean, 1, "x").p, 0.5) << "2 / 2^2: as of 1 and 2 alone";

@@ -147,7 +147,7 @@ TEST(MeasureVerdicts, HEAVY_FindsThePublishedRatesAndKeepsThePromise) {
     // Another mathematics library may round a last bit differently.
     EXPECT_THAT(measured[line], ::testing::Pointwise(::testing::DoubleNear(1.01), published[line])) << line;
   }
-  if (HasFailure()) std::cout << text;  // the new table, for the page if the change is right
+  if (HasFailure()) std::cout << text;  // print the table that replaces the page's if the change is intended
 }
 
 // The values of `rates` lie at the bounds of the promise and still keep it. By the score test with 280 designs (level

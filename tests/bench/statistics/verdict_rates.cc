@@ -72,7 +72,8 @@ double CoinsDiffer(double effect, RandomStream& dice) {
 
 double PenalisedCost(double log_cost) { return log_cost > LogLimit() ? 2 * std::exp(LogLimit()) : std::exp(log_cost); }
 
-/// Return the expectations of a penalised cost whose logarithm is normal around `shift`, and of its square.
+/// Return the expectation of a penalised cost whose logarithm is normal around `shift` with variance 1, and the
+/// expectation of its square for `shift` 0.
 double MeanCost(double shift) {
   const double below = LogLimit() - shift;
   return std::exp(shift + 0.5) * NormalCdf(below - 1) + 2 * std::exp(LogLimit()) * NormalCdf(-below);
@@ -129,7 +130,7 @@ class Sampler {
  private:
   /// The contributions of one unit to its worlds.
   struct Brings {
-    std::array<double, 2> own{}, other{};  ///< in the first and the second role; of the method and of the baseline
+    std::array<double, 2> own{}, other{};  ///< own: in the first role, other: in the second; [method, baseline]
     double coins = 0;
   };
 
@@ -155,8 +156,8 @@ class Sampler {
         return dice_.Chance(kUntied) ? untied : 0;
       }
       case SampleLaw::kShares:
-        // Each world takes its unit's draw with probability √alike, so two worlds of a unit are equal with probability
-        // `alike`, which is then their correlation.
+        // Each world takes its unit's draw with probability √alike, so two worlds of a unit both take it with
+        // probability `alike`, which is then their correlation.
         return dice_.Chance(std::sqrt(design_.alike)) ? brings_[static_cast<std::size_t>(units.front())].coins
                                                       : CoinsDiffer(effect_, dice_);
       case SampleLaw::kCensored:
@@ -323,7 +324,7 @@ VerdictRates MeasureVerdicts(const SampleDesign& design, const VerdictRepetition
 
 std::vector<SampleDesign> PublishedDesigns() {
   std::vector<SampleDesign> designs;
-  // One unit per world.
+  // Each world is drawn from one unit.
   for (int units : {6, 8, 12, 30}) {
     for (int trials : {1, 3, 10}) {
       for (double alike : {0.0, 0.5, 0.9}) {
@@ -355,7 +356,8 @@ std::vector<SampleDesign> PublishedDesigns() {
 bool KeepsPromise(const VerdictRates& rates, std::size_t designs) {
   const Percentage& alarms = rates.false_alarms;
   if (alarms.of == 0) return false;
-  // The score test of "at most what is promised", one-sided: the lower end of Wilson's interval of twice its level.
+  // A one-sided score test finds a rate above the promised one if the Wilson interval of confidence 1 − 2 · level lies
+  // above the promised rate.
   const double level = 0.05 / static_cast<double>(designs), promised = IsOfUnits(rates.design.law) ? 0.06 : 0.05;
   return WilsonInterval(alarms.count, alarms.of, 1 - 2 * level).low <= promised && alarms.high <= 6.5 &&
          rates.coverage_without >= 93;

@@ -33,7 +33,7 @@ struct SampleDesign {
   SampleLaw law = SampleLaw::kNormal;
   int units = 6;
   int trials = 1;    ///< worlds per unit; with `in_pairs`, worlds in all
-  /// Correlation of two worlds of one unit, 0…1 (for kTies and kCensored before ties and limit apply)
+  /// Correlation of two worlds of one unit, 0…1; for kTies and kCensored before ties are made and the limit applies.
   double alike = 0;
   bool in_pairs = false;  ///< true: each world has two units in two roles; each role carries half of the correlation
   double part_alike = 0;  ///< correlation of one unit's contributions in the two roles

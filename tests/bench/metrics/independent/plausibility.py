@@ -9,7 +9,7 @@ def sizes(given, kind):
 def share(kind):
     def value(given):
         times = [(fault["from_s"], fault["to_s"]) for fault in given["faults"] if fault["kind"] == kind]
-        # Between neighbouring ends, an interval is covered as a whole or not at all.
+        # No fault starts or stops between two neighbours in `ends`, so faults cover such an interval wholly or not.
         ends = sorted({end for time in times for end in time})
         covered = sum(b - a for a, b in zip(ends, ends[1:]) if any(f <= a and b <= t for f, t in times))
         return min(covered / given["duration_s"], 1)

@@ -13,7 +13,8 @@
 namespace etude {
 namespace {
 
-/// The distance of a body's nearest poses from the truth: means over frames of the worst joint and of the worst limb.
+/// The distance from the truth to the poses that FindNearestPoses returns: for the joint and for the limb with the
+/// largest error, the mean error over all frames.
 struct Distance {
   double joint_mm = 0, limb_deg = 0;
 };

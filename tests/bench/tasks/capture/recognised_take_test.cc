@@ -9,8 +9,8 @@
 #include "bench/tasks/capture/world.h"
 #include "io/clips/clip_library.h"
 
-// An attack: the answer is looked up in the public clips. It is the window of the true clip, over all begins and paces,
-// that is nearest to the truth, at the truth's place and size: the best that such an attack can do.
+// An attack: the answer is looked up in the public clips. Each window of the true clip (every start, four paces) is
+// aligned to the truth by a similarity transform. The nearest window is the best answer of such an attack.
 
 namespace etude {
 namespace {

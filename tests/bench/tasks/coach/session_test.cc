@@ -64,7 +64,7 @@ TEST(CoachSession, CutOffPerformancesAreNotCounted) {
   const auto ready = CoachesOf(stage, {MethodOf("at-first-mistake")});
   Mimic player(stage, EveryRepetition(stage));
   const SessionLog log = SessionWith(ready[0], world, player);
-  // When a mistake is judged, the next repetition has begun; the move is requested again after it.
+  // When a mistake is judged, the next repetition has already begun; the correction cuts it off.
   for (const LoggedPerformance& performance : log.performances) {
     EXPECT_GT(performance.judged.end_frame - performance.judged.begin_frame, 40);
   }

@@ -24,7 +24,7 @@ TEST(LeaveOnePersonOut, RecognisesPeopleByWhatOthersTaught) {
   EXPECT_EQ(out->verdicts.size() + static_cast<std::size_t>(out->points.size()), recorded.parts.size());
   EXPECT_GT(*Accuracy(out->nearest), 0.8);
   EXPECT_GT(*Accuracy(out->verdicts), 0.7);
-  // Like the yardstick, it is told where performances begin and end.
+  // The recogniser whole-body is told where performances begin and end, like the yardstick (`nearest`).
   ASSERT_OK(whole, LeaveOnePersonOut(recorded.streams, recorded.parts, "l.csv", By("whole-body")));
   EXPECT_GT(*Accuracy(whole->verdicts), 0.9);
 }

@@ -5,7 +5,7 @@
 namespace etude {
 namespace {
 
-/// Returns an event requested from 0.5 s to 2.5 s, with half a second to spare.
+/// Returns an event from 0.5 s to 2 s. The window in which it is judged ends half a second later.
 DetectionEvent AskedFor(const char* move, const char* danced) {
   DetectionEvent event{.move = move, .danced = danced, .start_s = 0.5};
   event.end_s = 2;

@@ -164,7 +164,7 @@ RawMotion AsSkeleton(const RawMotion& motion) {
 
 TEST(Match, MarkersNamedAsASkeletonsJointsHaveTheirRoles) {
   const RawMotion truth = AsSkeleton(Gliding(30, 5));
-  // The same points without the End Site. A joint called "spine" is another than the skeleton's spine, by 40 cm.
+  // The same points without the End Site. The answer's "spine" is the head's point, 40 cm from the skeleton's spine.
   RawMotion answer = truth;
   answer.parents.clear();
   answer.added.clear();
@@ -178,7 +178,8 @@ TEST(Match, MarkersNamedAsASkeletonsJointsHaveTheirRoles) {
     EXPECT_NEAR(ValueIn(result, "mpjpe_root_mm"), 0, 1e-9);
     EXPECT_THAT(result.reason, HasSubstr("19 joints (the truth or the answer lacks head), root bone 0"));
   }
-  // If one needed joint has no namesake, the names are not those of the skeleton: the lone spine is refused.
+  // If one joint has no namesake, the answer's names are not the skeleton's names. Only the role spine is then common,
+  // and one joint is too few.
   answer.joints[Index(Role::kLeftKnee)] = "knee";
   EXPECT_THAT(testing::Refusal(Match(truth, answer, "roles", Lag::kNone)),
               HasSubstr("has 1 joint in common with the truth (joints: roles), but its joints are bone 0, Chest, "));
@@ -318,7 +319,8 @@ TEST(JudgeMotion, TakesStatisticsAndBeats) {
   ASSERT_TRUE(beats);
   side.music_beats_s = *beats;
   const CellResult result = JudgeMotion(*matched, side);
-  // Without means and with one deviation, the distance is the norm of all differences in tenths of a metre.
+  // The means cancel, and all deviations are 0.1 m. So a frame's distance is the norm of all its differences in tenths
+  // of a metre.
   double sum = 0;
   for (std::size_t f = 0; f < 90; ++f) {
     double square = 0;

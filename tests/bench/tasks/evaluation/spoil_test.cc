@@ -134,7 +134,7 @@ TEST(Spoilt, RotationsAreSpoiltLikePositions) {
   const auto spoilt = [&](const Spoiler& spoiler) { return Spoilt(truth, spoiler, "a").rotations; };
   const auto at = [](std::size_t f, std::size_t j) { return f * 5 + j; };
   EXPECT_EQ(spoilt({.scaled_percent = 5, .lifted_cm = 5}), truth.rotations);
-  // A constant rotation speed equals its own mean. At the first frame the window is that frame alone.
+  // A centred moving mean does not change a rotation at constant speed.
   EXPECT_NEAR(Apart(spoilt({.smoothed_ms = 200})[at(50, 0)], truth.rotations[at(50, 0)]), 0, 1e-6);
   // Faded by 100 %, every frame is the mean rotation, which lies half-way.
   const auto faded = spoilt({.faded_percent = 100});

@@ -62,7 +62,8 @@ TEST(IkTask, CallsACellUnsolvedWhenAnEffectorIsNotHome) {
 }
 
 TEST(IkTask, MeasuresTheSameWhetherItsMotionIsKeptOrNot) {
-  // The trace is longer than the curves, so only a film needs the rest of it.
+  // The solver iterates more often than a curve has values (kMaxCurveEntries). Only for a film, the task keeps the
+  // whole trace.
   const auto task = Make("{max_sweeps: 300, record: [effector_curves]}");
   const std::vector<CellResult> kept = RunWorld(**task, kWorld, 3, true), cells = RunWorld(**task, kWorld, 3, false);
   for (std::size_t m = 0; m < cells.size(); ++m) {

@@ -70,9 +70,9 @@ Distances DistancesOf(const std::string& keys, const std::string& filler, std::s
   return mean;
 }
 
-/// Figures of the source: ubisoft/ubisoft-laforge-animation-dataset 9408460, get_lafan1_set, get_train_stats and
-/// benchmark_interpolation, with its own reader, on every fourth frame of these files (and the number of joints instead
-/// of 22).
+/// Values that the benchmark's own code computes from every fourth frame of kFiles: get_lafan1_set, get_train_stats and
+/// benchmark_interpolation of ubisoft/ubisoft-laforge-animation-dataset 9408460, with its own BVH reader. Its number of
+/// joints, 22, was replaced by the files' number.
 struct Known {
   int gap;
   const char* filler;

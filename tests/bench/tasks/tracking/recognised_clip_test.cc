@@ -47,7 +47,7 @@ double Misfit(const Ends& a, const Ends& b) {
 /// window that fits the problem best.
 std::vector<std::vector<double>> LookUp(const TrackingWorld& world, const std::vector<LibraryClip>& clips,
                                         double rate_hz) {
-  constexpr double kFiner = 4;  // begins and paces between frames are tried, too
+  constexpr double kFiner = 4;  // steps per frame of a clip; a window may also start between two frames
   std::vector<Ends> asked;
   for (std::size_t k = 0; k < world.truth.size(); ++k) {
     asked.push_back(EndsOf(world.tree, world.truth[k], world.targets[k]));
