@@ -17,8 +17,7 @@ class ExpectedWork {
   /// cells do on average; if no cost is known, every cell counts 1. The plan must outlive this object.
   ExpectedWork(const Plan& plan, const std::map<std::string, KeptCost>& kept);
 
-  /// Of returns the expected work of a cell, OfWorld the expected work of each cell in a world: in yardsticks if any
-  /// cost is known, else 1. The arguments are numbers in the plan.
+  /// Return the expected work of one cell, by the cell's number or by its world's: in yardsticks if costs are known.
   double Of(std::size_t cell) const { return OfWorld(plan_.WorldOf(cell)); }
   double OfWorld(std::size_t world) const { return per_cell_[static_cast<std::size_t>(plan_.world(world).scenario)]; }
   /// Returns the expected wall time of a unit of work, seconds; 0 = unknown.
