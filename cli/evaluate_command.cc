@@ -13,11 +13,11 @@
 #include "bench/results/folder.h"
 #include "bench/run/run.h"
 #include "bench/scenario/methods.h"
-#include "bench/statistics/agreement.h"
 #include "bench/tasks/evaluation/find_files.h"
 #include "bench/tasks/registry.h"
 #include "cli/commands.h"
 #include "cli/evaluate_alone.h"
+#include "cli/evaluate_parts.h"
 #include "cli/facts.h"
 #include "cli/named_results.h"
 #include "cli/pair_notes.h"
@@ -37,6 +37,7 @@ struct EvaluateOptions {
   std::string output;
   bool overwrite = false;
   bool keeps_motions = false;
+  bool by_joint = false;
   int jobs = 0;
   bool as_json = false;
   AloneOptions alone;
@@ -86,6 +87,7 @@ Result<std::string> ScenarioOf(const EvaluateOptions& options) {
                                     {"--statistics", &options.statistics}}) {
     if (alone.is_alone && !value->empty()) return Fail({}, "{} has no use with --alone: there is no truth", name);
   }
+  if (alone.is_alone && options.by_joint) return Fail({}, "--by-joint has no use with --alone: there is no truth");
   if (!alone.is_alone && (alone.floor_m || !alone.limits.empty())) return Fail({}, "--floor and --limits need --alone");
   ASSIGN_OR_RETURN(auto text,
                    alone.is_alone ? ScenarioOfMotions(options.files, alone, options.people) : ScenarioOfPairs(options));
@@ -95,71 +97,8 @@ Result<std::string> ScenarioOf(const EvaluateOptions& options) {
   return text + fmt::format("metrics: [{}]\n", Join(quoted));
 }
 
-/// Returns, as JSON, the agreement of every angle that is in both files of a pair.
-Json FactsOf(const std::vector<AngleAgreement>& angles) {
-  const auto number = [](const std::optional<double>& value) { return value ? Json(*value) : Json(); };
-  const auto figure = [&](const AgreementFigure& one) {
-    const auto& interval = one.interval;
-    return Json{{"value", number(one.value)},
-                {"low", interval ? Json(interval->low) : Json()},
-                {"high", interval ? Json(interval->high) : Json()}};
-  };
-  Json list = Json::array();
-  for (const AngleAgreement& one : angles) {
-    list.push_back({{"method", one.method},
-                    {"condition", ConditionLabel(one.condition)},
-                    {"angle", one.angle},
-                    {"units", one.agreement.units},
-                    {"rmse_deg", figure(one.agreement.rmse)},
-                    {"bias_deg", figure(one.agreement.bias)},
-                    {"lower_limit_deg", figure(one.agreement.low)},
-                    {"upper_limit_deg", figure(one.agreement.high)},
-                    {"icc_a1", figure(one.agreement.icc)}});
-  }
-  return list;
-}
-
-/// Returns true if any cell has a metric of angle errors.
-bool HasAngles(const ScenarioSummary& summary) {
-  for (const ConditionSummary& condition : summary.conditions) {
-    for (const MethodSummary& method : condition.methods) {
-      if (std::ranges::any_of(method.metrics,
-                              [](const MetricSummary& one) { return one.id == "angle_rmse_deg" && one.present > 0; })) {
-        return true;
-      }
-    }
-  }
-  return false;
-}
-
-/// Prints a line for each angle, if a metric of angles is shown.
-void PrintAngles(const ScenarioSummary& summary, const std::vector<AngleAgreement>& angles) {
-  const auto is_of_angles = [](const std::string& id) { return id.starts_with("angle_"); };
-  if (angles.empty() || std::ranges::none_of(summary.headline_metrics, is_of_angles)) return;
-  fmt::print("  {:<26}  {:>8}  {:>22}  {:>20}  {:>7}  units\n", "angle, degrees", "RMSE", "bias (95 %)",
-             "limits of agreement", "ICC");
-  const auto shown = [](double value) -> std::string {  // a small value keeps one significant digit
-    if (std::abs(value) < 1e-9) return "0.00";
-    return std::abs(value) < 0.005 ? fmt::format("{:.1g}", value) : fmt::format("{:.2f}", value);
-  };
-  const auto range = [&](const std::optional<double>& low, const std::optional<double>& high) {
-    return low && high ? shown(*low) + " to " + shown(*high) : std::string("-");
-  };
-  for (const AngleAgreement& one : angles) {
-    const CurveAgreement& figures = one.agreement;
-    if (!figures.rmse.value) continue;
-    const auto& interval = figures.bias.interval;
-    const std::string bias =
-        shown(*figures.bias.value) + (interval ? " (" + range(interval->low, interval->high) + ")" : "");
-    const std::string under = one.condition.empty() ? "" : ", " + ConditionLabel(one.condition);
-    fmt::print("  {:<26}  {:>8}  {:>22}  {:>20}  {:>7}  {:>5}  {}{}\n", one.angle, shown(*figures.rmse.value), bias,
-               range(figures.low.value, figures.high.value), figures.icc.value ? shown(*figures.icc.value) : "-",
-               figures.units, one.method, under);
-  }
-}
-
-/// Returns, as JSON: the aggregates of every metric of every method, the agreement by angle, and the result folder.
-Json FactsOf(const ScenarioSummary& summary, const std::vector<AngleAgreement>& angles, const std::string& folder) {
+/// Returns, as JSON: the aggregates of every metric of every method, and the result folder.
+Json FactsOf(const ScenarioSummary& summary, const std::string& folder) {
   const auto number = [](const std::optional<double>& value) { return value ? Json(*value) : Json(); };
   Json methods = Json::array();
   for (const ConditionSummary& condition : summary.conditions) {
@@ -180,7 +119,7 @@ Json FactsOf(const ScenarioSummary& summary, const std::vector<AngleAgreement>& 
                          {"metrics", std::move(metrics)}});
     }
   }
-  return {{"methods", std::move(methods)}, {"angles", FactsOf(angles)}, {"output", folder}};
+  return {{"methods", std::move(methods)}, {"output", folder}};
 }
 
 /// Prints a line for each headline metric of each method, under a line for each condition if there are several.
@@ -249,7 +188,7 @@ Result<int> EvaluateCommand(const EvaluateOptions& options) {
   if (!outcome) return kInterrupted;
   // Hours of motion give many rows, so load the rows only if the summary lacks the needed data.
   ASSIGN_OR_RETURN(auto data, LoadRunOutline(outcome->folder));
-  if (options.alone.is_alone || HasAngles(data.scenarios.front())) {
+  if (options.alone.is_alone || options.by_joint || HasAngles(data.scenarios.front())) {
     ASSIGN_OR_RETURN(data, LoadRunRowByRow(outcome->folder));
   }
   const ScenarioSummary& summary = data.scenarios.front();
@@ -268,7 +207,9 @@ Result<int> EvaluateCommand(const EvaluateOptions& options) {
     ASSIGN_OR_RETURN(notes, ReadPairNotes(outcome->folder));
   }
   if (options.as_json) {
-    Json facts = FactsOf(summary, angles, folder);
+    Json facts = FactsOf(summary, folder);
+    facts["angles"] = FactsOf(angles);
+    if (options.by_joint) facts["joints"] = FactsOf(ErrorsByJoint(data));
     facts["judged"] = notes.judged.Lines();
     facts["not_judged"] = options.alone.is_alone ? triage.not_judged : notes.every_not_judged;
     if (options.alone.is_alone) facts["with_faults"] = triage.faulty;
@@ -281,6 +222,7 @@ Result<int> EvaluateCommand(const EvaluateOptions& options) {
   } else {
     PrintTable(summary);
     PrintAngles(summary, angles);
+    if (options.by_joint) PrintJoints(ErrorsByJoint(data));
     PrintPairNotes(notes);
   }
   fmt::print("{} of {} cells ok, all {} metrics in {}\nNext: etude report {}\n", outcome->cells_ok, outcome->cells,
@@ -327,6 +269,7 @@ void DefineEvaluate(CLI::App& app, const std::string& command_line, Action& acti
                       "A file of the times of the music's beats, in seconds, one per line, for beat alignment");
   command->add_option("--metric", options->metrics,
                       "A metric to show in the table; all are measured (etude list metrics)");
+  command->add_flag("--by-joint", options->by_joint, "Also list the mean errors of each joint, the largest first");
   command->add_option(kJointMapOption, options->joint_map,
                       "A file that states which joints play which roles, the unit and the up axis");
   AddUnit(*command, "files", options->clip_facts);

@@ -197,4 +197,29 @@ std::optional<double> MeanJointErrorMm(const EvaluatedPair& pair, const FrameFit
   return mean.Value();
 }
 
+std::vector<double> EncodeMeans(const JointMeans& means) {
+  std::vector<double> values;
+  for (const std::optional<double>& mean : means) values.push_back(mean.value_or(-1));
+  return values;
+}
+
+std::optional<JointMeans> DecodeMeans(std::span<const double> values) {
+  JointMeans means;
+  if (values.size() != means.size()) return std::nullopt;
+  for (std::size_t i = 0; i < means.size(); ++i) {
+    if (values[i] >= 0) means[i] = values[i];
+  }
+  return means;
+}
+
+std::optional<double> MeanOfJoint(std::span<const double> errors, std::size_t joints, std::size_t joint) {
+  double sum = 0, count = 0;
+  for (std::size_t at = joint; at < errors.size(); at += joints) {
+    if (std::isnan(errors[at])) continue;
+    sum += errors[at];
+    ++count;
+  }
+  return count > 0 ? std::optional(sum / count) : std::nullopt;
+}
+
 }  // namespace etude

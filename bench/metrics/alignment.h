@@ -1,7 +1,9 @@
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <optional>
+#include <span>
 #include <vector>
 
 #include "bench/metrics/evaluation.h"
@@ -62,5 +64,18 @@ std::optional<Similarity> Fit(const PointMoments& moments, bool with_scale);
 std::vector<double> JointErrorsMm(const EvaluatedPair& pair, const FrameFits& fits);
 /// Returns the mean of JointErrorsMm without the NaN values; nothing if all are NaN.
 std::optional<double> MeanJointErrorMm(const EvaluatedPair& pair, const FrameFits& fits);
+
+/// The alignments after which the errors of single joints are stored.
+inline constexpr std::array kByJoint = {Alignment::kNone, Alignment::kRoot, Alignment::kFrameScaled};
+/// The mean errors of a joint over the frames, millimetres, in the order of kByJoint; nullopt if JointErrorsMm has no
+/// value.
+using JointMeans = std::array<std::optional<double>, kByJoint.size()>;
+/// The axis name of a series that a cell stores for each joint. The series holds the joint's means (EncodeMeans).
+inline constexpr const char* kJointErrorAxis = "mean joint errors";
+/// Encodes a missing mean as −1. DecodeMeans returns nullopt if the list has another length.
+std::vector<double> EncodeMeans(const JointMeans& means);
+std::optional<JointMeans> DecodeMeans(std::span<const double> values);
+/// Returns the mean of one column of JointErrorsMm, which has `joints` columns; nothing if all its values are NaN.
+std::optional<double> MeanOfJoint(std::span<const double> errors, std::size_t joints, std::size_t joint);
 
 }  // namespace etude

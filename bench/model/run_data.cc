@@ -3,6 +3,8 @@
 #include <fmt/core.h>
 
 #include <algorithm>
+#include <map>
+#include <string_view>
 
 namespace etude {
 
@@ -28,6 +30,17 @@ void ForEachRow(const RunData& run, const std::function<void(const Row& row, std
     run.source->Read(place, row);
     use(row, place);
   }
+}
+
+void ForEachSeries(const RunData& run,
+                   const std::function<void(const Row& row, const std::vector<Series>& series)>& use) {
+  std::map<std::string_view, const std::vector<Series>*> held;  // the series of each cell, by the cell's name
+  for (const CellSeries& cell : run.series) held.emplace(cell.cell, &cell.series);
+  ForEachRow(run, [&](const Row& row, std::size_t place) {
+    if (run.source) return use(row, run.source->SeriesOf(place));
+    const auto known = held.find(row.Id());
+    use(row, known == held.end() ? std::vector<Series>() : *known->second);
+  });
 }
 
 Row RowAt(const RunData& run, std::size_t place) {

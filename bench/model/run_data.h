@@ -85,6 +85,9 @@ std::string DescribeWorlds(const RunData& run);
 std::size_t CountRows(const RunData& run);
 /// Calls `use` for every row of the run with the row's index, including rows that are not in memory.
 void ForEachRow(const RunData& run, const std::function<void(const Row& row, std::size_t place)>& use);
+/// Calls `use` for every row of the run with the row's series, including rows that are not in memory.
+void ForEachSeries(const RunData& run,
+                   const std::function<void(const Row& row, const std::vector<Series>& series)>& use);
 /// Returns the row at index `place`. A row that is read from `source` has no series and no recording.
 Row RowAt(const RunData& run, std::size_t place);
 /// Returns the index of the row with this identity (Row::Id); nullopt if no row has it.

@@ -104,8 +104,6 @@ CurveAgreement MeasureAgreement(std::span<const AgreementSums> pairs, std::span<
 }
 
 std::vector<AngleAgreement> AgreementByAngle(const RunData& run) {
-  std::map<std::string_view, const std::vector<Series>*> held;  // the series of each cell, by the cell's name
-  for (const CellSeries& cell : run.series) held.emplace(cell.cell, &cell.series);
   // The pairs of curves of one angle: each pair's sums, and each pair's unit.
   struct Collected {
     std::vector<AgreementSums> pairs;
@@ -114,11 +112,7 @@ std::vector<AngleAgreement> AgreementByAngle(const RunData& run) {
   std::vector<AngleAgreement> found;
   std::vector<Collected> collected;
   std::map<std::string, std::size_t> places;  // index in `found`, by condition, method and angle
-  ForEachRow(run, [&](const Row& row, std::size_t place) {
-    std::vector<Series> read;
-    const auto known = held.find(row.Id());
-    if (run.source) read = run.source->SeriesOf(place);
-    const std::vector<Series>& series = run.source ? read : known != held.end() ? *known->second : read;
+  ForEachSeries(run, [&](const Row& row, const std::vector<Series>& series) {
     for (const Series& one : series) {
       const auto sums = one.axis == kAgreementAxis ? DecodeSums(one.values) : std::nullopt;
       if (!sums) continue;

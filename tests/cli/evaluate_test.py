@@ -266,6 +266,32 @@ class Evaluate(EtudeCase):
         row, = self.rows()
         self.assertEqual([row[name] for name in ("l2q@lafan1", "npss@lafan1")], [0, 0])
 
+    def test_errors_of_each_joint(self):
+        def moved(joint, metres, until):
+            return [[[x + metres * (name == joint and f < until), y, z] for name, (x, y, z) in zip(self.names, frame)]
+                    for f, frame in enumerate(self.frames)]
+        half = len(self.frames) // 2
+        for name, answer in (("a", moved("left_wrist", 0.04, len(self.frames))), ("b", moved("left_wrist", 0.08, half)),
+                             ("c", moved("head", 0.02, half))):
+            self.trc_file(f"t/{name}.trc", self.frames)
+            self.trc_file(f"m/{name}.trc", answer)
+        facts = self.facts("evaluate", self.folder / "t", f"m={self.folder}/m", "--by-joint", "-o", self.out)
+        errors = {one["joint"]: one for one in facts["joints"]}
+        self.assertEqual(len(errors), 20)
+        for key in "unaligned_mm", "root_mm":
+            self.assertAlmostEqual(errors["left_wrist"][key], (40 + 80 * half / len(self.frames) + 0) / 3, 3)
+            self.assertAlmostEqual(errors["head"][key], 20 * half / len(self.frames) / 3, 3)
+            self.assertAlmostEqual(errors["right_knee"][key], 0, 3)
+        # The metric is the mean of its joints, after each alignment.
+        means = {metric["metric"]: metric["mean"] for metric in facts["methods"][0]["metrics"]}
+        for key, metric in (("unaligned_mm", "mpjpe_unaligned_mm"), ("root_mm", "mpjpe_root_mm"),
+                            ("each_frame_scaled_mm", "mpjpe_each_frame_scaled_mm")):
+            self.assertAlmostEqual(sum(one[key] for one in errors.values()) / 20, means[metric], 6, metric)
+        printed = self.evaluate(self.folder / "t", f"m={self.folder}/m", "--by-joint", "--overwrite").stdout.splitlines()
+        first = next(i for i, line in enumerate(printed) if "mean error of a joint" in line) + 1
+        self.assertEqual(printed[first].split()[0::4], ["left_wrist", "3"])
+        self.assertIn("there is no truth", self.ends(2, "evaluate", "--alone", self.folder / "t", "--by-joint").stderr)
+
     def test_people_are_what_claims_beyond_the_files_count(self):
         for name in "p1_a", "p1_b", "p2_a":
             self.trc_file(f"t/{name}.trc", self.frames)

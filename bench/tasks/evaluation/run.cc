@@ -1,5 +1,6 @@
 #include "bench/tasks/evaluation/run.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include "bench/metrics/alignment.h"
@@ -61,21 +62,33 @@ std::vector<double> CurveOf(const std::vector<double>& errors, std::size_t joint
   return curve;
 }
 
-void MeasureErrors(const EvaluatedPair& pair, const PairFits& fits, CellResult& result) {
+void MeasureErrors(const MatchedMotions& matched, const PairFits& fits, CellResult& result) {
+  const EvaluatedPair& pair = matched.pair;
+  std::vector<JointMeans> by_joint(matched.joints.size());
   for (const AlignedError& error : kErrors) {
     const FrameFits aligned = fits.Of(error.alignment);
-    if (error.alignment != Alignment::kNone && error.alignment != Alignment::kRoot) {
+    const auto detailed = std::ranges::find(kByJoint, error.alignment);
+    if (detailed == kByJoint.end()) {
       result.MeasureOr(error.id, MeanJointErrorMm(pair, aligned), error.why_missing);
       continue;
     }
     const std::vector<double> errors = JointErrorsMm(pair, aligned);
     const auto mean = MeanOfSeen(errors);
     result.MeasureOr(error.id, mean, error.why_missing);
+    for (std::size_t joint = 0; joint < by_joint.size(); ++joint) {
+      by_joint[joint][detailed - kByJoint.begin()] = MeanOfJoint(errors, by_joint.size(), joint);
+    }
+    if (error.alignment == Alignment::kFrameScaled) continue;
     if (mean) result.series.push_back({error.id, "frame", CurveOf(errors, pair.found.points)});
     if (error.alignment != Alignment::kRoot) continue;
     constexpr double kPck_mm = 150;
     result.MeasureOr("pck_150mm@mpi_inf_3dhp", ShareBelow(errors, kPck_mm), kNoRoot);
     result.MeasureOr("auc_150mm@mpi_inf_3dhp", AucTo150(errors), kNoRoot);
+  }
+  for (std::size_t joint = 0; joint < by_joint.size(); ++joint) {
+    if (by_joint[joint].front()) {
+      result.series.push_back({matched.joints[joint], kJointErrorAxis, EncodeMeans(by_joint[joint])});
+    }
   }
   const auto by_segments = [&](std::size_t fitted) {
     return MeanJointErrorMm(pair, fits.OfSegments(kSegmentFrames, fitted));
@@ -106,9 +119,8 @@ void MeasureFeet(const EvaluatedPair& pair, CellResult& result) {
   result.MeasureOr("skate_from_contacts_mps@kimodo", SkateFromContacts(pair.feet, pair.found_contacts, pair.rate_hz),
                    no_contacts);
   const bool have_contacts = !pair.found_contacts.empty() && !pair.true_contacts.empty();
-  result.MeasureOr(
-      "contact_f1", ContactF1(pair.found_contacts, pair.true_contacts),
-      have_contacts ? "neither foot ever touches the floor" : "one of the two files has no contacts");
+  result.MeasureOr("contact_f1", ContactF1(pair.found_contacts, pair.true_contacts),
+                   have_contacts ? "neither foot ever touches the floor" : "one of the two files has no contacts");
   result.MeasureOr("pfc@edge", PhysicalFootContact(pair.feet, pair.found_root, pair.rate_hz),
                    "the answer has no ankles, toes or root, has fewer than three frames, or its root does not "
                    "accelerate");
@@ -182,8 +194,8 @@ void MeasureBeats(const EvaluatedPair& pair, const EvaluationSideData& side, Cel
   const char* why = side.music_beats_s
                         ? "the motion contains no beat of the music or of its own, or a joint is not seen throughout"
                         : "needs `music_beats`";
-  for (const auto& [id, measure] : {std::pair("beat_alignment@bailando", &BeatAlignmentOfMusic),
-                                    {"beat_alignment@mint", &BeatAlignmentOfMotion}}) {
+  for (const auto& [id, measure] :
+       {std::pair("beat_alignment@bailando", &BeatAlignmentOfMusic), {"beat_alignment@mint", &BeatAlignmentOfMotion}}) {
     const auto value = side.music_beats_s ? measure(pair.found, pair.rate_hz, *side.music_beats_s) : std::nullopt;
     result.MeasureOr(id, value, why);
   }
@@ -234,7 +246,7 @@ CellResult JudgeMotion(const MatchedMotions& matched, const EvaluationSideData& 
   CellResult result = CellResult::Ended(Status::kOk, matched.note);
   result.digests = {{"truth", DigestOf(matched.pair.truth)}, {"answer", DigestOf(matched.pair.found)}};
   const PairFits fits(matched.pair);
-  MeasureErrors(matched.pair, fits, result);
+  MeasureErrors(matched, fits, result);
   MeasureMovement(matched.pair, result);
   MeasureFeet(matched.pair, result);
   result.MeasureOr("bend_error_deg", BendErrorDeg(matched.pair.found, matched.pair.truth, matched.bends),

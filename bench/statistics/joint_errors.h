@@ -1,0 +1,23 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "bench/metrics/alignment.h"
+#include "bench/model/run_data.h"
+
+namespace etude {
+
+/// The errors of one joint under one condition of a scenario, for one method.
+struct JointErrors {
+  std::vector<SweptValue> condition;
+  std::string method, joint;
+  int pairs = 0;       ///< number of pairs in which the joint is seen
+  JointMeans mean_mm;  ///< mean over these pairs, each of which counts once, as in the metrics mpjpe_…
+};
+
+/// Returns the errors of every joint whose means (JointMeans) the cells of a run contain, as series with the axis
+/// kJointErrorAxis. Joints are in the order of the cells.
+std::vector<JointErrors> ErrorsByJoint(const RunData& run);
+
+}  // namespace etude
