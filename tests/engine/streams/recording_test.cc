@@ -137,7 +137,7 @@ TEST(Streams, OfSeveralBodiesTheOneSeenLongestIsTakenUnlessAnotherIsAskedFor) {
   const std::string text = "3\n1\n" + other + "2\n" + other + body + "1\n" + body + "";
   EXPECT_EQ(ReadStreamRecording(text, "s")->remarks.size(), 1u);
   EXPECT_TRUE(ReadStreamRecording(text, "s", {.body = 1})->frames[0].places[0] == std::nullopt);
-  EXPECT_EQ(ComplaintOf(text, {.body = 2}), "s: body 2 of 2, counted from 0");
+  EXPECT_EQ(ComplaintOf(text, {.body = 2}), "s: there is no body 2; bodies in the file, counted from 0: 2");
 }
 
 /// Returns one body of a frame in NTU's text, under another name and `aside` metres to the side.
@@ -188,7 +188,7 @@ TEST(Streams, MarkersOfOtherNamesAreTold) {
 }
 
 TEST(Streams, JointsThatAreNeverShownAndTimesThatRunBackAreRefused) {
-  EXPECT_EQ(ComplaintOf("head_x_m,head_y_m,head_z_m\n0,1,2\n").find("s: never shows hip_centre, spine"), 0u);
+  EXPECT_EQ(ComplaintOf("head_x_m,head_y_m,head_z_m\n0,1,2\n").find("s: no frame shows hip_centre, spine"), 0u);
   const std::string rows = KinectV1Text(WavingMotion(2));
   EXPECT_EQ(ComplaintOf(WithClock(rows, 1, 0.03) + WithClock(rows, 0.5, 0.03)).find("s:3: time 0.5 s after"), 0u);
 }
