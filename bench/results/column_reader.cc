@@ -167,7 +167,8 @@ class ScenarioColumns {
         return Fail(place, "kind.npy contains {}, but there are {} kinds", kind, kinds_.size());
     }
     for (const std::uint8_t status : status_->Numbers<std::uint8_t>()) {
-      if (status >= kStatuses.size()) return Fail(place, "status.npy contains {}, but there are {} statuses", status, kStatuses.size());
+      if (status >= kStatuses.size())
+        return Fail(place, "status.npy contains {}, but there are {} statuses", status, kStatuses.size());
     }
     for (std::size_t i = 0; i < texts_.size(); ++i) {
       if (!texts_[i]) continue;

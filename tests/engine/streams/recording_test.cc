@@ -100,7 +100,8 @@ TEST(Streams, AClockMayCountMicrosecondsMillisecondsSecondsOrFrames) {
   EXPECT_EQ(sixth.lost_frames, 0u);  // rows are 0.2 s apart, despite rounding
   EXPECT_NEAR(sixth.start_s, 252 / 30.0, 1e-9);
   const auto read = ReadStreamRecording(WithClock(rows, 252, 6), "s");
-  EXPECT_EQ(read->remarks, std::vector<std::string>{"the first column counts frames at 30 Hz, a row every 6"});
+  EXPECT_EQ(read->remarks,
+            std::vector<std::string>{"the first column counts frames at 30 Hz, with one row for every 6 frames"});
   // Whole milliseconds at 60 Hz, and fractions of milliseconds at any rate, are read as milliseconds.
   EXPECT_EQ(Made(WithClock(rows, 1000, 17)).stream.frames.size(), 31u);
   EXPECT_EQ(Made(WithClock(rows, 1000.5, 8)).stream.frames.size(), 15u);
