@@ -181,7 +181,8 @@ Result<Shape> ReadShape(const Node& node, const Universe& universe) {
     }
   } else if (const auto fall = std::ranges::is_sorted_until(numbers); fall != numbers.end()) {
     return Fail(entry.value.items[static_cast<std::size_t>(fall - numbers.begin())].place,
-                "'{}' needs rising numbers {}, found {} after {}", kind->name, kind->numbers, *fall, *(fall - 1));
+                "'{}' needs numbers {} that do not decrease, found {} after {}", kind->name, kind->numbers, *fall,
+                *(fall - 1));
   }
   const Cut top = CutOf(shape, 1);
   if (top.high < universe.low || top.low > universe.high) {

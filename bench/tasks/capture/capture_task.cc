@@ -131,7 +131,7 @@ Result<std::unique_ptr<Task>> MakeCaptureTask(TaskInput& input) {
 
 TaskKind MakeCaptureTaskKind() {
   return {.name = "capture",
-          .question = "How close is the skeleton recovered from two cameras to the true one?",
+          .question = "How close is the skeleton recovered from two or more cameras to the true one?",
           .default_metrics = {"mpjpe_mm", "mpjpe_before_ik_mm", "pa_mpjpe_mm", "pck_50mm", "position_error_cm",
                               "frames_recovered"},
           .success = "frames_recovered",

@@ -33,9 +33,9 @@ void ReportMeasurements(const CaptureWorld& world, const MeasuredTake& measured,
     }
   }
   const MeasuredError directions = LimbDirectionErrorDeg(limbs), points = TriangulationErrorMm(ends);
-  cell.MeasureOr("limb_direction_error_deg", directions.mean, "no limb was marked in both pictures");
+  cell.MeasureOr("limb_direction_error_deg", directions.mean, "no limb was marked in the pictures of two cameras");
   cell.MeasureOr("limb_direction_coverage", directions.coverage, "no limb has a direction");
-  cell.MeasureOr("triangulation_error_mm", points.mean, "no end effector was marked in both pictures");
+  cell.MeasureOr("triangulation_error_mm", points.mean, "no end effector was marked in the pictures of two cameras");
   cell.MeasureOr("triangulation_coverage", points.coverage, "there are no end effectors");
 }
 
@@ -70,7 +70,8 @@ std::string ReasonForNoSkeleton(const CaptureRun& run) {
     return std::ranges::any_of(frame.ends, [](const auto& end) { return end.has_value(); });
   });
   if (!has_end)
-    return "no skeleton: no end effector was ever marked in both pictures, so the body's position is unknown";
+    return "no skeleton: no end effector was ever marked in the pictures of two cameras, so the body's position is "
+           "unknown";
   return "no skeleton: the limbs that were marked fit no body";
 }
 

@@ -221,7 +221,7 @@ TEST(CaptureTask, FailsWithAReasonWhenNothingIsMarked) {
                        .frames = {std::nullopt, std::nullopt}};
   const CellResult cell = ScoreCaptureRun(world, run, false);
   EXPECT_EQ(cell.status, Status::kFailed);
-  EXPECT_THAT(cell.reason, HasSubstr("no end effector was ever marked in both pictures"));
+  EXPECT_THAT(cell.reason, HasSubstr("no end effector was ever marked in the pictures of two cameras"));
   EXPECT_FALSE(ValueOf(cell, "mpjpe_mm"));
   EXPECT_EQ(ValueOf(cell, "frames_recovered"), 0);
 }
