@@ -102,8 +102,8 @@ std::string Legend(const ScenarioSummary& scenario) {
   const std::string with_baselines = Plural(scenario.family, "comparison") + " with baselines";
   if (rivals == 0) return fmt::format("p is corrected over the {} (Holm).", with_baselines);
   return fmt::format(
-      "p is corrected (Holm) over the {}, and separately over the {} with the strongest other method. A pair of "
-      "methods that belongs to both is listed once.",
+      "p is corrected (Holm) over the {}, and separately over the {} comparisons with the strongest other method. A "
+      "pair of methods that is in both groups is listed once.",
       with_baselines, FormatCount(static_cast<long long>(rivals)));
 }
 

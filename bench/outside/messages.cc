@@ -40,7 +40,8 @@ Result<Json> ReadMessage(const std::string& line) {
 
 Result<std::string> TextOf(const Json& message, const char* key, const std::string& line) {
   if (message.contains(key) && message[key].is_string()) return message[key].get<std::string>();
-  return Fail({}, "its '{}' has no text \"{}\": {}", message["type"].get<std::string>(), key, Printable(line));
+  return Fail({}, "its message '{}' has no text with the key \"{}\": {}", message["type"].get<std::string>(), key,
+              Printable(line));
 }
 
 Result<Json> ReadMessageOfType(const std::string& line, std::string_view type) {

@@ -9,7 +9,8 @@
 namespace etude {
 namespace {
 
-// Two rays at a smaller angle, radians, span no plane. At a focal length of 600 pixels, this angle is 0.006 pixel.
+// Two rays span no plane if the angle between them is smaller than this, radians. At a focal length of 600 pixels, this
+// angle is 0.006 pixel.
 constexpr double kSamePixel = 1e-5;
 
 // Returns the planes of all strokes that are long enough to span a plane.

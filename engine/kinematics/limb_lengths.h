@@ -39,8 +39,8 @@ constexpr double kSpineShare = 0.45;
 ///     Both arms move along that line until P₂ is the midpoint of the shoulders. *Ours*: P₂ and the arms then move
 ///     along P₁P₂ until the trunk has its known length. The head follows from P₂.
 /// Afterwards all lengths are right, and the left foot is at its observed position. The other end effectors have moved,
-/// and inverse kinematics must move them back. Returns nullopt if the input is not finite, a direction or a length is
-/// not positive, or both hips, both shoulders, or P₁ and P₂ coincide.
+/// and inverse kinematics must move them back. Returns nullopt if a number is not finite, if a direction has the length
+/// 0, if a limb length is not positive, if the two hips or the two shoulders coincide, or if P₁ and P₂ coincide.
 std::optional<BodyPose> FixLimbLengths(const LimbObservation& observation, const LimbLengths& lengths);
 
 /// Returns the limb lengths of a moving person for paper B's body: means over left and right and over all poses. The

@@ -63,7 +63,7 @@ class ClockComparison {
 /// fits.
 constexpr std::size_t kRigidMeasures = 41;
 
-/// Compares the steps since the window opened with the example, limb by limb. The example is shifted and stretched in
+/// Compares, limb by limb, the example with the steps since the window opened. The example is shifted and stretched in
 /// time as a whole, by the lag and pace that fit best. Parts of a performance that come too early or too late remain
 /// errors.
 class RigidComparison {

@@ -101,8 +101,8 @@ class Linearisation {
   }
 
  private:
-  // Adds the sums of one capsule, transformed to the coordinates of motion_. Each sum of six products is added in two
-  // interleaved halves.
+  // Adds the sums of one capsule, transformed to the coordinates of motion_. Each sum of six products is
+  // computed as two interleaved sums of three.
   void Transform(const ConeSums& of) {
     const auto& rows = motion_.rows;
     const std::size_t count = motion_.count;

@@ -85,7 +85,8 @@ Result<TransitionRace> FindTransitionRace(const RunData& run, const ScenarioSumm
     shown = candidates;
   }
   if (worlds.empty()) {
-    return Fail({}, "this run kept no recordings of transitions of this scenario, whose key 'video' selects them");
+    return Fail({},
+                "this run kept no recordings of this scenario's transitions (the scenario's key 'video' selects them)");
   }
   if (shown < 2) return Fail({}, "no world has recordings of two methods with a transition");
   TransitionRace race = RaceIn(*best, scenario, scenario.methods);

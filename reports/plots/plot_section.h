@@ -78,8 +78,8 @@ std::string UnitLegendHtml(const PairedDots& pairs);
 /// if every world is its own unit.
 std::string WithoutEachUnit(const Comparison& comparison, SamplingUnit unit);
 
-/// Draws one mean difference for each sampling unit: the mean that results when this unit is left out, on one axis with
-/// the practical threshold. The words of WithoutEachUnit follow.
+/// Draws, on one axis with the practical threshold, one mean difference for each sampling unit: the mean that results
+/// when this unit is left out. The words of WithoutEachUnit follow.
 std::string LeftOutStripHtml(const Comparison& comparison, SamplingUnit unit);
 
 }  // namespace etude

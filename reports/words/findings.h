@@ -30,7 +30,7 @@ struct MethodFinding {
   bool is_compared = false;             ///< false if the method was not compared by this metric
   std::optional<Verdict> verdict = {};  ///< verdict on the run's worlds; nullopt if it differs between conditions
   BeyondFinding beyond = {};            ///< verdicts generalised to other clips, people or libraries
-  std::string others = {};    ///< all methods with which `method` is compared under any condition: “a” or “b”
+  std::string others = {};  ///< the names of all methods with which `method` is compared, as a text: “a” or “b”
   /// States the comparison in words, with the numbers behind the verdicts and, under one condition, the reason if it is
   /// undecided.
   std::string sentence = {};

@@ -55,7 +55,8 @@ std::vector<Capsule> BodyCapsules(const BodyPose& pose);
 /// must be a unit vector. The distance is 0 if the ray starts inside.
 double HitDistance(const Capsule& capsule, const glm::dvec3& origin, const glm::dvec3& direction);
 
-/// The distances from an eye at which the ray to a joint hits the body; infinity without a hit.
+/// A ray runs from an eye to a joint. These are the distances from the eye to the points where the ray hits the body;
+/// infinity if it does not hit the body.
 struct JointSight {
   double skin;   ///< distance to the skin of the parts that contain the joint; at most the distance to the joint
   double other;  ///< distance to the nearest part that does not contain the joint

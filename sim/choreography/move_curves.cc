@@ -217,7 +217,7 @@ std::vector<PeriodicCurve::Key> KeysOf(const std::vector<PoseKey>& poses, std::s
     const double value = pose.controls.values[control];
     Ease ease = pose.ease;
     if (is_spot) ease = Ease::kStep;
-    // Let the leg become free before its angles raise it, and stand only after its angles have lowered it.
+    // The leg becomes free before its angles raise the foot, and stands again only after they have lowered the foot.
     if (is_leg_free) ease = value > 0 ? Ease::kLinger : Ease::kRush;
     keys.push_back({pose.beat, value, ease});
   }

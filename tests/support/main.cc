@@ -9,7 +9,8 @@ namespace {
 
 constexpr std::string_view kHeavy = "HEAVY_";  // prefix of tests that only `scripts/test --full` runs
 
-// Returns a filter for those tests in tests/`folder`, without subfolders, that are heavy, or not; "" if there are none.
+// Returns a filter for the tests in tests/`folder`, without its subfolders: for the heavy tests if `heavy` is true,
+// else for the others; "" if there are none.
 std::string TestsOf(const std::string& folder, bool heavy) {
   std::string filter;
   const testing::UnitTest& all = *testing::UnitTest::GetInstance();

@@ -150,7 +150,7 @@ Result<std::string> DrawRoleSheet(const Clip& clip, const std::array<RoleOnSheet
   canvas.DrawText({kEdge, height - 32}, MissingRoles(roles), kLabelSize, kInk, kSheetWidth - 2 * kEdge, true);
   canvas.DrawText(
       {kEdge, height - 12},
-      "blue: found by its name, or the end of such a limb; orange: found by the skeleton's shape; white: has no role",
+      "blue: found by the joint's name or its parent's name; orange: found by the skeleton's shape; white: has no role",
       kLabelSize, kSoftInk, kSheetWidth - 2 * kEdge);
   return canvas.Png();
 }

@@ -304,7 +304,7 @@ Result<MatchedMotions> Match(const RawMotion& given_truth, const RawMotion& give
     const double at = (start_s + static_cast<double>(f) / rate_hz) * answer.rate_hz;
     if (at < -kRounding || at > static_cast<double>(answer.FrameCount() - 1) + kRounding) ++matched.uncovered;
   }
-  // Count the answer's frames before the truth's first and after its last frame.
+  // Count the frames of the answer that come before the truth's first frame or after the truth's last frame.
   for (std::size_t f = 0; f < answer.FrameCount(); ++f) {
     constexpr double kOutside = 0.5;  // frames
     const double at = (static_cast<double>(f) / answer.rate_hz - start_s) * truth.rate_hz;

@@ -35,7 +35,8 @@ IkSolution SolveFabrik(const KinematicTree& tree, const IkProblem& problem, cons
 /// without a target moves along with the limb before it.
 class FabrikPass {
  public:
-  /// A point T of a limb that leads to a target: the base of another limb, or an effector.
+  /// A point T of a limb through which the limb's chain continues to a target: the base of another limb, or an
+  /// effector.
   struct Tip {
     glm::dvec3 p_LT;    ///< T in the frame of the limb L, metres
     int limb = -1;      ///< the limb whose base is at T, or −1

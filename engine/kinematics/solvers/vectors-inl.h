@@ -21,7 +21,7 @@ namespace etude::HWY_NAMESPACE {
 
 namespace hn = hwy::HWY_NAMESPACE;
 
-// ---- One number of each of many problems ---------------------------------------------------------------------------
+// ---- Vectors that hold the same number of several problems, one problem per lane ------------------------------------
 
 /// A float or a double in every lane.
 template <class T, class D = hn::ScalableTag<T>>

@@ -54,7 +54,7 @@ struct Burden {
   /// above the distance in the clips themselves counts.
   double beside = 0;
   double glide = 0;  ///< distance by which the slowest support glides farther than the same joint of a clip, metres
-  double turn = 0;   ///< largest turn of the hips against a resting foot, above the clips' own turn, radians
+  double turn = 0;   ///< largest turn of the hips against a resting foot minus the clips' own turn, radians
 };
 
 /// The data that all joins at one pair of frames have in common.

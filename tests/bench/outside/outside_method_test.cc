@@ -251,7 +251,8 @@ TEST(OutsideMethod, AStartThatFailsAfterItOnceSucceededIsTheProgramsOwnFailure) 
 TEST(OutsideMethod, AStartThatTheFencePreventsIsToldWithItsCure) {
   if (!FenceOfMethods().IsUp()) GTEST_SKIP() << FenceOfMethods().description();
   namespace fs = std::filesystem;
-  // An interpreter manager: its shim starts a program of another folder, which the fence does not show.
+  // A manager of interpreters: the command in PATH is a script that starts a program in another folder. Inside the
+  // fence, this folder is missing.
   const fs::path home = fs::path(::testing::TempDir()) / "managed";
   fs::remove_all(home);
   for (const char* folder : {"manager/shims", "manager/libexec", "mine"}) fs::create_directories(home / folder);

@@ -51,7 +51,7 @@ TEST(TransitionRace, AlignsEveryoneAtTheRequest) {
   EXPECT_EQ(race.paths[1].FirstPoint(), 10);
   EXPECT_EQ(race.paths[1].LastPoint(), 25);
   EXPECT_EQ(race.paths[2].LastPoint(), 8);
-  EXPECT_EQ(race.paths[1].PointsBefore(10), 0u);  // in the point's frame, the clip that is left still plays
+  EXPECT_EQ(race.paths[1].PointsBefore(10), 0u);  // in the frame of the transition point, the old clip still plays
   EXPECT_EQ(race.paths[1].PointsBefore(11), 1u);
   EXPECT_EQ(race.paths[1].FrameAt(-1000), 0);
   EXPECT_FALSE(race.paths[1].IsRecordedAt(-61));

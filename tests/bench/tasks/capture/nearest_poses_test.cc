@@ -13,8 +13,8 @@
 namespace etude {
 namespace {
 
-/// The distance from the truth to the poses that FindNearestPoses returns: for the joint and for the limb with the
-/// largest error, the mean error over all frames.
+/// The errors of the poses that FindNearestPoses returns, as means over all frames: of the joint with the largest mean
+/// error, and of the limb with the largest mean error.
 struct Distance {
   double joint_mm = 0, limb_deg = 0;
 };

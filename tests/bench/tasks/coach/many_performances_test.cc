@@ -14,7 +14,7 @@ struct Count {
   int performances = 0, right = 0, wrong = 0, corrections = 0, praised = 0;
 };
 
-/// Returns the counts over sessions of successive people, song by song, until there are enough performances.
+/// Runs sessions of successive people, song by song, until there are enough performances. Returns the counts.
 Count Sessions(const char* policy, double seconds, const CoachCondition& people) {
   CoachMethod method = MethodOf(policy, "dtw");
   method.sight.threshold = 0.3;  // as in the scenarios, where it was set on other people

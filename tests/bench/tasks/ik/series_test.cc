@@ -133,7 +133,7 @@ TEST(IkRecording, HoldsTruthStartAndTheSolutionFrameByFrameWithItsErrors) {
     const glm::dvec3& at = run.world.problem.targets[e].position;
     EXPECT_EQ(extras["targets_m"][e], Json({at.x, at.y, at.z}));
   }
-  // The head's distance to its target in the picture equals the trace's.
+  // The picture shows the head at the same distance from its target as the solver's trace states.
   for (std::size_t i = 0; i < extras["iterations"].size(); ++i) {
     const auto& entry = run.solution.trace[extras["iterations"][i].get<std::size_t>()];
     EXPECT_NEAR(glm::distance(pose(2, i)[Role::kHead], pose(0, i)[Role::kHead]), entry.errors[3].position, 1e-9);
