@@ -52,7 +52,8 @@ Result<std::vector<fs::path>> AnswersBelow(const fs::path& folder, PredictionFau
       files.push_back(name);
     } else if (!fs::is_directory(status)) {
       const char* const what = fs::is_symlink(status) || fs::is_regular_file(status) ? "is a link" : "is no file";
-      faults.broken.push_back(fmt::format("{}: {}; each answer must be a separate file", name.generic_string(), what));
+      faults.broken.push_back(
+          fmt::format("{} {}; allowed: answers that are files of their own", name.generic_string(), what));
     }
   }
   if (error) return Fail(place, "cannot be read: {}", error.message());

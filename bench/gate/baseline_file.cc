@@ -281,7 +281,8 @@ class BaselineReader {
     if (!kept->values.empty()) return Fail(place, "two lines of {} of {}; allowed: one", metric, name);
     ASSIGN_OR_RETURN(const Json* values, line.List("values"));
     if (values->size() != cells.trials) {
-      return Fail(place, "{} values of {} of {}; it has {} trials", values->size(), metric, name, cells.trials);
+      return Fail(place, "{} values of {} of {}; its scenario has {} trials", values->size(), metric, name,
+                  cells.trials);
     }
     for (std::size_t trial = 0; trial < cells.trials; ++trial) {
       const Json& value = (*values)[trial];
@@ -304,9 +305,8 @@ class BaselineReader {
     const auto found = std::ranges::count(kept.values, std::optional<double>());
     if (found == allowed) return {};
     const auto first = std::ranges::find(kept.values, std::optional<double>()) - kept.values.begin();
-    return Fail(line.place(),
-                "{} of the values of {} of {} are null{}; allowed: as many as the line's 'nulls' says, {}", found,
-                kept.metric, name, found == 0 ? "" : fmt::format(", the first in trial {}", first), allowed);
+    return Fail(line.place(), "{} of the values of {} of {} are null{}; allowed: {} (the line's 'nulls', otherwise 0)",
+                found, kept.metric, name, found == 0 ? "" : fmt::format(", the first in trial {}", first), allowed);
   }
 
   std::string file_;

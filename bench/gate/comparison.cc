@@ -169,13 +169,13 @@ TailRule RuleOf(const std::string& scenario, const TailRules& tails) {
 std::vector<std::string> WhyNotComparable(const SnapshotScenario& before, const SnapshotScenario& after) {
   std::vector<std::string> reasons;
   const auto differ = [&](std::string_view what, auto a, auto b) {
-    if (a != b) reasons.push_back(fmt::format("{}: {} {} and {}", before.name, what, a, b));
+    if (a != b) reasons.push_back(fmt::format("{}: {} was {} and is {}", before.name, what, a, b));
   };
-  differ("seed", before.seed, after.seed);
+  differ("the seed", before.seed, after.seed);
   // If the worlds are made of files, the numbers of trials may differ, because an added or removed file does not change
   // the other worlds.
   const bool are_files = !before.files.empty() && !after.files.empty();
-  if (!are_files) differ("trials", before.trials, after.trials);
+  if (!are_files) differ("the number of trials", before.trials, after.trials);
   for (const auto& [condition, digest] : before.worlds) {
     const std::string* other = FindDigest(after.worlds, condition);
     if (other == nullptr || *other == digest) continue;
@@ -186,7 +186,7 @@ std::vector<std::string> WhyNotComparable(const SnapshotScenario& before, const 
   }
   for (const auto& metric : before.metrics) {
     const auto* other = FindIn(after.metrics, [&](const auto& pair) { return pair.first == metric.first; });
-    if (other != nullptr) differ(metric.first + " in versions", metric.second, other->second);
+    if (other != nullptr) differ("the version of " + metric.first, metric.second, other->second);
   }
   return reasons;
 }

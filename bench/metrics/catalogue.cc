@@ -44,7 +44,8 @@ std::string_view DirectionWords(Direction direction) {
 }
 
 Result<void> AddMetric(MetricInfo metric) {
-  if (FindInCatalogue(metric.id) != nullptr) return Fail({}, "etude has a metric '{}' of its own", metric.id);
+  if (FindInCatalogue(metric.id) != nullptr)
+    return Fail({}, "'{}' is the id of a built-in metric; allowed: another id", metric.id);
   const auto [known, is_new] = Added().emplace(metric.id, metric);
   if (is_new) return {};
   const std::string difference = FindDifference(known->second, metric);

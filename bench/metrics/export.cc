@@ -202,7 +202,7 @@ Result<void> ReadAddedMetrics(const Json& list, const Place& place) {
       metric.definition = each.at("definition").get<std::string>();
       metric.domain = each.at("domain").get<std::string>();
     } catch (const Json::exception& error) {  // a missing key, a wrong type, or an unknown word
-      return Fail(place, "not a metric of a run's own: {}", error.what());
+      return Fail(place, "not the description of a metric that a scenario defines: {}", error.what());
     }
     if (auto added = AddMetric(std::move(metric)); !added) return Fail(place, "{}", added.error().message);
   }

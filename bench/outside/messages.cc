@@ -45,7 +45,7 @@ Result<std::string> TextOf(const Json& message, const char* key, const std::stri
 
 Result<Json> ReadMessageOfType(const std::string& line, std::string_view type) {
   auto message = ReadMessage(line);
-  if (message && (*message)["type"] != type) return Fail({}, "said no '{}': {}", type, Printable(line));
+  if (message && (*message)["type"] != type) return Fail({}, "wrote no '{}': {}", type, Printable(line));
   return message;
 }
 
@@ -114,7 +114,7 @@ Result<Json> ReadAnswer(const std::string& line, const std::string& id) {
 Result<Json> ReadStepAnswer(const std::string& line, const std::string& id, int number) {
   ASSIGN_OR_RETURN(auto message, ReadAnswer(line, id));
   if (message["type"] == "answer" && (!message.contains("number") || message["number"] != number)) {
-    return Fail({}, "answered another step than {}: {}", number, Printable(line));
+    return Fail({}, "answered a step other than {}: {}", number, Printable(line));
   }
   return message;
 }

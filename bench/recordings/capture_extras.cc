@@ -120,8 +120,8 @@ Result<CaptureExtras> ToExtras(const SortedJson& json) {
   for (const SortedJson& camera : json.at("cameras")) {
     ASSIGN_OR_RETURN(auto view, ToView(camera));
     if (view.masks.size() != extras.brightness.size()) {
-      return Fail({}, "a capture recording with {} frames of light and {} masks", extras.brightness.size(),
-                  view.masks.size());
+      return Fail({}, "a capture recording with {} values of 'brightness', but {} masks of a camera",
+                  extras.brightness.size(), view.masks.size());
     }
     extras.views.push_back(std::move(view));
   }
@@ -188,7 +188,7 @@ std::string EncodeMask(const Mask& mask) {
 
 Result<Mask> DecodeMask(std::string_view text, int width, int height) {
   if (width < 0 || height < 0 || width > kMaxSide || height > kMaxSide) {
-    return Fail({}, "a mask of {} × {} pixels; at most {} a side", width, height, kMaxSide);
+    return Fail({}, "a mask of {} × {} pixels; allowed: at most {} a side", width, height, kMaxSide);
   }
   Mask mask(width, height);
   std::size_t at = 0;

@@ -22,7 +22,8 @@ Json FramesOf(const RawMotion& motion) {
 Result<void> ReadFrames(const Json& frames, RawMotion& motion) {
   for (const Json& numbers : frames) {
     if (numbers.size() != 3 * motion.joints.size()) {
-      return Fail({}, "a frame of {} numbers and {} joints", numbers.size(), motion.joints.size());
+      return Fail({}, "a frame of {} numbers for {} joints; allowed: three for each", numbers.size(),
+                  motion.joints.size());
     }
     for (std::size_t i = 0; i < numbers.size(); i += 3) {
       motion.positions.push_back(
@@ -42,15 +43,17 @@ Result<EvaluationExtras> ToExtras(const Json& json) {
   truth.parents = json.at("parents").get<std::vector<int>>();
   const auto joints = static_cast<int>(truth.joints.size());
   if (joints == 0 || truth.parents.size() != truth.joints.size() || !(truth.rate_hz > 0)) {
-    return Fail({}, "a recording of {} joints, {} parents and {} Hz", joints, truth.parents.size(), truth.rate_hz);
+    return Fail({}, "{} joints, {} parents and {} Hz; allowed: one joint or more, a parent for each, a rate above 0",
+                joints, truth.parents.size(), truth.rate_hz);
   }
   for (const int parent : truth.parents) {
-    if (parent < -1 || parent >= joints) return Fail({}, "parent {} of {} joints", parent, joints);
+    if (parent < -1 || parent >= joints)
+      return Fail({}, "parent {} among {} joints; allowed: -1, or the index of a joint", parent, joints);
   }
   extras.answer = truth;
   RETURN_IF_ERROR(ReadFrames(json.at("truth"), truth));
   RETURN_IF_ERROR(ReadFrames(json.at("answer"), extras.answer));
-  if (truth.positions.size() != extras.answer.positions.size()) return Fail({}, "motions of two lengths");
+  if (truth.positions.size() != extras.answer.positions.size()) return Fail({}, "the two motions differ in length");
   return extras;
 }
 

@@ -130,7 +130,8 @@ Result<Pack> ReadPack(std::string_view bytes, const std::string& file) {
       return Fail(place, "a pack of version {}; this program reads {}", json->at("etude_pack").dump(), kPackVersion);
     }
     ASSIGN_OR_RETURN(auto suite, DecodeSetup(json->at("setup"), place));
-    if (suite.scenarios.size() != 1) return Fail(place, "not a packed cell: {} scenarios", suite.scenarios.size());
+    if (suite.scenarios.size() != 1)
+      return Fail(place, "not a packed cell: {} scenarios; allowed: one", suite.scenarios.size());
     ASSIGN_OR_RETURN(auto row, DecodeRow(json->at("row"), place));
     return Pack{std::move(suite), std::move(row), std::make_unique<Json>(json->at("motions"))};
   } catch (const Json::exception& error) {

@@ -167,12 +167,13 @@ class ScenarioColumns {
         return Fail(place, "kind.npy contains {}, but there are {} kinds", kind, kinds_.size());
     }
     for (const std::uint8_t status : status_->Numbers<std::uint8_t>()) {
-      if (status >= kStatuses.size()) return Fail(place, "status.npy holds {}", status);
+      if (status >= kStatuses.size()) return Fail(place, "status.npy contains {}, which is no status", status);
     }
     for (const auto& column : texts_) {
       if (!column) continue;
       for (const std::uint32_t text : column->Numbers<std::uint32_t>()) {
-        if (text >= index_.texts.size()) return Fail(place, "names text {} of {}", text, index_.texts.size());
+        if (text >= index_.texts.size())
+          return Fail(place, "names text {}, counted from 0, but there are {}", text, index_.texts.size());
       }
     }
     // The ends of the curves must ascend, and the last end must be the number of values.

@@ -249,7 +249,7 @@ class Supervisor {
     if (now > worker.deadline) {
       Measure(worker);
       return Replace(worker, {},
-                     fmt::format("a worker reached its limit of elapsed time after {:.1f} s of processor time",
+                     fmt::format("a worker reached its limit of wall-clock time after {:.1f} s of processor time",
                                  worker.cpu_s - worker.cpu_began));
     }
     if (!worker.orders.empty() && now - worker.measured >= std::chrono::milliseconds(kPollMilliseconds)) {

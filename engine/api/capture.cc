@@ -14,8 +14,8 @@ void CheckPerson(const SeenPerson& person) {
   for (std::size_t i = 0; i < kLandmarkCount; ++i) {
     const auto& [pixel, confidence] = person.keypoints[i];
     if (std::isfinite(pixel.x + pixel.y) && confidence >= 0 && confidence <= 1) continue;
-    throw BadInput(fmt::format("{} at ({}, {}) with confidence {}; allowed: finite, 0 to 1", LandmarkName(Landmark(i)),
-                               pixel.x, pixel.y, confidence));
+    throw BadInput(fmt::format("{} at ({}, {}) with confidence {}; allowed: a finite pixel, a confidence from 0 to 1",
+                               LandmarkName(Landmark(i)), pixel.x, pixel.y, confidence));
   }
 }
 

@@ -10,7 +10,8 @@ namespace etude::engine {
 const RecogniserKind& KindOfExamples(const std::string& name) {
   const RecogniserKind* kind = FindRecogniser(name);
   if (kind != nullptr && (name == "whole-body" || name == "dtw" || name == "nearest")) return *kind;
-  throw BadInput(fmt::format("no recogniser '{}' of examples; allowed: whole-body, dtw, nearest", name));
+  throw BadInput(
+      fmt::format("'{}' is not a recogniser that learns from examples; allowed: whole-body, dtw, nearest", name));
 }
 
 void CheckMoves(std::span<const TaughtMove> moves) {

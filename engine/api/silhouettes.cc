@@ -33,8 +33,9 @@ int PixelOf(const NamedCamera& camera, const Mask& mask) {
   const Intrinsics& picture = camera.camera.intrinsics;
   const int pixel = mask.width > 0 ? picture.width / mask.width : 0;
   if (pixel >= 1 && picture.width == pixel * mask.width && picture.height == pixel * mask.height) return pixel;
-  throw BadInput(fmt::format("a mask of {} x {} pixels of camera '{}'; allowed: its {} x {}, or smaller by a factor",
-                             mask.width, mask.height, camera.name, picture.width, picture.height));
+  throw BadInput(
+      fmt::format("a mask of {} x {} pixels of camera '{}'; allowed: {} x {}, or both divided by the same whole number",
+                  mask.width, mask.height, camera.name, picture.width, picture.height));
 }
 
 std::vector<ProjectionMatrix> PinholesOf(std::span<const NamedCamera> cameras) {

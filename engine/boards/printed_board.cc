@@ -57,9 +57,10 @@ std::optional<Result<PrintedBoard>> ReadPrintedBoard(std::string_view text) {
   const double min_squares = board.is_charuco ? 3 : 4;  // OpenCV does not find chessboards with two corners per side
   const auto is_side = [&](double n) { return n == std::floor(n) && n >= min_squares && n <= kMaxPerSide; };
   if (!is_read || !is_side(numbers[0]) || !is_side(numbers[1]) || !(numbers[2] >= 0.001) || !(numbers[2] <= 10)) {
-    return Result<PrintedBoard>(
-        Fail({}, "--board {}: not a board; allowed: {} to 64 squares a side and their metres, as chess:9x6x0.025", text,
-             min_squares));
+    return Result<PrintedBoard>(Fail({},
+                                     "--board {}: not a board; allowed: {} to 64 squares along each side, and a "
+                                     "square's side in metres, as chess:9x6x0.025",
+                                     text, min_squares));
   }
   board.columns = static_cast<int>(numbers[0]);
   board.rows = static_cast<int>(numbers[1]);

@@ -25,7 +25,7 @@ Result<CameraParameters> Decompose(const ProjectionMatrix& matrix) {
   // Normalise so that the third row is the viewing axis.
   const auto row = [&](int i) { return glm::dvec3(matrix.h[i][0], matrix.h[i][1], matrix.h[i][2]); };
   const double scale = glm::length(row(2));
-  if (!(scale > 0)) return Fail({}, "a camera matrix whose third row is empty: a camera at infinity");
+  if (!(scale > 0)) return Fail({}, "a camera matrix whose third row begins with three zeros: a camera at infinity");
   const glm::dvec3 a1 = row(0) / scale, a2 = row(1) / scale, a3 = row(2) / scale;
   const glm::dvec3 n1 = glm::cross(a1, a3), n2 = glm::cross(a2, a3);
   constexpr double kParallel = 1e-12;

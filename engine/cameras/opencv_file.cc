@@ -100,7 +100,7 @@ Result<Camera> CameraOf(const OpenCvParameters& p) {
   if (!(K[0] > 0) || !(K[4] > 0))
     return Fail({}, "focal lengths of {:g} and {:g}; allowed: numbers above 0", K[0], K[4]);
   if (K[3] != 0 || K[6] != 0 || K[7] != 0 || K[8] != 1) {
-    return Fail({}, "the camera matrix must end in rows 0 fy cy, 0 0 1");
+    return Fail({}, "the last two rows of the camera matrix must be 0 fy cy and 0 0 1");
   }
   if (!IsRotation(p.R)) return Fail({}, "R is no rotation");
   Camera camera;

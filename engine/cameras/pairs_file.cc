@@ -64,13 +64,14 @@ Result<CameraPairs> ReadCamera(const Node::Entry& entry) {
   const Node* pairs = fields.Raw("pairs");
   RETURN_IF_ERROR(fields.Finish());
   if (size.size() != 2 || size[0] != std::floor(size[0]) || size[1] != std::floor(size[1])) {
-    return Fail(entry.place, "camera {}: no size; allowed: size: [width, height] in pixels", entry.key);
+    return Fail(entry.place, "camera {}: no valid size; allowed: size: [width, height], whole numbers of pixels",
+                entry.key);
   }
   camera.width = static_cast<int>(size[0]);
   camera.height = static_cast<int>(size[1]);
   // Read the pairs, five numbers each.
   if (pairs == nullptr || pairs->kind != Node::Kind::kSequence) {
-    return Fail(entry.place, "camera {}: no pairs; allowed: pairs: [[x, y, z, u, v], ...]", entry.key);
+    return Fail(entry.place, "camera {}: no list of pairs; allowed: pairs: [[x, y, z, u, v], ...]", entry.key);
   }
   for (const Node& item : pairs->items) {
     if (item.kind != Node::Kind::kSequence || item.items.size() != 5) {
@@ -103,7 +104,7 @@ Result<std::vector<CameraPairs>> ReadYaml(std::string_view text, const std::stri
 }  // namespace
 
 Result<std::vector<CameraPairs>> ReadPointPairs(std::string_view text, const std::string& file) {
-  if (text.size() > kMaxBytes) return Fail({file}, "{} bytes; allowed: {}", text.size(), kMaxBytes);
+  if (text.size() > kMaxBytes) return Fail({file}, "{} bytes; allowed: at most {}", text.size(), kMaxBytes);
   std::string heading(text.substr(0, text.find('\n')));
   std::erase_if(heading, [](char c) { return c == ' ' || c == '\r' || c == '\t'; });
   ASSIGN_OR_RETURN(auto cameras, heading == kHeading ? ReadCsv(text, file) : ReadYaml(text, file));

@@ -220,7 +220,9 @@ Result<RefinedRig> CalibrateFromPlanes(std::span<const PictureSize> sizes, std::
     const auto& pose_CW = places.cameras_[camera];
     if (!pose_CW) {
       return Fail({},
-                  "camera {} never sees a board at the same time as one of the cameras before it; show a board to both",
+                  "no chain of boards that two cameras see at the same time connects camera {} with the cameras before "
+                  "it; show "
+                  "a board to both",
                   camera + 1);
     }
     guess.cameras[camera].R_CW = pose_CW->R_WT;

@@ -342,9 +342,10 @@ Result<RefinedRig> RefineRig(const RigGuess& guess, std::span<const TargetView> 
   }
   AddRms(views, rig);
   if (!std::isfinite(rig.rms_px)) {
-    return Fail({},
-                "the best fit has a lens that folds the picture within the points: there are too few of them, or pairs "
-                "are mixed up");
+    return Fail(
+        {},
+        "with the lens distortion that fits best, several directions have the same pixel: there are too few points, or "
+        "pairs are mixed up");
   }
   rig.deviations = std::move(deviations);
   return rig;

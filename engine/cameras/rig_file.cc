@@ -127,7 +127,8 @@ Result<std::vector<NamedCamera>> ReadQualisysCalibration(std::string_view text) 
   }
   const xmlNode* root = xmlDocGetRootElement(document.get());
   if (!IsNamed(root, "calibration")) {
-    return Fail(PlaceOfNode(root), "<{}>; allowed: <calibration> of Qualisys Track Manager",
+    return Fail(PlaceOfNode(root),
+                "found the element <{}>; allowed: <calibration>, as Qualisys Track Manager writes it",
                 reinterpret_cast<const char*>(root->name));
   }
   const xmlNode* cameras = Child(root, "cameras");
@@ -244,8 +245,9 @@ Result<RigFile> Read(std::string_view text, const std::string& file) {
     for (const char* key : {"names", "M1", "R1"}) {
       if (root.Find(key) == nullptr) continue;
       return Fail({},
-                  "half of a calibration; also needed: EasyMocap's intri.yml and extri.yml, or OpenCV's "
-                  "intrinsics.yml and extrinsics.yml");
+                  "one file of a pair; allowed: both files, EasyMocap's intri.yml and extri.yml, or OpenCV's "
+                  "intrinsics.yml and "
+                  "extrinsics.yml");
     }
     ASSIGN_OR_RETURN(const Camera camera, ReadCamera(root, true));
     return RigFile{{{"camera", camera}}, "OpenCV's YAML"};
@@ -272,7 +274,8 @@ Result<RigFile> Checked(Result<RigFile> rig, const std::string& file) {
     return tl::unexpected(std::move(error));
   }
   const std::vector<NamedCamera>& cameras = rig->cameras;
-  if (cameras.size() > kMaxRigCameras) return Fail({file}, "{} cameras; allowed: {}", cameras.size(), kMaxRigCameras);
+  if (cameras.size() > kMaxRigCameras)
+    return Fail({file}, "{} cameras; allowed: at most {}", cameras.size(), kMaxRigCameras);
   for (std::size_t i = 0; i < cameras.size(); ++i) {
     for (std::size_t j = 0; j < i; ++j) {
       if (cameras[i].name == cameras[j].name) return Fail({file}, "two cameras of the name {}", cameras[i].name);
@@ -294,7 +297,7 @@ std::string WriteRig(std::span<const NamedCamera> cameras) {
 }
 
 Result<RigFile> ReadRigFile(std::string_view text, const std::string& file) {
-  if (text.size() > kMaxRigBytes) return Fail({file}, "{} bytes; allowed: {}", text.size(), kMaxRigBytes);
+  if (text.size() > kMaxRigBytes) return Fail({file}, "{} bytes; allowed: at most {}", text.size(), kMaxRigBytes);
   return Checked(Read(text, file), file);
 }
 
@@ -302,7 +305,7 @@ Result<RigFile> ReadRigPair(std::string_view inside, std::string_view outside, c
   // The maximum size of a pair of files, larger than the limit for one file, because COLMAP's files also list points.
   constexpr std::size_t kMaxPairBytes = 64 * kMaxRigBytes;
   if (inside.size() + outside.size() > kMaxPairBytes) {
-    return Fail({file}, "{} bytes; allowed: {}", inside.size() + outside.size(), kMaxPairBytes);
+    return Fail({file}, "{} bytes; allowed: at most {}", inside.size() + outside.size(), kMaxPairBytes);
   }
   if (inside.find("opencv-matrix") == std::string_view::npos) return Checked(ReadColmap(inside, outside), file);
   const auto parse = [&](std::string_view text) { return ParseYaml(WithoutDirective(text), file); };

@@ -15,10 +15,10 @@ constexpr std::size_t kMinFrames = 2;
 
 Result<void> CheckMotion(const std::string& title, std::string_view what, const BodyMotion& motion) {
   if (motion.poses.size() < kMinFrames) {
-    return Fail({}, "dance '{}': {} has {} frames; at least {}", title, what, motion.poses.size(), kMinFrames);
+    return Fail({}, "dance '{}': {} has {} frames; allowed: at least {}", title, what, motion.poses.size(), kMinFrames);
   }
   if (motion.rate_hz != kJudgedRateHz) {
-    return Fail({}, "dance '{}': {} runs at {} Hz; must be {}", title, what, motion.rate_hz, kJudgedRateHz);
+    return Fail({}, "dance '{}': {} has a rate of {} Hz; allowed: {}", title, what, motion.rate_hz, kJudgedRateHz);
   }
   return {};
 }
@@ -29,12 +29,13 @@ Result<void> CheckRepetitions(const Dance& dance) {
   for (std::size_t i = 0; i < dance.repetitions.size(); ++i) {
     const Repetition& repetition = dance.repetitions[i];
     if (repetition.move < 0 || repetition.move >= static_cast<int>(dance.moves.size())) {
-      return Fail({}, "dance '{}', repetition {}: move {} of {}", dance.title, i, repetition.move, dance.moves.size());
+      return Fail({}, "dance '{}', repetition {}: there is no move {}; moves, counted from 0: {}", dance.title, i,
+                  repetition.move, dance.moves.size());
     }
     if (repetition.first < free_from || repetition.end < repetition.first + kMinFrames ||
         repetition.end > dance.motion.poses.size()) {
-      return Fail({}, "dance '{}', repetition {}: frames {} to {}; allowed: {} to {}, two at least", dance.title, i,
-                  repetition.first, repetition.end, free_from, dance.motion.poses.size());
+      return Fail({}, "dance '{}', repetition {}: frames {} to {}; allowed: at least two frames within {} to {}",
+                  dance.title, i, repetition.first, repetition.end, free_from, dance.motion.poses.size());
     }
     free_from = repetition.end;
   }
@@ -45,8 +46,8 @@ Result<void> CheckTags(const Dance& dance) {
   const MusicTag* before = nullptr;
   for (const MusicTag& tag : dance.tags) {
     if (!std::isfinite(tag.music_s) || tag.frame >= dance.motion.poses.size()) {
-      return Fail({}, "dance '{}': a music-time tag at frame {}, {} s, but the dance has {} frames", dance.title,
-                  tag.frame, tag.music_s, dance.motion.poses.size());
+      return Fail({}, "dance '{}': a music-time tag at frame {}, {} s; allowed: a frame below {}, and a finite time",
+                  dance.title, tag.frame, tag.music_s, dance.motion.poses.size());
     }
     if (before != nullptr && (tag.frame <= before->frame || tag.music_s <= before->music_s)) {
       return Fail({}, "dance '{}': music-time tags must ascend; frame {}, {} s comes after frame {}, {} s", dance.title,
@@ -70,7 +71,8 @@ Result<void> CheckDance(const Dance& dance) {
   std::set<std::string> names;
   for (const DanceMove& move : dance.moves) {
     RETURN_IF_ERROR(CheckMotion(dance.title, "the slow demonstration of '" + move.name + "'", move.slow));
-    if (!names.insert(move.name).second) return Fail({}, "dance '{}': two moves '{}'", dance.title, move.name);
+    if (!names.insert(move.name).second)
+      return Fail({}, "dance '{}': two moves are named '{}'", dance.title, move.name);
   }
   RETURN_IF_ERROR(CheckRepetitions(dance));
   RETURN_IF_ERROR(CheckTags(dance));

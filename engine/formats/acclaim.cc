@@ -255,7 +255,7 @@ Result<LocalTransform> ReadTransform(const AcclaimLines& lines, const AcclaimSke
                                      bool in_degrees, double& largest) {
   const auto& channels = skeleton.channels[joint];
   if (lines.words.size() != channels.size() + 1) {
-    return Fail(lines.At(), "{} numbers of bone {}; allowed: {}, by its skeleton", lines.words.size() - 1,
+    return Fail(lines.At(), "{} numbers for bone {}; allowed: {}, as its skeleton states", lines.words.size() - 1,
                 Quote(lines.words.front().text), channels.size());
   }
   LocalTransform local = skeleton.skeleton.joints[joint].rest;
@@ -322,7 +322,7 @@ Result<AcclaimFrames> ReadFrames(std::string_view text, const AcclaimSkeleton& s
     } else if (lines.words.size() == 1 && !joint_of.contains(lines.words.front().text)) {
       ASSIGN_OR_RETURN(const double number, lines.Number(0));
       if (!clip.frames.empty() && number != last + 1) {
-        return Fail(lines.At(), "frame {} after frame {}; allowed: the next one", number, last);
+        return Fail(lines.At(), "frame {} after frame {}; allowed: numbers that increase by 1", number, last);
       }
       last = number;
       // A frame takes the memory of all bones even if the file leaves some out, so limit the memory.
@@ -330,8 +330,8 @@ Result<AcclaimFrames> ReadFrames(std::string_view text, const AcclaimSkeleton& s
       const double bytes = static_cast<double>(clip.frames.size() + 1) *
                            static_cast<double>(clip.skeleton.joints.size() * sizeof(LocalTransform));
       if (bytes > kMaxFrameBytes) {
-        return Fail(lines.At(), "{} frames of {} joints take {:.0f} MB; allowed: {:.0f} MB", clip.frames.size() + 1,
-                    clip.skeleton.joints.size(), bytes / 1e6, kMaxFrameBytes / 1e6);
+        return Fail(lines.At(), "{} frames of {} joints take {:.0f} MB; allowed: at most {:.0f} MB",
+                    clip.frames.size() + 1, clip.skeleton.joints.size(), bytes / 1e6, kMaxFrameBytes / 1e6);
       }
       clip.frames.push_back(RestPose(clip.skeleton));
     } else {

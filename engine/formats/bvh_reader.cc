@@ -87,7 +87,8 @@ class HierarchyReader {
     const Token name = scanner_.NameInLine();
     if (name.text.empty()) return Unexpected(name, "a joint's name");
     if (name.text.size() > kMaxNameBytes) {
-      return Fail(scanner_.At(name), "a joint's name of {} bytes; allowed: {}", name.text.size(), kMaxNameBytes);
+      return Fail(scanner_.At(name), "a joint's name of {} bytes; allowed: at most {}", name.text.size(),
+                  kMaxNameBytes);
     }
     ASSIGN_OR_RETURN(auto index, AddJoint(std::string(name.text), parent, name, depth));
     RETURN_IF_ERROR(Expect("{"));
@@ -222,8 +223,8 @@ Result<MotionHeader> ReadMotionHeader(TextScanner& scanner, std::size_t joints) 
   // Check the announced size before any frame is stored, so that a false size cannot exhaust the memory.
   const double bytes = count * static_cast<double>(joints * sizeof(LocalTransform));
   if (bytes > kMaxFrameBytes) {
-    return Fail(scanner.At(count_token), "{} frames of {} joints take {:.0f} MB; allowed: {:.0f} MB", count_token.text,
-                joints, bytes / 1e6, kMaxFrameBytes / 1e6);
+    return Fail(scanner.At(count_token), "{} frames of {} joints take {:.0f} MB; allowed: at most {:.0f} MB",
+                count_token.text, joints, bytes / 1e6, kMaxFrameBytes / 1e6);
   }
 
   RETURN_IF_ERROR(ExpectWords(scanner, {"Frame", "Time", ":"}));
@@ -380,7 +381,7 @@ Result<Clip> ReadBvh(std::string_view bytes, const std::string& file, std::vecto
   // Exporters that announce the number of their last frame write one frame more; drop it, as other readers do.
   if (clip.frames.size() == announced + 1) {
     clip.frames.pop_back();
-    remark(fmt::format("{} rows where {} frames are announced: the last row was dropped", announced + 1, announced));
+    remark(fmt::format("{} rows, but {} frames are announced: the last row was dropped", announced + 1, announced));
   }
   if (clip.frames.size() != announced) {
     return Fail(scanner.At(header.frames_place), "{} frames announced; the file contains {}", announced,

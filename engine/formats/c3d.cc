@@ -111,7 +111,7 @@ Result<C3d> ReadC3d(std::string_view bytes, const std::string& file) {
   const double scale = parameters.Number("POINT:SCALE").value_or(all.Float(12));
   const double rate = parameters.Number("POINT:RATE").value_or(all.Float(20));
   if (layout.points == 0) return Fail({file}, "contains no points (rotations and analogue channels are not read)");
-  if (layout.points > kMaxPoints) return Fail({file}, "{} points; allowed: {}", layout.points, kMaxPoints);
+  if (layout.points > kMaxPoints) return Fail({file}, "{} points; allowed: at most {}", layout.points, kMaxPoints);
   if (!(rate > 0 && rate < kMaxValue)) return Fail({file}, "a rate of {} Hz; allowed: above 0", rate);
   if (!(std::abs(scale) < kMaxValue) || scale == 0) return Fail({file}, "POINT:SCALE is {}; allowed: not 0", scale);
   const auto units = parameters.Texts("POINT:UNITS");

@@ -116,12 +116,12 @@ Result<Clip> ReadFrames(const Json& frames, const std::string& file) {
     if (i == 0) {
       duration = numbers[0];
       if (duration < kMinDuration_s || duration > kMaxDuration_s) {
-        return Fail(place, "Frames[0][0]: a frame of {} s; allowed: {} to {} s", duration, kMinDuration_s,
+        return Fail(place, "Frames[0][0]: a frame that lasts {} s; allowed: {} to {} s", duration, kMinDuration_s,
                     kMaxDuration_s);
       }
     } else if (i + 1 < frames.size() && std::abs(numbers[0] - duration) > kRounding * duration) {
-      return Fail(place, "Frames[{}][0]: a frame of {} s; allowed: the duration of the first, {} s", i, numbers[0],
-                  duration);
+      return Fail(place, "Frames[{}][0]: a frame that lasts {} s; allowed: the duration of the first, {} s", i,
+                  numbers[0], duration);
     }
     auto pose = PoseOf(numbers);
     if (!pose) return Fail(place, "Frames[{}]: a quaternion of length 0", i);
@@ -140,7 +140,7 @@ bool IsDeepMimicMotion(std::string_view text) {
 
 Result<Clip> ReadDeepMimicMotion(std::string_view text, const std::string& file) {
   if (text.size() > kMaxTextBytes) {
-    return Fail({file, 0, 0}, "{} MiB; allowed: {} MiB", text.size() >> 20, kMaxTextBytes >> 20);
+    return Fail({file, 0, 0}, "{} MiB; allowed: at most {} MiB", text.size() >> 20, kMaxTextBytes >> 20);
   }
   ASSIGN_OR_RETURN(const Json motion, ParseJsonText(text, file));
   const auto frames = motion.find("Frames");

@@ -64,7 +64,8 @@ Result<Clip> ReadKimodo(const Npz& arrays, const std::string& file) {
   const std::size_t joints = soma.size();
   if (frames == 0 || places.shape != std::vector<std::size_t>{frames, joints, 3} ||
       matrices.shape != std::vector<std::size_t>{frames, joints, 3, 3}) {
-    return Fail({file}, "posed_joints {}, global_rot_mats {}; allowed: frames × 30 × 3 and frames × 30 × 3 × 3, or 77",
+    return Fail({file},
+                "posed_joints {}, global_rot_mats {}; allowed: frames × J × 3 and frames × J × 3 × 3, J = 30 or 77",
                 ShapeText(places), ShapeText(matrices));
   }
   const auto place = [&](std::size_t frame, std::size_t joint) {

@@ -88,7 +88,7 @@ Result<BidsChannels> ReadChannels(std::string_view text, const std::string& file
     }
     column.point = point->second;
     bool& has_axis = has[static_cast<std::size_t>(column.point)][static_cast<std::size_t>(column.axis)];
-    if (has_axis) return Fail({file, line}, "{} has its {} twice", Quote(point->first), component);
+    if (has_axis) return Fail({file, line}, "the point {} has two channels for {}", Quote(point->first), component);
     has_axis = true;
   }
   // Every point needs all three coordinates.

@@ -62,7 +62,7 @@ std::vector<PlaceColumns> PlaceColumnsOf(std::string_view type, const std::vecto
 bool IsMotiveCsv(std::string_view text) { return WithoutByteOrderMark(text).starts_with("Format Version,"); }
 
 Result<MarkerMotion> ReadMotiveCsv(std::string_view text, const std::string& file) {
-  if (text.size() > kMaxFileBytes) return Fail({file}, "{} bytes; allowed: {}", text.size(), kMaxFileBytes);
+  if (text.size() > kMaxFileBytes) return Fail({file}, "{} bytes; allowed: at most {}", text.size(), kMaxFileBytes);
   // Read the properties in the first line.
   int line = 0;
   const auto facts = CommaCells(TakeLine(text, line));
@@ -127,7 +127,7 @@ Result<MarkerMotion> ReadMotiveCsv(std::string_view text, const std::string& fil
   }
   const auto announced = ParseFinite(ValueBehind(facts, "Total Exported Frames"));
   if (announced && *announced > static_cast<double>(motion.frames.size())) {
-    motion.remark = fmt::format("{} rows where {:g} frames are announced", motion.frames.size(), *announced);
+    motion.remark = fmt::format("{} rows, but Total Exported Frames is {:g}", motion.frames.size(), *announced);
   }
   // If no row has a time, the frame numbers give the times.
   if (std::ranges::all_of(rows.times_s, [](double time) { return std::isnan(time); })) {

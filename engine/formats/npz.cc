@@ -166,7 +166,8 @@ Result<std::string> Unpack(zip_t* archive, zip_uint64_t member, std::uint64_t& l
   }
   if (status.size > left) return Fail({file}, "is more than {} MiB when unpacked", kMaxUnpacked >> 20);
   if ((status.valid & ZIP_STAT_COMP_SIZE) != 0 && status.size / kMaxDeflateRatio > status.comp_size) {
-    return Fail({file}, "member {} states that its {} bytes unpack to {}", member, status.comp_size, status.size);
+    return Fail({file}, "member {} states that its {} bytes unpack to {} bytes, which is impossible", member,
+                status.comp_size, status.size);
   }
   left -= status.size;
   std::string bytes(status.size, '\0');
@@ -217,7 +218,7 @@ Result<Npz> ReadNpz(std::string_view bytes, const std::string& file) {
   }
   const zip_int64_t members = zip_get_num_entries(archive.get(), 0);
   if (members < 0 || static_cast<std::size_t>(members) > kMaxMembers) {
-    return Fail({file}, "{} members; allowed: {}", members, kMaxMembers);
+    return Fail({file}, "{} members; allowed: at most {}", members, kMaxMembers);
   }
   // Read every .npy member, and remember the first member of another kind for the complaint.
   Npz read;

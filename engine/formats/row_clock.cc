@@ -71,7 +71,7 @@ Result<std::vector<std::size_t>> CountingRows(std::span<const double> times, std
                   before);
     }
     if (times[i] - before > kMaxStep_s) {
-      return Fail(place, "time {:.6g} s after {:.6g} s; allowed: a clock that increases, by at most {} s per row",
+      return Fail(place, "time {:.6g} s after {:.6g} s; allowed: a clock that advances by at most {} s per row",
                   times[i], before, kMaxStep_s);
     }
     if (times[i] == before) rows.pop_back();
@@ -188,7 +188,8 @@ Result<std::optional<RowGrid>> GridOfRows(std::span<const double> times_s, std::
   const double added = (count - static_cast<double>(rows.size())) * static_cast<double>(width);
   if (!(added <= kMaxAddedValues)) {
     return Fail({file},
-                "{} rows in {:.6g} s, mostly {:.3g} s apart; allowed: gaps of {:g} values in total, {} per frame",
+                "{} rows in {:.6g} s, mostly {:.3g} s apart, leave too large gaps; allowed: gaps of {:g} values in "
+                "total, {} per frame",
                 rows.size(), span, 1 / grid.rate_hz, kMaxAddedValues, width);
   }
   // Place every frame on a row, between two rows, or in a hole.

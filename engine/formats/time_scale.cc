@@ -37,7 +37,7 @@ TimeScale FindTimeScale(std::span<const double> times, const ToldRate& told) {
       scale.seconds = unit->first;
       scale.remark =
           told.rate_hz
-              ? fmt::format("{} is taken as {}; its rows then have the {} of {:g} Hz", told.times, unit->second,
+              ? fmt::format("{} is taken as {}, because the rows then have the {} of {:g} Hz", told.times, unit->second,
                             told.header, *told.rate_hz)
               : fmt::format("its times are taken as {}: as seconds, rows would be more than a second apart",
                             unit->second);

@@ -146,7 +146,7 @@ std::string WriteTrc(const MarkerMotion& motion, std::string name) {
 
 Result<MarkerRows> ReadTrcRows(std::string_view text, const std::string& file) {
   constexpr std::size_t kMaxFileBytes = std::size_t{64} << 20;
-  if (text.size() > kMaxFileBytes) return Fail({file}, "{} bytes; allowed: {}", text.size(), kMaxFileBytes);
+  if (text.size() > kMaxFileBytes) return Fail({file}, "{} bytes; allowed: at most {}", text.size(), kMaxFileBytes);
   // Read the header and the markers' names.
   int line = 0;
   TakeLine(text, line);  // skip the line PathFileType
@@ -161,7 +161,7 @@ Result<MarkerRows> ReadTrcRows(std::string_view text, const std::string& file) {
   for (std::size_t marker = 0; marker < header.markers; ++marker) {
     const std::size_t at = 2 + 3 * marker;
     if (at >= names.size() || names[at].empty())
-      return Fail({file, line, 0}, "{} markers announced, {} named", header.markers, marker);
+      return Fail({file, line, 0}, "the header announces {} markers, but this line names {}", header.markers, marker);
     motion.names.emplace_back(names[at]);
   }
   // Check the line X1 Y1 Z1 …; a line that begins with a number is the first frame of a file without that line.
@@ -186,8 +186,8 @@ Result<MarkerRows> ReadTrcRows(std::string_view text, const std::string& file) {
   const auto line_ends = static_cast<double>(std::ranges::count(text, '\n'));
   const double bytes = line_ends * static_cast<double>(header.markers * sizeof(std::optional<glm::dvec3>));
   if (bytes > kMaxFrameBytes) {
-    return Fail({file, line, 0}, "{} rows of {} markers take {:.0f} MB; allowed: {:.0f} MB", line_ends, header.markers,
-                bytes / 1e6, kMaxFrameBytes / 1e6);
+    return Fail({file, line, 0}, "{} rows of {} markers take {:.0f} MB; allowed: at most {:.0f} MB", line_ends,
+                header.markers, bytes / 1e6, kMaxFrameBytes / 1e6);
   }
   // Read the frames, their numbers and their times.
   constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
@@ -203,7 +203,8 @@ Result<MarkerRows> ReadTrcRows(std::string_view text, const std::string& file) {
     rows.lines.push_back(line);
   }
   if (motion.frames.size() != header.frames) {
-    return Fail({file}, "{} frames, {} announced", motion.frames.size(), header.frames);
+    return Fail({file}, "the file contains {} frames, but its header announces {}", motion.frames.size(),
+                header.frames);
   }
   // If no row has a time, the frame numbers give the times.
   if (std::ranges::all_of(rows.times_s, [](double time) { return std::isnan(time); })) {
@@ -218,7 +219,7 @@ Result<MarkerRows> ReadTrcRows(std::string_view text, const std::string& file) {
 Result<MarkerMotion> ReadTrc(std::string_view text, const std::string& file) {
   ASSIGN_OR_RETURN(auto rows, ReadTrcRows(text, file));
   ASSIGN_OR_RETURN(auto laid, LayOnClock(std::move(rows), file));
-  if (laid.rate_hz == 0) return Fail({file, 3, 0}, "DataRate is 0, and the rows have one time");
+  if (laid.rate_hz == 0) return Fail({file, 3, 0}, "DataRate is 0, and the rows have no two different times");
   return laid;
 }
 

@@ -159,11 +159,11 @@ Result<double> UnitOf(const RigFile& rig, double file_units, const PlacementOpti
   }
   // Otherwise look for a unit that gives a plausible stature.
   if (likely == nullptr) {
-    return Fail({}, "the legs are {:.3g} units long from hip to ankle, which no person's are in {}; {}",
+    return Fail({}, "the legs are {:.3g} units long from hip to ankle, which is no person's length in {}; {}",
                 file_units / kStatureOfLeg, RigUnits(), advice);
   }
-  told = fmt::format("lengths in {} (found: {}; in {} {:.3g} m)", likely->name, LegsText(likely->metres * file_units),
-                     UnitText(rig.unit_m), usual / kStatureOfLeg);
+  told = fmt::format("lengths in {} (found: {}; in {} they would be {:.3g} m long)", likely->name,
+                     LegsText(likely->metres * file_units), UnitText(rig.unit_m), usual / kStatureOfLeg);
   return likely->metres;
 }
 
@@ -206,8 +206,8 @@ Result<ChosenUp> UpOf(const RigFile& rig, const glm::dvec3& person, const FoundU
   if (options.up == "auto" && camera.empty() && rig.has_unit && tilt < std::max(kFar, within) && is_level) {
     std::string told = fmt::format("up is {} (the person leans {:.0f}° from it)", usual_name(), lean_from(usual));
     if (tilt > std::max(kSure * accuracy, kTold)) {
-      told += fmt::format("; by {} up is {:.0f}° away from this axis: if that is right, give --rig-up floor", found.by,
-                          tilt);
+      told += fmt::format("; according to {}, up is {:.0f}° away from this axis: if that is right, give --rig-up floor",
+                          found.by, tilt);
     }
     return ChosenUp{usual, false, told};
   }

@@ -176,7 +176,8 @@ Result<RecoveredPerson> LocatePerson(std::span<const ProjectionMatrix> cameras, 
                 "rig and are synchronised");
   }
   if (options.person >= in_space.size()) {
-    return Fail({}, "person {}: {} seen by two cameras or more", options.person + 1, in_space.size());
+    return Fail({}, "there is no person {}; people seen by two cameras or more: {}", options.person + 1,
+                in_space.size());
   }
   // Mend the keypoints if requested, then triangulate.
   MatchedPerson& wanted = person.people[in_space[options.person]];

@@ -229,14 +229,15 @@ std::string WriteTrees(const std::string& key, const BoostedTrees& model) {
 
 Result<DecisionTree> ReadTree(const Node& node) {
   if (node.kind != Node::Kind::kSequence || node.items.size() != kNumbersPerTree) {
-    return Fail(node.place, "a tree is a list of {} numbers, found {} of {}", kNumbersPerTree, Describe(node),
+    return Fail(node.place, "a tree must be a list of {} numbers, found {} of {}", kNumbersPerTree, Describe(node),
                 node.items.size());
   }
   // A tree is stored as a flat list of numbers.
   std::array<double, kNumbersPerTree> numbers{};
   for (std::size_t i = 0; i < kNumbersPerTree; ++i) {
     ASSIGN_OR_RETURN(numbers[i], AsNumber(node.items[i]));
-    if (!(std::abs(numbers[i]) <= kMaxNumber)) return Fail(node.items[i].place, "a number of a tree is {}", numbers[i]);
+    if (!(std::abs(numbers[i]) <= kMaxNumber))
+      return Fail(node.items[i].place, "a tree contains {}; allowed: numbers within ±{:g}", numbers[i], kMaxNumber);
   }
   // The list contains a measure and a limit per node, then the values of the leaves.
   DecisionTree tree;
@@ -260,7 +261,7 @@ Result<BoostedTrees> ReadTrees(Fields& file, const std::string& key) {
   model.bias = fields.Number("bias", 0, {-kMaxNumber, kMaxNumber});
   if (const Node* trees = fields.Raw("trees")) {
     if (trees->kind != Node::Kind::kSequence)
-      return Fail(trees->place, "'trees' is a list, found {}", Describe(*trees));
+      return Fail(trees->place, "'trees' must be a list, found {}", Describe(*trees));
     for (const Node& item : trees->items) {
       ASSIGN_OR_RETURN(const DecisionTree tree, ReadTree(item));
       model.trees.push_back(tree);

@@ -51,7 +51,7 @@ Result<double> RateOf(const Npz& arrays, const std::string& file) {
       "{}; allowed: one number from {:g} to {:g}, as numpy.savez(…, positions=p, rate_hz=30) writes it, or `rate: "
       "30` in a joint map",
       rate != nullptr || std::ranges::find(arrays.skipped, "rate_hz") != arrays.skipped.end()
-          ? "rate_hz is not such a number"
+          ? "rate_hz is out of range, or not one number"
           : "positions without rate_hz, the frames per second",
       kMinRate_hz, kMaxRate_hz);
 }
@@ -76,12 +76,12 @@ Result<double> UnitOf(const Npz& arrays, const RawMotion& motion, const std::str
   if (!likely) {
     return Fail(
         {file},
-        "the joints extend {:.3g} m in the median frame, in a unit of {:g} m; allowed: at most {:g}; `unit` in the "
-        "file or in a joint map says what unit it is",
+        "the joints extend {:.3g} m in the median frame, in a unit of {:g} m; allowed: at most {:g} m; `unit` in "
+        "the file or in a joint map states the unit",
         unit * spread, unit, kMaxExtent_m);
   }
-  notes.push_back(fmt::format("1 unit = {:g} cm: in units of {:g} m the joints extend {:.3g} m", 100 * *likely, unit,
-                              unit * spread));
+  notes.push_back(fmt::format("1 unit = {:g} cm, because in units of {:g} m the joints would extend {:.3g} m",
+                              100 * *likely, unit, unit * spread));
   return *likely;
 }
 
@@ -123,10 +123,10 @@ Result<MarkerMotion> JointsOfArray(const NumberArray& array, const std::optional
   const auto is_named = [&](const JointLayout& one) { return fits(one) && (!layout || *layout == one.name); };
   const auto count = std::ranges::count_if(JointLayouts(), is_named);
   if (count != 1) {
-    return Fail({file}, "{} joints{}; allowed: {}#LAYOUT, LAYOUT one of {} with as many joints", joints,
+    return Fail({file}, "{} joints{}; allowed: {}#LAYOUT, where LAYOUT has as many joints and is one of {}", joints,
                 layout      ? " in the layout " + Quote(*layout)
-                : count > 1 ? " of several layouts"
-                            : " of no layout",
+                : count > 1 ? ", as several layouts have"
+                            : ", as no layout has",
                 file, Join(JointLayoutNames()));
   }
   const JointLayout& found = *std::ranges::find_if(JointLayouts(), is_named);
@@ -233,7 +233,7 @@ Result<RawMotion> ReadRawNpz(const Npz& arrays, const std::string& file, const A
   if (const auto names = arrays.texts.find("names"); names != arrays.texts.end()) {
     motion.joints = names->second;
   } else if (std::ranges::find(arrays.skipped, "names") != arrays.skipped.end() || arrays.arrays.contains("names")) {
-    return Fail({file}, "names: allowed: a list of texts, as numpy.array([\"hip_centre\", …]) makes it");
+    return Fail({file}, "names: not a list of texts; allowed: a list as numpy.array([\"hip_centre\", …]) makes it");
   } else if (shape[1] == kRoleCount) {
     for (const Role role : AllRoles()) motion.joints.emplace_back(RoleName(role));
   }
@@ -242,7 +242,7 @@ Result<RawMotion> ReadRawNpz(const Npz& arrays, const std::string& file, const A
   std::set<std::string_view> known;
   for (std::size_t j = 0; j < joints; ++j) {
     if (!known.insert(motion.joints[j]).second) {
-      return Fail({file}, "names: {} twice; allowed: one name for each joint", Quote(motion.joints[j]));
+      return Fail({file}, "names: {} appears twice; allowed: a different name for each joint", Quote(motion.joints[j]));
     }
     if (const auto role = FindRole(motion.joints[j])) motion.roles[Index(*role)] = static_cast<int>(j);
   }
@@ -282,7 +282,7 @@ Result<RawMotion> ReadRawNpz(const Npz& arrays, const std::string& file, const A
   if (!axis.empty()) {
     const bool lies = standing == Standing::kAlongZ, is_down = standing == Standing::kAlongMinusY;
     if (lies || is_down) {
-      motion.notes.push_back(fmt::format("by the file's `up: {}`, the body {}", axis,
+      motion.notes.push_back(fmt::format("with the file's `up: {}`, the body {}", axis,
                                          lies ? "lies along the floor" : "stands on its head"));
     }
   } else if (standing == Standing::kAlongMinusY) {

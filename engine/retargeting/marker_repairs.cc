@@ -126,7 +126,7 @@ void RepairMarkers(MarkerMotion& markers) {
   if (const int zeros = LeaveZerosOut(markers); zeros > 0)
     remark(fmt::format("{} positions at 0, 0, 0 taken as gaps", zeros));
   if (const int far = LeaveFarOut(markers); far > 0) {
-    remark(fmt::format("{} positions a hundred times as far away as the others taken as gaps", far));
+    remark(fmt::format("{} positions that are a hundred times as far away as the others taken as gaps", far));
   }
   if (const auto several = NamesOfSeveral(markers); !several.empty()) {
     constexpr std::size_t kListed = 3;

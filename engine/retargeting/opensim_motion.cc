@@ -210,8 +210,10 @@ Result<ReadPart> ReadPartLine(TextScanner& scanner, const std::vector<ReadPart>&
   part.after = FindRole(after.text);
   const bool is_first = read.empty() && after.text == "ground";
   if (after_word.text != "after" || !(is_first || (part.after && ends_at(*part.after)))) {
-    return Fail(scanner.At(after_word),
-                "after {}; allowed: 'after ground' for the first part, then a part above this line", Quote(after.text));
+    return Fail(
+        scanner.At(after_word),
+        "found {}; allowed: 'after ground' for the first part, then 'after' and a part above this line",
+        Quote(fmt::format("{} {}", after_word.text, after.text)));
   }
   // Read the bone, then three angles with their axes.
   const Token bone = scanner.NextInLine();
@@ -226,7 +228,7 @@ Result<ReadPart> ReadPartLine(TextScanner& scanner, const std::vector<ReadPart>&
     const bool has_axis = axis.text.size() == 2 && (axis.text[0] == '+' || axis.text[0] == '-') &&
                           axis.text[1] >= 'X' && axis.text[1] <= 'Z';
     if (!has_axis || angle.text.empty()) {
-      return Fail(scanner.At(axis), "turn {} {}; allowed: +X, -X to -Z, each with the name of its angle",
+      return Fail(scanner.At(axis), "turn {} {}; allowed: +X, -X, +Y, -Y, +Z or -Z, each with the name of its angle",
                   Quote(axis.text), Quote(angle.text));
     }
     part.axes[i][axis.text[1] - 'X'] = axis.text[0] == '-' ? -1 : 1;
@@ -315,7 +317,7 @@ Result<void> CheckTimes(const std::vector<double>& times, const std::string& fil
   const double span = times.back() - times.front();
   const double rate = span > 0 ? static_cast<double>(times.size() - 1) / span : 0;
   if (rate >= kMinRate_hz && rate <= kMaxRate_hz) return {};
-  return Fail({file}, "{} rows in {:g} s; allowed: {:g} to {:g} a second", times.size(), span, kMinRate_hz,
+  return Fail({file}, "{} rows in {:g} s; allowed: {:g} to {:g} rows a second", times.size(), span, kMinRate_hz,
               kMaxRate_hz);
 }
 
@@ -332,7 +334,7 @@ bool HasModelOfAngles(std::string_view bytes) {
 Result<BodyMotion> ReadOpenSimMotion(std::string_view bytes, const std::string& file, std::string* note,
                                      double* start_s) {
   constexpr std::size_t kMaxBytes = std::size_t{64} << 20;
-  if (bytes.size() > kMaxBytes) return Fail({file}, "{} bytes; allowed: {}", bytes.size(), kMaxBytes);
+  if (bytes.size() > kMaxBytes) return Fail({file}, "{} bytes; allowed: at most {}", bytes.size(), kMaxBytes);
   ASSIGN_OR_RETURN(const AngleTable table, ReadAngleTable(bytes, file));
   std::vector<double> times;
   for (const std::vector<double>& row : table.rows) times.push_back(row.front());

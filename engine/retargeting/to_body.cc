@@ -116,13 +116,13 @@ Result<std::vector<BodyPose>> Resampled(const Clip& clip, BodySampler& sampler, 
   const auto frames = static_cast<double>(clip.frames.size() - 1 - first);
   const double seconds = frames / clip.rate_hz;
   if (seconds > kMaxSeconds) {
-    return Fail({file}, "the clip lasts {:.0f} s; allowed: {:.0f} s{}", seconds, kMaxSeconds,
+    return Fail({file}, "the clip lasts {:.0f} s; allowed: at most {:.0f} s{}", seconds, kMaxSeconds,
                 clip.rate_hz < 1
                     ? fmt::format("; its frames are {:.3g} s apart: does it count milliseconds?", 1 / clip.rate_hz)
                     : "");
   }
   if (seconds * rate_hz > kMaxPoses) {
-    return Fail({file}, "{:.0f} s at {:g} Hz are over {:.0f} poses", seconds, rate_hz, kMaxPoses);
+    return Fail({file}, "{:.0f} s at {:g} Hz are too many poses; allowed: at most {:.0f}", seconds, rate_hz, kMaxPoses);
   }
   constexpr double kRounding = 1e-6;  // share of a frame; keeps the last frame if the rates divide evenly
   const auto count = static_cast<std::size_t>(seconds * rate_hz + kRounding) + 1;
@@ -172,7 +172,7 @@ Result<void> FindUnit(const BodyPose& rest, const std::vector<BodyPose>& poses, 
   if (!AreAlike(most / least))
     remarks.push_back(fmt::format("its size changes between frames by a factor of {:.2g}", most / least));
   const double stature = is_alike ? at_rest : moving;
-  if (stature < kMinBody) return Fail({file}, "the body's joints all lie in one point; it needs a size");
+  if (stature < kMinBody) return Fail({file}, "all joints of the body lie in one point; needed: joints that lie apart");
   const Unit* const unit = UnitOf(stature);
   // A given unit must be plausible.
   if (given) {

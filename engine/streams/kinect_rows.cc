@@ -85,7 +85,9 @@ std::optional<double> SecondsPerCount(const NumberRows& table, std::vector<std::
   const double step = UpperMedian(std::move(steps));
   if (step < 1) return 1.0;
   if (step < (CountsWhole(table) ? kMinStepMs : 5)) {
-    if (step >= 2) remarks.push_back(fmt::format("the first column counts frames at 30 Hz, a row every {:g}", step));
+    if (step >= 2)
+      remarks.push_back(
+          fmt::format("the first column counts frames at 30 Hz, with one row for every {:g} frames", step));
     return 1 / kJudgedRateHz;
   }
   if (step <= 1000) return 1e-3;

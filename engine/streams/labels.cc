@@ -54,7 +54,7 @@ class Lines {
 Result<double> NumberIn(const Cell& cell, const std::string& file, int line, double largest) {
   const auto value = ParseFinite(cell.text);
   if (value && std::abs(*value) <= largest) return *value;
-  return Fail({file, line, cell.column}, "found {}; allowed: a number", Quote(cell.text));
+  return Fail({file, line, cell.column}, "found {}; allowed: a number within ±{:g}", Quote(cell.text), largest);
 }
 
 Result<std::string> NameIn(const Cell& cell, const std::string& file, int line, std::string_view what) {
@@ -117,9 +117,10 @@ Result<std::vector<Label>> ReadCsv(Lines lines, const std::string& file) {
       ASSIGN_OR_RETURN((i == 1 ? label.from_s : label.to_s), NumberIn(cell(i), file, number, kMaxTime_s));
     }
     if (label.to_s && !label.from_s)
-      return Fail({file, number, cell(2).column}, "an end of a label without its beginning");
+      return Fail({file, number, cell(2).column}, "'to_s' without 'from_s'; allowed: both, 'from_s' alone, or neither");
     if (label.to_s && *label.to_s <= *label.from_s) {
-      return Fail({file, number, cell(2).column}, "ends at {} s, begins at {} s; allowed: later", *label.to_s,
+      return Fail({file, number, cell(2).column},
+                  "the label ends at {} s, but begins at {} s; allowed: an end after the beginning", *label.to_s,
                   *label.from_s);
     }
     labels.push_back(std::move(label));

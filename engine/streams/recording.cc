@@ -48,7 +48,7 @@ Result<void> CheckRoles(const StreamRecording& recording, const std::string& fil
     if (std::ranges::none_of(recording.frames, has)) missing.emplace_back(RoleName(role));
   }
   if (missing.size() == kRoleCount) return Fail({file}, "no frame shows a body");
-  if (!missing.empty()) return Fail({file}, "never shows {}; needed: all {} joints", Join(missing), kRoleCount);
+  if (!missing.empty()) return Fail({file}, "no frame shows {}; needed: all {} joints", Join(missing), kRoleCount);
   return {};
 }
 
@@ -90,7 +90,7 @@ Result<void> CheckReach(const StreamRecording& recording, const std::string& fil
     for (const Role role : AllRoles()) {
       const auto& place = frame.places[Index(role)];
       if (!place || glm::length(*place) <= kMaxDistance_m) continue;
-      return Fail({file, frame.line}, "{} is {:.3g} m away; allowed: {} m", RoleName(role), glm::length(*place),
+      return Fail({file, frame.line}, "{} is {:.3g} m away; allowed: at most {} m", RoleName(role), glm::length(*place),
                   kMaxDistance_m);
     }
   }
@@ -242,7 +242,7 @@ Result<StreamRecording> ReadTrcStream(std::string_view text, const std::string& 
   // Place rows of constant rate exactly one period apart, because their written times are rounded.
   ASSIGN_OR_RETURN(const auto grid, GridOfRows(rows.times_s, rows.lines, told, markers.names.size(), file));
   StreamRecording recording{.format = StreamFormat::kTrc, .records_times = true, .is_level = true};
-  if (!grid && !told) return Fail({file, 3}, "DataRate is 0, and the rows have one time");
+  if (!grid && !told) return Fail({file, 3}, "DataRate is 0, and the rows have no two different times");
   recording.rate_hz = grid ? grid->rate_hz : markers.rate_hz;
   for (const std::string& remark : {markers.remark, scale.remark}) {
     if (!remark.empty()) recording.remarks.push_back(remark);

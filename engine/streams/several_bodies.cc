@@ -136,7 +136,8 @@ Result<void> Bodies::Choose(const StreamReading& reading, const std::string& fil
   std::size_t chosen = 0;
   if (reading.body) {
     chosen = static_cast<std::size_t>(*reading.body);
-    if (chosen >= bodies_.size()) return Fail({file}, "body {} of {}, counted from 0", chosen, bodies_.size());
+    if (chosen >= bodies_.size())
+      return Fail({file}, "there is no body {}; bodies in the file, counted from 0: {}", chosen, bodies_.size());
   } else {
     for (std::size_t b = 1; b < bodies_.size(); ++b) {
       const std::size_t most = bodies_[chosen].frames.size(), here = bodies_[b].frames.size();
@@ -259,7 +260,7 @@ Result<StreamRecording> ReadAzureKinect(std::string_view text, const std::string
   try {
     return AzureReader(root, file).Read(reading);
   } catch (const Json::exception& error) {
-    return Fail({file}, "JSON that differs from the offline processor's: {}", error.what());
+    return Fail({file}, "not JSON of the Azure Kinect body tracking's offline processor: {}", error.what());
   }
 }
 

@@ -54,7 +54,7 @@ Result<std::vector<LabelledPart>> MatchLabels(const std::vector<Label>& labels, 
       const double shift = label.by_own_clock ? stream.start_s : 0;
       const double from = label.from_s ? *label.from_s - shift : 0, to = label.to_s ? *label.to_s - shift : length;
       if (from < -kOutside || from > length || to > length + kOutside) {
-        return Fail({file, label.line}, "from {:.3f} to {:.3f} s of {}; allowed: within its {:.3f} s", from, to,
+        return Fail({file, label.line}, "a label from {:.3f} to {:.3f} s of {}; allowed: within its {:.3f} s", from, to,
                     stream.name, length);
       }
       LabelledPart& part = parts.emplace_back();

@@ -210,7 +210,8 @@ Result<std::vector<TaughtMove>> ReadMoves(std::string_view text, const std::stri
   if (list == nullptr || list->kind != Node::Kind::kSequence || list->items.empty()) {
     return Fail(list == nullptr ? root.place : list->place, "no list 'moves' with at least one move");
   }
-  if (list->items.size() > kMaxMoves) return Fail(list->place, "{} moves; allowed: {}", list->items.size(), kMaxMoves);
+  if (list->items.size() > kMaxMoves)
+    return Fail(list->place, "{} moves; allowed: at most {}", list->items.size(), kMaxMoves);
   std::vector<TaughtMove> moves;
   for (const Node& item : list->items) {
     ASSIGN_OR_RETURN(TaughtMove move, ReadMove(item));

@@ -237,7 +237,8 @@ Result<TaughtMove> TeachMove(const std::string& name, std::vector<SkeletonStream
     }
     if (SecondsOf(stream) > kMaxSpan) {
       return Fail({},
-                  "a performance of '{}' lasts {:.1f} s; allowed: {} s; use labels to mark where each begins and ends",
+                  "a performance of '{}' lasts {:.1f} s; allowed: at most {} s; use labels to mark where each begins "
+                  "and ends",
                   name, SecondsOf(stream), kMaxSpan);
     }
     longest = std::max(longest, SecondsOf(stream));

@@ -12,11 +12,11 @@ namespace {
 
 void CheckRange(const char* what, double value, double low, double high) {
   if (value >= low && value <= high) return;
-  throw engine::BadInput(fmt::format("{} of {}; allowed: {:g} to {:g}", what, value, low, high));
+  throw engine::BadInput(fmt::format("{} {}; allowed: {:g} to {:g}", what, value, low, high));
 }
 
 SkeletonSensorOptions ErrorsOf(const SensorOptions& options) {
-  CheckRange("a strength", options.strength, 0, 10);
+  CheckRange("strength", options.strength, 0, 10);
   SkeletonSensorOptions errors;
   if (const auto preset = FindSensorPreset(options.sensor)) {
     errors = *preset;
@@ -31,9 +31,9 @@ SkeletonSensorOptions ErrorsOf(const SensorOptions& options) {
 
 SkeletonStream SenseSkeleton(const BodyMotion& motion, const SensorOptions& options) {
   const SkeletonSensorOptions errors = ErrorsOf(options);
-  CheckRange("a distance in m", options.distance_m, 0.5, 10);
-  CheckRange("a turn in radians", options.turn, -2 * std::numbers::pi, 2 * std::numbers::pi);
-  CheckRange("a height in m", options.height_m, 0.1, 3);
+  CheckRange("distance_m", options.distance_m, 0.5, 10);
+  CheckRange("turn (radians)", options.turn, -2 * std::numbers::pi, 2 * std::numbers::pi);
+  CheckRange("height_m", options.height_m, 0.1, 3);
   if (engine::Checked(motion).poses.empty()) throw engine::BadInput("a motion without frames");
   Camera eye = SkeletonSensorAt({options.distance_m, options.turn, options.height_m}, errors.view);
   eye.p_WC += MiddleOnFloor(motion.poses);

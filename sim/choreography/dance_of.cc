@@ -204,7 +204,7 @@ Result<std::vector<double>> ReadBeats(std::string_view text, const std::string& 
     beats.push_back(*moment);
     if (beats.size() > kMaxBeats) return Fail({file, number, 1}, "more than {} beats", kMaxBeats);
   }
-  if (beats.size() < kMinBeats) return Fail({file}, "{} beats; at least {}", beats.size(), kMinBeats);
+  if (beats.size() < kMinBeats) return Fail({file}, "{} beats; allowed: at least {}", beats.size(), kMinBeats);
   return beats;
 }
 
@@ -219,7 +219,7 @@ Result<Dance> ToBeats(Dance dance, const std::vector<double>& beats_s) {
   const double beats_per_s = dance.tempo_bpm / 60;
   const double last = static_cast<double>(dance.motion.poses.size() - 1) / kJudgedRateHz * beats_per_s;
   if (last > static_cast<double>(beats_s.size() - 1)) {
-    return Fail({}, "{} beats, but '{}' takes {:.0f}", beats_s.size(), dance.title, std::ceil(last) + 1);
+    return Fail({}, "{} beats, but '{}' needs {:.0f}", beats_s.size(), dance.title, std::ceil(last) + 1);
   }
   for (MusicTag& tag : dance.tags) tag.music_s = MomentOf(tag.music_s * beats_per_s, beats_s);
   dance.beats_s = beats_s;

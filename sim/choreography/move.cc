@@ -74,7 +74,9 @@ Result<void> CheckList(const Node& list, std::string_view name) {
   if (list.kind != Node::Kind::kSequence || list.items.empty()) {
     return Fail(list.place, "'{}' must be a list of at least one pose, found {}", name, Describe(list));
   }
-  if (list.items.size() > kMaxPoses) return Fail(list.place, "{} {}; at most {}", list.items.size(), name, kMaxPoses);
+  if (list.items.size() > kMaxPoses) {
+    return Fail(list.place, "{} {}; allowed: at most {}", list.items.size(), name, kMaxPoses);
+  }
   return {};
 }
 

@@ -87,7 +87,7 @@ class Formats(MotionFileCase):
         told = self.write("map.yaml", "rate: 50\n")
         self.assertIn("at 50 Hz", self.ends(0, "clip", "info", path, "--map", told).stdout)
         numpy.savez(path, positions=body["positions"], names=body["names"], rate_hz="30")
-        self.refused(path, "rate_hz is not such a number")
+        self.refused(path, "rate_hz is out of range, or not one number")
         # A body in mm or cm with Z up: declared by options, or by keys of the file.
         z_up = body["positions"][:, :, [0, 2, 1]] * [1, -1, 1]
         for unit, name in (1000, "mm"), (100, "cm"):
@@ -98,7 +98,8 @@ class Formats(MotionFileCase):
                 numpy.testing.assert_allclose(joints[5]["head"], body["positions"][5][list(body["names"]).index("head")], atol=1e-9)
         self.assertIn("turned upright from Z up", self.info(path)["clips"][0]["body"]["note"])
         numpy.savez(path, positions=100 * body["positions"], names=body["names"], rate_hz=30.0)
-        self.assertIn("1 unit = 1 cm: in units of 1 m the joints extend", self.info(path)["clips"][0]["body"]["note"])
+        self.assertIn("1 unit = 1 cm, because in units of 1 m the joints would extend",
+                      self.info(path)["clips"][0]["body"]["note"])
         self.refusal("clip", "info", path, "--unit", "m", says="allowed: 0.1 to 4")
 
     def shared_body(self):
@@ -290,7 +291,7 @@ class Formats(MotionFileCase):
                  "shoulder_centre", "head", "head", "left_shoulder", "left_elbow", "left_wrist", "right_shoulder",
                  "right_elbow", "right_wrist"]
         numpy.save(path, places[:, [names.index(name) for name in order]])
-        self.refused(path, "17 joints of several layouts; allowed: ")
+        self.refused(path, "17 joints, as several layouts have; allowed: ")
         read = self.joints(f"{path}#h36m")
         wrists = numpy.array([frame["left_wrist"] - frame["right_knee"] for frame in read])
         expected = places[:, names.index("left_wrist")] - places[:, names.index("right_knee")]

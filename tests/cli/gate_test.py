@@ -265,7 +265,7 @@ class Gate(EtudeCase):
         self.baseline.write_text(whole)
         self.run_now(SCENARIO, "--seed", 2, "--trials", 11)
         text = self.gate(self.now, "--baseline", self.baseline, expect=2)
-        self.assertIn("ik: seed 1 and 2; ik: trials 12 and 11", text)
+        self.assertIn("ik: the seed was 1 and is 2; ik: the number of trials was 12 and is 11", text)
 
     def test_comparing_two_runs_lists_what_only_one_holds(self):
         self.make_baseline()

@@ -268,7 +268,7 @@ class OwnMetrics(EtudeCase):
 
     def test_what_cannot_be_is_refused_with_its_place(self):
         program = "exec: [python3, m.py]"
-        for metrics, says in ((f"[{{name: iterations, {program}}}]", "a metric 'iterations' of its own"),
+        for metrics, says in ((f"[{{name: iterations, {program}}}]", "'iterations' is the id of a built-in metric"),
                               (f"[{{name: cell, {program}}}]", "'cell' is not a valid metric name"),
                               (f"[{{name: a, {program}}}, {{name: a, {program}}}]", "is listed twice"),
                               ("[{name: a}]", "'exec'"), (f"[{{name: a, {program}, colour: red}}]", "'colour'"),

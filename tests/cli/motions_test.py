@@ -153,7 +153,7 @@ class Motions(MotionFileCase):
         told, own = (json.loads(self.etude("clip", "info", clip, "--json").stdout)["clips"][0] for clip in (out, "builtin:clap"))
         self.assertEqual((told["format"], told["rate_hz"], told["frames"]), ("MOT", 30, own["frames"]))
         text = out.read_text()
-        for before, after, says in (("part right_knee after right_hip", "part right_knee after right_foot", "then a part above this line"),
+        for before, after, says in (("part right_knee after right_hip", "part right_knee after right_foot", "and a part above this line"),
                                     ("part head ", "part crown ", "part 'crown'"), ("\tknee_angle_r", "\tknee", "'knee_angle_r'"),
                                     ("turns +Z ", "turns +Q ", "turn '+Q'"), ("0.000000\t", "0.000000\tnan\t", "nan"),
                                     ("0.066667\t", "0.010000\t", "does not run backwards")):

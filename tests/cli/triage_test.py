@@ -170,7 +170,7 @@ class Triage(EtudeCase):
                          {"good": "ok", "nan": "failed", "none": "failed", "short": "failed"})
         for name in "nan", "none":
             self.assertIn(f"{name}.", rows[name]["reason"])
-        self.assertIn("3 of the 8 or more frames that a search for faults needs", rows["short"]["reason"])
+        self.assertIn("3 frames; a search for faults needs at least 8", rows["short"]["reason"])
         self.assertIn("3 not judged:", said)
 
     def test_bad_input_is_one_line(self):

@@ -98,9 +98,10 @@ class DepthCameras {
 Result<void> CheckSize(const CaptureWorld& world) {
   const std::size_t pictures = world.cameras.size() * world.truth.size();
   if (pictures <= kMaxPictures) return {};
-  return Fail(
-      {}, "a take of {} pictures is too long to be sent to other programs; allowed: {} pictures, a duration_s of {:g}",
-      pictures, kMaxPictures, static_cast<double>(kMaxPictures / world.cameras.size()) / kJudgedRateHz);
+  return Fail({},
+              "a take of {} pictures is too long to be sent to other programs; allowed: at most {} pictures, a "
+              "duration_s of at most {:g}",
+              pictures, kMaxPictures, static_cast<double>(kMaxPictures / world.cameras.size()) / kJudgedRateHz);
 }
 
 Json PartNumbers() {

@@ -341,7 +341,8 @@ Result<void> OpenOwnCameras(const TaskInput& input, StudioOptions& options) {
     }
     constexpr double kMaxDistance = 100;
     if (const double far = glm::length(camera.camera.p_WC); far > kMaxDistance) {
-      return Fail(named->place, "camera '{}' of '{}' is {:.0f} m away; allowed: {:g}. Is the file in metres?",
+      return Fail(named->place,
+                  "camera '{}' of '{}' is {:.0f} m from the origin; allowed: at most {:g} m. Is the file in metres?",
                   camera.name, named->scalar, far, kMaxDistance);
     }
     own.push_back(camera.camera);

@@ -171,7 +171,7 @@ class RecordedTask final : public Task {
   std::unique_ptr<TaskWorld> MakeWorld(const WorldKey& key, bool keeps_motion) const override {
     const auto person = static_cast<std::size_t>(key.trial);
     if (person >= set_.people.size()) {
-      return std::make_unique<SkippedWorld>(fmt::format("{} people were recorded", set_.people.size()));
+      return std::make_unique<SkippedWorld>(fmt::format("only {} people were recorded", set_.people.size()));
     }
     const Result<Fold>& fold = FoldOf(person);
     if (!fold) return std::make_unique<SkippedWorld>(fold.error().message);
@@ -270,7 +270,7 @@ Result<void> CheckFaults(const Node& condition, std::span<const Fault> faults, c
     if (std::ranges::find(MadeFaults(), fault) != MadeFaults().end()) continue;
     std::vector<std::string_view> allowed;
     for (const Fault made : MadeFaults()) allowed.push_back(FaultName(made));
-    return Fail(named.place, "'{}' cannot be made of a recording; allowed: {}", FaultName(fault),
+    return Fail(named.place, "the fault '{}' cannot be made from a recording; allowed: {}", FaultName(fault),
                 fmt::join(allowed, ", "));
   }
   if (std::ranges::any_of(set.parts, &LabelledPart::is_action_point)) {

@@ -208,7 +208,7 @@ std::string NoteOnStrangers(const MatchedMotions& matched) {
     strangers.push_back(fmt::format("{} {:.0f} mm", matched.joints[j], 1000 * means[j]));
   }
   if (strangers.empty()) return "";
-  return fmt::format(", {} away, all frames alike (median joint {:.1f} mm): the same point in both files?",
+  return fmt::format(", {} from the truth in all frames alike (median joint {:.1f} mm): the same point in both files?",
                      SomeOf(strangers), 1000 * median);
 }
 

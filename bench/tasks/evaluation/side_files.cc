@@ -28,8 +28,8 @@ Result<StatisticsByJoint> ReadJointStatistics(std::string_view text, const std::
     const auto index = static_cast<glm::length_t>(axis - std::begin(kEndings));
     const double mean = rows.Row(0)[column], deviation = rows.Row(1)[column];
     if (!(deviation > 0) || !(mean == mean)) {
-      return Fail(deviations, "{}: mean {}, deviation {}; allowed: a number, and one above 0", Quote(name), mean,
-                  deviation);
+      return Fail(deviations, "{}: mean {}, deviation {}; allowed: a number as mean, and a deviation above 0",
+                  Quote(name), mean, deviation);
     }
     if (axes[joint]++ != index)
       return Fail(heading, "{} is out of order; allowed: _x_m, _y_m, _z_m of each joint, one after the other",
@@ -38,7 +38,7 @@ Result<StatisticsByJoint> ReadJointStatistics(std::string_view text, const std::
     statistics[joint].deviation[index] = deviation;
   }
   for (const auto& [joint, count] : axes) {
-    if (count != 3) return Fail({file, 1, 0}, "joint {} has {} of three coordinates", Quote(joint), count);
+    if (count != 3) return Fail({file, 1, 0}, "joint {} has {} coordinates; needed: three", Quote(joint), count);
   }
   return statistics;
 }
@@ -49,7 +49,8 @@ Result<std::vector<double>> ReadMusicBeats(std::string_view text, const std::str
   for (std::size_t i = 0; i < rows.values.size(); ++i) {
     const double before = i == 0 ? -1e9 : rows.values[i - 1];
     if (rows.values[i] > before) continue;
-    return Fail({file, rows.lines[i], 0}, "a beat at {}; allowed: seconds, each above the one before", rows.values[i]);
+    return Fail({file, rows.lines[i], 0}, "a beat at {} s; allowed: times that increase from line to line",
+                rows.values[i]);
   }
   return rows.values;
 }

@@ -77,7 +77,7 @@ const FieldTable<IkCondition>& IkConditionFields() {
            .With("start", {"disturbed", "middle"}),
        Key::Number("target_noise_deg",
                    Path(&IkCondition::trial, &IkTrialOptions::target_noise, &TargetNoise::orientation_deg), {0, 180},
-                   "Standard deviation of every target's rotation vector.")
+                   "Standard deviation of every target's rotation vector, along each axis.")
            .With("start", {"disturbed", "middle"}),
        Key::Number("unreachable_cm", Path(&IkCondition::trial, &IkTrialOptions::unreachable_cm), {0, 1000},
                    "Moves one target away from the root, this far beyond the reach of all limbs together.")

@@ -98,7 +98,8 @@ Result<FoundFiles> FindWindows(const Node& condition, std::span<const Node> meth
     });
     if (found.worlds.size() > kMaxPairs) return Fail(place, "more than {} windows", kMaxPairs);
     if (found.worlds.size() > before) continue;
-    found.left_out.emplace_back(file, fmt::format("{} frames; a window of {} needs one more", frames, options.window));
+    found.left_out.emplace_back(file, fmt::format("{} frames; needed for a window of {}: at least {}", frames,
+                                                  options.window, options.window + 1));
   }
   if (found.worlds.empty()) {
     return Fail(place, "no file has a window of {} frames: {}", options.window, found.left_out.front().second);

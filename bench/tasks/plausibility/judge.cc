@@ -106,8 +106,8 @@ std::vector<std::string> PlausibilityMetrics() {
 CellResult JudgeAlone(BodyInPlace body, const PlausibilityOptions& options, bool keeps_motion) {
   const std::size_t frames = body.motion.poses.size();
   if (frames < kMinFramesForFaults) {
-    return CellResult::Ended(Status::kFailed, fmt::format("{} of the {} or more frames that a search for faults needs",
-                                                          frames, kMinFramesForFaults));
+    return CellResult::Ended(
+        Status::kFailed, fmt::format("{} frames; a search for faults needs at least {}", frames, kMinFramesForFaults));
   }
   const MotionFaults found = FindMotionFaults(body.motion, FaultOptionsOf(body, options.floor_m));
   // Measure all kinds of faults.

@@ -278,7 +278,7 @@ class ClipReader {
   Result<std::vector<Clip>> Read() {
     const std::size_t count = file_.model().animations.size();
     if (count > kMaxAnimations) {
-      return file_.Refuse("animations", "found {}; allowed: {}", count, kMaxAnimations);
+      return file_.Refuse("animations", "found {}; allowed: at most {}", count, kMaxAnimations);
     }
     for (int i = 0; i < static_cast<int>(count); ++i) {
       ASSIGN_OR_RETURN(auto channels, ReadChannels(i));
@@ -335,11 +335,11 @@ class ClipReader {
     const std::size_t joints = nodes_.skeleton.joints.size();
     frame_bytes_ += timing.frames * static_cast<double>(joints * sizeof(LocalTransform));
     if (frame_bytes_ > kMaxFrameBytes) {
-      return file_.Refuse(where, "with its {} frames of {} joints all clips take {:.0f} MB; allowed: {:.0f} MB{}",
-                          timing.frames, joints, frame_bytes_ / 1e6, kMaxFrameBytes / 1e6,
-                          timing.step > 1
-                              ? fmt::format("; its keys are {:.3g} s apart: does it count milliseconds?", timing.step)
-                              : "");
+      return file_.Refuse(
+          where, "with its {} frames of {} joints, all clips together take {:.0f} MB; allowed: at most {:.0f} MB{}",
+          timing.frames, joints, frame_bytes_ / 1e6, kMaxFrameBytes / 1e6,
+          timing.step > 1 ? fmt::format("; its keys are {:.3g} s apart: does it count milliseconds?", timing.step)
+                          : "");
     }
     Clip clip{.name = UniqueName(index), .skeleton = nodes_.skeleton, .rate_hz = timing.rate_hz, .frames = {}};
     clip.frames.assign(static_cast<std::size_t>(timing.frames), RestPose(clip.skeleton));

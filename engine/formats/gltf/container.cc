@@ -115,7 +115,7 @@ class JsonShape {
 Result<GltfContainer> OpenGltfContainer(std::string_view bytes, const std::string& file) {
   const Place place{file};
   if (static_cast<double>(bytes.size()) > kMaxGltfBytes) {
-    return Fail(place, "a glTF file of {} bytes; allowed: {:.0f} MB", bytes.size(), kMaxGltfBytes / 1e6);
+    return Fail(place, "a glTF file of {} bytes; allowed: at most {:.0f} MB", bytes.size(), kMaxGltfBytes / 1e6);
   }
   GltfContainer container{.is_binary = false, .json = bytes, .binary = {}};
   if (bytes.starts_with("glTF")) {
@@ -126,8 +126,8 @@ Result<GltfContainer> OpenGltfContainer(std::string_view bytes, const std::strin
   ASSIGN_OR_RETURN(const auto buffers, JsonShape().CountBuffers(container.json, place));
   // Every buffer without a URI gets a copy of the binary part, so limit the size of all copies together.
   if (static_cast<double>(buffers) * static_cast<double>(container.binary.size()) > kMaxGltfBytes) {
-    return Fail(place, "{} buffers beside {} bytes of binary data; allowed: {:.0f} MB together", buffers,
-                container.binary.size(), kMaxGltfBytes / 1e6);
+    return Fail(place, "{} buffers, each with a copy of {} bytes of binary data; allowed: at most {:.0f} MB together",
+                buffers, container.binary.size(), kMaxGltfBytes / 1e6);
   }
   return container;
 }

@@ -213,7 +213,8 @@ class MeshReader {
     }
     bindings_ += bindings.size() * mesh.primitives.size();  // every surface gets a copy of the bindings
     if (bindings_ > kMaxBindings) {
-      return file_.Refuse(where, "with it, surfaces depend on {} joints; allowed: {}", bindings_, kMaxBindings);
+      return file_.Refuse(where, "with this node's mesh, surfaces depend on {} joints; allowed: at most {}", bindings_,
+                          kMaxBindings);
     }
     // Read each primitive as a mesh.
     for (std::size_t i = 0; i < mesh.primitives.size(); ++i) {
@@ -250,8 +251,9 @@ class MeshReader {
     triangles_ += mesh.triangles.size();
     vertices_ += is_flat ? 3 * mesh.triangles.size() : mesh.vertices.size();
     if (vertices_ > kMaxVertices || triangles_ > kMaxTriangles) {
-      return file_.Refuse(where, "with it there are {} vertices and {} triangles; allowed: {} and {}", vertices_,
-                          triangles_, kMaxVertices, kMaxTriangles);
+      return file_.Refuse(where,
+                          "with this primitive there are {} vertices and {} triangles; allowed: at most {} and {}",
+                          vertices_, triangles_, kMaxVertices, kMaxTriangles);
     }
     if (is_flat) Unweld(mesh);
     FinishNormals(mesh);
@@ -274,7 +276,7 @@ class MeshReader {
     ASSIGN_OR_RETURN(auto positions,
                      file_.Read(primitive.attributes.at("POSITION"), 3, GltfComponents::kAny, where + ".POSITION"));
     if (positions.Count() > kMaxVertices) {
-      return file_.Refuse(where, "found {} vertices; allowed: {}", positions.Count(), kMaxVertices);
+      return file_.Refuse(where, "found {} vertices; allowed: at most {}", positions.Count(), kMaxVertices);
     }
     mesh.vertices.resize(positions.Count());
     for (std::size_t i = 0; i < mesh.vertices.size(); ++i) {

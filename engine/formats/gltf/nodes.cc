@@ -147,7 +147,7 @@ class NodeReader {
   Result<void> MakeJoints() {
     const auto joints = static_cast<std::size_t>(std::ranges::count(is_joint_, true));
     if (joints == 0) return file_.Refuse("scenes", "found no nodes in the default one; at least one is needed");
-    if (joints > kMaxJoints) return file_.Refuse("nodes", "found {} joints; allowed: {}", joints, kMaxJoints);
+    if (joints > kMaxJoints) return file_.Refuse("nodes", "found {} joints; allowed: at most {}", joints, kMaxJoints);
     nodes_.joint_of.assign(count_, kNoIndex);
     for (int node = 0; node < static_cast<int>(count_); ++node) {
       if (!is_joint_[node]) continue;

@@ -281,7 +281,8 @@ template <typename Named>
 Result<void> TidyNames(std::vector<Named>& all, std::string_view kind, const std::string& file) {
   for (std::size_t i = 0; i < all.size(); ++i) {
     if (all[i].name.size() > kMaxNameBytes) {
-      return Fail({file}, "{}[{}].name: found {} bytes; allowed: {}", kind, i, all[i].name.size(), kMaxNameBytes);
+      return Fail({file}, "{}[{}].name: found {} bytes; allowed: at most {}", kind, i, all[i].name.size(),
+                  kMaxNameBytes);
     }
     all[i].name = GltfText(all[i].name);
   }

@@ -62,7 +62,7 @@ Result<Bindings> ReadGltfBindings(GltfFile& file, const GltfNodes& nodes, int no
   const std::string matrices_name = name + ".inverseBindMatrices";
   ASSIGN_OR_RETURN(auto matrices, file.Read(skin.inverseBindMatrices, 16, GltfComponents::kFloat, matrices_name));
   if (matrices.Count() < bindings.size()) {
-    return file.Refuse(matrices_name, "found {}; {} joints need as many", matrices.Count(), bindings.size());
+    return file.Refuse(matrices_name, "found {} matrices; {} joints need one each", matrices.Count(), bindings.size());
   }
   for (std::size_t i = 0; i < bindings.size(); ++i) {
     const double* m = matrices[i];
@@ -109,7 +109,7 @@ Result<void> ReadGltfWeights(GltfFile& file, const tinygltf::Primitive& primitiv
         const double joint = joints[set][i][k];
         const double weight = weights[set][i][k];
         if (weight == 0 && set > 0) continue;
-        if (weight < 0) return file.Refuse(where + ".WEIGHTS", "found {}; allowed: from 0", weight);
+        if (weight < 0) return file.Refuse(where + ".WEIGHTS", "found {}; allowed: 0 or more", weight);
         if (weight > 0 && joint >= static_cast<double>(mesh.bindings.size())) {
           return file.Refuse(where + ".JOINTS", "found {} at vertex {}; allowed: 0 to {}", joint, i,
                              mesh.bindings.size() - 1);

@@ -212,7 +212,7 @@ TEST(Snapshots, OfFilesAreComparedByNameWhateverTheTrial) {
   Snapshot nameless = fewer, others = all;
   nameless.scenarios[0].files.clear();
   others.scenarios[0].files.clear();
-  EXPECT_THAT(WhyNotComparable(nameless, others), ElementsAre("s: trials 23 and 24"));
+  EXPECT_THAT(WhyNotComparable(nameless, others), ElementsAre("s: the number of trials was 23 and is 24"));
   const SnapshotComparison shifted = CompareSnapshots(nameless, others, {});
   EXPECT_TRUE(std::ranges::any_of(shifted.moves, [](const MetricMove& move) { return move.differing > 5; }));
 }
@@ -259,9 +259,9 @@ TEST(Snapshots, AreNotComparableWithOtherSeedsTrialsClipsOrMetricVersions) {
   };
   EXPECT_EQ(complaint([](SnapshotScenario&) {}), "");
   EXPECT_EQ(complaint([](SnapshotScenario& s) { s.seed = 6; }), "s: seed 5 and 6");
-  EXPECT_EQ(complaint([](SnapshotScenario& s) { s.trials = 23; }), "s: trials 24 and 23");
+  EXPECT_EQ(complaint([](SnapshotScenario& s) { s.trials = 23; }), "s: the number of trials was 24 and is 23");
   EXPECT_EQ(complaint([](SnapshotScenario& s) { s.metrics[0].second = 9; }),
-            "s: position_error_cm in versions 1 and 9");
+            "s: the version of position_error_cm was 1 and is 9");
   const FinishedRun other_clip =
       ExampleRun([](int trial, const std::string&) { return ExampleResult(trial); }, "", "another");
   EXPECT_EQ(WhyNotComparable(Reference(), TakeSnapshot(other_clip)).size(), 2u);

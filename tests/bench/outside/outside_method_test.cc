@@ -442,7 +442,7 @@ INSTANTIATE_TEST_SUITE_P(
         Hostility{"hangs_in_a_session", Status::kTimeout, "took longer than 0.1 s"},
         Hostility{"prints_garbage_in_a_session", Status::kBadOutput,
                   "at step 2: wrote something that is not JSON: 'loading model"},
-        Hostility{"answers_another_step", Status::kBadOutput, "at step 2: answered another step than 2: "},
+        Hostility{"answers_another_step", Status::kBadOutput, "at step 2: answered a step other than 2: "},
         Hostility{"answers_the_next_step_as_well", Status::kBadOutput, "answered before it was asked"},
         Hostility{"gives_up_in_a_session", Status::kUnsolved, "gave no answer: 'no way\\x0aout'"}),
     [](const auto& tested) { return tested.param.behaviour; });
@@ -452,14 +452,14 @@ TEST(LiveSession, AnswersAreToSayTheirStep) {
   ASSERT_EQ(Begin(method).status, Status::kOk);
   const OutsideReply reply = method.Step(PayloadOf(Json::object()));
   EXPECT_EQ(reply.status, Status::kBadOutput);
-  EXPECT_THAT(reply.reason, StartsWith("at step 0: answered another step than 0: "));
+  EXPECT_THAT(reply.reason, StartsWith("at step 0: answered a step other than 0: "));
 }
 
 TEST(LiveSession, ABeginningIsRepliedToWithReady) {
   OutsideMethod method(Behaving("answers_the_beginning"));
   const OutsideReply reply = Begin(method);
   EXPECT_EQ(reply.status, Status::kBadOutput);
-  EXPECT_THAT(reply.reason, StartsWith("said no 'ready': "));
+  EXPECT_THAT(reply.reason, StartsWith("wrote no 'ready': "));
 }
 
 }  // namespace

@@ -176,7 +176,8 @@ TEST_F(ColumnsTest, ThatAreNotAsTheyWereWrittenAreRefused) {
   EXPECT_THAT(with(own / "status.npy", [](std::string& text) { text.pop_back(); }),
               HasSubstr("status.npy: has 15 numbers, but its run has 16 rows"));
   EXPECT_THAT(with(own / "status.npy", [](std::string& text) { text.resize(20); }), HasSubstr("it is too short"));
-  EXPECT_THAT(with(own / "status.npy", [](std::string& text) { text.back() = 8; }), HasSubstr("status.npy holds 8"));
+  EXPECT_THAT(with(own / "status.npy", [](std::string& text) { text.back() = 8; }),
+              HasSubstr("status.npy contains 8, which is no status"));
   EXPECT_THAT(with(own / "kind.npy", [](std::string& text) { text.back() = 1; }), HasSubstr("kind.npy contains"));
   EXPECT_THAT(with(own / "reason.npy", [](std::string& text) { text.back() = 1; }), HasSubstr("names text"));
   EXPECT_THAT(with(own / "position_error_cm.npy", [](std::string& text) { text[14] = 'X'; }),

@@ -124,7 +124,7 @@ TEST_F(HurriedSupervisorTest, AWorkerThatWaitsForeverIsEndedAndThisMachineIsToBl
   const auto whole = RunWith("echo ready\nread -r order\necho built\nsleep 100\n", 4);
   ASSERT_FALSE(whole);
   EXPECT_TRUE(IsOfThisMachine(whole.error()));
-  EXPECT_THAT(ToString(whole.error()), HasSubstr("this machine: a worker reached its limit of elapsed time after"));
+  EXPECT_THAT(ToString(whole.error()), HasSubstr("this machine: a worker reached its limit of wall-clock time after"));
   EXPECT_THAT(ToString(whole.error()),
               HasSubstr(fmt::format("s of processor time; cells not run: {}", plan_.cell_count())));
   EXPECT_TRUE(rows_.empty());

@@ -89,7 +89,7 @@ TEST(MeasureBeyond, ClaimsNothingThatTheMeanContradicts) {
   EXPECT_LE(*beyond.test.p, 0.01);
   EXPECT_GT(*beyond.mean, 0);
   EXPECT_EQ(beyond.verdict, Verdict::kUndecided);
-  EXPECT_THAT(beyond.why_open, HasSubstr("few outweigh the others"));
+  EXPECT_THAT(beyond.why_open, HasSubstr("few units outweigh the others"));
 }
 
 TEST(MeasureBeyond, SaysNoDifferenceOnlyOfUnitsThatDiffer) {

@@ -101,25 +101,28 @@ TEST(CheckDance, SaysWhatIsWrong) {
   EXPECT_EQ(complaint([](Dance&) {}), "nothing");
   EXPECT_EQ(complaint([](Dance& d) { d.repetitions[1].end = d.repetitions[1].first + 2; }), "nothing");
   EXPECT_EQ(complaint([](Dance& d) { d.repetitions[1].end = d.repetitions[1].first + 1; }),
-            ", repetition 1: frames 120 to 121; allowed: 120 to 420, two at least");
+            ", repetition 1: frames 120 to 121; allowed: at least two frames within 120 to 420");
   EXPECT_EQ(complaint([](Dance& d) { d.repetitions[3].end = d.motion.poses.size(); }), "nothing");
   EXPECT_EQ(complaint([](Dance& d) { d.repetitions[3].end = 421; }),
-            ", repetition 3: frames 300 to 421; allowed: 300 to 420, two at least");
+            ", repetition 3: frames 300 to 421; allowed: at least two frames within 300 to 420");
   EXPECT_EQ(complaint([](Dance& d) { d.repetitions[1].first = 119; }),
-            ", repetition 1: frames 119 to 210; allowed: 120 to 420, two at least");
-  EXPECT_EQ(complaint([](Dance& d) { d.repetitions[2].move = -1; }), ", repetition 2: move -1 of 2");
-  EXPECT_EQ(complaint([](Dance& d) { d.repetitions[1].move = 2; }), ", repetition 1: move 2 of 2");
+            ", repetition 1: frames 119 to 210; allowed: at least two frames within 120 to 420");
+  EXPECT_EQ(complaint([](Dance& d) { d.repetitions[2].move = -1; }),
+            ", repetition 2: there is no move -1; moves, counted from 0: 2");
+  EXPECT_EQ(complaint([](Dance& d) { d.repetitions[1].move = 2; }),
+            ", repetition 1: there is no move 2; moves, counted from 0: 2");
   EXPECT_EQ(complaint([](Dance& d) { d.repetitions.clear(); }), " has no repetition");
-  EXPECT_EQ(complaint([](Dance& d) { d.moves[1].name = "first"; }), ": two moves 'first'");
+  EXPECT_EQ(complaint([](Dance& d) { d.moves[1].name = "first"; }), ": two moves are named 'first'");
   EXPECT_EQ(complaint([](Dance& d) { d.moves[0].slow.poses.resize(2); }), "nothing");
   EXPECT_EQ(complaint([](Dance& d) { d.moves[0].slow.poses.resize(1); }),
-            ": the slow demonstration of 'first' has 1 frames; at least 2");
-  EXPECT_EQ(complaint([](Dance& d) { d.motion.rate_hz = 60; }), ": the song runs at 60 Hz; must be 30");
+            ": the slow demonstration of 'first' has 1 frames; allowed: at least 2");
+  EXPECT_EQ(complaint([](Dance& d) { d.motion.rate_hz = 60; }), ": the song has a rate of 60 Hz; allowed: 30");
   EXPECT_EQ(complaint([](Dance& d) { d.acts.pop_back(); }), " lacks the act 'praise'");
-  EXPECT_EQ(complaint([](Dance& d) { d.acts[3].motion.poses.clear(); }), ": the act 'wake' has 0 frames; at least 2");
+  EXPECT_EQ(complaint([](Dance& d) { d.acts[3].motion.poses.clear(); }),
+            ": the act 'wake' has 0 frames; allowed: at least 2");
   EXPECT_EQ(complaint([](Dance& d) { d.tags[3].frame = 419; }), "nothing");
   EXPECT_EQ(complaint([](Dance& d) { d.tags[3].frame = 420; }),
-            ": a music-time tag at frame 420, 10 s, but the dance has 420 frames");
+            ": a music-time tag at frame 420, 10 s; allowed: a frame below 420, and a finite time");
   EXPECT_EQ(complaint([](Dance& d) { d.tags[1].frame = d.tags[0].frame; }),
             ": music-time tags must ascend; frame 30, 4 s comes after frame 30, 1 s");
   EXPECT_EQ(complaint([](Dance& d) { d.tags[1].music_s = d.tags[0].music_s; }),

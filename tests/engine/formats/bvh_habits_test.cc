@@ -126,7 +126,7 @@ TEST(BvhHabits, OfARowTooManyAreTold) {
   EXPECT_TRUE(remarks.empty()) << "the control";
   ASSERT_OK(clip, ReadBvh(Replaced(kSmallBvh, "Frames: 2", "Frames: 1"), "small.bvh", &remarks));
   EXPECT_EQ(clip->frames.size(), 1u);
-  EXPECT_EQ(remarks, (std::vector<std::string>{"2 rows where 1 frames are announced: the last row was dropped"}));
+  EXPECT_EQ(remarks, (std::vector<std::string>{"2 rows, but 1 frames are announced: the last row was dropped"}));
 }
 
 TEST(BvhHabits, OfAnglesInRadiansAreTold) {

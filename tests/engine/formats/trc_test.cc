@@ -95,7 +95,7 @@ TEST(ReadTrc, TakesTheRateOfItsTimesWhereDataRateIsZero) {
   EXPECT_EQ(read->rate_hz, 50);
   EXPECT_EQ(read->remark, "");
   EXPECT_EQ(testing::Refusal(ReadTrc(AtFiftyHertz(0, 1), "a.trc")),
-            "a.trc:3: DataRate is 0, and the rows have one time");
+            "a.trc:3: DataRate is 0, and the rows have no two different times");
   std::string timeless = AtFiftyHertz(0, 2);
   for (const char* time : {"7.00", "7.02"}) timeless.erase(timeless.find(time), 4);
   EXPECT_EQ(testing::Refusal(ReadTrc(timeless, "a.trc")), "a.trc:3: DataRate is 0, and the rows have no times");
@@ -120,7 +120,7 @@ TEST(ReadTrc, RefusesShortRowsOfMoreMarkersThanFitIntoMemory) {
   text += "\n\n";
   for (int t = 0; t < 40'000; ++t) text += "1\t0\n";
   EXPECT_EQ(testing::Refusal(ReadTrc(text, "a.trc")),
-            "a.trc:5: 40000 rows of 1000 markers take 1280 MB; allowed: 1000 MB");
+            "a.trc:5: 40000 rows of 1000 markers take 1280 MB; allowed: at most 1000 MB");
 }
 
 TEST(ReadTrc, TakesTimesInMillisecondsWhereOnlyTheyAgreeWithDataRate) {
@@ -128,7 +128,7 @@ TEST(ReadTrc, TakesTimesInMillisecondsWhereOnlyTheyAgreeWithDataRate) {
   EXPECT_EQ(read->rate_hz, 50);
   EXPECT_EQ(read->frames.size(), 60u);
   EXPECT_NEAR(read->start_s.value_or(0), 7, 1e-9);
-  EXPECT_EQ(read->remark, "the column Time is taken as milliseconds; its rows then have the DataRate of 50 Hz");
+  EXPECT_EQ(read->remark, "the column Time is taken as milliseconds, because the rows then have the DataRate of 50 Hz");
   EXPECT_EQ(ReadTrc(AtFiftyHertz(50, 60), "a.trc")->remark, "");
 }
 

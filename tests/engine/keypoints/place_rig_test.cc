@@ -82,8 +82,8 @@ TEST(PlaceRig, FindsTheUnitThatMakesItAPerson) {
   EXPECT_DOUBLE_EQ(child.value().scale, 0.001) << "0.6 m tall: nobody else's unit makes that";
   EXPECT_THAT(
       testing::Message(PlaceRig(SomeRig(), Stander([](glm::dvec3 p) { return p * 1e5; }), kPlaceRate, {})),
-      HasSubstr("the legs are 8.5e+04 units long from hip to ankle, which no person's are in m, cm, mm, inch, foot; "
-                "for a person of 1.7 m: about --rig-unit 1e-05"));
+      HasSubstr("the legs are 8.5e+04 units long from hip to ankle, which is no person's length in m, cm, mm, inch, "
+                "foot; for a person of 1.7 m: about --rig-unit 1e-05"));
 }
 
 TEST(PlaceRig, TakesTheUnitThatIsToldAndNoOtherPersonThanOne) {
@@ -143,7 +143,8 @@ TEST(PlaceRig, TellsOfAFloorThatIsOffLevelAndLevelsItWhenAsked) {
   ASSERT_OK(kept, PlaceRig(SomeRig(), tilted, kPlaceRate, {}));
   EXPECT_TRUE(kept->IsNone());
   EXPECT_THAT(kept->told,
-              HasSubstr("; by resting feet up is 12° away from this axis: if that is right, give --rig-up floor"));
+              HasSubstr("; according to resting feet, up is 12° away from this axis: if that is right, give --rig-up "
+                        "floor"));
   ASSERT_OK(level, PlaceRig(SomeRig(), tilted, kPlaceRate, {.up = "floor"}));
   const glm::dvec3 up = level->R * TurnAboutX(12) * glm::dvec3(0, 1, 0);
   EXPECT_GT(up.y, std::cos(Radians(0.1)));

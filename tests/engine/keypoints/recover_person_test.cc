@@ -193,7 +193,8 @@ TEST(RecoverPerson, RefusesWhatIsNoSession) {
               HasSubstr("no person is seen consistently"));
   RecoverPersonOptions third = WalkOptions();
   third.person = 2;
-  EXPECT_THAT(Recover(cameras, people, third).error().message, HasSubstr("person 3: 2 seen by two cameras"));
+  EXPECT_THAT(Recover(cameras, people, third).error().message,
+              HasSubstr("there is no person 3; people seen by two cameras or more: 2"));
 }
 
 TEST(BridgePoints, FillsShortGapsStraightAndNoLongOnes) {

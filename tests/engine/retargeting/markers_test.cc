@@ -267,7 +267,7 @@ TEST(Markers, WithNumbersForGapsTwiceTheSameNameOrExchangedSidesAreSaid) {
   // A gap marked by a number such as -9999 must not move the floor.
   MarkerMotion far = markers;
   for (std::size_t t = 10; t < 14; ++t) far.frames[t].front() = glm::dvec3(-9999);
-  EXPECT_THAT(changes(far), HasSubstr("4 positions a hundred times as far away as the others taken as gaps"));
+  EXPECT_THAT(changes(far), HasSubstr("4 positions that are a hundred times as far away as the others taken as gaps"));
   EXPECT_THAT(changes(far), Not(HasSubstr("floor was at -")));
   MarkerMotion twice = markers;
   twice.names.push_back(twice.names.front());

@@ -341,7 +341,7 @@ TEST(BodyNpz, IsInTheUnitAndOnTheAxisThatTheFileOrTheUserTells) {
   // A declared up axis along which the body lies or stands on its head is doubted.
   for (const auto& [up, said] : {std::pair("z", "lies along the floor"), {"y", "lies along the floor"}}) {
     EXPECT_THAT(ReadRawNpz(written(1, *up == 'y', "", up), "a.npz")->notes,
-                ::testing::Contains(HasSubstr(fmt::format("by the file's `up: {}`, the body {}", up, said))));
+                ::testing::Contains(HasSubstr(fmt::format("with the file's `up: {}`, the body {}", up, said))));
   }
   seen.texts["up"] = {"y"};
   EXPECT_THAT(ReadRawNpz(seen, "a.npz")->notes, ::testing::ElementsAre(HasSubstr("stands on its head")));
@@ -355,8 +355,9 @@ TEST(BodyNpz, IsMeasuredWithoutABallAndLeftInNoUnitThatMakesItTiny) {
   arrays.texts["unit"] = {"0.1"};
   ASSERT_OK(tiny, ReadRawNpz(arrays, "a.npz"));
   EXPECT_LT(WorstJointDistance(*BodyOf(*tiny), motion), 1e-12);
-  EXPECT_THAT(tiny->notes,
-              ::testing::ElementsAre(HasSubstr("1 unit = 100 cm: in units of 0.1 m the joints extend 0.1")));
+  EXPECT_THAT(
+      tiny->notes,
+      ::testing::ElementsAre(HasSubstr("1 unit = 100 cm, because in units of 0.1 m the joints would extend 0.1")));
   // A ball five metres away does not belong to the body.
   arrays.texts.erase("unit");
   NumberArray& positions = arrays.arrays.at("positions");
@@ -436,7 +437,7 @@ TEST(BodyNpz, IsRefusedBeyondItsLimits) {
   std::erase(pickled.skipped, "names");
   EXPECT_TRUE(ReadRawNpz(pickled, "a.npz"));
   pickled.skipped.emplace_back("names");
-  EXPECT_THAT(testing::Refusal(ReadRawNpz(pickled, "a.npz")), HasSubstr("names: allowed: a list of texts"));
+  EXPECT_THAT(testing::Refusal(ReadRawNpz(pickled, "a.npz")), HasSubstr("names: not a list of texts; allowed: a list"));
 }
 
 }  // namespace

@@ -482,10 +482,10 @@ TEST(ToBodyMotion, SaysAnImpossibleHeightAndNoChangeOfRateThatReadsAlike) {
 TEST(ToBodyMotion, RefusesWhatGivesNoMotion) {
   EXPECT_THAT(testing::Message(Convert(AtRest(testing::PersonSkeleton(), 0))), HasSubstr("no frames"));
 
-  EXPECT_THAT(testing::Message(Convert(AtRest(Scaled(1e-12)))), HasSubstr("it needs a size"));
+  EXPECT_THAT(testing::Message(Convert(AtRest(Scaled(1e-12)))), HasSubstr("needed: joints that lie apart"));
 
   EXPECT_EQ(testing::Message(Convert(AtRest(testing::PersonSkeleton(), 400, 1), {.rate_hz = 1e6})),
-            "399 s at 1e+06 Hz are over 500000 poses");
+            "399 s at 1e+06 Hz are too many poses; allowed: at most 500000");
 
   Clip flying = AtRest(testing::PersonSkeleton(), 2);
   At(flying, 1, "Hips").translation.x = 1e300;
@@ -497,7 +497,7 @@ TEST(ToBodyMotion, RefusesWhatGivesNoMotion) {
       << "the T-pose's frames count";
 
   EXPECT_EQ(testing::Message(Convert(AtRest(testing::PersonSkeleton(), 400, 0.1))),
-            "the clip lasts 3990 s; allowed: 3600 s; its frames are 10 s apart: does it count milliseconds?");
+            "the clip lasts 3990 s; allowed: at most 3600 s; its frames are 10 s apart: does it count milliseconds?");
 }
 
 }  // namespace

@@ -99,7 +99,8 @@ TEST(Streams, AClockMayCountMicrosecondsMillisecondsSecondsOrFrames) {
   EXPECT_EQ(sixth.lost_frames, 0u);  // rows are 0.2 s apart, despite rounding
   EXPECT_NEAR(sixth.start_s, 252 / 30.0, 1e-9);
   const auto read = ReadStreamRecording(WithClock(rows, 252, 6), "s");
-  EXPECT_EQ(read->remarks, std::vector<std::string>{"the first column counts frames at 30 Hz, a row every 6"});
+  EXPECT_EQ(read->remarks,
+            std::vector<std::string>{"the first column counts frames at 30 Hz, with one row for every 6 frames"});
   // Whole milliseconds at 60 Hz, and fractions of milliseconds at any rate, are kept.
   EXPECT_EQ(Made(WithClock(rows, 1000, 17)).stream.frames.size(), 31u);
   EXPECT_EQ(Made(WithClock(rows, 1000.5, 8)).stream.frames.size(), 15u);
@@ -136,7 +137,7 @@ TEST(Streams, OfSeveralBodiesTheOneSeenLongestIsTakenUnlessAnotherIsAskedFor) {
   const std::string text = "3\n1\n" + other + "2\n" + other + body + "1\n" + body + "";
   EXPECT_EQ(ReadStreamRecording(text, "s")->remarks.size(), 1u);
   EXPECT_TRUE(ReadStreamRecording(text, "s", {.body = 1})->frames[0].places[0] == std::nullopt);
-  EXPECT_EQ(ComplaintOf(text, {.body = 2}), "s: body 2 of 2, counted from 0");
+  EXPECT_EQ(ComplaintOf(text, {.body = 2}), "s: there is no body 2; bodies in the file, counted from 0: 2");
 }
 
 /// Returns one body of a frame in NTU's text, under another name and `aside` metres to the side.
@@ -187,7 +188,7 @@ TEST(Streams, MarkersOfOtherNamesAreTold) {
 }
 
 TEST(Streams, JointsThatAreNeverShownAndTimesThatRunBackAreRefused) {
-  EXPECT_EQ(ComplaintOf("head_x_m,head_y_m,head_z_m\n0,1,2\n").find("s: never shows hip_centre, spine"), 0u);
+  EXPECT_EQ(ComplaintOf("head_x_m,head_y_m,head_z_m\n0,1,2\n").find("s: no frame shows hip_centre, spine"), 0u);
   const std::string rows = KinectV1Text(WavingMotion(2));
   EXPECT_EQ(ComplaintOf(WithClock(rows, 1, 0.03) + WithClock(rows, 0.5, 0.03)).find("s:3: time 0.5 s after"), 0u);
 }

@@ -74,7 +74,7 @@ TEST(TeachMove, TakesTheShortestAndTheLongestAndSaysWhatIsBeyond) {
   EXPECT_EQ(complaint(50, 2), "span 60.000000");
   EXPECT_EQ(complaint(60, 2), "span 60.000000");
   EXPECT_EQ(complaint(60.5, 2),
-            "a performance of 'm' lasts 60.5 s; allowed: 60 s; use labels to mark where each begins and ends");
+            "a performance of 'm' lasts 60.5 s; allowed: at most 60 s; use labels to mark where each begins and ends");
   EXPECT_EQ(TeachMove("m", {}).error().message, "move 'm' has no right performance to learn from");
 }
 

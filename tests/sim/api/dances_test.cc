@@ -62,7 +62,7 @@ TEST(BuiltinDance, TheCoachOfASongStepsAsTheEnginesDoesToTheLastBit) {
 TEST(BuiltinDance, ACoachRefusesADanceThatIsNone) {
   const BuiltinDance builtin = DanceOfSong(SongNames().front());
   EXPECT_THAT(RefusalOf([] { DanceOfSong("hymn"); }), HasSubstr("song 'hymn'; allowed: "));
-  EXPECT_THAT(RefusalOf([] { engine::Coach({}, {}); }), HasSubstr("has 0 frames; at least 2"));
+  EXPECT_THAT(RefusalOf([] { engine::Coach({}, {}); }), HasSubstr("has 0 frames; allowed: at least 2"));
   EXPECT_THAT(RefusalOf([&] { engine::Coach(builtin.dance, {}); }), HasSubstr("0 moves; allowed: the "));
   EXPECT_THAT(RefusalOf([&] { engine::Coach(builtin.dance, builtin.moves, {.policy = "oracle"}); }),
               HasSubstr("policy 'oracle'; allowed: at-first-mistake"));

@@ -59,7 +59,7 @@ TEST(ToBeats, PutsEveryTagOnItsBeat) {
     EXPECT_NEAR(swung->tags[i].music_s, dance->tags[i].music_s + 1, 1e-9);
   }
   even.resize(50);
-  EXPECT_THAT(testing::Message(ToBeats(*dance, even)), HasSubstr("50 beats, but 'warm_up' takes"));
+  EXPECT_THAT(testing::Message(ToBeats(*dance, even)), HasSubstr("50 beats, but 'warm_up' needs"));
 }
 
 }  // namespace

@@ -220,7 +220,8 @@ TEST(CaptureExchange, SettingAndFailureAreTold) {
 
 TEST(CaptureExchange, RefusesTakesOfMorePicturesThanItHolds) {
   const auto task = MakeTask("{duration_s: 21}");
-  EXPECT_THAT(testing::Refusal(task->MakeWorld(kExchangeKey, false)->MakeProblem()), HasSubstr("a duration_s of 20"));
+  EXPECT_THAT(testing::Refusal(task->MakeWorld(kExchangeKey, false)->MakeProblem()),
+              HasSubstr("a duration_s of at most 20"));
 }
 
 }  // namespace

@@ -293,8 +293,9 @@ TEST_F(RecordedPeopleTest, FaultsThatCannotBeMadeAreRefused) {
   LabelledStreams set = SetOf(Record(2, kDanced, 5));
   const std::string method = "methods: [{name: a}]\n";
   EXPECT_EQ(ComplaintAbout("faults: [amplitude, wrong_side, wrong_move]\n" + method, set), "accepted");
-  EXPECT_THAT(ComplaintAbout("faults: [wrong_side, late]\n" + method, set),
-              HasSubstr("'late' cannot be made of a recording; allowed: amplitude, wrong_side, wrong_move"));
+  EXPECT_THAT(
+      ComplaintAbout("faults: [wrong_side, late]\n" + method, set),
+      HasSubstr("the fault 'late' cannot be made from a recording; allowed: amplitude, wrong_side, wrong_move"));
   LabelledStreams points = set;
   points.parts[0].is_action_point = true;
   EXPECT_THAT(ComplaintAbout("faults: [amplitude]\n" + method, points), HasSubstr("labels.csv has action points"));
@@ -307,7 +308,7 @@ TEST_F(RecordedPeopleTest, APersonIsJudgedOnce) {
   const auto task = *MakeTask("methods: [{name: a}]\n", set);
   const CellResult third = RunWorld(*task, World(2), 1).front();
   EXPECT_EQ(third.status, Status::kSkipped);
-  EXPECT_EQ(third.reason, "2 people were recorded");
+  EXPECT_EQ(third.reason, "only 2 people were recorded");
 }
 
 }  // namespace

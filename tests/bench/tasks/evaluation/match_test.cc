@@ -219,7 +219,7 @@ TEST(Match, AJointThatIsAnotherPointOfTheBodyIsNamed) {
     return motion;
   };
   const auto said =
-      HasSubstr("head 101 mm away, all frames alike (median joint 9.9 mm): the same point in both files?");
+      HasSubstr("head 101 mm from the truth in all frames alike (median joint 9.9 mm): the same point in both files?");
   EXPECT_THAT(Judged(Gliding(30, 30), off_by(Role::kHead, 0.1, 0.01)).reason, said);
   // Not if the whole body is away, or if the joint comes and goes.
   const auto silent = ::testing::Not(HasSubstr("the same point"));
@@ -342,7 +342,7 @@ TEST(SideFiles, AreRefusedWithTheLine) {
   const auto told = [](const auto& result) { return result ? std::string("read") : ToString(result.error()); };
   EXPECT_THAT(told(ReadJointStatistics("a_x_m,a_y_m,a_z_m\n1,2,3\n1,0,1\n", "s.csv")), HasSubstr("s.csv:3"));
   EXPECT_THAT(told(ReadJointStatistics("a_x_m,a_z_m,a_y_m\n1,2,3\n1,1,1\n", "s.csv")), HasSubstr("a_z_m"));
-  EXPECT_THAT(told(ReadJointStatistics("a_x_m,a_y_m\n1,2\n1,1\n", "s.csv")), HasSubstr("2 of three"));
+  EXPECT_THAT(told(ReadJointStatistics("a_x_m,a_y_m\n1,2\n1,1\n", "s.csv")), HasSubstr("2 coordinates; needed: three"));
   EXPECT_THAT(told(ReadJointStatistics("1,2,3\n1,1,1\n", "s.csv")), HasSubstr("allowed: a heading"));
   EXPECT_THAT(told(ReadMusicBeats("1\n3\n2\n", "b.txt")), HasSubstr("b.txt:3"));
   EXPECT_THAT(told(ReadMusicBeats("1 2\n", "b.txt")), HasSubstr("allowed: one"));
