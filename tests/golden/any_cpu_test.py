@@ -50,6 +50,7 @@ scenarios:
                {name: kovar, choice: fuzzy-kovar, join: inertialised-quintic}, {name: window, choice: fuzzy-window},
                {name: cloud, choice: point-cloud, join: inertialised-spring}, {name: matching, choice: motion-matching},
                {name: standing, choice: through-standing, join: crossfade}, {name: end, choice: wait-for-end},
+               {name: played, choice: played, join: planted-feet},
                {name: natural, choice: unbroken}]}
   - {scenario: every-capture, task: capture, duration_s: 0.1, clips: ['builtin:boxing'], rig: ring, cameras: 3,
      radial_distortion: -0.05, sync_offset_ms: 20, metrics: [mpjpe_mm], question: 'Same bytes?',
