@@ -49,9 +49,9 @@ Json FactsOf(const std::vector<AngleAgreement>& angles) {
   return list;
 }
 
-Json FactsOf(const std::vector<JointErrors>& joints) {
+Json FactsOf(const std::vector<EvaluatedJoint>& joints) {
   Json list = Json::array();
-  for (const JointErrors& one : joints) {
+  for (const EvaluatedJoint& one : joints) {
     list.push_back({{"method", one.method},
                     {"condition", ConditionLabel(one.condition)},
                     {"joint", one.joint},
@@ -88,16 +88,16 @@ void PrintAngles(const ScenarioSummary& summary, const std::vector<AngleAgreemen
   }
 }
 
-void PrintJoints(std::vector<JointErrors> joints) {
+void PrintJoints(std::vector<EvaluatedJoint> joints) {
   if (joints.empty()) return;
   // List the joints of each method and condition together, the largest error first.
-  std::ranges::stable_sort(joints, {}, [](const JointErrors& one) {
+  std::ranges::stable_sort(joints, {}, [](const EvaluatedJoint& one) {
     return std::tuple(ConditionLabel(one.condition), one.method, -one.mean_mm[1].value_or(-1));
   });
   fmt::print("  {:<26}  {:>10}  {:>10}  {:>18}  pairs\n", "mean error of a joint, mm", "unaligned", "by root",
              "each frame scaled");
   const auto shown = [](const std::optional<double>& mean) { return mean ? fmt::format("{:.1f}", *mean) : "-"; };
-  for (const JointErrors& one : joints) {
+  for (const EvaluatedJoint& one : joints) {
     const std::string under = one.condition.empty() ? "" : ", " + ConditionLabel(one.condition);
     fmt::print("  {:<26}  {:>10}  {:>10}  {:>18}  {:>5}  {}{}\n", one.joint, shown(one.mean_mm[0]),
                shown(one.mean_mm[1]), shown(one.mean_mm[2]), one.pairs, one.method, under);

@@ -5,8 +5,8 @@
 
 namespace etude {
 
-std::vector<JointErrors> ErrorsByJoint(const RunData& run) {
-  std::vector<JointErrors> found;
+std::vector<EvaluatedJoint> ErrorsByJoint(const RunData& run) {
+  std::vector<EvaluatedJoint> found;
   std::vector<std::array<int, kByJoint.size()>> counts;  // number of pairs with a value, by alignment
   std::map<std::string, std::size_t> places;             // index in `found`, by scenario, condition, method and joint
   ForEachSeries(run, [&](const Row& row, const std::vector<Series>& series) {
@@ -19,7 +19,7 @@ std::vector<JointErrors> ErrorsByJoint(const RunData& run) {
         found.push_back({row.condition, row.method, one.name, 0, {}});
         counts.emplace_back();
       }
-      JointErrors& errors = found[place->second];
+      EvaluatedJoint& errors = found[place->second];
       ++errors.pairs;
       for (std::size_t i = 0; i < means->size(); ++i) {
         if (!(*means)[i]) continue;

@@ -9,7 +9,7 @@
 namespace etude {
 
 /// The errors of one joint under one condition of a scenario, for one method.
-struct JointErrors {
+struct EvaluatedJoint {
   std::vector<SweptValue> condition;
   std::string method, joint;
   int pairs = 0;       ///< number of pairs in which the joint is seen
@@ -18,6 +18,6 @@ struct JointErrors {
 
 /// Returns the errors of every joint whose means (JointMeans) the cells of a run contain, as series with the axis
 /// kJointErrorAxis. Joints are in the order of the cells.
-std::vector<JointErrors> ErrorsByJoint(const RunData& run);
+std::vector<EvaluatedJoint> ErrorsByJoint(const RunData& run);
 
 }  // namespace etude
