@@ -8,10 +8,6 @@
 namespace etude {
 namespace {
 
-constexpr std::size_t kHeaderBytes = 12;
-constexpr std::size_t kChunkHeaderBytes = 8;
-constexpr std::uint32_t kJsonChunk = 0x4E4F534A;    // "JSON"
-constexpr std::uint32_t kBinaryChunk = 0x004E4942;  // "BIN\0"
 constexpr int kMaxNesting = 64;
 constexpr std::size_t kMaxValues = 1'000'000;
 
