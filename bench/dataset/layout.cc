@@ -53,7 +53,7 @@ Result<std::vector<fs::path>> AnswersBelow(const fs::path& folder, PredictionFau
     } else if (!fs::is_directory(status)) {
       const char* const what = fs::is_symlink(status) || fs::is_regular_file(status) ? "is a link" : "is no file";
       faults.broken.push_back(
-          fmt::format("{} {}; allowed: answers that are files of their own", name.generic_string(), what));
+          fmt::format("{} {}; allowed: regular files that are not links", name.generic_string(), what));
     }
   }
   if (error) return Fail(place, "cannot be read: {}", error.message());

@@ -164,7 +164,8 @@ class BaselineReader {
     SnapshotScenario scenario;
     ASSIGN_OR_RETURN(scenario.name, line.Text("scenario"));
     for (const SnapshotScenario& other : snapshot_.scenarios) {
-      if (other.name == scenario.name) return Fail(place, "two scenarios {}; allowed: one", Quote(scenario.name));
+      if (other.name == scenario.name)
+        return Fail(place, "two scenarios are named {}; names must be unique", Quote(scenario.name));
     }
     ASSIGN_OR_RETURN(scenario.seed, line.Unsigned("seed"));
     ASSIGN_OR_RETURN(const auto trials, line.Whole("trials", 1, kMaxTrials));
@@ -203,7 +204,8 @@ class BaselineReader {
       scenario.files.emplace_back(file[0].get<std::string>(), file[1].get<std::string>());
     }
     if (scenario.files.size() == static_cast<std::size_t>(scenario.trials)) return {};
-    return Fail(line.place(), "{} files; its scenario has {} trials", scenario.files.size(), scenario.trials);
+    return Fail(line.place(), "'files' lists {} files, but the scenario has {} trials", scenario.files.size(),
+                scenario.trials);
   }
 
   /// Checks the number of lines before the table of cells is allocated, because two long lists of names in a small file
@@ -218,7 +220,7 @@ class BaselineReader {
     ASSIGN_OR_RETURN(const Json* statuses, head.List("statuses"));
     ASSIGN_OR_RETURN(const Json* values, head.List("values"));
     if (statuses->size() == cells && values->size() == lists) return {};
-    return Fail(head.place(), "{} lines of statuses and {} of values, but its scenarios need {} and {}",
+    return Fail(head.place(), "contains {} lines of statuses and {} lines of values, but its scenarios need {} and {}",
                 statuses->size(), values->size(), cells, lists);
   }
 
@@ -243,7 +245,8 @@ class BaselineReader {
     ASSIGN_OR_RETURN(const auto method, line.Text("method"));
     const std::string name = fmt::format("{}, {}, {}", scenario, condition, method);
     const auto slot = slots_.find(name);
-    if (slot == slots_.end()) return Fail(line.place(), "{} of {}, which no scenario has", what, name);
+    if (slot == slots_.end())
+      return Fail(line.place(), "contains {} of {}, but no scenario has these cells", what, name);
     return slot;
   }
 
@@ -253,7 +256,7 @@ class BaselineReader {
     ASSIGN_OR_RETURN(const auto slot, FindSlot(line, "statuses"));
     const auto& [name, cells] = *slot;
     std::string& statuses = cells.cells->statuses;
-    if (!statuses.empty()) return Fail(place, "two lines of statuses of {}; allowed: one", name);
+    if (!statuses.empty()) return Fail(place, "two lines contain the statuses of {}; allowed: one line", name);
     ASSIGN_OR_RETURN(statuses, line.Text("cells"));
     if (statuses.find_first_not_of(kLetters) != std::string::npos || statuses.size() != cells.trials) {
       return Fail(place, "the statuses of {} are not {} letters of '{}'", name, cells.trials, kLetters);
@@ -276,12 +279,13 @@ class BaselineReader {
     const auto& [name, cells] = *slot;
     const auto kept = std::ranges::find(cells.cells->metrics, metric, &SnapshotValues::metric);
     if (kept == cells.cells->metrics.end()) {
-      return Fail(place, "values of {} of {}, a metric that its scenario does not list", metric, name);
+      return Fail(place, "contains values of {} of {}, but the scenario does not list this metric", metric, name);
     }
-    if (!kept->values.empty()) return Fail(place, "two lines of {} of {}; allowed: one", metric, name);
+    if (!kept->values.empty())
+      return Fail(place, "two lines contain the values of {} of {}; allowed: one line", metric, name);
     ASSIGN_OR_RETURN(const Json* values, line.List("values"));
     if (values->size() != cells.trials) {
-      return Fail(place, "{} values of {} of {}; its scenario has {} trials", values->size(), metric, name,
+      return Fail(place, "contains {} values of {} of {}, but the scenario has {} trials", values->size(), metric, name,
                   cells.trials);
     }
     for (std::size_t trial = 0; trial < cells.trials; ++trial) {
@@ -305,8 +309,9 @@ class BaselineReader {
     const auto found = std::ranges::count(kept.values, std::optional<double>());
     if (found == allowed) return {};
     const auto first = std::ranges::find(kept.values, std::optional<double>()) - kept.values.begin();
-    return Fail(line.place(), "{} of the values of {} of {} are null{}; allowed: {} (the line's 'nulls', otherwise 0)",
-                found, kept.metric, name, found == 0 ? "" : fmt::format(", the first in trial {}", first), allowed);
+    return Fail(line.place(),
+                "{} values of {} of {} are null{}; allowed: {} (the line's 'nulls', or 0 without this key)", found,
+                kept.metric, name, found == 0 ? "" : fmt::format(", the first in trial {}", first), allowed);
   }
 
   std::string file_;

@@ -179,10 +179,9 @@ std::vector<std::string> WhyNotComparable(const SnapshotScenario& before, const 
   for (const auto& [condition, digest] : before.worlds) {
     const std::string* other = FindDigest(after.worlds, condition);
     if (other == nullptr || *other == digest) continue;
-    reasons.push_back(
-        fmt::format("{}: the worlds of condition {} are made from other parameters or clips, or of another version "
-                    "of secret worlds",
-                    before.name, condition));
+    reasons.push_back(fmt::format(
+        "{}: the worlds of condition {} have other parameters, other clips or another version of secret worlds",
+        before.name, condition));
   }
   for (const auto& metric : before.metrics) {
     const auto* other = FindIn(after.metrics, [&](const auto& pair) { return pair.first == metric.first; });

@@ -56,7 +56,8 @@ Result<void> RequireComparable(const Snapshot& baseline, const Snapshot& now, co
   for (std::size_t i = 0; i < std::min(kMaxShownReasons, reasons.size()); ++i)
     text += (i == 0 ? "" : "; ") + reasons[i];
   if (reasons.size() > kMaxShownReasons) text += fmt::format("; and {} more", reasons.size() - kMaxShownReasons);
-  return Fail({file, 0, 0}, "its worlds are not those of the run: {}; --update makes a new one", text);
+  return Fail({file, 0, 0}, "the worlds of this baseline are not those of the run: {}; --update writes a new baseline",
+              text);
 }
 
 }  // namespace
@@ -101,7 +102,7 @@ std::vector<std::string> WhyIncomplete(const FinishedRun& run) {
   });
   std::vector<std::string> sentences;
   for (const auto& [key, found] : ends) {
-    sentences.push_back(fmt::format("{}: {} × {}, a status that depends on the machine; the first is {}", key.first,
+    sentences.push_back(fmt::format("{}: {} × the status {}, which depends on the machine; the first is {}", key.first,
                                     found.cells, key.second, found.first));
   }
   if (all_skipped && !why_skipped.empty()) sentences.push_back("every cell was skipped; the first is " + why_skipped);

@@ -99,7 +99,7 @@ Result<JsonObject> JsonObject::Of(const Json& json, Place place, std::string wha
     }
   }
   for (const std::string_view key : required) {
-    if (!json.contains(key)) return Fail(place, "{} lacks '{}'; it has: {}", what, key, Join(known));
+    if (!json.contains(key)) return Fail(place, "{} lacks '{}'; allowed keys: {}", what, key, Join(known));
   }
   return JsonObject(json, std::move(place), std::move(what));
 }

@@ -120,7 +120,9 @@ Result<SelfTestReport> RunSelfTest(const RunUnderSeed& run, int repetitions) {
     for (std::size_t k = 0; k < kSizes.size(); ++k) {
       Snapshot worse = first;
       SnapshotValues* values = FindTarget(worse);
-      if (values == nullptr) return Fail({}, "no gated metric is a median with a direction; name one (gate: metrics)");
+      if (values == nullptr)
+        return Fail(
+            {}, "no metric of the gate is a median with a direction; add one to the list 'metrics' of the key 'gate'");
       target = values->metric;
       Inject(*values, kSizes[k], first_seed);
       injected[k].Add(Alarms(CompareSnapshots(first, worse, {}, no_tails)));

@@ -123,10 +123,10 @@ void RefuseMisplacedKeys(Fields& mapping, std::span<const KeyInfo> keys) {
       allowed = chooser->only_with.values;
     }
     const std::string& chooser = misplaced->only_with.key;
-    mapping.Complain(
-        written->place,
-        fmt::format("{} '{}'{} has no '{}'; allowed with {}: {}", chooser, ValueOf(chooser, keys, mapping.node()),
-                    mapping.node().Find(chooser) == nullptr ? " (the default)" : "", key.key, chooser, Join(allowed)));
+    mapping.Complain(written->place, fmt::format("{} '{}'{} has no key '{}'; this key is allowed with {}: {}", chooser,
+                                                 ValueOf(chooser, keys, mapping.node()),
+                                                 mapping.node().Find(chooser) == nullptr ? " (the default)" : "",
+                                                 key.key, chooser, Join(allowed)));
   }
 }
 

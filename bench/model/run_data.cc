@@ -15,7 +15,7 @@ std::string DescribeWorlds(const RunData& run) {
       std::ranges::any_of(run.scenarios, [](const auto& scenario) { return scenario.conditions.size() > 1; });
   return fmt::format("secret worlds, key {}…{}{}", run.key_digest.substr(0, 16),
                      is_swept ? ", other worlds under every condition" : "",
-                     is_unfenced ? ", programs in no fence" : "");
+                     is_unfenced ? ", programs ran without a fence" : "");
 }
 
 std::size_t CountRows(const RunData& run) { return run.source ? run.source->size() : run.rows.size(); }

@@ -238,7 +238,7 @@ class ConformanceTest {
       solved += attempt.status == Status::kOk ? 1 : 0;
     }
     Report("gives answers that can be scored", true,
-           fmt::format("{} of {} scored as solved; at most {:.3g} s (allowed: {:g} s) and {:.0f} MB", solved,
+           fmt::format("{} of {} answers solve their problem; at most {:.3g} s (allowed: {:g} s) and {:.0f} MB", solved,
                        first_.size(), slowest_s_, time_s_, peak_mb_));
     solves_nothing_ = solved == 0;
     return {};
@@ -258,10 +258,11 @@ class ConformanceTest {
     }
     if (plain == 0) return;
     const std::string unit =
-        in_radians == 0 ? ""
-                        : fmt::format("; if its angles are radians, they solve {}: degrees are needed", in_radians);
+        in_radians == 0
+            ? ""
+            : fmt::format("; read as radians, its angles solve {}, but angles must be in degrees", in_radians);
     Report("solves the problems that a simple method solves", false,
-           fmt::format("solves none of {}; damped-least-squares solves {}{}", first_.size(), plain, unit));
+           fmt::format("solves none of {} problems; damped-least-squares solves {}{}", first_.size(), plain, unit));
   }
 
   /// Compares a second attempt at problem `i` of the first setting with the first attempt. Returns the difference; ""

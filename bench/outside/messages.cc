@@ -46,7 +46,8 @@ Result<std::string> TextOf(const Json& message, const char* key, const std::stri
 
 Result<Json> ReadMessageOfType(const std::string& line, std::string_view type) {
   auto message = ReadMessage(line);
-  if (message && (*message)["type"] != type) return Fail({}, "wrote no '{}': {}", type, Printable(line));
+  if (message && (*message)["type"] != type)
+    return Fail({}, "did not write the message '{}': {}", type, Printable(line));
   return message;
 }
 
@@ -107,7 +108,7 @@ Result<Json> ReadAnswer(const std::string& line, const std::string& id) {
   if (!is_answer) {
     RETURN_IF_ERROR(TextOf(*message, "reason", line));
   } else if (!message->contains("answer") || !(*message)["answer"].is_object()) {
-    return Fail({}, "its 'answer' has no object \"answer\": {}", Printable(line));
+    return Fail({}, "its message 'answer' has no object with the key \"answer\": {}", Printable(line));
   }
   return message;
 }

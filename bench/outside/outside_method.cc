@@ -28,7 +28,7 @@ constexpr double kMaxLimit_s = 1e9;  // longer than any run; within the clock's 
 /// Returns the error for a reply that came before the program had read the question.
 Error TooEarly() { return {{}, "answered before it was asked"}; }
 
-constexpr const char* kHint = " (a fence shows it the system and what its key 'files' lists)";
+constexpr const char* kHint = " (inside a fence, it can read only the system's files and what its key 'files' lists)";
 
 tl::unexpected<OutsideFailure> Failed(Status status, std::string reason) {
   return tl::unexpected<OutsideFailure>({status, std::move(reason)});

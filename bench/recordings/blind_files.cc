@@ -13,8 +13,8 @@ constexpr std::string_view kKeyFormat = "etude-blind-key";
 constexpr std::string_view kAnswersFormat = "etude-blind-answers";
 
 static void Describe(RecordFields& fields, BlindKey::Metric& metric) {
-  fields.Required("id", metric.id, "a metric with a better direction");
-  fields.Required("higher_is_better", metric.higher_is_better, "which direction is better");
+  fields.Required("id", metric.id, "id of a metric whose higher or lower values are better");
+  fields.Required("higher_is_better", metric.higher_is_better, "whether higher values are better");
   fields.Required("left", metric.left, "the metric's value for the film on the left; null if there is none");
   fields.Required("right", metric.right, "the metric's value for the film on the right; null if there is none");
 }
@@ -31,8 +31,8 @@ static void Describe(RecordFields& fields, BlindKey& key) {
   fields.Format(kKeyFormat, 1);
   fields.Required("page", key.page, "digest of the page's content");
   fields.Required("seed", key.seed, "seed of the random numbers that chose worlds, order and sides");
-  fields.Required("worlds", key.worlds, "worlds from which the pairs were drawn");
-  fields.Required("left_out", key.left_out, "worlds in which a method made no transition that can be shown");
+  fields.Required("worlds", key.worlds, "number of worlds from which the pairs were drawn");
+  fields.Required("left_out", key.left_out, "number of worlds in which a method made no transition that can be shown");
   fields.List("pairs", key.pairs, "the pairs in the page's order");
 }
 
@@ -58,12 +58,12 @@ Result<void> AddAnswers(BlindAnswers answers, const std::string& file, std::vect
   constexpr std::array<std::string_view, 4> kAllowed = {"left", "right", "same", ""};
   for (std::size_t i = 0; i < answers.preferred.size(); ++i) {
     if (std::ranges::find(kAllowed, answers.preferred[i]) != kAllowed.end()) continue;
-    return Fail({file}, "preferred[{}]: '{}'; allowed: left, right, same, or nothing", i, answers.preferred[i]);
+    return Fail({file}, "preferred[{}]: '{}'; allowed: left, right, same, or an empty text", i, answers.preferred[i]);
   }
   for (const BlindAnswers& other : all) {
     if (other.page != answers.page || other.rater != answers.rater) continue;
-    return Fail({file}, "a second file of answers of '{}' to the page {}; allowed: one for each rater", answers.rater,
-                answers.page);
+    return Fail({file}, "is a second file with answers of '{}' to the page {}; allowed: one for each rater",
+                answers.rater, answers.page);
   }
   all.push_back(std::move(answers));
   return {};
@@ -76,7 +76,7 @@ Result<void> AddBlindFile(const std::string& text, const std::string& file, Blin
   if (json.is_object() && json.contains("format") && json["format"] == kKeyFormat) {
     ASSIGN_OR_RETURN(auto key, ReadRecord<BlindKey>(text, file));
     if (std::ranges::find(files.keys, key.page, &BlindKey::page) != files.keys.end()) {
-      return Fail({file}, "a second key of the page {}; allowed: one", key.page);
+      return Fail({file}, "is a second key of the page {}; allowed: one key", key.page);
     }
     files.keys.push_back(std::move(key));
     return {};
@@ -86,12 +86,13 @@ Result<void> AddBlindFile(const std::string& text, const std::string& file, Blin
 }
 
 Result<void> CheckBlindFiles(const BlindFiles& files) {
-  if (files.answers.empty()) return Fail({}, "no file of answers is given; the page saves them");
+  if (files.answers.empty()) return Fail({}, "no file of answers is given; raters save one in the page");
   for (const BlindAnswers& answers : files.answers) {
     const auto key = std::ranges::find(files.keys, answers.page, &BlindKey::page);
     if (key == files.keys.end()) {
-      return Fail({}, "'{}' answered the page {}, whose key is not given: the file {}.key.json in the run's folder blind",
-                  answers.rater, answers.page, answers.page);
+      return Fail(
+          {}, "'{}' answered the page {}, but its key is not given; add the file {}.key.json of the run's folder blind",
+          answers.rater, answers.page, answers.page);
     }
     if (answers.preferred.size() == key->pairs.size()) continue;
     return Fail({}, "'{}' gave {} answers to the page {}; allowed: {}, one for each pair", answers.rater,

@@ -120,7 +120,8 @@ Result<CaptureExtras> ToExtras(const SortedJson& json) {
   for (const SortedJson& camera : json.at("cameras")) {
     ASSIGN_OR_RETURN(auto view, ToView(camera));
     if (view.masks.size() != extras.brightness.size()) {
-      return Fail({}, "a capture recording with {} values of 'brightness', but {} masks of a camera",
+      return Fail({},
+                  "a capture recording has {} values of 'brightness', but {} masks of a camera; allowed: equal numbers",
                   extras.brightness.size(), view.masks.size());
     }
     extras.views.push_back(std::move(view));
@@ -130,7 +131,8 @@ Result<CaptureExtras> ToExtras(const SortedJson& json) {
     extras.moments.push_back(ToMoment(json_moment));
     const CaptureExtras::Moment& moment = extras.moments.back();
     if (moment.frame >= extras.brightness.size() || moment.marks.size() != extras.views.size()) {
-      return Fail({}, "a capture recording with a moment that does not fit its frames or cameras");
+      return Fail(
+          {}, "a capture recording has a moment whose frame does not exist, or whose marks do not match the cameras");
     }
   }
   extras.bvh = json.at("bvh");

@@ -43,7 +43,9 @@ Result<EvaluationExtras> ToExtras(const Json& json) {
   truth.parents = json.at("parents").get<std::vector<int>>();
   const auto joints = static_cast<int>(truth.joints.size());
   if (joints == 0 || truth.parents.size() != truth.joints.size() || !(truth.rate_hz > 0)) {
-    return Fail({}, "{} joints, {} parents and {} Hz; allowed: one joint or more, a parent for each, a rate above 0",
+    return Fail({},
+                "{} joints, {} parents and a frame rate of {} Hz; allowed: at least one joint, one parent for each "
+                "joint, a rate above 0",
                 joints, truth.parents.size(), truth.rate_hz);
   }
   for (const int parent : truth.parents) {

@@ -23,7 +23,7 @@ static void Describe(RecordFields& fields, TransitionExtras::Point& point) {
   fields.Tolerated("to", point.to, "the clip that is entered");
   fields.Tolerated("to_frame", point.to_frame, "the frame of that clip that is aligned with `from_frame`");
   fields.Tolerated("distance", point.distance, "fuzzy distance between the two frames");
-  fields.Tolerated("partials", point.partials, "by feature, S_k Δ_k², which sum to the distance's square");
+  fields.Tolerated("partials", point.partials, "for each feature, S_k Δ_k²; their sum is the square of the distance");
 }
 
 static void Describe(RecordFields& fields, TransitionExtras::Candidate& candidate) {
@@ -32,7 +32,8 @@ static void Describe(RecordFields& fields, TransitionExtras::Candidate& candidat
   fields.Required("to_frame", candidate.to_frame, "frame of the clip that is entered there");
   fields.Required("distance", candidate.distance, "fuzzy distance between the two frames");
   fields.Tolerated("partials", candidate.partials, "by feature, as the `partials` of a transition point");
-  fields.Tolerated("cost", candidate.cost, "the cost by which the choice ranks; null if that is the distance");
+  fields.Tolerated("cost", candidate.cost,
+                   "the cost by which the method ranks candidates; null if it ranks them by distance");
   fields.Tolerated("outcome", candidate.outcome, "`taken`, `too far`, `later` or `worse`");
 }
 
@@ -50,10 +51,10 @@ static void Describe(RecordFields& fields, TransitionExtras& extras) {
   fields.Tolerated("threshold", extras.threshold, "the threshold: frames match if their distance is below it");
   fields.Tolerated("natural_limit_cm", extras.natural_limit_cm, "the largest jump that counts as natural");
   fields.Tolerated("distance", extras.distance, "distance of the worst transition point");
-  fields.Tolerated("weights", extras.weights, "by feature, S_k");
+  fields.Tolerated("weights", extras.weights, "for each feature, its weight S_k");
   fields.Tolerated("partials", extras.partials, "partial distances of the worst transition point, by feature");
   fields.Tolerated("pairs_seen", extras.pairs_seen, "pairs of frames that the budget allowed");
-  fields.Tolerated("pairs_matched", extras.pairs_matched, "those that match");
+  fields.Tolerated("pairs_matched", extras.pairs_matched, "pairs of frames that match");
   fields.ToleratedList("transition_points", extras.points, "where the motion changed clips, in order");
   fields.Tolerated("cost_unit", extras.cost_unit, "unit of the candidates' `cost`; empty without costs");
   fields.ToleratedList("candidates", extras.candidates, "pairs of frames: the pair taken, and the best others");
@@ -67,19 +68,20 @@ static void Describe(RecordFields& fields, DetectionExtras::Target& target) {
 
 static void Describe(RecordFields& fields, DetectionExtras::Move& move) {
   fields.Required("name", move.name, "name of a taught move");
-  fields.List("key_poses", move.key_poses, "in their order, each a list of angles");
+  fields.List("key_poses", move.key_poses, "its key poses in order, each a list of angles");
 }
 
 static void Describe(RecordFields& fields, DetectionExtras::Event& event) {
   fields.Required("move", event.move, "the move asked for");
   fields.Required("truth", event.truth, "`right`, `grey` or `wrong`");
-  fields.Required("fault", event.fault, "`none`, or names");
+  fields.Required("fault", event.fault, "names of the faults, or `none`");
   fields.Required("danced", event.danced, "the move danced; empty if none");
-  fields.Required("begin_frame", event.begin_frame, "the first of its window");
+  fields.Required("begin_frame", event.begin_frame, "the first frame of its window");
   fields.Required("end_frame", event.end_frame, "the first frame after its window");
-  fields.Required("called_right", event.called_right, "whether the method praised it");
+  fields.Required("called_right", event.called_right, "whether the method judged it right");
   fields.Required("score", event.score, "the method's confidence that it was right");
-  fields.Optional("called_frame", event.called_frame, "the frame in which it was praised; absent if it was not");
+  fields.Optional("called_frame", event.called_frame,
+                  "the frame in which the method judged it right; absent if it did not");
 }
 
 static void Describe(RecordFields& fields, DetectionExtras::Alarm& alarm) {
@@ -105,11 +107,11 @@ static void Describe(RecordFields& fields, CoachExtras::Mode& mode) {
 
 static void Describe(RecordFields& fields, CoachExtras::Performance& performance) {
   fields.Required("move", performance.move, "the move asked for");
-  fields.Required("begin_frame", performance.begin_frame, "the first of its window");
+  fields.Required("begin_frame", performance.begin_frame, "the first frame of its window");
   fields.Required("end_frame", performance.end_frame, "the first frame after its window");
   fields.Required("truth", performance.truth, "`right`, `grey` or `wrong`");
-  fields.Required("faults", performance.faults, "`none`, or names");
-  fields.Required("called", performance.called, "`right`, `wrong` or `unjudged`, by the coach");
+  fields.Required("faults", performance.faults, "names of the faults, or `none`");
+  fields.Required("called", performance.called, "the coach's judgement: `right`, `wrong` or `unjudged`");
 }
 
 static void Describe(RecordFields& fields, CoachExtras::Words& words) {
@@ -148,7 +150,7 @@ static void Describe(RecordFields& fields, PlausibilityExtras::Fault& fault) {
 
 static void Describe(RecordFields& fields, PlausibilityExtras& extras) {
   fields.Required("floor_m", extras.floor_m, "height of the floor that the motion was judged by");
-  fields.List("faults", extras.faults, "by kind, then by time");
+  fields.List("faults", extras.faults, "the faults found, in order of kind, then of time");
 }
 
 std::string RecordingsAsMarkdown() {

@@ -22,7 +22,7 @@ std::vector<MethodRows> MethodsOf(const ReplayOptions& options, const PreparedRu
       rows.method = method.name;
       const bool asks = !method.exec.empty() || !one.scenario().outside_metrics.empty();
       if (scored && method.name == scored->name) {
-        rows.why_not = "they are answers that were scored, not run";
+        rows.why_not = "their answers were read from files and scored";
       } else if (options.without_programs && asks) {
         rows.why_not = "they run programs (--allow-exec allows it)";
       }

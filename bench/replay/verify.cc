@@ -58,7 +58,7 @@ Result<Verified> VerifySummary(const FilePath& folder, const FinishedRun& run, i
   // Numbers are written without rounding, so comparing the parsed values is exact.
   ASSIGN_OR_RETURN(const auto again, ReadJson(text, "the summary computed again"));
   const auto differences = CompareManifests(then, again);
-  verified.differences = {differences.empty() ? "is written differently" : InWords(differences)};
+  verified.differences = {differences.empty() ? "differs from the text that a run writes" : InWords(differences)};
   return verified;
 }
 
@@ -97,7 +97,7 @@ Result<std::set<fs::path>> FilesOfRun(const FilePath& folder, const FinishedRun&
 
 Result<Verified> VerifyFiles(const FilePath& folder, const FinishedRun& run) {
   ASSIGN_OR_RETURN(const auto allowed, FilesOfRun(folder, run));
-  Verified verified{"files: those that such a run writes", {}};
+  Verified verified{"files: only those that a run of this manifest writes", {}};
   std::error_code error;
   for (fs::recursive_directory_iterator entry(folder.given(), error), end; !error && entry != end;
        entry.increment(error)) {
@@ -132,7 +132,8 @@ Result<void> CompareLines(const FilePath& file, const std::function<Result<std::
   bool differs = false;
   return ForEachLine(file, [&](std::string_view line, const Place& place) -> Result<void> {
     ASSIGN_OR_RETURN(const auto wanted, line_of(line));
-    if (!differs && line != wanted) verified.differences.push_back(ToString(place) + " is written differently");
+    if (!differs && line != wanted)
+      verified.differences.push_back(ToString(place) + " differs from the text that a run writes");
     differs = differs || line != wanted;
     return {};
   });
@@ -162,7 +163,7 @@ Result<void> CompareTimings(const FilePath& file, std::span<const std::string> c
 /// Checks the text files for content that this program ignores but other programs may use: duplicate keys, and
 /// additional rows or curves.
 Result<Verified> VerifyText(const FilePath& folder, const FinishedRun& run) {
-  Verified verified{"texts: only those that this program reads", {}};
+  Verified verified{"texts: only lines and keys that this program reads", {}};
   // Keys must not occur twice.
   const bool has_columns = Exists(folder / kColumnsFolder);
   std::vector<FilePath> files = {folder / "manifest.json", folder / "host.json"};
@@ -235,7 +236,7 @@ Result<bool> AreSame(const FilePath& a, const FilePath& b) {
 /// Writes the columns again from the rows and compares the bytes. Without this check, a column could contain numbers
 /// that belong to no row, and other programs that read the column would use them.
 Result<Verified> VerifyColumns(const FilePath& folder, const FinishedRun& run) {
-  Verified verified{"columns: the same bytes as made from the rows", {}};
+  Verified verified{"columns: the same bytes as when made again from the rows", {}};
   std::size_t place = 0;
   for (const FinishedScenario& scenario : run.scenarios) {
     ASSIGN_OR_RETURN(const auto again, TemporaryFolder::Make("verify"));

@@ -77,7 +77,7 @@ Result<std::vector<Scenario>> ScenariosOf(const FilePath& folder) {
 
 Result<Verified> VerifyManifest(const FilePath& folder, const FinishedRun& run, const SuiteSetup& suite,
                                 std::span<const PreparedScenario> scenarios, const Json& programs) {
-  Verified verified{"manifest.json: as such a run writes it", {}};
+  Verified verified{"manifest.json: the same as a run of its scenarios writes", {}};
   ASSIGN_OR_RETURN(const auto then, ReadJsonFile(folder / "manifest.json"));
   ASSIGN_OR_RETURN(auto now, MakeManifest(suite, scenarios, run.data.program_version));
   // Some values may differ: copy them from the old manifest to the new manifest.
@@ -99,7 +99,7 @@ Result<Verified> VerifyManifest(const FilePath& folder, const FinishedRun& run, 
     keep(told.at(s), scenario, "platform");
     if (!ProgramsIn(parsed.at(s)).empty()) {
       if (!told.at(s).contains("programs")) {
-        verified.what += ", apart from its programs: an earlier etude, which recorded no versions of them, wrote it";
+        verified.what += ", except the versions of its programs, which the etude that wrote it did not record";
       } else {
         scenario["programs"] = (programs.is_null() ? told : programs.at("scenarios")).at(s).at("programs");
       }
@@ -114,10 +114,11 @@ Result<Verified> VerifyManifest(const FilePath& folder, const FinishedRun& run, 
   ASSIGN_OR_RETURN(const auto found, ReadWholeFile(folder / "manifest.json"));
   if (found != text + "\n") {
     const auto differences = CompareManifests(then, now);
-    verified.differences = {differences.empty() ? "is written differently" : InWords(differences)};
+    verified.differences = {differences.empty() ? "differs from the text that a run writes" : InWords(differences)};
   }
   for (const auto& [name, _] : suite.sources) {
-    if (!IsNamed(name, suite)) verified.differences.push_back(fmt::format("sources: nothing names '{}'", name));
+    if (!IsNamed(name, suite))
+      verified.differences.push_back(fmt::format("sources: no scenario and no other source names '{}'", name));
   }
   // The manifest's `own_metrics` are also in `now`, so the comparison above does not find superfluous ones. Report the
   // metrics that no scenario defines.
@@ -135,12 +136,12 @@ Result<Verified> VerifyManifest(const FilePath& folder, const FinishedRun& run, 
 
 Result<Verified> VerifyHost(const FilePath& folder) {
   const FilePath path = folder / "host.json";
-  Verified verified{"host.json: no keys but those that a run writes", {}};
+  Verified verified{"host.json: only keys that a run writes", {}};
   ASSIGN_OR_RETURN(const auto host, ReadJsonFile(path));
   CheckHost(host, path.string(), verified.differences);
   ASSIGN_OR_RETURN(const auto text, WriteJson(host));
   ASSIGN_OR_RETURN(const auto found, ReadWholeFile(path));
-  if (found != text + "\n") verified.differences.push_back(path.string() + " is written differently");
+  if (found != text + "\n") verified.differences.push_back(path.string() + " differs from the text that a run writes");
   return verified;
 }
 

@@ -134,7 +134,8 @@ Result<void> CheckRecordingHead(const Json& json, const Place& place) {
                 kRecordingVersion);
   }
   if (const Json& joints = json.at("joints"); joints != JointNames()) {
-    return Fail(place, "'joints': {}; allowed: Etude's twenty, in their order (docs/clips.md)", ShowJson(joints));
+    return Fail(place, "'joints': {}; allowed: the names of Etude's twenty joints, in their order (docs/clips.md)",
+                ShowJson(joints));
   }
   for (const auto& [key, allowed] : {std::pair{"unit", "m"}, {"up", "y"}}) {
     if (json.at(key) != allowed) return Fail(place, "'{}': {}; allowed: \"{}\"", key, ShowJson(json.at(key)), allowed);

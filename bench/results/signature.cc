@@ -179,7 +179,7 @@ Result<std::string> CheckSignature(const fs::path& folder, const std::string& pu
   const unsigned char* const holder = key.data() + 2 + kNumber;
   if (crypto_sign_verify_detached(signature.data() + 2 + kNumber, digest.data(), digest.size(), holder) != 0 ||
       crypto_sign_verify_detached(over_all.data(), all.data(), all.size(), holder) != 0) {
-    return Fail({path.string()}, "does not match: {} or it was changed", kSignedFile);
+    return Fail({path.string()}, "is not a valid signature of {}: one of the two files was changed", kSignedFile);
   }
   // The files must equal the signed ones; otherwise name the first file that differs.
   ASSIGN_OR_RETURN(const auto found, ListDigests(folder));

@@ -129,7 +129,8 @@ CellResult CellRunner::Thrown(const std::string& when, const std::exception& err
   if (ReadPeakMemoryMb() > limit_mb) {
     return CellResult::Ended(Status::kOutOfMemory, fmt::format("{}held more than {:g} MB of memory", when, limit_mb));
   }
-  why_not_run_ = fmt::format("the machine's memory ran out below the {:g} MB that the scenario allows", limit_mb);
+  why_not_run_ =
+      fmt::format("the machine's memory ran out before the worker held the {:g} MB that the scenario allows", limit_mb);
   return {};
 }
 

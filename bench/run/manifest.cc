@@ -125,7 +125,7 @@ Result<Json> DescribeLibraries() {
 }
 
 constexpr const char* kUnknownPrograms =
-    "it is unknown which versions of its outside programs ran: an earlier etude, which did not record them, wrote it";
+    "the versions of its outside programs are unknown: the etude that wrote it did not record them";
 
 /// Returns a part of `line` in quotes: about 60 bytes, beginning shortly before byte `at`.
 std::string ShowPart(const std::string& line, std::size_t at) {

@@ -33,7 +33,7 @@ Result<void> CheckManifest(const fs::path& folder, const JournalHead& head, bool
   ASSIGN_OR_RETURN(const auto now, ReadJsonFile(Inside(folder) / "manifest.json"));
   const std::vector<JsonDifference> found = CompareManifests(then, now);
   const Place place{folder.string()};
-  if (found.empty()) return Fail(place, "its manifest.json differs from the one with which it began");
+  if (found.empty()) return Fail(place, "its manifest.json was changed after the shard began");
   if (OfPrograms(found) == found) {
     return Fail(place, "ran other versions of outside programs than the shards before: {}; run it again (--overwrite)",
                 InWords(found));
@@ -60,7 +60,8 @@ Result<void> AddShard(const fs::path& folder, const std::string& build, bool oth
   }
   RETURN_IF_ERROR(CheckManifest(folder, head, other_libraries, shards));
   if (head.shard.count != shards.count) {
-    return Fail(place, "is shard {}, but the shards before are of {}", ToString(head.shard), shards.count);
+    return Fail(place, "is shard {}, but the shards before belong to a run of {} shards", ToString(head.shard),
+                shards.count);
   }
   const auto [other, is_new] = shards.folders.emplace(head.shard.index, folder);
   if (!is_new) return Fail(place, "is shard {}, but so is {}", ToString(head.shard), other->second.string());
@@ -84,12 +85,14 @@ Result<Shards> FindShards(const std::vector<std::string>& folders, bool other_li
     }
   }
   for (int index = 1; index <= shards.count; ++index) {
-    if (!shards.folders.contains(index)) shards.missing.push_back(ToString(Shard{index, shards.count}) + " is missing");
+    if (!shards.folders.contains(index))
+      shards.missing.push_back("shard " + ToString(Shard{index, shards.count}) + " is missing");
   }
   return shards;
 }
 
-/// Describes which cells a shard lacks, e.g. "2/4 in DIR lacks 3 of 40 cells, the first ik/…"; "" if it lacks none.
+/// Describes which cells a shard lacks, e.g. "shard 2/4 in DIR lacks 3 of 40 cells (the first is ik/…)"; "" if it lacks
+/// none.
 std::string WhatLacks(const Plan& plan, const Shard& shard, const fs::path& folder, const CellTable& cells) {
   std::size_t wanted = 0, lacking = 0;
   std::string first;
@@ -100,8 +103,8 @@ std::string WhatLacks(const Plan& plan, const Shard& shard, const fs::path& fold
     if (++lacking == 1) first = plan.IdentityOf(cell).Id();
   }
   if (lacking == 0) return "";
-  return fmt::format("{} in {} lacks {} of {} cells, the first {}", ToString(shard), folder.string(), lacking, wanted,
-                     first);
+  return fmt::format("shard {} in {} lacks {} of {} cells (the first is {})", ToString(shard), folder.string(), lacking,
+                     wanted, first);
 }
 
 }  // namespace

@@ -191,8 +191,10 @@ Result<void> CheckFiles(const PreparedScenario& scenario, const ScenarioProgram&
   std::error_code error;
   for (const std::string& file : program.entry->files) {
     if (Fence::HoldsScratch(Canonical(file))) {
-      return Fail({scenario.setup().file}, "'files' of {} '{}': '{}' holds a folder that programs write to",
-                  program.role, program.entry->name, file);
+      return Fail(
+          {scenario.setup().file},
+          "'files' of {} '{}': '{}' contains a folder to which programs write; allowed: files and other folders",
+          program.role, program.entry->name, file);
     }
     if (fs::exists(file, error)) continue;
     return Fail({scenario.setup().file}, "'files' of {} '{}': '{}' is not a file or folder", program.role,
@@ -235,10 +237,11 @@ Result<Fence> FenceFor(std::span<const PreparedScenario> scenarios, const Outsid
       // If worlds are secret, the sandbox must work, and the files that reveal the worlds must be hidden.
       if (!is_secret || !rules.is_fenced) continue;
       if (!fence.IsUp()) {
-        return Fail({scenario.setup().file},
-                    "its worlds are secret, but external methods cannot be fenced: {}; --no-fence runs them without a "
-                    "fence, which the page states",
-                    fence.description());
+        return Fail(
+            {scenario.setup().file},
+            "its worlds are secret, but its outside programs cannot be fenced: {}; --no-fence runs them without "
+            "one, and the run's page then says so",
+            fence.description());
       }
       RETURN_IF_ERROR(CheckShown(scenario, program, ViewOf(command, program.entry->files), folder, key));
     }

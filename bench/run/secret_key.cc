@@ -62,7 +62,9 @@ Result<void> OpenSeeds(const std::optional<SecretKey>& key, const Place& place, 
     if (!key || key->file.empty()) return {};
     return Fail(place, "has the plain seed {}; leave out --seed-file", suite.seed.number());
   }
-  if (!key) return Fail(place, "its worlds are secret: --seed-file names their key, of digest {}", Short(suite.seed));
+  if (!key)
+    return Fail(place, "its worlds are secret; give their key, whose digest is {}, with --seed-file",
+                Short(suite.seed));
   const Seed seed = Seed::Secret(key->words);
   if (seed.WithoutKey() != suite.seed.WithoutKey()) {
     return Fail(place, "its worlds belong to the key with digest {}, not to the key with digest {}", Short(suite.seed),

@@ -24,7 +24,8 @@ Result<std::map<std::string, std::string>> NamedTextsOf(const Condition& conditi
   std::map<std::string, std::string> named_texts;
   for (const NamedFile& file : FilesNamedBy(condition, kind)) {
     const auto text = texts.find(file.node->scalar);
-    if (text == texts.end()) return Fail(file.node->place, "the text of '{}' is missing", file.node->scalar);
+    if (text == texts.end())
+      return Fail(file.node->place, "the content of the file '{}' was not kept", file.node->scalar);
     named_texts[file.key] = text->second;
   }
   return named_texts;
@@ -196,7 +197,8 @@ Result<OpenOptions> OpenOptionsOf(const ScenarioSetup& setup, const SourceTexts&
   how.recorded = &MotionsOfRuns();
   if (setup.joint_map.empty()) return how;
   const auto text = texts.find(setup.joint_map);
-  if (text == texts.end()) return Fail({setup.file, 0, 0}, "the text of '{}' is missing", setup.joint_map);
+  if (text == texts.end())
+    return Fail({setup.file, 0, 0}, "the content of the file '{}' was not kept", setup.joint_map);
   ASSIGN_OR_RETURN(auto roles, ReadJointMapFile(text->second, setup.joint_map));
   how.roles = std::move(roles);
   return how;
@@ -232,7 +234,7 @@ Result<std::unique_ptr<LabelledStreams>> LoadRecordings(const ScenarioSetup& set
   LabelTexts labels;
   for (const std::string& file : setup.labels) {
     const auto text = texts.find(file);
-    if (text == texts.end()) return Fail({setup.file, 0, 0}, "the text of '{}' is missing", file);
+    if (text == texts.end()) return Fail({setup.file, 0, 0}, "the content of the file '{}' was not kept", file);
     labels[file] = text->second;
   }
   std::vector<NamedStream> streams = StreamsOf(clips);

@@ -82,7 +82,7 @@ class UsedKeys {
       if (how.repeats && IsRepeated(line, use)) continue;
       const auto text = [&](const char* name) { return line.at(name).get<std::string>(); };
       return Fail({key.file.string()},
-                  "was used before, and its worlds may be known: by 'etude {}' of '{}' into {} ({}:{}); allowed: a new "
+                  "was used before by 'etude {}' of '{}' into {} ({}:{}), so its worlds may be known; allowed: a new "
                   "key (head -c 32 /dev/urandom), or --reuse-key",
                   text("command"), text("suite"), text("folder"), path_.string(), i + 1);
     }
@@ -182,7 +182,7 @@ Result<void> NoteRepeat(const SecretKey& key, const KeyUse& use) {
   auto keys = UsedKeys::Open(list);
   if (!keys) {
     return Fail({list.string()},
-                "cannot be written, so it cannot be recorded that programs of this run saw worlds of the key; allowed: "
+                "cannot be written, so no file would record that this run's programs saw worlds of the key; allowed: "
                 "a key in a folder that you may write to");
   }
   return keys->HasKeyOf(line) ? Result<void>() : keys->Add(line);

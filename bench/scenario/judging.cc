@@ -135,7 +135,7 @@ FieldTable<Expectation> ExpectationFields(const Scenario& scenario, const std::v
            Key::Number("at_most", &Expectation::at_most, {}, "Upper bound of the statistic.").WhenAbsent(another),
            Key::Number("at_least", &Expectation::at_least, {}, "Lower bound of the statistic.").WhenAbsent(another),
            Key::Name("statistic", &Expectation::statistic, {{"median", "median"}, {"mean", "mean"}, {"p95", "p95"}},
-                     "The statistic that `at_most` and `at_least` bound."),
+                     "The statistic to which `at_most` and `at_least` apply."),
            Key::Number("confidence", &Expectation::confidence, {0.5, 0.999},
                        "The confidence that `below` and `above` need."),
            {{"where",
@@ -183,33 +183,35 @@ FieldTable<TailRule> TailFields() {
       {Key::Number("times", &TailRule::times, {1, 1e6},
                    "A world is far worse when it is worse by more than this many practical thresholds."),
        Key::Number("worlds", &TailRule::worlds, kWorlds,
-                   "This many far worse worlds of one comparison are a regression; 0: never."),
+                   "A comparison with at least this many far worse worlds is a regression; 0: never."),
        Key::Number("share", &TailRule::share, {0, 1},
                    "Minimum share of the compared worlds that must also be far worse, because among many worlds "
                    "rounding alone changes some."),
-       Key::Number("lost", &TailRule::lost, kWorlds,
-                   "This many worlds of one comparison that lost their value or answer are a regression; 0: never.")}};
+       Key::Number(
+           "lost", &TailRule::lost, kWorlds,
+           "A comparison in which at least this many worlds lost their value or answer is a regression; 0: never.")}};
 }
 
 FieldTable<GateRules> GateFields(const Scenario& scenario, const std::vector<std::string>& metrics) {
   using Key = Field<GateRules>;
-  return {{{{"metrics", ListKind("a list of metrics that the task reports", TextKind("")), "(success, `metrics`)",
-             "The metrics that are compared."},
-            [&scenario, metrics](Fields& gate, GateRules& rules) {
-              auto named = ReadMetricList(gate, scenario.task, metrics);
-              if (!named.empty()) rules.metrics = std::move(named);
-            }},
-           Key::Name("rule", &GateRules::exact, {{"threshold", false}, {"exact", true}},
-                     "threshold: only a difference that matters is a regression; exact: every difference is."),
-           {{"tail", MappingKind("a mapping", TailFields().Describe()), "{}",
-             "When single worlds that are far worse are a regression, even if the whole comparison is not; not with "
-             "`exact`."},
-            [](Fields& gate, GateRules& rules) { ReadNested(gate, "tail", TailFields(), rules.tail); }},
-           {{"time_ratios", ListKind("a list of ratios", MappingKind("", TimeRatioFields(scenario).Describe())), "[]",
-             "Bounds on ratios of processor times within the run."},
-            [&](Fields& gate, GateRules& rules) {
-              rules.time_ratios = ReadListed(gate, "time_ratios", "a time ratio", TimeRatioFields(scenario));
-            }}}};
+  return {
+      {{{"metrics", ListKind("a list of metrics that the task reports", TextKind("")),
+         "(the success metric and `metrics`)", "The metrics that are compared."},
+        [&scenario, metrics](Fields& gate, GateRules& rules) {
+          auto named = ReadMetricList(gate, scenario.task, metrics);
+          if (!named.empty()) rules.metrics = std::move(named);
+        }},
+       Key::Name("rule", &GateRules::exact, {{"threshold", false}, {"exact", true}},
+                 "threshold: only a difference that matters is a regression; exact: every difference is."),
+       {{"tail", MappingKind("a mapping", TailFields().Describe()), "{}",
+         "When single far worse worlds are a regression, even if the comparison as a whole is not; not allowed with "
+         "`rule: exact`."},
+        [](Fields& gate, GateRules& rules) { ReadNested(gate, "tail", TailFields(), rules.tail); }},
+       {{"time_ratios", ListKind("a list of ratios", MappingKind("", TimeRatioFields(scenario).Describe())), "[]",
+         "Bounds on ratios of processor times within the run."},
+        [&](Fields& gate, GateRules& rules) {
+          rules.time_ratios = ReadListed(gate, "time_ratios", "a time ratio", TimeRatioFields(scenario));
+        }}}};
 }
 
 }  // namespace etude

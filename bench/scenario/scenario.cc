@@ -54,7 +54,10 @@ std::vector<NamedClips> ReadLibraries(Fields& fields, const TaskKind& kind) {
   std::vector<NamedClips> read;
   for (const Node::Entry& entry : libraries->entries) {
     const auto clips = AsTexts(entry.value);
-    if (!IsPlainName(entry.key)) fields.Complain(entry.place, "'" + entry.key + "' is not a valid name of a library");
+    if (!IsPlainName(entry.key))
+      fields.Complain(entry.place, "'" + entry.key +
+                                       "' is not a valid library name; allowed: letters, digits, '_' and, after the "
+                                       "first, '-' and '.'; at most 80");
     if (!clips) fields.Complain(clips.error().place, clips.error().message);
     read.push_back({entry.key, clips.value_or(std::vector<std::string>{})});
   }
@@ -110,7 +113,7 @@ const FieldTable<StreamSource>& ReadingFields() {
           if (const auto body = fields.OptionalWhole("body", kBodies)) s.reading.body = static_cast<int>(*body);
         }},
        Key::Flag("levels", Path(&StreamSource::making, &StreamOptions::levels),
-                 "true: estimate the up axis and the floor; false: take the file's."),
+                 "true: estimate the up axis and the floor; false: use those of the file."),
        Key::Flag("reflects", Path(&StreamSource::making, &StreamOptions::reflects),
                  "true: negate X, for mirrored recordings.")}};
   return table;
@@ -163,9 +166,10 @@ const FieldTable<Scenario>& ScenarioFields() {
                   "a list of recordings of skeletons, patterns and folders (docs/streams.md)",
                   "Recordings that replace `clips` and simulated people, one trial each; `etude run --streams` "
                   "replaces them."),
-       Key::Text("labels", Path(&Scenario::streams, &StreamSource::labels), "a file, or a folder of tag streams",
-                 "Who did which move when, in `streams` or in `clips`; the people of `clips` then replace simulated "
-                 "people.")
+       Key::Text(
+           "labels", Path(&Scenario::streams, &StreamSource::labels), "a file, or a folder of tag streams",
+           "Who did which move at which time in `streams` or in `clips`; labelled people of `clips` replace simulated "
+           "people.")
            .WhenAbsent("(a recording is one performance, named by its file)"),
        {{"reading", MappingKind("a mapping", ReadingFields().Describe()), "{}", "How `streams` are read."},
         [](Fields& fields, Scenario& s) { ReadNested(fields, "reading", ReadingFields(), s.streams); }},
@@ -219,7 +223,8 @@ const FieldTable<Scenario>& ScenarioFields() {
           s.metrics = ReadHeadline(fields, kind, s.outside_metrics);
         })},
        {{"success", MappingKind("a mapping", SuccessFields({}).Describe()), "{}",
-         "What counts as success of a cell. An answer compares success first, then the first other headline metric."},
+         "What counts as success of a cell. The scenario's answer compares success first, then the first other "
+         "headline metric."},
         when_right([](Fields& fields, Scenario& s, const TaskKind& kind) {
           s.success = kind.success;
           ReadNested(fields, "success", SuccessFields(SuccessMetricsOf(kind, s)), s);
@@ -353,7 +358,7 @@ Result<std::vector<Scenario>> ReadScenarios(const std::string& file, SourceTexts
 Result<std::vector<Scenario>> ParseScenarios(const std::string& file, const SourceTexts& texts) {
   return ParseAll(file, [&](const std::string& path, const Place& asked_at) -> Result<std::string> {
     const auto text = texts.find(path);
-    if (text == texts.end()) return Fail(asked_at, "the text of '{}' is missing", path);
+    if (text == texts.end()) return Fail(asked_at, "the content of the file '{}' was not kept", path);
     return text->second;
   });
 }

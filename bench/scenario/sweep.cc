@@ -250,8 +250,8 @@ std::vector<Condition> ReadSweep(Fields& fields, const TaskKind& kind) {
       fields.Complain(sweep->place,
                       count > kMaxConditions
                           ? fmt::format("the sweep has more than {} conditions", kMaxConditions)
-                          : fmt::format("{} conditions of a scenario of {} values; allowed: at most {} values in all",
-                                        count, values, kMaxFileValues));
+                          : fmt::format("{} conditions, each with {} values; allowed: at most {} values in all", count,
+                                        values, kMaxFileValues));
       return conditions;
     }
     // Combine every condition so far with every point of this axis.

@@ -246,7 +246,7 @@ class Gate(EtudeCase):
         rows[5].update(status="timeout", reason="300 s")
         cells.write_text("".join(json.dumps(row) + "\n" for row in rows))
         text = self.gate(self.out, "--baseline", self.baseline, "--unsealed", expect=3)
-        self.assertIn("1 × timeout, a status that depends on the machine", text)
+        self.assertIn("1 × the status timeout, which depends on the machine", text)
         self.assertNotIn("worse", text)
 
     def test_bad_input_is_told_in_one_line(self):

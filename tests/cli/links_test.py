@@ -138,7 +138,7 @@ print("words", file=sys.stderr)
                     answer.parent.mkdir(parents=True, exist_ok=True)
                     link(answer, truth)
                 done = self.ends(2, "score", data, answers, "-o", self.folder / "scored")
-                self.assertIn("ik/joint_noise_deg=2/000.json is a link; allowed: answers that are files of their own",
+                self.assertIn("ik/joint_noise_deg=2/000.json is a link; allowed: regular files that are not links",
                               done.stderr)
                 self.assertFalse((self.folder / "scored").exists())
                 shutil.rmtree(answers)

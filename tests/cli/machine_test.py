@@ -90,7 +90,7 @@ class Machine(EtudeCase):
             codes.append(ended.returncode)
             self.assertIn(ended.returncode, (0, 3), ended.stderr)
             if "not run" in ended.stderr:
-                self.assertRegex(ended.stderr, "the machine's memory ran out below the 4096 MB that the scenario allows|could not continue")
+                self.assertRegex(ended.stderr, "the machine's memory ran out before the worker held the 4096 MB that the scenario allows|could not continue")
                 self.assertFalse((self.out / "cells.jsonl").exists())
             self.run_suite(self.capture, "--resume")
             self.assert_same_results(whole, self.out)
@@ -141,7 +141,7 @@ class Machine(EtudeCase):
             ("TMPDIR is not there", self.outside, "not a folder for temporary files", {"environment": {"TMPDIR": "/nonexistent"}}),
             ("TMPDIR is a file", self.outside, "not a folder for temporary files",
              {"environment": {"TMPDIR": str(self.folder / "file")}}),
-            ("TMPDIR cannot be written", self.outside, "TMPDIR=/proc: takes no temporary files",
+            ("TMPDIR cannot be written", self.outside, "TMPDIR=/proc: temporary files cannot be written there",
              {"environment": {"TMPDIR": "/proc"}}),
             ("TMPDIR is relative", self.outside, "begins with /", {"environment": {"TMPDIR": "relative"}, "cwd": self.folder}),
             ("TMPDIR is full", self.outside, "File too large", {"before": limit(resource.RLIMIT_FSIZE, 0)}),

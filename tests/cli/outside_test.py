@@ -156,8 +156,8 @@ class OutsideMethods(EtudeCase):
         for command, code, words in [
                 ([EXAMPLES / "ik_dls.py"], 0, "9 of 9 checks passed"),
                 ([HOSTILE, "crashes"], 1, "FAILED  gives answers that can be scored: crashed: ended with signal 11"),
-                ([self.radians()], 1, "FAILED  solves the problems that a simple method solves: solves none of 3; damped-least-squares "
-                 "solves 3; if its angles are radians, they solve 3: degrees are needed"),
+                ([self.radians()], 1, "FAILED  solves the problems that a simple method solves: solves none of 3 problems; damped-least-squares "
+                 "solves 3; read as radians, its angles solve 3, but angles must be in degrees"),
                 ([HOSTILE, "answers_twice", json.dumps({"angles_deg": [0] * 29})], 1, "FAILED  answers every question once")]:
             result = self.etude("check-method", "--task", "ik", "--", "python3", *command)
             self.assertEqual(result.returncode, code, result.stdout + result.stderr)

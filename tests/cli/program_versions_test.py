@@ -125,7 +125,7 @@ metrics: [position_error_cm, {{name: rate, exec: [python3, {self.folder}/ours/me
         self.ends(0, "merge", *self.shards, "-o", self.out)
         for folder in (*self.shards, self.out):
             self.forget_programs(folder)
-        reason = "an earlier etude, which did not record them, wrote it"
+        reason = "the etude that wrote it did not record them"
         self.refusal("merge", *self.shards, "-o", self.folder / "mixed", says=reason, leaves=self.folder / "mixed")
         said = self.run_shard(2, "--resume")
         self.assertEqual(said.returncode, 2)
@@ -133,7 +133,7 @@ metrics: [position_error_cm, {{name: rate, exec: [python3, {self.folder}/ours/me
         self.refusal("run", "--from", self.out / "manifest.json", "-o", self.folder / "again", "--allow-exec",
                      "--no-fence", says=reason, leaves=self.folder / "again")
         read = self.etude("verify", self.out, "--allow-exec", "--no-fence").stdout
-        self.assertIn("apart from its programs: an earlier etude, which recorded no versions of them, wrote it", read)
+        self.assertIn("except the versions of its programs, which the etude that wrote it did not record", read)
         self.assertNotIn("differs  manifest.json", read)
 
     def test_every_kind_of_program_is_named(self):

@@ -116,7 +116,7 @@ class SecretWorlds(EtudeCase):
         self.assertIn('seed was "secret ' + self.digest[:8], self.refuse(*resume, "--seed-file", self.other))
         self.ends(0, *resume, "--seed-file", self.key)
         for command in (["replay", self.out], ["run", "--from", self.out / "manifest.json", "-o", self.folder / "from"]):
-            self.assertIn(f"its worlds are secret: --seed-file names their key, of digest {self.digest[:16]}…",
+            self.assertIn(f"its worlds are secret; give their key, whose digest is {self.digest[:16]}…",
                           self.refuse(*command))
             self.assertIn("its worlds belong to the key with digest " + self.digest[:16],
                           self.refuse(*command, "--seed-file", self.other))
@@ -197,7 +197,7 @@ class SecretWorlds(EtudeCase):
         self.run_suite(self.scenario, *asked)
         self.assertEqual([line["command"] for line in used()], ["run"])
         self.assertEqual(pathlib.Path(f"{key}.used").stat().st_mode & 0o777, 0o600)
-        says = f"own-key: was used before, and its worlds may be known: by 'etude run' of 'ik' into {self.out} ({key}.used:1)"
+        says = f"own-key: was used before by 'etude run' of 'ik' into {self.out} ({key}.used:1), so its worlds may be known"
         again = self.folder / "again"
         for command in (["run", self.scenario, "-o", again], ["export", self.scenario, "-o", again],
                         ["run", self.scenario, "-o", again, "--resume"], ["run", self.scenario, "-o", again, "--shard", "1/2"],
@@ -319,7 +319,7 @@ class SecretWorlds(EtudeCase):
         self.run_suite(scenario)
         self.run_suite(scenario, "--seed-file", self.key, "--reuse-key", "--no-fence", out=self.folder / "unfenced")
         for folder, says in ((self.out, "seed 1, open worlds"), (self.run_folder, f"secret worlds, key {self.digest[:16]}…, other worlds under every condition"),
-                             (self.folder / "unfenced", f"secret worlds, key {self.digest[:16]}…, other worlds under every condition, programs in no fence")):
+                             (self.folder / "unfenced", f"secret worlds, key {self.digest[:16]}…, other worlds under every condition, programs ran without a fence")):
             self.ends(0, "report", folder, "--no-video")
             self.assertIn(f"<dd>{says}</dd>", (folder / "report" / "index.html").read_text())
             self.assertIn(says + ".\n", self.etude("compare", folder, folder).stdout)

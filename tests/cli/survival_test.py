@@ -208,7 +208,7 @@ class Survival(EtudeCase):
         run.wait()
         self.ends(0, "run", self.scenario, "-o", two, "--shard", "2/2")
         early = self.ends(2, "merge", one, two, "-o", self.out)
-        self.assertRegex(early.stderr, r"not all 2 shards exist and are finished .*: 1/2 in \S+ lacks \d+ of 80 cells, the first ik/")
+        self.assertRegex(early.stderr, r"not all 2 shards exist and are finished .*: shard 1/2 in \S+ lacks \d+ of 80 cells \(the first is ik/")
         self.assertFalse(self.out.exists())
         self.ends(0, "run", self.scenario, "-o", one, "--shard", "1/2", "--resume")
         self.ends(0, "merge", one, two, "-o", self.out)
@@ -222,7 +222,7 @@ class Survival(EtudeCase):
                                   ([*folders[:2], folders[1]], "is shard 2/3, but so is"),
                                   ([*folders[:2], other], "is a shard of a different run than"),
                                   ([*folders, self.whole], "is already a whole run, not a shard"),
-                                  ([*folders[:2], self.folder / "none"], "none holds no shard; 3/3 is missing")):
+                                  ([*folders[:2], self.folder / "none"], "none holds no shard; shard 3/3 is missing")):
             self.refusal("merge", *shards, "-o", self.out, says=complaint, leaves=self.out)
 
     def test_a_manifest_repeats_its_run(self):

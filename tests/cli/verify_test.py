@@ -59,8 +59,8 @@ class Verify(EtudeCase):
 
     def test_a_run_that_nobody_touched_agrees_line_by_line(self):
         text = self.verify(expect=0)
-        for said in ("seal.json", "rows: exactly those", "files: those that", "texts: only those", "host.json: no keys",
-                     "manifest.json: as such a run writes it", "worlds: every row",
+        for said in ("seal.json", "rows: exactly those", "files: only those that", "texts: only lines and keys", "host.json: only keys",
+                     "manifest.json: the same as a run of its scenarios writes", "worlds: every row",
                      "summary.json: the same when computed again from 24 rows",
                      "20 of 20 cells and 4 that left a recording, run again", "report: "):
             self.assertRegex(text, f"(?m)^agrees   .*{re.escape(said)}")
@@ -108,7 +108,7 @@ class Verify(EtudeCase):
                 forge(manifest, '"schema":', '"suite":"x","schema":'),
                 forge(self.out / "cells.jsonl", '"trial":0', '"our_error":0,"trial":0'),
                 curves.write_text(curves.read_text() + curves.read_text().splitlines()[0] + "\n")], "texts",
-             "'suite' appears twice.*cells.jsonl:1 is written differently.*ik.jsonl:25 is written differently"),
+             "'suite' appears twice.*cells.jsonl:1 differs from the text that a run writes.*ik.jsonl:25 differs from the text that a run writes"),
             ("a page", lambda: forge(self.out / "report" / "index.html", "Is it true?", "Is it so?"), "report", "index.html"),
             ("a style", lambda: forge(self.out / "report" / "index.html", "</body>", "<style>main{display:none}</style></body>"), "report",
              "index.html differs from what the run gives"),
@@ -121,14 +121,14 @@ class Verify(EtudeCase):
             ("a key of the manifest", lambda: forge(manifest, '"metrics":{', '"metrics":{"ours":7,'), "manifest.json", "metrics.ours was 7"),
             ("a metric", lambda: forge(manifest, '"packages":', f'"own_metrics":[{json.dumps(metric, separators=(",", ":"))}],"packages":'),
              "manifest.json", "own_metrics: no scenario has 'ours'"),
-            ("a time", lambda: forge(times, '{"', '{"ours":1,"'), "texts", "timings.jsonl:1 is written differently"),
+            ("a time", lambda: forge(times, '{"', '{"ours":1,"'), "texts", "timings.jsonl:1 differs from the text that a run writes"),
             ("times of no cell", lambda: times.write_text(times.read_text() + times.read_text().splitlines()[0] + "\n"), "texts",
-             "timings.jsonl:25 is written differently"),
+             "timings.jsonl:25 differs from the text that a run writes"),
             ("a key of the machine", lambda: forge(host, '"jobs":', '"is_fast":true,"jobs":'), "host.json", "no run writes 'is_fast'"),
             ("a figure of the machine", lambda: forge(host, '"jobs":', '"jobs":"no","shards":[{}],"wall_seconds":'), "host.json",
-             r"'jobs' is .*shards\[0\]: 'host' is missing.*written differently"),
+             r"'jobs' is .*shards\[0\]: 'host' is missing.*differs from the text that a run writes"),
             ("a platform", lambda: forge(manifest, '"trials":', '"platform":"ours","trials":'), "manifest.json", "platform was"),
-            ("a source", lambda: forge(manifest, '"sources":{', '"sources":{"ours":"best",'), "manifest.json", "nothing names 'ours'"),
+            ("a source", lambda: forge(manifest, '"sources":{', '"sources":{"ours":"best",'), "manifest.json", "no scenario and no other source names 'ours'"),
             ("a table", lambda: forge(self.out / "report" / "tables" / "ik.csv", "fixed", "fixes"), "report", "ik.csv"),
         ]
 

@@ -57,7 +57,8 @@ Result<void> RefuseLinks(const std::string& reference, std::span<const std::stri
     fs::path path = Split(file).path;
     for (std::ptrdiff_t i = 0; i < found_parts; ++i, path = path.parent_path()) {
       if (!fs::is_symlink(fs::symlink_status(path, error))) continue;
-      return Fail(place, "'{}' is a link; allowed: answers that are files of their own, or that are named one by one",
+      return Fail(place,
+                  "'{}' is a link; allowed: regular files that are not links, or files that are named one by one",
                   path.string());
     }
   }

@@ -117,8 +117,8 @@ TEST_F(Predictions, ThatAreLinksOrNoFilesAreBrokenAndNotOpened) {
   fs::create_symlink(folder_.path() / "truth.json", folder_.path() / "answers/.note");
   ASSERT_OK(files, Find({}));
   EXPECT_THAT(faults_.broken,
-              ElementsAre("ik/joint_noise_deg=2/001.json is a link; allowed: answers that are files of their own",
-                          "ik/joint_noise_deg=5 is a link; allowed: answers that are files of their own"));
+              ElementsAre("ik/joint_noise_deg=2/001.json is a link; allowed: regular files that are not links",
+                          "ik/joint_noise_deg=5 is a link; allowed: regular files that are not links"));
   EXPECT_TRUE((*files)[0]);
   EXPECT_FALSE((*files)[1]);
   EXPECT_FALSE((*files)[2]);

@@ -97,7 +97,7 @@ TEST(SelfTest, SaysWhenAScenarioGivesItNothingToInjectInto) {
                           "gate: {metrics: [solved_practical]}\n");
       },
       1);
-  EXPECT_THAT(ToString(report.error()), HasSubstr("no gated metric is a median with a direction"));
+  EXPECT_THAT(ToString(report.error()), HasSubstr("no metric of the gate is a median with a direction"));
 }
 
 }  // namespace

@@ -88,7 +88,7 @@ TEST(FieldTable, SaysWhereSomethingIsWrongAndWhatIsAllowed) {
   EXPECT_THAT(Read("{place: Ulm, cluods: 1}").complaint, HasSubstr("unknown key of a weather 'cluods'"));
   EXPECT_EQ(Read("{place: Ulm, clouds: 0, oddities: [hail]}").complaint, "w.yaml:1:1: hail needs a cloud");
   EXPECT_EQ(Read("{place: Ulm, gust: 7}").complaint,
-            "w.yaml:1:20: wind 'none' (the default) has no 'gust'; allowed with wind: strong");
+            "w.yaml:1:20: wind 'none' (the default) has no key 'gust'; this key is allowed with wind: strong");
 }
 
 TEST(FieldTable, RefusesAKeyWhoseChooserMayNotStandItself) {
@@ -101,8 +101,10 @@ TEST(FieldTable, RefusesAKeyWhoseChooserMayNotStandItself) {
     return testing::Refusal(ReadMapping(*node, "a weather", table));
   };
   EXPECT_EQ(read("{fog: true, gust: 1}"), "accepted");
-  EXPECT_EQ(read("{gust: 1}"), "w.yaml:1:8: fog 'false' (the default) has no 'gust'; allowed with fog: true");
-  EXPECT_EQ(read("{fog: true, clouds: 4, gust: 1}"), "w.yaml:1:30: clouds '4' has no 'gust'; allowed with clouds: 3");
+  EXPECT_EQ(read("{gust: 1}"),
+            "w.yaml:1:8: fog 'false' (the default) has no key 'gust'; this key is allowed with fog: true");
+  EXPECT_EQ(read("{fog: true, clouds: 4, gust: 1}"),
+            "w.yaml:1:30: clouds '4' has no key 'gust'; this key is allowed with clouds: 3");
 }
 
 TEST(FieldTable, TellsItsKeysWithTheDefaultsOfTheStruct) {
@@ -178,9 +180,9 @@ TEST(SettingFields, AreRefusedElsewhereWithTheNamesOfAllThatHaveThem) {
             "j.yaml:1:21: 'gain': 2 is out of range; allowed: 3 to 9");
   EXPECT_EQ(ToString(ReadJob("{gain: 3}").error()), "j.yaml:1:8: 'gain': 3 is out of range; allowed: 0 to 2");
   EXPECT_EQ(ToString(ReadJob("{tool: file, gain: 2}").error()),
-            "j.yaml:1:20: tool 'file' has no 'gain'; allowed with tool: saw, drill");
+            "j.yaml:1:20: tool 'file' has no key 'gain'; this key is allowed with tool: saw, drill");
   EXPECT_EQ(ToString(ReadJob("{tool: drill, teeth: 2}").error()),
-            "j.yaml:1:22: tool 'drill' has no 'teeth'; allowed with tool: saw, rasp");
+            "j.yaml:1:22: tool 'drill' has no key 'teeth'; this key is allowed with tool: saw, rasp");
   EXPECT_THAT(ToString(ReadJob("{teeth: 2.5}").error()), HasSubstr("'teeth' must be a whole number, found 2.5"));
 }
 

@@ -78,7 +78,7 @@ TEST(Conformance, HEAVY_PassesWhoAnswersThatItSeesNothing) {
   const auto [passed, checks] = Examine("capture", {"python3", "tests/bench/outside/hostile.py", "is_good", blind});
   ASSERT_TRUE(passed) << ToString(passed.error());
   EXPECT_TRUE(*passed);
-  EXPECT_THAT(checks.at(1).found, HasSubstr("0 of 3 scored as solved"));
+  EXPECT_THAT(checks.at(1).found, HasSubstr("0 of 3 answers solve their problem"));
 }
 
 struct Misfit {

@@ -124,14 +124,13 @@ INSTANTIATE_TEST_SUITE_P(
                   R"(wrote something that is not JSON: 'loading model \x1b[1m100%\x1b[0m')"},
         Hostility{"answers_nan", Status::kBadOutput, "wrote something that is not JSON near byte 68: '"},
         Hostility{"answers_beyond_doubles", Status::kBadOutput, "wrote a number that is too large: '"},
-        Hostility{"answers_deeply", Status::kBadOutput,
-                  "wrote something nested more than 32 levels deep: '[[[["},
+        Hostility{"answers_deeply", Status::kBadOutput, "wrote something nested more than 32 levels deep: '[[[["},
         Hostility{"answers_a_key_twice", Status::kBadOutput, "wrote the key 'number' twice in one object: '"},
         Hostility{"answers_bytes", Status::kBadOutput, "wrote something that is not JSON: "},
         Hostility{"answers_behind_a_zero_byte", Status::kBadOutput, "wrote something that is not JSON: a zero byte"},
         Hostility{"answers_without_end", Status::kBadOutput, "wrote a line of more than 16 MiB: 'xxx"},
         Hostility{"answers_another_question", Status::kBadOutput, "answered 'another' when asked 'p"},
-        Hostility{"answers_a_list", Status::kBadOutput, "its 'answer' has no object \"answer\": "},
+        Hostility{"answers_a_list", Status::kBadOutput, "its message 'answer' has no object with the key \"answer\": "},
         Hostility{"eats_memory", Status::kOutOfMemory, "held more than 200 MB of memory"},
         Hostility{"lets_a_child_eat_memory", Status::kOutOfMemory, "held more than 200 MB of memory"},
         Hostility{"leaves_a_child_at_its_output", Status::kFailed, "ended with exit code 5"},
@@ -228,7 +227,7 @@ TEST(OutsideMethod, AStartThatFailsThreeTimesIsNotTriedAgain) {
     EXPECT_FALSE(reply.was_asked) << "it never replied to its handshake: the set-up is the cause";
     EXPECT_EQ(reply.reason,
               "in its start: ended with exit code 1; its last words: 'no licence found' "
-              "(a fence shows it the system and what its key 'files' lists)");
+              "(inside a fence, it can read only the system's files and what its key 'files' lists)");
   }
   EXPECT_EQ(ReadText(starts), "started\nstarted\nstarted\n");
 }
@@ -460,7 +459,7 @@ TEST(LiveSession, ABeginningIsRepliedToWithReady) {
   OutsideMethod method(Behaving("answers_the_beginning"));
   const OutsideReply reply = Begin(method);
   EXPECT_EQ(reply.status, Status::kBadOutput);
-  EXPECT_THAT(reply.reason, StartsWith("wrote no 'ready': "));
+  EXPECT_THAT(reply.reason, StartsWith("did not write the message 'ready': "));
 }
 
 }  // namespace
