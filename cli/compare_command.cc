@@ -56,7 +56,7 @@ Result<int> CompareCommand(const std::string& a, const std::string& b, Sealing s
   PrintList("Only in A:", comparison.only_before);
   PrintList("Only in B:", comparison.only_after);
   PrintList("Not comparable because the worlds differ:", incomparable);
-  PrintList("Methods with other settings:", comparison.settings_changed);
+  PrintList("Methods whose settings differ:", comparison.settings_changed);
   fmt::print("{}\n", CompareSentence(comparison));
   for (const std::string& line : systems) fmt::print("{}\n", line);
   if (!run_b.data.fence.empty() || !run_b.data.key_digest.empty()) {

@@ -28,7 +28,7 @@ void PrintFaults(const char* what, const std::vector<std::string>& faults) {
 
 int ComplainOfFaults(const ScoreOptions& options, const PredictionFaults& faults) {
   PrintFaults("missing:", faults.missing);
-  PrintFaults("extra, without a problem:", faults.extra);
+  PrintFaults("extra, because there is no such problem:", faults.extra);
   PrintFaults("more than one answer to a problem:", faults.duplicate);
   PrintFaults("broken:", faults.broken);
   const bool only_missing = faults.extra.empty() && faults.duplicate.empty() && faults.broken.empty();
@@ -36,7 +36,7 @@ int ComplainOfFaults(const ScoreOptions& options, const PredictionFaults& faults
       {{options.predictions, 0, 0},
        fmt::format("nothing was scored: {} answers are missing, {} extra, {} duplicate, {} broken{}",
                    faults.missing.size(), faults.extra.size(), faults.duplicate.size(), faults.broken.size(),
-                   only_missing ? "; --allow-missing counts a missing one as a failure" : "")});
+                   only_missing ? "; --allow-missing counts a missing answer as a failure" : "")});
 }
 
 int ExportAll(const ExportOptions& options) {

@@ -40,8 +40,9 @@ std::string InUnit(const ScenarioForecast& one, double deviations) {
   const MetricInfo* metric = FindMetric(one.metric);
   if (metric == nullptr || one.spread <= 0) return "";
   const MetricWords words = WordsFor(one.metric);
-  return fmt::format(", about {} of {} ({:g}{} matters)", ShortDifference(deviations * one.spread, words), words.label,
-                     metric->practical * words.scale, words.is_share ? " pp" : words.difference_suffix);
+  return fmt::format(", about {} of {} (a difference of {:g}{} matters)",
+                     ShortDifference(deviations * one.spread, words), words.label, metric->practical * words.scale,
+                     words.is_share ? " pp" : words.difference_suffix);
 }
 
 /// Prints a forecast. Returns true if it names a difference that the run would find.
@@ -57,11 +58,12 @@ bool Print(const ScenarioForecast& one) {
   const std::string_view shows = one.comparisons == 1 ? "shows" : "show";
   const int for_values = PairsNeeded(one.comparisons, kAlpha);
   if (worlds < one.needed) {
-    fmt::print("  on these worlds: neither better nor worse is possible with fewer than {}; there are {}\n",
+    fmt::print("  on these worlds: no method can be judged better or worse with fewer than {}; there are {}\n",
                CountUnits(one.needed, world), worlds);
   } else if (worlds < for_values) {
     fmt::print(
-        "  on these worlds: with fewer than {}, values cannot show better or worse in {}; success or the tail can\n",
+        "  on these worlds: with fewer than {}, the values of metrics cannot show which method is better in {}; "
+        "successes or the worst worlds can\n",
         CountUnits(for_values, world), among);
   } else {
     const double least = MinDetectableDifference(worlds, one.comparisons);

@@ -61,8 +61,8 @@ Result<std::vector<NamedResult>> ReadColumns(const std::string& file) {
 Result<std::string> ScenarioOfPairs(const EvaluateOptions& options) {
   const bool has_pairs = !options.pairs.empty();
   if (has_pairs != options.files.empty() || options.files.size() == 1) {
-    return Fail({},
-                "etude evaluate needs a truth and results, or --pairs FILE.csv; without a truth, --alone and motions");
+    return Fail(
+        {}, "etude evaluate needs a truth and results, or --pairs FILE.csv, or, without a truth, motions and --alone");
   }
   ASSIGN_OR_RETURN(const auto results,
                    has_pairs ? ReadColumns(options.pairs) : ReadResults(std::span(options.files).subspan(1)));
@@ -249,8 +249,8 @@ void DefineEvaluate(CLI::App& app, const std::string& command_line, Action& acti
       "--floor", options->alone.floor_m,
       "With --alone: height of the floor, metres (default: 0; found from the feet if the motion is far from 0)");
   command->add_option("--limits", options->alone.limits,
-                      "With --alone: the largest allowed values, a file or 'recorded'; exit code 1 if a clip exceeds "
-                      "one or cannot be judged");
+                      "With --alone: a file of the largest allowed values, or 'recorded' for the file that comes with "
+                      "etude; exit code 1 if a clip exceeds one of them or cannot be judged");
   command->add_option("--pairs", options->pairs,
                       "Instead of files: a CSV table of pairs with a column truth, a column for each method and, "
                       "optionally, a column name");
@@ -258,7 +258,7 @@ void DefineEvaluate(CLI::App& app, const std::string& command_line, Action& acti
                       "Which joints are compared: roles (those with the same role; the default), same (the same name), "
                       "or a set (etude list keys)");
   command->add_option("--people", options->people,
-                      "A pattern of file names that shows which part is the person, such as '{person}_*'");
+                      "A pattern of file names that shows which part of a name names the person, such as '{person}_*'");
   command
       ->add_option("--lag", options->lag,
                    "find: judge a second time, after the time shift between truth and result was found and removed")

@@ -124,7 +124,9 @@ void DefineForecast(CLI::App& app, const std::string& command_line, Action& acti
       ->capture_default_str();
   command->add_option("--rig-up", options->place.up, "The rig's axis that points up: x, y, z, -x, -y, -z, or auto")
       ->capture_default_str();
-  command->add_option("--floor", options->place.floor, "The height in m that becomes 0, or auto (the rig's)")
+  command
+      ->add_option("--floor", options->place.floor,
+                   "What becomes height 0: a height in m, or auto (the rig's own height 0)")
       ->capture_default_str();
   // Define the volume in which people move.
   command->add_option("--size", asked->size, "Width (x), height and depth (z) of the volume, m")
@@ -140,7 +142,7 @@ void DefineForecast(CLI::App& app, const std::string& command_line, Action& acti
       ->check(NumberWithin(-1000, 1000, "place in m"));
   command
       ->add_option("--room", asked->room,
-                   "Width (x), height and depth (z) of the room around this middle, m: where one more camera may stand "
+                   "Width (x), height and depth (z) of the room around --middle in which one more camera may stand, m "
                    "(default: the smallest box with the cameras and the volume)")
       ->delimiter(',')
       ->expected(3)
@@ -150,8 +152,9 @@ void DefineForecast(CLI::App& app, const std::string& command_line, Action& acti
       command->add_option("--noise-px", options->errors.noise_px, "Standard deviation of keypoints along each axis, px")
           ->check(NumberWithin(0.001, 1000, "deviation in px"))
           ->capture_default_str();
-  auto* films = command->add_option("--films", options->take.films,
-                                    "Films of any take with this rig, from which to measure the deviation");
+  auto* films =
+      command->add_option("--films", options->take.films,
+                          "Films of any take with this rig: measure the keypoints' deviation (--noise-px) in them");
   auto* keypoints = command
                         ->add_option("--keypoints", options->take.keypoints,
                                      "With --films: a folder with keypoints for each film, as for `etude capture`")
@@ -169,7 +172,7 @@ void DefineForecast(CLI::App& app, const std::string& command_line, Action& acti
       ->check(OneOf({"none", "letterbox", "stretch", "crop"}))
       ->needs(keypoints)
       ->capture_default_str();
-  command->add_option("--dropout", options->errors.dropout, "Share of its pictures in which a camera gives no keypoint")
+  command->add_option("--dropout", options->errors.dropout, "Share of a camera's pictures that give no keypoint")
       ->check(NumberWithin(0, 0.9, "share"))
       ->capture_default_str();
   command

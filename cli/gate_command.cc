@@ -227,7 +227,7 @@ void DefineGate(CLI::App& app, Action& action) {
                                ->add_flag("--self-test", options->self_test,
                                           "Measure how often the gate raises false alarms and misses differences")
                                ->excludes(baseline);
-  command->add_option("--repetitions", options->repetitions, "Self-test: pairs of seeds")
+  command->add_option("--repetitions", options->repetitions, "Self-test: number of pairs of seeds")
       ->check(CLI::Range(1, 100000))
       ->capture_default_str()
       ->needs(self_test);

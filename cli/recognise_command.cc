@@ -168,7 +168,7 @@ Result<void> Print(const LabelScores& scores, bool as_json) {
   const auto called = std::ranges::count_if(performances, &JudgedEvent::called_right);
   if (right == 0 || right == std::ssize(performances)) {
     // Without right or without wrong performances, F1, precision and AUC say nothing.
-    fmt::print(stderr, "{} performances, {} right by the labels: {} called right\n", performances.size(),
+    fmt::print(stderr, "{} performances, {} right by the labels; the recogniser called {} right\n", performances.size(),
                right == 0 ? "none" : "all", called);
   } else {
     fmt::print(stderr, "{} performances: F1 {}, precision {}, recall {}, AUC {}\n", performances.size(),

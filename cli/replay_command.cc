@@ -33,7 +33,7 @@ struct ReplayCommandOptions {
 };
 
 void PrintDifference(const CellCheck& check) {
-  fmt::print("differs: {}\n  first at {}: {} then, {} now\n", check.cell, check.stage, check.then, check.now);
+  fmt::print("differs: {}\n  first at {}: {} in the run, {} now\n", check.cell, check.stage, check.then, check.now);
 }
 
 /// A metric's value in a baseline, and the metric's present value in the same cell.

@@ -79,8 +79,9 @@ Result<int> BlindPageCommand(const std::string& folder, BlindOptions options, Se
   const FilePath key_file = Inside(folder) / "blind" / (key.page + ".key.json");
   RETURN_IF_ERROR(WriteFileAtomically(key_file, WriteBlindKey(key)));
   RETURN_IF_ERROR(WriteFileAtomically(page, page_html));
-  fmt::print("{} of {} recorded worlds; {} left out, where a method made no transition. Do not show raters the key.\n",
-             Plural(static_cast<long long>(key.pairs.size()), "pair"), key.worlds, key.left_out);
+  fmt::print(
+      "{} of {} recorded worlds; {} left out, because a method made no transition there. Do not show raters the key.\n",
+      Plural(static_cast<long long>(key.pairs.size()), "pair"), key.worlds, key.left_out);
   TellWritten(page.string());
   TellWritten(key_file.string());
   return kSuccess;
@@ -124,8 +125,8 @@ void DefineReport(CLI::App& app, Action& action) {
   CLI::Option* methods =
       command
           ->add_option("--blind", blind->methods,
-                       "Instead, write a page in DIR/blind on which people compare films of these methods' transitions "
-                       "without knowing which is which, and the page's key")
+                       "Instead, write two files into DIR/blind: a page on which people compare films of these "
+                       "methods' transitions without knowing which method made them, and a key that tells it")
           ->expected(2, 16)
           ->excludes("--no-video", "--whole-sessions", "--real");
   command->add_option("--pairs", blind->pairs, "With --blind: the largest number of pairs")

@@ -237,8 +237,8 @@ Result<std::optional<RunOutcome>> RunWithProgress(RunOptions options) {
   for (const RefusedClip& one : outcome.refused) Complain({{one.clip}, "left out: " + one.why});
   const std::string folder = outcome.folder.string();
   for (const int line : outcome.damaged_lines) {
-    Complain(
-        {{(outcome.folder / kJournalFile).string(), line, 0}, "is ignored: damaged, or a second line for its cell"});
+    Complain({{(outcome.folder / kJournalFile).string(), line, 0},
+              "this line is ignored: it is damaged, or another line holds the same cell"});
   }
   if (outcome.fence.starts_with("none")) Complain({{}, "outside methods ran without a fence: " + outcome.fence});
   // If the run was stopped, say that the finished cells are kept for --resume.
@@ -353,7 +353,7 @@ void DefineRun(CLI::App& app, const std::string& command_line, Action& action) {
   command->callback([=, &action] {
     action = [=] {
       if (options->scenarios.empty() == options->from.empty()) {
-        return Complain({{}, "etude run needs scenario files or folders, or --from a manifest.json (one of the two)"});
+        return Complain({{}, "etude run needs either scenario files or folders, or --from with a manifest.json"});
       }
       if (!shard->empty()) {
         const auto part = ParseShard(*shard);

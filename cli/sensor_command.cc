@@ -39,12 +39,14 @@ struct SensorReading {
 };
 
 void AddSensorReading(CLI::App& command, SensorReading& reading) {
-  command.add_option("--rate", reading.rate_hz, "Frame rate of the recording (default: its own times, else 30 Hz)")
+  command
+      .add_option("--rate", reading.rate_hz,
+                  "Frame rate of the recording (default: from its own times; if it has none, 30 Hz)")
       ->check(NumberWithin(1, 1000, "rate in Hz"));
   command
-      .add_option(
-          "--reference-rate", reading.reference_rate,
-          "Frame rate of the reference (default: its own times, else the usual rate that gives the same length)")
+      .add_option("--reference-rate", reading.reference_rate,
+                  "Frame rate of the reference (default: from its own times; if it has none, the usual rate at which "
+                  "it lasts as long as the recording)")
       ->check(NumberWithin(1, 10000, "rate in Hz"));
 }
 
@@ -60,7 +62,7 @@ Result<RealRecording> LoadRealRecording(const std::string& path, const SensorRea
                    ReadTwinMotion(text, reading.reference, reading.reference_rate, recording.DurationSeconds()));
   auto real = MakeRealRecording(std::move(recording), std::move(twin));
   if (real) return *std::move(real);
-  return Fail({path}, "cannot be compared with {}: both must show three or more of the same joints for a second",
+  return Fail({path}, "cannot be compared with {}: both must show at least three common joints for at least a second",
               reading.reference);
 }
 
@@ -308,7 +310,7 @@ void DefineFit(CLI::App& sensor, Action& action) {
   command->add_option("--worlds", options->worlds, "Simulated recordings per step")
       ->check(CLI::Range(1, 10000))
       ->capture_default_str();
-  command->add_option("--steps", options->steps, "Number of steps: simulate, compare, correct")
+  command->add_option("--steps", options->steps, "Number of steps; each step simulates, compares and corrects")
       ->check(CLI::Range(1, 1000))
       ->capture_default_str();
   AddOverwrite(*command, options->overwrite);

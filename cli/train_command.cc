@@ -115,8 +115,10 @@ Result<Split> LoadSplit(const TrainOptions& options) {
     motions.push_back(std::move(clip.motion));
   }
   if (names.size() > kMaxTrainingClips) {
-    return Fail({}, "{} clips; allowed: at most {}, because the number of pairs grows with the square of that of clips",
-                names.size(), kMaxTrainingClips);
+    return Fail(
+        {},
+        "found {} clips; allowed: at most {}, because the number of pairs grows with the square of the number of clips",
+        names.size(), kMaxTrainingClips);
   }
   ASSIGN_OR_RETURN(const auto held_out, ChooseHeldOut(names, options));
 
@@ -129,8 +131,10 @@ Result<Split> LoadSplit(const TrainOptions& options) {
     (held_out[i] ? split.held_out : split.learnt).push_back(std::move(all.frames[i]));
   }
   if (split.learnt.size() >= 2) return split;
-  return Fail({}, "{} left to learn from, {} held out; pairs of frames need at least two clips",
-              split.learnt.size() == 1 ? "one clip is" : "no clip is", split.held_out.size());
+  return Fail(
+      {},
+      "{} left to learn from, {} held out; at least two must be left, because each pair of frames comes from two clips",
+      split.learnt.size() == 1 ? "one clip is" : "no clip is", split.held_out.size());
 }
 
 std::string ScoreLine(const char* what, ClipFrames clips, const FuzzySystem& system) {

@@ -64,7 +64,8 @@ Result<int> TransitionCommand(TransitionCommandOptions asked) {
                options.from, made.left_s, made.wait_s,
                made.through.empty() ? "" : fmt::format(", and {} in between", made.through), options.to,
                made.entered_s);
-    fmt::print("  {}\n  as a body: twenty joints, 30 Hz, {:.2f} s, joined at", made.why, made.duration_s);
+    fmt::print("  {}\n  written as a body of twenty joints at 30 Hz, {:.2f} s long, joined at", made.why,
+               made.duration_s);
     for (const double point : made.points_s) fmt::print(" {:.2f} s", point);
     fmt::print("\n");
   }
@@ -82,7 +83,7 @@ void DefineTransition(CLI::App& app, Action& action) {
   // Define the clips, the time of the request, and the output.
   command->add_option("from", options->from, "The clip that plays first")->required();
   command->add_option("to", options->to, "The clip that plays afterwards")->required();
-  command->add_option("--at", options->at_s, "When the second clip is requested: seconds of the first")
+  command->add_option("--at", options->at_s, "Time in the first clip at which the second clip is requested, s")
       ->check(NumberWithin(0, 36000, "time in s"))
       ->required();
   command->add_option("-o,--output", options->output, "The motion to write: .bvh, .glb, .trc, .csv, .c3d, .npz or .mot")
@@ -93,7 +94,7 @@ void DefineTransition(CLI::App& app, Action& action) {
       ->capture_default_str();
   command
       ->add_option("--choice", options->choice,
-                   "How the frames are chosen at which the first clip is left and the second entered")
+                   "How the frame that leaves the first clip and the frame that enters the second are chosen")
       ->check(OneOf(ChoiceNames()))
       ->capture_default_str();
   command->add_option("--join", options->join, "How the two clips are joined at these frames")

@@ -151,7 +151,8 @@ Result<int> VerifyCommand(VerifyCommandOptions options) {
   std::vector<Verified> all;
   std::vector<std::string> not_verified;
   if (options.check.empty() && Exists(Inside(replay.folder) / kSignatureFile)) {
-    not_verified.push_back(fmt::format("{}: no key was given (--check)", kSignatureFile));
+    not_verified.push_back(
+        fmt::format("{}: the signature was not checked, because no public key was given (--check)", kSignatureFile));
   } else if (!options.check.empty()) {
     const auto signed_by = CheckSignature(replay.folder, options.check);
     if (!signed_by && signed_by.error().place.file == options.check) return tl::unexpected(signed_by.error());

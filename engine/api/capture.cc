@@ -26,9 +26,9 @@ void CheckSizes(std::span<const NamedCamera> cameras, std::span<const SeenPeople
   }
   for (const SeenPeople& frames : seen) {
     if (frames.empty() || frames.size() != seen.front().size()) {
-      throw BadInput(
-          fmt::format("{} frames of one camera, but {} of the first; allowed: the same number for all, at least one",
-                      frames.size(), seen.front().size()));
+      throw BadInput(fmt::format(
+          "found {} frames of one camera, but {} of the first; allowed: the same number for every camera, at least one",
+          frames.size(), seen.front().size()));
     }
     for (const auto& frame : frames) std::ranges::for_each(frame, CheckPerson);
   }

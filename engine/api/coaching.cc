@@ -20,12 +20,14 @@ void CheckCoached(const Dance& dance, std::span<const TaughtMove> moves) {
   OrThrow(CheckDance(dance));
   StandingHipsOf(dance.motion.poses.front());
   if (moves.size() != dance.moves.size()) {
-    throw BadInput(fmt::format("{} moves; allowed: the {} of the dance", moves.size(), dance.moves.size()));
+    throw BadInput(
+        fmt::format("found {} moves; allowed: {}, one for each move of the dance", moves.size(), dance.moves.size()));
   }
   for (std::size_t i = 0; i < moves.size(); ++i) {
     const std::string& wanted = dance.moves[i].name;
     if (moves[i].name == wanted) continue;
-    throw BadInput(fmt::format("move {}: '{}'; allowed: the dance's move, '{}'", i, moves[i].name, wanted));
+    throw BadInput(
+        fmt::format("move {} is '{}'; allowed: '{}', the dance's move at this place", i, moves[i].name, wanted));
   }
   CheckMoves(moves);
 }

@@ -17,7 +17,7 @@ const RecogniserKind& KindOfExamples(const std::string& name) {
 void CheckMoves(std::span<const TaughtMove> moves) {
   for (const TaughtMove& move : moves) {
     for (const SkeletonStream& example : move.examples) {
-      if (example.frames.empty()) throw BadInput(fmt::format("move '{}': an example without frames", move.name));
+      if (example.frames.empty()) throw BadInput(fmt::format("move '{}' has an example without frames", move.name));
       Checked(MotionOf(example));
     }
   }

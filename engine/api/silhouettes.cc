@@ -33,9 +33,9 @@ int PixelOf(const NamedCamera& camera, const Mask& mask) {
   const Intrinsics& picture = camera.camera.intrinsics;
   const int pixel = mask.width > 0 ? picture.width / mask.width : 0;
   if (pixel >= 1 && picture.width == pixel * mask.width && picture.height == pixel * mask.height) return pixel;
-  throw BadInput(
-      fmt::format("a mask of {} x {} pixels of camera '{}'; allowed: {} x {}, or both divided by the same whole number",
-                  mask.width, mask.height, camera.name, picture.width, picture.height));
+  throw BadInput(fmt::format(
+      "a mask of {} x {} pixels for camera '{}'; allowed: {} x {}, or both sides divided by the same whole number",
+      mask.width, mask.height, camera.name, picture.width, picture.height));
 }
 
 std::vector<ProjectionMatrix> PinholesOf(std::span<const NamedCamera> cameras) {
@@ -84,9 +84,9 @@ std::vector<std::optional<BodyPose>> TrackSilhouettes(std::span<const NamedCamer
   std::vector<std::vector<Silhouette>> silhouettes;
   for (std::size_t i = 0; i < cameras.size(); ++i) {
     if (masks[i].empty() || masks[i].size() != masks.front().size()) {
-      throw BadInput(
-          fmt::format("{} masks of one camera, but {} of the first; allowed: the same number for all, at least one",
-                      masks[i].size(), masks.front().size()));
+      throw BadInput(fmt::format(
+          "found {} masks of one camera, but {} of the first; allowed: the same number for every camera, at least one",
+          masks[i].size(), masks.front().size()));
     }
     const Intrinsics& picture = cameras[i].camera.intrinsics;
     const double scale = kFittedSide / std::max({1, picture.width, picture.height});

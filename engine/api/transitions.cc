@@ -40,7 +40,7 @@ std::vector<double> ValuesOf(const std::map<std::string, double>& told, const st
     const bool is_allowed =
         value >= found->lowest && value <= found->largest && (!found->is_whole || value == std::round(value));
     if (!is_allowed) {
-      throw BadInput(fmt::format("{} {} of '{}'; allowed: {}{:g} to {:g}", key, value, of,
+      throw BadInput(fmt::format("setting '{}' is {} for '{}'; allowed: {}{:g} to {:g}", key, value, of,
                                  found->is_whole ? "whole numbers from " : "", found->lowest, found->largest));
     }
     values[static_cast<std::size_t>(found - known.begin())] = value;
@@ -105,7 +105,7 @@ TransitionLibrary::TransitionLibrary(std::span<const BodyMotion> clips,
   std::vector<std::string> names;
   for (const BodyMotion& motion : clips) {
     if (motion.poses.size() < 2 || motion.rate_hz != kJudgedRateHz) {
-      throw BadInput(fmt::format("clip {}: {} frames at {} Hz; allowed: two or more at {}", names.size(),
+      throw BadInput(fmt::format("clip {} has {} frames at {} Hz; allowed: two or more frames at {} Hz", names.size(),
                                  motion.poses.size(), motion.rate_hz, kJudgedRateHz));
     }
     names.push_back(fmt::format("clip {}", names.size()));

@@ -21,20 +21,21 @@ Result<CameraParameters> Decompose(const ProjectionMatrix& matrix) {
   for (const auto& row : matrix.h) {
     for (const double value : row) sum += std::abs(value);
   }
-  if (!std::isfinite(sum)) return Fail({}, "a camera matrix with a number that is not finite");
+  if (!std::isfinite(sum)) return Fail({}, "the camera matrix has a number that is not finite");
   // Normalise so that the third row is the viewing axis.
   const auto row = [&](int i) { return glm::dvec3(matrix.h[i][0], matrix.h[i][1], matrix.h[i][2]); };
   const double scale = glm::length(row(2));
-  if (!(scale > 0)) return Fail({}, "a camera matrix whose third row begins with three zeros: a camera at infinity");
+  if (!(scale > 0))
+    return Fail({}, "the camera matrix places the camera at infinity: its third row begins with three zeros");
   const glm::dvec3 a1 = row(0) / scale, a2 = row(1) / scale, a3 = row(2) / scale;
   const glm::dvec3 n1 = glm::cross(a1, a3), n2 = glm::cross(a2, a3);
   constexpr double kParallel = 1e-12;
   if (!(glm::length(n1) > kParallel * glm::length(a1)) || !(glm::length(n2) > kParallel * glm::length(a2)) ||
       !(glm::length(glm::cross(n1, n2)) > kParallel * glm::length(n1) * glm::length(n2))) {
-    return Fail({}, "a camera matrix that projects the world onto one line");
+    return Fail({}, "the camera matrix projects the world onto one line");
   }
   if (!(glm::dot(a1, glm::cross(a2, a3)) > 0)) {
-    return Fail({}, "a camera matrix of a mirrored picture; an axis of the world or of the pixels may be reversed");
+    return Fail({}, "the camera matrix mirrors the picture; an axis of the world or of the pixels may be reversed");
   }
   // Compute intrinsics and rotation from dot and cross products of the rows.
   CameraParameters p;

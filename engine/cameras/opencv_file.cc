@@ -51,7 +51,8 @@ Result<Distortion> DistortionOf(const OpenCvParameters& p) {
   std::vector<double> c = p.distortion;
   const std::size_t count = c.size();
   if (p.is_fisheye) {
-    if (count != 0 && count != 4) return Fail({}, "{} distortion coefficients of a fisheye; allowed: 0 or 4", count);
+    if (count != 0 && count != 4)
+      return Fail({}, "{} distortion coefficients of a fisheye lens; allowed: 0 or 4", count);
     c.resize(4);
     return Distortion{.k1 = c[0], .k2 = c[1], .k3 = c[2], .k4 = c[3], .is_fisheye = true};
   }
@@ -96,13 +97,13 @@ Result<Camera> CameraOf(const OpenCvParameters& p) {
   }
   const std::vector<double>& K = p.camera_matrix;
   if (K.size() != 9) return Fail({}, "the camera matrix has {} numbers; allowed: 9", K.size());
-  if (!AreFinite(p)) return Fail({}, "a number that is not finite");
+  if (!AreFinite(p)) return Fail({}, "one of the camera's numbers is not finite");
   if (!(K[0] > 0) || !(K[4] > 0))
     return Fail({}, "focal lengths of {:g} and {:g}; allowed: numbers above 0", K[0], K[4]);
   if (K[3] != 0 || K[6] != 0 || K[7] != 0 || K[8] != 1) {
     return Fail({}, "the last two rows of the camera matrix must be 0 fy cy and 0 0 1");
   }
-  if (!IsRotation(p.R)) return Fail({}, "R is no rotation");
+  if (!IsRotation(p.R)) return Fail({}, "R is not a rotation matrix");
   Camera camera;
   camera.intrinsics = {.width = static_cast<int>(p.width),
                        .height = static_cast<int>(p.height),

@@ -21,7 +21,8 @@ using Five = std::array<double, 5>;
 Result<PointPair> ToPair(const Five& v, const Place& place) {
   constexpr double kMaxAbsolute = 1e9;
   for (const double value : v) {
-    if (!(std::abs(value) <= kMaxAbsolute)) return Fail(place, "{} in a point pair; allowed: within ±10⁹", value);
+    if (!(std::abs(value) <= kMaxAbsolute))
+      return Fail(place, "found {} in a point pair; allowed: numbers within ±10⁹", value);
   }
   return PointPair{{v[0], v[1], v[2]}, {v[3] + kFromOpenCv, v[4] + kFromOpenCv}};
 }
@@ -38,7 +39,7 @@ Result<std::vector<CameraPairs>> ReadCsv(std::string_view text, const std::strin
     if (line == 1) continue;  // the first line is the heading
     if (words.size() == 1 && (words[0].empty() || words[0].front() == '#')) continue;
     if (words.size() != 6 || words[0].empty()) {
-      return Fail(place, "'{}'; allowed: a camera's name and five numbers, {}", here, kHeading);
+      return Fail(place, "found '{}'; allowed: a camera's name and five numbers, {}", here, kHeading);
     }
     // Parse the five numbers and add the pair to its camera.
     Five values;
@@ -75,7 +76,7 @@ Result<CameraPairs> ReadCamera(const Node::Entry& entry) {
   }
   for (const Node& item : pairs->items) {
     if (item.kind != Node::Kind::kSequence || item.items.size() != 5) {
-      return Fail(item.place, "{}; allowed: [x, y, z, u, v]", Describe(item));
+      return Fail(item.place, "found {}; allowed: [x, y, z, u, v]", Describe(item));
     }
     Five values;
     for (std::size_t i = 0; i < 5; ++i) {
@@ -90,7 +91,7 @@ Result<CameraPairs> ReadCamera(const Node::Entry& entry) {
 Result<std::vector<CameraPairs>> ReadYaml(std::string_view text, const std::string& file) {
   ASSIGN_OR_RETURN(const Node root, ParseYaml(text, file));
   if (root.kind != Node::Kind::kMapping) {
-    return Fail({file}, "{}; allowed: point pairs as CSV ({}) or YAML (a mapping of cameras)", Describe(root),
+    return Fail({file}, "found {}; allowed: point pairs as CSV ({}) or YAML (a mapping of cameras)", Describe(root),
                 kHeading);
   }
   std::vector<CameraPairs> cameras;

@@ -106,7 +106,7 @@ Result<glm::dmat3> HomographyOf(std::span<const PointPair> pairs) {
     plane.row(i) << pair.world.x, pair.world.y;
     picture.row(i) << pair.pixel.x, pair.pixel.y;
   }
-  if (!plane.allFinite() || !picture.allFinite()) return Fail({}, "a corner that is not finite");
+  if (!plane.allFinite() || !picture.allFinite()) return Fail({}, "a corner's position is not finite");
   if (LieOnALine(plane) || LieOnALine(picture)) return Fail({}, "the corners lie on one line");
   // Write two equations for each pair, in normalised coordinates.
   const Matrix3d Np = Normaliser(plane), Ni = Normaliser(picture);
@@ -161,8 +161,8 @@ Result<Intrinsics> IntrinsicsFromPlanes(std::span<const glm::dmat3> homographies
   // person.
   constexpr double kMaxFocal = 50;
   if (!(ab.minCoeff() > 0) || !focal.allFinite() || focal.maxCoeff() > kMaxFocal * unit) {
-    return Fail({},
-                "the boards face the camera straight on, which does not determine its focal length; tilt some of them");
+    return Fail(
+        {}, "all boards face the camera straight on, so the camera's focal length is not determined; tilt some boards");
   }
   return Intrinsics{width, height, focal[0], focal[1], width / 2.0, height / 2.0, 0};
 }
@@ -220,9 +220,8 @@ Result<RefinedRig> CalibrateFromPlanes(std::span<const PictureSize> sizes, std::
     const auto& pose_CW = places.cameras_[camera];
     if (!pose_CW) {
       return Fail({},
-                  "no chain of boards that two cameras see at the same time connects camera {} with the cameras before "
-                  "it; show "
-                  "a board to both",
+                  "camera {} cannot be placed: no chain of boards, each seen by two cameras at once, leads from it to "
+                  "an earlier camera; show a board to it and to another camera at the same time",
                   camera + 1);
     }
     guess.cameras[camera].R_CW = pose_CW->R_WT;

@@ -118,7 +118,7 @@ Result<OpenCvParameters> ReadPlanned(const std::string& name, const Keys& keys, 
     return Fail(place, "camera {}: fov_deg is {:g}; allowed: {:g} to {:g}", name, fov, kMinFov, kMaxFov);
   }
   if (!(glm::length(glm::cross(p_WT - p_WC, glm::dvec3(0, 1, 0))) > kVertical)) {
-    return Fail(place, "camera {}: look_at is the position, or straight above or below it", name);
+    return Fail(place, "camera {}: look_at is the camera's position, or straight above or below it", name);
   }
   const double focal = width / 2 / std::tan(Radians(fov / 2));
   const glm::dmat3 R_CW = LookAt({}, p_WC, p_WT).R_CW;

@@ -342,10 +342,9 @@ Result<RefinedRig> RefineRig(const RigGuess& guess, std::span<const TargetView> 
   }
   AddRms(views, rig);
   if (!std::isfinite(rig.rms_px)) {
-    return Fail(
-        {},
-        "with the lens distortion that fits best, several directions have the same pixel: there are too few points, or "
-        "pairs are mixed up");
+    return Fail({},
+                "the lens distortion that fits best maps several directions to the same pixel: there are too few "
+                "points, or point pairs are mixed up");
   }
   rig.deviations = std::move(deviations);
   return rig;

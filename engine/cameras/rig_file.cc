@@ -95,8 +95,8 @@ Result<NamedCamera> ReadCamera(const xmlNode* node) {
   const Place place = PlaceOfNode(node);
   const xmlNode *transform = Child(node, "transform"), *intrinsic = Child(node, "intrinsic");
   if (name.empty()) return Fail(place, "a camera without a serial number");
-  if (transform == nullptr) return Fail(place, "camera {} has no transform", name);
-  if (intrinsic == nullptr) return Fail(place, "camera {} has no intrinsic", name);
+  if (transform == nullptr) return Fail(place, "camera {} has no element <transform>", name);
+  if (intrinsic == nullptr) return Fail(place, "camera {} has no element <intrinsic>", name);
   ASSIGN_OR_RETURN(OpenCvParameters p, InsideOf(node, intrinsic));
   Numbers of(transform);
   // The rows of the matrix are the camera's axes (x right, y up, z backwards) in QTM's world, which has Z up.
@@ -245,9 +245,8 @@ Result<RigFile> Read(std::string_view text, const std::string& file) {
     for (const char* key : {"names", "M1", "R1"}) {
       if (root.Find(key) == nullptr) continue;
       return Fail({},
-                  "one file of a pair; allowed: both files, EasyMocap's intri.yml and extri.yml, or OpenCV's "
-                  "intrinsics.yml and "
-                  "extrinsics.yml");
+                  "this is only one of a calibration's two files; allowed: both, intri.yml and extri.yml of EasyMocap, "
+                  "or intrinsics.yml and extrinsics.yml of OpenCV");
     }
     ASSIGN_OR_RETURN(const Camera camera, ReadCamera(root, true));
     return RigFile{{{"camera", camera}}, "OpenCV's YAML"};
@@ -260,10 +259,9 @@ Result<RigFile> Read(std::string_view text, const std::string& file) {
         text.find("[cameras.") != std::string_view::npos ? "Caliscope" : "TOML of Pose2Sim, Anipose or FreeMoCap",
         kYUpOfZUp};
   }
-  return Fail(
-      {},
-      "not a calibration; allowed: a rig of etude calibrate, YAML of OpenCV, TOML of Pose2Sim, Anipose, FreeMoCap "
-      "or Caliscope, XML of Qualisys; EasyMocap's, OpenCV's or COLMAP's pair of files");
+  return Fail({},
+              "not a calibration; allowed: a rig file of etude calibrate, YAML of OpenCV, TOML of Pose2Sim, Anipose, "
+              "FreeMoCap or Caliscope, XML of Qualisys, or both files of a calibration by EasyMocap, OpenCV or COLMAP");
 }
 
 /// Applies the checks that all formats share.
@@ -278,7 +276,7 @@ Result<RigFile> Checked(Result<RigFile> rig, const std::string& file) {
     return Fail({file}, "{} cameras; allowed: at most {}", cameras.size(), kMaxRigCameras);
   for (std::size_t i = 0; i < cameras.size(); ++i) {
     for (std::size_t j = 0; j < i; ++j) {
-      if (cameras[i].name == cameras[j].name) return Fail({file}, "two cameras of the name {}", cameras[i].name);
+      if (cameras[i].name == cameras[j].name) return Fail({file}, "two cameras are named {}", cameras[i].name);
     }
   }
   return rig;

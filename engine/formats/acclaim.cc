@@ -64,7 +64,7 @@ class SkeletonReader {
   Result<AcclaimSkeleton> Read() {
     bool has_line = lines_.Next();
     while (has_line) {
-      if (!lines_.IsSection()) return Fail(lines_.At(), "{}; allowed: a section such as :bonedata", Found());
+      if (!lines_.IsSection()) return Fail(lines_.At(), "found {}; allowed: a section such as :bonedata", Found());
       const std::string section(lines_.words.front().text.substr(1));
       Result<bool> read = section == "units"       ? ReadUnits()
                           : section == "root"      ? ReadRoot()
@@ -147,7 +147,7 @@ class SkeletonReader {
     glm::dvec3 direction(0);
     double length = 0;
     while (lines_.Next() && !lines_.Is("end")) {
-      if (lines_.IsSection()) return Fail(lines_.At(), "the bone of line {} has no 'end'", place.line);
+      if (lines_.IsSection()) return Fail(lines_.At(), "the bone that begins on line {} has no 'end'", place.line);
       if (lines_.Is("name") && lines_.words.size() > 1) bone.name = lines_.words[1].text;
       if (lines_.Is("direction")) {
         ASSIGN_OR_RETURN(direction, lines_.Vector(1));
@@ -175,7 +175,8 @@ class SkeletonReader {
   Result<bool> ReadBones() {
     while (lines_.Next()) {
       if (lines_.IsSection()) return true;
-      if (!lines_.Is("begin")) return Fail(lines_.At(), "{}; allowed: 'begin', then the properties of a bone", Found());
+      if (!lines_.Is("begin"))
+        return Fail(lines_.At(), "found {}; allowed: 'begin', then the properties of a bone", Found());
       RETURN_IF_ERROR(ReadBone());
     }
     return false;
@@ -255,8 +256,8 @@ Result<LocalTransform> ReadTransform(const AcclaimLines& lines, const AcclaimSke
                                      bool in_degrees, double& largest) {
   const auto& channels = skeleton.channels[joint];
   if (lines.words.size() != channels.size() + 1) {
-    return Fail(lines.At(), "{} numbers for bone {}; allowed: {}, as its skeleton states", lines.words.size() - 1,
-                Quote(lines.words.front().text), channels.size());
+    return Fail(lines.At(), "found {} numbers for bone {}; allowed: {}, one for each channel of the bone",
+                lines.words.size() - 1, Quote(lines.words.front().text), channels.size());
   }
   LocalTransform local = skeleton.skeleton.joints[joint].rest;
   glm::dquat turn(1, 0, 0, 0);
@@ -287,7 +288,8 @@ Result<AcclaimSkeleton> ReadAcclaimSkeleton(std::string_view text, const std::st
   if (!read || !reader.ExceedsRadians()) return read;
   read = SkeletonReader(text, file, true).Read();
   if (read) {
-    read->remark = "the skeleton's angles are taken as degrees: as radians, which it states, they would exceed 4π";
+    read->remark =
+        "the skeleton's angles are taken as degrees, although its file states radians: as radians they would exceed 4π";
   }
   return read;
 }
@@ -339,7 +341,7 @@ Result<AcclaimFrames> ReadFrames(std::string_view text, const AcclaimSkeleton& s
       if (joint == joint_of.end()) {
         return Fail(lines.At(), "the skeleton has no bone {}", Quote(lines.words.front().text));
       }
-      if (clip.frames.empty()) return Fail(lines.At(), "a bone precedes the first frame's number");
+      if (clip.frames.empty()) return Fail(lines.At(), "found a bone before the number of the first frame");
       ASSIGN_OR_RETURN(
           clip.frames.back()[joint->second],
           ReadTransform(lines, skeleton, joint->second, in_degrees, joint->second == 0 ? read.of_root : read.of_bones));
@@ -358,8 +360,9 @@ Result<Clip> ReadAcclaimMotion(std::string_view text, const AcclaimSkeleton& ske
   constexpr double kMinDegrees = 0.5;  // a recording whose angles are all smaller shows only the rest pose
   const double largest = std::max(read.of_root, read.of_bones);
   if (!read.in_degrees && read.of_bones > kMaxRadians) {
-    remark =
-        fmt::format("its angles are taken as degrees: as radians, which are stated, they would reach {:.4g}", largest);
+    remark = fmt::format(
+        "its angles are taken as degrees, although the file states radians: as radians they would reach {:.4g}",
+        largest);
     ASSIGN_OR_RETURN(read, ReadFrames(text, skeleton, file, true));
   } else if (!read.in_degrees && read.of_root > kMaxRadians) {
     // A body that keeps turning in one direction can rotate its root by any angle, so the unit is not changed.

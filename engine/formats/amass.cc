@@ -86,7 +86,7 @@ Result<Clip> ReadAmass(const Npz& npz, const std::string& file, std::optional<do
   if ((width != 72 && width != 156 && width != 165) || WidthOf(places) != 3) {
     return Fail(
         {file},
-        "arrays {}; allowed: a motion of AMASS with poses (frames × 72, 156 or 165), trans (frames × 3) and "
+        "found the arrays {}; allowed: a motion of AMASS with poses (frames × 72, 156 or 165), trans (frames × 3) and "
         "mocap_framerate or mocap_frame_rate, or of Kimodo with posed_joints and global_rot_mats; use a .npy file "
         "for positions of joints",
         names.empty() ? "none" : Join(names));
@@ -98,11 +98,10 @@ Result<Clip> ReadAmass(const Npz& npz, const std::string& file, std::optional<do
     return Fail({file}, "trans has {} frames; poses has {}", places->shape[0], frames);
   }
   if (!told_hz && (rate == nullptr || rate->values.size() != 1)) {
-    return Fail(
-        {file},
-        "states no frame rate (its arrays: {}); allowed: a number mocap_framerate or mocap_frame_rate, frames a "
-        "second, or `--rate` (in convert `--file-rate`, in a joint map `rate: 60`)",
-        Join(names));
+    return Fail({file},
+                "states no frame rate (its arrays: {}); allowed: mocap_framerate or mocap_frame_rate, a number of "
+                "frames per second, or `--rate` (in convert `--file-rate`, in a joint map `rate: 60`)",
+                Join(names));
   }
   if (!told_hz && other_rate != nullptr && other_rate->values != rate->values) {
     return Fail({file},

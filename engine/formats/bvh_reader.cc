@@ -206,7 +206,7 @@ Result<void> ExpectWords(TextScanner& scanner, std::initializer_list<std::string
   for (std::string_view word : words) {
     const Token token = scanner.Next();
     if (!SameWord(token.text, word)) {
-      return Fail(scanner.At(token), "found {}; expected {} of \"Frames: <count>\" and \"Frame Time: <seconds>\"",
+      return Fail(scanner.At(token), "found {}; expected {}, as in \"Frames: <count>\" and \"Frame Time: <seconds>\"",
                   Quote(token.text), Quote(word));
     }
   }
@@ -279,7 +279,7 @@ Result<void> ReadFrame(TextScanner& scanner, const std::vector<BvhChannel>& chan
     // This word is a number with a leading plus, which TakeNumberInLine does not accept, or no valid number.
     const Token token = scanner.NextInLine();
     if (token.text.empty()) {
-      return Fail(scanner.At(token), "frame {} has {} numbers; its {} channels need {}", number, i, channels.size(),
+      return Fail(scanner.At(token), "frame {} has {} numbers; allowed: {}, one for each channel", number, i,
                   channels.size());
     }
     ASSIGN_OR_RETURN(auto value, scanner.Number(token, "a channel's value"));
@@ -386,7 +386,7 @@ Result<Clip> ReadBvh(std::string_view bytes, const std::string& file, std::vecto
     remark(fmt::format("{} rows, but {} frames are announced: the last row was dropped", announced + 1, announced));
   }
   if (clip.frames.size() != announced) {
-    return Fail(scanner.At(header.frames_place), "{} frames announced; the file contains {}", announced,
+    return Fail(scanner.At(header.frames_place), "the file announces {} frames, but contains {}", announced,
                 clip.frames.size());
   }
   if (AreRelativeToOffsets(clip.skeleton, hierarchy.channels, clip.frames)) {

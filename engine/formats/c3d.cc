@@ -143,7 +143,7 @@ Result<C3d> ReadC3d(std::string_view bytes, const std::string& file) {
   layout.begin = (std::max<std::size_t>(data_block, 1) - 1) * kC3dBlock;
   layout.frame_bytes = (4 * layout.points + all.Word(4)) * (layout.has_floats ? 4 : 2);
   const std::size_t frames = CountFrames(all, parameters);
-  if (frames == 0) return Fail({file}, "its header states no frames, or more than 10⁷");
+  if (frames == 0) return Fail({file}, "its header states 0 frames, or more than the allowed 10⁷");
   const std::size_t there = bytes.size() > layout.begin ? (bytes.size() - layout.begin) / layout.frame_bytes : 0;
   if (there < frames) return Fail({file}, "is cut short: it contains {} of {} frames", there, frames);
   // Read the points.

@@ -68,7 +68,7 @@ Result<Numbers> ReadNumbers(const Json& frame, std::size_t index, const std::str
   constexpr double kMaxNumber = 1e9;
   const Place place{file, 0, 0};
   if (!frame.is_array() || frame.size() != kNumbers) {
-    return Fail(place, "Frames[{}]: {} numbers; allowed: {}, those of humanoid3d", index,
+    return Fail(place, "Frames[{}] has {} numbers; allowed: {}, as for the character humanoid3d", index,
                 frame.is_array() ? frame.size() : 0, kNumbers);
   }
   Numbers numbers{};

@@ -101,19 +101,19 @@ class DryRun(EtudeCase):
         spread = self.facts("quick/ik", "--trials", 14)["scenarios"][0]["spread"]
         told = self.etude("run", "quick/ik", "--trials", 14, "--dry-run").stdout
         self.assertIn("of 1.36 or more standard deviations of the worlds' differences, about ", told)
-        amount, = re.findall(r", about ([\d.]+)° of effector orientation error \(0\.1° matters\)", told)
+        amount, = re.findall(r", about ([\d.]+)° of effector orientation error \(a difference of 0\.1° matters\)", told)
         self.assertAlmostEqual(float(amount), 1.364 * spread, delta=0.01 * spread)
 
     def test_promises_nothing_where_no_p_can_reach_the_level(self):
         # Success decides ten answers. With n worlds the smallest mid-p is 1 / 2ⁿ, so 1 / 2ⁿ ≤ 0.05 / 10 needs 8 worlds.
         told = self.etude("run", "quick/ik", "--trials", 7, "--dry-run").stdout
-        self.assertIn("neither better nor worse is possible with fewer than 8 worlds; there are 7", told)
+        self.assertIn("no method can be judged better or worse with fewer than 8 worlds; there are 7", told)
         self.assertNotIn("standard deviations", told)
         self.assertNotIn("80 %", told)
         self.assertEqual(self.facts("quick/ik", "--trials", 7)["scenarios"][0]["worlds_needed"], 8)
         # The control: 14 worlds are enough for each of 50 comparisons, because 2 / 2ⁿ ≤ 0.05 / 50 needs 11 worlds.
-        self.assertNotIn("possible", self.etude("run", "quick/ik", "--trials", 14, "--dry-run").stdout)
-        self.assertIn("with fewer than 11 worlds, values cannot show better or worse in 50 comparisons",
+        self.assertNotIn("no method can be judged", self.etude("run", "quick/ik", "--trials", 14, "--dry-run").stdout)
+        self.assertIn("with fewer than 11 worlds, the values of metrics cannot show which method is better in 50 ",
                       self.etude("run", "quick/ik", "--trials", 9, "--dry-run").stdout)
 
 

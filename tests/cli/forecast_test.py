@@ -121,7 +121,7 @@ class Transition(EtudeCase):
         said = self.etude("transition", "builtin:groove", "builtin:clap", "--at", "1", "-o", self.folder / "cut.trc", "--choice",
                           "now", "--join", "cut")
         self.assertEqual(said.returncode, 0, said.stderr)
-        self.assertIn("as a body: twenty joints", said.stdout)
+        self.assertIn("written as a body of twenty joints", said.stdout)
         late = self.etude("transition", "builtin:groove", "builtin:clap", "--at", "99", "-o", self.folder / "late.bvh")
         self.assertEqual((late.returncode, late.stderr.count("\n")), (2, 1))
         self.assertIn("--at 99: builtin:groove plays from 0.00 to", late.stderr)

@@ -249,7 +249,7 @@ class Survival(EtudeCase):
         cells.write_text("".join(json.dumps(row) + "\n" for row in rows))
         self.assertIn("cells.jsonl: was changed after the run wrote it", self.etude("replay", self.whole).stderr)
         result = self.ends(1, "replay", self.whole, "--unsealed")
-        self.assertIn(f"differs: {rows[7]['cell']}\n  first at solution: 0123456789abcdef then,", result.stdout)
+        self.assertIn(f"differs: {rows[7]['cell']}\n  first at solution: 0123456789abcdef in the run,", result.stdout)
         self.assertIn("159 of 160 cells came out the same", result.stdout)
 
     @heavy

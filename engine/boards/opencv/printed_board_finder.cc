@@ -318,7 +318,7 @@ Result<OpenCvCalibration> CalibrateCamera(std::span<const TargetView> views, con
     case LensModel::kRadial3:
       break;
     case LensModel::kAsInCamera:
-      return Fail({}, "OpenCV's calibrateCamera keeps no lens parameter fixed");
+      return Fail({}, "OpenCV's calibrateCamera cannot keep the lens distortion as it is in the given camera");
   }
   // Convert the views; OpenCV's pixel centres are at integers, ours at half-integers.
   std::vector<std::vector<cv::Point3f>> object_points;

@@ -80,8 +80,9 @@ Result<GltfCurve> GltfCurve::Read(GltfFile& file, int animation, int sampler, st
   curve.times_ = std::move(times.values);
   for (std::size_t i = 1; i < curve.times_.size(); ++i) {
     if (!(curve.times_[i - 1] <= curve.times_[i])) {
-      return file.Refuse(where + ".input", "found {} s after {} s; allowed: times that do not descend", curve.times_[i],
-                         curve.times_[i - 1]);
+      return file.Refuse(where + ".input",
+                         "found the time {} s after the time {} s; allowed: times that do not decrease",
+                         curve.times_[i], curve.times_[i - 1]);
     }
   }
   // Read the values; a spline has two tangents per key.
@@ -319,8 +320,8 @@ class ClipReader {
       const bool is_double = std::ranges::any_of(
           channels, [&](const Channel& other) { return other.joint == joint && other.property == property; });
       if (is_double) {
-        return file_.Refuse(where, "found the {} of node {} again; allowed: one channel each", source.target_path,
-                            source.target_node);
+        return file_.Refuse(where, "found a second channel for the {} of node {}; allowed: one channel",
+                            source.target_path, source.target_node);
       }
       ASSIGN_OR_RETURN(auto curve,
                        GltfCurve::Read(file_, index, source.sampler, property == Property::kRotation ? 4 : 3));
@@ -338,7 +339,7 @@ class ClipReader {
       return file_.Refuse(
           where, "with its {} frames of {} joints, all clips together take {:.0f} MB; allowed: at most {:.0f} MB{}",
           timing.frames, joints, frame_bytes_ / 1e6, kMaxFrameBytes / 1e6,
-          timing.step > 1 ? fmt::format("; its keys are {:.3g} s apart: does it count milliseconds?", timing.step)
+          timing.step > 1 ? fmt::format("; its keys are {:.3g} s apart: are its times in milliseconds?", timing.step)
                           : "");
     }
     Clip clip{.name = UniqueName(index), .skeleton = nodes_.skeleton, .rate_hz = timing.rate_hz, .frames = {}};

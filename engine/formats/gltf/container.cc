@@ -70,11 +70,11 @@ class JsonShape {
         case '"': {
           const std::size_t start = ++i;
           while (i < json.size() && json[i] != '"') i += json[i] == '\\' ? 2 : 1;
-          if (i >= json.size()) return Fail(place, "a string of the JSON has no end");
+          if (i >= json.size()) return Fail(place, "a string of the JSON has no closing quotation mark");
           if (depth_ == 1) key_ = json.substr(start, i - start);
           // Refuse escaped keys: an escaped form of "buffers" would not be recognised below.
           if (depth_ == 1 && key_.find('\\') != std::string_view::npos) {
-            return Fail(place, "found {} at the top of the JSON; allowed: names without '\\'", Quote(key_));
+            return Fail(place, "found the key {} at the top of the JSON; allowed: keys without '\\'", Quote(key_));
           }
           break;
         }

@@ -279,9 +279,10 @@ TEST(ApiCoach, RefusesWhatIsNotOfTheDance) {
     return Complaint([&] { Coach(SmallDance(), taught, options); });
   };
   EXPECT_EQ(refusal({}, moves), "");
-  EXPECT_THAT(refusal({}, std::span(moves).first(1)), HasSubstr("1 moves; allowed: the 2 of the dance"));
+  EXPECT_THAT(refusal({}, std::span(moves).first(1)),
+              HasSubstr("found 1 moves; allowed: 2, one for each move of the dance"));
   EXPECT_THAT(refusal({}, std::vector{moves[1], moves[0]}),
-              HasSubstr("move 0: 'second'; allowed: the dance's move, 'first'"));
+              HasSubstr("move 0 is 'second'; allowed: 'first', the dance's move at this place"));
   EXPECT_THAT(refusal({.policy = "sometimes"}, moves), HasSubstr("policy 'sometimes'; allowed: "));
   EXPECT_THAT(refusal({.choice = "none"}, moves), HasSubstr("choice 'none'; allowed: "));
   EXPECT_THAT(refusal({.right_from = 0.0}, moves), HasSubstr("above 0, up to 1"));

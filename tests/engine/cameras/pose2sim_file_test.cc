@@ -134,7 +134,7 @@ TEST(Pose2SimFile, ReadsPlannedCameras) {
        {std::pair("fov_deg = 180\n" + seat, "camera a: fov_deg is 180; allowed: 1 to 170"),
         {seat, "camera a has no fov_deg"},
         {"fov_deg = 90\nposition = [0, 1, 2]\nlook_at = [0, 1, 1]\n",
-         "camera a: look_at is the position, or straight above or below it"},
+         "camera a: look_at is the camera's position, or straight above or below it"},
         {"fov_deg = 90\nposition = [0, 1]\nlook_at = [0, 1, 1]\n", "camera a: position has 2 numbers; allowed: 3"}}) {
     EXPECT_EQ(planned(keys).error().message, said);
   }

@@ -102,8 +102,8 @@ TEST(RigFile, RefusedWithPlaceAndReason) {
   cameras[1].name = "right";
   const std::string good = WriteRig(cameras);
   EXPECT_EQ(reason(good), "accepted");
-  EXPECT_THAT(reason("hello"), HasSubstr("not a calibration; allowed: a rig of etude calibrate"));
-  EXPECT_THAT(reason(testing::Replaced(good, "\"right\"", "\"left\"")), HasSubstr("two cameras of the name left"));
+  EXPECT_THAT(reason("hello"), HasSubstr("not a calibration; allowed: a rig file of etude calibrate"));
+  EXPECT_THAT(reason(testing::Replaced(good, "\"right\"", "\"left\"")), HasSubstr("two cameras are named left"));
   EXPECT_THAT(reason(testing::Replaced(good, "   T:", "   S:")), HasSubstr("camera left: no T"));
   EXPECT_EQ(reason(testing::Replaced(kQualisys, "viewrotation=\"0\"", "viewrotation=\"90\"")), "accepted");
   EXPECT_THAT(reason("%YAML:1.0\n---\nnames:\n  - \"1\"\n"), HasSubstr("intri.yml and extri.yml"));

@@ -108,9 +108,9 @@ TEST(CheckDance, SaysWhatIsWrong) {
   EXPECT_EQ(complaint([](Dance& d) { d.repetitions[1].first = 119; }),
             ", repetition 1: frames 119 to 210; allowed: at least two frames within 120 to 420");
   EXPECT_EQ(complaint([](Dance& d) { d.repetitions[2].move = -1; }),
-            ", repetition 2: there is no move -1; moves, counted from 0: 2");
+            ", repetition 2: there is no move -1; moves are counted from 0, and the dance has 2");
   EXPECT_EQ(complaint([](Dance& d) { d.repetitions[1].move = 2; }),
-            ", repetition 1: there is no move 2; moves, counted from 0: 2");
+            ", repetition 1: there is no move 2; moves are counted from 0, and the dance has 2");
   EXPECT_EQ(complaint([](Dance& d) { d.repetitions.clear(); }), " has no repetition");
   EXPECT_EQ(complaint([](Dance& d) { d.moves[1].name = "first"; }), ": two moves are named 'first'");
   EXPECT_EQ(complaint([](Dance& d) { d.moves[0].slow.poses.resize(2); }), "nothing");

@@ -193,8 +193,8 @@ TEST(BrokenGltf, IsRefusedForJsonThatWouldTakeTooMuchMemory) {
   std::string many = "[0";
   for (int i = 0; i < 1'000'000; ++i) many += ",0";
   EXPECT_THAT(GlbComplaint(extras(many + "]")), HasSubstr("JSON of more than 1000000 values"));
-  EXPECT_THAT(GlbComplaint(R"({"asset)"), HasSubstr("a string of the JSON has no end"));
-  EXPECT_THAT(GlbComplaint("{\"a\\"), HasSubstr("a string of the JSON has no end"));
+  EXPECT_THAT(GlbComplaint(R"({"asset)"), HasSubstr("a string of the JSON has no closing quotation mark"));
+  EXPECT_THAT(GlbComplaint("{\"a\\"), HasSubstr("a string of the JSON has no closing quotation mark"));
 }
 
 TEST(BrokenGltf, IsRefusedForBuffersThatEachCopyTheBinaryPart) {
@@ -206,7 +206,7 @@ TEST(BrokenGltf, IsRefusedForBuffersThatEachCopyTheBinaryPart) {
       GlbComplaint(Glb(text, SmallBinary() + std::string(400'000, '\0'))),
       HasSubstr("1000 buffers, each with a copy of 400292 bytes of binary data; allowed: at most 256 MB together"));
   EXPECT_THAT(GlbComplaint(Glb(Replaced(text, R"("buffers")", R"("buff\u0065rs")"), SmallBinary())),
-              HasSubstr("at the top of the JSON; allowed: names without"));
+              HasSubstr("at the top of the JSON; allowed: keys without"));
 }
 
 TEST(BrokenGltf, IsRefusedForMoreOrDeeperJointsThanAnyBodyHas) {
