@@ -36,7 +36,7 @@ Result<void> CheckTimes(const NumberRows& table, std::size_t time_column, const 
     const double time = table.Row(t)[time_column];
     if (time < last) {
       return Fail({file, table.lines[t]},
-                  "time {:.13g} s after {:.13g} s; allowed: a clock that does not run backwards", time, last);
+                  "the time {:.13g} s follows {:.13g} s; allowed: a clock that does not run backwards", time, last);
     }
     if (!std::isnan(time)) last = time;
   }
@@ -87,7 +87,7 @@ Result<JointCsvColumns> FindColumns(const NumberRows& table, const std::string& 
   for (const Role role : AllRoles()) {
     const auto& [x, y, z] = columns.joints[Index(role)];
     if (x.has_value() == y.has_value() && y.has_value() == z.has_value()) continue;
-    return Fail({file, 1}, "'{}' lacks some of its three coordinates", RoleName(role));
+    return Fail({file, 1}, "'{}' needs columns for x, y and z, but some are missing", RoleName(role));
   }
   return columns;
 }

@@ -60,7 +60,8 @@ Result<BidsChannels> ReadChannels(std::string_view text, const std::string& file
       }
       continue;
     }
-    if (cells.size() != heads) return Fail({file, line}, "{} cells under {} headings", cells.size(), heads);
+    if (cells.size() != heads)
+      return Fail({file, line}, "this row has {} cells, but there are {} headings", cells.size(), heads);
     // Channels that hold neither positions nor times are only counted.
     BidsChannels::Column& column = channels.columns.emplace_back();
     if (cells[at[1]] == "LATENCY" && !channels.latency) {
@@ -94,7 +95,7 @@ Result<BidsChannels> ReadChannels(std::string_view text, const std::string& file
   // Every point needs all three coordinates.
   for (std::size_t i = 0; i < has.size(); ++i) {
     if (std::ranges::find(has[i], false) != has[i].end())
-      return Fail({file}, "{} lacks some of its x, y, z", Quote(channels.points[i]));
+      return Fail({file}, "{} needs channels for x, y and z, but some are missing", Quote(channels.points[i]));
   }
   if (channels.points.empty()) return Fail({file}, "no channel of the type POS; only positions are read");
   return channels;
@@ -169,7 +170,8 @@ Result<MarkerMotion> ReadMotionBids(std::string_view motion_tsv, std::string_vie
     return Fail({files[0], 1}, "{} columns, but {} channels in {}", table.columns, channels.columns.size(), files[1]);
   }
   if (!table.heading.empty())
-    return Fail({files[0], 1}, "a heading; allowed: rows of numbers, which _channels.tsv names");
+    return Fail({files[0], 1},
+                "found a line of headings; allowed: only rows of numbers, whose columns _channels.tsv names");
   for (std::size_t t = 0; t < table.RowCount(); ++t) {
     const auto row = table.Row(t);
     std::vector<glm::dvec3> places(channels.points.size());

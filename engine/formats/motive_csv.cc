@@ -76,7 +76,7 @@ Result<MarkerMotion> ReadMotiveCsv(std::string_view text, const std::string& fil
   if (!rate) rate = ParseFinite(ValueBehind(facts, "Capture Frame Rate"));
   constexpr double kMaxRateHz = 10'000;
   if (!rate || *rate <= 0 || *rate > kMaxRateHz)
-    return Fail(first, "no Export Frame Rate above 0 and up to {:g}", kMaxRateHz);
+    return Fail(first, "Export Frame Rate is missing or out of range; allowed: above 0, up to {:g} Hz", kMaxRateHz);
 
   // Read the headings, which end with the line of axes.
   std::vector<std::string_view> types, names, kinds, axes;

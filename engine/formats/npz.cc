@@ -142,7 +142,7 @@ Result<std::optional<NumberArray>> NumbersIn(const NpyParts& parts, const std::s
     std::size_t size = 0;
     const auto [end, error] = std::from_chars(shape.data() + at, shape.data() + shape.size(), size);
     if (error != std::errc() || size > kMaxUnpacked) return Fail(place, "its shape is {}", Quote(shape));
-    if (size != 0 && count > kMaxUnpacked / size) return Fail(place, "is larger than possible");
+    if (size != 0 && count > kMaxUnpacked / size) return Fail(place, "has more numbers than can be read");
     array.shape.push_back(size);
     count *= size;
     at = static_cast<std::size_t>(end - shape.data());

@@ -67,11 +67,11 @@ Result<std::vector<std::size_t>> CountingRows(std::span<const double> times, std
     }
     const double before = times[rows.back()];
     if (times[i] < before) {
-      return Fail(place, "time {:.6g} s after {:.6g} s; allowed: a clock that does not run backwards", times[i],
+      return Fail(place, "the time {:.6g} s follows {:.6g} s; allowed: a clock that does not run backwards", times[i],
                   before);
     }
     if (times[i] - before > kMaxStep_s) {
-      return Fail(place, "time {:.6g} s after {:.6g} s; allowed: a clock that advances by at most {} s per row",
+      return Fail(place, "the time {:.6g} s follows {:.6g} s; allowed: a clock that advances by at most {} s per row",
                   times[i], before, kMaxStep_s);
     }
     if (times[i] == before) rows.pop_back();
@@ -127,9 +127,10 @@ std::optional<RowGrid> GridOfCoarseTimes(std::span<const double> times, std::opt
     if (!(high - low <= step + kRounding)) continue;
     RowGrid grid{.rate_hz = rate, .frames = {}, .remark = {}};
     for (std::size_t i = 0; i < times.size(); ++i) grid.frames.push_back({i, i});
-    grid.remark = fmt::format("its times are printed to {:g} s, so several rows share one: rows are evenly spaced, at "
-                              "{:.6g} Hz",
-                              step, rate);
+    grid.remark = fmt::format(
+        "its times are rounded to {:g} s, so several rows have the same time; the rows are taken as evenly spaced, at "
+        "{:.6g} Hz",
+        step, rate);
     return grid;
   }
   return std::nullopt;
@@ -188,8 +189,8 @@ Result<std::optional<RowGrid>> GridOfRows(std::span<const double> times_s, std::
   const double added = (count - static_cast<double>(rows.size())) * static_cast<double>(width);
   if (!(added <= kMaxAddedValues)) {
     return Fail({file},
-                "{} rows in {:.6g} s, mostly {:.3g} s apart, leave too large gaps; allowed: gaps of {:g} values in "
-                "total, {} per frame",
+                "{} rows in {:.6g} s, mostly {:.3g} s apart, leave gaps that are too large to fill; allowed: {:g} "
+                "missing values in total, with {} values per frame",
                 rows.size(), span, 1 / grid.rate_hz, kMaxAddedValues, width);
   }
   // Place every frame on a row, between two rows, or in a hole.
@@ -239,8 +240,9 @@ Result<MarkerMotion> LayOnClock(MarkerRows rows, const std::string& file) {
   }
   markers.rate_hz = grid->rate_hz;
   if (!rows.has_clock && rows.first_number > 1) {
-    AddRemark(markers.remark, fmt::format("its frames have numbers from {:.10g} on and no times: the first has time 0",
-                                          rows.first_number));
+    AddRemark(markers.remark,
+              fmt::format("its rows have no times, and their frame numbers begin at {:.10g}; the first row gets time 0",
+                          rows.first_number));
   }
   if (rows.has_clock) markers.start_s = scale.first * scale.seconds + rows.times_s[grid->frames.front().row];
   AddRemark(markers.remark, grid->remark);

@@ -36,9 +36,9 @@ constexpr std::array kReadings = {
             [](const glm::dvec2& p, const glm::dvec2&) { return glm::dvec2(p.y, p.x); }},
     Reading{"keypoints of all films are mirrored",
             [](const glm::dvec2& p, const glm::dvec2& size) { return glm::dvec2(size.x - p.x, p.y); }},
-    Reading{"keypoints are shares of a square about the picture",
+    Reading{"keypoints are relative to a square around the picture",
             [](const glm::dvec2& p, const glm::dvec2& size) { return OfSquare(p, size, 0.5); }},
-    Reading{"keypoints are shares of the picture's longer side",
+    Reading{"keypoints are relative to the picture's longer side",
             [](const glm::dvec2& p, const glm::dvec2& size) { return OfSquare(p, size, 0); }}};
 
 /// Returns the camera with the pose p_C = R_CF p_F + t of the rig's file read in another way: if `is_inverse`, as the
@@ -82,8 +82,8 @@ class SessionGuesser {
       TryExchanges();
       TryReadings();
       if (best_ && least_ < kMaxPlausibleMiss) {
-        found.mended = fmt::format("{}: rays miss by {:.2f} % of the height instead of {:.2f} %", told_,
-                                   kPercent * least_, kPercent * said);
+        found.mended = fmt::format("{}: rays miss each other by {:.2f} % of the person's height instead of {:.2f} %",
+                                   told_, kPercent * least_, kPercent * said);
         films_ = std::move(*best_);
       }
     }

@@ -39,7 +39,8 @@ std::optional<FitMode> FindFitMode(std::string_view name) {
 }
 
 Result<PixelFit> FitPictures(FitMode mode, const glm::dvec2& rig, const glm::dvec2& film) {
-  if (!(rig.x > 0 && rig.y > 0 && film.x > 0 && film.y > 0)) return Fail({}, "a picture without size");
+  if (!(rig.x > 0 && rig.y > 0 && film.x > 0 && film.y > 0))
+    return Fail({}, "the width or height of a picture is not above 0");
   if (rig == film) return PixelFit{};
   switch (mode) {
     case FitMode::kNone:

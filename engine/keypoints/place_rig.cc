@@ -192,8 +192,10 @@ Result<ChosenUp> UpOf(const RigFile& rig, const glm::dvec3& person, const FoundU
     const glm::dvec3 up = rig.R_WF * AxisOf(options.up)->direction;
     const double off = Degrees(AngleBetween(up, found.up));
     if (off > kUpsideDown) {
-      return Fail({}, "with {} up, everything would be upside down ({:.0f}° off); up is known from {}", options.up, off,
-                  found.by);
+      return Fail({},
+                  "with {} up, everything would be upside down: this axis is {:.0f}° away from the up direction, which "
+                  "is known from {}",
+                  options.up, off, found.by);
     }
     return ChosenUp{up, false,
                     fmt::format("up is {} (as given; the person leans {:.0f}° from it)", options.up, lean_from(up))};
@@ -226,7 +228,8 @@ Result<ChosenUp> UpOf(const RigFile& rig, const glm::dvec3& person, const FoundU
   const std::string world = camera.empty() ? "" : fmt::format(" (the world was {}'s own frame)", camera);
   if (within > kMaxDoubt) {
     return Fail({},
-                "{} determine the up direction only to {:.0f}°{}; give the file's axis by --rig-up (level cameras: -y)",
+                "from {}, the up direction is known only to within {:.0f}°{}; give the file's axis by --rig-up (level "
+                "cameras: -y)",
                 found.by, within, world);
   }
   return ChosenUp{found.up, true, fmt::format("up is found from {}, to within {:.1f}°{}", found.by, within, world)};
@@ -262,7 +265,9 @@ Result<void> CheckDistances(const RigFile& rig) {
     if (metres < kMinUsual || metres > kMaxUsual) continue;
     usual += fmt::format("{} {:.3g} m in {}", usual.empty() ? ";" : ",", metres, unit.name);
   }
-  return Fail({}, "in {} its cameras are {:.4g} m apart; allowed: {:g} to {:g} m, or give the unit by --rig-unit{}",
+  return Fail({},
+              "with lengths in {}, the rig's cameras are {:.4g} m apart; allowed: {:g} to {:g} m, or give the unit by "
+              "--rig-unit{}",
               UnitText(rig.unit_m), apart, kMinApart, kMaxApart, usual);
 }
 

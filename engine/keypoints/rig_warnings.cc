@@ -67,7 +67,7 @@ struct SquareReading {
   double padded;
   const char* told;
 };
-constexpr std::array kSquares = {SquareReading{0.5, "a square about the picture"},
+constexpr std::array kSquares = {SquareReading{0.5, "a square around the picture"},
                                  SquareReading{0, "the picture's longer side"}};
 
 class RigChecker {
@@ -245,7 +245,7 @@ class RigChecker {
       if (share == 0 || !(strange(share) < strange(said)) || !(miss_read < least)) continue;
       least = miss_read;
       told = fmt::format(
-          "the shoulders' width is {:.2f} of a leg's length ({:.2f} is usual); if keypoints are shares of {}, it is "
+          "the shoulders' width is {:.2f} of a leg's length ({:.2f} is usual); if keypoints are relative to {}, it is "
           "{:.2f}, "
           "and the residual of the rays is {:.2f} px instead of {:.2f}",
           said, kUsual, square.told, share, miss_read, miss);

@@ -188,7 +188,7 @@ std::string_view FindTreeFault(const KinematicTree& tree) {
 
 std::string_view FindFault(const IkOptions& options) {
   const double change = options.angle_change_tolerance.value_or(0);
-  if (!std::isfinite(change) || change < 0) return "the angle-change tolerance is negative";
+  if (!std::isfinite(change) || change < 0) return "the angle-change tolerance is negative or not finite";
   if (options.max_iterations < 1) return "the iteration limit is below 1";
   return {};
 }
@@ -209,14 +209,14 @@ std::string_view FindProblemFault(const KinematicTree& tree, const IkProblem& pr
     return "angles or limits do not fit the tree";
   if (problem.targets.size() != tree.effectors.size()) return "targets do not fit the tree";
   if (!IsSane(problem.start.root_position) || !IsAFrame(problem.start.root_frame))
-    return "the root is not a finite frame";
+    return "the root's position is not finite or too large, or its axes are not orthonormal";
   bool are_angles_sane = true, are_limits_good = true, are_targets_good = true;
   for (const double angle : problem.start.angles) are_angles_sane &= IsSane(angle);
   if (!are_angles_sane) return "a start angle is not finite";
   for (const AngleRange& range : problem.limits) {
     are_limits_good &= IsSane(range.lower) & IsSane(range.upper) & (range.lower <= range.upper);
   }
-  if (!are_limits_good) return "a limit is inverted";
+  if (!are_limits_good) return "a limit is not finite or too large, or its lower bound is above its upper bound";
   for (const EffectorTarget& target : problem.targets) are_targets_good &= IsGood(target);
   if (!are_targets_good) {
     return "a target is invalid; allowed: a finite position, orthonormal axes, finite weights of 0 or more";

@@ -90,7 +90,7 @@ std::string SentenceOf(const MotionFault& fault, bool is_always) {
     case kSinks:
       return fmt::format("sinks {:.0f} cm into the floor {}", cm, when);
     case kSkates:
-      if (fault.joint) return fmt::format("{} skates at {:.0f} cm/s {}, alone", joint, cm, when);
+      if (fault.joint) return fmt::format("{} alone skates at {:.0f} cm/s {}", joint, cm, when);
       return fmt::format("skates at {:.0f} cm/s {}: the standing feet move along the floor", cm, when);
     case kJumps:
       return fmt::format("the whole body jumps by {:.0f} cm at {:.2f} s", cm, fault.to_s);
@@ -178,17 +178,17 @@ std::vector<FaultRule> MakeFaultRules() {
       {"torn", "m",
        fmt::format(
            "For {:g} s, a joint of trunk, head, shoulders, hips, toes or hands deviates from its usual distance to its "
-           "neighbours by 8 to 14 % of the length of leg and trunk. Or this distance in the median frame is 1.6 to 3.5 "
-           "times a person's, or differs from that on the other side. Also: the head lies on the neck or points down "
+           "neighbours by 8 to 14 % of the length of leg and trunk. Or, in the median frame, this distance is 1.6 to "
+           "3.5 times that of a person, or differs from the distance on the body's other side. Also: the head lies on "
+           "the neck or points down "
            "the trunk, toes point backwards, shoulders or hips are exchanged or coincide.",
            kTorn_s)},
       {"gaps", "s",
-       fmt::format(
-           "For {:g} s, every frame lacks a joint that other frames show; or the file has frames for as long before or "
-           "after those that show all needed joints.",
-           kGap_s)},
+       fmt::format("For {:g} s, every frame lacks a joint that other frames show; or the frames at the beginning or "
+                   "end of the file that lack needed joints last as long.",
+                   kGap_s)},
       {"passes", "m",
-       fmt::format("For {:g} s, a forearm or a hand is within {} of the line of the spine, or a forearm within that of "
+       fmt::format("For {:g} s, a forearm or a hand is within {} of the line of the spine, or a forearm is as close to "
                    "the line from neck to head.",
                    kPass_s, cm(kPass_m))},
       {"rate", "m/s2",

@@ -7,11 +7,12 @@ namespace etude {
 
 Result<TreeMotion> TreeMotionOf(const RawMotion& motion) {
   const std::size_t joints = motion.joints.size();
-  if (motion.rotations.empty()) return Fail({motion.name}, "has points and no rotations of joints");
+  if (motion.rotations.empty()) return Fail({motion.name}, "has only points; needed: rotations of the joints");
   if (std::ranges::count(motion.parents, -1) != 1 || motion.parents.front() != -1) {
     return Fail({motion.name}, "has {} roots; allowed: one, the first joint", std::ranges::count(motion.parents, -1));
   }
-  if (!std::ranges::all_of(motion.positions, IsSeen)) return Fail({motion.name}, "has joints that are not seen");
+  if (!std::ranges::all_of(motion.positions, IsSeen))
+    return Fail({motion.name}, "has frames without the position of a joint; needed: every joint in every frame");
   TreeMotion made{
       {motion.joints, motion.parents, std::vector<glm::dvec3>(joints), std::vector<bool>(joints)}, motion.rate_hz, {}};
   for (const int joint : motion.added) made.tree.is_point[static_cast<std::size_t>(joint)] = true;

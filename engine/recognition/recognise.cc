@@ -10,9 +10,10 @@ Result<void> CheckAsked(std::span<const AskedMove> asked, std::size_t moves, std
   int free_from = 0;
   for (const auto& [move, window] : asked) {
     const auto [begin, end] = window;
-    if (move >= moves) return Fail({}, "move number {} is asked for, but {} were taught", move, moves);
+    if (move >= moves)
+      return Fail({}, "move number {} is asked for, but {} moves were taught (numbers count from 0)", move, moves);
     if (begin < 0 || end < begin || end > static_cast<int>(frames)) {
-      return Fail({}, "a move is asked for in frames {} to {}, but the stream has {}", begin, end, frames);
+      return Fail({}, "a move is asked for in frames {} to {}, but the stream has {} frames", begin, end, frames);
     }
     if (begin < free_from) {
       return Fail({}, "a move is requested from frame {} on, but the request before it lasts until {}", begin,

@@ -99,8 +99,8 @@ std::span<const RecogniserKind> AllRecognisers() {
           MakeDtwRecogniser,
           {{{"half_at_cm", &DtwOptions::half_at_cm, 1, 100, "The distance at which the evidence is one half."}}}),
       {.name = "nearest",
-       .description = "nearest neighbour of joints: examples compared with their mirror image, half their "
-                      "amplitude, other moves and standing",
+       .description = "nearest neighbour of joint positions: examples compete with their mirror images, copies of half "
+                      "the amplitude, other moves and standing",
        .needs_examples = true,
        .teach = [](std::span<const TaughtMove> taught,
                    const RecogniserOptions& options) { return MakeNearestRecogniser(taught, options.weights); }},
@@ -112,8 +112,8 @@ std::span<const RecogniserKind> AllRecognisers() {
              return MakeLearntRecogniser(taught, options.weights, BuiltinLearntModel());
            }},
       {.name = "coached",
-       .description =
-           "ours: `learnt` for moves asked for in time with the music; its model is learnt from people with a coach",
+       .description = "ours: like `learnt`, but for moves that are requested in time with the music; its model is "
+                      "learnt from people who follow a coach",
        .needs_examples = true,
        // In a test with 32 simulated adults, 0.2 right performances per minute were missed at this threshold.
        .threshold = 0.25,

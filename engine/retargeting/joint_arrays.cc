@@ -292,7 +292,7 @@ Result<RawMotion> ReadRawNpz(const Npz& arrays, const std::string& file, const A
     motion.notes.emplace_back(kOnHands);
   } else if (standing == Standing::kAlongZ) {
     motion.notes.emplace_back(
-        "the body lies along Z, with Y up: if it stands, `up: z` in the file or a joint map says so");
+        "with Y up, the body lies along Z; if it stands, state `up: z` in the file or in a joint map");
   }
   return motion;
 }

@@ -233,7 +233,7 @@ std::optional<MarkerBody> BodyAt(double scale, const MarkerMotion& markers, cons
   // Rotate upright. Files that Etude wrote have Y up.
   UpRule rule = options.up;
   if (IsOwn(set) && rule.evidence == UpEvidence::kPosture) {
-    rule = {.axis = {0, 1, 0}, .evidence = UpEvidence::kFile, .source = "the rule of Etude's own joints"};
+    rule = {.axis = {0, 1, 0}, .evidence = UpEvidence::kFile, .source = "the convention of Etude's own joints"};
   }
   MarkerBody body{.name = "", .motion = {.rate_hz = markers.rate_hz, .poses = {}}, .up = {}, .changes = {set.name}};
   body.up = FindUpOf(frames, markers.rate_hz, rule);
@@ -252,7 +252,7 @@ std::optional<MarkerBody> BodyAt(double scale, const MarkerMotion& markers, cons
   if (end - begin < frames.size()) {
     const bool is_inside = std::ranges::any_of(std::span(frames).first(begin), IsWhole) ||
                            std::ranges::any_of(std::span(frames).subspan(end), IsWhole);
-    body.changes.push_back(fmt::format("only frames {} to {} of {} ({})", begin + 1, end, frames.size(),
+    body.changes.push_back(fmt::format("only frames {} to {} of {} are used ({})", begin + 1, end, frames.size(),
                                        is_inside
                                            ? fmt::format("elsewhere joints are missing for over {:g} s", kMaxGap_s)
                                            : "joints are missing before and after these"));
@@ -311,7 +311,8 @@ Result<std::optional<MarkerBody>> BodyOf(const MarkerMotion& markers, const Mark
     const double stature = MiddleStature(scaled->motion);
     if (stature < kMinPerson || stature > kMaxPerson) continue;
     scaled->changes.push_back(fmt::format(
-        "in the file's unit the body would be {:.3g} m tall: it is taken to be {:g} times as tall", told, scale));
+        "in the file's unit the body would be {:.3g} m tall: all lengths are taken to be {:g} times as long", told,
+        scale));
     return scaled;
   }
   return Fail({file},

@@ -217,12 +217,13 @@ Result<ReadPart> ReadPartLine(TextScanner& scanner, const std::vector<ReadPart>&
   }
   // Read the bone, then three angles with their axes.
   const Token bone = scanner.NextInLine();
-  if (bone.text != "bone") return Fail(scanner.At(bone), "{}; allowed: bone X Y Z", Quote(bone.text));
+  if (bone.text != "bone") return Fail(scanner.At(bone), "found {}; allowed: 'bone' X Y Z", Quote(bone.text));
   for (int i = 0; i < 3; ++i) {
     ASSIGN_OR_RETURN(part.bone[i], scanner.Number(scanner.NextInLine(), "a bone's end"));
   }
   const Token turns = scanner.NextInLine();
-  if (turns.text != "turns") return Fail(scanner.At(turns), "{}; allowed: turns and three angles", Quote(turns.text));
+  if (turns.text != "turns")
+    return Fail(scanner.At(turns), "found {}; allowed: 'turns' and three angles", Quote(turns.text));
   for (std::size_t i = 0; i < 3; ++i) {
     const Token axis = scanner.NextInLine(), angle = scanner.NextInLine();
     const bool has_axis = axis.text.size() == 2 && (axis.text[0] == '+' || axis.text[0] == '-') &&
@@ -247,7 +248,8 @@ struct AngleTable {
 
 Result<void> FindColumns(TextScanner& scanner, AngleTable& table, std::size_t& count) {
   const Token time = scanner.Next();
-  if (time.text != "time") return Fail(scanner.At(time), "{}; allowed: time, then names of angles", Quote(time.text));
+  if (time.text != "time")
+    return Fail(scanner.At(time), "found {}; allowed: 'time', then names of angles", Quote(time.text));
   std::vector<std::string> names{"time"};
   for (Token name = scanner.NextInLine(); !name.text.empty(); name = scanner.NextInLine()) {
     names.emplace_back(name.text);
@@ -293,7 +295,8 @@ Result<AngleTable> ReadAngleTable(std::string_view bytes, const std::string& fil
       ASSIGN_OR_RETURN(const double number, scanner.Number(word, "an angle or a position"));
       row.push_back(number);
     }
-    if (row.size() != columns) return Fail(scanner.At(begin), "{} numbers under {} names", row.size(), columns);
+    if (row.size() != columns)
+      return Fail(scanner.At(begin), "this row has {} numbers, but the header has {} names", row.size(), columns);
   }
   if (table.rows.empty()) return Fail({file}, "no rows of angles");
   // Angles larger than two turns must be degrees, not radians.

@@ -117,9 +117,9 @@ Result<std::vector<BodyPose>> Resampled(const Clip& clip, BodySampler& sampler, 
   const double seconds = frames / clip.rate_hz;
   if (seconds > kMaxSeconds) {
     return Fail({file}, "the clip lasts {:.0f} s; allowed: at most {:.0f} s{}", seconds, kMaxSeconds,
-                clip.rate_hz < 1
-                    ? fmt::format("; its frames are {:.3g} s apart: does it count milliseconds?", 1 / clip.rate_hz)
-                    : "");
+                clip.rate_hz < 1 ? fmt::format("; its frames are {:.3g} s apart: does the file count in milliseconds?",
+                                               1 / clip.rate_hz)
+                                 : "");
   }
   if (seconds * rate_hz > kMaxPoses) {
     return Fail({file}, "{:.0f} s at {:g} Hz are too many poses; allowed: at most {:.0f}", seconds, rate_hz, kMaxPoses);
@@ -132,7 +132,8 @@ Result<std::vector<BodyPose>> Resampled(const Clip& clip, BodySampler& sampler, 
     const double frame = std::min(static_cast<double>(i) * clip.rate_hz / rate_hz, frames);
     poses.push_back(Upright(sampler.At(static_cast<double>(first) + frame), up));
     if (!IsFinite(poses.back())) {
-      return Fail({file}, "in frame {:.0f} joints are too far away to be a body's", static_cast<double>(first) + frame);
+      return Fail({file}, "in frame {:.0f} joints are too far away from the origin",
+                  static_cast<double>(first) + frame);
     }
   }
   return poses;
@@ -188,7 +189,7 @@ Result<void> FindUnit(const BodyPose& rest, const std::vector<BodyPose>& poses, 
                   100 * *given, told, kMinGiven, kMaxGiven, likely);
     }
     if ((told < kMinStature || told > kMaxStature) && unit != nullptr) {
-      remarks.push_back(fmt::format("{:.2f} m tall in the unit given{}", told, likely));
+      remarks.push_back(fmt::format("the body is {:.2f} m tall in the unit given{}", told, likely));
     }
     done.unit = "given";
     done.metres_per_unit = *given;
@@ -205,7 +206,8 @@ Result<void> FindUnit(const BodyPose& rest, const std::vector<BodyPose>& poses, 
   if (is_alike || unit != nullptr || of_rest == nullptr) return {};
   done.unit = "scaled";
   done.metres_per_unit = of_rest->metres / ratio;
-  remarks.back() += fmt::format(": scaled back to its {:.2f} m ({})", at_rest * of_rest->metres, of_rest->name);
+  remarks.back() +=
+      fmt::format(": scaled back to the rest pose's {:.2f} m ({})", at_rest * of_rest->metres, of_rest->name);
   return {};
 }
 
@@ -371,7 +373,7 @@ Result<BodyConversion> ToBodyMotion(const Clip& clip, const JointMap& map, const
   std::string lies = !options.up && done.up == UpAxis::kY ? LiesAlong(samples.poses) : "";
   if (!lies.empty()) {
     const bool at_rest = LiesAlong(std::span(&rest, 1)) == lies;
-    lies = fmt::format("the body lies along {}{}: Y is assumed to be up", lies, at_rest ? ", at rest, too" : "");
+    lies = fmt::format("the body lies along {}{}: Y is assumed to be up", lies, at_rest ? ", also at rest" : "");
     if (at_rest) lies += "; a file with another up axis must be rotated first";
   }
   if (options.drop_t_pose) done.dropped_frames = CountForeignTPose(clip, sampler, done.up);

@@ -235,19 +235,21 @@ UpRule C3dUp(char axis, bool is_negative) {
 
 UpRule ArrayUp() { return {.source = "the usual axis of arrays of joints"}; }
 
-UpRule RawArraysUp() { return {.evidence = UpEvidence::kFormat, .source = "the rule of Etude's arrays"}; }
+UpRule RawArraysUp() { return {.evidence = UpEvidence::kFormat, .source = "the convention of Etude's arrays"}; }
 
-UpRule JointCsvUp() { return {.evidence = UpEvidence::kFormat, .source = "the rule of joint CSV"}; }
+UpRule JointCsvUp() { return {.evidence = UpEvidence::kFormat, .source = "the convention of joint CSV"}; }
 
-UpRule MotiveUp() { return {.evidence = UpEvidence::kFormat, .source = "the rule of Motive's exports"}; }
+UpRule MotiveUp() { return {.evidence = UpEvidence::kFormat, .source = "the convention of Motive's exports"}; }
 
 UpRule AmassUp() {
-  return {.axis = {0, 0, 1}, .evidence = UpEvidence::kFormat, .source = "the rule of AMASS", .is_y_or_z = true};
+  return {.axis = {0, 0, 1}, .evidence = UpEvidence::kFormat, .source = "the convention of AMASS", .is_y_or_z = true};
 }
 
-UpRule GltfUp() { return {.evidence = UpEvidence::kFormat, .source = "the rule of glTF", .is_y_or_z = true}; }
+UpRule GltfUp() { return {.evidence = UpEvidence::kFormat, .source = "the convention of glTF", .is_y_or_z = true}; }
 
-UpRule DeepMimicUp() { return {.evidence = UpEvidence::kFormat, .source = "the rule of DeepMimic", .is_y_or_z = true}; }
+UpRule DeepMimicUp() {
+  return {.evidence = UpEvidence::kFormat, .source = "the convention of DeepMimic", .is_y_or_z = true};
+}
 
 std::string AxisName(const glm::dvec3& axis) {
   for (int i = 0; i < 3; ++i) {

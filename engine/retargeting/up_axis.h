@@ -19,7 +19,7 @@ std::string_view UpEvidenceName(UpEvidence evidence);
 struct UpRule {
   glm::dvec3 axis{0, 1, 0};  ///< the axis that points up; with kPosture the usual axis, which the posture may overrule
   UpEvidence evidence = UpEvidence::kPosture;
-  /// A text that names the source of the axis: "the usual axis of TRC files", "the rule of AMASS".
+  /// A text that names the source of the axis: "the usual axis of TRC files", "the convention of AMASS".
   std::string source = "the usual axis";
   /// True if the body at rest stands along `axis`; weight over the feet along another axis is then no evidence.
   bool is_of_rest = false;
@@ -74,7 +74,7 @@ UpRule DeepMimicUp();
 std::string AxisName(const glm::dvec3& axis);
 /// Returns the unit vector of the axis.
 glm::dvec3 AxisOf(UpAxis up);
-/// Describes a rotation for users: "turned upright from Z up (the rule of AMASS)"; "" for Y.
+/// Describes a rotation for users: "turned upright from Z up (the convention of AMASS)"; "" for Y.
 std::string DescribeTurn(const UpFinding& up);
 
 /// Rotates a point so that `up`, an axis of the file, becomes Y. If `up` is Z, a body that faced −Y faces +Z.

@@ -153,8 +153,7 @@ Result<StreamRecording> ReadKinectRows(std::string_view text, const std::string&
   recording.rate_hz = reading.rate_hz.value_or(kJudgedRateHz);
   const auto unit =
       recording.records_times ? SecondsPerCount(table, recording.remarks) : std::optional(1 / recording.rate_hz);
-  if (!unit)
-    return Fail({file, table.lines.front(), 1}, "a first column that is neither a clock nor a count of frames");
+  if (!unit) return Fail({file, table.lines.front(), 1}, "the first column is neither a clock nor a count of frames");
   recording.seconds_per_count = *unit;
   // Convert every row.
   for (std::size_t t = 0; t < table.RowCount(); ++t) {

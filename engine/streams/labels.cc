@@ -183,7 +183,7 @@ Result<std::vector<Label>> ReadActionLabels(Lines lines, const std::string& file
     ASSIGN_OR_RETURN(label.move, NameIn({Trimmed(line->substr(0, colon)), 1}, file, number, "action"));
     ASSIGN_OR_RETURN(const double first, NumberIn(cells[0], file, number, 1e9));
     ASSIGN_OR_RETURN(const double last, NumberIn(cells[1], file, number, 1e9));
-    if (last <= first) return Fail({file, number, cells[1].column}, "ends before it begins");
+    if (last <= first) return Fail({file, number, cells[1].column}, "the label's last frame is not after its first");
     label.from_s = first / kJudgedRateHz;
     label.to_s = last / kJudgedRateHz;
     label.person = take.substr(0, take.find('_'));

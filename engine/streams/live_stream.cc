@@ -73,7 +73,7 @@ Result<void> LiveStream::Start(bool at_end, std::vector<SensedFrame>& stream) {
   const bool is_rows = format && (*format == StreamFormat::kEtudeCsv || *format == StreamFormat::kKinectV1 ||
                                   *format == StreamFormat::kKinectV2);
   if (!is_rows) {
-    return Fail({name_, 1}, "not rows of skeletons; allowed in live streams: {}, {}, {}",
+    return Fail({name_, 1}, "the stream has no rows of joint positions; allowed in live streams: {}, {}, {}",
                 StreamFormatName(StreamFormat::kEtudeCsv), StreamFormatName(StreamFormat::kKinectV1),
                 StreamFormatName(StreamFormat::kKinectV2));
   }

@@ -90,8 +90,8 @@ Result<void> CheckReach(const StreamRecording& recording, const std::string& fil
     for (const Role role : AllRoles()) {
       const auto& place = frame.places[Index(role)];
       if (!place || glm::length(*place) <= kMaxDistance_m) continue;
-      return Fail({file, frame.line}, "{} is {:.3g} m away; allowed: at most {} m", RoleName(role), glm::length(*place),
-                  kMaxDistance_m);
+      return Fail({file, frame.line}, "{} is {:.3g} m away from the origin; allowed: at most {} m", RoleName(role),
+                  glm::length(*place), kMaxDistance_m);
     }
   }
   return {};
@@ -103,8 +103,9 @@ Result<void> OrderTimes(StreamRecording& recording, const std::string& file) {
   std::vector<RecordedFrame> ordered;
   for (const RecordedFrame& frame : recording.frames) {
     if (!ordered.empty() && frame.time_s < ordered.back().time_s) {
-      return Fail({file, frame.line}, "time {:.6g} s after {:.6g} s; allowed: a clock that does not run backwards",
-                  frame.time_s, ordered.back().time_s);
+      return Fail({file, frame.line},
+                  "the time {:.6g} s follows {:.6g} s; allowed: a clock that does not run backwards", frame.time_s,
+                  ordered.back().time_s);
     }
     if (ordered.empty() || frame.time_s > ordered.back().time_s) ordered.push_back(frame);
   }
@@ -183,8 +184,10 @@ Result<void> ToMetres(StreamRecording& recording, const std::string& file) {
     }
     return {};
   }
-  return Fail({file}, "a trunk of {:.3g} from hip centre to shoulder centre; allowed: {} to {} m, in m, cm or mm",
-              trunk, kMinTrunk_m, kMaxTrunk_m);
+  return Fail(
+      {file},
+      "the trunk is {:.3g} long from hip centre to shoulder centre; allowed: {} to {} m, written in m, cm or mm", trunk,
+      kMinTrunk_m, kMaxTrunk_m);
 }
 
 Result<StreamRecording> ReadStreamRecording(std::string_view text, const std::string& file,

@@ -119,8 +119,9 @@ void Bodies::JoinContinued(StreamRecording& recording) {
     Body body = std::move(bodies_[a]);
     for (auto b = next[a]; b; b = next[*b]) {
       const Body& later = bodies_[*b];
-      recording.remarks.push_back(fmt::format("body {} continues as body {} from frame {} on: taken to be one person",
-                                              body.id, later.id, begin_of(later)));
+      recording.remarks.push_back(
+          fmt::format("body {} continues as body {} from frame {} on; both are read as one person", body.id, later.id,
+                      begin_of(later)));
       body.frames.insert(body.frames.end(), later.frames.begin(), later.frames.end());
       body.id = later.id;
     }
@@ -145,8 +146,8 @@ Result<void> Bodies::Choose(const StreamReading& reading, const std::string& fil
     }
   }
   if (bodies_.size() > 1) {
-    recording.remarks.push_back(fmt::format("{} bodies, of which body {} is read{}", bodies_.size(), chosen,
-                                            reading.body ? "" : ", in the most frames"));
+    recording.remarks.push_back(fmt::format("the file has {} bodies; body {} is read{}", bodies_.size(), chosen,
+                                            reading.body ? "" : ", which is in the most frames"));
   }
   // Copy the joints of the chosen body to the recording.
   for (const Seen& seen : bodies_[chosen].frames) {

@@ -239,8 +239,8 @@ Result<void> StreamMaker::Add(const RecordedFrame& frame, std::vector<SensedFram
     start_s_ = frame.time_s;
   } else if (frame.time_s <= before_->time_s || frame.time_s - before_->time_s > kMaxLoss_s) {
     return Fail({file_, frame.line},
-                "time {:.6g} s after {:.6g} s; allowed: a clock that advances by at most {} s per row", frame.time_s,
-                before_->time_s, kMaxLoss_s);
+                "the time {:.6g} s follows {:.6g} s; allowed: a clock that advances by at most {} s per row",
+                frame.time_s, before_->time_s, kMaxLoss_s);
   }
   // Make the stream's frames up to the time of `frame`. Each is a recorded frame, an interpolation between two
   // recorded frames, or a frame without a body.

@@ -106,7 +106,7 @@ Result<TaughtPose> ReadPose(const Node& node) {
     if (entry.key == "tolerance_deg") continue;
     ASSIGN_OR_RETURN(pose.targets.emplace_back(), ReadTarget(entry, tolerance_deg));
   }
-  if (pose.targets.empty()) return Fail(node.place, "a key pose without an angle");
+  if (pose.targets.empty()) return Fail(node.place, "a key pose has no angle; at least one is needed");
   return pose;
 }
 

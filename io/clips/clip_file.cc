@@ -55,7 +55,9 @@ class CappedReader {
 };
 
 Result<std::string> ReadBeside(const std::string& path, const std::string& uri, CappedReader& reader) {
-  const auto fail = [&](const std::string& why) { return Fail({path, 0, 0}, "its file {}: {}", Quote(uri), why); };
+  const auto fail = [&](const std::string& why) {
+    return Fail({path, 0, 0}, "cannot read the file {}, to which it refers: {}", Quote(uri), why);
+  };
   std::error_code error;
   const fs::path folder = fs::canonical(fs::path(path), error).parent_path();
   const fs::path file = fs::canonical(folder / uri, error);
@@ -106,8 +108,8 @@ Result<std::string> AcclaimSkeletonBeside(const std::string& path) {
   }
   if (found.size() == 1) return found.front();
   return Fail({path},
-              "an Acclaim motion, whose skeleton is another file: {} .asf files are in its folder; allowed: one, or "
-              "one whose name begins the motion's name ('01.asf' of '01_01.amc')",
+              "an Acclaim motion, whose skeleton is another file: {} .asf files are in its folder; allowed: exactly "
+              "one, or one with whose name the motion's name begins ('01.asf' for '01_01.amc')",
               found.empty() ? "no" : std::to_string(found.size()));
 }
 

@@ -76,7 +76,7 @@ void AddEdits(double from_hz, const ConvertOptions& options, std::vector<std::st
   if (std::string said = DescribeResampling(from_hz, options.rate_hz.value_or(from_hz)); !said.empty()) {
     changes.push_back(std::move(said));
   }
-  if (options.mirror) changes.emplace_back("mirrored: left is right");
+  if (options.mirror) changes.emplace_back("mirrored: left and right are exchanged");
 }
 
 /// Finds the unit and the up axis of a clip that is not from a glTF file. If no roles are found, `options` must give
@@ -91,7 +91,8 @@ Result<BodyConversion> FindUnit(const SourceClip& source, const OpenOptions& opt
     told.unit = "given";
     return told;
   }
-  opened.error().message += "; GLB is in metres, so --unit must state the file's unit if its roles are unknown";
+  opened.error().message +=
+      "; GLB files are in metres, so --unit must state the unit if the joints' roles cannot be found";
   return tl::unexpected(std::move(opened.error()));
 }
 

@@ -374,8 +374,8 @@ STRANGERS = {
     "calibrated at half of the size, which is not told": (altered_size(0.5), None, "it is taken to be for pictures of 320 x 240 pixels"),
     "keypoints of halved pictures": ("Pose2Sim", lambda p: (p + 0.5) / 2 - 0.5, "corrected: keypoints are of pictures 0.5 times as large"),
     "shares of a padded square": ("Pose2Sim", lambda p: np.array([(p[0] + 0.5) / WIDTH, (p[1] + 0.5 + PADDED) / WIDTH]),
-                                  "corrected: keypoints are shares of a square about the picture"),
-    "shares of the longer side": ("Pose2Sim", lambda p: (p + 0.5) / WIDTH, "corrected: keypoints are shares of the picture's longer side"),
+                                  "corrected: keypoints are relative to a square around the picture"),
+    "shares of the longer side": ("Pose2Sim", lambda p: (p + 0.5) / WIDTH, "corrected: keypoints are relative to the picture's longer side"),
     "x and y exchanged": ("Pose2Sim", lambda p: p[::-1], "corrected: keypoints have x and y exchanged"),
     "v counted from below": ("Pose2Sim", lambda p: np.array([p[0], HEIGHT - 1 - p[1]]), "corrected: keypoints count v from the picture's bottom"),
     "all films mirrored": ("Pose2Sim", lambda p: np.array([WIDTH - 1 - p[0], p[1]]), "corrected: keypoints of all films are mirrored"),
@@ -571,8 +571,8 @@ class Mistakes(EtudeCase):
         for cameras, noise_px in ((2, 2), (4, 2), (4, 6)) if HEAVY else ((2, 2),):
             with self.subTest(cameras=cameras, noise_px=noise_px):
                 told, _, _ = self.capture(rig, cameras=cameras, pixels=shares, noise_px=noise_px)
-                self.assertRegex(told, r"doubtful: the shoulders' width is 0\.5\d of a leg.* shares of a square about the picture, it is 0\.4|"
-                                       r"corrected: keypoints are shares of a square about the picture")
+                self.assertRegex(told, r"doubtful: the shoulders' width is 0\.5\d of a leg.* relative to a square around the picture, it is 0\.4|"
+                                       r"corrected: keypoints are relative to a square around the picture")
 
     def test_a_camera_that_fits_nobody_is_named(self):
         elsewhere = altered_toml(lambda name, R, T, K: (name, R, 1000 * T if name == "cam2" else T, K))

@@ -83,7 +83,7 @@ class Triage(EtudeCase):
         self.assertGreater(rows["headless"]["gaps_share"], 0.2)
         self.assertIn("left_ankle is torn off in all frames", rows["torn"]["reason"])
         self.assertGreater(rows["torn"]["torn_max_cm"], 10)
-        self.assertRegex(rows["skates"]["reason"], r"left_foot skates at (2[7-9]|3[0-3]) cm/s from 0\.")
+        self.assertRegex(rows["skates"]["reason"], r"left_foot alone skates at (2[7-9]|3[0-3]) cm/s from 0\.")
 
     def test_limits_are_an_exit_code_a_test_report_and_a_section_of_the_page(self):
         self.floating("m/floating.csv")

@@ -252,9 +252,9 @@ TransitionRecord PlanThroughClip(const MotionLibrary& library, const TransitionR
 const SettingTable<PlayedOptions>& PlayedSettings() {
   static const SettingTable<PlayedOptions> kSettings(
       {{"excess_per_s", &PlayedOptions::excess_per_s, 0.01, 1000,
-        "Acceleration beyond the clips' own, in centimetres per frame², that costs as much as one second."},
+        "Acceleration beyond the clips' own, in centimetres per frame², that costs as much as one second of waiting."},
        {"invented_per_s", &PlayedOptions::invented_per_s, 0.01, 1'000'000,
-        "Distance from the nearer clip, in centimetres over a second, that costs as much as one second."},
+        "Distance from the nearer clip, in centimetres over a second, that costs as much as one second of waiting."},
        {"most_skipped_s", &PlayedOptions::most_skipped_s, 0, 60,
         "Maximum time of the wanted clip that may be skipped, in seconds; never more than its first third."},
        {"most_through_s", &PlayedOptions::most_through_s, 0, 60,

@@ -148,7 +148,7 @@ std::span<const Filler> AllFillers() {
   static const std::vector<Filler> fillers = {
       // Fillers that need no library.
       {.name = "zero-velocity",
-       .description = "the last pose stands",
+       .description = "the last pose is held",
        .fill = [](const Gap& gap, Values) { return std::vector<TreePose>(gap.frames, gap.past.back()); }},
       {.name = "interpolation", .description = "straight lines and great arcs (lerp, slerp)", .fill = Interpolate},
       {.name = "inertialised",
@@ -175,7 +175,7 @@ std::span<const Filler> AllFillers() {
        .uses_library = true,
        .fill = FillLikeNear},
       {.name = "planted-feet",
-       .description = "near-gaps, and feet that bear the body stay while others step",
+       .description = "like near-gaps, but feet that bear the body stay in place while the others step",
        .uses_library = true,
        .fill = FillWithPlantedFeet}};
   return fillers;

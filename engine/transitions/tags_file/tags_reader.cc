@@ -277,7 +277,7 @@ class TagsReader {
     const double time_s = Number("time-s"), expected_s = frame.frame / clip.rate_hz;
     constexpr double kRoundingOfFile = 1e-6;
     if (std::abs(time_s - expected_s) > kRoundingOfFile * (1 + expected_s)) {
-      return Complain("time-s is {}, but frame {} at {} Hz is at {}", time_s, frame.frame, clip.rate_hz, expected_s);
+      return Complain("time-s is {}, but frame {} at {} Hz is at {} s", time_s, frame.frame, clip.rate_hz, expected_s);
     }
     clip.bridge_frames.push_back(frame);
   }
@@ -295,7 +295,7 @@ class TagsReader {
   void ReadKey() {
     const KeyTag key{xml_.Attribute("clip"), Whole("frame")};
     const auto clip = clip_of_name_.find(key.clip);
-    if (clip == clip_of_name_.end()) return Complain("a key of clip {}, which the file does not have", Quote(key.clip));
+    if (clip == clip_of_name_.end()) return Complain("a key names clip {}, which is not in the file", Quote(key.clip));
     const bool has_bridge_frames = std::any_of(tags_.clips.begin(), tags_.clips.end(),
                                                [](const ClipTags& tagged) { return !tagged.bridge_frames.empty(); });
     const ClipTags& of_clip = tags_.clips[clip->second];
@@ -303,7 +303,7 @@ class TagsReader {
     const bool is_bridge_frame = std::any_of(of_clip.bridge_frames.begin(), of_clip.bridge_frames.end(), is_it);
     // In a library without bridge frames, any frame may be a key.
     if (has_bridge_frames ? !is_bridge_frame : key.frame >= of_clip.frames) {
-      return Complain("a key at frame {} of clip {}, which is not a bridge frame", key.frame, Quote(key.clip));
+      return Complain("a key names frame {} of clip {}, which is not a bridge frame", key.frame, Quote(key.clip));
     }
     tags_.keys.push_back(key);
   }

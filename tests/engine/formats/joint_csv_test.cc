@@ -126,14 +126,15 @@ TEST(JointCsv, RefusesUnknownHeadingsHalfJointsAndRaggedRows) {
     return read ? std::string("(read)") : ToString(read.error());
   };
   EXPECT_NE(complaint("hed_x_m,head_y_m,head_z_m\n1,2,3\n").find("head_x_m"), std::string::npos);
-  EXPECT_EQ(complaint("head_x_m,head_y_m\n1,2\n"), "m.csv:1: 'head' lacks some of its three coordinates");
+  EXPECT_EQ(complaint("head_x_m,head_y_m\n1,2\n"),
+            "m.csv:1: 'head' needs columns for x, y and z, but some are missing");
   EXPECT_EQ(complaint("head_x_m,head_y_m,head_z_m,head_x_m\n1,2,3,4\n"), "m.csv:1: heading 'head_x_m' twice");
   std::string blank = "head_x_m,head_y_m,head_z_m\n";
   for (int i = 0; i <= 1'000'000; ++i) blank += ",,\n";
   EXPECT_EQ(complaint(blank.c_str()), "m.csv: 1000001 rows; allowed: at most 1000000");
   const std::string timed = "time_s,head_x_m,head_y_m,head_z_m\n";
   EXPECT_EQ(complaint((timed + "0.2,1,2,3\n0.1,1,2,3\n0,1,2,3\n").c_str()),
-            "m.csv:3: time 0.1 s after 0.2 s; allowed: a clock that does not run backwards");
+            "m.csv:3: the time 0.1 s follows 0.2 s; allowed: a clock that does not run backwards");
   EXPECT_EQ(complaint((timed + "1,1,2,3\n1,1,2,3\n").c_str()), "(read)");
 }
 

@@ -98,7 +98,8 @@ TEST(MotionBids, SaysWhatIsWrong) {
   EXPECT_THAT(reason(row, with("mm", "furlong")), HasSubstr("c.tsv:2: units 'furlong'; allowed for POS: m, cm, mm, in, ft"));
   EXPECT_THAT(reason(row, with("\tx\t", "\tw\t")), HasSubstr("component 'w'; allowed for POS: x, y, z"));
   EXPECT_THAT(reason(row, with("\ty\t", "\tz\t")), HasSubstr("c.tsv:4: the point 'a' has two channels for z"));
-  EXPECT_THAT(reason("1\t2\t3\n", with("a_y\tPOS\ty\ta\tm\n", "")), HasSubstr("'a' lacks some of its x, y, z"));
+  EXPECT_THAT(reason("1\t2\t3\n", with("a_y\tPOS\ty\ta\tm\n", "")),
+              HasSubstr("'a' needs channels for x, y and z, but some are missing"));
   EXPECT_THAT(reason("x\ty\tz\tq\n" + row, kChannels), HasSubstr("a heading"));
 }
 

@@ -104,7 +104,7 @@ TEST(Npy, RefusesWhatIsDamagedOrNoNumbers) {
   EXPECT_THAT(reason(good.substr(0, 40)), HasSubstr("its header is cut short"));
   EXPECT_THAT(reason(good.substr(0, good.size() - 8)), HasSubstr("has 1 numbers; its shape requires 2"));
   EXPECT_THAT(reason(NpyOf<double>("<f8", "two", {1, 2})), HasSubstr("its shape is 'two'"));
-  EXPECT_THAT(reason(NpyOf<double>("<f8", "536870912, 2", {1, 2})), HasSubstr("is larger than possible"));
+  EXPECT_THAT(reason(NpyOf<double>("<f8", "536870912, 2", {1, 2})), HasSubstr("has more numbers than can be read"));
   for (const char* type : {"|O", "<c8", "<U4"}) {
     EXPECT_THAT(reason(NpyOf<double>(type, "2,", {1, 2})), HasSubstr("does not contain plain numbers")) << type;
   }
@@ -227,7 +227,7 @@ TEST(MotiveCsv, TakesTheRateThatIsTold) {
   };
   EXPECT_EQ(reason("Export Frame Rate,60.0", "Export Frame Rate,"), "(read)") << "Capture Frame Rate counts";
   EXPECT_THAT(reason("Export Frame Rate,60.0", "Export Frame Rate,20000"),
-              HasSubstr("no Export Frame Rate above 0 and up to 10000"));
+              HasSubstr("Export Frame Rate is missing or out of range; allowed: above 0, up to 10000 Hz"));
 }
 
 }  // namespace

@@ -103,7 +103,7 @@ TEST(RowClock, TimesThatSeveralRowsShareByRoundingKeepTheirRate) {
       EXPECT_NEAR(laid->rate_hz, rate, told > 0 ? 1e-9 : 0.13) << "untold, 119.88 Hz may be 120";
       EXPECT_EQ(laid->frames.size(), 600u);
       EXPECT_LT(FarthestFromCurve(*laid), told > 0 || rate > 119.9 ? 1e-9 : 0.02);
-      EXPECT_THAT(laid->remark, HasSubstr("its times are printed to 0.01 s, so several rows share one"));
+      EXPECT_THAT(laid->remark, HasSubstr("its times are rounded to 0.01 s, so several rows have the same time"));
     }
   }
   // The control: at 100 Hz, a repeated time is a repeated row.
@@ -180,10 +180,10 @@ TEST(RowClock, RefusesWhatIsNoClock) {
     return laid ? std::string("no complaint") : ToString(laid.error());
   };
   const double nan = std::nan("");
-  EXPECT_EQ(reason({0, 0.1, 0.05}), "a:4: time 0.05 s after 0.1 s; allowed: a clock that does not run backwards");
+  EXPECT_EQ(reason({0, 0.1, 0.05}), "a:4: the time 0.05 s follows 0.1 s; allowed: a clock that does not run backwards");
   EXPECT_EQ(reason({0, nan, 0.1}), "a:3: no time, although other rows have one");
   EXPECT_EQ(reason({0, 0.1, 700}),
-            "a:4: time 700 s after 0.1 s; allowed: a clock that advances by at most 600 s per row");
+            "a:4: the time 700 s follows 0.1 s; allowed: a clock that advances by at most 600 s per row");
   EXPECT_THAT(reason({0, 1e-4, 2e-4, 500}, 3), HasSubstr("allowed: gaps of 1e+07 values in total, 3 per frame"));
   EXPECT_EQ(reason({nan, nan, nan}), "no complaint");
   EXPECT_EQ(reason({4, 4, 4}), "no complaint") << "a column that tells nothing";
@@ -278,7 +278,8 @@ TEST(RowClock, FrameNumbersThatBeginLaterAreSaidWhereThereAreNoTimes) {
     rows.has_clock = has_clock;
     return LayOnClock(std::move(rows), "a")->remark;
   };
-  EXPECT_EQ(remark(11, false), "its frames have numbers from 11 on and no times: the first has time 0");
+  EXPECT_EQ(remark(11, false),
+            "its rows have no times, and their frame numbers begin at 11; the first row gets time 0");
   for (const double usual : {0.0, 1.0}) EXPECT_EQ(remark(usual, false), "");
   EXPECT_EQ(remark(11, true), "");
 }

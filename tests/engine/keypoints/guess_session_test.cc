@@ -115,7 +115,7 @@ TEST(GuessPictures, FindsWhichFilmWasTurnedOrMirrored) {
       }
       const std::string turned = turns == 0 ? "" : fmt::format("turned by {}° clockwise", 90 * turns);
       const std::string words = !is_mirrored ? turned : turns == 0 ? "mirrored" : "mirrored and " + turned;
-      EXPECT_THAT(guesses[2].told, StartsWith("pictures " + words + ": rays miss by 0.0"));
+      EXPECT_THAT(guesses[2].told, StartsWith("pictures " + words + ": rays miss each other by 0.0"));
     }
   }
 }
@@ -162,9 +162,9 @@ TEST(GuessSession, ReadsKeypointsAsTheyWereMeant) {
       {"keypoints count v from the picture's bottom", [](glm::dvec2 p) { return glm::dvec2(p.x, 720 - p.y); }},
       {"keypoints have x and y exchanged", [](glm::dvec2 p) { return glm::dvec2(p.y, p.x); }},
       {"keypoints of all films are mirrored", [](glm::dvec2 p) { return glm::dvec2(1280 - p.x, p.y); }},
-      {"keypoints are shares of a square about the picture",
+      {"keypoints are relative to a square around the picture",
        [&](glm::dvec2 p) { return (p + glm::dvec2(0, bar)) / side * kPicture; }},
-      {"keypoints are shares of the picture's longer side", [&](glm::dvec2 p) { return p / side * kPicture; }},
+      {"keypoints are relative to the picture's longer side", [&](glm::dvec2 p) { return p / side * kPicture; }},
       {"keypoints are of pictures 0.5 times as large", [](glm::dvec2 p) { return 0.5 * p; }},
       {"keypoints are of pictures 1.5 times as large", [](glm::dvec2 p) { return 1.5 * p; }},
       {"keypoints are of pictures 3 times as large", [](glm::dvec2 p) { return 3.0 * p; }}};
@@ -173,7 +173,7 @@ TEST(GuessSession, ReadsKeypointsAsTheyWereMeant) {
     auto films = truth;
     for (PictureOfFilm& film : films) ChangePixels(film, mistake);
     const SessionGuess guess = GuessSession(films, kFilms, glm::dmat3(1), 0.1);
-    EXPECT_THAT(guess.mended, StartsWith(told + ": rays miss by 0.0")) << told;
+    EXPECT_THAT(guess.mended, StartsWith(told + ": rays miss each other by 0.0")) << told;
     EXPECT_LT(FurthestPx(guess.people, truth), 1e-9) << told;
   }
 }

@@ -157,8 +157,8 @@ TEST(PlaceRig, RefusesAPersonUpsideDownAndFramesWithoutOne) {
   const auto points = Stander([](glm::dvec3 p) { return p; });
   const auto down = PlaceRig(SomeRig(), points, kPlaceRate, {.up = "-y"});
   ASSERT_FALSE(down);
-  EXPECT_THAT(down.error().message,
-              HasSubstr("with -y up, everything would be upside down (180° off); up is known from "));
+  EXPECT_THAT(down.error().message, HasSubstr("with -y up, everything would be upside down: this axis is 180° away "
+                                              "from the up direction, which is known from "));
   ASSERT_OK(side, PlaceRig(SomeRig(), points, kPlaceRate, {.up = "x"})) << "lying is allowed";
   EXPECT_LT(glm::distance(side->R * glm::dvec3(1, 0, 0), glm::dvec3(0, 1, 0)), 1e-12);
   EXPECT_NEAR(glm::determinant(side->R), 1, 1e-12);
@@ -212,7 +212,8 @@ TEST(PlaceRig, RefusesDistancesThatNoRigHas) {
   };
   for (const double metres : {0.0, 0.05, 4.0, 90.0}) EXPECT_TRUE(PlaceRig(apart(metres), {})) << metres;
   EXPECT_EQ(PlaceRig(apart(6122), {}).error().message,
-            "in m its cameras are 6122 m apart; allowed: 0.03 to 100 m, or give the unit by --rig-unit; 6.12 m in mm");
+            "with lengths in m, the rig's cameras are 6122 m apart; allowed: 0.03 to 100 m, or give the unit by "
+            "--rig-unit; 6.12 m in mm");
   EXPECT_THAT(PlaceRig(apart(400), {}).error().message, HasSubstr("--rig-unit; 4 m in cm, 10.2 m in inch"));
   EXPECT_THAT(PlaceRig(apart(0.004), {}).error().message, ::testing::EndsWith("or give the unit by --rig-unit"));
   EXPECT_TRUE(PlaceRig(apart(6122), {.unit = "m"})) << "who gives the unit is believed";

@@ -58,13 +58,18 @@ TEST(Faults, BeginRightBeyondTheirBounds) {
   using P = IkProblem;
   using O = IkOptions;
   EXPECT_EQ(fault([](T&, P& p, O&) { p.start.root_position.y = 1e6; }), "");
-  EXPECT_EQ(fault([](T&, P& p, O&) { p.start.root_position.y = 1.0001e6; }), "the root is not a finite frame");
+  EXPECT_EQ(fault([](T&, P& p, O&) { p.start.root_position.y = 1.0001e6; }),
+            "the root's position is not finite or too large, or its axes are not orthonormal");
   EXPECT_EQ(fault([](T&, P& p, O&) { p.start.root_frame[0] *= 1 + 0.9e-6; }), "");
-  EXPECT_EQ(fault([](T&, P& p, O&) { p.start.root_frame[0] *= 1 + 1.1e-6; }), "the root is not a finite frame");
+  EXPECT_EQ(fault([](T&, P& p, O&) { p.start.root_frame[0] *= 1 + 1.1e-6; }),
+            "the root's position is not finite or too large, or its axes are not orthonormal");
   EXPECT_EQ(fault([](T&, P& p, O&) { p.start.angles[3] = -1e6; }), "");
   EXPECT_EQ(fault([](T&, P& p, O&) { p.start.angles[3] = -1.0001e6; }), "a start angle is not finite");
   EXPECT_EQ(fault([](T&, P& p, O&) { p.limits[3] = {0.5, 0.5}; }), "");
-  EXPECT_EQ(fault([](T&, P& p, O&) { p.limits[3] = {0.5, 0.4999}; }), "a limit is inverted");
+  EXPECT_EQ(fault([](T&, P& p, O&) {
+              p.limits[3] = {0.5, 0.4999};
+            }),
+            "a limit is not finite or too large, or its lower bound is above its upper bound");
   EXPECT_EQ(fault([](T&, P& p, O&) { p.targets[1].axis_weights.y = 1e6; }), "");
   EXPECT_EQ(fault([](T&, P& p, O&) { p.targets[1].position_weight = 1.1e6; }),
             "a target is invalid; allowed: a finite position, orthonormal axes, finite weights of 0 or more");
@@ -73,7 +78,8 @@ TEST(Faults, BeginRightBeyondTheirBounds) {
   EXPECT_EQ(fault([](T&, P& p, O&) { p.targets.pop_back(); }), "targets do not fit the tree");
   EXPECT_EQ(fault([](T&, P& p, O&) { p.limits.pop_back(); }), "angles or limits do not fit the tree");
   EXPECT_EQ(fault([](T&, P&, O& o) { o.angle_change_tolerance = 0; }), "");
-  EXPECT_EQ(fault([](T&, P&, O& o) { o.angle_change_tolerance = -1e-9; }), "the angle-change tolerance is negative");
+  EXPECT_EQ(fault([](T&, P&, O& o) { o.angle_change_tolerance = -1e-9; }),
+            "the angle-change tolerance is negative or not finite");
   EXPECT_EQ(fault([](T&, P&, O& o) { o.max_iterations = 1; }), "");
   EXPECT_EQ(fault([](T&, P&, O& o) { o.max_iterations = 0; }), "the iteration limit is below 1");
   EXPECT_EQ(fault([](T& t, P&, O&) { t.joints[1].p_PJ = glm::dvec3(0); }), "") << "it stands where the root does";

@@ -223,9 +223,9 @@ TEST(FollowStream, RefusesWindowsThatItCannotFollow) {
     return testing::Message(FollowStream(*recogniser, kTaught.size(), seen, asked));
   };
   EXPECT_EQ(complaint({{kRaise, {15, 75}}, {kHang, {75, 75}}, {kHang, {75, 90}}}), "accepted");  // the control
-  EXPECT_EQ(complaint({{2, {15, 75}}}), "move number 2 is asked for, but 2 were taught");
+  EXPECT_EQ(complaint({{2, {15, 75}}}), "move number 2 is asked for, but 2 moves were taught (numbers count from 0)");
   for (const FrameInterval window : {FrameInterval{-1, 9}, FrameInterval{9, 8}, FrameInterval{0, 91}}) {
-    EXPECT_THAT(complaint({{kRaise, window}}), HasSubstr(", but the stream has 90"));
+    EXPECT_THAT(complaint({{kRaise, window}}), HasSubstr(", but the stream has 90 frames"));
   }
   EXPECT_EQ(complaint({{kRaise, {15, 75}}, {kHang, {74, 80}}}),
             "a move is requested from frame 74 on, but the request before it lasts until 75");

@@ -457,7 +457,7 @@ TEST(JointMap, RefusesATaughtHeadOrSpineThatIsPartOfALimb) {
     const JointMapOverrides taught{{{role, {joint, {}}}}};
     EXPECT_EQ(testing::Message(FindJointMap(person, "person.bvh", &taught)),
               std::string("the role ") + std::string(RoleName(role)) + " has the joint '" + joint +
-                  "', which is part of a limb");
+                  "', which is part of a limb; allowed: a joint of trunk, neck or head");
   }
 }
 

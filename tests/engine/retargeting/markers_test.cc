@@ -345,7 +345,7 @@ TEST(MarkersUp, OfPeopleWhoStandOnTheirHeadsIsSaidToBeTheOther) {
   const auto down = [](glm::dvec3 p) { return glm::dvec3(p.x, -p.y, -p.z); };
   ASSERT_OK(motive, FindMarkerBodies(Keypoints(poses, down), "a.csv", {.up = MotiveUp()}));
   EXPECT_EQ(motive->front().up.doubt,
-            "the body stands along −Y, but Y is the rule of Motive's exports; --up overrules that");
+            "the body stands along −Y, but Y is the convention of Motive's exports; --up overrules that");
 }
 
 TEST(MarkersUp, OfPeopleWhoLieAndThenStandIsTheAxisThatKeepsTheFloor) {
@@ -466,7 +466,7 @@ TEST(Markers, InAWrongUnitAreTakenForAPersonOrRefused) {
     ASSERT_OK(bodies, FindMarkerBodies(take, "a.trc"));
     EXPECT_LT(FurthestJoint(bodies->front().motion), 1e-12);
     EXPECT_THAT(bodies->front().Note(),
-                HasSubstr(fmt::format("m tall: it is taken to be {:g} times as tall", 1 / factor)));
+                HasSubstr(fmt::format("m tall: all lengths are taken to be {:g} times as long", 1 / factor)));
   }
   MarkerMotion take = OwnJoints();
   for (auto& frame : take.frames) {
@@ -565,7 +565,8 @@ TEST(Markers, GapsAreBridgedAndLongOnesCutOff) {
   EXPECT_EQ(bodies->front().motion.poses.size(), 25u);
   EXPECT_LT(FurthestJoint(bodies->front().motion), 1e-12) << "the sway is straight";
   EXPECT_EQ(bodies->front().Note(),
-            "Etude's joints; 4 positions interpolated in gaps; only frames 1 to 25 of 40 (elsewhere joints are missing "
+            "Etude's joints; 4 positions interpolated in gaps; only frames 1 to 25 of 40 are used (elsewhere joints "
+            "are missing "
             "for over 1 s)");
 }
 
@@ -573,7 +574,7 @@ TEST(Markers, LostAtTheBeginningAndTheEndAreNotSaidToBeLostForLong) {
   MarkerMotion take = OwnJoints();
   for (const std::size_t t : {0, 1, 39}) take.frames[t][Index(Role::kLeftWrist)].reset();
   EXPECT_EQ(FindMarkerBodies(take, "a.trc")->front().Note(),
-            "Etude's joints; only frames 3 to 39 of 40 (joints are missing before and after these)");
+            "Etude's joints; only frames 3 to 39 of 40 are used (joints are missing before and after these)");
 }
 
 TEST(Markers, OfTwoPeopleAreTwoBodies) {

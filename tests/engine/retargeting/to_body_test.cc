@@ -147,7 +147,7 @@ TEST(ToBodyMotion, TellsWhichRolesItComposed) {
 TEST(ToBodyMotion, TakesTheUnitThatIsGiven) {
   ASSERT_OK(body, Convert(AtRest(Scaled(1)), {.metres_per_unit = 0.02}));
   EXPECT_EQ(body->unit, "given");
-  EXPECT_THAT(body->Note(), HasSubstr("1 unit = 2 cm (given); 3.48 m tall in the unit given"));
+  EXPECT_THAT(body->Note(), HasSubstr("1 unit = 2 cm (given); the body is 3.48 m tall in the unit given"));
   EXPECT_NEAR(Stature(body->motion.poses[0]), 2 * 1.60 / 0.92, 1e-12);
 }
 
@@ -375,7 +375,8 @@ TEST(ToBodyMotion, RefusesAUnitUnderWhichTheBodyIsNone) {
             "(metre) would give 1.74 m");
   EXPECT_FALSE(Convert(AtRest(Scaled(1)), {.metres_per_unit = 1}));
   ASSERT_OK(child, Convert(AtRest(Scaled(1)), {.metres_per_unit = 0.0055}));
-  EXPECT_THAT(child->Note(), HasSubstr("0.96 m tall in the unit given; 1 unit = 1 cm (centimetre) would give 1.74 m"));
+  EXPECT_THAT(child->Note(),
+              the body is HasSubstr("0.96 m tall in the unit given; 1 unit = 1 cm (centimetre) would give 1.74 m"));
   EXPECT_EQ(Convert(AtRest(Scaled(1)), {.metres_per_unit = 0.01})->Note(), "1 unit = 1 cm (given)");
 }
 
@@ -395,7 +396,7 @@ TEST(ToBodyMotion, TellsThatABodyLiesWhoseUpAxisNobodyKnows) {
     for (Joint& joint : lying.joints) joint.rest.translation = turn * joint.rest.translation;
     ASSERT_OK(body, Convert(AtRest(lying)));
     EXPECT_THAT(body->Note(), HasSubstr(std::string("the body lies along ") + axis +
-                                        ", at rest, too: Y is assumed to be up; a "
+                                        ", also at rest: Y is assumed to be up; a "
                                         "file with another up axis must be rotated first"));
   }
 }
@@ -429,7 +430,8 @@ TEST(ToBodyMotion, TakesTheFormatsAxisBeforePostureAndTheUsersBeforeBoth) {
   ASSERT_OK(of_format, Convert(lying, {.up_rule = AmassUp()}));
   EXPECT_EQ(of_format->found_up.evidence, UpEvidence::kFormat);
   EXPECT_LT(of_format->motion.poses[0][kHead].y, 0.3);
-  EXPECT_THAT(of_format->Note(), HasSubstr("the body stands along Y, but Z is the rule of AMASS; --up overrules that"));
+  EXPECT_THAT(of_format->Note(),
+              HasSubstr("the body stands along Y, but Z is the convention of AMASS; --up overrules that"));
   ASSERT_OK(told, Convert(lying, {.up = UpAxis::kY, .up_rule = AmassUp()}));
   EXPECT_EQ(told->found_up.evidence, UpEvidence::kTold);
   EXPECT_GT(told->motion.poses[0][kHead].y, 1.6);
@@ -489,15 +491,16 @@ TEST(ToBodyMotion, RefusesWhatGivesNoMotion) {
 
   Clip flying = AtRest(testing::PersonSkeleton(), 2);
   At(flying, 1, "Hips").translation.x = 1e300;
-  EXPECT_THAT(testing::Message(Convert(flying)), HasSubstr("too far away to be a body's"));
+  EXPECT_THAT(testing::Message(Convert(flying)), HasSubstr("too far away from the origin"));
   Clip later = AtRest(testing::PersonSkeleton(), 9, 30);
   for (std::size_t i = 3; i < 9; ++i) LowerArms(later, i);
   At(later, 7, "Hips").translation.x = 1e300;
-  EXPECT_EQ(testing::Message(Convert(later)), "in frame 7 joints are too far away to be a body's")
+  EXPECT_EQ(testing::Message(Convert(later)), "in frame 7 joints are too far away from the origin")
       << "the T-pose's frames count";
 
   EXPECT_EQ(testing::Message(Convert(AtRest(testing::PersonSkeleton(), 400, 0.1))),
-            "the clip lasts 3990 s; allowed: at most 3600 s; its frames are 10 s apart: does it count milliseconds?");
+            "the clip lasts 3990 s; allowed: at most 3600 s; its frames are 10 s apart: does the file count in "
+            "milliseconds?");
 }
 
 }  // namespace

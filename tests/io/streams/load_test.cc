@@ -56,7 +56,7 @@ TEST(MatchLabels, CutsByTimeAndShiftsClocks) {
 TEST(MatchLabels, RefusesTimesOutsideAndLabelsOfNothing) {
   const auto late = ReadLabels("clip,from_s,to_s,move,truth\na,1,2,m,right\na,2,9,m,right\n", "l");
   EXPECT_EQ(ToString(MatchLabels(*late, "l", TwoStreams()).error()),
-            "l:3: a label from 2.000 to 9.000 s of a; allowed: within its 3.000 s");
+            "l:3: a label from 2.000 to 9.000 s of a; allowed: within the recording, which lasts 3.000 s");
   const auto other = ReadLabels("clip,from_s,to_s,move,truth\nz,1,2,m,right\n", "l");
   EXPECT_EQ(ToString(MatchLabels(*other, "l", TwoStreams()).error()),
             "l: none of the labels belongs to a recording that was given, such as a");
