@@ -36,10 +36,10 @@ Result<void> Sync(const std::filesystem::path& path, int flags) {
   int file = ::open(path.c_str(), O_RDONLY | O_CLOEXEC | flags);
   if (file < 0 && errno == EACCES)
     file = ::open(path.c_str(), O_WRONLY | O_CLOEXEC | flags);  // read access may be denied for a lock file
-  if (file < 0) return CannotWrite(path.string(), "cannot be opened to synchronise it", errno);
+  if (file < 0) return CannotWrite(path.string(), "cannot be opened to be synchronised with the disk", errno);
   const int failed = Synced(file) ? 0 : errno;
   ::close(file);
-  if (failed != 0) return CannotWrite(path.string(), "cannot be synchronised", failed);
+  if (failed != 0) return CannotWrite(path.string(), "cannot be synchronised with the disk", failed);
   return {};
 }
 

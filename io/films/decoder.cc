@@ -148,7 +148,8 @@ Result<bool> Decoder::Next(ColourImage& frame) {
   const int status = CloseAndWait();
   const std::string words = FirstLineOf(log_.get());
   if (count != 0 || !WIFEXITED(status) || WEXITSTATUS(status) != 0) {
-    return Fail(Place{.file = path_.string()}, "ffmpeg stopped within a frame{}{}", words.empty() ? "" : ": ", words);
+    return Fail(Place{.file = path_.string()}, "ffmpeg failed before the end of the film{}{}",
+                words.empty() ? "" : ": ", words);
   }
   return false;
 }

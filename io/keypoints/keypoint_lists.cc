@@ -54,7 +54,7 @@ std::vector<std::string> TextsOf(const Json* list) {
 
 Result<std::vector<Keypoint>> Triples(const Json* list, const Place& place) {
   if (list == nullptr || !list->is_array() || list->size() % 3 != 0) {
-    return Fail(place, "not a list of keypoints; allowed: x, y and confidence of each");
+    return Fail(place, "not a list of keypoints; allowed: a list of x, y and confidence for each keypoint");
   }
   std::vector<Keypoint> points;
   for (std::size_t i = 0; i < list->size(); i += 3) {
@@ -226,7 +226,9 @@ Result<PeopleOfFilm> Ordered(std::map<long, std::vector<SeenPerson>> numbered, c
   film.frames.resize(static_cast<std::size_t>(count));
   for (auto& [number, people] : numbered) film.frames[static_cast<std::size_t>(number - first)] = std::move(people);
   if (frames > 0 && lowest > 0 && highest < frames) {
-    film.told = fmt::format("frames {} to {} of {}: assumed to be counted from 0", lowest, highest, frames);
+    film.told =
+        fmt::format("frames are numbered {} to {}, and the film has {}; the numbers are assumed to be counted from 0",
+                    lowest, highest, frames);
   }
   return film;
 }
@@ -240,8 +242,9 @@ void MoveFrames(std::span<const std::size_t> indices, std::size_t count, PeopleO
   const std::size_t missing = indices.back() - indices.front() + 1 - indices.size();
   if (missing > 0) {
     film.told += film.told.empty() ? "" : "; ";
-    film.told += fmt::format("{} of {} frames are missing, by their numbers or times; they are taken to show nobody",
-                             missing, count);
+    film.told += fmt::format(
+        "{} of {} frames are missing, as the numbers or times of the others show; they are taken to show nobody",
+        missing, count);
   }
   film.frames = std::move(frames);
 }
@@ -349,7 +352,7 @@ Result<PeopleOfFilm> ReadKeypointList(const Json& json, const std::string& layou
                              ? FirstMember(frame, {"instances", "people", "pose_landmarks", "landmarks", "keypoints"})
                              : &frame;
     if (people == nullptr) {
-      return Fail(place, "frame {} has no key instances, people, pose_landmarks, landmarks or keypoints", i);
+      return Fail(place, "frame {} has none of the keys instances, people, pose_landmarks, landmarks and keypoints", i);
     }
     ASSIGN_OR_RETURN(numbered[*number], PeopleOfList(*people, layout, names, place));
   }

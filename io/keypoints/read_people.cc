@@ -164,10 +164,9 @@ Result<PeopleOfFilm> ReadCoco(const Json& json, const std::string& layout, const
                               const Place& place) {
   const Json *images = Member(json, "images"), *annotations = Member(json, "annotations");
   if (images == nullptr || !images->is_array() || annotations == nullptr || !annotations->is_array()) {
-    return Fail(
-        place,
-        "no lists 'images' and 'annotations'; allowed: COCO's keypoint files and results, AlphaPose's, MMPose's, "
-        "MediaPipe's landmarks, or a folder of OpenPose's JSON");
+    return Fail(place,
+                "no lists 'images' and 'annotations'; allowed: keypoint files or results of COCO, AlphaPose or MMPose, "
+                "landmarks of MediaPipe, or a folder of OpenPose's JSON files");
   }
   const std::vector<std::string> names = NamesOf(json);
   PeopleOfFilm film;
@@ -225,7 +224,9 @@ void Denormalise(const FilmOfKeypoints& of, PeopleOfFilm& film) {
     }
   }
   film.told += film.told.empty() ? "" : "; ";
-  film.told += fmt::format("keypoints between 0 and 1 are taken as shares of {} x {} pixels", of.width, of.height);
+  film.told +=
+      fmt::format("keypoints lie between 0 and 1, so they are taken as fractions of the picture's {} x {} pixels",
+                  of.width, of.height);
 }
 
 Result<PeopleOfFilm> ReadFile(const fs::path& file, const std::string& layout, const FilmOfKeypoints& of) {
@@ -276,8 +277,9 @@ std::string DoubtOf(const std::string& layout, const SeenPeople& frames) {
   if (layout == "body_25") {
     const Midway hips = MidHipsOfBody25(frames);
     if (!hips.AreNot()) return "";
-    return fmt::format("in layout body_25 the mid-hip lies between the hips in {} of {} people; body_25b would fit",
-                       hips.between, hips.people);
+    return fmt::format(
+        "read as layout body_25, the mid-hip lies between the hips in only {} of {} people; try --layout body_25b",
+        hips.between, hips.people);
   }
   if (layout != "body_25b") return "";
   // The mid-hip and the two hips of body_25 have the numbers 8, 9 and 12. In body_25b, these numbers stand for the
@@ -285,8 +287,8 @@ std::string DoubtOf(const std::string& layout, const SeenPeople& frames) {
   const Midway hips = CountMidway(frames, Landmark::kRightElbow, Landmark::kLeftWrist, Landmark::kRightHip);
   if (!hips.Are()) return "";
   return fmt::format(
-      "in layout body_25b the right elbow lies between left wrist and right hip in {} of {} people; "
-      "body_25 would fit",
+      "read as layout body_25b, the right elbow lies between the left wrist and the right hip in {} of {} people; try "
+      "--layout body_25",
       hips.between, hips.people);
 }
 

@@ -61,7 +61,7 @@ Result<RealTake> ReadRealTake(std::string_view text, const std::string& file) {
   const Node* distances = fields.Raw("distances");
   if (distances == nullptr || distances->items.empty()) {
     fields.Complain(distances == nullptr ? node.place : distances->place,
-                    "'distances' is missing or empty; allowed: a list of one or more distances, each of some cameras");
+                    "'distances' is missing or empty; allowed: a list of one or more distances, each with its cameras");
   }
   if (take.recovery.empty()) fields.Complain(node.place, "'recovery' is missing");
   if (distances != nullptr) {

@@ -162,8 +162,8 @@ Result<LoadedStreams> LoadStreams(const std::vector<std::string>& references, co
   const auto is_clip = [](const NamedStream& stream) { return stream.motion.has_value(); };
   if (is_told && !loaded.streams.empty() && std::ranges::none_of(loaded.streams, is_clip)) {
     return Fail({loaded.streams.front().source},
-                "a recording of a sensor, whose format determines unit and joints; --joint-map, --unit and --up are "
-                "only for clips");
+                "this is a sensor's recording, and its format determines unit and joints; --joint-map, --unit and --up "
+                "are allowed only for clips");
   }
   if (!loaded.streams.empty()) return loaded;
   if (!loaded.refused.empty()) return tl::unexpected(loaded.refused.front());
@@ -175,7 +175,8 @@ Result<std::vector<std::string>> LabelFiles(const std::string& path) {
   if (!fs::is_directory(path, ignored)) return std::vector{path};
   ASSIGN_OR_RETURN(auto files, FilesBelow(path));
   std::erase_if(files, [](const std::string& file) { return fs::path(file).extension() != ".tagstream"; });
-  if (files.empty()) return Fail({path}, "no .tagstream in it; allowed: a labels file, or a folder of tag streams");
+  if (files.empty())
+    return Fail({path}, "the folder contains no .tagstream file; allowed: a labels file, or a folder of tag streams");
   return files;
 }
 

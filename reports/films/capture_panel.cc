@@ -133,7 +133,7 @@ Result<CapturePanel> CapturePanel::Make(const RunData& run, const ShownCell& cel
   bool fits =
       frames > 0 && recovered->poses.size() == frames && extras.brightness.size() == frames && !extras.views.empty();
   for (const auto& view : extras.views) fits = fits && view.masks.size() == frames;
-  if (!fits) return Fail(place, "its tracks, masks and brightness differ in length, or it has no camera");
+  if (!fits) return Fail(place, "the recording's tracks, masks and brightness differ in length, or it has no camera");
 
   // Rebuild the room in which the person moved, and find the crop of each camera's pictures.
   CapturePanel panel;

@@ -46,7 +46,7 @@ Result<CoachedSessionFacts> ReadCoachedSession(const ShownCell& cell) {
     *motion = *track;
   }
   if (facts.learner.poses.size() != facts.coach.poses.size() || facts.sensed.poses.size() != facts.coach.poses.size()) {
-    return Fail(place, "its tracks differ in length");
+    return Fail(place, "its tracks 'coach', 'truth' and 'sensed' differ in length");
   }
   if (!extras) return Fail(place, "its extras are not those of a coached session: {}", extras.error().message);
   static_cast<CoachExtras&>(facts) = *std::move(extras);

@@ -149,7 +149,7 @@ Result<IkRace> FindIkRace(const RunData& run, const ScenarioSummary& scenario) {
   const std::vector<std::string> methods = MethodsOf(cells, scenario);
   // Check that two methods have recordings.
   if (methods.empty())
-    return Fail(nowhere, "this run kept no recordings of this scenario, whose key 'video' selects them");
+    return Fail(nowhere, "this run kept no recordings of this scenario (the scenario's key 'video' selects them)");
   if (methods.size() == 1) {
     return Fail(nowhere, "this run kept recordings of only one method; two in the same world are needed");
   }

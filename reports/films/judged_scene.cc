@@ -120,7 +120,8 @@ Result<JudgedSessionFacts> ReadJudgedSession(const RunData& run, const ShownCell
   if (truth == nullptr || sensed == nullptr || sensed->poses.empty()) {
     return Fail(place, "has no tracks 'truth' and 'sensed'");
   }
-  if (truth->poses.size() != sensed->poses.size()) return Fail(place, "its tracks differ in length");
+  if (truth->poses.size() != sensed->poses.size())
+    return Fail(place, "its tracks 'truth' and 'sensed' differ in length");
   ASSIGN_OR_RETURN(const auto extras, ExtrasOf(*cell.recording, place));
   ASSIGN_OR_RETURN(const auto stream, StreamOf(*sensed, extras.joint_states, place));
   // Read the session as the sensor recorded it, the performances, and the method's verdicts.

@@ -90,7 +90,7 @@ Result<TransitionRace> FindTransitionRace(const RunData& run, const ScenarioSumm
   }
   if (shown < 2) return Fail({}, "no world has recordings of two methods with a transition");
   TransitionRace race = RaceIn(*best, scenario, scenario.methods);
-  race.choice = fmt::format("the first world in which the most methods have a transition, of {}",
+  race.choice = fmt::format("the first of the worlds in which the most methods have a transition, out of {}",
                             Plural(static_cast<long long>(worlds.size()), "recorded world"));
   return race;
 }

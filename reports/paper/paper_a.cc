@@ -135,8 +135,8 @@ std::string FigureHtml(const PaperAFigure& figure, const FuzzySystem& system, bo
 
 std::string RoundTripHtml(const FuzzySystem& system) {
   const std::string_view legend =
-      "Back from the grades: the mean difference between a value and the value that each method of defuzzification "
-      "computes from its grades, over the whole axis.";
+      "Back from the grades: each method of defuzzification computes a value from the grades of a value. The table "
+      "shows the mean difference of the two, over the whole axis.";
   Table table{.label = fmt::format("Back from the grades of {}", system.name),
               .style = "printed",
               .columns = {{.head = "feature", .is_row_head = true}}};
@@ -180,7 +180,7 @@ constexpr std::string_view kMisprints =
 const std::vector<PaperAFigure>& PaperAFigures() {
   using enum Feature;
   static const std::vector<PaperAFigure> figures = {
-      {5, kRH, "arm raise", "degrees between upper arm and down", {2, 3, 4}, ""},
+      {5, kRH, "arm raise", "degrees between the upper arm and straight down", {2, 3, 4}, ""},
       {6,
        kRHE,
        "elbow bent",
@@ -199,7 +199,7 @@ const std::vector<PaperAFigure>& PaperAFigures() {
        "180 degrees minus the lean",
        {12, 11},
        "The grades do not sum to 1; they are as printed."},
-      {9, kRF, "leg spread", "degrees between thigh and down", {13, 14}, ""},
+      {9, kRF, "leg spread", "degrees between the thigh and straight down", {13, 14}, ""},
       {10, kRFK, "knee bent", "degrees inside the knee", {16, 15}, "The grades do not sum to 1; they are as printed."},
   };
   return figures;

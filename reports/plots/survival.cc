@@ -91,8 +91,8 @@ std::string PanelOf(const RunData& run, const ScenarioSummary& scenario, const C
   for (const auto& [method, of_method] : waits) {
     if (method >= kMaxLines) continue;
     lines += Line(method, of_method, time, share);
-    described +=
-        fmt::format("{}: {:.0f} % never. ", scenario.methods[method], 100 * SurvivalCurve(of_method).back().second);
+    described += fmt::format("{}: {:.0f} % remain at the end. ", scenario.methods[method],
+                             100 * SurvivalCurve(of_method).back().second);
   }
   const std::string condition_label = ConditionLabel(condition.condition);
   const MetricWords words = WordsFor(std::string(rule.metric));

@@ -163,10 +163,10 @@ void AddMethod(const ScenarioSummary& scenario, std::size_t method, const Method
     curves.found[method] = by_severity;
     if (const auto half = HalfFoundAt(by_severity))
       told += fmt::format("; half of the faults are found from severity {:.2f} on", *half);
-    curves.found_words += fmt::format("{}: {:.0f} % of the worst. ", name, 100 * by_severity.back().second);
+    curves.found_words += fmt::format("{}: {:.0f} % of the worst faults. ", name, 100 * by_severity.back().second);
   }
   if (SharePoints waiting = SurvivalCurve(verdicts.waits); waiting.size() > 1) {
-    curves.wait_words += fmt::format("{}: {:.0f} % never. ", name, 100 * waiting.back().second);
+    curves.wait_words += fmt::format("{}: {:.0f} % are never called right. ", name, 100 * waiting.back().second);
     curves.waiting[method] = std::move(waiting);
   }
   if (!told.empty()) curves.keys += VerdictKey(scenario, method, told);

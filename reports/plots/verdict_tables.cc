@@ -88,7 +88,8 @@ std::string SessionTable(const RunData& run, const ScenarioSummary& scenario, co
                         session.praised, session.wrong);
   }
   return Framed(fmt::format("{}the sessions in which {} made the most errors", prefix, scenario.methods[method->first]),
-                Head("session", false) + Head("right ones missed") + Head("wrong ones called right"), body);
+                Head("session", false) + Head("right performances missed") + Head("wrong performances called right"),
+                body);
 }
 
 std::string ConfusionTable(const std::string& caption, const MoveConfusion& confusion) {

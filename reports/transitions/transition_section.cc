@@ -243,10 +243,11 @@ std::string DistanceTable::Html() const {
     row.cells.emplace_back(DistanceWords(point.facts.distance.value_or(std::sqrt(sum)), point.threshold));
     table.rows.push_back(std::move(row));
   }
-  return TableHtml(table) + fmt::format(
-                                "<p class=\"quiet legend\">The bars of a row sum to d². A full bar alone reaches the "
-                                "threshold; without a threshold, a full bar is the largest of its row. {}</p>",
-                                EscapeMarkup(kFeatureLegend));
+  return TableHtml(table) +
+         fmt::format(
+             "<p class=\"quiet legend\">The bars of a row sum to d². If a bar is full, this feature alone reaches the "
+             "threshold; if there is no threshold, the largest bar of each row is full. {}</p>",
+             EscapeMarkup(kFeatureLegend));
 }
 
 std::string MostlyBy(const PerFeature& partials) {

@@ -181,7 +181,8 @@ void ReadTempoRange(Fields& fields, Move& move) {
   if (range.size() != 2 || move.tempo_bpm < range[0] || move.tempo_bpm > range[1]) {
     fields.Complain(
         fields.Raw("tempo_range_bpm")->place,
-        fmt::format("'tempo_range_bpm' must be [slowest, fastest] with the move's {} between them", move.tempo_bpm));
+        fmt::format("'tempo_range_bpm' must be [slowest, fastest], and the move's tempo, {}, must lie between them",
+                    move.tempo_bpm));
   }
 }
 

@@ -67,7 +67,7 @@ Result<GlLibrary> LoadEgl() {
   // Open Mesa's display without a surface.
   egl.display = egl.GetPlatformDisplay(EGL_PLATFORM_SURFACELESS_MESA, EGL_DEFAULT_DISPLAY, nullptr);
   if (egl.display == EGL_NO_DISPLAY || !egl.Initialize(egl.display, nullptr, nullptr)) {
-    return Fail({}, "EGL opens no display of Mesa's without a surface");
+    return Fail({}, "EGL cannot open Mesa's surfaceless display");
   }
   // Check that contexts need neither a configuration nor a surface.
   const char* extensions = egl.QueryString(egl.display, EGL_EXTENSIONS);

@@ -335,9 +335,9 @@ def errors_mm(found, truth):
 RIGS = ["Pose2Sim", "FreeMoCap, mm", "Anipose, mm, first camera's frame", "Y down, cm", "Caliscope, a board's frame",
         "EasyMocap", "OpenCV stereo", "COLMAP", "Qualisys, turned"]
 KEYPOINTS = ["OpenPose, 26", "normalised", "COCO results", "AlphaPose", "MMPose", "MediaPipe"]
-MISTAKES = {"none": None, "sides swapped in 20 frames": "cam2: left and right exchanged, frames 21 to 40",
-            "sides swapped for ever": "cam2: left and right exchanged, frames 1 to 60",
-            "legs swapped in 20 frames": "cam2: left and right of hips and legs exchanged, frames 21 to 40",
+MISTAKES = {"none": None, "sides swapped in 20 frames": "cam2: left and right were exchanged, frames 21 to 40",
+            "sides swapped for ever": "cam2: left and right were exchanged, frames 1 to 60",
+            "legs swapped in 20 frames": "cam2: left and right of hips and legs were exchanged, frames 21 to 40",
             "late by 3 frames": "cam2: its frames are 3.0", "late by 0.4 frames": "cam2: its frames are 0.4",
             "rate off by 2 %": "and its rate is 29.41", "turned by 180": "cam2: pictures turned by 180",
             "turned by 90": "cam2: pictures turned by 90", "mirrored": "cam2: pictures mirrored",
@@ -370,8 +370,8 @@ STRANGERS = {
                       "corrected: the rig's cameras look along -z"),
     "matrices of Blender": (altered_toml(lambda name, R, T, K: (name, (FLIP @ R).T, -R.T @ T, K)), None,
                             "and the cameras look along -z"),
-    "calibrated at twice the size, which is not told": (altered_size(2), None, "it is taken to be for pictures of 1280 x 960 pixels"),
-    "calibrated at half of the size, which is not told": (altered_size(0.5), None, "it is taken to be for pictures of 320 x 240 pixels"),
+    "calibrated at twice the size, which is not told": (altered_size(2), None, "pictures of 1280 x 960 pixels are assumed"),
+    "calibrated at half of the size, which is not told": (altered_size(0.5), None, "pictures of 320 x 240 pixels are assumed"),
     "keypoints of halved pictures": ("Pose2Sim", lambda p: (p + 0.5) / 2 - 0.5, "corrected: keypoints are of pictures 0.5 times as large"),
     "shares of a padded square": ("Pose2Sim", lambda p: np.array([(p[0] + 0.5) / WIDTH, (p[1] + 0.5 + PADDED) / WIDTH]),
                                   "corrected: keypoints are relative to a square around the picture"),
@@ -583,7 +583,7 @@ class Mistakes(EtudeCase):
         reference = self.folder / "reference.trc"
         write_trc(reference, 60, 2 * FRAMES, figure)
         told, errors, _ = self.capture(mistake=SLOW, cameras=2, more=("--reference", reference))
-        self.check(told, errors, words="cam2: 25 frames per second, but 30 in the others, so its keypoints are interpolated")
+        self.check(told, errors, words="cam2: the film has 25 frames per second, but the others have 30; its keypoints are resampled")
         self.assertIn("reference: resampled from 60 to 30 Hz", told)
         self.assertLess(float(re.search(r"^all\s+([\d.]+)", told, re.M)[1]), 1, told)
 
@@ -591,19 +591,20 @@ class Mistakes(EtudeCase):
         reference = self.folder / "reference.trc"
         write_trc(reference, 29.97, FRAMES - 10, figure)
         told, errors, _ = self.capture(mistake=NTSC, cameras=2, more=("--reference", reference))
-        self.check(told, errors, words="cam2: 29.97 frames per second, but 30 in the others, taken as the same rate")
-        film = re.search(r"cam2: drift measured: ([+-][\d.]+) frames over the film, \+0\.06|"
+        self.check(told, errors, words="cam2: the film has 29.97 frames per second, but the others have 30; they are assumed to have the same rate")
+        film = re.search(r"cam2: drift measured: ([+-][\d.]+) frames over the film, while both stated rates would give \+0\.06|"
                          r"cam2: its frames are .*, which adds ([\d.]+) frames over the film; corrected", told)
         self.assertIsNotNone(film, told)
         self.assertAlmostEqual(float(film[1] or film[2]), 0.06, delta=0.02)
-        drift = re.search(r"reference: 29.97 frames per second, films 30, taken as the same rate: ([+-][\d.]+) frames of drift", told)
+        drift = re.search(r"reference: it has 29.97 frames per second, but the films have 30; they are assumed to have the same rate; "
+                          r"measured: a drift of ([+-][\d.]+) frames", told)
         self.assertAlmostEqual(float(drift[1]), -0.06, delta=0.03, msg=told)
         self.assertIn("reference: 50 frames, but 60 in the films; the first 50 are compared", told)
 
     # Errors of 2 px hide the delay from the automatic correction, but the report still doubts the clock.
     def test_a_late_film_of_keypoints_that_err_is_doubted_and_can_be_set(self):
         told, errors, _ = self.capture(mistake=LATE_AND_NOISY, cameras=2)
-        self.assertRegex(told, r"doubtful: cam2: its frames seem (2\.[89]|3\.[012]) frames later than cam1's; --sync 0\.2 would correct it")
+        self.assertRegex(told, r"doubtful: cam2: its frames seem to be (2\.[89]|3\.[012]) frames later than cam1's; --sync 0\.2 would correct this")
         asked, by_sync, _ = self.capture(mistake=LATE_AND_NOISY, cameras=2, more=("--sync", "0.2"))
         self.assertNotIn("doubtful: cam2: its frames", asked)
         self.assertLess(np.median(by_sync), 0.85 * np.median(errors))
@@ -649,7 +650,8 @@ class Mistakes(EtudeCase):
         result = self.ends(0, "capture", "--rig", self.folder / named, *(self.folder / f"{name}.mp4" for name in cams), "--silhouettes",
                             "--rooms", rooms, "--stature", "1.7", "-o", self.folder / "m.csv", "--report", page, *arguments)
         self.assertNotIn("doubtful", result.stdout)
-        self.assertIn("cam3: 30 frames per second, but 15 in the others, its nearest pictures are used, which differ by up to 17 ms", result.stdout)
+        self.assertIn("cam3: the film has 30 frames per second, but the others have 15; for each moment the nearest of its pictures is "
+                      "used, which is up to 17 ms away", result.stdout)
         text = page.read_text()
         self.assertIn("stature: 1.70 m", text)
         self.assertIn("src=\"data:video/mp4;base64,", text)

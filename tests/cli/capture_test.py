@@ -147,7 +147,7 @@ class Capture(EtudeCase):
         self.assertAlmostEqual(found["middle"]["error_px"], 12, delta=2)
         self.assertLess(found["middle"]["rms_without_px"], .6)
         said = self.ends(0, "calibrate", written(bad), "--size", size, "--lens", "none", "--overwrite", "-o", self.rig).stdout
-        self.assertRegex(said, r"pair 5 disagrees with the others, which place \(.*\) 1[0-4]\.\d px from its pixel")
+        self.assertRegex(said, r"pair 5 disagrees with the others: they project its point \(.*\) 1[0-4]\.\d px from its pixel")
         millimetres = self.ends(0, "calibrate", written(noisy, 1000), "--size", size, "--lens", "none", "--overwrite", "-o", self.rig).stdout
         self.assertRegex(millimetres, r"middle: the camera is \d{4} m from its first point; points must be in metres: are they in millimetres\?")
         self.assertRegex(self.refusal("calibrate", self.pairs, "--size", "160x120", "--overwrite", "-o", self.rig),
@@ -210,7 +210,7 @@ class Capture(EtudeCase):
         self.assertRegex(joints, r"left_wrist +0\.0 +")
         strange = self.folder / "strange.trc"
         strange.write_text(re.sub(r"\b(left|right|hip|shoulder|head|spine)\w*\b", "marker", (self.folder / "m.trc").read_text()))
-        self.assertIn("is a keypoint or a joint; allowed: LShoulder, … and left_shoulder, …",
+        self.assertIn("has the name of a keypoint or a joint; allowed: LShoulder, … and left_shoulder, …",
                       self.refusal(*self.capture("-o", self.folder / "s.csv", "--reference", strange)))
         self.assertFalse((self.folder / "s.csv").exists())
         told = json.loads(distances.read_text())

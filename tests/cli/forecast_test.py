@@ -59,7 +59,7 @@ class Forecast(EtudeCase):
         self.assertLess(told["p95_mm"], told["worst_mm"])
         changes = {change["change"].split(" at ")[0]: change for change in told["changes"]}
         self.assertEqual(changes["as it is"]["median_mm"], told["median_mm"])
-        for change in ("pixels twice as exact", "a perfect calibration", "one more camera"):
+        for change in ("keypoints twice as exact", "a perfect calibration", "one more camera"):
             self.assertLess(changes[change]["median_mm"], told["median_mm"], change)
         body = sum(joint["body_mm"] ** 2 for joint in told["joints"]), sum(joint["point_mm"] ** 2 for joint in told["joints"])
         self.assertLess(body[0], body[1])

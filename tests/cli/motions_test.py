@@ -217,7 +217,7 @@ class Motions(MotionFileCase):
         moves = self.folder / "moves.yaml"
         self.assertIn("in the unit given", self.refusal("teach", CMU, "--unit", "mm", "-o", moves))
         take = self.write("take.txt", kinect(arms(100)))
-        self.assertIn("--unit and --up are only for clips", self.refusal("teach", take, "--unit", "cm", "-o", moves))
+        self.assertIn("--unit and --up are allowed only for clips", self.refusal("teach", take, "--unit", "cm", "-o", moves))
         roles = self.write("roles.yaml", "roles:\n  left_hand: RightHand\n")
         self.assertIn("the role left_hand has the joint", self.refusal("teach", CMU, "--map", roles, "-o", moves))
 

@@ -200,8 +200,9 @@ std::string TextOf(const Calibrated& rig) {
     if (i < rig.disagreeing.size() && rig.disagreeing[i]) {
       const DisagreeingPair& pair = *rig.disagreeing[i];
       text += fmt::format(
-          "  pair {} disagrees with the others, which place ({:g}, {:g}, {:g}) {:.1f} px from its pixel ({:g}, {:g}); "
-          "without it\n  the reprojection error is {:.3f} px RMS\n",
+          "  pair {} disagrees with the others: they project its point ({:g}, {:g}, {:g}) {:.1f} px from its pixel "
+          "({:g}, {:g}).\n"
+          "  Without this pair the reprojection error is {:.3f} px RMS\n",
           pair.index + 1, pair.pair.world.x, pair.pair.world.y, pair.pair.world.z, pair.error_px, pair.pair.pixel.x,
           pair.pair.pixel.y, pair.rms_without_px);
     }

@@ -23,7 +23,7 @@ Result<std::vector<Board>> ReadBoards(const std::vector<std::string>& texts) {
     for (const Board& other : boards) {
       if (board.first_code < other.first_code + CountCodes(other) &&
           other.first_code < board.first_code + CountCodes(board)) {
-        return Fail({}, "--board {}: another board uses the same codes; allowed: @{} and more", text,
+        return Fail({}, "--board {}: another board uses the same codes; allowed: a first code from @{} on", text,
                     other.first_code + CountCodes(other));
       }
     }

@@ -23,7 +23,7 @@ Result<void> CheckReference(const MarkerMotion& reference, const std::string& fi
   if (std::ranges::any_of(reference.names, is_known)) return {};
   constexpr std::size_t kShown = 4;
   const std::span<const std::string> shown(reference.names.data(), std::min(kShown, reference.names.size()));
-  return Fail({file}, "no marker ({} tried: {}{}) is a keypoint or a joint; allowed: {}, … and {}, …",
+  return Fail({file}, "none of the {} markers ({}{}) has the name of a keypoint or a joint; allowed: {}, … and {}, …",
               reference.names.size(), Join(shown), reference.names.size() > kShown ? ", …" : "",
               LandmarkName(Landmark::kLeftShoulder), RoleName(Role::kLeftShoulder));
 }

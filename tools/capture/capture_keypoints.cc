@@ -64,8 +64,9 @@ std::string PeopleText(const RecoveredPerson& person, const std::vector<FilmedVi
 
 std::string ReportText(const RecoveredPerson& person, const std::vector<FilmedView>& views) {
   std::string text;
-  text += fmt::format("points: {:.1f} % found, {:.1f} px off the keypoints (median), outliers beyond {:.1f} px",
-             100 * person.report.found, person.report.residual_px, person.outlier_px);
+  text += fmt::format(
+      "points: {:.1f} % found, {:.1f} px off the keypoints (median); keypoints more than {:.1f} px off are outliers",
+      100 * person.report.found, person.report.residual_px, person.outlier_px);
   for (std::size_t i = 0; i < views.size(); ++i) {
     text += fmt::format("{} {} {:.1f} %", i == 0 ? "; left out:" : ",", views[i].camera.name, 100 * person.report.rejected[i]);
   }

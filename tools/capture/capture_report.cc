@@ -119,8 +119,8 @@ CapturePage BeginPage(const CaptureFilmsOptions& options, const BodyMotion& moti
 CameraResiduals ResidualsOfOutlines(const std::vector<FilmedView>& views, const UnmarkedMotion& person) {
   constexpr double kPercent = 100;
   CameraResiduals residuals{.caption =
-                                "Share of the area covered by the body or by the person's outline in a camera's "
-                                "picture that only one of the two covers, %, over seconds",
+                                "How much body and outline differ in a camera's picture, over seconds: the area that "
+                                "only one of the two covers, % of the area that either covers",
                             .unit = "%",
                             .cameras = {}};
   for (std::size_t i = 0; i < views.size(); ++i) {
@@ -149,7 +149,7 @@ std::string OutlinesText(const std::vector<FilmedView>& views, const UnmarkedMot
 
 std::string DoubtsOf(const std::vector<std::string>& told) {
   const auto doubts = std::ranges::count_if(told, [](const std::string& s) { return s.starts_with("doubtful"); });
-  return doubts == 0 ? "nothing is doubtful" : fmt::format("{} marked below as doubtful", doubts);
+  return doubts == 0 ? "nothing is doubtful" : fmt::format("marked as doubtful below: {}", doubts);
 }
 
 Result<bool> WritePage(const CaptureFilmsOptions& options, CapturePage page, const std::vector<OverlayView>& overlays,

@@ -27,13 +27,13 @@ Result<SeenPeople> ReadPeople(const CaptureFilmsOptions& options, FilmedView& vi
   if (!film.doubt.empty()) told.Tell(fmt::format("doubtful: {}: {}", entry.filename().string(), film.doubt));
   // Check that the file has the film's number of frames and, up to a rotation by 90°, the film's picture size.
   if (film.frames.size() != static_cast<std::size_t>(view.facts.frames)) {
-    return Fail({entry.string()}, "{} frames, but the film {} has {}", film.frames.size(), view.path.string(),
-                view.facts.frames);
+    return Fail({entry.string()}, "keypoints of {} frames, but the film {} has {}", film.frames.size(),
+                view.path.string(), view.facts.frames);
   }
   const bool is_turned = film.width == view.facts.height && film.height == view.facts.width;
   if (film.width != 0 && !is_turned && (film.width != view.facts.width || film.height != view.facts.height)) {
-    return Fail({entry.string()}, "made from pictures of {} x {} pixels, but the film has {} x {}", film.width,
-                film.height, view.facts.width, view.facts.height);
+    return Fail({entry.string()}, "the keypoints were found in pictures of {} x {} pixels, but the film has {} x {}",
+                film.width, film.height, view.facts.width, view.facts.height);
   }
   view.is_sized = film.width != 0;
   return std::move(film.frames);
@@ -105,7 +105,7 @@ void Synchronise(const CaptureFilmsOptions& options, const std::vector<FilmedVie
   films.told.Tell(told);
   if (untold.empty()) return;
   films.told.Tell(fmt::format(
-      "the keypoints do not show the clock of {}: people hardly move, or it differs by more than --sync {:g}", untold,
+      "the keypoints do not show the delay of {}: people hardly move, or the delay is more than --sync {:g}", untold,
       options.sync_s));
 }
 
@@ -117,9 +117,9 @@ void ClocksOfRates(const std::vector<FilmedView>& views, SeenFilms& films) {
     if (own == rate) continue;
     const bool is_one = std::abs(own - rate) <= kSameRateTolerance * rate;
     if (!is_one) films.clocks[i].drift = rate / own - 1;
-    films.told.Tell(fmt::format("{}: {:g} frames per second, but {:g} in the others, {}", views[i].camera.name, own,
-                                rate,
-                                is_one ? "taken as the same rate" : "so its keypoints are interpolated by cubics"));
+    films.told.Tell(fmt::format(
+        "{}: the film has {:g} frames per second, but the others have {:g}; {}", views[i].camera.name, own, rate,
+        is_one ? "they are assumed to have the same rate" : "its keypoints are resampled by cubic interpolation"));
   }
 }
 
@@ -132,7 +132,7 @@ void WarnOfDelays(const std::vector<FilmedView>& views, const RecoverPersonOptio
     const double frames = guessed[i].frames;
     if (!guessed[i].is_told || std::abs(frames) < 1) continue;
     films.told.Tell(
-        fmt::format("doubtful: {}: its frames seem {:.1f} frames {} than {}'s; --sync {:.1f} would correct it",
+        fmt::format("doubtful: {}: its frames seem to be {:.1f} frames {} than {}'s; --sync {:.1f} would correct this",
                     views[i].camera.name, std::abs(frames), frames > 0 ? "later" : "earlier", views.front().camera.name,
                     std::ceil(10 * (std::abs(frames) + 2) / recover.rate_hz) / 10));
   }
@@ -146,8 +146,8 @@ void TellDrift(const std::vector<FilmedView>& views, std::size_t film, const Fil
   if (own == rate || std::abs(own - rate) > kSameRateTolerance * rate) return;
   const auto over_film = [&](double drift) { return drift * static_cast<double>(frames); };
   films.told.Tell(
-      fmt::format("{}: drift measured: {:+.2f} frames over the film, {:+.2f} if both rates were right; not enough "
-                  "evidence to correct it",
+      fmt::format("{}: drift measured: {:+.2f} frames over the film, while both stated rates would give {:+.2f}; this "
+                  "is not enough evidence to correct it",
                   views[film].camera.name, over_film(nearest.drift - taken.drift), over_film(rate / own - 1)));
 }
 
@@ -235,9 +235,9 @@ Result<SeenFilms> SeeFilms(const CaptureFilmsOptions& options, const RecoverPers
 }
 
 constexpr Named<Mend::Kind> kMends[] = {
-    {"left and right exchanged", Mend::Kind::kSwappedSides},
-    {"left and right of face and arms exchanged", Mend::Kind::kSwappedArms},
-    {"left and right of hips and legs exchanged", Mend::Kind::kSwappedLegs},
+    {"left and right were exchanged", Mend::Kind::kSwappedSides},
+    {"left and right of face and arms were exchanged", Mend::Kind::kSwappedArms},
+    {"left and right of hips and legs were exchanged", Mend::Kind::kSwappedLegs},
     {"keypoints of another person were replaced by the person's own", Mend::Kind::kOtherPerson},
     {"keypoints that are not this person's were left out", Mend::Kind::kNobody}};
 

@@ -46,11 +46,14 @@ std::vector<FilmClock> ClocksByRates(const std::vector<FilmedView>& views, Messa
     const double seconds = static_cast<double>(first.frames) / rate;
     const bool is_one = std::abs(own - rate) <= kSameRateTolerance * rate;
     if (!is_one) clocks.back().drift = rate / own - 1;
-    told.Tell(fmt::format("{}: {:g} frames per second, but {:g} in the others, ", view.camera.name, own, rate) +
+    told.Tell(fmt::format("{}: the film has {:g} frames per second, but the others have {:g}; ", view.camera.name, own,
+                          rate) +
               (is_one
-                   ? fmt::format("taken as the same rate; if both were right, the error at the end would be {:.0f} ms",
+                   ? fmt::format("they are assumed to have the same rate; if both rates were right, the error at the "
+                                 "end would be {:.0f} ms",
                                  kMs * seconds * std::abs(own / rate - 1))
-                   : fmt::format("its nearest pictures are used, which differ by up to {:.0f} ms", 0.5 * kMs / own)));
+                   : fmt::format("for each moment the nearest of its pictures is used, which is up to {:.0f} ms away",
+                                 0.5 * kMs / own)));
   }
   return clocks;
 }
@@ -244,7 +247,7 @@ Result<bool> WriteUnmarkedReport(const CaptureFilmsOptions& options, const std::
 
 Result<bool> CaptureUnmarked(const CaptureFilmsOptions& options, const FilmedSession& session,
                              const std::optional<MarkerMotion>& reference, Json& facts) {
-  if (!options.points.empty()) return Fail({}, "--points: silhouettes have no keypoints to write");
+  if (!options.points.empty()) return Fail({}, "--points: with --silhouettes there are no keypoints to write");
   const std::vector<FilmedView>& views = session.views;
   // Recover the motion from the silhouettes.
   MessageLog told{options.listener.print};

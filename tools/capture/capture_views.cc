@@ -46,8 +46,8 @@ Result<NamedCamera> CameraOfFilm(const CaptureFilmsOptions& options, const std::
     if (Bare(camera.name) == Bare(wanted)) return camera;
   }
   if (!options.cameras.empty()) return Fail({options.rig}, "has no camera {}; it has {}", wanted, NamesOf(rig));
-  return Fail({options.films[film]}, "the rig has no camera of that name; it has {}. Name the cameras by --cameras",
-              NamesOf(rig));
+  return Fail({options.films[film]},
+              "the rig has no camera with the film's name; it has {}. Name the cameras by --cameras", NamesOf(rig));
 }
 
 /// The files of a rig: one file, or two files that belong together, in one folder.
@@ -70,8 +70,8 @@ Result<RigPaths> RigPathsOf(const fs::path& path) {
   }
   if (is_folder) {
     return Fail({path.string()},
-                "a folder without intri.yml and extri.yml, intrinsics.yml and extrinsics.yml, or "
-                "cameras.txt and images.txt; otherwise name the file");
+                "the folder contains no rig; allowed: a folder with intri.yml and extri.yml, with intrinsics.yml and "
+                "extrinsics.yml, or with cameras.txt and images.txt, or the rig's file");
   }
   return RigPaths{path, {}};
 }
@@ -101,8 +101,8 @@ void FindSize(FilmedView& view, std::vector<std::string>& told) {
   // Report a size that differs from the film's size.
   if (best != film) {
     told.push_back(
-        fmt::format("{}: the rig states no size, but a principal point at ({:.0f}, {:.0f}); it is taken to be for "
-                    "pictures of {:.0f} x {:.0f} pixels, while the film's have {:.0f} x {:.0f}",
+        fmt::format("{}: the rig states no picture size; because of its principal point ({:.0f}, {:.0f}), pictures of "
+                    "{:.0f} x {:.0f} pixels are assumed, while the film's have {:.0f} x {:.0f}",
                     view.camera.name, in.cx, in.cy, best.x, best.y, film.x, film.y));
   }
   for (double* length : {&in.fx, &in.fy, &in.cx, &in.cy, &in.skew}) *length /= scale;
@@ -122,7 +122,8 @@ Result<void> CheckTogether(const std::vector<FilmedView>& views, bool may_differ
     const bool is_one_rate = std::abs(view.facts.rate_hz - first.facts.rate_hz) <= kSameRateTolerance * first.facts.rate_hz;
     if (is_one_rate && view.facts.frames != first.facts.frames) {
       return Fail({view.path.string()},
-                  "{} frames, but {} has {}; cut both to the same time, or use keypoints to find the delay (--sync)",
+                  "the film has {} frames, but {} has {}; cut both so that they begin and end at the same moments, or "
+                  "use keypoints to find the delay (--sync)",
                   view.facts.frames, first.path.string(), first.facts.frames);
     }
     const double seconds = static_cast<double>(view.facts.frames) / view.facts.rate_hz;
@@ -130,10 +131,11 @@ Result<void> CheckTogether(const std::vector<FilmedView>& views, bool may_differ
     const double frame = 1 / std::min(view.facts.rate_hz, first.facts.rate_hz);
     constexpr double kFrames = 1.5;
     if (!is_one_rate && std::abs(seconds - wanted) > kFrames * frame) {
-      return Fail({view.path.string()},
-                  "{:.3g} s at {:g} frames a second, but {} has {:.3g} s at {:g} frames a second; cut both to the same "
-                  "time, or use keypoints to find the delay (--sync)",
-                  seconds, view.facts.rate_hz, first.path.string(), wanted, first.facts.rate_hz);
+      return Fail(
+          {view.path.string()},
+          "the film lasts {:.3g} s at {:g} frames per second, but {} lasts {:.3g} s at {:g} frames per second; cut "
+          "both so that they begin and end at the same moments, or use keypoints to find the delay (--sync)",
+          seconds, view.facts.rate_hz, first.path.string(), wanted, first.facts.rate_hz);
     }
   }
   return {};
@@ -183,7 +185,8 @@ Result<FilmedSession> OpenFilms(const CaptureFilmsOptions& options) {
                 options.films.size() == 1 ? "" : "s", kMaxFilms);
   }
   if (!options.cameras.empty() && options.cameras.size() != options.films.size()) {
-    return Fail({}, "--cameras names {} cameras for {} films", options.cameras.size(), options.films.size());
+    return Fail({}, "--cameras names {} cameras, but there are {} films; allowed: one camera for each film",
+                options.cameras.size(), options.films.size());
   }
   std::vector<FilmedView> views;
   std::vector<std::string> told;
@@ -194,7 +197,8 @@ Result<FilmedSession> OpenFilms(const CaptureFilmsOptions& options) {
     ASSIGN_OR_RETURN(view.facts, ProbeFilm(view.path));
     for (const FilmedView& other : views) {
       if (other.camera.name == view.camera.name) {
-        return Fail({view.path.string()}, "camera {} has {} already", view.camera.name, other.path.string());
+        return Fail({view.path.string()}, "camera {} already has the film {}; allowed: one film for each camera",
+                    view.camera.name, other.path.string());
       }
     }
     // Fit the camera's pictures to the film's pictures.
@@ -242,14 +246,16 @@ MarkerMotion SynchroniseWith(const MarkerMotion& motion, MarkerMotion reference,
   if (std::abs(own_rate - motion.rate_hz) > kWritten * own_rate) {
     const auto clock = MeasureClock(motion, reference);
     const bool is_mended = clock && clock->after < 0.5 * clock->before;
-    std::string said = "; no marker of both shows how their clocks drift apart";
+    std::string said = "; no marker that both motions have shows how the clocks drift apart";
     if (clock) {
-      said = fmt::format(": {:+.2f} frames of drift measured, {:+.2f} in the middle{}", clock->DriftOver(frames),
-                         clock->at + 0.5 * clock->DriftOver(frames),
-                         is_mended ? "; corrected" : ", too little to correct");
+      said =
+          fmt::format("; measured: a drift of {:+.2f} frames over the films, and a shift of {:+.2f} in their middle{}",
+                      clock->DriftOver(frames), clock->at + 0.5 * clock->DriftOver(frames),
+                      is_mended ? "; corrected" : "; too little to correct");
     }
-    told.Tell(fmt::format("reference: {:g} frames per second, films {:g}, taken as the same rate{}", own_rate,
-                          motion.rate_hz, said));
+    told.Tell(fmt::format(
+        "reference: it has {:g} frames per second, but the films have {:g}; they are assumed to have the same rate{}",
+        own_rate, motion.rate_hz, said));
     if (is_mended) reference = AtClock(reference, *clock, frames, motion.rate_hz);
   }
   return reference;

@@ -111,7 +111,8 @@ Result<std::vector<Mask>> ReadMasks(const std::string& folder, std::optional<int
                   view.path.string(), view.facts.width, view.facts.height);
     }
     if (numbers.size() == frames) {
-      return Fail({entry.string()}, "more masks than the film {} has frames: {}", view.path.string(), frames);
+      return Fail({entry.string()}, "there are more masks than the film {} has frames ({})", view.path.string(),
+                  frames);
     }
     is_indexed |= mask.is_indexed;
     for (const std::uint8_t value : values.pixels) found[value] = true;
@@ -150,7 +151,7 @@ Result<std::vector<Mask>> ReadMasks(const std::string& folder, std::optional<int
   }
   const auto covering = std::ranges::count_if(masks, CoversMost);
   if (2 * static_cast<std::size_t>(covering) > masks.size()) {
-    told.Tell(fmt::format("doubtful: masks of {}: {} of {} cover most of the picture: is the person black?",
+    told.Tell(fmt::format("doubtful: masks of {}: {} of {} cover most of the picture; is the person black in them?",
                           view.camera.name, covering, masks.size()));
   }
   const auto several = std::ranges::count_if(masks, HasSeveral);

@@ -108,10 +108,10 @@ std::string ClipsAsText(const BridgeLibrary& loaded, const Coverage& coverage, c
   }
   text += fmt::format(
       "\nposes: different sets of ten tags. frames with a match: share of frames with d < {} to some frame of {}.\n"
-      "worst wait: longest time until a bridge frame that leads on{}; the clip starts over at its end.\n"
+      "worst wait: longest time until a bridge frame leads into {}; the clip starts over at its end.\n"
       "in-between: how often a transition within {} s needs one.{}\n",
       loaded.match_rules.threshold, has_pairs ? "another clip" : "any other clip",
-      has_pairs ? ", over the clips reached" : " to any other clip", wait_s,
+      has_pairs ? "the other clip, over all clips reached" : "any other clip", wait_s,
       has_pairs ? " Matches and in-betweens are means over the other clips." : "");
   return text;
 }
@@ -121,8 +121,9 @@ std::string ClipsAsText(const BridgeLibrary& loaded, const Coverage& coverage, c
 std::string MatrixAsText(const BridgeLibrary& loaded, const Coverage& coverage) {
   std::string text;
   const int count = coverage.ClipCount(), width = NameWidth(loaded.library);
-  text += fmt::format("\nPercent of the row's bridge frames that match a bridge frame of the column:\n     {:{}}", "",
-                      width);
+  text += fmt::format(
+      "\nHow many bridge frames of a row's clip match a bridge frame of a column's clip, per cent:\n     {:{}}", "",
+      width);
   for (int to = 0; to < count; ++to) text += fmt::format(" {:>3}", to + 1);
   text += "\n";
   for (int from = 0; from < count; ++from) {
@@ -145,10 +146,11 @@ std::string WaysAsText(const BridgeLibrary& loaded, const Coverage& coverage) {
     if (without.empty()) {
       text += fmt::format("Every clip has a bridge frame into {}.\n", name);
     } else {
-      text += fmt::format("No bridge frame leads into {} from: {}.\n", name, Join(without));
+      text += fmt::format("No bridge frame leads into {} from these clips: {}.\n", name, Join(without));
     }
   }
-  if (loaded.corrective.empty()) text += "No corrective clip was named (--to), so ways into one were not searched.\n";
+  if (loaded.corrective.empty())
+    text += "No corrective clip was named (--to), so no bridge frames into one were searched for.\n";
   return text;
 }
 
@@ -161,7 +163,7 @@ std::string BridgeSummaryAsText(const BridgeLibrary& loaded, const Coverage& cov
   text +=
       fmt::format("{} clips, {} frames, {} bridge frames ({:.0f} %); fuzzy system {}, threshold {}{}\n", clips.size(),
                   total.frames, total.bridge_frames, Percent(total.bridge_frames, total.frames), loaded.system.name,
-                  loaded.match_rules.threshold, loaded.match_rules.within_class ? ", within the class" : "");
+                  loaded.match_rules.threshold, loaded.match_rules.within_class ? ", matches only within a class" : "");
   text += ClipsAsText(loaded, coverage, clips, wait_s);
   if (!coverage.HasPairs()) {
     text += "\nPairs of clips were not compared; --pairs compares them.\n";

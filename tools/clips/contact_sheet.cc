@@ -55,7 +55,9 @@ Result<std::string> DrawContactSheet(std::vector<ClipActor> actors, const SheetO
   }
   const int width = std::max(2 * kMargin + columns * (options.width + kGap) - kGap, kMinSheetWidth);
   if (width > kMaxSheetSide || height > kMaxSheetSide) {
-    return Fail({}, "the sheet would have {} × {} pixels; allowed: {} a side: fewer clips, fewer or smaller pictures",
+    return Fail({},
+                "the sheet would have {} × {} pixels; allowed: at most {} a side; choose fewer clips, or fewer or "
+                "smaller pictures",
                 width, height, kMaxSheetSide);
   }
   // Use one scale for all clips.

@@ -30,7 +30,7 @@ Result<TimedBody> OpenBody(const std::string& reference, const OpenOptions& read
   const double rate_hz = source.clip.rate_hz;
   ASSIGN_OR_RETURN(auto opened, UnderstandClip(std::move(source), reading));
   if (opened.body.motion.poses.size() < 2)
-    return Fail({reference}, "one frame at 30 Hz; a transition needs two or more");
+    return Fail({reference}, "the clip has only one frame at 30 Hz; a transition needs two or more");
   return TimedBody{opened.source.name, std::move(opened.body.motion),
                    static_cast<double>(opened.body.dropped_frames) / rate_hz};
 }

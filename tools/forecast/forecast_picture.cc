@@ -162,7 +162,7 @@ void DrawScale(Canvas& canvas, const Scale& scale) {
   canvas.DrawText({kMargin + kLong - 50, kTop + 30}, fmt::format("{:.1f} or more", scale.high), kTextSize, kSoftInk,
                   140);
   canvas.FillBox({kMargin, kTop + 44, kThick, kThick}, kUnseen);
-  canvas.DrawText({kMargin + 22, kTop + 56}, "fewer than two cameras see it", kTextSize, kSoftInk, kPlanSize);
+  canvas.DrawText({kMargin + 22, kTop + 56}, "seen by fewer than two cameras", kTextSize, kSoftInk, kPlanSize);
   canvas.DrawRing({kMargin + 7, kTop + 76}, 6, 2, kInk);
   canvas.DrawText({kMargin + 22, kTop + 81}, "the worst place", kTextSize, kSoftInk, kPlanSize);
 }
@@ -178,7 +178,7 @@ std::string CamerasHtml(const RigForecast& forecast) {
 }
 
 std::string JointsHtml(const RigForecast& forecast) {
-  if (forecast.joints.empty()) return "<p>No place shows all joints of a standing body to two cameras.</p>";
+  if (forecast.joints.empty()) return "<p>At no place do two cameras see all joints of a standing body.</p>";
   Table table{.label = "Joints", .columns = {{.head = "Joint", .is_row_head = true}}};
   for (const char* head :
        {"Keypoints, px", "Triangulated, mm", "Fitted, mm", "Limb triangulated, degrees", "Limb fitted, degrees"})

@@ -42,9 +42,11 @@ Result<void> AddCameras(const ForecastOptions& options, RigForecast& forecast) {
     // The file states no size: assume that the principal point is the picture's centre.
     in.width = static_cast<int>(std::lround(2 * in.cx));
     in.height = static_cast<int>(std::lround(2 * in.cy));
-    if (in.width <= 0 || in.height <= 0) return Fail({options.rig}, "camera {}: its pictures have no size", named.name);
+    if (in.width <= 0 || in.height <= 0)
+      return Fail({options.rig}, "camera {}: the rig states no picture size, and none follows from the principal point",
+                  named.name);
     options.listener.print(
-        fmt::format("{}: the rig states no size of its pictures; {} x {} is taken, twice its principal point\n",
+        fmt::format("{}: the rig states no picture size; {} x {} pixels are assumed, twice the principal point\n",
                     named.name, in.width, in.height));
   }
   return {};
@@ -65,8 +67,8 @@ Result<glm::dvec2> MiddleOf(const std::vector<NamedCamera>& cameras, const std::
   constexpr double kParallel = 1e-3;
   if (!(glm::determinant(normal) > kParallel * std::pow(static_cast<double>(cameras.size()), 3))) {
     return Fail({file},
-                "its cameras look along parallel lines, so no point is nearest to them; give the middle by --middle "
-                "X,Z in m");
+                "the cameras look along parallel lines, so no point is nearest to all these lines; state the middle of "
+                "the volume by --middle X,Z in m");
   }
   const glm::dvec3 middle = glm::inverse(normal) * right;
   return glm::round(kMmPerM * glm::dvec2(middle.x, middle.z)) / kMmPerM;
@@ -238,7 +240,7 @@ void AddWorths(const std::vector<Camera>& cameras, const ForecastOptions& option
   add("as it is", cameras, options.errors);
   SightingErrors errors = options.errors;
   errors.noise_px /= 2;
-  add("pixels twice as exact", cameras, errors);
+  add("keypoints twice as exact", cameras, errors);
   if (options.errors.calibration != CalibrationDeviation{}) {
     errors = options.errors;
     for (double* one : {&errors.calibration.place_m, &errors.calibration.turn, &errors.calibration.focal}) *one /= 2;
@@ -274,11 +276,12 @@ std::string CamerasText(const RigForecast& forecast) {
 }
 
 std::string JointsText(const RigForecast& forecast) {
-  if (forecast.joints.empty()) return "No place shows all joints of a standing body to two cameras.\n";
+  if (forecast.joints.empty()) return "At no place do two cameras see all joints of a standing body.\n";
   std::string text = fmt::format(
-      "\nErrors of a standing body (root mean square, mean over the {:.0f} % of the floor where two cameras see every "
-      "joint): of each joint as\n"
-      "triangulated and in a body fitted to all joints, and of the direction of the limb that ends in the joint\n"
+      "\nErrors of a standing body, root mean square, mean over the {:.0f} % of the floor where two cameras see every "
+      "joint.\n"
+      "Triangulated: each joint by itself. Fitted: the joint of a body that is fitted to all joints at once.\n"
+      "Limb: the direction of the limb that ends in the joint.\n"
       "{:<16}{:>15}{:>18}{:>12}{:>24}{:>18}\n",
       100 * forecast.bodies, "joint", "keypoints, px", "triangulated, mm", "fitted, mm", "limb triangulated, deg",
       "limb fitted, deg");
@@ -309,7 +312,7 @@ std::string AssumedWords(const RigForecast& forecast, const ForecastOptions& opt
   const std::string measured =
       forecast.measured ? fmt::format("Measured: keypoints err by {:.1f} px along each axis ({} points). Assumed:",
                                       forecast.measured->all_px, forecast.measured->points)
-                        : fmt::format("Assumed: pixels err by {:g} px along each axis,", errors.noise_px);
+                        : fmt::format("Assumed: keypoints err by {:g} px along each axis,", errors.noise_px);
   return fmt::format(
       "{} a camera gives no keypoint in {:g} % of its pictures; cameras err by {:g} mm, {:g} degrees, {:g} % of the "
       "focal length",
@@ -320,9 +323,8 @@ std::string AssumedWords(const RigForecast& forecast, const ForecastOptions& opt
 std::string FoundWords(const RigForecast& forecast) {
   const glm::dvec3& worst = forecast.worst.place_m;
   return fmt::format(
-      "A point errs by {:.1f} mm in the median and {:.1f} at the 95th percentile of the {:.0f} % of places that two "
-      "cameras "
-      "see; worst: {:.1f} mm at x {:.2f}, z {:.2f}, {:.2f} m high",
+      "A point errs by {:.1f} mm in the median and by {:.1f} mm at the 95th percentile, over the {:.0f} % of places "
+      "that two cameras see; worst: {:.1f} mm at x {:.2f}, z {:.2f}, {:.2f} m high",
       forecast.median_mm, forecast.p95_mm, 100 * forecast.seen, *forecast.worst.error_mm, worst.x, worst.z, worst.y);
 }
 

@@ -63,7 +63,8 @@ TEST_F(ReadPeople, FramesWithoutAFileAreFramesWithoutPeople) {
         EXPECT_EQ(film->frames[k][0][Landmark::kNose].pixel.x, static_cast<double>(k) + 0.5);
       }
     }
-    EXPECT_EQ(film->told, "15 of 60 frames are missing, by their numbers or times; they are taken to show nobody");
+    EXPECT_EQ(film->told,
+              "15 of 60 frames are missing, as the numbers or times of the others show; they are taken to show nobody");
   }
   // If a film has as many frames as there are files, each file is a frame; else the files' numbers are frames.
   EXPECT_EQ(ReadKeypoints(folder_.path() / "a", "", {.frames = 45})->frames.size(), 45u);
@@ -86,7 +87,8 @@ TEST_F(ReadPeople, FramesAreLaidOnTheirTimes) {
     ASSERT_EQ(film->frames.size(), 60u) << key;
     EXPECT_TRUE(film->frames[27].empty());
     EXPECT_EQ(film->frames[35][0][Landmark::kNose].pixel.x, 35.5);
-    EXPECT_EQ(film->told, "15 of 60 frames are missing, by their numbers or times; they are taken to show nobody");
+    EXPECT_EQ(film->told,
+              "15 of 60 frames are missing, as the numbers or times of the others show; they are taken to show nobody");
     EXPECT_EQ(ReadKeypoints(list(key, unit), "", {.frames = 45})->frames.size(), 45u);
   }
 }
@@ -167,11 +169,11 @@ TEST_F(ReadPeople, KnowsTheOrderOfOpenPosesBody25ByItsMidHip) {
   const auto doubt = [&](const char* people_in, const char* layout) {
     return ReadKeypoints(folder_.path() / people_in, layout).value().doubt;
   };
-  EXPECT_EQ(
-      doubt("a", "body_25b"),
-      "in layout body_25b the right elbow lies between left wrist and right hip in 4 of 4 people; body_25 would fit");
+  EXPECT_EQ(doubt("a", "body_25b"),
+            "read as layout body_25b, the right elbow lies between the left wrist and the right hip in 4 of 4 people; "
+            "try --layout body_25");
   EXPECT_EQ(doubt("b", "body_25"),
-            "in layout body_25 the mid-hip lies between the hips in 0 of 4 people; body_25b would fit");
+            "read as layout body_25, the mid-hip lies between the hips in only 0 of 4 people; try --layout body_25b");
   EXPECT_EQ(doubt("a", "body_25") + doubt("b", "body_25b") + doubt("a", ""), "");
 }
 

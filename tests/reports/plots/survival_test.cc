@@ -35,7 +35,7 @@ TEST(Survival, DrawsAMethodThatIsNeverDoneAsALineAtTheTop) {
   const RunData run = Solvers();
   const std::string html = SurvivalHtml(run, run.scenarios[0]);
   EXPECT_EQ(CountOf(html, "class=\"line\""), 2 + 2);  // curves and keys
-  EXPECT_THAT(html, HasSubstr("aria-label=\"never: 100 % never. quick: 0 % never. \""));
+  EXPECT_THAT(html, HasSubstr("aria-label=\"never: 100 % remain at the end. quick: 0 % remain at the end. \""));
 }
 
 TEST(Survival, IsDrawnOnlyWhereSomethingIsCensored) {

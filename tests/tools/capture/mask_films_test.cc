@@ -118,8 +118,9 @@ TEST_F(ReadMasksTest, SayWhatLooksWrong) {
     Add(name, inverted);
   }
   ASSERT_EQ(Reason(), "accepted");
-  EXPECT_EQ(told_.lines.front(), "doubtful: masks of cam1: 2 of 2 cover most of the picture: is the person black?");
-  EXPECT_THAT(Reason({}, 1), HasSubstr("more masks than the film films/cam1.mp4 has frames: 1"));
+  EXPECT_EQ(told_.lines.front(),
+            "doubtful: masks of cam1: 2 of 2 cover most of the picture; is the person black in them?");
+  EXPECT_THAT(Reason({}, 1), HasSubstr("there are more masks than the film films/cam1.mp4 has frames (1)"));
   Add("2.png", Rectangle(20, 40, 255, 2 * kWidth));
   EXPECT_THAT(Reason(), HasSubstr("2.png: a mask of 192 x 64 pixels, but the film films/cam1.mp4 has 96 x 64"));
   std::filesystem::rename(folder_.path() / "cam1_masks", folder_.path() / "cam2_masks");
