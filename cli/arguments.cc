@@ -275,7 +275,7 @@ std::array<CLI::Option*, 9> AddWorldOptions(CLI::App& command, std::optional<std
           ->check(NumberWithin(1, 1000, "rate in Hz")),
       command.add_flag_callback(
           "--keep-floor", [&clip_facts] { clip_facts += "keep_floor: true\n"; },
-          "Leave bodies at the heights of their files"),
+          "Keep the heights of the clips: do not put bodies on the floor"),
       command
           .add_option_function<std::string>("--marker-set", tell("marker_set"),
                                             "Which set of markers is used (default: the best that the clips contain)")

@@ -128,7 +128,8 @@ Result<int> BlindCommand(const BlindCommandOptions& options) {
 
 void DefineBlind(CLI::App& app, Action& action) {
   auto options = std::make_shared<BlindCommandOptions>();
-  CLI::App* command = app.add_subcommand("blind", "Summarise which transitions people prefer, and which metric agrees");
+  CLI::App* command =
+      app.add_subcommand("blind", "Summarise which transitions people prefer, and which metric agrees with them");
   command->add_option("files", options->files, "Keys that `etude report --blind` wrote, and files that raters saved")
       ->required();
   AddSeed(*command, options->seed, "Seed of the bootstrap");

@@ -154,8 +154,9 @@ void DefineBridge(CLI::App& app, Action& action) {
           ->check(NumberWithin(0, 3600, "time in seconds"))
           ->capture_default_str());
   command->add_option("--fuzzy", options->fuzzy, "Fuzzy system: builtin:NAME or a file (default: builtin:paper)");
-  add(command->add_flag("--pairs", options->with_pairs,
-                        fmt::format("Compare every pair of clips, also of more than {} clips", kMaxClipsWithPairs)));
+  add(command->add_flag(
+      "--pairs", options->with_pairs,
+      fmt::format("Compare every pair of clips, even if there are more than {} clips", kMaxClipsWithPairs)));
   add(command->add_flag("--json", options->as_json, "Print JSON (docs/schemas/bridge-summary.schema.json)"));
   AddOverwrite(*command, options->overwrite);
   AddClipReading(*command, options->reading);

@@ -58,7 +58,8 @@ Result<int> CalibrateCommand(const CalibrateCommandOptions& asked) {
     return kSuccess;
   }
   if (options.inputs.empty())
-    return Fail({}, "nothing to calibrate with; allowed: a file of point pairs, or folders of pictures");
+    return Fail({},
+                "no input is named; allowed: a file of point pairs; or for each camera a folder of pictures or a film");
   if (options.output.empty()) return Fail({}, "-o RIG.yaml is missing: it names the file for the rig");
   RETURN_IF_ERROR(CheckOutput(options.output, asked.overwrite));
   RETURN_IF_ERROR(CheckOutput(options.picture, asked.overwrite, ".png"));
@@ -74,7 +75,7 @@ Result<int> CalibrateCommand(const CalibrateCommandOptions& asked) {
 constexpr const char* kCalibrateExamples =
     "\nA rig describes the cameras of `etude capture`: focal lengths, principal points, lens distortion and poses. It "
     "can\nbe found in two ways.\n\n"
-    "From point pairs: at least six points that fill a volume (not one wall: two or three), measured in metres, Y up,\n"
+    "From point pairs: at least six points, not all in one plane (use two or three walls), measured in metres, Y up,\n"
     "and the pixels that show them. CSV with the heading camera,x,y,z,u,v (and --size), or YAML:\n"
     "  left:  {size: [1920, 1080], pairs: [[0.0, 0.0, 0.0, 812.4, 903.1], ...]}\n"
     "  right: {size: [1920, 1080], pairs: ...}\n"
@@ -106,7 +107,7 @@ void DefineCalibrate(CLI::App& app, Action& action) {
   CalibrateOptions* options = &asked->calibrate;
   options->listener = TerminalListener();
   CLI::App* command =
-      app.add_subcommand("calibrate", "The cameras of a rig, from measured points or pictures of boards");
+      app.add_subcommand("calibrate", "Calibrate the cameras of a rig from measured points or pictures of boards");
   // Define the inputs, the output, and the board.
   command->add_option("inputs", options->inputs,
                       "A file of point pairs; or for each camera a folder of pictures or a film");
@@ -140,8 +141,8 @@ void DefineCalibrate(CLI::App& app, Action& action) {
       ->capture_default_str();
   command
       ->add_option("--sync", options->sync_s,
-                   "Largest delay of a film of boards, s; the delay is found from the board (0: twice the time between "
-                   "the pictures that are used)")
+                   "Largest delay of a film that is searched for, s; the delay is found from the board (0: twice the "
+                   "time between the pictures that are used)")
       ->check(NumberWithin(0, 60, "time in s"))
       ->capture_default_str();
   // Define further outputs and comparisons.

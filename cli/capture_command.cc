@@ -32,9 +32,9 @@ constexpr const char* kCaptureExamples =
     "synchronised\nby the motion of their keypoints: --sync 1 searches up to one second in both directions, to "
     "fractions of a frame.\n\n"
     "The rig is what `etude calibrate` wrote, or a calibration of OpenCV, Pose2Sim, Anipose, FreeMoCap, Caliscope or\n"
-    "Qualisys; of EasyMocap (intri.yml, extri.yml), OpenCV stereo (intrinsics.yml, extrinsics.yml) or COLMAP "
+    "Qualisys; for EasyMocap (intri.yml, extri.yml), OpenCV stereo (intrinsics.yml, extrinsics.yml) or COLMAP "
     "(cameras.txt,\n"
-    "images.txt) the folder, or the first file. Its unit and up axis are found from the person and reported; "
+    "images.txt), give the folder or the first file. Its unit and up axis are found from the person and reported; "
     "--rig-unit,\n--rig-up and --floor set them. Films are matched to its cameras by name (cam01.mp4 is cam_01), or in "
     "the order of --cameras.\n"
     "Films whose size differs from the rig's need --fit, which states how they were changed: letterbox (scaled, "
@@ -45,8 +45,8 @@ constexpr const char* kCaptureExamples =
     "poses.\n\n"
     "With --reference FILE.trc a table shows the distance of the triangulated keypoints from it, for all cameras "
     "and\nevery pair. If the reference was made from the same keypoints, this is agreement, not error. With "
-    "--silhouettes it is\nthe distance of the joints, and error; every pair of cameras is then captured separately, "
-    "which takes some time.\n\n"
+    "--silhouettes it is\nthe distance of the joints, which is error; every pair of cameras is then captured "
+    "separately, which takes some time.\n\n"
     "Try:\n"
     "  etude capture --rig rig.yaml cam1.mp4 cam2.mp4 --keypoints json/ -o motion.bvh\n"
     "  etude capture --rig Calib.toml cam*.mp4 --keypoints openpose/ --layout body_25b --fit letterbox \\\n"
@@ -97,7 +97,8 @@ void DefineCapture(CLI::App& app, const std::string& command_line, Action& actio
       ->required();
   command
       ->add_option("--rig-unit", options->place.unit,
-                   fmt::format("The rig's unit of length: {}, metres in one unit, or auto (a person has 0.5 to 2.2 m)",
+                   fmt::format("The rig's unit of length: {}, metres in one unit, or auto (the unit in which the "
+                               "person is 0.5 to 2.2 m tall)",
                                RigUnits()))
       ->capture_default_str();
   command
@@ -184,14 +185,14 @@ void DefineCapture(CLI::App& app, const std::string& command_line, Action& actio
       ->capture_default_str();
   command
       ->add_option("--outlier", options->outlier_px,
-                   "Largest distance of a keypoint from the point that the other cameras determine, px; others are "
-                   "left out (0: eight standard deviations of the residuals, at most 3 % of the picture)")
+                   "Largest distance of a keypoint from the point that the other cameras determine, px; more distant "
+                   "ones are left out (0: eight standard deviations of the residuals, at most 3 % of the picture)")
       ->check(NumberWithin(0, 10000, "distance in px"))
       ->capture_default_str();
   command
-      ->add_option(
-          "--sync", options->sync_s,
-          "Largest difference of the films' clocks, s; the difference is found from the keypoints (0: they agree)")
+      ->add_option("--sync", options->sync_s,
+                   "Largest difference of the films' clocks, s; the difference is found from the keypoints (0: the "
+                   "clocks agree)")
       ->check(NumberWithin(0, 60, "time in s"))
       ->capture_default_str();
   AddOverwrite(*command, asked->overwrite, "Replace existing files");

@@ -321,7 +321,7 @@ Result<int> ClipMapCommand(const ClipMapOptions& options) {
     if (options.joint_map.empty() && writes) {
       RETURN_IF_ERROR(WriteFileAtomically(options.output, UnfinishedMapFile(skeleton)));
       TellWritten(options.output);
-      fmt::print("Next: fill it in, then --joint-map {}\n", options.output);
+      fmt::print("Next: fill in this file, then use it with --joint-map {}\n", options.output);
     }
     return tl::unexpected(map.error());
   }

@@ -240,7 +240,8 @@ std::string Rival::Name() const { return of_half[0] == of_half[1] ? of_half[0] :
 std::string Rival::Note() const {
   if (of_half[0] == of_half[1]) return "";
   return fmt::format(
-      "the strongest method was chosen on the other half of the worlds: “{}” for one half, “{}” for the other",
+      "for each half of the worlds, the strongest method was chosen on the other half: “{}” for one half, “{}” for the "
+      "other",
       of_half[0], of_half[1]);
 }
 

@@ -325,7 +325,7 @@ class Evaluate(EtudeCase):
         said = self.evaluate(self.folder / "t", f"m={self.folder}/m").stdout
         self.assertIn("m, a: 20 joints, root hip_centre", said)
         self.assertEqual(said.count("(and 1 more like it)"), 1, said)
-        self.assertIn("m, b: 20 joints, root hip_centre, head 100 mm away, all frames alike", said)
+        self.assertIn("m, b: 20 joints, root hip_centre, head 100 mm away from the truth in all frames", said)
         # The same holds for pairs that are not judged; programs get every line.
         for name in "abc":
             (self.folder / "m" / f"{name}.trc").write_text("no motion")
@@ -344,14 +344,16 @@ class Evaluate(EtudeCase):
 
     def test_a_heading_without_truth_is_refused_with_its_columns(self):
         table = self.write("pairs.csv", f"Truth,mine\n{self.shared}/clap.npz,{self.shared}/clap.bvh\n")
-        self.refusal("evaluate", "--pairs", table, "-o", self.out, says=["has no column 'truth', but Truth, mine"])
+        self.refusal("evaluate", "--pairs", table, "-o", self.out,
+                     says=["has no column 'truth'; its columns are Truth, mine"])
 
     def test_markers_of_no_known_set_are_compared_by_their_names(self):
         odd = trc([f"Q{j}" for j in range(len(self.names))], self.frames, 30)
         truth, answer = self.write("truth.trc", odd), self.write("answer.trc", odd.replace("mine.trc", "other.trc"))
         said = self.evaluate(truth, answer, code=1).stdout
         self.assertIn("are not of a known set", said)
-        self.assertIn("a joint map (--joint-map) states their roles, and --joints same compares equal names", said)
+        self.assertIn("Give their roles in a joint map (--joint-map), or compare joints of equal names (--joints same)",
+                      said)
         self.evaluate(truth, answer, "--joints", "same", "--overwrite")
         row, = self.rows()
         self.assertEqual((row["mpjpe_unaligned_mm"], row["seen_share"]), (0, 1))

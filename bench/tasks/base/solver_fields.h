@@ -25,7 +25,7 @@ std::vector<Field<Method>> IkSolverFields(const IkSolver* Method::*solver, IkOpt
   using Key = Field<Method>;
   std::vector<Key> rows = {Key::Name("solver", solver, IkSolverNames(), FindIkSolver, "How the angles are found."),
                            Key::Name("weights", Path(options, &IkOptions::weights), WeightRuleNames(), FindWeightRule,
-                                     "The weights of an effector's position relative to its axes.")
+                                     "How strongly an effector's position counts relative to its axes.")
                                .With("solver", WeighingSolvers()),
                            Key::Name("refresh", Path(options, &IkOptions::refresh), WeightRefreshNames(),
                                      FindWeightRefresh, "When weights that depend on errors are updated.")

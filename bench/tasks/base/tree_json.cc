@@ -97,8 +97,8 @@ std::string DescribeBrokenLimits(const KinematicTree& tree, std::span<const doub
     }
   }
   if (broken == 0) return "";
-  return fmt::format("{} angle{} outside the limits, {}[{}] the farthest, by {:.2g}°", broken, broken == 1 ? "" : "s",
-                     path, worst_angle, Degrees(worst));
+  return fmt::format("{} angle{} outside the limits; {}[{}] is the farthest outside, by {:.2g}°", broken,
+                     broken == 1 ? "" : "s", path, worst_angle, Degrees(worst));
 }
 
 }  // namespace etude

@@ -49,9 +49,9 @@ Json DescribeTargets(const KinematicTree& tree, std::span<const EffectorTarget> 
 Json InDegrees(std::span<const double> angles);
 Result<std::vector<double>> ReadDegrees(const Json& json, const std::string& path, std::size_t count);
 
-/// Describes the limits that are exceeded: "2 angles outside the limits, angles_deg[4] the farthest, by 3.2°". Returns
-/// "" if no limit is exceeded by more than 10⁻⁶ degrees (rounding). `path` is the position of the angles in the answer:
-/// "angles_deg".
+/// Describes the limits that are exceeded: "2 angles outside the limits; angles_deg[4] is the farthest outside,
+/// by 3.2°". Returns "" if no limit is exceeded by more than 10⁻⁶ degrees (rounding). `path` is the position of the
+/// angles in the answer: "angles_deg".
 std::string DescribeBrokenLimits(const KinematicTree& tree, std::span<const double> angles, std::string_view path);
 
 }  // namespace etude

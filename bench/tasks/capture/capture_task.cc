@@ -25,7 +25,7 @@ struct CaptureStudy {
 /// Returns the reason why no method can be judged in this world; nothing if methods can be judged.
 std::optional<std::string> WhyUnjudged(const CaptureWorld& world) {
   if (std::ranges::find(world.in_view, true) != world.in_view.end()) return std::nullopt;
-  return "in no frame do two cameras have the whole performer in their pictures";
+  return "in no frame is the whole performer in the pictures of two cameras";
 }
 
 class CaptureTaskWorld : public TaskWorld {

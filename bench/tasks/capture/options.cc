@@ -21,7 +21,7 @@ std::vector<Field<StudioOptions>> CameraFields() {
       Effect("sync_offset_ms", &E::sync_offset_ms, {0, 500},
              "Offset of the clocks of all cameras but the first; its sign is random."),
       Effect("clock_drift_ppm", &E::clock_drift_ppm, {0, 50000},
-             "Rate error of those clocks, in millionths; its sign is random."),
+             "Rate error of the clocks of all cameras but the first, in millionths; its sign is random."),
       Effect("rolling_shutter_ms", &E::rolling_shutter_ms, {0, 66},
              "Time between reading a picture's first row and its last."),
       Effect("motion_blur", &E::motion_blur, {0, 1}, "Exposure time as a share of the time between frames."),
@@ -29,10 +29,11 @@ std::vector<Field<StudioOptions>> CameraFields() {
       Effect("radial_distortion", &E::radial_distortion, {-0.12, 0.25},
              "Shift of the picture's corner as a share of its distance from the centre; below 0 is barrel distortion."),
       Effect("tangential_distortion", &E::tangential_distortion, {0, 0.05},
-             "The same shift, caused by a lens that is not parallel to the sensor."),
+             "Shift of the picture's corner by a lens that is not parallel to the sensor, as a share of its distance "
+             "from the centre."),
       Effect("defocus_px", &E::defocus_px, {0, 10}, "Standard deviation of the Gaussian blur of a point."),
       Effect("vignette", &E::vignette, {0, 4},
-             "Darkness of the corners: 1 is natural, the cosine of the angle from the axis to the fourth power."),
+             "Darkness of the corners; 1 is natural vignetting: cos⁴ of the angle from the optical axis."),
       Effect("dust", &E::dust, {0, 1}, "Share of the light that a speck of dust blocks at its centre."),
       // Effects of the sensor and of picture processing.
       Effect("exposure_ev", &E::exposure_ev, {-4, 4}, "Overexposure of the pictures, in stops."),
@@ -43,7 +44,8 @@ std::vector<Field<StudioOptions>> CameraFields() {
       Effect("white_balance_drift_ev", &E::white_balance_drift_ev, {0, 2},
              "Largest drift of an automatic white balance, in stops."),
       Effect("bayer", &E::bayer, {0, 1},
-             "1: each pixel measures one colour, the others are interpolated; 0: it measures all; between: a mix."),
+             "Effect of a Bayer sensor. 1: each pixel measures one colour, and the others are interpolated; 0: each "
+             "pixel measures all colours; values between mix the two."),
       Effect("camera_noise", &E::noise, {0, 20}, "Multiplies the camera's usual noise."),
       Effect("jpeg_loss", &E::jpeg_loss, {0, 99}, "100 minus the quality of the JPEG file; 0: no JPEG.")};
 }
@@ -88,10 +90,11 @@ FieldTable<StudioOptions> MakeConditionFields() {
            .With("rig", {"ring"}),
        Key::Numbers("camera_heights_m", Path(&Options::rig, &RigOptions::heights_m), {1, kMaxCameras},
                     "one to eight of 0.2…5", {0.2, 5},
-                    "Heights of the cameras: one per angle; in a ring or in corners the list is repeated over the "
-                    "cameras; cameras side by side have the first height."),
-       Key::Number("camera_distance_m", Path(&Options::rig, &RigOptions::distance_m), {2, 10},
-                   "Distance to the middle of the performer's path, as far as the room allows."),
+                    "Heights of the cameras. At given angles: one height per angle; in a ring or in corners: the list "
+                    "is repeated until every camera has a height; side by side: both cameras have the first height."),
+       Key::Number(
+           "camera_distance_m", Path(&Options::rig, &RigOptions::distance_m), {2, 10},
+           "Distance of the cameras from the middle of the performer's path; less where the room is too small."),
        // Keys of the performer, the room and the light.
        Key::Name("figure", &Options::figure, {{"staged", PerformerFigure::kStaged}, {"own", PerformerFigure::kOwn}},
                  "The figure: the stage's own people, or the meshes and textures in the clips' files (glTF)."),
@@ -137,7 +140,9 @@ void CheckMethod(Fields& fields, CaptureMethod& method) {
   if (method.recovery == Recovery::kKeypoints) {
     method.lengths = LengthSource::kMeasured;  // this kind of recovery always measures the limb lengths
     if (oracle.lengths)
-      fields.Complain(fields.Raw("oracle")->place, "'recovery: keypoints' measures the lengths itself");
+      fields.Complain(
+          fields.Raw("oracle")->place,
+          "'oracle: [lengths]' cannot be used with 'recovery: keypoints', which measures the limb lengths itself");
   }
   if (method.marks == MarkSource::kColours && oracle.marks) {
     fields.Complain(fields.Raw("oracle")->place,
@@ -171,10 +176,12 @@ void CheckSeatedMethod(Fields& fields, CaptureMethod& method) {
   CheckMethod(fields, method);
   if (method.seat != CaptureSeat::kSegmenter) return;
   if (const Node* segmenter = fields.node().Find("segmenter")) {
-    fields.Complain(segmenter->place, "the program in this seat replaces 'segmenter'");
+    fields.Complain(segmenter->place, "'segmenter' has no effect here: the program in 'seat: segmenter' replaces it");
   }
   if (method.oracle.segmentation) {
-    fields.Complain(fields.Raw("oracle")->place, "the program in this seat replaces segmentation");
+    fields.Complain(
+        fields.Raw("oracle")->place,
+        "'oracle: [segmentation]' has no effect here: the program in 'seat: segmenter' replaces segmentation");
   }
 }
 
@@ -224,7 +231,7 @@ const FieldTable<CaptureMethod>& CaptureMethodFields() {
                     {"near", SilhouetteStart::kNear},
                     {"keypoints", SilhouetteStart::kKeypoints}},
                    "What is known besides the silhouettes: nothing; every angle of the first pose to within 10°; or "
-                   "the joints in every picture, as marked, in place of an estimator's keypoints.")
+                   "the marked joints of every picture, which stand for an estimator's keypoints.")
              .With("recovery", {"silhouettes"}),
          Key::Name("smoothing", &Method::smoothing, {{"none", Smoothing::kNone}, {"rts", Smoothing::kRts}},
                    "How the joints of the whole take are smoothed afterwards: not at all, or by a Rauch-Tung-Striebel "
@@ -335,8 +342,8 @@ Result<void> OpenOwnCameras(const TaskInput& input, StudioOptions& options) {
     const Distortion& lens = camera.camera.distortion;
     if (lens != Distortion{lens.k1, lens.k2, lens.p1, lens.p2, lens.k3}) {
       return Fail(named->place,
-                  "camera '{}' of '{}' has a lens of another model; allowed in scenarios: Brown and Conrady's (k1, k2, "
-                  "p1, p2, k3)",
+                  "camera '{}' of '{}' has a lens model that scenarios cannot use; allowed: Brown and Conrady's (k1, "
+                  "k2, p1, p2, k3)",
                   camera.name, named->scalar);
     }
     constexpr double kMaxDistance = 100;

@@ -166,8 +166,8 @@ Result<void> RecoverFromSilhouettes(CaptureStages& stages, CaptureRun& run) {
   const std::vector<std::vector<Mask>>& masks = run.observation.masks;
   const std::size_t cameras = run.cameras.matrices.size(), pictures = options.PicturesOf(truth.size());
   if (cameras * pictures > kMaxSilhouettePictures) {
-    return Fail({}, "silhouettes of {} pictures; at most {} are held in memory, that is {:g} s", cameras * pictures,
-                kMaxSilhouettePictures,
+    return Fail({}, "the take has {} pictures; allowed with silhouettes: at most {} pictures, that is {:g} s",
+                cameras * pictures, kMaxSilhouettePictures,
                 static_cast<double>(kMaxSilhouettePictures / cameras) * options.picture_every / kJudgedRateHz);
   }
   // Track the silhouettes picture by picture, either causally or over the whole take.

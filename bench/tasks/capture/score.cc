@@ -40,7 +40,7 @@ void ReportMeasurements(const CaptureWorld& world, const MeasuredTake& measured,
 }
 
 void ReportAnnotators(const Observation& observation, CellResult& cell) {
-  constexpr const char* kAlone = "one annotator marked the pictures, or two marked nothing in common";
+  constexpr const char* kAlone = "only one annotator marked the pictures, or two annotators marked nothing in common";
   cell.MeasureOr("annotator_distance_px", observation.annotator_distance_px, kAlone);
   cell.MeasureOr("annotator_overlap", observation.annotator_overlap, kAlone);
 }

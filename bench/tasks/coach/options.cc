@@ -35,10 +35,11 @@ std::vector<Field<Method>> PolicyFields() {
   std::vector<Key> fields = {Key::Name("policy", Path(&Method::policy, &Coach::PolicyChoice::policy), PolicyNames(),
                                        FindPolicy, "When the coach interrupts.")};
   Append(SettingFields<Method>("policy", AllPolicies(), Path(&Method::policy, &Coach::PolicyChoice::settings)), fields);
-  fields.push_back(Key::Name("partner", &Method::partner, PolicyNames(), FindPolicy,
-                             "The policy of another person's session: this method corrects at the moments at which "
-                             "that policy corrects.")
-                       .With("policy", {"yoked"}));
+  fields.push_back(
+      Key::Name(
+          "partner", &Method::partner, PolicyNames(), FindPolicy,
+          "The policy that coaches another person; this method corrects at the moments at which that policy corrects.")
+          .With("policy", {"yoked"}));
   return fields;
 }
 
@@ -49,13 +50,15 @@ void CheckMethod(Fields& fields, Method& method) {
     fields.Complain(named->place, "policy 'oracle' and 'oracle: [judgement]' need each other");
   }
   if (method.partner->takes_moments) {
-    fields.Complain(node.Find("partner")->place, "a yoked session cannot be another's partner");
+    fields.Complain(node.Find("partner")->place, "'partner' cannot be a yoked policy, which itself needs a partner");
   }
   if (method.seat == Seat::kPolicy && node.Find("policy") != nullptr) {
-    fields.Complain(node.Find("policy")->place, "the program in this seat replaces 'policy'");
+    fields.Complain(node.Find("policy")->place,
+                    "'policy' has no effect here: the program in 'seat: policy' replaces it");
   }
   if (method.seat == Seat::kRecogniser && node.Find("recogniser") != nullptr) {
-    fields.Complain(node.Find("recogniser")->place, "the program in this seat replaces 'recogniser'");
+    fields.Complain(node.Find("recogniser")->place,
+                    "'recogniser' has no effect here: the program in 'seat: recogniser' replaces it");
   }
 }
 
@@ -101,7 +104,7 @@ const FieldTable<CoachCondition>& CoachConditionFields() {
     Append(FieldsOf<Condition>(DetectionConditionFields(), &Condition::sight, Keep::kThese, sight), fields);
     fields.push_back(
         Key{{"operating_point", MappingKind("a mapping", OperatingPointFieldsOfCoach().Describe()), "(none)",
-             "Sets the threshold of evidence on uninterrupted sessions of other people, so that a given number of "
+             "Sets the threshold of evidence from uninterrupted sessions of other people, so that a given number of "
              "right performances a minute are taken for mistakes."},
             [](Fields& condition, Condition& c) {
               if (condition.Raw("operating_point") == nullptr) return;

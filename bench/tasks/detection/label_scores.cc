@@ -161,7 +161,8 @@ Result<LeaveOneOut> LeaveOnePersonOut(const std::vector<NamedStream>& streams, c
   }
   out.people.assign(people.begin(), people.end());
   if (people.size() < 2)
-    return Fail({file}, "labels of {} person; to leave one person out, two people are needed", people.size());
+    return Fail({file}, "the labels name {} person; to leave one person out, at least two people are needed",
+                people.size());
   PersonLeftOut left_out(streams, parts, options, out);
   for (const std::string& person : out.people) RETURN_IF_ERROR(left_out.Run(person));
   out.nearest = ByNearest(streams, parts);

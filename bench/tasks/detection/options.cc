@@ -35,7 +35,7 @@ std::vector<MethodKey> FilterFields() {
       one_euro("min_cutoff_hz", &OneEuroOptions::min_cutoff_hz, {0.01, 100},
                "Cut-off frequency at rest: lower values are smoother, and lag more in slow motion."),
       one_euro("beta_per_m", &OneEuroOptions::beta_per_m, {0, 1000},
-               "Increase of the cut-off frequency per metre a second."),
+               "Increase of the cut-off frequency for every metre per second of speed."),
       one_euro("derivative_cutoff_hz", &OneEuroOptions::derivative_cutoff_hz, {0.01, 100},
                "Cut-off frequency of the low pass that smooths the speed.")};
 }
@@ -73,7 +73,7 @@ FieldTable<DetectionOptions> MakeConditionFields() {
   FieldTable<Options> made{
       {Key{{kMovesKey, FileKind("a file that `etude teach` wrote"),
             "(each person is judged by what the other people teach)",
-            "The moves that recognisers are taught, for recorded people."},
+            "For recordings of people: the moves that recognisers are taught."},
            [](Fields& condition, Options& o) { o.moves = condition.Text(kMovesKey, ""); }},
        // Keys of the session and the performers.
        Key::Number("events", Path(&Options::session, &SessionOptions::events), {1, 200},
@@ -124,8 +124,8 @@ FieldTable<DetectionOptions> MakeConditionFields() {
                    "Lowest evidence at which a move counts as performed; for all methods.")
            .WhenAbsent("(each recogniser's own)"),
        Key{{"operating_point", MappingKind("a mapping", OperatingPointFields().Describe()), "(none)",
-            "Sets each method's thresholds on other people: for spotting, by a rate of false alarms; for judging "
-            "requested moves, by a recall."},
+            "Sets each method's thresholds from sessions of other people: for spotting, by a rate of false alarms; for "
+            "judging requested moves, by a recall."},
            [](Fields& condition, Options& o) {
              if (condition.Raw("operating_point") == nullptr) return;
              ReadNested(condition, "operating_point", OperatingPointFields(), o.operating_point.emplace());

@@ -305,7 +305,9 @@ Result<std::unique_ptr<Task>> MakeRecordedTask(TaskInput& input, const Detection
   const bool are_sensed = std::ranges::any_of(set.streams, [](const NamedStream& s) { return s.motion.has_value(); });
   if (!are_sensed) RETURN_IF_ERROR(RefuseKeys(condition, SensingKeys(), "a recording contains what its sensor saw"));
   if (options.has_cameras) {
-    return Fail(condition.Find("sensor")->place, "cameras film simulated people; allowed here: v1, v2, a sensor file");
+    return Fail(
+        condition.Find("sensor")->place,
+        "'sensor: cameras' can film only simulated people, not recordings; allowed here: v1, v2, a sensor file");
   }
   for (const DetectionMethod& method : methods) {
     if (!method.sees_truth || are_sensed) continue;
@@ -322,8 +324,8 @@ Result<std::unique_ptr<Task>> MakeRecordedTask(TaskInput& input, const Detection
   const std::size_t needed = taught ? 2 : 3;  // one person is judged, one sets the thresholds, one teaches
   if (options.operating_point && set.people.size() < needed) {
     return Fail(condition.Find("operating_point")->place,
-                "thresholds need people who neither teach nor are judged; recorded: {}, needed: {}", set.people.size(),
-                needed);
+                "'operating_point' needs people who neither teach nor are judged; people recorded: {}, needed: {}",
+                set.people.size(), needed);
   }
   // Check once before the run that every method can be taught.
   if (auto all = MakeFold(set, taught, {}, methods); !all) return tl::unexpected(all.error());

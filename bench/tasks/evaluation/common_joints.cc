@@ -47,8 +47,9 @@ Result<void> CheckCommon(const RawMotion& truth, const RawMotion& answer, std::s
   const bool is_few = set != "same" && common < kNeededJoints.size() && 2 * common < std::min(own(truth), own(answer));
   if (common > 0 && !is_few) return {};
   if (set == "same") {
-    return Fail({answer.name}, "has no joint in common with the truth (joints: same): {} and {}", SomeOf(answer.joints),
-                SomeOf(truth.joints));
+    return Fail({answer.name},
+                "has no joint in common with the truth (joints: same); its joints are {}, those of the truth {}",
+                SomeOf(answer.joints), SomeOf(truth.joints));
   }
   const auto with_role = [](const RawMotion& motion) {
     return std::ranges::count_if(motion.roles, [](int joint) { return joint >= 0; });
@@ -56,8 +57,8 @@ Result<void> CheckCommon(const RawMotion& truth, const RawMotion& answer, std::s
   const bool is_of_answer = with_role(answer) <= with_role(truth);
   const RawMotion& unknown = is_of_answer ? answer : truth;
   return Fail({unknown.name},
-              "has {} common with the {} (joints: {}), but its joints are {}; a joint map (--joint-map) states their "
-              "roles, and --joints same compares equal names{}{}",
+              "has {} common with the {} (joints: {}); its joints are {}. Give their roles in a joint map "
+              "(--joint-map), or compare joints of equal names (--joints same){}{}",
               common == 0   ? "no joint in"
               : common == 1 ? "1 joint in"
                             : fmt::format("only {} joints in", common),
@@ -84,7 +85,7 @@ const RawMotion& WithRolesOfNamesakes(const RawMotion& motion, const RawMotion& 
   changed = motion;
   changed.roles = roles;
   if (roles[Index(Role::kHipCentre)] < 0) AddMidwayHips(changed);
-  changed.notes.push_back("with the roles of the skeleton's joints of the same names");
+  changed.notes.push_back("its joints got their roles from the other file's joints of the same names");
   return changed;
 }
 

@@ -121,7 +121,7 @@ Result<std::map<std::string, std::string>> ByName(const std::vector<std::string>
   for (const std::string& reference : references) {
     const auto [known, is_new] = named.emplace(NameOfReference(reference), reference);
     if (is_new) continue;
-    return Fail(place, "'{}' and '{}' have the same name; 'pairs' states which belong together", known->second,
+    return Fail(place, "'{}' and '{}' have the same name; 'pairs' can state which files belong together", known->second,
                 reference);
   }
   return named;
@@ -147,12 +147,12 @@ Result<PairColumns> ReadHeading(const std::vector<std::string>& heading, std::sp
     if (std::ranges::count(heading, cell) > 1) return Fail(place, "two columns {}", Quote(cell));
   }
   const auto truth = column_of("truth");
-  if (!truth) return Fail(place, "has no column 'truth', but {}", Join(heading));
+  if (!truth) return Fail(place, "has no column 'truth'; its columns are {}", Join(heading));
   columns.truth = *truth;
   columns.name = column_of("name");
   for (const EvaluationMethod& method : methods) {
     const auto answers = column_of(method.name);
-    if (!answers) return Fail(place, "has no column of method {}", Quote(method.name));
+    if (!answers) return Fail(place, "has no column for method {}", Quote(method.name));
     columns.answers.push_back(*answers);
   }
   return columns;
@@ -241,11 +241,10 @@ Result<FoundFiles> PairByName(const EvaluationOptions& options, std::span<const 
       ++with_answer;
     }
     if (with_answer == 0) {
-      return Fail(
-          of_answers,
-          "none of the {} answers of method {} is named like a truth: '{}' and '{}'; 'pairs' states which belong "
-          "together",
-          files.size(), Quote(method.name), files.front(), truth_files.front());
+      return Fail(of_answers,
+                  "none of the {} answers of method {} has the name of a truth (the first answer is '{}', the first "
+                  "truth '{}'); 'pairs' can state which files belong together",
+                  files.size(), Quote(method.name), files.front(), truth_files.front());
     }
     for (const auto& [name, file] : answers) found.left_out.emplace_back(file, "no truth is named " + Quote(name));
   }

@@ -208,8 +208,9 @@ std::string NoteOnStrangers(const MatchedMotions& matched) {
     strangers.push_back(fmt::format("{} {:.0f} mm", matched.joints[j], 1000 * means[j]));
   }
   if (strangers.empty()) return "";
-  return fmt::format(", {} from the truth in all frames alike (median joint {:.1f} mm): the same point in both files?",
-                     SomeOf(strangers), 1000 * median);
+  return fmt::format(
+      ", {} away from the truth in all frames (median joint {:.1f} mm): is it the same point in both files?",
+      SomeOf(strangers), 1000 * median);
 }
 
 std::string NoteOn(const RawMotion& truth, const RawMotion& answer, const std::string& clock,

@@ -61,7 +61,8 @@ const FieldTable<EvaluationOptions>& EvaluationConditionFields() {
                    "Standard deviation of white noise, along each axis, that is added to every control's answer before "
                    "its other errors."),
        Key::Text("people", &EvaluationOptions::people, "a pattern such as '{person}_*'",
-                 "Which part of a pair's name is the person; verdicts for other files count each person once.")
+                 "Which part of a pair's name is the person; verdicts that hold for other files, too, count each "
+                 "person once.")
            .WhenAbsent("(each pair counts for itself)"),
        Key::Name("lag", &EvaluationOptions::lag, {{"none", Lag::kNone}, {"find", Lag::kFind}},
                  "none: frames of equal times are compared, by the files' clocks if both state one, otherwise counted "
@@ -77,7 +78,7 @@ const FieldTable<EvaluationOptions>& EvaluationConditionFields() {
 
 Result<void> CheckFiles(const Node& condition, const EvaluationOptions& options) {
   if (options.truth.empty() == options.pairs.empty()) {
-    return Fail(condition.place, "task evaluation needs 'truth' or 'pairs', one of the two");
+    return Fail(condition.place, "task evaluation needs either 'truth' or 'pairs', not both");
   }
   const Node* trials = condition.Find("trials");
   if (trials == nullptr) return {};
@@ -126,11 +127,11 @@ const FieldTable<EvaluationMethod>& EvaluationMethodFields() {
        Key::Number("kept_frames", part(&Spoiler::kept_frames), {1, 1000},
                    "Keeps every n-th frame; the others are interpolated linearly."),
        Key::Number("late_ms", part(&Spoiler::late_ms), {0, 60'000},
-                   "Delay of the answer; its first pose stands until then."),
+                   "Delay of the answer; until it begins, it stands in its first pose."),
        Key::Number("frozen_share", part(&Spoiler::frozen_share), {0, 1},
                    "Share of the take, at its end, that stands still."),
        Key::Number("hidden_percent", part(&Spoiler::hidden_percent), {0, 100},
-                   "Share of the joint positions of all frames that are hidden: those with the largest errors.")},
+                   "Share of all joint positions that is hidden; those with the largest errors are hidden first.")},
       CheckControl};
   return table;
 }

@@ -11,7 +11,7 @@ namespace etude {
 namespace {
 
 constexpr const char* kNoFit = "the alignment is not determined: fewer than three joints are seen in both motions";
-constexpr const char* kNoRoot = "no root is seen in both";
+constexpr const char* kNoRoot = "no frame shows the root in both motions";
 constexpr const char* kNoFeet = "the answer has no ankles and toes, or fewer than two frames";
 
 /// A metric that is the mean joint error after an alignment, and the reason if the metric has no value.
@@ -107,7 +107,8 @@ void MeasureMovement(const EvaluatedPair& pair, CellResult& result) {
   result.MeasureOr("accel_error_mm@human_dynamics", Times(kToMm, acceleration), kTooShort);
   result.MeasureOr("accel_error_mps2", Times(rate * rate, acceleration), kTooShort);
   result.MeasureOr("accel_error_mps2@wham", Times(rate * rate, RootAccelerationError(pair)),
-                   "no joint and root are seen in both motions in five frames");
+                   "no joint is seen together with the root in both motions in three frames in a row, not counting the "
+                   "first and last frame");
   result.MeasureOr("jitter@wham", Jitter(pair.found, rate), "no joint is seen in four frames in a row");
 }
 
@@ -191,9 +192,9 @@ void MeasureInbetweening(const MatchedMotions& matched, const EvaluationSideData
 }
 
 void MeasureBeats(const EvaluatedPair& pair, const EvaluationSideData& side, CellResult& result) {
-  const char* why = side.music_beats_s
-                        ? "the motion contains no beat of the music or of its own, or a joint is not seen throughout"
-                        : "needs `music_beats`";
+  const char* why = side.music_beats_s ? "no beat of the music is within the motion, the motion has no beat of its "
+                                         "own, or a joint is not seen throughout"
+                                       : "needs `music_beats`";
   for (const auto& [id, measure] :
        {std::pair("beat_alignment@bailando", &BeatAlignmentOfMusic), {"beat_alignment@mint", &BeatAlignmentOfMotion}}) {
     const auto value = side.music_beats_s ? measure(pair.found, pair.rate_hz, *side.music_beats_s) : std::nullopt;

@@ -69,7 +69,7 @@ const FieldTable<IkCondition>& IkConditionFields() {
            .With("start", {"disturbed"}),
        Key::Name("noise", Path(&IkCondition::trial, &IkTrialOptions::noise),
                  {{"gaussian", NoiseKind::kGaussian}, {"uniform", NoiseKind::kUniform}},
-                 "`joint_noise_deg` is the standard deviation, or the largest deviation to either side.")
+                 "Whether `joint_noise_deg` is the standard deviation, or the largest deviation to either side.")
            .With("start", {"disturbed"}),
        Key::Number("target_noise_cm",
                    Path(&IkCondition::trial, &IkTrialOptions::target_noise, &TargetNoise::position_cm), {0, 100},
@@ -105,7 +105,7 @@ const FieldTable<IkMethod>& IkMethodFields() {
         Key::Flag("limits", Path(&IkMethod::options, &IkOptions::limits), "Whether joint limits are kept."),
         ToleranceField(&IkMethod::options, "Largest change of an angle from its start."),
         Key::Number("tolerance_times_noise", &IkMethod::tolerance_times_noise, {0, 100},
-                    "The same bound as a multiple of joint_noise_deg; paper B's value is about 1.2.")
+                    "The bound of `tolerance_deg` as a multiple of `joint_noise_deg`; paper B's value is about 1.2.")
             .WhenAbsent("(no bound)")};
     Append(std::move(own), made.fields);
     return made;

@@ -30,7 +30,7 @@ std::string WhyItStopped(const IkMethod& method, const IkSolution& solution, con
     case IkStatus::kUnreachable:
       return "a target is out of reach";
     case IkStatus::kIterationLimit:
-      return fmt::format("the limit of {} {}", method.options.max_iterations, method.solver->step);
+      return fmt::format("stopped at the limit of {} {}", method.options.max_iterations, method.solver->step);
     case IkStatus::kConverged:
     case IkStatus::kBadInput:
       break;

@@ -30,7 +30,7 @@ Result<TreePose> ReadPose(const Json& json, const std::string& path, std::size_t
   for (std::size_t at = 3; at < numbers.size(); at += 4) {
     const glm::dquat turn(numbers[at], numbers[at + 1], numbers[at + 2], numbers[at + 3]);
     if (std::abs(glm::length(turn) - 1) > kOffLength) {
-      return Fail({}, "{}[{}…{}]: a quaternion {} long; allowed: 1 ± {:g}", path, at, at + 3, glm::length(turn),
+      return Fail({}, "{}[{}…{}]: a quaternion of length {}; allowed: 1 ± {:g}", path, at, at + 3, glm::length(turn),
                   kOffLength);
     }
     pose.turns.push_back(glm::normalize(turn));

@@ -77,7 +77,7 @@ class InbetweenWorld final : public TaskWorld {
                   .roles = hidden_.roles};
     const std::vector<TreePose> filled = one.filler->fill(gap, one.settings);
     if (filled.empty())
-      return CellResult::Ended(Status::kFailed, "the library has no gap of this length on these joints");
+      return CellResult::Ended(Status::kFailed, "the training clips have no passage of this length with these joints");
     return ScoreFilling(hidden_, filled, keeps_motion_);
   }
 

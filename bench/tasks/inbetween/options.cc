@@ -20,7 +20,8 @@ const FieldTable<InbetweenOptions>& InbetweenConditionFields() {
                   "library (`planted-feet`, `near-gaps`, `nearest-gap`); they must not be among those of `truth`.")
            .WhenAbsent("(required)"),
        Key::Text("people", &Options::people, "a pattern such as '*_{person}'",
-                 "Which part of a file's name is the person; verdicts for other files count each person once.")
+                 "Which part of a file's name is the person; verdicts that hold for other files, too, count each "
+                 "person once.")
            .WhenAbsent("(each file counts for itself)"),
        Key::Number("window", &Options::window, kFrames, "Length of a window, in frames."),
        Key::Number("offset", &Options::offset, kFrames, "Frames from the beginning of one window to that of the next."),
@@ -42,8 +43,8 @@ const FieldTable<InbetweenOptions>& InbetweenConditionFields() {
         const auto& [past, gap, future, given] = std::tie(options.past, options.gap, options.future, options.given);
         if (past + gap + future <= options.window && past <= options.training_window && given <= future) return;
         fields.Complain(fields.node().place,
-                        fmt::format("past {}, gap {} and future {} must fit together into a window of {} frames, past "
-                                    "must fit into a training window of {}, and given {} into future",
+                        fmt::format("past {} + gap {} + future {} must be at most the window of {} frames, past at "
+                                    "most the training window of {} frames, and given {} at most future",
                                     past, gap, future, options.window, options.training_window, given));
       }};
   return table;

@@ -79,7 +79,9 @@ Result<FoundFiles> FindWindows(const Node& condition, std::span<const Node> meth
   for (const std::string& file : files) {
     const std::string name = NameOfReference(file);
     const auto [known, is_new] = named.emplace(name, file);
-    if (!is_new) return Fail(place, "'{}' and '{}' have the same name", known->second, file);
+    if (!is_new)
+      return Fail(place, "'{}' and '{}' have the same name; every file of 'truth' needs a name of its own",
+                  known->second, file);
     for (const std::string& other : training) {
       if (IsSame(file, other)) return Fail(training_place, "'{}' is judged, so it must not be in 'training'", other);
     }
@@ -98,7 +100,7 @@ Result<FoundFiles> FindWindows(const Node& condition, std::span<const Node> meth
     });
     if (found.worlds.size() > kMaxPairs) return Fail(place, "more than {} windows", kMaxPairs);
     if (found.worlds.size() > before) continue;
-    found.left_out.emplace_back(file, fmt::format("{} frames; needed for a window of {}: at least {}", frames,
+    found.left_out.emplace_back(file, fmt::format("{} frames; a window of {} frames needs at least {}", frames,
                                                   options.window, options.window + 1));
   }
   if (found.worlds.empty()) {

@@ -29,9 +29,11 @@ const FieldTable<PlausibilityOptions>& PlausibilityConditionFields() {
   using Key = Field<PlausibilityOptions>;
   static const FieldTable<PlausibilityOptions> table{
       {Key::Number("floor_m", &PlausibilityOptions::floor_m, {-1000, 1000}, "The height of the floor, metres.")
-           .WhenAbsent("(0; the height at which the feet rest, if a clip stays more than 60 cm from 0)"),
+           .WhenAbsent(
+               "(0, or the height at which the feet rest if the clip's lowest joints are more than 60 cm from 0)"),
        Key::Text("people", &PlausibilityOptions::people, "a pattern such as '{person}_*'",
-                 "Which part of a clip's name is the person; verdicts for other files count each person once.")
+                 "Which part of a clip's name is the person; verdicts that hold for other files, too, count each "
+                 "person once.")
            .WhenAbsent("(each clip counts for itself)"),
        {{"at_most", MappingKind("a mapping", LimitKeys()), "{}",
          "The largest allowed values of metrics; the metric `within_limits` shows which clips keep all of them."},

@@ -143,14 +143,15 @@ void AddIterations(const std::optional<std::vector<int>>& iterations, CellResult
   }
 }
 
-/// Describes the unsolved frames: "12 of 150 frames not solved; in the first of them, 0, worst effector 3.1 cm, 4°".
-/// If a frame exceeds a limit, describes the first such frame instead. Returns "" if all frames are solved.
+/// Describes the unsolved frames: "12 of 150 frames not solved; the first is frame 0, with errors of up to
+/// 3.1 cm and 4°". If a frame exceeds a limit, describes the first such frame instead. Returns "" if all frames are
+/// solved.
 std::string DescribeFailure(const Outcome& outcome) {
   const auto unsolved = std::count_if(outcome.frames.begin(), outcome.frames.end(), std::not_fn(IsFrameSolved));
   if (unsolved == 0) return "";
   if (!outcome.first_broken_limit.empty()) return outcome.first_broken_limit;
   const auto first = std::find_if_not(outcome.frames.begin(), outcome.frames.end(), IsFrameSolved);
-  return fmt::format("{} of {} frames not solved; in the first of them, {}, worst effector {:.2g} cm, {:.2g}°",
+  return fmt::format("{} of {} frames not solved; the first is frame {}, with errors of up to {:.2g} cm and {:.2g}°",
                      unsolved, outcome.frames.size(), first - outcome.frames.begin(), first->errors.position_max_cm,
                      first->errors.orientation_max_deg);
 }

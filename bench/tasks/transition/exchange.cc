@@ -29,8 +29,8 @@ Result<void> CheckLimbs(const BodyPose& pose, const BodyProportions& character, 
   for (const Bone& bone : AllBones()) {
     const double length = BoneLength(pose, bone), own = character.limb_lengths[Index(bone.child)];
     if (std::abs(length - own) <= kLimbTolerance) continue;
-    return Fail({}, "{}: {} is {:.3f} m from {}; allowed: {:.3f} m ± {:g}, the character's", path, RoleName(bone.child),
-                length, RoleName(bone.parent), own, kLimbTolerance);
+    return Fail({}, "{}: {} is {:.3f} m from {}; allowed: {:.3f} m ± {:g}, the length of the character's limb", path,
+                RoleName(bone.child), length, RoleName(bone.parent), own, kLimbTolerance);
   }
   return {};
 }

@@ -108,7 +108,7 @@ bool ScorePoints(const TransitionOutcome& outcome, const Stage& stage, CellResul
   if (outcome.matched) {
     result.Measure("false_smooth", IsFalselySmooth(pose_gap) ? 1 : 0);
   } else {
-    result.Missing("false_smooth", "the frames were not chosen because they match");
+    result.Missing("false_smooth", "the method did not choose these frames by a match");
   }
   result.Measure("foot_slide_cmps", foot_slide);
   // Measure the smoothness of the joints' mean speed around the transition points, and the remaining metrics.

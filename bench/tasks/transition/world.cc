@@ -25,7 +25,7 @@ Result<TransitionRequest> DrawRequest(const Stage& stage, const WorldKey& key) {
   for (int clip : stage.wanted) {
     if (clip != request.from && IsLongEnough(stage, clip)) others.push_back(clip);
   }
-  if (others.empty()) return Fail({}, "no other clip of this library has {} frames", kMinClipFrames);
+  if (others.empty()) return Fail({}, "no other clip of this library has at least {} frames", kMinClipFrames);
   // Draw the requested clip and the time of the request.
   request.to = others[RandomStream(key, "to-clip").IndexBelow(others.size())];
   // At least kEarliestRequest frames precede the request, and at least the clip's last frame follows it.

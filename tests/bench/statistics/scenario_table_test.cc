@@ -116,7 +116,7 @@ TEST(FindRival, ChoosesOnOtherWorldsThanThoseItIsJudgedOn) {
   const ConditionTable& condition = table.conditions()[0];
   ASSERT_OK(rival, FindRival(study, condition, study.methods[0]));
   EXPECT_EQ(rival->Name(), "c or b");
-  EXPECT_THAT(rival->Note(), ::testing::HasSubstr("on the other half of the worlds"));
+  EXPECT_THAT(rival->Note(), ::testing::HasSubstr("was chosen on the other half"));
   const PairedWorlds worlds = WorldsAgainst(*rival, condition, "a", "position_error_cm");
   ASSERT_EQ(worlds.pairs.size(), 12u);
   for (const Pair& pair : worlds.pairs) EXPECT_EQ(pair.baseline, 9);

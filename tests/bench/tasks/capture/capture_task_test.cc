@@ -274,7 +274,7 @@ TEST(CaptureTask, FilmsWithOnesOwnCameras) {
   EXPECT_THAT(refusal(huge), HasSubstr("camera 'c1' of 'mine.toml' takes pictures of 5000 × 300"));
   std::vector<NamedCamera> rational = mine, in_millimetres = mine;
   rational[1].camera.distortion.k4 = 0.1;
-  EXPECT_THAT(refusal(rational), HasSubstr("camera 'c1' of 'mine.toml' has a lens of another model"));
+  EXPECT_THAT(refusal(rational), HasSubstr("camera 'c1' of 'mine.toml' has a lens model that scenarios cannot use"));
   in_millimetres[2].camera.p_WC *= 1000;
   EXPECT_THAT(refusal(in_millimetres), HasSubstr("Is the file in metres?"));
   EXPECT_THAT(testing::Refusal(Make("rig: file\nmethods:\n- {name: a}\n")), HasSubstr("needs 'rig_file'"));

@@ -118,17 +118,17 @@ TEST_F(FindFilesTest, TheUnitIsThePersonInTheName) {
 TEST_F(FindFilesTest, WhatCannotBePairedIsRefused) {
   Make({"t/a.bvh", "t/b.bvh", "u/a.bvh", "m/c.bvh", "m/d.bvh"});
   const std::vector<std::string> m = {"{name: m, answers: ['@/m']}"};
-  EXPECT_THAT(Complaint("truth: ['@/t']", m), HasSubstr("none of the 2 answers of method 'm' is named like a truth"));
-  EXPECT_THAT(Complaint("truth: ['@/t', '@/u']", m), HasSubstr("have the same name; 'pairs' states"));
+  EXPECT_THAT(Complaint("truth: ['@/t']", m), HasSubstr("none of the 2 answers of method 'm' has the name of a truth"));
+  EXPECT_THAT(Complaint("truth: ['@/t', '@/u']", m), HasSubstr("have the same name; 'pairs' can state"));
   EXPECT_THAT(Complaint("truth: ['@/none']", m), HasSubstr("no clip matches"));
-  EXPECT_THAT(Complaint("{}", m), HasSubstr("needs 'truth' or 'pairs'"));
+  EXPECT_THAT(Complaint("{}", m), HasSubstr("needs either 'truth' or 'pairs'"));
   EXPECT_THAT(Complaint("truth: ['@/t']", {"{name: m}"}), HasSubstr("method 'm' has no 'answers'"));
   EXPECT_THAT(Complaint("{truth: ['@/t'], people: 'x'}", {"{name: m, answers: ['@/u/a.bvh', '@/t/b.bvh']}"}),
               HasSubstr("'x' does not fit the name 'a'"));
   EXPECT_THAT(Complaint("{truth: ['@/t'], trials: 3}", m), HasSubstr("'trials' has no use"));
   EXPECT_THAT(Complaint("pairs: p.csv", m, "truth,m\n"), HasSubstr("'answers' and 'pairs' exclude each other"));
   EXPECT_THAT(Complaint("pairs: p.csv", {"{name: m}"}, "truth,n\n"), HasSubstr("p.csv:1: unknown column 'n'"));
-  EXPECT_THAT(Complaint("pairs: p.csv", {"{name: m}"}, "truth\n"), HasSubstr("has no column of method"));
+  EXPECT_THAT(Complaint("pairs: p.csv", {"{name: m}"}, "truth\n"), HasSubstr("has no column for method"));
   EXPECT_THAT(Complaint("pairs: p.csv", {"{name: m}"}, "truth,m\na\n"),
               HasSubstr("p.csv:2: 1 cells; the heading has 2"));
   EXPECT_THAT(Complaint("pairs: p.csv", {"{name: m}"}, "truth,m\nx/a.bvh,1\ny/a.bvh,2\n"),

@@ -182,7 +182,7 @@ TEST(Match, MarkersNamedAsASkeletonsJointsHaveTheirRoles) {
   // and one joint is too few.
   answer.joints[Index(Role::kLeftKnee)] = "knee";
   EXPECT_THAT(testing::Refusal(Match(truth, answer, "roles", Lag::kNone)),
-              HasSubstr("has 1 joint in common with the truth (joints: roles), but its joints are bone 0, Chest, "));
+              HasSubstr("has 1 joint in common with the truth (joints: roles); its joints are bone 0, Chest, "));
 }
 
 TEST(Match, FewJointsAreRefusedIfTheFilesNameManyMore) {
@@ -202,7 +202,7 @@ TEST(Match, FewJointsAreRefusedIfTheFilesNameManyMore) {
   EXPECT_EQ(Match(truth, only(3, 3), "roles", Lag::kNone)->joints.size(), 3u) << "half of the names";
   EXPECT_EQ(Match(truth, only(12, 8), "roles", Lag::kNone)->joints.size(), 12u);
   EXPECT_THAT(testing::Refusal(Match(truth, only(3, 4), "roles", Lag::kNone)),
-              HasSubstr("only 3 joints in common with the truth (joints: roles), but its joints are hip_centre, "));
+              HasSubstr("only 3 joints in common with the truth (joints: roles); its joints are hip_centre, "));
   EXPECT_THAT(testing::Refusal(Match(only(3, 4), truth, "roles", Lag::kNone)),
               HasSubstr("only 3 joints in common with the answer (joints: roles)"));
   EXPECT_EQ(Match(truth, only(3, 4), "same", Lag::kNone)->joints.size(), 7u) << "by name, all take part";
@@ -219,8 +219,8 @@ TEST(Match, AJointThatIsAnotherPointOfTheBodyIsNamed) {
     }
     return motion;
   };
-  const auto said =
-      HasSubstr("head 101 mm from the truth in all frames alike (median joint 9.9 mm): the same point in both files?");
+  const auto said = HasSubstr(
+      "head 101 mm away from the truth in all frames (median joint 9.9 mm): is it the same point in both files?");
   EXPECT_THAT(Judged(Gliding(30, 30), off_by(Role::kHead, 0.1, 0.01)).reason, said);
   // The reason does not ask this if the whole body is displaced, or if the joint is displaced in some frames only.
   const auto silent = ::testing::Not(HasSubstr("the same point"));

@@ -174,8 +174,8 @@ TEST(IkExchange, AnAnswerThatBreaksALimitIsMeasuredAndUnsolved) {
   }
   const CellResult cell = ScoreIkAnswer(tree, world, {world.truth.angles, 3, 4}, kMaxSteps, {});
   EXPECT_EQ(cell.status, Status::kUnsolved);
-  EXPECT_THAT(cell.reason,
-              HasSubstr(fmt::format("1 angle outside the limits, angles_deg[{}] the farthest, by 5°", elbow)));
+  EXPECT_THAT(cell.reason, HasSubstr(fmt::format(
+                               "1 angle outside the limits; angles_deg[{}] is the farthest outside, by 5°", elbow)));
   EXPECT_LT(*ValueOf(cell, "position_error_cm"), 1e-9);
   EXPECT_EQ(ValueOf(cell, "solved_practical"), 0);
   EXPECT_EQ(ValueOf(cell, "iterations_par2"), 2 * kMaxSteps);

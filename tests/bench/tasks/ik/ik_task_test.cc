@@ -51,7 +51,7 @@ TEST(IkTask, CallsACellUnsolvedWhenAnEffectorIsNotHome) {
   const std::vector<CellResult> cells = CellsOf(**task);
   const CellResult& fixed = cells[0];
   EXPECT_EQ(fixed.status, Status::kUnsolved);
-  EXPECT_EQ(fixed.reason, "the limit of 300 sweeps");
+  EXPECT_EQ(fixed.reason, "stopped at the limit of 300 sweeps");
   EXPECT_EQ(Metric(fixed, "solved_practical"), 0);
   EXPECT_GT(Metric(fixed, "orientation_error_deg"), 0.1);
   const CellResult& today = cells[2];
@@ -144,7 +144,7 @@ TEST(IkTask, TellsWhyACellStopped) {
   const auto reason = [](const std::string& condition, const std::string& method) {
     return RunWorld(**Make(condition, "[{name: a, " + method + "}]"), kWorld, 1)[0].reason;
   };
-  EXPECT_EQ(reason("{max_sweeps: 7}", "solver: ccd, weights: fixed"), "the limit of 7 sweeps");
+  EXPECT_EQ(reason("{max_sweeps: 7}", "solver: ccd, weights: fixed"), "stopped at the limit of 7 sweeps");
   EXPECT_EQ(reason("{unreachable_cm: 5}", "solver: damped-least-squares"), "a target is out of reach");
   EXPECT_EQ(reason("{start: stretched}", "solver: damped-least-squares"), "stalled before the targets were met");
   EXPECT_THAT(reason("{}", "solver: fabrik"), HasSubstr("uses only positions"));

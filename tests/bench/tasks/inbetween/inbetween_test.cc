@@ -194,7 +194,7 @@ TEST(Inbetween, TellsAProgramTheEndsAndNoMore) {
   EXPECT_THAT(complaint([](Json& frames) {
                 for (std::size_t i = 0; i < 4; ++i) frames[2][7 + i] = i < 2 ? 1 : 0;
               }),
-              HasSubstr("frames[2][7…10]: a quaternion 1.41"));
+              HasSubstr("frames[2][7…10]: a quaternion of length 1.41"));
   EXPECT_THAT(complaint([](Json& frames) { frames[2].erase(0); }), HasSubstr("frames[2]"));
   EXPECT_THAT(complaint([](Json& frames) { frames[4][0] = 1e9; }), HasSubstr("frames[4]"));
 }

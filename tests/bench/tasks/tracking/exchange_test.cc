@@ -97,8 +97,8 @@ TEST(TrackingExchange, AFrameThatBreaksALimitIsUnsolvedHoweverWellItMeetsItsTarg
   for (const TreeState& state : world->truth) answer.angles.push_back(state.angles);
   const CellResult cell = ScoreTracking(*world, kRate, answer, false);
   EXPECT_EQ(cell.status, Status::kUnsolved);
-  EXPECT_THAT(cell.reason,
-              HasSubstr(fmt::format("1 angle outside the limits, angles_deg[7][{}] the farthest, by 5°", elbow)));
+  EXPECT_THAT(cell.reason, HasSubstr(fmt::format(
+                               "1 angle outside the limits; angles_deg[7][{}] is the farthest outside, by 5°", elbow)));
   EXPECT_NEAR(*ValueOf(cell, "frames_solved"), 14.0 / 15, 1e-12);
   EXPECT_LT(*ValueOf(cell, "position_error_cm"), 1e-9);
 }

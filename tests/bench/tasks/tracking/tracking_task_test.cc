@@ -77,7 +77,7 @@ TEST(TrackingTask, IsOkWhenEveryFrameIsSolvedAndElseSaysWhatIsNot) {
   EXPECT_EQ(ValueOf(kept_up, "frames_solved"), 1);
   const CellResult lost = RunWorld(**Make("{duration_s: 1, max_sweeps: 1}", method), kWorld, 1)[0];
   EXPECT_EQ(lost.status, Status::kUnsolved);
-  EXPECT_THAT(lost.reason, HasSubstr("of 30 frames not solved; in the first of them, 0, worst effector"));
+  EXPECT_THAT(lost.reason, HasSubstr("of 30 frames not solved; the first is frame 0, with errors of up to"));
   EXPECT_LT(*ValueOf(lost, "frames_solved"), 1);
 }
 
