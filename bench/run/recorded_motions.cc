@@ -74,7 +74,7 @@ class ResultFolders : public RecordedMotions {
     for (const Track& track : recording.tracks) {
       if (track.motion.poses.empty()) continue;
       file.clips.push_back(RigClip(track.motion, StandingPose(), track.name));
-      file.bodies.push_back({.changes = {"of a run's recording"}});
+      file.bodies.push_back({.changes = {"read from a run's recording"}});
     }
     if (file.clips.empty()) return Fail({path}, "a recording without a motion");
     file.figure.skeleton = file.clips.front().skeleton;
