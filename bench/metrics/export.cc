@@ -132,7 +132,8 @@ std::string EscapeTableCell(std::string_view content) {
 std::string Section(const MetricInfo& metric) {
   std::string text = fmt::format("\n### `{}`\n\n{}\n\n{}\n\n", metric.id, Facts(metric), metric.definition);
   text += fmt::format("- **Formula.** {}\n- **Null.** {}\n", metric.formula, metric.null_rule);
-  text += fmt::format("- **Matters from {} on.** {}\n", Amount(metric.practical, metric.unit), metric.practical_reason);
+  text += fmt::format("- **Smallest difference that matters: {}.** {}\n", Amount(metric.practical, metric.unit),
+                      metric.practical_reason);
   text += fmt::format("- **Source.** {}\n- **Input of its vectors.**", metric.source);
   for (const MetricInput& input : metric.inputs) {
     text += fmt::format("{} `{}`: {}", &input == &metric.inputs.front() ? "" : ";", input.key, input.meaning);

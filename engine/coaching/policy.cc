@@ -99,8 +99,8 @@ std::span<const Policy> AllPolicies() {
        .asks_truth = true,
        .decide = AtFirst},
       {.name = "yoked",
-       .description =
-           "control of the timing: corrects at the moments of another person's session, whatever its own player does",
+       .description = "tests what the timing is worth: corrects at the moments of another person's session, whatever "
+                      "its player does",
        .takes_moments = true,
        .decide = AtMoments},
   };

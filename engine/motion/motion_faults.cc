@@ -167,9 +167,11 @@ std::vector<FaultRule> MakeFaultRules() {
                    "mean speed of its joints above {}/s), or its frames repeat one pose exactly for {:g} s.",
                    1000 * kStill_m_s, kFreeze_s, cm(kAbrupt_m_s), kRepeat_s)},
       {"stretches", "share",
-       fmt::format("The length of an upper arm, forearm, thigh or shank differs from its median by more than {}, for "
-                   "{:g} s; between markers on the skin, by more than {:g} times the median deviation.",
-                   percent(kStretch), kStretch_s, kStretchTimesUsual)},
+       fmt::format(
+           "The length of an upper arm, forearm, thigh or shank differs from its median by more than {}, for "
+           "{:g} s. If both ends are markers on the skin, the difference must also exceed {:g} times the median "
+           "deviation.",
+           percent(kStretch), kStretch_s, kStretchTimesUsual)},
       {"bends", "deg",
        fmt::format(
            "A knee bends backwards by more than {:g}° for {:g} s. The line of the hips shows where the front is; the "
