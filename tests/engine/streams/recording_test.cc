@@ -165,14 +165,14 @@ TEST(Streams, ABodyThatGoesOnUnderAnotherNameIsOnePerson) {
   ASSERT_OK(joined, ReadStreamRecording(text(0.1, 2), "s", {.body = 0}));
   EXPECT_EQ(shown(*joined), 19);
   EXPECT_EQ(joined->remarks.front(), "body 11 continues as body 22 from frame 13 on; both are read as one person");
-  EXPECT_EQ(joined->remarks.back(), the file has "2 bodies; body 0 is read");
+  EXPECT_EQ(joined->remarks.back(), "the file has 2 bodies; body 0 is read");
   // A person a metre aside is not joined to the first, nor is one who appears while the first is still seen.
   const auto other = ReadStreamRecording(text(1, 2), "s", {.body = 0});
   EXPECT_EQ(shown(*other), 11);
-  EXPECT_EQ(other->remarks, the file has std::vector<std::string>{"3 bodies; body 0 is read"});
+  EXPECT_EQ(other->remarks, std::vector<std::string>{"the file has 3 bodies; body 0 is read"});
   const std::string both = "2\n2\n" + NtuBody("11", 0) + NtuBody("22", 0.1) + "1\n" + NtuBody("22", 0.1);
   EXPECT_EQ(ReadStreamRecording(both, "s")->remarks,
-            the file has std::vector<std::string>{"2 bodies; body 1 is read, which is in the most frames"});
+            std::vector<std::string>{"the file has 2 bodies; body 1 is read, which is in the most frames"});
 }
 
 TEST(Streams, MarkersOfOtherNamesAreTold) {
