@@ -376,7 +376,7 @@ TEST(ToBodyMotion, RefusesAUnitUnderWhichTheBodyIsNone) {
   EXPECT_FALSE(Convert(AtRest(Scaled(1)), {.metres_per_unit = 1}));
   ASSERT_OK(child, Convert(AtRest(Scaled(1)), {.metres_per_unit = 0.0055}));
   EXPECT_THAT(child->Note(),
-              the body is HasSubstr("0.96 m tall in the unit given; 1 unit = 1 cm (centimetre) would give 1.74 m"));
+              HasSubstr("the body is 0.96 m tall in the unit given; 1 unit = 1 cm (centimetre) would give 1.74 m"));
   EXPECT_EQ(Convert(AtRest(Scaled(1)), {.metres_per_unit = 0.01})->Note(), "1 unit = 1 cm (given)");
 }
 
