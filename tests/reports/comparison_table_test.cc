@@ -36,7 +36,8 @@ TEST(ComparisonTable, CountsTheComparisonsOfEachCorrection) {
   ScenarioSummary scenario = ExampleRun().scenarios[0];
   scenario.conditions[0].rivals.assign(3, scenario.conditions[0].comparisons[0]);
   EXPECT_THAT(ComparisonTableHtml(scenario),
-              HasSubstr("(Holm) over the 2 comparisons with baselines, and separately over the 3 with the strongest"));
+              HasSubstr("(Holm) over the 2 comparisons with baselines, and separately over the 3 comparisons with "
+                        "the strongest"));
 }
 
 TEST(ComparisonTable, SaysWhyAVerdictIsOpenAndMarksAnIntervalThatIsNoBca) {

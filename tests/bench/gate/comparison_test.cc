@@ -244,7 +244,7 @@ TEST(Snapshots, AreComparableWhateverDoesNotShapeWorlds) {
   const Snapshot annotated = SnapshotOf(same, "expect: [{metric: position_error_cm, of: a, at_most: 99}]  # new\n");
   EXPECT_THAT(WhyNotComparable(Reference(), annotated), IsEmpty());
   EXPECT_THAT(WhyNotComparable(Reference(), SnapshotOf(same, "max_sweeps: 7\n")),
-              ElementsAre(HasSubstr("joint_noise_deg=1 are made from other"), HasSubstr("joint_noise_deg=2 are")));
+              ElementsAre(HasSubstr("joint_noise_deg=1 have other parameters"), HasSubstr("joint_noise_deg=2 have")));
 }
 
 TEST(Snapshots, AreNotComparableWithOtherSeedsTrialsClipsOrMetricVersions) {
@@ -258,7 +258,7 @@ TEST(Snapshots, AreNotComparableWithOtherSeedsTrialsClipsOrMetricVersions) {
     return reasons.empty() ? "" : reasons.front();
   };
   EXPECT_EQ(complaint([](SnapshotScenario&) {}), "");
-  EXPECT_EQ(complaint([](SnapshotScenario& s) { s.seed = 6; }), "s: seed 5 and 6");
+  EXPECT_EQ(complaint([](SnapshotScenario& s) { s.seed = 6; }), "s: the seed was 5 and is 6");
   EXPECT_EQ(complaint([](SnapshotScenario& s) { s.trials = 23; }), "s: the number of trials was 24 and is 23");
   EXPECT_EQ(complaint([](SnapshotScenario& s) { s.metrics[0].second = 9; }),
             "s: the version of position_error_cm was 1 and is 9");

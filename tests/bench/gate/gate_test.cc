@@ -59,7 +59,7 @@ TEST(Gate, RefusesABaselineOfOtherWorldsAndSaysWhatDiffers) {
   Snapshot baseline = TakeSnapshot(Steady());
   baseline.scenarios[0].seed = 9;
   EXPECT_THAT(testing::Refusal(JudgeRun(Steady(), &baseline, "b.json")),
-              HasSubstr("b.json: the worlds of this baseline are not those of the run: s: seed 9 and 5"));
+              HasSubstr("b.json: the worlds of this baseline are not those of the run: s: the seed was 9 and is 5"));
 }
 
 TEST(Gate, DoesNotJudgeARunThatLacksRows) {

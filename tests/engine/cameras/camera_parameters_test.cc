@@ -103,7 +103,7 @@ TEST(CameraParameters, AreFoundWhereTwoAxesOfRotationFallTogether) {
 TEST(CameraParameters, RefuseWhatIsNoCamera) {
   ProjectionMatrix mirrored = Recompose(AnyParameters(1));
   for (double& value : mirrored.h[0]) value = -value;
-  EXPECT_THAT(Decompose(mirrored).error().message, HasSubstr("mirrored"));
+  EXPECT_THAT(Decompose(mirrored).error().message, HasSubstr("mirrors the picture"));
   ProjectionMatrix flat = Recompose(AnyParameters(1));
   flat.h[1] = flat.h[2];
   EXPECT_THAT(Decompose(flat).error().message, HasSubstr("one line"));

@@ -100,7 +100,8 @@ TEST(MotionBids, SaysWhatIsWrong) {
   EXPECT_THAT(reason(row, with("\ty\t", "\tz\t")), HasSubstr("c.tsv:4: the point 'a' has two channels for z"));
   EXPECT_THAT(reason("1\t2\t3\n", with("a_y\tPOS\ty\ta\tm\n", "")),
               HasSubstr("'a' needs channels for x, y and z, but some are missing"));
-  EXPECT_THAT(reason("x\ty\tz\tq\n" + row, kChannels), HasSubstr("a heading"));
+  EXPECT_THAT(reason("x\ty\tz\tq\n" + row, kChannels),
+              HasSubstr("found a line of headings; allowed: only rows of numbers"));
 }
 
 }  // namespace

@@ -184,7 +184,8 @@ TEST(RowClock, RefusesWhatIsNoClock) {
   EXPECT_EQ(reason({0, nan, 0.1}), "a:3: no time, although other rows have one");
   EXPECT_EQ(reason({0, 0.1, 700}),
             "a:4: the time 700 s follows 0.1 s; allowed: a clock that advances by at most 600 s per row");
-  EXPECT_THAT(reason({0, 1e-4, 2e-4, 500}, 3), HasSubstr("allowed: gaps of 1e+07 values in total, 3 per frame"));
+  EXPECT_THAT(reason({0, 1e-4, 2e-4, 500}, 3),
+              HasSubstr("allowed: 1e+07 missing values in total, with 3 values per frame"));
   EXPECT_EQ(reason({nan, nan, nan}), "no complaint");
   EXPECT_EQ(reason({4, 4, 4}), "no complaint") << "a column that tells nothing";
 }

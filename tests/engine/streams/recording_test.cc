@@ -191,7 +191,7 @@ TEST(Streams, MarkersOfOtherNamesAreTold) {
 TEST(Streams, JointsThatAreNeverShownAndTimesThatRunBackAreRefused) {
   EXPECT_EQ(ComplaintOf("head_x_m,head_y_m,head_z_m\n0,1,2\n").find("s: no frame shows hip_centre, spine"), 0u);
   const std::string rows = KinectV1Text(WavingMotion(2));
-  EXPECT_EQ(ComplaintOf(WithClock(rows, 1, 0.03) + WithClock(rows, 0.5, 0.03)).find("s:3: time 0.5 s after"), 0u);
+  EXPECT_EQ(ComplaintOf(WithClock(rows, 1, 0.03) + WithClock(rows, 0.5, 0.03)).find("s:3: the time 0.5 s follows"), 0u);
 }
 
 TEST(Streams, NobodyAndTooSmallOrTooLargeBodiesAreRefused) {

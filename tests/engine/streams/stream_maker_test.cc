@@ -167,7 +167,7 @@ TEST(StreamMaker, AClockThatStopsForLongIsRefused) {
   StreamRecording recording = Recorded(WavingMotion(3));
   recording.frames[2].time_s = 1e6;
   recording.frames[2].line = 3;
-  EXPECT_EQ(testing::Refusal(MakeStream(recording, "s")).find("s:3: time 1e+06 s after"), 0u);
+  EXPECT_EQ(testing::Refusal(MakeStream(recording, "s")).find("s:3: the time 1e+06 s follows"), 0u);
 }
 
 }  // namespace

@@ -249,7 +249,7 @@ TEST_F(ReadPeople, TakesSharesOfThePicture) {
   ASSERT_OK(read, ReadKeypoints(path, "", {.width = 640, .height = 480, .frames = 2}));
   EXPECT_EQ(read->frames[0][0][Landmark::kLeftHeel].pixel, glm::dvec2(160, 240));
   EXPECT_TRUE(read->frames[1].empty());
-  EXPECT_THAT(read->told, HasSubstr("shares of 640 x 480 pixels"));
+  EXPECT_THAT(read->told, HasSubstr("fractions of the picture's 640 x 480 pixels"));
   EXPECT_EQ(ReadKeypoints(path, "")->frames[0][0][Landmark::kNose].pixel, glm::dvec2(0.75, 1))
       << "of an unknown film: pixels";
 }

@@ -43,7 +43,7 @@ TEST(Survival, IsDrawnOnlyWhereSomethingIsCensored) {
   std::erase_if(run.rows, [](const Row& row) { return row.method == "never"; });
   EXPECT_EQ(SurvivalHtml(run, run.scenarios[0]), "");
   run.rows.front().result = CellResult::Ended(Status::kTimeout, "too slow");  // a failure never finishes
-  EXPECT_THAT(SurvivalHtml(run, run.scenarios[0]), HasSubstr("quick: 17 % never."));
+  EXPECT_THAT(SurvivalHtml(run, run.scenarios[0]), HasSubstr("quick: 17 % remain at the end."));
   run.rows.front().result = CellResult::Ended(Status::kSkipped, "no labels");  // a skipped world does not count
   EXPECT_EQ(SurvivalHtml(run, run.scenarios[0]), "");
 }

@@ -62,7 +62,7 @@ TEST(SimulatedSensor, RefusesWhatItCannotSense) {
   EXPECT_THAT(RefusalOf([] { SenseSkeleton({}); }), HasSubstr("without frames"));
   EXPECT_THAT(RefusalOf([] { SenseSkeleton(Gliding(), {.distance_m = 50}); }), HasSubstr("50; allowed: 0.5 to 10"));
   EXPECT_THAT(RefusalOf([] { SenseSkeleton(Gliding(), {.strength = std::numeric_limits<double>::quiet_NaN()}); }),
-              HasSubstr("strength of nan"));
+              HasSubstr("strength nan; allowed: 0 to 10"));
   EXPECT_THAT(RefusalOf([] { SenseSkeleton(Gliding(), {.sensor = "v3: 1"}); }), HasSubstr("sensor:1"));
 }
 
