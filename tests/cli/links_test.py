@@ -145,7 +145,7 @@ print("words", file=sys.stderr)
         (answers / "ik").mkdir(parents=True)
         (answers / "ik" / "joint_noise_deg=2").symlink_to(data / "truth" / "ik" / "joint_noise_deg=2")
         done = self.ends(2, "score", data, answers, "-o", self.folder / "scored", "--allow-missing")
-        self.assertIn("ik/joint_noise_deg=2: is a link", done.stderr)
+        self.assertIn("ik/joint_noise_deg=2 is a link; allowed: regular files", done.stderr)
 
 
 if __name__ == "__main__":
