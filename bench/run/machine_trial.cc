@@ -67,7 +67,7 @@ Result<void> Try(std::span<const PreparedScenario> scenarios, const Fence& fence
       if (auto kept = WriteFileAtomically(folder.path() / "file", "a file of some bytes\n"); !kept) {
         // Keeps only the reason, because the path in the error is temporary.
         const std::string& said = kept.error().message;
-        return Fail({folder.path().parent_path().string()}, "temporary files cannot be written there: {}",
+        return Fail({folder.path().parent_path().string()}, "no temporary files can be made in this folder: {}",
                     said.substr(said.rfind(": ") + 2));
       }
     }

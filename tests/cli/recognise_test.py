@@ -176,7 +176,7 @@ class Recognise(EtudeCase):
         self.assertIn("standard input:41:1: value 1: 'x'", self.refusal(
             "recognise", "-", "--moves", moves, stdin="\n".join(rows[:40] + ["x " * 60])))
         self.assertIn("none.txt: no such recording", self.refusal("recognise", "none.txt", "--moves", moves))
-        self.assertIn("--moves: needed", self.refusal("recognise", half))
+        self.assertIn("--moves: is missing", self.refusal("recognise", half))
         self.assertIn("no such file", self.refusal("recognise", half, "--moves", self.folder / "none.yaml"))
 
 
