@@ -165,7 +165,7 @@ class SecretWorlds(EtudeCase):
             self.ends(0, "gate", run, "--baseline", baseline, "--update", "--unsealed")
             gate = self.etude("gate", self.run_folder, "--baseline", baseline)
             self.assertEqual(gate.returncode, code, gate.stdout + gate.stderr)
-        self.assertIn("or of another version of secret worlds", gate.stderr)
+        self.assertIn("or another version of secret worlds", gate.stderr)
 
     def test_conditions_have_dice_of_their_own_that_hang_on_no_other(self):
         def truths(name, *seed):

@@ -147,7 +147,7 @@ class Streams(EtudeCase):
         # A truncated take, with labels beyond its end.
         (takes / "anna.txt").write_text("\n".join((takes / "anna.txt").read_text().splitlines()[:20]) + "\n")
         self.out = self.folder / "none"
-        self.assertIn("allowed: within its", self.refusal("run", half, "-o", self.out))
+        self.assertIn("allowed: within the recording", self.refusal("run", half, "-o", self.out))
 
     def test_what_cannot_be_is_refused_in_one_line(self):
         takes, labels = self.record()

@@ -257,7 +257,7 @@ class Silhouettes(unittest.TestCase):
                   for pose in (DANCED[:1], measured)]
         self.assertAlmostEqual(thighs[1], thighs[0], places=6)
         self.assertTrue(np.isnan(engine.track_silhouettes(cameras, [np.zeros((2, 60, 80), bool)] * 2)).all())
-        with self.assertRaisesRegex(engine.BadInput, "a mask of 70 x 60 pixels of camera ''; allowed: 80 x 60"):
+        with self.assertRaisesRegex(engine.BadInput, "a mask of 70 x 60 pixels for camera ''; allowed: 80 x 60"):
             engine.track_silhouettes(cameras, [mask[:, :, :70] for mask in masks])
 
 
