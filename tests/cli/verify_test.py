@@ -191,7 +191,7 @@ class Verify(EtudeCase):
         self.assertEqual(found, ["signature"])
         self.assertIn("seal.json: was changed after it was signed", text)
         forge(self.out / "signed.b2", "0", "1")
-        self.assertIn("does not match", self.differences("--sample", 0, "--check", public)[1])
+        self.assertIn("is not a valid signature of signed.b2", self.differences("--sample", 0, "--check", public)[1])
 
     def test_what_is_no_key_and_what_does_not_agree_signs_nothing(self):
         other = self.write("other.key", "untrusted comment: x\nRWQ=\n")

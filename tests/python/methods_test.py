@@ -189,7 +189,7 @@ class Metrics(PythonCase):
                            ("metrics: [x,\n  y]\n", f"metrics: [x,\n  y, {added}]\n"),
                            ("a: 1\n", f"a: 1\nmetrics: [{added}]\n")):
             self.assertEqual(commands._with_metrics("s.yaml", text, [entry]), then)
-        with self.assertRaisesRegex(etude.EtudeError, "no list of metrics in brackets"):
+        with self.assertRaisesRegex(etude.EtudeError, "is not one list in brackets"):
             commands._with_metrics("s.yaml", "metrics:\n  - x\n", [entry])
         kept = []
 
@@ -259,7 +259,7 @@ class Runs(PythonCase):
         self.assertFalse((self.folder / "out").exists())
         with self.assertRaisesRegex(etude.EtudeError, "overwrite=True replaces it, output= chooses another folder"):
             etude.run(SCENARIO, output=self.run_.folder, progress=False)
-        with self.assertRaisesRegex(etude.EtudeError, "the scenario has ik"):
+        with self.assertRaisesRegex(etude.EtudeError, "the scenario's tasks are ik"):
             etude.run(SCENARIO, methods=[etude.method(task="pose-distance")(_later)], output=self.folder / "out")
         with self.assertRaisesRegex(etude.EtudeError, "is not a program"):
             etude.find_program(self.folder / "none")
@@ -291,7 +291,7 @@ class Runs(PythonCase):
                          text.replace("ccd\n", 'ccd\n  - {"name": "mine"}\n'))
         flush = "methods:\n- {name: a}\n- {name: b}"
         self.assertEqual(commands._with_methods("x", flush, [entry]), flush + '\n- {"name": "mine"}\n')
-        for text, says in (("methods: [{name: a}]\n", "a line each"), ("include: x\nmethods:\n  - {}\n", "includes")):
+        for text, says in (("methods: [{name: a}]\n", "with one line per entry"), ("include: x\nmethods:\n  - {}\n", "includes")):
             with self.assertRaisesRegex(etude.EtudeError, says):
                 commands._with_methods("x", text, [entry])
 
