@@ -3,10 +3,12 @@
 #include <fmt/core.h>
 #include <gtest/gtest.h>
 #include <poll.h>
+#include <sys/mman.h>
 #include <sys/resource.h>
 #include <unistd.h>
 
 #include <filesystem>
+#include <fstream>
 #include <set>
 #include <string>
 
@@ -165,11 +167,33 @@ TEST(TreeMeter, CountsSharedMemoryThatIsInNobodysResidentSize) {
               25, 6);
 }
 
+/// Returns true if private memory that is only read takes memory. Most kernels map a single page of zeros there; a
+/// virtual machine's kernel may not.
+bool ReadsTakeMemory() {
+  const auto resident_pages = [] {
+    std::ifstream file("/proc/self/statm");
+    long size = 0, resident = 0;
+    file >> size >> resident;
+    return resident;
+  };
+  constexpr std::size_t kPages = 1024, kPage = 4096;
+  void* const memory = ::mmap(nullptr, kPages * kPage, PROT_READ, MAP_PRIVATE | MAP_ANONYMOUS, -1, 0);
+  ::madvise(memory, kPages * kPage, MADV_NOHUGEPAGE);
+  const long before = resident_pages();
+  for (std::size_t page = 0; page < kPages; ++page) {
+    EXPECT_EQ(static_cast<const volatile char*>(memory)[page * kPage], 0);
+  }
+  const long taken = resident_pages() - before;
+  ::munmap(memory, kPages * kPage);
+  return taken > static_cast<long>(kPages / 2);
+}
+
 TEST(TreeMeter, CountsWhatTheKernelKeepsForThem) {
   const std::string tables =
       "memory = mmap.mmap(-1, 16 << 30, mmap.MAP_PRIVATE | 0x4000, mmap.PROT_READ); memory.madvise(15)\n"
       "sum(memory[at] for at in range(0, 16 << 30, 2 * MB)); hold()";
-  EXPECT_NEAR(HeldMb(tables), 32, 3) << "8192 page tables, of pages that are all one";
+  const double pages = ReadsTakeMemory() ? 32 : 0;
+  EXPECT_NEAR(HeldMb(tables), 32 + pages, 3) << "8192 page tables; their pages are all one, or one each";
   const std::string locks =
       "file = open('/tmp/tree-meter-' + str(os.getpid()), 'w'); os.unlink(file.name)\n"
       "for at in range(4000): fcntl.fcntl(file, fcntl.F_SETLK, struct.pack('hhqqi', fcntl.F_WRLCK, 0, 2 * at, 1, 0))\n"
