@@ -231,7 +231,7 @@ class Transitions(unittest.TestCase):
             engine.TransitionLibrary(clips, (0 * pose, 0.9))
         with self.assertRaisesRegex(engine.BadInput, "choice 'best'; allowed: fuzzy-bridge"):
             library.make(0, 0, 1, choice="best")
-        with self.assertRaisesRegex(engine.BadInput, "clip 0: 2 frames at 60 Hz"):
+        with self.assertRaisesRegex(engine.BadInput, "clip 0 has 2 frames at 60 Hz"):
             engine.TransitionLibrary([engine.Motion(DANCED[:2], 60)])
 
 
