@@ -132,8 +132,8 @@ FrameFits PairFits::ByRoot(bool with_scale) const {
   for (std::size_t f = 0; f < moments_.size(); ++f) {
     const glm::dvec3 &root = pair_.found_root[f], &onto = pair_.true_root[f];
     if (!BothSeen(root, onto)) continue;
-    // Compute the scale that minimises the squared error of the joints relative to the root. A negative scale would
-    // mirror the body through its root.
+    // Compute the scale that minimises the squared error of the joints relative to the root. As in N-MPJPE's code, it
+    // may be negative.
     double product = 0, square = 0;
     const auto answer = pair_.found.Frame(f), truth = pair_.truth.Frame(f);
     for (std::size_t j = 0; with_scale && j < answer.size(); ++j) {
@@ -141,7 +141,7 @@ FrameFits PairFits::ByRoot(bool with_scale) const {
       product += glm::dot(answer[j] - root, truth[j] - onto);
       square += glm::dot(answer[j] - root, answer[j] - root);
     }
-    const double scale = square > 0 ? std::max(product, 0.0) / square : 1;
+    const double scale = square > 0 ? product / square : 1;
     found.fits[f] = Similarity{.scale = scale, .rotation = glm::dmat3(1), .translation = onto - scale * root};
   }
   return found;
