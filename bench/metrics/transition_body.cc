@@ -106,7 +106,7 @@ struct BodyFrame {
   bool flight = false;
   // nullopt if no joint supports the body; zmp_cm also if the ground bears less than half of the weight
   std::optional<double> zmp_cm, slip_mps2;
-  double glide_cm = 0;                      // travel of the slowest supporting joint or foot (MeasureBody)
+  double glide_cm = 0;  // travel of the slowest supporting joint or foot (MeasureBody)
   double beyond_deg = 0, overlap_cm = 0, sunk_cm = 0;
   std::array<std::optional<double>, 2> twist = {};  // heading of the hips relative to each resting foot, radians
 };

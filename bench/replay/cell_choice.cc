@@ -55,7 +55,7 @@ Result<std::set<std::size_t>> FindCells(const ReplayOptions& options, const RunD
       std::vector<std::string> known;
       ForEachRow(run, [&](const Row& row, std::size_t /*place*/) { known.push_back(row.Id()); });
       const std::string nearest = NearestName(wanted, known);
-      const std::string advice = !nearest.empty()  ? "; did you mean '" + nearest + "'?"
+      const std::string advice = !nearest.empty() ? "; did you mean '" + nearest + "'?"
                                  : !known.empty() ? ", such as '" + known.front() + "'"
                                                   : "";
       return Fail({options.folder, 0, 0}, "holds no cell '{}'{}", wanted, advice);
@@ -65,7 +65,8 @@ Result<std::set<std::size_t>> FindCells(const ReplayOptions& options, const RunD
       return Fail({options.folder}, "contains the cell {}, which its manifest does not contain", wanted);
     }
     if (!method->why_not.empty()) {
-      return Fail({options.folder, 0, 0}, "cannot run cell '{}' and others of its method again: {}", wanted, method->why_not);
+      return Fail({options.folder, 0, 0}, "cannot run cell '{}' and others of its method again: {}", wanted,
+                  method->why_not);
     }
     places.insert(*place);
   }

@@ -35,12 +35,11 @@ TimeScale FindTimeScale(std::span<const double> times, const ToldRate& told) {
     });
     if (unit != std::end(kUnits)) {
       scale.seconds = unit->first;
-      scale.remark =
-          told.rate_hz
-              ? fmt::format("{} is taken as {}, because the rows then have the {} of {:g} Hz", told.times, unit->second,
-                            told.header, *told.rate_hz)
-              : fmt::format("its times are taken as {}: as seconds, rows would be more than a second apart",
-                            unit->second);
+      scale.remark = told.rate_hz
+                         ? fmt::format("{} is taken as {}, because the rows then have the {} of {:g} Hz", told.times,
+                                       unit->second, told.header, *told.rate_hz)
+                         : fmt::format("its times are taken as {}: as seconds, rows would be more than a second apart",
+                                       unit->second);
     }
   }
   // Subtract the first time if it is very large, as in times since 1970.

@@ -210,10 +210,9 @@ Result<ReadPart> ReadPartLine(TextScanner& scanner, const std::vector<ReadPart>&
   part.after = FindRole(after.text);
   const bool is_first = read.empty() && after.text == "ground";
   if (after_word.text != "after" || !(is_first || (part.after && ends_at(*part.after)))) {
-    return Fail(
-        scanner.At(after_word),
-        "found {}; allowed: 'after ground' for the first part, then 'after' and a part above this line",
-        Quote(fmt::format("{} {}", after_word.text, after.text)));
+    return Fail(scanner.At(after_word),
+                "found {}; allowed: 'after ground' for the first part, then 'after' and a part above this line",
+                Quote(fmt::format("{} {}", after_word.text, after.text)));
   }
   // Read the bone, then three angles with their axes.
   const Token bone = scanner.NextInLine();

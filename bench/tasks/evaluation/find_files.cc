@@ -57,8 +57,7 @@ Result<void> RefuseLinks(const std::string& reference, std::span<const std::stri
     fs::path path = Split(file).path;
     for (std::ptrdiff_t i = 0; i < found_parts; ++i, path = path.parent_path()) {
       if (!fs::is_symlink(fs::symlink_status(path, error))) continue;
-      return Fail(place,
-                  "'{}' is a link that a pattern or a folder found; name it by itself, or replace it by a file",
+      return Fail(place, "'{}' is a link that a pattern or a folder found; name it by itself, or replace it by a file",
                   path.string());
     }
   }
