@@ -121,7 +121,7 @@ void DefineCapture(CLI::App& app, const std::string& command_line, Action& actio
       command
           ->add_flag("--silhouettes", options->silhouettes,
                      "Fit the body to the person's outlines in the films; one person moves, and the cameras do not. If "
-                     "--keypoints is given, too, the keypoints determine the limbs' lengths, and front and back")
+                     "--keypoints is given, too, the keypoints determine the limbs' lengths and the body's front")
           ->excludes(marks);
   auto* masks =
       command

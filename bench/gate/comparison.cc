@@ -134,25 +134,10 @@ int CountDiffering(const SnapshotCells& before, const SnapshotCells& after, cons
   return differing;
 }
 
-/// Multiplies both values of each world by the world's weight (MetricInfo::weight), divided by the mean weight of the
-/// worlds with both values. The plain mean of the products is then the weighted mean. The weights are those in `cells`,
-/// the earlier snapshot. Does nothing if the metric has no weight, or if `cells` has no weights above 0.
-void Weigh(const SnapshotCells& cells, const MetricInfo& metric, MoveColumns& columns) {
+/// Returns the column of the metric that weighs `metric` (MetricInfo::weight); null if there is none.
+const std::vector<std::optional<double>>* WeightsOf(const SnapshotCells& cells, const MetricInfo& metric) {
   const SnapshotValues* weights = metric.weight.empty() ? nullptr : FindValues(cells, metric.weight);
-  if (weights == nullptr) return;
-  double sum = 0;
-  int count = 0;
-  for (std::size_t t = 0; t < columns.compared.size(); ++t) {
-    if (!columns.compared[t] || !columns.before[t] || !columns.after[t]) continue;
-    sum += weights->values[t].value_or(0);
-    ++count;
-  }
-  if (sum <= 0) return;
-  for (std::size_t t = 0; t < columns.compared.size(); ++t) {
-    const double factor = weights->values[t].value_or(0) * count / sum;
-    if (columns.before[t]) *columns.before[t] *= factor;
-    if (columns.after[t]) *columns.after[t] *= factor;
-  }
+  return weights == nullptr ? nullptr : &weights->values;
 }
 
 std::vector<std::optional<double>> OkIn(const std::string& statuses) {
@@ -238,12 +223,12 @@ SnapshotComparison CompareSnapshots(const Snapshot& before, const Snapshot& afte
       const std::vector<bool> compared = WorldsToCompare(cells, *others);
       // Compare the share of ok cells and the values of every metric, world by world.
       const auto add = [&](const std::string& metric, const auto& values, const auto& other_values) {
-        const MoveColumns columns{values, other_values, compared, cells.statuses, others->statuses};
-        MoveColumns weighed = columns;
-        Weigh(cells, *FindGateMetric(metric), weighed);
+        const MetricInfo& info = *FindGateMetric(metric);
+        const MoveColumns columns{values,   other_values,   WeightsOf(cells, info), WeightsOf(*others, info),
+                                  compared, cells.statuses, others->statuses};
         MetricMove& move = comparison.moves.emplace_back(
-            MeasureMove({scenario.name, cells.condition, cells.method, metric}, weighed, scenario.seed));
-        move.tail = FindTail(columns, *FindGateMetric(metric), RuleOf(scenario.name, tails));
+            MeasureMove({scenario.name, cells.condition, cells.method, metric}, columns, scenario.seed));
+        move.tail = FindTail(columns, info, RuleOf(scenario.name, tails));
         for (TailWorld& world : move.tail) world.trial = static_cast<int>(shared.after[world.trial]);
       };
       add(kOkShare, OkIn(cells.statuses), OkIn(others->statuses));

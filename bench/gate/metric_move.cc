@@ -6,6 +6,7 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <numeric>
 
 #include "bench/statistics/bootstrap.h"
 #include "bench/statistics/compare.h"
@@ -14,13 +15,37 @@
 namespace etude {
 namespace {
 
-std::optional<double> AggregateOfPresent(std::span<const std::optional<double>> values, Aggregate aggregate) {
+using Column = std::vector<std::optional<double>>;
+
+double WeightAt(const Column* weights, std::size_t trial) {
+  return weights == nullptr ? 1 : (*weights)[trial].value_or(0);
+}
+
+/// Returns the aggregate of the compared worlds with a value: the weighted mean if a weight is above 0, otherwise the
+/// metric's own aggregate. Returns nullopt without such a world.
+std::optional<double> AggregateOfPresent(const Column& values, const Column* weights, const std::vector<bool>& compared,
+                                         Aggregate aggregate) {
   std::vector<double> present;
-  for (const auto& value : values) {
-    if (value) present.push_back(*value);
+  double weighted = 0, weight = 0;
+  for (std::size_t t = 0; t < compared.size(); ++t) {
+    if (!compared[t] || !values[t]) continue;
+    present.push_back(*values[t]);
+    weighted += WeightAt(weights, t) * *values[t];
+    weight += WeightAt(weights, t);
   }
   if (present.empty()) return std::nullopt;
-  return AggregateOf(present, aggregate);
+  return weights != nullptr && weight > 0 ? weighted / weight : AggregateOf(present, aggregate);
+}
+
+/// Multiplies both values of each pair by the pair's weight, divided by the mean weight. The mean of the products is
+/// then the weighted mean. Does nothing if no weight is above 0.
+void Weigh(std::vector<Pair>& pairs, std::span<const double> weights) {
+  const double sum = std::accumulate(weights.begin(), weights.end(), 0.0);
+  if (sum <= 0) return;
+  for (std::size_t i = 0; i < pairs.size(); ++i) {
+    const double factor = weights[i] * static_cast<double>(pairs.size()) / sum;
+    pairs[i] = {pairs[i].baseline * factor, pairs[i].method * factor};
+  }
 }
 
 Movement MovementOf(const Comparison& comparison, const MetricInfo& metric) {
@@ -127,26 +152,27 @@ MetricMove MeasureMove(MoveIdentity identity, const MoveColumns& columns, std::u
   move.identity = std::move(identity);
   // Collect the pairs of values of the compared worlds.
   std::vector<Pair> values, presence;
-  std::vector<std::optional<double>> all_before, all_after;
+  std::vector<double> weights;
   for (std::size_t t = 0; t < columns.compared.size(); ++t) {
     if (!columns.compared[t]) continue;
     const auto &before = columns.before[t], &after = columns.after[t];
-    all_before.push_back(before);
-    all_after.push_back(after);
     move.differing += before != after;
     move.lost += before && !after;
     move.gained += !before && after;
     presence.push_back({before ? 1.0 : 0.0, after ? 1.0 : 0.0});
-    if (before && after) values.push_back({*before, *after});
+    if (!before || !after) continue;
+    values.push_back({*before, *after});
+    weights.push_back(WeightAt(columns.weights_before, t));
   }
   // Compute the metric's aggregate over worlds, before and after.
   const MetricInfo& metric = *FindGateMetric(move.identity.metric);
   move.worlds = static_cast<int>(presence.size());
-  move.before = AggregateOfPresent(all_before, metric.aggregate);
-  move.after = AggregateOfPresent(all_after, metric.aggregate);
+  move.before = AggregateOfPresent(columns.before, columns.weights_before, columns.compared, metric.aggregate);
+  move.after = AggregateOfPresent(columns.after, columns.weights_after, columns.compared, metric.aggregate);
   const std::string purpose = fmt::format("gate/{}/{}/{}/{}", move.identity.scenario, move.identity.condition,
                                           move.identity.metric, move.identity.method);
   if (move.differing == 0) return move;  // usually, all values are equal, and no test is needed
+  if (columns.weights_before != nullptr) Weigh(values, weights);
   move.comparison = ComparePaired(values, metric, seed, purpose);
   if (move.lost + move.gained > 0) {
     move.presence = ComparePaired(presence, *FindGateMetric(kOkShare), seed, purpose + "/presence");

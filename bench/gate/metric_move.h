@@ -66,12 +66,18 @@ struct MetricMove {
 /// have the same length.
 struct MoveColumns {
   std::vector<std::optional<double>> before, after;
+  /// The worlds' weights in each snapshot (MetricInfo::weight); null: every world counts alike. A world without a
+  /// weight weighs 0.
+  const std::vector<std::optional<double>>* weights_before = nullptr;
+  const std::vector<std::optional<double>>* weights_after = nullptr;
   std::vector<bool> compared;
   /// The cell's status in each snapshot (StatusLetter), by trial; only the tail rule needs it.
   std::string ended_before, ended_after;
 };
 
 /// Compares the values of two snapshots world by world. `movement` of the result stays kSame until JudgeMoves sets it.
+/// With weights, MetricMove::before and ::after are the means that each snapshot's own summary shows; the comparison
+/// of pairs weighs both values of a world by the earlier weight.
 /// `seed` seeds the random numbers of the bootstrap and of the tests.
 MetricMove MeasureMove(MoveIdentity identity, const MoveColumns& columns, std::uint64_t seed);
 

@@ -32,15 +32,27 @@ void ForEachRow(const RunData& run, const std::function<void(const Row& row, std
   }
 }
 
-void ForEachSeries(const RunData& run,
-                   const std::function<void(const Row& row, const std::vector<Series>& series)>& use) {
+std::vector<SeriesGroup> GroupSeries(const RunData& run, const std::string& axis) {
   std::map<std::string_view, const std::vector<Series>*> held;  // the series of each cell, by the cell's name
   for (const CellSeries& cell : run.series) held.emplace(cell.cell, &cell.series);
+  std::vector<SeriesGroup> groups;
+  std::map<std::string, std::size_t> places;  // index in `groups`, by SeriesGroup::id
+  const auto add = [&](const Row& row, const std::vector<Series>& series) {
+    for (const Series& one : series) {
+      if (one.axis != axis) continue;
+      std::string id = row.scenario + '/' + CompactLabel(row.condition) + '/' + row.method + '/' + one.name;
+      const auto [place, is_new] = places.emplace(std::move(id), groups.size());
+      if (is_new) groups.push_back({place->first, row.condition, row.method, one.name, {}, {}});
+      groups[place->second].values.push_back(one.values);
+      groups[place->second].units.push_back(row.units.empty() ? row.clip : row.units.front());
+    }
+  };
   ForEachRow(run, [&](const Row& row, std::size_t place) {
-    if (run.source) return use(row, run.source->SeriesOf(place));
+    if (run.source) return add(row, run.source->SeriesOf(place));
     const auto known = held.find(row.Id());
-    use(row, known == held.end() ? std::vector<Series>() : *known->second);
+    if (known != held.end()) add(row, *known->second);
   });
+  return groups;
 }
 
 Row RowAt(const RunData& run, std::size_t place) {

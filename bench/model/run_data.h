@@ -85,9 +85,18 @@ std::string DescribeWorlds(const RunData& run);
 std::size_t CountRows(const RunData& run);
 /// Calls `use` for every row of the run with the row's index, including rows that are not in memory.
 void ForEachRow(const RunData& run, const std::function<void(const Row& row, std::size_t place)>& use);
-/// Calls `use` for every row of the run with the row's series, including rows that are not in memory.
-void ForEachSeries(const RunData& run,
-                   const std::function<void(const Row& row, const std::vector<Series>& series)>& use);
+/// The series with one name that the cells of one method under one condition of a scenario contain.
+struct SeriesGroup {
+  std::string id;  ///< "scenario/condition/method/name"
+  std::vector<SweptValue> condition;
+  std::string method, name;
+  std::vector<std::vector<double>> values;  ///< one list for each cell
+  std::vector<std::string> units;           ///< each cell's unit: the person, or the clip if the cell names no person
+};
+
+/// Groups the series with this axis of all rows, including rows that are not in memory. The groups are in the order in
+/// which they first occur.
+std::vector<SeriesGroup> GroupSeries(const RunData& run, const std::string& axis);
 /// Returns the row at index `place`. A row that is read from `source` has no series and no recording.
 Row RowAt(const RunData& run, std::size_t place);
 /// Returns the index of the row with this identity (Row::Id); nullopt if no row has it.

@@ -197,8 +197,8 @@ Result<Verified> VerifyText(const FilePath& folder, const FinishedRun& run) {
     RETURN_IF_ERROR(CompareLines(
         file,
         [&](std::string_view) -> Result<std::string> {
-          // Expect the curves of the next row that has curves. A line of another row, or a duplicate line, differs from
-          // these curves.
+          // Expect the curves of the next row that has curves. A line of another row, or a duplicate line, does not
+          // contain these curves and is reported.
           std::vector<Series> series;
           while (of_row < cells.size() && (series = run.data.source->SeriesOf(of_row)).empty()) ++of_row;
           if (of_row == cells.size()) return std::string();

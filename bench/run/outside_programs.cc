@@ -178,8 +178,8 @@ Result<void> CheckShown(const PreparedScenario& scenario, const ScenarioProgram&
     for (const auto& [what, path] : secrets) {
       if (path.empty() || !Holds(Canonical(shown), Canonical(path))) continue;
       return Fail({scenario.setup().file},
-                  "{} '{}' could see '{}', which contains {} of secret worlds ('{}'); list in its key 'files' only "
-                  "what it needs",
+                  "{} '{}' could read '{}', which contains {} of the secret worlds ('{}'); list in the key 'files' "
+                  "only what this program needs",
                   program.role, program.entry->name, shown.string(), what, path.string());
     }
   }

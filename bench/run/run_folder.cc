@@ -113,7 +113,7 @@ std::vector<TemporaryFolder> RunFolder::FindLeft() const {
 }
 
 Result<bool> RunFolder::TakeUp() {
-  // Folders that killed runs left; the destructors delete those that are not moved out of `left`.
+  // `left` holds folders of runs that were killed. Their destructors delete those that are not moved out of `left`.
   std::vector<TemporaryFolder> left = FindLeft();
   if (left.empty()) return false;
   ASSIGN_OR_RETURN(const auto state, LookAtFolder(path_));

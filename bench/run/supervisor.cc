@@ -348,8 +348,8 @@ class Supervisor {
     return {};
   }
 
-  /// Delivers the cell in progress as lost, or all cells of the world if it was still being built. The order's other
-  /// methods return to the queue. If `status` is nullopt, the lost cells get no rows and are only counted.
+  /// Delivers the cell in progress as lost, or all cells of the world if it was still being built. The other methods
+  /// that `order` lists return to the queue. If `status` is nullopt, the lost cells get no rows and are only counted.
   Result<void> GiveUp(Order order, bool built, std::optional<Status> status, const std::string& reason) {
     const World& world = plan_.world(order.world);
     const std::size_t lost = built ? 1 : order.methods.size();

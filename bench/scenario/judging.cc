@@ -196,7 +196,7 @@ FieldTable<GateRules> GateFields(const Scenario& scenario, const std::vector<std
   using Key = Field<GateRules>;
   return {
       {{{"metrics", ListKind("a list of metrics that the task reports", TextKind("")),
-         "(the success metric and `metrics`)", "The metrics that are compared."},
+         "(the success metric and the scenario's `metrics`)", "The metrics that are compared."},
         [&scenario, metrics](Fields& gate, GateRules& rules) {
           auto named = ReadMetricList(gate, scenario.task, metrics);
           if (!named.empty()) rules.metrics = std::move(named);

@@ -21,7 +21,7 @@ constexpr std::string_view kRowKeys[] = {"cell",  "scenario", "task",   "conditi
                                          "units", "method",   "status", "reason",    "null_reasons", "ok_share"};
 /// The tasks for which a scenario cannot define metrics. Cells of task pose-distance keep no motion; the worlds of the
 /// other three tasks come from files.
-constexpr std::string_view kTasksWithoutMotion[] = {"pose-distance", "evaluation", "plausibility", "inbetween"};
+constexpr std::string_view kTasksWithoutOwnMetrics[] = {"pose-distance", "evaluation", "plausibility", "inbetween"};
 
 bool IsMetricId(const std::string& name) {
   const auto plain = [](char c) { return (c >= 'a' && c <= 'z') || (c >= '0' && c <= '9') || c == '_'; };
@@ -195,9 +195,9 @@ std::vector<std::string> ReadHeadline(Fields& fields, const TaskKind& kind, std:
       NoteMetric(fields, kind.name, known, item.scalar, item.place, names);
       continue;
     }
-    if (std::ranges::find(kTasksWithoutMotion, kind.name) != std::end(kTasksWithoutMotion)) {
-      fields.Complain(item.place,
-                      fmt::format("cells of task {} record no motion that a metric could measure", kind.name));
+    if (std::ranges::find(kTasksWithoutOwnMetrics, kind.name) != std::end(kTasksWithoutOwnMetrics)) {
+      fields.Complain(item.place, fmt::format("scenarios of these tasks cannot define metrics of their own: {}",
+                                              fmt::join(kTasksWithoutOwnMetrics, ", ")));
     }
     auto read = ReadMapping(item, "your own metric", OutsideMetricFields());
     if (!read) {

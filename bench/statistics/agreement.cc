@@ -104,31 +104,20 @@ CurveAgreement MeasureAgreement(std::span<const AgreementSums> pairs, std::span<
 }
 
 std::vector<AngleAgreement> AgreementByAngle(const RunData& run) {
-  // The pairs of curves of one angle: each pair's sums, and each pair's unit.
-  struct Collected {
+  std::vector<AngleAgreement> found;
+  for (const SeriesGroup& group : GroupSeries(run, kAgreementAxis)) {
     std::vector<AgreementSums> pairs;
     std::vector<std::string> units;
-  };
-  std::vector<AngleAgreement> found;
-  std::vector<Collected> collected;
-  std::map<std::string, std::size_t> places;  // index in `found`, by condition, method and angle
-  ForEachSeries(run, [&](const Row& row, const std::vector<Series>& series) {
-    for (const Series& one : series) {
-      const auto sums = one.axis == kAgreementAxis ? DecodeSums(one.values) : std::nullopt;
+    for (std::size_t i = 0; i < group.values.size(); ++i) {
+      const auto sums = DecodeSums(group.values[i]);
       if (!sums) continue;
-      const std::string key = row.scenario + '/' + CompactLabel(row.condition) + '/' + row.method + '/' + one.name;
-      const auto [at, is_new] = places.emplace(key, found.size());
-      if (is_new) {
-        found.push_back({row.condition, row.method, one.name, {}});
-        collected.emplace_back();
-      }
-      collected[at->second].pairs.push_back(*sums);
-      collected[at->second].units.push_back(row.units.empty() ? row.clip : row.units.front());
+      pairs.push_back(*sums);
+      units.push_back(group.units[i]);
     }
-  });
-  // Measure the agreement of each angle, each with a random stream of its own.
-  for (const auto& [key, at] : places) {
-    found[at].agreement = MeasureAgreement(collected[at].pairs, collected[at].units, run.seed, "agreement/" + key);
+    if (pairs.empty()) continue;
+    // Each angle has a random stream of its own.
+    found.push_back(
+        {group.condition, group.method, group.name, MeasureAgreement(pairs, units, run.seed, "agreement/" + group.id)});
   }
   return found;
 }

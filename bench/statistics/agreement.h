@@ -42,8 +42,8 @@ struct AngleAgreement {
   CurveAgreement agreement;
 };
 
-/// Measures the agreement of every angle whose sums (AgreementSums) the cells of a run contain, as series with the axis
-/// kAgreementAxis. The angles are in the order of the cells.
+/// Measures the agreement of every angle of a run. The cells store an angle's sums (AgreementSums) as a series with the
+/// axis kAgreementAxis. The angles are in the order of the cells.
 std::vector<AngleAgreement> AgreementByAngle(const RunData& run);
 
 }  // namespace etude

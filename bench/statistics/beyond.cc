@@ -180,7 +180,7 @@ std::string WhyOpenBeyond(const Beyond& beyond, const MetricInfo& metric, Sampli
   if (beyond.verdict != Verdict::kUndecided) return "";
   const bool within = *beyond.low >= -metric.practical && *beyond.high <= metric.practical;
   if (within && beyond.differing < kMinUnits) {
-    return fmt::format("{} of {} differ: too few to exclude rare differences", beyond.differing,
+    return fmt::format("only {} of {} differ; rare differences may be missing among them", beyond.differing,
                        CountUnits(beyond.units, unit));
   }
   if (within) return "the pseudo-median is too small to matter, but the mean may be large enough";

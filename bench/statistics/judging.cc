@@ -262,8 +262,9 @@ std::string WhyOpen(const Comparison& c, const MetricInfo& metric, int compariso
   // The interval lies within ± threshold, but relevant differences may exist that the interval cannot show.
   const bool within = c.ci_low && *c.ci_low >= -metric.practical && *c.ci_high <= metric.practical;
   if (within && SeesTooFewDiffer(c, metric)) {
-    return fmt::format("{} of {} pairs differ: too few to exclude rare differences that would move the mean",
-                       c.differing, c.pairs);
+    return fmt::format(
+        "only {} of {} pairs differ; rare differences that would change the mean may be missing among them",
+        c.differing, c.pairs);
   }
   if (within && metric.aggregate == Aggregate::kMedian) return DescribeWhatMedianHides(c);
   if (c.differing == 0 && c.ci_low) {

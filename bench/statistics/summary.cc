@@ -310,7 +310,7 @@ std::map<std::string, std::vector<double>> ValuesOf(const std::vector<Member>& m
   return values;
 }
 
-/// Computes the error budget of one family.
+/// Computes the error budget of one family: methods that differ only in `oracle`.
 class BudgetMaker {
  public:
   BudgetMaker(const std::vector<Member>& family, const ConditionTable& table, const std::string& metric,

@@ -30,9 +30,9 @@ ScenarioSummary JudgeFindings(const Study& study, const ScenarioTable& table, st
                               std::uint64_t seed);
 
 /// Summarises the rows of one study. Per condition and method, it computes the aggregate of every metric with its
-/// interval, and the share of ok cells. It compares every method with its baseline on the headline metrics, judged as
-/// one family, and every method with its strongest rival (FindRival), judged as another family. It judges every
-/// expectation. The same rows and seed give the same bytes.
+/// interval, and the share of ok cells. It compares every method with its baseline, and every method with its strongest
+/// rival (FindRival), on the headline metrics; the p values of each of these two families of comparisons are corrected
+/// together. It judges every expectation. The same rows and seed give the same bytes.
 ScenarioSummary Summarise(const Study& study, const ScenarioTable& table, std::uint64_t seed);
 
 /// Splits the final error into the cost of each stage, for methods under one condition that differ only in `oracle`.

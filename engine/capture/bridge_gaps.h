@@ -16,7 +16,7 @@ struct BridgeOptions {
   /// marked, set it to at least n.
   int max_gap = 15;
   /// The standard deviation of a stroke's end, pixels. Only its ratio to `turn_per_frame` matters, and only for limbs
-  /// whose strokes alone give no direction.
+  /// whose direction cannot be computed from their strokes alone.
   double mark_error_px = 2;
   /// The standard deviation of a limb's rotation away from its direction in the nearest measured frame, radians per
   /// frame: 3° at 30 Hz *(ours)*.

@@ -56,7 +56,7 @@ class DanceTransitions {
 /// The current state of playing: the dance itself, or a path (a transition and the clip it leads into).
 struct Playback {
   std::shared_ptr<const ShownPath> path;  ///< the path that is shown; null while the dance itself plays
-  double path_frame = 0;                  ///< frames since the path began, also while its clip plays; fractional
+  double path_frame = 0;  ///< frames since the path began, in its transition and in its clip; fractional
   FloorMove place;                        ///< floor move of the path
   double dance_frame = 0;                 ///< index of the shown frame of the dance; used only if `path` is null
 };

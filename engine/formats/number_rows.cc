@@ -117,8 +117,8 @@ Result<NumberRows> ReadNumberRows(std::string_view text, const std::string& file
       const auto is_here = [i](const auto& column) { return column.first == i; };
       if (std::ranges::any_of(table.texts, is_here)) value = kMissing;
       if (!value || std::abs(*value) > largest) {
-        // If a word stands where columns of text are allowed, the message states the limit of positions, because the
-        // larger limit `largest` applies only to the column of times.
+        // Where text is allowed, the word may have been meant as a position: the message then states the limit of
+        // positions. The larger limit `largest` applies only to the column of times.
         const int column = static_cast<int>(words[i].data() - line_start) + 1;
         return Fail({file, line_number, column},
                     "value {}: {}; allowed: a number within ±{:g}, or nan for a missing one", i + 1, Quote(words[i]),

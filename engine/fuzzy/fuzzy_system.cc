@@ -243,7 +243,7 @@ Result<RuleBase> ReadRules(const Node& node) {
   return base;
 }
 
-/// Returns the lines below `rules`.
+/// Returns the text of the key `rules` of a YAML file, without the line `rules:`.
 std::string WriteRules(const RuleBase& base) {
   std::string text;
   for (const Rule& rule : base.rules) {

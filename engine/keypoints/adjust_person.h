@@ -24,8 +24,9 @@ double KeypointErrorPx(std::span<const ProjectionMatrix> cameras, const MatchedP
 
 /// Adjusts a recovered motion as a whole (`AdjustBundle`) *(ours)*: it finds one body (bone lengths) and its poses in
 /// all frames that together explain the keypoints of all pictures. A keypoint's standard deviation follows from its
-/// confidence and `KeypointErrorPx`; the loss is robust. A prior on accelerations keeps the motion smooth; its
-/// standard deviation is estimated for each joint over a tenth of a second and corrected for noise. If fewer than two
+/// confidence and `KeypointErrorPx`; the loss is robust. A prior on accelerations keeps the motion smooth. The
+/// prior's standard deviation is estimated for each joint, from accelerations over a tenth of a second, from which the
+/// share of noise is subtracted. If fewer than two
 /// cameras see a landmark, the landmark's joint is kept near the position that FitPerson found in that frame, with a
 /// standard deviation of a tenth of the person's height; if no camera ever sees the landmark, the standard deviation is
 /// twice the keypoint error. The trunk has one length; the spine does not bend forward or sideways. Returns true if the

@@ -34,8 +34,8 @@ MarkerMotion AtRate(MarkerMotion markers, double rate_hz);
 /// at + (1 + stretch) · k of the reference.
 struct ReferenceClock {
   double at = 0, stretch = 0;
-  /// The mean loss d² / (d² + s²) of the distances d between the two recordings, with s = 3 cm: `before` with equal
-  /// frame numbers, `after` with this clock.
+  /// The mean loss d² / (d² + s²) of the distances d between the two recordings, with s = 3 cm. `before` compares
+  /// frames with equal numbers; `after` compares the frames that this clock assigns to each other.
   double before = 0, after = 0;
   /// Returns the drift of the clock over `frames` frames, in frames of the reference.
   double DriftOver(std::size_t frames) const { return stretch * static_cast<double>(frames); }

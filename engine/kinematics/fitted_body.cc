@@ -261,9 +261,9 @@ class Builder {
     return {x, glm::cross(z, x), z};
   }
 
-  // Returns the limb's axes when its angles are zero. Euler angles are singular where a limb points along ±X. For an
-  // upper arm X is therefore diagonal. The two singular directions are then forward-outward and backward-inward (behind
-  // the trunk). Arms point there less often than down, sideways or forward.
+  // Returns the limb's axes when its angles are zero. Euler angles are singular where a limb points along ±X. An
+  // upper arm's X axis is therefore diagonal. The two singular directions are then forward-outward and backward-inward
+  // (behind the trunk). Arms point there less often than down, sideways or forward.
   glm::dmat3 NeutralAxes(const RestLimb& limb, const glm::dmat3& R_WL) const {
     if (limb.leads_to != kLeftElbow && limb.leads_to != kRightElbow) return R_WL;
     const double back = limb.leads_to == kLeftElbow ? -1 : 1;

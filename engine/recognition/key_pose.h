@@ -57,10 +57,11 @@ struct KeyPoseOptions {
   /// Multiplies every tolerance. Raise it above 1 for a noisy sensor or untrained people: at 1.2, fixed weights detect
   /// about as many performances as adaptive weights.
   double tolerance_scale = 1.0;
-  /// The weighted share of a pose's angles that must be within their tolerances, in (0, 1]. At 0.8 (ours), fixed
-  /// weights demand every angle of a pose with up to four angles, as paper A does; adaptive weights demand every angle
-  /// that is tracked, and tolerate one inferred angle of three or four. At 0.75, one angle of four may be off. At 1 the
-  /// weights have no effect unless one of them is 0.
+  /// The weighted share of a pose's angles that must be within their tolerances, in (0, 1]. The default
+  /// is ours. For a pose with up to four angles, 0.8 has these effects: with fixed weights, every angle must be within
+  /// its tolerance, as in paper A; with adaptive weights, every tracked angle must be, and one inferred angle of three
+  /// or four may be outside. At 0.75, one angle of four may be outside. At 1 the weights have no effect unless one of
+  /// them is 0.
   double pose_share = 0.8;
   /// The number of consecutive seen frames in which a pose must be reached, ≥ 1. The default of three (ours), 0.1 s at
   /// 30 Hz, rejects poses that are reached by noise. Change it with the frame rate: each additional frame delays every

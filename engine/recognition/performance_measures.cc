@@ -110,7 +110,7 @@ LimbMeasures MeasureLimb(const LimbSums& sums) {
   const double covariance = sums.products / w - glm::dot(seen, taught);
   const double seen_variance = std::max(0.0, sums.seen_squares / w - glm::dot(seen, seen));
   const double taught_variance = std::max(0.0, sums.taught_squares / w - glm::dot(taught, taught));
-  constexpr double kStill = 0.02;  // keeps the ratio small for a limb that hardly moves in the example
+  constexpr double kStill = 0.02;  // moves the ratio towards 1 for a limb that hardly moves in the example
   return {.error = std::sqrt(sums.gaps / w),
           .centred = std::sqrt(std::max(0.0, seen_variance + taught_variance - 2 * covariance)),
           .missing = 1.0 - (covariance + kStill) / (taught_variance + kStill)};

@@ -45,10 +45,10 @@ struct MarkerBody {
 
 /// Finds the bodies of a marker recording by the markers' names. Known sets: Etude's own joints, OpenPose's BODY_25,
 /// COCO, HALPE_26, the bones of Motive and HumanIK, the augmented markers of OpenCap and Pose2Sim, Plug-in Gait; if
-/// none is complete, a naming scheme of skeletons (SetOfSkeletonNames). `options.roles` replaces the set's rules of
-/// these roles for each person who has the markers, or is a set of its own. Case is ignored. The text before the last
-/// ':' is a prefix, and each prefix is one person. Joint centres are found by these rules, which are ours where no
-/// source is named:
+/// none is complete, a naming scheme of skeletons (SetOfSkeletonNames). For each person who has the markers that
+/// `options.roles` names, its rules replace the set's rules; without a known set, they are the only rules. Case is
+/// ignored. The text before the last ':' is a prefix, and each prefix is one person. Joint centres are found by these
+/// rules, which are ours where no source is named:
 /// - the mean of the markers on both sides of a joint, if a set has both;
 /// - hips from the four markers of the pelvis (or its two front markers and one on the sacrum) by the regression of
 ///   Harrington et al. (2007);

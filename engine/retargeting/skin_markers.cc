@@ -19,7 +19,7 @@ using enum Role;
 /// A kind of joint whose markers lie on the skin.
 struct SkinJoint {
   Role left, before;       ///< a joint of the left side, and the joint at the limb's other end
-  std::string_view size;   ///< the name of the joint's width in files, without the side
+  std::string_view size;   ///< the name that files give to the joint's width, without L or R
   double share;            ///< distance from marker to centre ÷ distance between the markers of `left` and `before`
   std::string_view where;  ///< the joints' name in texts for users
 };

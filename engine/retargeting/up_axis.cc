@@ -156,8 +156,9 @@ bool Overrules(const Stance& other, const Stance& usual, bool is_opposite, const
     return true;
   }
   if (other.upright < kMostly || usual.upright >= kHardlyEver) return false;
-  // Accept the opposite axis, because nobody stands on the head without the hands. Do not accept it here if the usual
-  // axis is only a guess (kPosture), because the body may then lie along `other`.
+  // Accept the opposite axis: along the usual axis the body would stand on its head, but nobody does so without using
+  // the hands. Do not accept it here if the usual axis is only a guess (kPosture), because the body may then lie along
+  // `other`.
   if (is_opposite && other.on_hands <= 0.5 && rule.evidence != UpEvidence::kPosture) return true;
   // Accept `other` if the body walks perpendicular to it.
   if (other.way > 0.5 && other.steps > 0.4) return true;

@@ -32,8 +32,8 @@ Result<void> SaveJson(const FilePath& path, const Json& json, OnDisk when = OnDi
 std::filesystem::path TemporaryName(const std::filesystem::path& path);
 
 /// A file that is written under a temporary name, beside its final path. Finish renames the file; without Finish, the
-/// destructor deletes it. The file is locked: if two processes write the same path, each has its own temporary file.
-/// The next process reuses the temporary file of a killed process.
+/// destructor deletes it. Two processes that write the same path have different temporary files, because each locks
+/// its own. The next process reuses the temporary file of a killed process.
 class PartialFile {
  public:
   /// Creates the folder and an empty temporary file. Fails as WriteFileAtomically does.

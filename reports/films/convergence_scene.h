@@ -17,8 +17,8 @@ namespace etude {
 /// and the last iterations pass quickly. The film rests on the first and on the last state for a while.
 class RaceClock {
  public:
-  /// Makes a clock for a film whose slowest method takes `last_iteration` ≥ 0 iterations; the film lasts 6 to 10
-  /// seconds.
+  /// Makes a clock for a film of 6 to 10 seconds. `last_iteration` ≥ 0 is the number of iterations of the slowest
+  /// method in the film.
   explicit RaceClock(int last_iteration);
 
   int LastIteration() const { return last_; }

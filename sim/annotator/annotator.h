@@ -44,7 +44,7 @@ double Unclearness(double contrast);
 
 /// Probabilities and sizes of mistakes with a limb at `error_px` = 2. All are *(ours)* and proportional to `error_px`.
 double MissProbability(const LimbEvidence& limb);  ///< 0.2 %, plus ≤ 10 % if hardly visible, plus ≤ 3 % if unclear
-constexpr double kShortShare = 0.03;               ///< standard deviation of the share left out at each end of a stroke
+constexpr double kShortShare = 0.03;               ///< σ of the share of a limb's stroke that is missing at each end
 constexpr double kSwapProbability = 0.0003;        ///< probability per frame that an exchange of left and right begins
 constexpr double kOverlapSwapProbability = 0.002;  ///< times the limbs' overlap (0 to 1): added to kSwapProbability
 constexpr double kSwapFrames = 5;                  ///< mean length of an exchange, in marked frames

@@ -16,10 +16,10 @@ namespace etude {
 /// file's figure, `to_world` contains the units, axes and floor that ToBodyMotion has found.
 Figure PosedFigure(const Character& character, const LocalPose& pose, const glm::dmat4& to_world = glm::dmat4(1));
 
-/// Returns a character, which must be bound to BodySkeleton(StandingPose()), in a body's pose. The character is scaled
-/// to the body's proportions: each part to the length of the limb, and hips and chest to the distances between hip
-/// joints and between shoulder joints. Set `is_closed` if all meshes are closed, as the meshes of the bear and the
-/// mannequin are (`Surface::is_closed`).
+/// Returns a character in a body's pose. The character must be bound to BodySkeleton(StandingPose()). It is scaled to
+/// the body's proportions: each part to the length of the limb, and hips and chest to the distances between hip joints
+/// and between shoulder joints. Set `is_closed` if all meshes are closed, as the meshes of the bear and the mannequin
+/// are (`Surface::is_closed`).
 Figure PosedFigure(const Character& character, const BodyPose& pose, bool is_closed = false);
 
 /// Computes the joints in `pose` of a character bound to BodySkeleton(StandingPose()); the joints' axes are scaled to

@@ -70,7 +70,7 @@ struct LearnerPerformance {
 /// gives up and stands still. The constants are in learner.cc, with their sources or marked as ours.
 class Learner {
  public:
-  /// `moves`, `showable` (for these moves) and the text of `key.scenario` must outlive this object.
+  /// `showable` belongs to `moves`. Both, and the text of `key.scenario`, must outlive this object.
   Learner(const WorldKey& key, const Person& person, std::span<const Move> moves, const ShowableFaults& showable,
           const LearnerOptions& options = {});
   ~Learner();

@@ -77,7 +77,7 @@ class StagedRoom {
   /// Returns the interior, or null for the studio. The interior belongs to this object.
   const Interior* interior() const { return furnished_ ? &furnished_->interior : nullptr; }
   bool IsPerformerDressed() const { return performer_.has_value(); }
-  /// Returns the performer: dressed, or, at scene 0, as capsules in the `studio` colours.
+  /// Returns the dressed performer; in scene 0, which has no clothes, capsules in the `studio` colours.
   Figure PerformerAt(const BodyPose& pose, const PartColours& studio) const;
   /// Returns the moving objects at `seconds` after the take's start; negative times are before the start.
   std::vector<Figure> MoversAt(double seconds) const;

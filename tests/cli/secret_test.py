@@ -330,7 +330,7 @@ class SecretWorlds(EtudeCase):
         scenario.write_text(ik_scenario(trials=1) + shown)
         stderr = self.refuse("run", scenario, "-o", self.shared / "out", "--seed-file", self.key)
         if "cannot be fenced" not in stderr:
-            self.assertIn(f"method 'mine' could see '{self.folder}', which contains the scenario of secret "
+            self.assertIn(f"method 'mine' could read '{self.folder}', which contains the scenario of the secret "
                           "worlds", stderr)
         self.assertFalse((self.shared / "out").exists())
         scenario.write_text(ik_scenario(trials=1) + MINE.replace("]}", "], files: [no-such-folder]}"))

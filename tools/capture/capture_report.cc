@@ -119,8 +119,8 @@ CapturePage BeginPage(const CaptureFilmsOptions& options, const BodyMotion& moti
 CameraResiduals ResidualsOfOutlines(const std::vector<FilmedView>& views, const UnmarkedMotion& person) {
   constexpr double kPercent = 100;
   CameraResiduals residuals{.caption =
-                                "How much body and outline differ in a camera's picture, over seconds: the area that "
-                                "only one of the two covers, % of the area that either covers",
+                                "The difference between body and outline in a camera's picture, over time: the area "
+                                "that only one of the two covers, in % of the area of both together",
                             .unit = "%",
                             .cameras = {}};
   for (std::size_t i = 0; i < views.size(); ++i) {

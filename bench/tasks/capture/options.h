@@ -190,7 +190,7 @@ struct PersonSource {
   bool for_silhouettes = false;
   bool has_keypoints = false;          ///< true: pictures are marked although `for_silhouettes` is set
   SeatedSegmenter* program = nullptr;  ///< a program that replaces the segmenter, or null
-  bool has_true_marks = false;         ///< true: marks are exact, at the true joints, where the picture shows them
+  bool has_true_marks = false;         ///< true: marks are at the exact true joints that the picture shows
   bool has_coloured_marks = false;     ///< true: marks are read from the suit's colours
   auto operator<=>(const PersonSource&) const = default;
 };

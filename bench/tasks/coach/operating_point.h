@@ -22,7 +22,7 @@ void FollowPerformances(const SessionLog& log, const Recogniser& recogniser, con
 
 /// Returns the highest threshold on evidence that at most `needless_per_min` right performances per minute fail to
 /// reach. `right` holds the evidence for all right performances in `minutes` > 0 of sessions, in any order. Returns 1
-/// if even all right performances together are few enough.
+/// if there are at most `needless_per_min` right performances per minute.
 double ThresholdOf(std::vector<double> right, double minutes, double needless_per_min);
 
 /// Sets the threshold of each method without one: the evidence at or above which a performance counts as right. The

@@ -112,7 +112,7 @@ std::optional<ThroughClip> FindThroughClip(const MotionLibrary& library, const T
 
 constexpr int kPairs = 16;          // number of pairs that are played at a time: one for each part (NearestPairs)
 constexpr int kRounds = 4;          // maximum number of such sets of pairs (PlayNearestPairs)
-constexpr int kFloatingFrames = 4;  // the body floats in a join with this many consecutive unsupported frames
+constexpr int kFloatingFrames = 4;  // a body that is unsupported for this many consecutive frames floats
 constexpr int kMinSpacing = 4;      // minimum distance, in frames of the wanted clip, between the pairs of one part
 constexpr std::size_t kMaxCompared = 20'000;  // maximal number of pairs of frames whose features are compared
 

@@ -29,7 +29,7 @@ struct CoverageOptions {
   double budget_s = 1;             ///< maximal wait before a transition, seconds
   bool with_pairs = true;          ///< also compute Coverage::Of
   std::vector<int> wanted = {};    ///< clips for which WithoutWayInto is computed; all if `with_pairs`
-  /// Receives the number of comparisons of a clip done so far, and their total: two per clip, three with `with_pairs`.
+  /// Receives the number of steps done so far, and their total. Each clip takes two steps, with `with_pairs` three.
   OnProgress on_progress = {};
 };
 

@@ -57,25 +57,32 @@ TEST(Snapshots, OfTheSameRunDoNotDiffer) {
 
 TEST(Snapshots, WeighCellsAsTheSummaryDoes) {
   // The last of four windows has as much power as the other three together.
-  const auto snapshot = [](double more) {
+  const auto snapshot = [](std::optional<double> last) {
     SnapshotScenario scenario;
     scenario.name = "s";
     scenario.trials = 4;
     SnapshotCells cells;
     cells.method = "a";
     cells.statuses = "oooo";
-    cells.metrics = {{"npss", {0.1, 0.2, 0.3, 1 + more}}, {"npss_power", {1.0, 1.0, 1.0, 3.0}}};
+    cells.metrics = {{"npss", {0.1, 0.2, 0.3, last}}, {"npss_power", {1.0, 1.0, 1.0, 3.0}}};
     scenario.cells = {cells};
     Snapshot made;
     made.scenarios = {scenario};
     return made;
   };
-  for (const MetricMove& move : CompareSnapshots(snapshot(0), snapshot(0.5), {}).moves) {
-    if (move.identity.metric != "npss") continue;
-    EXPECT_NEAR(*move.before, (0.1 + 0.2 + 0.3 + 3 * 1.0) / 6, 1e-12);
-    EXPECT_NEAR(*move.after, (0.1 + 0.2 + 0.3 + 3 * 1.5) / 6, 1e-12);
-    EXPECT_NEAR(*move.comparison.mean, 3 * 0.5 / 6, 1e-8);
-  }
+  const auto npss_of = [&](std::optional<double> before, std::optional<double> after) {
+    std::vector<MetricMove> moves = CompareSnapshots(snapshot(before), snapshot(after), {}).moves;
+    return *std::ranges::find(moves, "npss", [](const MetricMove& move) { return move.identity.metric; });
+  };
+  const MetricMove worse = npss_of(1.0, 1.5);
+  EXPECT_NEAR(*worse.before, (0.1 + 0.2 + 0.3 + 3 * 1.0) / 6, 1e-12);
+  EXPECT_NEAR(*worse.after, (0.1 + 0.2 + 0.3 + 3 * 1.5) / 6, 1e-12);
+  EXPECT_NEAR(*worse.comparison.mean, 3 * 0.5 / 6, 1e-8);
+  // A lost world changes only the mean of the snapshot that lost it.
+  const MetricMove lost = npss_of(1.0, std::nullopt);
+  EXPECT_NEAR(*lost.before, (0.1 + 0.2 + 0.3 + 3 * 1.0) / 6, 1e-12);
+  EXPECT_NEAR(*lost.after, (0.1 + 0.2 + 0.3) / 3, 1e-12);
+  EXPECT_EQ(lost.lost, 1);
 }
 
 TEST(Snapshots, TellAClearDifferenceThatMattersFromOneThatDoesNot) {
