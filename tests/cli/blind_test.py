@@ -11,7 +11,7 @@ import time
 import unittest
 
 from browser import CHROMIUM, Browser
-from etude_case import EtudeCase
+from etude_case import EtudeCase, heavy
 
 SCENARIO = """scenario: change
 question: Which transition looks better?
@@ -52,6 +52,7 @@ class Blind(EtudeCase):
             self.assertLess(jump[faded], jump[abrupt])
         self.assertEqual(self.key["worlds"], 4)
 
+    @heavy
     def test_the_same_seed_makes_the_same_page_and_another_one_another(self):
         before = self.page.read_bytes()
         self.ends(0, "report", self.run_folder, "--blind", "abrupt-one", "faded-one", "--pairs", "2", "--seed", "3")
@@ -94,6 +95,7 @@ class Blind(EtudeCase):
                      says="no world has recorded motions of two of these methods: abrupt-one, faded-one")
 
     @unittest.skipUnless(shutil.which("ffmpeg"), "without ffmpeg")
+    @heavy
     def test_a_side_is_empty_where_its_motion_is_not_recorded(self):
         run = self.folder / "waiting"
         self.ends(0, "run", self.write("waiting.yaml", SCENARIO.replace("choice: now, join: cut", "choice: wait-for-end, join: cut")), "-o", run)

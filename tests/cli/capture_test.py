@@ -225,6 +225,7 @@ class Capture(EtudeCase):
         self.assertRegex(result.stdout, r"left_knee +0\.0 +0\.0\n")
         self.assertRegex(result.stdout, r"\nall +0\.0 +0\.[0-9]\n")
 
+    @heavy
     def test_sets_clocks_by_keypoints(self):
         late = self.keypoints / "right_json"
         for k in range(FRAMES):  # this film is four frames ahead

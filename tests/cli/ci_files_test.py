@@ -97,6 +97,7 @@ class CiFiles(EtudeCase):
         self.assertEqual(ran, 6)
         return failed, files["GITHUB_STEP_SUMMARY"].read_text(), known["steps.gate.outputs.verdict"]
 
+    @heavy
     def test_the_example_passes_on_github_and_a_worse_solver_does_not(self):
         failed, summary, verdict = self.run_action()
         self.assertEqual((failed, verdict), (None, "pass"), summary)

@@ -5,7 +5,7 @@ import sys
 import unittest
 import wave
 
-from etude_case import EtudeCase
+from etude_case import EtudeCase, heavy
 
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1] / "support"))
 from json_schema import complaints, load_schema  # noqa: E402
@@ -72,6 +72,7 @@ class Coach(EtudeCase):
         self.assertIn("corrects", [event["event"] for event in events])
         self.assertNotIn("right", [event["event"] for event in events])
 
+    @heavy
     def test_what_is_recorded_and_what_comes_live_are_coached_alike(self):
         _, recorded = self.coach("--now", "--stream", self.expert)
         _, live = self.coach("--now", "--stream", "-", text=self.expert.read_text())
@@ -97,6 +98,7 @@ class Coach(EtudeCase):
         taught.write_text(taught.read_text().replace("clap", "yodel"))
         self.refuses("groove", "--moves", taught, "--stream", dancer, says=["yodel", "the song contains: clap, fast_sway"])
 
+    @heavy
     def test_the_dance_follows_music_that_runs_elsewhere(self):
         rows = self.expert.read_text().splitlines()
         told = [rows[0]]

@@ -4,7 +4,7 @@ import re
 import subprocess
 import unittest
 
-from etude_case import EtudeCase
+from etude_case import EtudeCase, heavy
 
 FEW = ("--characters", "12", "--seconds", "0.2")
 
@@ -30,6 +30,7 @@ class Crowd(EtudeCase):
         self.assertGreater(told["met_share"], .5)
         self.assertLessEqual(told["median_ms"], told["largest_ms"])
 
+    @heavy
     def test_the_film_has_every_second_frame_of_sixty_a_second_and_the_same_bytes_whoever_draws(self):
         films = []
         for name, jobs in (("a.mp4", "1"), ("b.mp4", "3")):

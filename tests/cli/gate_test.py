@@ -163,6 +163,7 @@ class Gate(EtudeCase):
         own = f"  - {{name: own, exec: [python3, {self.write('own.py', program)}]}}\n"
         return self.etude("run", self.write("own.yaml", SCENARIO + own), "-o", self.now)
 
+    @heavy
     def test_a_method_without_an_answer_fails_and_makes_no_baseline(self):
         ran = self.run_program("import etude\n\n@etude.method(task='ik')\ndef own(problem):\n"
                                "    raise ValueError('math domain error')\n\netude.serve(own)\n")
@@ -202,6 +203,7 @@ class Gate(EtudeCase):
                       "'ModuleNotFoundError: no numpy here'", ran.stderr)
         self.assertFalse(self.now.exists(), "nothing is run")
 
+    @heavy
     def test_a_method_s_own_exception_is_its_failure_and_not_the_machine_s(self):
         solver = (EXAMPLES / "ik_dls.py").read_text()
         self.assertEqual(self.run_program(solver).returncode, 0)

@@ -58,6 +58,7 @@ class Interrupts(EtudeCase):
                     self.assertEqual(self.interrupt(arguments, listens, sent), AT_ONCE)
         self.assertEqual(list(self.folder.iterdir()), [])
 
+    @heavy
     def test_a_film_that_is_interrupted_leaves_nothing_and_an_old_page_as_it_was(self):
         self.run_suite(self.write("ik.yaml", IK + "video: {compare: [fixed, least-squares], trials: [1]}\n"))
         page, video = self.out / "report" / "index.html", self.out / "video"

@@ -71,6 +71,7 @@ class Machine(EtudeCase):
                                               preexec_fn=limit(resource.RLIMIT_AS, space)).returncode == 0
         return next(space for space in range(64 * MB, 1024 * MB, 4 * MB) if starts(space))
 
+    @heavy
     def test_whatever_the_address_space_it_ends_with_a_sentence(self):
         least, more, codes = self.least_space(), 4 * MB, []
         while 0 not in codes and more < 1024 * MB:
@@ -80,6 +81,7 @@ class Machine(EtudeCase):
             more *= 1.3 if HEAVY else 2
         self.assertEqual(set(codes), {0, 3})
 
+    @heavy
     def test_a_capture_whose_memory_ends_is_not_run_and_resuming_runs_it(self):
         """Earlier, such cells became rows `out_of_memory`, which --resume kept."""
         whole, codes = self.folder / "whole", []
@@ -119,6 +121,7 @@ class Machine(EtudeCase):
         self.assertEqual(larger.returncode, 0, larger.stderr)
 
     @unittest.skipUnless(shutil.which("strace"), "needs strace")
+    @heavy
     def test_a_write_that_fails_hangs_nobody_and_is_no_answer(self):
         scenario, whole = self.write("ik.yaml", IK + "limits: {time_s: 30}\n"), self.folder / "whole"
         self.run_suite(scenario, out=whole)

@@ -10,7 +10,7 @@ import shutil
 import subprocess
 import unittest
 
-from etude_case import ETUDE, HEAVY, EtudeCase, ik_scenario
+from etude_case import ETUDE, HEAVY, EtudeCase, heavy, ik_scenario
 
 CUTS = int(os.environ.get("ETUDE_CUTS", "100000" if HEAVY else "4"))
 SCENARIO = ik_scenario(trials=6, question="Does it survive?") + "video: {compare: [fixed], trials: [0]}\n"
@@ -196,6 +196,7 @@ class PowerCut(EtudeCase):
         run = ["run", self.scenario, "-o", str(self.out), "-j", "1", "--sync-seconds", "0"]
         self.check([ETUDE, *run], [*run, "--resume"])
 
+    @heavy
     def test_a_merge_is_done_again_after_a_cut_at_any_call(self):
         shards = [self.folder / f"shard-{i}" for i in (1, 2)]
         for i, shard in enumerate(shards, 1):

@@ -5,7 +5,7 @@ import json
 import pathlib
 import unittest
 
-from etude_case import IK, EtudeCase
+from etude_case import HEAVY, IK, EtudeCase, heavy
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 HOSTILE = ROOT / "tests/bench/outside/hostile.py"
@@ -76,7 +76,7 @@ metrics: [position_error_cm, {{name: rate, exec: [python3, {self.folder}/ours/me
             "ours/measure.py": (METRIC.replace('"value": 1', '"value": 2'), "programs.metric rate.files."),
             "data/weights.bin": ("1 2 4", f"programs.listed.files.{self.folder}/data/weights.bin was "),
         }
-        for name, (text, words) in changes.items():
+        for name, (text, words) in list(changes.items())[:None if HEAVY else 1]:
             with self.subTest(name):
                 before = (self.folder / name).read_text()
                 self.assertNotEqual(before, text)
@@ -120,6 +120,7 @@ metrics: [position_error_cm, {{name: rate, exec: [python3, {self.folder}/ours/me
         lines[:2] = [f'{head},"sum":"{digest(head.encode())}"}}\n'] * 2
         journal.write_text("".join(lines))
 
+    @heavy
     def test_a_run_that_recorded_no_programs_is_refused_or_read_with_the_reason(self):
         self.run_shards()
         self.ends(0, "merge", *self.shards, "-o", self.out)

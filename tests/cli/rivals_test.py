@@ -5,7 +5,7 @@ import pathlib
 import re
 import unittest
 
-from etude_case import EtudeCase
+from etude_case import EtudeCase, heavy
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 RIVALS, STUBS = ROOT / "examples/rivals", ROOT / "tests/cli/rivals_stubs"
@@ -35,6 +35,7 @@ class Rivals(EtudeCase):
             self.assertEqual((row["status"], row["reason"]), ("ok", None), row)
         return {row["method"]: row["mpjpe_mm"] for row in rows}
 
+    @heavy
     def test_every_call_of_the_adapters_is_documented(self):
         errors = self.mpjpe_mm(PACKAGES, STUBS / "with_stubs.py")
         # The triangulation is the same; Pose2Sim's hands, head and spine are placed in another way.
@@ -56,6 +57,7 @@ class Rivals(EtudeCase):
                 self.assertEqual(row["status"], "unsolved")
                 self.assertIn(" is not installed (No module named", row["reason"])
 
+    @heavy
     def test_the_page_runs_the_shipped_scenario(self):
         page = (RIVALS / "README.md").read_text()
         self.assertIn("examples/rivals/rivals.yaml", page)

@@ -313,6 +313,7 @@ class SecretWorlds(EtudeCase):
         for line in (self.out / "cells.jsonl").read_text().splitlines():
             self.assertLess(json.loads(line)["hidden_angle_error_deg"], 1e-9)
 
+    @heavy
     def test_the_page_and_compare_say_which_worlds_they_are(self):
         scenario = self.folder / "suite.yaml"
         scenario.write_text(ik_scenario(trials=1) + MINE)

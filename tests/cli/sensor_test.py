@@ -3,7 +3,7 @@ import math
 import random
 import unittest
 
-from etude_case import EtudeCase
+from etude_case import EtudeCase, heavy
 
 SCENARIO = """scenario: sensed
 question: Is the sensor file used?
@@ -67,6 +67,7 @@ class Sensor(EtudeCase):
         self.assertEqual([column["column"] for column in beside["columns"]], ["real", "simulated", "+-"])
         self.assertGreaterEqual(beside["agreement"]["compared"], beside["agreement"]["within"])
 
+    @heavy
     def test_writes_a_sensor_that_a_scenario_uses(self):
         file = self.folder / "sensor.yaml"
         fit = self.facts("sensor fit", self.folder / "kinect.txt", "--reference", self.folder / "targets.txt", "-o", file,

@@ -72,6 +72,7 @@ class Streams(EtudeCase):
         self.assertIn("task ik takes no recordings",
                       self.etude("check-method", "--task", "ik", "--streams", takes, "--", "true").stderr)
 
+    @heavy
     def test_recorded_people_are_worlds_judged_as_recognise_judges_them(self):
         takes, labels = self.record()
         scenario = self.write("recorded.yaml", SCENARIO)

@@ -83,7 +83,7 @@ TEST(Baseline, IsRefusedWithThePlaceWhenItIsNoneOrWouldHideSomething) {
               HasSubstr("no cell is ok or unsolved"));
 }
 
-TEST(Baseline, ThatWasTornAnywhereIsRefusedInOneLineOrReadsAsAnotherOne) {
+TEST(Baseline, HEAVY_ThatWasTornAnywhereIsRefusedInOneLineOrReadsAsAnotherOne) {
   const std::string text = Text();
   int refused = 0, tried = 0;
   for (std::size_t at = 0; at < text.size(); at += 3) {

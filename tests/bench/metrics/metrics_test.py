@@ -15,7 +15,7 @@ sys.path[:0] = [str(ROOT / "tests" / "cli"), str(ROOT / "tests" / "support")]
 import second_implementation as second  # noqa: E402
 from independent import body, capture, coach, common, detection, evaluation, ik, pose_distance  # noqa: E402
 from independent import support, tracking, transition  # noqa: E402
-from etude_case import IK, EtudeCase  # noqa: E402
+from etude_case import IK, EtudeCase, heavy  # noqa: E402
 from json_schema import complaints, load_schema, own_complaints  # noqa: E402
 
 
@@ -206,6 +206,7 @@ class Metrics(EtudeCase):
         self.assertEqual(result.returncode, 1)
         self.assertIn("3 disagreements", result.stdout)
 
+    @heavy
     def test_the_vectors_notice_every_mistake_listed(self):
         for name, (module, parts, must_notice) in MUTANTS.items():
             with self.subTest(name), unittest.mock.patch.multiple(module, **parts):

@@ -97,7 +97,7 @@ class RecordedSupport(EtudeCase):
             self.assertGreater(requests, 0, f"a wrong {name} would be seen")
 
     def test_a_second_program_finds_the_same_requests_supported(self):
-        self.compare(trials=12)
+        self.compare(trials=6)
 
     @heavy
     def test_of_many_requests_too(self):

@@ -206,7 +206,7 @@ TEST_F(JournalTest, RefusesACellThatThePlanHasNot) {
   EXPECT_THAT(Complaint(), HasSubstr("journal.jsonl:5: cell 12 does not belong to this run's shard 1/1"));
 }
 
-TEST_F(JournalTest, GivesCellsBackInAnyOrderHoweverLargeItIs) {
+TEST_F(JournalTest, HEAVY_GivesCellsBackInAnyOrderHoweverLargeItIs) {
   std::vector<std::size_t> order(plan_.cell_count());
   std::iota(order.begin(), order.end(), 0);
   std::ranges::reverse(order);

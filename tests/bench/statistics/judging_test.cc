@@ -200,7 +200,7 @@ int FalseAlarms(double effect, bool corrected) {
   return alarms;
 }
 
-TEST(JudgeFamily, RaisesAFalseAlarmInOneScenarioOfTwenty) {
+TEST(JudgeFamily, HEAVY_RaisesAFalseAlarmInOneScenarioOfTwenty) {
   EXPECT_LE(FalseAlarms(0, true), 10);
   // The controls: without the correction many scenarios have a false alarm; a true effect is found.
   EXPECT_GE(FalseAlarms(0, false), 25);

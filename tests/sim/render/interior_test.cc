@@ -103,7 +103,7 @@ TEST_F(RenderedInterior, DrawsTheSameRowsAloneAsInAWholePicture) {
   }
 }
 
-TEST_F(RenderedInterior, IsTheSameAfterAPictureOfColoursOnly) {
+TEST_F(RenderedInterior, HEAVY_IsTheSameAfterAPictureOfColoursOnly) {
   const std::vector<Figure> dancer{{Dancer(), PerformerColours()}};
   const Interior interior = Furnished();
   const Room room{.interior = &interior};

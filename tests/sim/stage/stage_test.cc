@@ -237,7 +237,7 @@ TEST_F(RenderedStage, FurnitureIsDrawnWhereRaysMeetItsBoxes) {
 
 // Every pixel of a limb has its paint's chromaticity, in light and shade, for capsules and dressed people, except for
 // rounding and a tinted lamp.
-TEST_F(RenderedStage, ACodedSuitShowsTheChromaticityOfEachLimb) {
+TEST_F(RenderedStage, HEAVY_ACodedSuitShowsTheChromaticityOfEachLimb) {
   const PartColours suit = CodedSuit();
   const std::vector<BodyPose> poses = {StandingPose()};
   for (const double scene : {0.0, 0.5, 1.0}) {

@@ -88,7 +88,7 @@ TEST(CaptureTask, MarksTrueJointsWhereItIsToldTo) {
   EXPECT_EQ(DigestOf(cells[0], "masks"), DigestOf(cells[1], "masks"));
 }
 
-TEST(CaptureTask, SetsItsClocksByTheMarks) {
+TEST(CaptureTask, HEAVY_SetsItsClocksByTheMarks) {
   ASSERT_OK(
       task,
       Make(
@@ -281,7 +281,7 @@ TEST(CaptureTask, FilmsWithOnesOwnCameras) {
 }
 
 // Without an annotator, the annotator's dice must not matter; only the picture does.
-TEST(CaptureTask, ReadsTheColoursOfASuitWhateverAnAnnotatorWouldErr) {
+TEST(CaptureTask, HEAVY_ReadsTheColoursOfASuitWhateverAnAnnotatorWouldErr) {
   const std::string methods =
       "methods:\n- {name: colours, segmenter: rgb, pieces: large, marks: colours}\n"
       "- {name: human, segmenter: rgb, pieces: large}\n"

@@ -87,7 +87,7 @@ TEST(CoachSession, GivesTheSameWhateverWasRunBefore) {
   }
 }
 
-TEST(CoachSession, SeesByCamerasWhoseEveryStageIsTrueWhatAPerfectSensorSees) {
+TEST(CoachSession, HEAVY_SeesByCamerasWhoseEveryStageIsTrueWhatAPerfectSensorSees) {
   const CoachStage& stage = StageOf("groove");
   CoachCondition condition = ConditionOf("groove", 12, 0);
   const CoachWorld perfect = WorldOf(condition);

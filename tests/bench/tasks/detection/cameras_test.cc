@@ -23,7 +23,7 @@ double FarthestApart(const CellResult& a, const CellResult& b) {
   return farthest;
 }
 
-TEST_F(DetectionCameras, WhoseEveryStageIsTrueJudgeAsThePerfectSensorDoes) {
+TEST_F(DetectionCameras, HEAVY_WhoseEveryStageIsTrueJudgeAsThePerfectSensorDoes) {
   ASSERT_OK(task, MakeTask(R"(
 sensor: cameras
 events: 1

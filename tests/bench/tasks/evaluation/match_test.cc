@@ -259,7 +259,7 @@ RawMotion Swaying(double rate_hz, std::size_t frames, double late_s) {
   return motion;
 }
 
-TEST(Match, FindsALagToAFractionOfAFrame) {
+TEST(Match, HEAVY_FindsALagToAFractionOfAFrame) {
   unsigned state = 61;
   for (const double late_s : {0.0, 0.0123, 0.31, -0.4567}) {
     for (const double rate_hz : {30.0, 24.0}) {

@@ -210,7 +210,7 @@ class Cheats : public TransitionFixture {
   }
 };
 
-TEST_F(Cheats, AGlideBelowTheHeightAtWhichSlidingCountsIsNotClean) {
+TEST_F(Cheats, HEAVY_AGlideBelowTheHeightAtWhichSlidingCountsIsNotClean) {
   const auto [before, now] = Credited("glide", 0, Glide, true);
   EXPECT_GE(before, 0.4) << "what it fools";
   EXPECT_LE(now, 0.1);
@@ -222,19 +222,19 @@ TEST_F(Cheats, ABodyThatTurnsOnItsFeetIsNotClean) {
   EXPECT_LE(now, 0.1);
 }
 
-TEST_F(Cheats, KneesTurnedBackwardsAreNotClean) {
+TEST_F(Cheats, HEAVY_KneesTurnedBackwardsAreNotClean) {
   const auto [before, now] = Credited("knees backwards", 0, BendKnees);
   EXPECT_GE(before, 0.2) << "what it fools";
   EXPECT_LE(now, 0.1);
 }
 
-TEST_F(Cheats, ABodyInTheFloorIsNotClean) {
+TEST_F(Cheats, HEAVY_ABodyInTheFloorIsNotClean) {
   const auto [before, now] = Credited("8 cm in the floor", 0, Sink);
   EXPECT_GE(before, 0.2) << "what it fools";
   EXPECT_LE(now, 0.1);
 }
 
-TEST_F(Cheats, AHopThatNothingThrowsIsNotClean) {
+TEST_F(Cheats, HEAVY_AHopThatNothingThrowsIsNotClean) {
   const auto [before, now] = Credited("hop, turned 120°", Radians(120), Hop);
   EXPECT_LE(now, 0.1) << "version 3: " << before;
 }
