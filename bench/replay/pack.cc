@@ -194,7 +194,8 @@ Result<std::optional<CellCheck>> ReplayPack(const std::string& file, const Outsi
   const Plan plan(scenarios);
   std::size_t cell = 0;
   while (cell < plan.cell_count() && plan.IdentityOf(cell).Id() != pack.row.Id()) ++cell;
-  if (cell == plan.cell_count()) return Fail({file, 0, 0}, "its scenario makes no cell '{}'", pack.row.Id());
+  if (cell == plan.cell_count())
+    return Fail({file, 0, 0}, "the scenario of this file makes no cell '{}'", pack.row.Id());
   const std::size_t world = plan.WorldOf(cell);
   std::optional<CellCheck> check;
   // The folder for the programs' standard error, which the reason of a failure quotes.

@@ -41,8 +41,8 @@ std::vector<TakeCurve> FeetOf(const BodyMotion& motion) {
 CameraResiduals ResidualsOf(const std::vector<FilmedView>& views, const RecoveredPerson& person, std::size_t chosen,
                             const SeenFilms& films) {
   CameraResiduals residuals{.caption =
-                                "Distance of a camera's keypoints from the points triangulated from all cameras, px, "
-                                "over seconds: the median of each frame",
+                                "The median distance of a camera's keypoints from the points that are triangulated "
+                                "from all cameras, in each frame (px)",
                             .unit = "px",
                             .cameras = {}};
   for (std::size_t i = 0; i < views.size(); ++i) {
@@ -119,8 +119,8 @@ CapturePage BeginPage(const CaptureFilmsOptions& options, const BodyMotion& moti
 CameraResiduals ResidualsOfOutlines(const std::vector<FilmedView>& views, const UnmarkedMotion& person) {
   constexpr double kPercent = 100;
   CameraResiduals residuals{.caption =
-                                "The difference between body and outline in a camera's picture, over time: the area "
-                                "that only one of the two covers, in % of the area of both together",
+                                "The difference between body and outline in a camera's picture, in each frame: the "
+                                "area that only one of the two covers, in % of the area of both together",
                             .unit = "%",
                             .cameras = {}};
   for (std::size_t i = 0; i < views.size(); ++i) {

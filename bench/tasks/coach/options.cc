@@ -47,7 +47,8 @@ void CheckMethod(Fields& fields, Method& method) {
   const Node& node = fields.node();
   if (method.knows_truth != method.policy.policy->asks_truth) {
     const Node* named = node.Find(method.knows_truth ? "oracle" : "policy");
-    fields.Complain(named->place, "policy 'oracle' and 'oracle: [judgement]' need each other");
+    fields.Complain(named->place,
+                    "'policy: oracle' is allowed only together with 'oracle: [judgement]', and the reverse");
   }
   if (method.partner->takes_moments) {
     fields.Complain(node.Find("partner")->place, "'partner' cannot be a yoked policy, which itself needs a partner");

@@ -13,7 +13,7 @@ const FieldTable<InbetweenOptions>& InbetweenConditionFields() {
   // Keys of the files, the windows and the gap, the rate, the orientation and the bone offsets.
   static const FieldTable<Options> table{
       {Key::Texts("truth", &Options::truth, "a list of motion files, patterns, folders",
-                  "The motions of which frames are hidden; they need rotations of joints.")
+                  "The true motions. Some of their frames are hidden from the methods. The files need joint rotations.")
            .WhenAbsent("(required)"),
        Key::Texts("training", &Options::training, "a list of motion files, patterns, folders",
                   "The motions for L2P's standard deviations, for the joints' offsets and for fillers that use a "
