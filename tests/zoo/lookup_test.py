@@ -70,11 +70,11 @@ class Lookup(unittest.TestCase):
         return (f"scenario: lookup\nquestion: Does it add up?\ntask: ik\ntrials: 3\nposes: {{uniform: 0.5}}\n{sweep}\nmethods:\n"
                 f"  - {{name: own, exec: [{PYTHON}, DEN/lookup.py, carry, {noises}]}}\n")
 
-    def run_carrier(self, name, text, options=lambda: ()):
-        """Runs a method that remembers the problems of earlier conditions in pages of the kernel's cache. Runs it anew if
-        the kernel has dropped such pages. Returns the rows and what the method said."""
+    def run_carrier(self, text):
+        """Runs a method in secret worlds that remembers the problems of earlier conditions in pages of the kernel's
+        cache. Runs it anew if the kernel has dropped such pages. Returns the rows and what the method said."""
         for attempt in range(5):
-            rows, said = self.run_against(f"{name}-{attempt}", text, *options())
+            rows, said = self.run_against(f"secret-{attempt}", text, "--seed-file", self.key())
             if "no memory" in said:
                 self.skipTest("the kernel does not tell which pages it holds")
             if re.findall(r"remembers (\d) worlds", said) == ["0", "3", "6"]:
@@ -85,11 +85,11 @@ class Lookup(unittest.TestCase):
         text = self.carrier("sweep: {joint_noise_deg: [2, 3, 4]}", "2, 3, 4")
         later = lambda rows: [row["hidden_angle_error_deg"] for row in rows if row["joint_noise_deg"] != 2]
         # The method remembers all earlier problems, but none helps it.
-        rows, said = self.run_carrier("secret", text, lambda: ("--seed-file", self.key()))
+        rows, said = self.run_carrier(text)
         self.assertNotIn("a world that was met before", said)
         self.assertGreater(min(later(rows)), 0.1)
         # The control: with a plain seed, the conditions share their random numbers, so the remembered problems help.
-        rows, said = self.run_carrier("plain", text)
+        rows, said = self.run_against("plain", text)
         self.assertEqual(len(later(rows)), 6)
         self.assertLess(max(later(rows)), 1e-9, said)
 
