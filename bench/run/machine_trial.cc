@@ -9,7 +9,6 @@
 #include <cstring>
 #include <utility>
 
-#include "bench/tasks/registry.h"
 #include "engine/base/machine.h"
 #include "io/files/files.h"
 #include "io/files/temporary_folder.h"
@@ -19,11 +18,6 @@
 
 namespace etude {
 namespace {
-
-bool Draws(const PreparedScenario& prepared) {
-  const Scenario& scenario = prepared.scenario();
-  return IsFilmed(scenario) || FindTaskKind(scenario.task)->platform != nullptr;
-}
 
 /// Makes a renderer in a forked copy of this process. If memory is short, Mesa ends the process in which it runs, so
 /// only the copy ends.
@@ -53,7 +47,7 @@ Result<void> CheckFence(const Fence& fence) {
 
 Result<void> Try(std::span<const PreparedScenario> scenarios, const Fence& fence) {
   RETURN_IF_ERROR(ChildProcess::Start({.program = "/bin/sh", .arguments = {"-c", ":"}}));
-  if (std::ranges::any_of(scenarios, Draws)) RETURN_IF_ERROR(TryRendererInACopy());
+  if (std::ranges::any_of(scenarios, Draws, &PreparedScenario::scenario)) RETURN_IF_ERROR(TryRendererInACopy());
   bool is_first = true;
   for (const PreparedScenario& scenario : scenarios) {
     for (const auto& [program, role] : ProgramsIn(scenario.scenario())) {
@@ -84,7 +78,7 @@ Result<void> TryMachine(std::span<const PreparedScenario> scenarios, const Fence
 }
 
 Result<void> TryRenderer(const PreparedScenario& scenario) {
-  if (Draws(scenario)) RETURN_IF_ERROR(SharedRenderer());
+  if (Draws(scenario.scenario())) RETURN_IF_ERROR(SharedRenderer());
   return {};
 }
 

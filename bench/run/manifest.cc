@@ -99,26 +99,33 @@ std::string DigestOf(const std::vector<std::string>& texts) {
   return digest.Hex();
 }
 
-/// The libraries that affect results, given by the beginnings of their file names: C and C++, the renderer and its
-/// compiler, Ceres with its linear algebra and orderings, image codecs. Eigen, GLM, Random123 and, on Debian 12, Ceres
-/// are compiled into the program, whose build is stated in the head of a journal. Libraries that only draw pages, read
-/// fonts or learn weights are not listed, so their updates do not change the identity of a run.
+/// The libraries that affect results, given by the beginnings of their file names: C and C++, Ceres with its linear
+/// algebra and orderings, image codecs. Eigen, GLM, Random123 and, on Debian 12, Ceres are compiled into the program,
+/// whose build is stated in the head of a journal. Libraries that only draw pages, read fonts or learn weights are not
+/// listed, so their updates do not change the identity of a run.
 constexpr std::array kDecisiveLibraries = {
-    "libc.",        "libm.",       "libstdc++.",   "libOSMesa.", "libEGL_mesa.", "libgallium", "swrast_dri.",
-    "libglapi.",    "libLLVM",     "libblas.",     "libceres.",  "liblapack.",   "libatlas",   "libopenblas",
-    "libgfortran.", "libcholmod.", "libcxsparse.", "libamd.",    "libcamd.",     "libcolamd.", "libccolamd.",
-    "libmetis.",    "libhwy.",     "libjpeg.",     "libpng",     "libz.",        "libzip.",    "libOpenEXR",
-    "libImath",     "libIex",      "libtinygltf.", "libstb."};
+    "libc.",       "libm.",        "libstdc++.",  "libblas.",     "libceres.", "liblapack.", "libatlas",
+    "libopenblas", "libgfortran.", "libcholmod.", "libcxsparse.", "libamd.",   "libcamd.",   "libcolamd.",
+    "libccolamd.", "libmetis.",    "libhwy.",     "libjpeg.",     "libpng",    "libz.",      "libzip.",
+    "libOpenEXR",  "libImath",     "libIex",      "libtinygltf.", "libstb."};
+/// The renderer and its compiler. They affect only the results of scenarios that draw.
+constexpr std::array kRendererLibraries = {"libOSMesa.",  "libEGL_mesa.", "libgallium",
+                                           "swrast_dri.", "libglapi.",    "libLLVM"};
 
-/// Returns the builds of the libraries in kDecisiveLibraries: the name and the first half of the build ID.
-Result<Json> DescribeLibraries() {
+/// Returns the builds of the libraries that affect results: the name and the first half of the build ID. The renderer's
+/// libraries are loaded, and listed, only if `draws` is true.
+Result<Json> DescribeLibraries(bool draws) {
   constexpr std::size_t kToldDigits = 20;
-  // If the renderer is not installed, leave it out of the list.
-  if (auto loaded = LoadRenderer(); !loaded && IsOfThisMachine(loaded.error())) return tl::unexpected(loaded.error());
+  if (draws) {
+    // If the renderer is not installed, leave it out of the list.
+    auto loaded = LoadRenderer();
+    if (!loaded && IsOfThisMachine(loaded.error())) return tl::unexpected(loaded.error());
+  }
   Json libraries = Json::object();
   for (const auto& [name, build] : LoadedLibraries()) {
-    const bool counts = std::ranges::any_of(kDecisiveLibraries,
-                                            [&library = name](const char* stem) { return library.starts_with(stem); });
+    const auto begins = [&library = name](const char* stem) { return library.starts_with(stem); };
+    const bool counts =
+        std::ranges::any_of(kDecisiveLibraries, begins) || (draws && std::ranges::any_of(kRendererLibraries, begins));
     if (counts) libraries[name] = build.substr(0, kToldDigits);
   }
   return libraries;
@@ -197,7 +204,8 @@ Result<Json> ReadManifestJson(const FilePath& path) {
 
 Result<Json> MakeManifest(const SuiteSetup& suite, std::span<const PreparedScenario> scenarios,
                           const std::string& version) {
-  ASSIGN_OR_RETURN(const auto libraries, DescribeLibraries());
+  const bool draws = std::ranges::any_of(scenarios, Draws, &PreparedScenario::scenario);
+  ASSIGN_OR_RETURN(const auto libraries, DescribeLibraries(draws));
   Json json{{"schema", kResultSchema},
             {"etude", version},
             {"compiler", __VERSION__},
@@ -316,8 +324,9 @@ Result<void> RecordOtherLibraries(const std::filesystem::path& folder, std::span
 }
 
 Result<std::string> BuildDigest() {
-  ASSIGN_OR_RETURN(const auto bytes, ReadWholeFile("/proc/self/exe"));
-  return Digest().Add(std::string_view(bytes)).Hex();
+  Digest digest;
+  RETURN_IF_ERROR(ReadInChunks("/proc/self/exe", [&](std::string_view bytes) { digest.Add(bytes); }));
+  return digest.Hex();
 }
 
 Json DescribeHost(const std::string& command_line, int jobs, double seconds) {

@@ -263,6 +263,10 @@ bool IsFilmed(const Scenario& scenario) {
   });
 }
 
+bool Draws(const Scenario& scenario) {
+  return IsFilmed(scenario) || FindTaskKind(scenario.task)->platform != nullptr;
+}
+
 Result<std::optional<int>> CountRecordedPeople(ScenarioSetup& setup, const StreamSource& source,
                                                const SourceTexts& texts) {
   if (setup.streams.empty() && setup.labels.empty()) return std::nullopt;

@@ -132,6 +132,8 @@ Result<OpenOptions> OpenOptionsOf(const ScenarioSetup& setup, const SourceTexts&
 /// Returns true if a condition of the scenario has `sensor: cameras`. The scenario's task then uses the cameras of task
 /// capture.
 bool IsFilmed(const Scenario& scenario);
+/// Returns true if making the scenario's worlds needs the renderer.
+bool Draws(const Scenario& scenario);
 
 /// Returns the number of people in a scenario's recordings; nullopt if its worlds are not made from recordings. `texts`
 /// contains the labels. Files in the folders and patterns of `setup.streams` that cannot be read are added to

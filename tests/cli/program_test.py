@@ -58,6 +58,7 @@ class Program(unittest.TestCase):
 
         with tempfile.TemporaryDirectory() as folder:
             self.assertFalse(loads_a_compiler("clip", "info", "builtin:clap"))
+            self.assertFalse(loads_a_compiler("run", "quick/ik", "--trials", "1", "-o", folder + "/ik"))
             self.assertTrue(loads_a_compiler("clip", "render", "builtin:clap", "-o", folder + "/clap.png"))
 
     def test_the_genetic_search_is_loaded_by_those_who_train_alone(self):
