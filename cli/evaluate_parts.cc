@@ -1,6 +1,6 @@
 #include "cli/evaluate_parts.h"
 
-#include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
@@ -55,9 +55,11 @@ Json FactsOf(const std::vector<EvaluatedJoint>& joints) {
     list.push_back({{"method", one.method},
                     {"condition", ConditionLabel(one.condition)},
                     {"joint", one.joint},
-                    {"pairs", one.pairs},
+                    {"pairs", one.pairs[0]},
                     {"unaligned_mm", NumberOf(one.mean_mm[0])},
+                    {"root_pairs", one.pairs[1]},
                     {"root_mm", NumberOf(one.mean_mm[1])},
+                    {"each_frame_scaled_pairs", one.pairs[2]},
                     {"each_frame_scaled_mm", NumberOf(one.mean_mm[2])}});
   }
   return list;
@@ -99,8 +101,11 @@ void PrintJoints(std::vector<EvaluatedJoint> joints) {
   const auto shown = [](const std::optional<double>& mean) { return mean ? fmt::format("{:.1f}", *mean) : "-"; };
   for (const EvaluatedJoint& one : joints) {
     const std::string under = one.condition.empty() ? "" : ", " + ConditionLabel(one.condition);
+    // Print one number of pairs if all columns have the same.
+    std::vector<int> counts(one.pairs.begin(), one.pairs.end());
+    if (std::ranges::count(counts, counts.front()) == std::ssize(counts)) counts.resize(1);
     fmt::print("  {:<26}  {:>10}  {:>10}  {:>18}  {:>5}  {}{}\n", one.joint, shown(one.mean_mm[0]),
-               shown(one.mean_mm[1]), shown(one.mean_mm[2]), one.pairs, one.method, under);
+               shown(one.mean_mm[1]), shown(one.mean_mm[2]), fmt::join(counts, "/"), one.method, under);
   }
 }
 

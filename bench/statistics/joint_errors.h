@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <string>
 #include <vector>
 
@@ -12,8 +13,8 @@ namespace etude {
 struct EvaluatedJoint {
   std::vector<SweptValue> condition;
   std::string method, joint;
-  int pairs = 0;       ///< number of pairs in which the joint is seen
-  JointMeans mean_mm;  ///< mean over these pairs, each of which counts once, as in the metrics mpjpe_…
+  std::array<int, kByJoint.size()> pairs = {};  ///< number of pairs with a value, in the order of kByJoint
+  JointMeans mean_mm;                           ///< mean over these pairs, each of which counts once, as in mpjpe_…
 };
 
 /// Returns the errors of every joint whose means (JointMeans) the cells of a run contain, as series with the axis

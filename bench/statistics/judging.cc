@@ -32,6 +32,15 @@ std::string NoteOnMissing(const Comparison& c) {
                      c.pairs > 0 && c.only_baseline + c.only_method > 0 ? " (survivorship bias)" : "");
 }
 
+/// Returns true if the numbers of worlds in which only one method has a value differ by more than chance (McNemar's
+/// mid-p). Methods of which one loses values are not equal, even if their other values are.
+bool LosesValues(const Comparison& c) { return McNemarMidP(c.only_method, c.only_baseline) <= kAlpha; }
+
+std::string WhyValuesLost(const Comparison& c) {
+  return fmt::format("their values are equal, but only “{}” has a value in {} worlds, and only “{}” in {}", c.baseline,
+                     c.only_baseline, c.method, c.only_method);
+}
+
 std::string NotWithFailures(Verdict of_pairs) {
   return fmt::format("“{}” in worlds in which both have a value, but not if a failure counts as a loss",
                      VerdictName(of_pairs));
@@ -87,6 +96,10 @@ void JudgeOnTheseWorlds(std::span<Question* const> family, SamplingUnit unit) {
     } else if (comparison.verdict == Verdict::kUndecided) {
       comparison.why_open = NotWithFailures(of_pairs);
     }
+    if (comparison.verdict == Verdict::kNoDifference && LosesValues(comparison)) {
+      comparison.verdict = Verdict::kUndecided;
+      comparison.why_open = WhyValuesLost(comparison);
+    }
     for (const std::string& note : {NoteOnMissing(comparison), NoteOnMean(comparison, metric)}) {
       if (!note.empty()) comparison.notes.push_back(note);
     }
@@ -128,6 +141,10 @@ void JudgeBeyond(std::span<Question* const> family, SamplingUnit unit) {
     beyond.p_holm = corrected_alone[i];
     beyond.verdict = VerdictBeyond(beyond, metric);
     beyond.why_open = WhyOpenBeyond(beyond, metric, unit, comparisons);
+    if (beyond.verdict == Verdict::kNoDifference && LosesValues(family[i]->comparison)) {
+      beyond.verdict = Verdict::kUndecided;
+      beyond.why_open = WhyValuesLost(family[i]->comparison);
+    }
     // Keep the verdict only if it is the same with failures counted.
     if (!family[i]->with_failures || !beyond.verdict) continue;
     Beyond& with_failures = family[i]->with_failures->beyond;

@@ -1,6 +1,7 @@
 #include "engine/formats/acclaim.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
@@ -301,6 +302,7 @@ struct AcclaimFrames {
   Clip clip;
   bool in_degrees = true;
   double of_root = 0, of_bones = 0;
+  std::vector<std::string_view> still;  ///< bones with channels that have no values in any frame
 };
 
 /// Reads the frames. If `is_told_degrees` is true, all angles are read as degrees, whatever unit the file states.
@@ -315,6 +317,7 @@ Result<AcclaimFrames> ReadFrames(std::string_view text, const AcclaimSkeleton& s
   Clip& clip = read.clip;
   bool& in_degrees = read.in_degrees = is_told_degrees || skeleton.in_degrees;
   double last = 0;
+  std::vector<std::size_t> counts(clip.skeleton.joints.size());  // number of frames in which each joint has values
   AcclaimLines lines(text, file);
   // A line is a directive, the number of the next frame, or the values of one bone.
   while (lines.Next()) {
@@ -342,12 +345,21 @@ Result<AcclaimFrames> ReadFrames(std::string_view text, const AcclaimSkeleton& s
         return Fail(lines.At(), "the skeleton has no bone {}", Quote(lines.words.front().text));
       }
       if (clip.frames.empty()) return Fail(lines.At(), "found a bone before the number of the first frame");
+      if (++counts[joint->second] != clip.frames.size()) {
+        return Fail(lines.At(), "bone {} is twice in this frame, or missing in an earlier one; allowed: once in each",
+                    Quote(joint->first));
+      }
       ASSIGN_OR_RETURN(
           clip.frames.back()[joint->second],
           ReadTransform(lines, skeleton, joint->second, in_degrees, joint->second == 0 ? read.of_root : read.of_bones));
     }
   }
   if (clip.frames.empty()) return Fail({file}, "no frames");
+  for (const auto& [name, joint] : joint_of) {
+    if (counts[joint] == clip.frames.size() || skeleton.channels[joint].empty()) continue;
+    if (counts[joint] > 0) return Fail({file}, "bone {} is missing in the last frames", Quote(name));
+    read.still.push_back(name);
+  }
   return read;
 }
 
@@ -371,6 +383,10 @@ Result<Clip> ReadAcclaimMotion(std::string_view text, const AcclaimSkeleton& ske
   } else if (read.in_degrees && largest > kMinDegrees && largest <= 2 * kPi) {
     remark =
         fmt::format("its angles stay within {:.2g} degrees: if they are radians, a line :RADIANS must say so", largest);
+  }
+  if (remarks != nullptr && !read.still.empty()) {
+    remarks->push_back(
+        fmt::format("no frame has values of these bones, which keep their rest pose: {}", fmt::join(read.still, ", ")));
   }
   if (remarks != nullptr && !skeleton.remark.empty()) remarks->push_back(skeleton.remark);
   if (remarks != nullptr && !remark.empty()) remarks->push_back(remark);

@@ -97,11 +97,11 @@ Result<MarkerMotion> ReadMotiveCsv(std::string_view text, const std::string& fil
   // Read the frames; a position with an empty cell was not seen.
   MarkerRows rows{.markers = {.rate_hz = *rate, .names = {}, .frames = {}, .metres_per_unit = *metres},
                   .times_s = {},
+                  .numbers = {},
                   .lines = {},
                   .rate_name = "the first line"};
   MarkerMotion& motion = rows.markers;
   constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
-  std::vector<double> numbers;
   const bool has_times = CellAt(axes, 1).starts_with("Time");
   for (const PlaceColumns& place : places) motion.names.push_back(place.name);
   while (!text.empty()) {
@@ -109,7 +109,7 @@ Result<MarkerMotion> ReadMotiveCsv(std::string_view text, const std::string& fil
     if (here.find_first_not_of(", ") == std::string_view::npos) continue;
     const auto cells = CommaCells(here);
     auto& frame = motion.frames.emplace_back();
-    numbers.push_back(ParseFinite(CellAt(cells, 0)).value_or(kNone));
+    rows.numbers.push_back(ParseFinite(CellAt(cells, 0)).value_or(kNone));
     rows.times_s.push_back(has_times ? ParseFinite(CellAt(cells, 1)).value_or(kNone) : kNone);
     rows.lines.push_back(line);
     for (const PlaceColumns& place : places) {
@@ -131,7 +131,7 @@ Result<MarkerMotion> ReadMotiveCsv(std::string_view text, const std::string& fil
   }
   // If no row has a time, the frame numbers give the times.
   if (std::ranges::all_of(rows.times_s, [](double time) { return std::isnan(time); })) {
-    rows.times_s = TimesOfNumbers(numbers, *rate);
+    rows.times_s = TimesOfNumbers(rows.numbers, *rate);
   }
   return LayOnClock(std::move(rows), file);
 }

@@ -226,6 +226,45 @@ std::vector<double> TimesOfNumbers(std::span<const double> numbers, double rate_
   return times;
 }
 
+namespace {
+
+/// Returns a remark if the rows cover too short a time to judge the stated rate, but suggest another; otherwise "".
+std::string DescribeBriefClock(const MarkerRows& rows, double told_hz) {
+  if (rows.times_s.size() < 3) return "";
+  const double rate = static_cast<double>(rows.times_s.size() - 1) / (rows.times_s.back() - rows.times_s.front());
+  if (!(std::abs(rate / told_hz - 1) > kBriefTolerance)) return "";  // also if a time is missing
+  return fmt::format("{} states {:g} Hz, which is used, although {} suggests {:.3g} Hz: {} rows are too few to tell",
+                     rows.rate_name, told_hz, rows.time_name, rate, rows.times_s.size());
+}
+
+/// Returns a remark about the first place where the frame numbers jump and the times do not, or the reverse; "" if
+/// there is none, or if the numbers do not increase.
+std::string DescribeOtherNumbers(const MarkerRows& rows) {
+  const std::vector<double>& numbers = rows.numbers;
+  if (numbers.size() < 3 || numbers.size() != rows.times_s.size()) return "";
+  std::vector<double> ratios;
+  for (std::size_t i = 1; i < numbers.size(); ++i) {
+    const double step_s = rows.times_s[i] - rows.times_s[i - 1];
+    if (!(numbers[i] > numbers[i - 1]) || !(step_s > 0)) return "";
+    ratios.push_back((numbers[i] - numbers[i - 1]) / step_s);
+  }
+  const double per_second = Median(std::move(ratios));
+  for (std::size_t i = 1; i < numbers.size(); ++i) {
+    constexpr double kMinFrames = 2;
+    const double counted = numbers[i] - numbers[i - 1];
+    const double timed = (rows.times_s[i] - rows.times_s[i - 1]) * per_second;
+    if (!(std::abs(counted - timed) >= kMinFrames) || !(std::max(counted, timed) >= 2 * std::min(counted, timed)))
+      continue;
+    return fmt::format(
+        "the frame numbers go from {:.10g} to {:.10g} while {} goes on by {:.4g} s, the time of {:.3g} frames; the "
+        "times are used",
+        numbers[i - 1], numbers[i], rows.time_name, rows.times_s[i] - rows.times_s[i - 1], timed);
+  }
+  return "";
+}
+
+}  // namespace
+
 Result<MarkerMotion> LayOnClock(MarkerRows rows, const std::string& file) {
   MarkerMotion& markers = rows.markers;
   const std::optional<double> told = rows.rate_name.empty() ? std::nullopt : std::optional(markers.rate_hz);
@@ -233,6 +272,8 @@ Result<MarkerMotion> LayOnClock(MarkerRows rows, const std::string& file) {
   for (double& time : rows.times_s) time = scale.SecondsOf(time);
   AddRemark(markers.remark, scale.remark);
   ASSIGN_OR_RETURN(const auto grid, GridOfRows(rows.times_s, rows.lines, told, markers.names.size(), file));
+  if (!grid && told) AddRemark(markers.remark, DescribeBriefClock(rows, *told));
+  if (rows.has_clock) AddRemark(markers.remark, DescribeOtherNumbers(rows));
   if (!grid) return std::move(markers);
   if (told && grid->rate_hz != *told) {
     AddRemark(markers.remark, fmt::format("{} states {:g} Hz, but {} runs at {:g} Hz, which is used",
@@ -267,6 +308,7 @@ Result<MarkerMotion> LayOnClock(MarkerRows rows, const std::string& file) {
 Result<MarkerMotion> LayOnClock(const JointCsv& csv, const std::string& file) {
   MarkerRows rows{.markers = {.names = {}, .frames = {}, .remark = csv.remark},
                   .times_s = csv.times_s,
+                  .numbers = csv.numbers,
                   .lines = csv.lines};
   for (const Role role : AllRoles()) rows.markers.names.emplace_back(RoleName(role));
   for (const auto& frame : csv.frames) rows.markers.frames.emplace_back(frame.begin(), frame.end());

@@ -101,6 +101,12 @@ Result<std::vector<std::optional<glm::dvec3>>> ReadFrame(std::string_view line, 
   if (cells.size() < 2 || cells.size() > 2 + 3 * header.markers + 1) {
     return Fail(place, "{} columns; allowed: {} for {} markers", cells.size(), 2 + 3 * header.markers, header.markers);
   }
+  // A row may end after any marker, but a missing cell would shift the coordinates of all later markers.
+  std::size_t filled = cells.size();
+  while (filled > 2 && cells[filled - 1].empty()) --filled;
+  if ((filled - 2) % 3 != 0) {
+    return Fail(place, "{} coordinates; allowed: a multiple of 3 (X, Y and Z of each marker)", filled - 2);
+  }
   std::vector<std::optional<glm::dvec3>> frame(header.markers);
   for (std::size_t marker = 0; marker < header.markers; ++marker) {
     glm::dvec3 position(0);
@@ -206,6 +212,7 @@ Result<MarkerRows> ReadTrcRows(std::string_view text, const std::string& file) {
     return Fail({file}, "the file contains {} frames, but its header announces {}", motion.frames.size(),
                 header.frames);
   }
+  rows.numbers = numbers;
   // If no row has a time, the frame numbers give the times.
   if (std::ranges::all_of(rows.times_s, [](double time) { return std::isnan(time); })) {
     rows.times_s = TimesOfNumbers(numbers, header.rate_hz);

@@ -40,6 +40,12 @@ std::string TextOf(const Npz& arrays, const std::string& name) {
   return text;
 }
 
+/// Returns true if the file has an array with this name, of any type.
+bool Contains(const Npz& arrays, const std::string& name) {
+  return arrays.Find(name) != nullptr || arrays.texts.contains(name) ||
+         std::ranges::find(arrays.skipped, name) != arrays.skipped.end();
+}
+
 Result<double> RateOf(const Npz& arrays, const std::string& file) {
   constexpr double kMinRate_hz = 0.1, kMaxRate_hz = 10'000;
   const NumberArray* rate = arrays.Find("rate_hz");
@@ -50,9 +56,8 @@ Result<double> RateOf(const Npz& arrays, const std::string& file) {
       {file},
       "{}; allowed: one number from {:g} to {:g}, as numpy.savez(…, positions=p, rate_hz=30) writes it, or `rate: "
       "30` in a joint map",
-      rate != nullptr || std::ranges::find(arrays.skipped, "rate_hz") != arrays.skipped.end()
-          ? "rate_hz is out of range, or not one number"
-          : "positions without rate_hz, the frames per second",
+      Contains(arrays, "rate_hz") ? "rate_hz is out of range, or not one number"
+                                  : "positions without rate_hz, the frames per second",
       kMinRate_hz, kMaxRate_hz);
 }
 
@@ -64,6 +69,8 @@ Result<double> UnitOf(const Npz& arrays, const RawMotion& motion, const std::str
     unit = number->values[0];
   } else if (const std::string text = TextOf(arrays, "unit"); !text.empty()) {
     ASSIGN_OR_RETURN(unit, ReadUnit(text, {file}));
+  } else if (Contains(arrays, "unit")) {
+    return Fail({file}, "unit is neither one number nor one text; allowed: its length in metres, or its name");
   }
   constexpr double kMinExtent_m = 0.3, kMaxExtent_m = 4;
   const double spread = SpreadOf(motion.positions, motion.joints.size());
@@ -273,6 +280,7 @@ Result<RawMotion> ReadRawNpz(const Npz& arrays, const std::string& file, const A
   }
   const std::string axis = TextOf(arrays, "up");
   if (!axis.empty() && axis != "y" && axis != "z") return Fail({file}, "up is {}; allowed: y, z", Quote(axis));
+  if (axis.empty() && Contains(arrays, "up")) return Fail({file}, "up is not one text; allowed: 'y', 'z'");
   const UpAxis up = told.up.value_or(axis == "z" ? UpAxis::kZ : UpAxis::kY);
   if (up == UpAxis::kZ) {
     motion.notes.push_back(fmt::format("turned upright from Z up ({})", told.up ? "given" : "the file's `up`"));

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <array>
+#include <map>
 #include <optional>
 #include <ranges>
 #include <set>
@@ -82,6 +83,34 @@ int LeaveZerosOut(MarkerMotion& markers) {
   return zeros;
 }
 
+/// Returns the absolute value of the coordinates if it is the same for all three and not 0; otherwise 0.
+double EqualCoordinate(const MarkerPosition& place) {
+  if (!place) return 0;
+  const glm::dvec3 size = glm::abs(*place);
+  return size.x == size.y && size.y == size.z ? size.x : 0;
+}
+
+/// Removes positions whose coordinates are three equal numbers (apart from signs, which other axes change), if the same
+/// number recurs: some programs write -1 or 9999 for a gap. Returns the number of removed positions.
+int LeaveEqualNumbersOut(MarkerMotion& markers) {
+  std::map<double, int> times;
+  for (const auto& frame : markers.frames) {
+    for (const MarkerPosition& place : frame) {
+      if (const double number = EqualCoordinate(place); number > 0) ++times[number];
+    }
+  }
+  int removed = 0;
+  for (auto& frame : markers.frames) {
+    for (MarkerPosition& place : frame) {
+      const double number = EqualCoordinate(place);
+      if (number == 0 || times[number] < 2) continue;
+      place.reset();
+      ++removed;
+    }
+  }
+  return removed;
+}
+
 /// Removes positions that are a hundred times farther from the middle of the frame's markers than usual, because some
 /// programs write numbers such as -9999 for a gap. Returns the number of removed positions.
 int LeaveFarOut(MarkerMotion& markers) {
@@ -125,6 +154,9 @@ void RepairMarkers(MarkerMotion& markers) {
   const auto remark = [&](const std::string& text) { markers.remark += (markers.remark.empty() ? "" : "; ") + text; };
   if (const int zeros = LeaveZerosOut(markers); zeros > 0)
     remark(fmt::format("{} positions at 0, 0, 0 taken as gaps", zeros));
+  if (const int equal = LeaveEqualNumbersOut(markers); equal > 0) {
+    remark(fmt::format("{} positions of three equal numbers, which recur, taken as gaps", equal));
+  }
   if (const int far = LeaveFarOut(markers); far > 0) {
     remark(fmt::format("{} positions that are a hundred times as far away as the others taken as gaps", far));
   }

@@ -154,6 +154,22 @@ TEST(JudgeFamily, FindsNobodyBetterWhoFailsWhereTheOtherDoesNot) {
   EXPECT_DOUBLE_EQ(*open.difference, *Compared(Falling(20)).difference);
 }
 
+TEST(JudgeFamily, CallsNobodyEqualWhoLosesValues) {
+  // In every world with both values, the values are nearly equal.
+  std::vector<double> nearly(40);
+  for (std::size_t i = 0; i < nearly.size(); ++i) nearly[i] = i % 2 == 0 ? 1e-6 : -1e-6;
+  Comparison lossy = Compared(nearly);
+  EXPECT_EQ(JudgedAmong(1, lossy).verdict, Verdict::kNoDifference);
+  lossy.only_baseline = 3;  // mid-p = 1/8
+  EXPECT_EQ(JudgedAmong(1, lossy).verdict, Verdict::kNoDifference);
+  lossy.only_baseline = 11;
+  const Comparison open = JudgedAmong(1, lossy);
+  EXPECT_EQ(open.verdict, Verdict::kUndecided);
+  EXPECT_THAT(open.why_open, HasSubstr("only “fixed” has a value in 11 worlds"));
+  lossy.only_method = 11;  // both lose equally many
+  EXPECT_EQ(JudgedAmong(1, lossy).verdict, Verdict::kNoDifference);
+}
+
 TEST(JudgeFamily, CallsAMeanEqualOnlyWhenEnoughPairsDiffer) {
   std::vector<double> steps(40, 0.0);
   for (int i = 0; i < 5; ++i) steps[i] = 2;

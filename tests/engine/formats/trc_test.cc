@@ -87,7 +87,28 @@ TEST(ReadTrc, TakesTheRateOfItsTimesWhereDataRateIsAnother) {
   const auto alike = ReadTrc(AtFiftyHertz(51, 60), "a.trc"), brief = ReadTrc(AtFiftyHertz(100, 20), "a.trc");
   EXPECT_EQ(alike->rate_hz, 50) << "at the end they are a frame apart";
   EXPECT_EQ(brief->rate_hz, 100) << "so few times tell no rate";
-  EXPECT_EQ(brief->remark, "");
+  EXPECT_EQ(
+      brief->remark,
+      "DataRate states 100 Hz, which is used, although the column Time suggests 50 Hz: 20 rows are too few to tell");
+}
+
+TEST(ReadTrc, SaysWhereFrameNumbersJumpAndTimesDoNot) {
+  std::string text = AtFiftyHertz(50, 60);
+  EXPECT_EQ(ReadTrc(text, "a.trc")->remark, "");
+  for (int t = 60; t > 30; --t) {
+    const std::string old = fmt::format("\n{}\t", t);
+    text.replace(text.find(old), old.size(), fmt::format("\n{}\t", t + 20));
+  }
+  EXPECT_EQ(ReadTrc(text, "a.trc")->remark,
+            "the frame numbers go from 30 to 51 while the column Time goes on by 0.02 s, the time of 1 frames; the "
+            "times are used");
+}
+
+TEST(ReadTrc, RefusesARowThatLacksACoordinate) {
+  std::string text = AtFiftyHertz(50, 60);
+  text.replace(text.find("\t1\t2\t3\n"), 7, "\t1\t2\n");
+  EXPECT_EQ(testing::Refusal(ReadTrc(text, "a.trc")),
+            "a.trc:6: 2 coordinates; allowed: a multiple of 3 (X, Y and Z of each marker)");
 }
 
 TEST(ReadTrc, TakesTheRateOfItsTimesWhereDataRateIsZero) {

@@ -312,6 +312,20 @@ TEST(Markers, ThatAreExchangedBetweenLeftAndRightAreNamed) {
   }
 }
 
+TEST(Markers, OfThreeEqualNumbersThatRecurAreGaps) {
+  for (const glm::dvec3& gap : {glm::dvec3(-1), glm::dvec3(9.999), glm::dvec3(0.5, -0.5, 0.5)}) {
+    MarkerMotion take = OwnJoints();
+    for (std::size_t t = 10; t < 14; ++t) take.frames[t][Index(Role::kLeftHand)] = gap;
+    ASSERT_OK(bridged, FindMarkerBodies(take, "a.trc"));
+    EXPECT_LT(FurthestJoint(bridged->front().motion), 0.1);
+    EXPECT_THAT(bridged->front().Note(), HasSubstr("4 positions of three equal numbers, which recur, taken as gaps"));
+  }
+  // A marker may pass such a point once.
+  MarkerMotion once = OwnJoints();
+  once.frames[10][Index(Role::kLeftHand)] = glm::dvec3(0.5);
+  EXPECT_THAT(FindMarkerBodies(once, "a.trc")->front().Note(), Not(HasSubstr("three equal numbers")));
+}
+
 TEST(Markers, OfALimbThatAreAlwaysAtZeroAreGaps) {
   MarkerMotion markers = Keypoints(Frames(Walking));
   const auto at_zero = [&](const std::string& name) {

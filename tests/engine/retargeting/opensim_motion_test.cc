@@ -304,6 +304,15 @@ TEST(BodyNpz, IsInTheUnitAndOnTheAxisThatTheFileOrTheUserTells) {
     const auto raw = ReadRawNpz(arrays, "a.npz", told);
     return raw ? WorstJointDistance(*BodyOf(*raw), motion) : 1e9;
   };
+  // Values of another type are refused.
+  for (const char* const name : {"unit", "up"}) {
+    Npz other = metres;
+    other.arrays[name] = {{3}, {0, 0, 1}};
+    EXPECT_THAT(testing::Refusal(ReadRawNpz(other, "a.npz", {})), HasSubstr(name)) << name;
+    other.arrays.erase(name);
+    other.skipped.emplace_back(name);
+    EXPECT_THAT(testing::Refusal(ReadRawNpz(other, "a.npz", {})), HasSubstr(name)) << name;
+  }
   EXPECT_LT(off(metres), 1e-12);
   EXPECT_THAT(ReadRawNpz(metres, "a.npz")->notes, ::testing::IsEmpty());
   // The unit is a key of the file.
