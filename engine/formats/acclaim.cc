@@ -302,7 +302,7 @@ struct AcclaimFrames {
   Clip clip;
   bool in_degrees = true;
   double of_root = 0, of_bones = 0;
-  std::vector<std::string_view> still;  ///< bones with channels that have no values in any frame
+  std::vector<std::string_view> still = {};  ///< bones with channels that have no values in any frame
 };
 
 /// Reads the frames. If `is_told_degrees` is true, all angles are read as degrees, whatever unit the file states.

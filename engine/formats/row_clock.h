@@ -49,7 +49,7 @@ std::vector<double> TimesOfNumbers(std::span<const double> numbers, double rate_
 struct MarkerRows {
   MarkerMotion markers;
   std::vector<double> times_s;  ///< time of each row; NaN if the row gives none
-  std::vector<double> numbers;  ///< frame number of each row, NaN for a missing one; empty if the file has none
+  std::vector<double> numbers = {};  ///< frame number of each row, NaN for a missing one; empty if the file has none
   std::vector<int> lines;       ///< line of each row, from 1
   bool has_clock = true;        ///< false if the times were made from frame numbers
   double first_number = 0;      ///< number of the first row's frame, if the times were made from frame numbers
