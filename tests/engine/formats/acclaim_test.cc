@@ -112,14 +112,14 @@ TEST(Acclaim, ABoneWithoutValuesIsRefusedOrSaid) {
   ASSERT_OK(skeleton, ReadAcclaimSkeleton(kSkeleton, "a.asf"));
   const std::string head = ":DEGREES\n1\nroot 0 0 0 0 0 0\n", second = "2\nroot 0 0 0 0 0 0\n", arm = "upper 90 0 0\n";
   const auto refusal = [&](const std::string& text) {
-    return testing::Refusal(ReadAcclaimMotion(text, skeleton, "a.amc"));
+    return testing::Refusal(ReadAcclaimMotion(text, *skeleton, "a.amc"));
   };
   EXPECT_EQ(refusal(head + arm + second), "a.amc: bone 'upper' is missing in the last frames");
   const char* const once = "bone 'upper' is twice in this frame, or missing in an earlier one; allowed: once in each";
   EXPECT_EQ(refusal(head + second + arm), std::string("a.amc:6:1: ") + once);
   EXPECT_EQ(refusal(head + arm + arm), std::string("a.amc:5:1: ") + once);
   std::vector<std::string> remarks;
-  EXPECT_TRUE(ReadAcclaimMotion(head + second, skeleton, "a.amc", &remarks));
+  EXPECT_TRUE(ReadAcclaimMotion(head + second, *skeleton, "a.amc", &remarks));
   EXPECT_EQ(remarks, std::vector<std::string>{"no frame has values of these bones, which keep their rest pose: upper"});
 }
 
