@@ -102,7 +102,7 @@ void PrintAnswers(const RunData& run) {
   PrintList("\nAnswers:", answers);
 }
 
-/// Returns ", 191 unsolved (the method answered, but missed its goal)"; "" if no cell is unsolved.
+/// Returns ", 191 unsolved (no answer, or one that missed the goal)"; "" if no cell is unsolved.
 std::string UnsolvedInWords(const RunData& run) {
   int unsolved = 0;
   for (const ScenarioSummary& scenario : run.scenarios) {
@@ -112,7 +112,7 @@ std::string UnsolvedInWords(const RunData& run) {
       }
     }
   }
-  return unsolved == 0 ? "" : fmt::format(", {} unsolved (the method answered, but missed its goal)", unsolved);
+  return unsolved == 0 ? "" : fmt::format(", {} unsolved (no answer, or one that missed the goal)", unsolved);
 }
 
 void PrintSummary(const RunData& run) {

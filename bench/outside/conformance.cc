@@ -226,13 +226,13 @@ class ConformanceTest {
       first_.push_back(Ask(problem));
       const Attempt& attempt = first_.back();
       if (first_.size() == 1) {
-        if (!attempt.was_put) return Fail({}, "{}", attempt.said);
         const std::string name = method_.ProgramName();
+        if (!attempt.was_put && name.empty()) return Fail({}, "{}", attempt.said);
         Report("starts and greets", !name.empty(), name.empty() ? attempt.fault : Printable(name));
         if (name.empty()) return {};
       }
-      if (!attempt.fault.empty()) {
-        Report("gives answers that can be scored", false, attempt.fault);
+      if (!attempt.fault.empty() || !attempt.was_put) {
+        Report("gives answers that can be scored", false, attempt.was_put ? attempt.fault : attempt.said);
         return {};
       }
       solved += attempt.status == Status::kOk ? 1 : 0;

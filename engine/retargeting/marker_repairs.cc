@@ -154,11 +154,11 @@ void RepairMarkers(MarkerMotion& markers) {
   const auto remark = [&](const std::string& text) { markers.remark += (markers.remark.empty() ? "" : "; ") + text; };
   if (const int zeros = LeaveZerosOut(markers); zeros > 0)
     remark(fmt::format("{} positions at 0, 0, 0 taken as gaps", zeros));
-  if (const int equal = LeaveEqualNumbersOut(markers); equal > 0) {
-    remark(fmt::format("{} positions of three equal numbers, which recur, taken as gaps", equal));
-  }
   if (const int far = LeaveFarOut(markers); far > 0) {
     remark(fmt::format("{} positions that are a hundred times as far away as the others taken as gaps", far));
+  }
+  if (const int equal = LeaveEqualNumbersOut(markers); equal > 0) {
+    remark(fmt::format("{} positions of three equal numbers, which recur, taken as gaps", equal));
   }
   if (const auto several = NamesOfSeveral(markers); !several.empty()) {
     constexpr std::size_t kListed = 3;

@@ -38,7 +38,7 @@ std::string MeasuredSentence(const RunFindings& f) {
                          ? fmt::format("All {} cells were measured", FormatCount(f.cells))
                          : fmt::format("{} of {} cells were measured", FormatCount(measured), FormatCount(f.cells));
   if (f.unsolved > 0)
-    text += fmt::format(", {} of them unsolved (the method answered, but missed its goal)", FormatCount(f.unsolved));
+    text += fmt::format(", {} of them unsolved (no answer, or one that missed the goal)", FormatCount(f.unsolved));
   if (f.skipped > 0) text += fmt::format(", {} did not apply", FormatCount(f.skipped));
   if (f.broken > 0) text += fmt::format(", {} broke", FormatCount(f.broken));
   return text + ".";

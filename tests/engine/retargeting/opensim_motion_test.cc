@@ -307,6 +307,7 @@ TEST(BodyNpz, IsInTheUnitAndOnTheAxisThatTheFileOrTheUserTells) {
   // Values of another type are refused.
   for (const char* const name : {"unit", "up"}) {
     Npz other = metres;
+    other.texts.erase(name);
     other.arrays[name] = {{3}, {0, 0, 1}};
     EXPECT_THAT(testing::Refusal(ReadRawNpz(other, "a.npz", {})), HasSubstr(name)) << name;
     other.arrays.erase(name);
