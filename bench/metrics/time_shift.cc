@@ -112,8 +112,8 @@ class ShiftFinder {
     return count;
   }
 
-  /// Returns the shift, in whole frames of the truth, that fits best. Returns nothing if no shift fits, or if the best
-  /// shift is the largest that is searched.
+  /// Returns the shift, in whole frames of the truth, that fits best. Returns nothing if no shift fits, if the best one
+  /// explains less than kMinExplainedShare of the variance, or if it is the largest that is searched.
   std::optional<int> FindWholeFrames() const {
     constexpr std::size_t kMaxCompared = 1000;  // largest number of compared frames
     const std::size_t stride = 1 + truth_.FrameCount() / kMaxCompared;
@@ -136,7 +136,7 @@ class ShiftFinder {
       best = shift;
       largest = explained / all;
     }
-    if (!best || std::abs(*best) == reach) return std::nullopt;
+    if (!best || std::abs(*best) == reach || largest < kMinExplainedShare) return std::nullopt;
     return best;
   }
 

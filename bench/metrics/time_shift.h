@@ -14,6 +14,9 @@ struct TimeShift {
 
 /// The largest time shift that is searched in either direction, seconds.
 constexpr double kMaxTimeShift_s = 2;
+/// The share of the variance of the answer's distances that the best shift must explain. Other motions than the truth's
+/// reach about a third. *(ours)*
+inline constexpr double kMinExplainedShare = 0.5;
 
 /// Finds the time shift of an answer, to a fraction of a frame, from the distances between its joints. The answer's
 /// position, heading and size therefore have no effect, and slightly different joint positions have little effect. If
@@ -35,8 +38,9 @@ constexpr double kMaxTimeShift_s = 2;
 /// successive frames are correlated. The interval does not include the effect of different joint positions.
 ///
 /// Returns nothing if the numbers of joints differ or are below two, if fewer than five frames are seen in both, if the
-/// best shift of step 1 lies at the end of the range, if step 2 does not converge or moves the shift by more than two
-/// frames, or if no distance between joints changes because the truth stands still or moves rigidly.
+/// best shift of step 1 lies at the end of the range or explains less than kMinExplainedShare of the variance, if step
+/// 2 does not converge or moves the shift by more than two frames, or if no distance between joints changes because the
+/// truth stands still or moves rigidly.
 std::optional<TimeShift> FindTimeShift(const PointTracks& truth, double truth_rate_hz, const PointTracks& answer,
                                        double answer_rate_hz);
 

@@ -271,9 +271,8 @@ Result<MatchedMotions> Match(const RawMotion& given_truth, const RawMotion& give
     matched.lag = FindTimeShift(matched.pair.truth, rate_hz, found, answer.rate_hz);
     if (!matched.lag) {
       return Fail({answer.name},
-                  "no lag within ±{:g} s is found: the motion is too short, or the body stands still or moves evenly, "
-                  "or the best lag is "
-                  "at the end of that range",
+                  "no lag within ±{:g} s is found: the motion is too short, the body stands still or moves evenly, or "
+                  "the answer moves differently at every lag in that range",
                   kMaxTimeShift_s);
     }
   }

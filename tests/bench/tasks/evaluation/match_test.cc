@@ -297,6 +297,18 @@ TEST(Match, SaysThatALagCannotBeTold) {
     ASSERT_FALSE(matched);
     EXPECT_THAT(ToString(matched.error()), HasSubstr("no lag within ±2 s is found"));
   }
+  // At every lag, another motion explains little of the truth.
+  RawMotion other = Swaying(30, 150, 0);
+  unsigned state = 7;
+  for (glm::dvec3& p : other.positions) {
+    for (int k = 0; k < 3; ++k) {
+      state = state * 1664525u + 1013904223u;
+      p[k] += 0.6 * (static_cast<double>(state >> 8) / 16777216.0 - 0.5);
+    }
+  }
+  const auto matched = Match(Swaying(30, 150, 0), other, "roles", Lag::kFind);
+  ASSERT_FALSE(matched);
+  EXPECT_THAT(ToString(matched.error()), HasSubstr("the answer moves differently at every lag"));
 }
 
 TEST(JudgeMotion, TakesStatisticsAndBeats) {
