@@ -37,8 +37,9 @@ std::string NoteOnMissing(const Comparison& c) {
 bool LosesValues(const Comparison& c) { return McNemarMidP(c.only_method, c.only_baseline) <= kAlpha; }
 
 std::string WhyValuesLost(const Comparison& c) {
-  return fmt::format("their values are equal, but only “{}” has a value in {} worlds, and only “{}” in {}", c.baseline,
-                     c.only_baseline, c.method, c.only_method);
+  return fmt::format(
+      "worlds with both values show no difference, but only “{}” has a value in {} worlds, and only “{}” in {}",
+      c.baseline, c.only_baseline, c.method, c.only_method);
 }
 
 std::string NotWithFailures(Verdict of_pairs) {
