@@ -147,6 +147,18 @@ BidsFiles WriteMotionBids(const BodyMotion& motion, std::string_view name, std::
            "Positions of twenty joints, as _channels.tsv names them. Written by Etude; sub-01 is the performer.\n"}};
 }
 
+std::optional<glm::dvec3> UpOfSpatialAxes(std::string_view axes) {
+  std::string pairs;  // the pair of each letter, named by its first letter
+  glm::dvec3 up(0);
+  for (std::size_t axis = 0; axis < axes.size() && axis < 3; ++axis) {
+    const char letter = axes[axis];
+    pairs += letter == 'P' ? 'A' : letter == 'R' ? 'L' : letter == 'I' ? 'S' : letter;
+    if (pairs.back() == 'S') up[static_cast<int>(axis)] = letter == 'S' ? 1 : -1;
+  }
+  std::ranges::sort(pairs);
+  return axes.size() == 3 && pairs == "ALS" ? std::optional(up) : std::nullopt;
+}
+
 Result<MarkerMotion> ReadMotionBids(std::string_view motion_tsv, std::string_view channels_tsv, const BidsFacts& facts,
                                     const std::array<std::string, 2>& files) {
   ASSIGN_OR_RETURN(const BidsChannels channels, ReadChannels(channels_tsv, files[1]));

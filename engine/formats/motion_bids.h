@@ -1,6 +1,8 @@
 #pragma once
 
 #include <array>
+#include <glm/vec3.hpp>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -28,6 +30,10 @@ struct BidsFacts {
   double rate_hz = 0;           ///< the value of SamplingFrequency
   std::string missing = "n/a";  ///< the value of MissingValues: the text of a cell without a value
 };
+
+/// Returns the axis that points up. `axes` is a SpatialAxes of Motion-BIDS: one letter each for x, y and z, namely A or
+/// P (anterior, posterior), L or R, and S or I (superior, inferior). Returns nothing for other texts, such as "n/a".
+std::optional<glm::dvec3> UpOfSpatialAxes(std::string_view axes);
 
 /// Reads the POS channels of a recording: tracked points with the components x, y, z in m, cm, mm, in or ft. A point is
 /// not seen in a frame if one of its values is missing or, in files that write 0 for missing values, if all three are

@@ -155,6 +155,30 @@ Result<BidsFacts> ReadBidsFacts(const std::string& file, CappedReader& reader) {
   return Fail({file}, "SamplingFrequency: allowed: a number from {:g} to {:g} Hz", kMinRate_hz, kMaxRate_hz);
 }
 
+/// Returns the rule for the up axis of a Motion-BIDS recording. The optional file _channels.json states the axes of its
+/// reference frames. Fails if two of them differ.
+Result<UpRule> UpOfBids(const std::string& file, CappedReader& reader) {
+  UpRule rule = ArrayUp();
+  const auto text = reader.Read(file);
+  if (!text) return rule;
+  ASSIGN_OR_RETURN(const Json json, ReadJson(*text, file));
+  const Json frames = json.is_object() ? json.value("reference_frame", Json()) : Json();
+  const Json levels = frames.is_object() ? frames.value("Levels", Json()) : Json();
+  std::string stated;
+  for (const Json& level : levels.is_object() ? levels : Json()) {
+    const auto axes = level.is_object() ? level.value("SpatialAxes", Json()) : Json();
+    const auto up = axes.is_string() ? UpOfSpatialAxes(axes.get<std::string>()) : std::nullopt;
+    if (!up) continue;
+    if (!stated.empty() && stated != axes.get<std::string>()) {
+      return Fail({file}, "reference frames with the SpatialAxes {} and {}; allowed: the same for all", stated,
+                  axes.get<std::string>());
+    }
+    stated = axes.get<std::string>();
+    rule = {.axis = *up, .evidence = UpEvidence::kFile, .source = "its SpatialAxes"};
+  }
+  return rule;
+}
+
 /// Makes a clip file from an array of joints; such an array states no frame rate. `said` describes how the array was
 /// turned to Y up; it is appended to the clip's remark.
 Result<ClipFile> FileOfArray(const NumberArray& array, const std::optional<std::string>& layout,
@@ -232,7 +256,8 @@ Result<ClipFile> ReadClipFile(const std::string& path, const std::optional<std::
     ASSIGN_OR_RETURN(const auto channels, reader.Read(stem + "_channels.tsv"));
     ASSIGN_OR_RETURN(const BidsFacts facts, ReadBidsFacts(stem + "_motion.json", reader));
     ASSIGN_OR_RETURN(auto joints, ReadMotionBids(bytes, channels, facts, {path, stem + "_channels.tsv"}));
-    return FileOfMarkers(ClipFormat::kBids, std::move(joints), path, options, ArrayUp());
+    ASSIGN_OR_RETURN(auto up, UpOfBids(stem + "_channels.json", reader));
+    return FileOfMarkers(ClipFormat::kBids, std::move(joints), path, options, std::move(up));
   }
   // Try markers, and recordings of runs.
   if (auto read = ReadMarkers(bytes, path)) {

@@ -25,6 +25,15 @@ std::map<std::string, std::string> Written(const BodyMotion& motion) {
 
 const std::string kStem = "sub-01/motion/sub-01_task-aclap1_tracksys-etude";
 
+TEST(MotionBids, SpatialAxesNameTheUpAxis) {
+  EXPECT_EQ(UpOfSpatialAxes("LSA"), glm::dvec3(0, 1, 0));
+  EXPECT_EQ(UpOfSpatialAxes("ALS"), glm::dvec3(0, 0, 1));
+  EXPECT_EQ(UpOfSpatialAxes("IRP"), glm::dvec3(-1, 0, 0));
+  for (const char* const other : {"", "n/a", "LS", "LSAX", "LLS", "ASI", "LS_", "lsa"}) {
+    EXPECT_FALSE(UpOfSpatialAxes(other)) << other;
+  }
+}
+
 TEST(MotionBids, IsReadBackToTheLastPrintedDigit) {
   const BodyMotion motion = LoadBuiltinMove("clap").value().motion;
   auto files = Written(motion);
