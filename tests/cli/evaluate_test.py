@@ -278,6 +278,8 @@ class Evaluate(EtudeCase):
         facts = self.facts("evaluate", self.folder / "t", f"m={self.folder}/m", "--by-joint", "-o", self.out)
         errors = {one["joint"]: one for one in facts["joints"]}
         self.assertEqual(len(errors), 20)
+        for key in "pairs", "root_pairs", "each_frame_scaled_pairs":
+            self.assertEqual({one[key] for one in errors.values()}, {3})
         for key in "unaligned_mm", "root_mm":
             self.assertAlmostEqual(errors["left_wrist"][key], (40 + 80 * half / len(self.frames) + 0) / 3, 3)
             self.assertAlmostEqual(errors["head"][key], 20 * half / len(self.frames) / 3, 3)

@@ -97,7 +97,7 @@ TEST(ReadTrc, SaysWhereFrameNumbersJumpAndTimesDoNot) {
   EXPECT_EQ(ReadTrc(text, "a.trc")->remark, "");
   for (int t = 60; t > 30; --t) {
     const std::string old = fmt::format("\n{}\t", t);
-    text.replace(text.find(old), old.size(), fmt::format("\n{}\t", t + 20));
+    text.replace(text.rfind(old), old.size(), fmt::format("\n{}\t", t + 20));
   }
   EXPECT_EQ(ReadTrc(text, "a.trc")->remark,
             "the frame numbers go from 30 to 51 while the column Time goes on by 0.02 s, the time of 1 frames; the "

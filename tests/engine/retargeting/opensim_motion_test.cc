@@ -296,8 +296,11 @@ TEST(BodyNpz, IsInTheUnitAndOnTheAxisThatTheFileOrTheUserTells) {
     }
     arrays.texts["unit"] = {unit_text};
     arrays.texts["up"] = {up};
-    if (unit_text.empty()) arrays.texts.erase("unit");
-    if (up.empty()) arrays.texts.erase("up");
+    for (const auto& [name, value] : {std::pair("unit", unit_text), {"up", up}}) {
+      if (!value.empty()) continue;
+      arrays.texts.erase(name);
+      std::erase(arrays.skipped, name);
+    }
     return arrays;
   };
   const auto off = [&](const Npz& arrays, const ArrayOptions& told = {}) {
@@ -346,6 +349,7 @@ TEST(BodyNpz, IsInTheUnitAndOnTheAxisThatTheFileOrTheUserTells) {
     if (i % 3 != 0) seen.arrays.at("positions").values[i] *= -1;
   }
   seen.texts.erase("up");
+  std::erase(seen.skipped, "up");
   EXPECT_LT(off(seen), 1e-12);
   EXPECT_THAT(ReadRawNpz(seen, "a.npz")->notes, ::testing::ElementsAre(HasSubstr("as in a camera's frame")));
   EXPECT_THAT(ReadRawNpz(seen, "a.npz", {.up = UpAxis::kY})->notes, ::testing::IsEmpty());
@@ -371,6 +375,7 @@ TEST(BodyNpz, IsMeasuredWithoutABallAndLeftInNoUnitThatMakesItTiny) {
       ::testing::ElementsAre(HasSubstr("1 unit = 100 cm, because in units of 0.1 m the joints would extend 0.1")));
   // A ball five metres away does not belong to the body.
   arrays.texts.erase("unit");
+  std::erase(arrays.skipped, "unit");
   NumberArray& positions = arrays.arrays.at("positions");
   NumberArray with_ball{.shape = {positions.shape[0], kRoleCount + 1, 3}, .values = {}};
   for (std::size_t f = 0; f < positions.shape[0]; ++f) {
@@ -405,6 +410,7 @@ TEST(BodyNpz, OnItsHandsStaysAHandstandAndAFootAlwaysAtZeroIsNotSeen) {
   }
   Npz arrays = ReadNpz(WriteBodyNpz(motion, AtAttention()), "a.npz").value();
   arrays.texts.erase("up");
+  std::erase(arrays.skipped, "up");
   ASSERT_OK(read, ReadRawNpz(arrays, "a.npz"));
   EXPECT_LT(WorstJointDistance(*BodyOf(*read), motion), 1e-12);
   EXPECT_THAT(read->notes, ::testing::ElementsAre(HasSubstr("on its hands")));
