@@ -152,7 +152,8 @@ void MeasureAngles(const MatchedMotions& matched, CellResult& result) {
 
 /// Measures the metrics of LAFAN1's code.
 void MeasureInbetweening(const MatchedMotions& matched, const EvaluationSideData& side, CellResult& result) {
-  constexpr const char* kNoRotations = "one of the two files has no rotations";
+  constexpr const char* kNoRotations =
+      "one of the two files has no joint rotations, or is an array, of which only positions are read";
   const auto rotations = RotationsOf(matched.pair);
   result.MeasureOr("l2q@lafan1", rotations ? MeanChannelDistance(rotations->found, rotations->truth) : std::nullopt,
                    rotations ? "no frame shows every joint in both motions" : kNoRotations);
