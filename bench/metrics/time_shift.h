@@ -14,8 +14,8 @@ struct TimeShift {
 
 /// The largest time shift that is searched in either direction, seconds.
 constexpr double kMaxTimeShift_s = 2;
-/// The share of the variance of the answer's distances that the best shift must explain. Other parts of a dance, the dance
-/// reversed in time, and a still body with noise stay below it. *(ours)*
+/// The share of the variance of the answer's distances that the best shift must explain. Other parts of a dance, a
+/// dance in reverse, and a still body with noise stay below it. *(ours)*
 inline constexpr double kMinExplainedShare = 0.5;
 
 /// Finds the time shift of an answer, to a fraction of a frame, from the distances between its joints. The answer's

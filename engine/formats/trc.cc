@@ -197,14 +197,13 @@ Result<MarkerRows> ReadTrcRows(std::string_view text, const std::string& file) {
   }
   // Read the frames, their numbers and their times.
   constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
-  std::vector<double> numbers;
   while (!text.empty()) {
     const std::string_view here = TakeLine(text, line);
     if (here.find_first_not_of(" \t") == std::string_view::npos) continue;
     ASSIGN_OR_RETURN(auto frame, ReadFrame(here, header, {file, line, 0}));
     motion.frames.push_back(std::move(frame));
     const auto cells = Cells(here);
-    numbers.push_back(NumberIn(cells[0]).value_or(kNone));
+    rows.numbers.push_back(NumberIn(cells[0]).value_or(kNone));
     rows.times_s.push_back(NumberIn(cells[1]).value_or(kNone));
     rows.lines.push_back(line);
   }
@@ -212,12 +211,11 @@ Result<MarkerRows> ReadTrcRows(std::string_view text, const std::string& file) {
     return Fail({file}, "the file contains {} frames, but its header announces {}", motion.frames.size(),
                 header.frames);
   }
-  rows.numbers = numbers;
   // If no row has a time, the frame numbers give the times.
   if (std::ranges::all_of(rows.times_s, [](double time) { return std::isnan(time); })) {
-    rows.times_s = TimesOfNumbers(numbers, header.rate_hz);
+    rows.times_s = TimesOfNumbers(rows.numbers, header.rate_hz);
     rows.has_clock = false;
-    rows.first_number = numbers.empty() ? 0 : numbers.front();
+    rows.first_number = rows.numbers.empty() ? 0 : rows.numbers.front();
     if (header.rate_hz == 0) return Fail({file, 3, 0}, "DataRate is 0, and the rows have no times");
   }
   return rows;

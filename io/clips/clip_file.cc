@@ -159,9 +159,10 @@ Result<BidsFacts> ReadBidsFacts(const std::string& file, CappedReader& reader) {
 /// reference frames. Fails if two of them differ.
 Result<UpRule> UpOfBids(const std::string& file, CappedReader& reader) {
   UpRule rule = ArrayUp();
-  const auto text = reader.Read(file);
-  if (!text) return rule;
-  ASSIGN_OR_RETURN(const Json json, ReadJson(*text, file));
+  std::error_code error;
+  if (!fs::exists(file, error)) return rule;
+  ASSIGN_OR_RETURN(const auto text, reader.Read(file));
+  ASSIGN_OR_RETURN(const Json json, ReadJson(text, file));
   const Json frames = json.is_object() ? json.value("reference_frame", Json()) : Json();
   const Json levels = frames.is_object() ? frames.value("Levels", Json()) : Json();
   std::string stated;
