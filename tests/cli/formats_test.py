@@ -525,6 +525,21 @@ class Formats(MotionFileCase):
             path.write_text("\n".join(lines) + "\n")
         return path
 
+    def test_motion_bids_states_its_up_axis_in_another_file(self):
+        folder = self.folder / "bids"
+        self.ends(0, "clip", "convert", "builtin:clap", f"{folder}/")
+        (motion,), (axes,) = folder.rglob("*_motion.tsv"), folder.rglob("*_channels.json")
+        self.assertIn("Y up (its SpatialAxes)", self.ends(0, "clip", "info", motion).stdout)
+        text = axes.read_text()
+        axes.write_text(text.replace("LSA", "ALS"))
+        self.assertIn("Z up (its SpatialAxes)", self.ends(0, "clip", "info", motion).stdout)
+        axes.write_text(text.replace('"Levels": {', '"Levels": {"other": {"SpatialAxes": "ALS"}, '))
+        self.assertIn("SpatialAxes ALS and LSA; allowed: the same for all", self.ends(2, "clip", "info", motion).stderr)
+        axes.write_text("{")
+        self.assertIn("_channels.json", self.ends(2, "clip", "info", motion).stderr)
+        axes.unlink()
+        self.assertNotIn("SpatialAxes", self.ends(0, "clip", "info", motion).stdout)
+
     def test_units_told_that_make_no_body_are_refused(self):
         path = self.turned("metres.bvh")
         result = self.ends(2, "clip", "info", path, "--unit", "cm")
