@@ -1,6 +1,5 @@
 #include "bench/metrics/pose_error.h"
 
-#include <Eigen/Dense>
 #include <algorithm>
 #include <cassert>
 #include <cmath>
@@ -8,19 +7,12 @@
 
 #include "engine/base/angles.h"
 #include "engine/base/directions.h"
+#include "engine/base/nearest_rotation.h"
 
 namespace etude {
 namespace {
 
 constexpr double kMmPerMetre = 1000;
-
-glm::dmat3 ToGlm(const Eigen::Matrix3d& m) {
-  glm::dmat3 result;
-  for (int row = 0; row < 3; ++row) {
-    for (int column = 0; column < 3; ++column) result[column][row] = m(row, column);
-  }
-  return result;
-}
 
 // Returns the sum of the angle errors over all pairs of successive limbs, degrees, and adds the number of pairs to
 // `count`.
@@ -76,17 +68,12 @@ PointMoments MomentsOf(std::span<const glm::dvec3> points, std::span<const glm::
 
 Similarity AlignSimilarity(const PointMoments& moments) {
   assert(moments.count > 0);
-  Eigen::Matrix3d covariance;
-  for (int row = 0; row < 3; ++row) {
-    for (int column = 0; column < 3; ++column) covariance(row, column) = moments.covariance[column][row];
-  }
-  const Eigen::JacobiSVD<Eigen::Matrix3d> svd(covariance, Eigen::ComputeFullU | Eigen::ComputeFullV);
-  // Forbid reflections by flipping the last singular vector; otherwise a mirrored body would have no error.
-  const double sign = (svd.matrixU() * svd.matrixV().transpose()).determinant() < 0 ? -1 : 1;
-  const Eigen::Vector3d signs(1, 1, sign);
+  // A reflection is not allowed; otherwise a mirrored body would have no error.
+  const NearestRotation nearest = NearestRotationTo(moments.covariance);
   Similarity similarity;
-  similarity.rotation = ToGlm(svd.matrixU() * signs.asDiagonal() * svd.matrixV().transpose());
-  if (moments.scatter > 0) similarity.scale = svd.singularValues().dot(signs) / moments.scatter;
+  similarity.rotation = nearest.rotation;
+  const glm::dvec3& values = nearest.signed_singular_values;
+  if (moments.scatter > 0) similarity.scale = (values[0] + values[1] + values[2]) / moments.scatter;
   similarity.translation = moments.target_mean - similarity.scale * (similarity.rotation * moments.mean);
   return similarity;
 }

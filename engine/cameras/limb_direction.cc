@@ -37,12 +37,12 @@ double LargestPlaneAngle(std::span<const StrokePlane> planes) {
 // planes it is the right singular vector of the smallest singular value.
 glm::dvec3 LineAlong(std::span<const StrokePlane> planes, std::span<const double> weights) {
   if (planes.size() == 2) return glm::normalize(glm::cross(planes[0].normal_W, planes[1].normal_W));
-  Eigen::MatrixX3d normals(planes.size(), 3);
+  Eigen::MatrixXd normals(planes.size(), 3);
   for (std::size_t i = 0; i < planes.size(); ++i) {
     const glm::dvec3 n = weights[i] * planes[i].normal_W;
     normals.row(static_cast<Eigen::Index>(i)) << n.x, n.y, n.z;
   }
-  const Eigen::JacobiSVD<Eigen::MatrixX3d> svd(normals, Eigen::ComputeFullV);
+  const Eigen::JacobiSVD<Eigen::MatrixXd> svd(normals, Eigen::ComputeFullV);
   const Eigen::Vector3d along_W = svd.matrixV().col(2);
   return {along_W[0], along_W[1], along_W[2]};
 }

@@ -6,6 +6,8 @@
 #include <map>
 #include <optional>
 
+#include "engine/base/nearest_rotation.h"
+
 namespace etude {
 namespace {
 
@@ -35,18 +37,6 @@ glm::dmat3 ToGlm(const Matrix3d& m) {
     for (int row = 0; row < 3; ++row) out[column][row] = m(row, column);
   }
   return out;
-}
-
-/// Returns the rotation nearest to a matrix in the Frobenius norm, by the singular value decomposition.
-glm::dmat3 NearestRotation(const glm::dmat3& m) {
-  Matrix3d e;
-  for (int column = 0; column < 3; ++column) {
-    for (int row = 0; row < 3; ++row) e(row, column) = m[column][row];
-  }
-  const Eigen::JacobiSVD<Matrix3d> svd(e, Eigen::ComputeFullU | Eigen::ComputeFullV);
-  Matrix3d U = svd.matrixU();
-  if ((U * svd.matrixV().transpose()).determinant() < 0) U.col(2) *= -1;
-  return ToGlm(U * svd.matrixV().transpose());
 }
 
 /// Returns the composition X_AC = X_AB X_BC of two poses.
@@ -174,7 +164,7 @@ CalibrationTargetPose PoseOfPlane(const Intrinsics& in, const glm::dmat3& homogr
   if (m[2].z < 0) m *= -1.0;
   const glm::dvec3 t = m[2];
   m[2] = glm::cross(m[0], m[1]);
-  return {NearestRotation(m), t};
+  return {NearestRotationTo(m).rotation, t};
 }
 
 std::size_t NumberTargets(std::span<TargetView> views) {

@@ -7,6 +7,7 @@
 #include <optional>
 #include <vector>
 
+#include "engine/base/nearest_rotation.h"
 #include "engine/motion/clip.h"
 
 namespace etude {
@@ -114,27 +115,12 @@ bool HasScales(const LocalPose& pose) {
   return std::ranges::any_of(pose, [](const LocalTransform& local) { return local.scale != glm::dvec3(1); });
 }
 
-/// Returns the rotation nearest to a matrix (its polar factor), by Newton's iteration (Higham 1986). Returns nullopt
-/// for a matrix that mirrors, or that is too flat to invert.
-std::optional<glm::dquat> NearestRotation(glm::dmat3 axes) {
+/// Returns the rotation nearest to a matrix, or nullopt if the matrix mirrors or is nearly singular.
+std::optional<glm::dquat> RotationOf(const glm::dmat3& axes) {
   const double size = std::sqrt(glm::dot(axes[0], axes[0]) + glm::dot(axes[1], axes[1]) + glm::dot(axes[2], axes[2]));
   constexpr double kFlat = 1e-9;
   if (!(glm::determinant(axes) > kFlat * size * size * size)) return std::nullopt;
-  axes /= std::cbrt(glm::determinant(axes));
-  // At first, each step of Newton's iteration roughly halves the large singular values (forty steps do so if the
-  // matrix is as flat as allowed); then the iteration converges quadratically.
-  constexpr int kMaxSteps = 60;
-  constexpr double kSame = 1e-15;
-  for (int step = 0; step < kMaxSteps; ++step) {
-    const glm::dmat3 next = 0.5 * (axes + glm::transpose(glm::inverse(axes)));
-    const glm::dmat3 change = next - axes;
-    axes = next;
-    if (glm::dot(change[0], change[0]) + glm::dot(change[1], change[1]) + glm::dot(change[2], change[2]) <
-        kSame * kSame) {
-      break;
-    }
-  }
-  return glm::normalize(glm::quat_cast(axes));
+  return glm::normalize(glm::quat_cast(NearestRotationTo(axes).rotation));
 }
 
 /// Converts poses of a skeleton to poses whose scales are 1.
@@ -148,7 +134,7 @@ class ScaleRemover {
       const int parent = skeleton_.joints[i].parent;
       const glm::dquat above = parent < 0 ? kNoTurn : rotations_[parent];
       const glm::dvec3 origin = parent < 0 ? glm::dvec3(0) : globals_[parent].position;
-      rotations_[i] = NearestRotation(globals_[i].axes).value_or(above * pose[i].rotation);
+      rotations_[i] = RotationOf(globals_[i].axes).value_or(above * pose[i].rotation);
       pose[i] = {.translation = glm::conjugate(above) * (globals_[i].position - origin),
                  .rotation = glm::normalize(glm::conjugate(above) * rotations_[i])};
     }

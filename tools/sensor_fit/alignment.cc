@@ -1,8 +1,9 @@
 #include "tools/sensor_fit/alignment.h"
 
-#include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
+
+#include "engine/base/nearest_rotation.h"
 
 namespace etude {
 namespace {
@@ -53,20 +54,9 @@ void FitRigid(const std::vector<glm::dvec3>& from, const std::vector<glm::dvec3>
     mean_from += from[i] / count;
     mean_to += to[i] / count;
   }
-  Eigen::Matrix3d sum = Eigen::Matrix3d::Zero();
-  for (std::size_t i = 0; i < from.size(); ++i) {
-    const glm::dvec3 a = to[i] - mean_to, b = from[i] - mean_from;
-    for (int r = 0; r < 3; ++r) {
-      for (int c = 0; c < 3; ++c) sum(r, c) += a[r] * b[c];
-    }
-  }
-  const Eigen::JacobiSVD<Eigen::Matrix3d> svd(sum, Eigen::ComputeFullU | Eigen::ComputeFullV);
-  Eigen::Matrix3d mirror = Eigen::Matrix3d::Identity();
-  mirror(2, 2) = (svd.matrixU() * svd.matrixV().transpose()).determinant() < 0 ? -1 : 1;
-  const Eigen::Matrix3d rotation = svd.matrixU() * mirror * svd.matrixV().transpose();
-  for (int r = 0; r < 3; ++r) {
-    for (int c = 0; c < 3; ++c) alignment.R_ST[c][r] = rotation(r, c);
-  }
+  glm::dmat3 sum(0);
+  for (std::size_t i = 0; i < from.size(); ++i) sum += glm::outerProduct(to[i] - mean_to, from[i] - mean_from);
+  alignment.R_ST = NearestRotationTo(sum).rotation;
   alignment.p_ST = mean_to - alignment.R_ST * mean_from;
 }
 

@@ -1,10 +1,10 @@
 #include "engine/kinematics/solvers/fabrik.h"
 
-#include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
 
 #include "engine/base/euler.h"
+#include "engine/base/nearest_rotation.h"
 #include "engine/kinematics/solvers/ccd.h"
 #include "engine/kinematics/solvers/ik_run.h"
 
@@ -81,8 +81,6 @@ class Follower {
 
 constexpr double kTiny = 1e-12;  // tolerance: in metres, or as a fraction of a length
 
-Eigen::Vector3d ToEigen(const glm::dvec3& v) { return {v.x, v.y, v.z}; }
-
 }  // namespace
 
 IkSolution SolveFabrik(const KinematicTree& tree, const IkProblem& problem, const IkOptions& options) {
@@ -125,17 +123,9 @@ glm::dmat3 BestTurn(std::span<const glm::dvec3> from, std::span<const glm::dvec3
                                                             : SmallestRotation(line, glm::normalize(best));
   }
   // For general vectors, return the proper rotation nearest to Σ to · fromᵀ (Kabsch 1976).
-  Eigen::Matrix3d sum = Eigen::Matrix3d::Zero();
-  for (std::size_t i = 0; i < from.size(); ++i) sum += ToEigen(to[i]) * ToEigen(from[i]).transpose();
-  const Eigen::JacobiSVD<Eigen::Matrix3d> svd(sum, Eigen::ComputeFullU | Eigen::ComputeFullV);
-  Eigen::Matrix3d sign = Eigen::Matrix3d::Identity();
-  sign(2, 2) = std::copysign(1.0, (svd.matrixU() * svd.matrixV().transpose()).determinant());
-  const Eigen::Matrix3d turn = svd.matrixU() * sign * svd.matrixV().transpose();
-  glm::dmat3 result;
-  for (int column = 0; column < 3; ++column) {
-    for (int row = 0; row < 3; ++row) result[column][row] = turn(row, column);
-  }
-  return result;
+  glm::dmat3 sum(0);
+  for (std::size_t i = 0; i < from.size(); ++i) sum += glm::outerProduct(to[i], from[i]);
+  return NearestRotationTo(sum).rotation;
 }
 
 FabrikPass::FabrikPass(const KinematicTree& tree, std::span<const EffectorTarget> targets)

@@ -2,8 +2,11 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 #include "engine/base/angles.h"
 #include "engine/base/directions.h"
+#include "engine/base/nearest_rotation.h"
 
 namespace etude {
 namespace {
@@ -85,6 +88,46 @@ TEST(UnitNormalPart, IsAtARightAngleToTheOneInThePlaneOfBoth) {
   EXPECT_NEAR(glm::length(part), 1, 1e-12);
   EXPECT_NEAR(glm::dot(part, glm::cross(a, b)), 0, 1e-12);
   EXPECT_GT(glm::dot(part, b), 0);
+}
+
+constexpr double kRounding = 1e-14;
+
+/// Returns the Frobenius norm of a difference.
+double Distance(const glm::dmat3& a, const glm::dmat3& b) {
+  const glm::dmat3 d = a - b;
+  return std::sqrt(glm::dot(d[0], d[0]) + glm::dot(d[1], d[1]) + glm::dot(d[2], d[2]));
+}
+
+glm::dmat3 Diagonal(double x, double y, double z) { return {x, 0, 0, 0, y, 0, 0, 0, z}; }
+
+// The polar factor of R · S is R if S is symmetric and positive definite.
+TEST(NearestRotation, IsThePolarFactorOfAStretchedRotation) {
+  const glm::dmat3 R = RotationXyz({0.3, -1.1, 2.5}), axes = RotationXyz({-0.7, 0.2, 1.3});
+  const glm::dmat3 stretch = axes * Diagonal(3, 2, 0.5) * glm::transpose(axes);
+  const NearestRotation nearest = NearestRotationTo(R * stretch);
+  EXPECT_LT(Distance(nearest.rotation, R), kRounding);
+  EXPECT_LT(glm::length(nearest.signed_singular_values - glm::dvec3(3, 2, 0.5)), kRounding);
+}
+
+TEST(NearestRotation, OfAReflectionTurnsTheWeakestAxis) {
+  const NearestRotation nearest = NearestRotationTo(Diagonal(3, 2, -0.5));
+  EXPECT_LT(Distance(nearest.rotation, glm::dmat3(1)), kRounding);
+  EXPECT_LT(glm::length(nearest.signed_singular_values - glm::dvec3(3, 2, -0.5)), kRounding);
+}
+
+// The squared distance between m and a rotation is |m|² + 3 − 2 · (the sum of the signed singular values) at its least.
+TEST(NearestRotation, NoRotationOfAGridIsNearer) {
+  const glm::dmat3 m(0.4, -1.2, 0.3, 0.9, 0.1, 0.8, 1.4, 0.2, -0.6);
+  const NearestRotation nearest = NearestRotationTo(m);
+  const glm::dvec3 values = nearest.signed_singular_values;
+  const double least = Distance(m, nearest.rotation), size = Distance(m, glm::dmat3(0));
+  EXPECT_NEAR(least * least, size * size + 3 - 2 * (values[0] + values[1] + values[2]), kRounding);
+  EXPECT_NEAR(glm::determinant(nearest.rotation), 1, kRounding);
+  for (double x = -3; x < 3; x += 0.5) {
+    for (double y = -1.5; y < 1.5; y += 0.5) {
+      for (double z = -3; z < 3; z += 0.5) EXPECT_GE(Distance(m, RotationXyz({x, y, z})), least);
+    }
+  }
 }
 
 }  // namespace
