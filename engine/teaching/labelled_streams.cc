@@ -29,6 +29,38 @@ Result<std::vector<std::string>> NamedByLabels(const LabelledStreams& all) {
   return names;
 }
 
+/// Fails if two labels name one performance: they state the same move, and more than half of the longer one's frames
+/// belong to both. `parts` must be sorted by stream and then by begin.
+Result<void> RefuseTwice(const std::vector<LabelledPart>& parts, const std::string& file,
+                         const std::vector<NamedStream>& streams) {
+  for (auto a = parts.begin(); a != parts.end(); ++a) {
+    for (auto b = a + 1; b != parts.end() && b->stream == a->stream && b->begin < a->end; ++b) {
+      const int common = std::min(a->end, b->end) - b->begin, longer = std::max(a->end - a->begin, b->end - b->begin);
+      if (a->move != b->move || 2 * common <= longer) continue;
+      const double second = b->begin / streams[b->stream].stream.rate_hz;
+      return Fail({file, std::max(a->line, b->line)},
+                  "line {} already labels this performance of {} ({}, at {:.3f} s); allowed: one label",
+                  std::min(a->line, b->line), b->move, streams[b->stream].name, second);
+    }
+  }
+  return {};
+}
+
+/// Warns of a recording whose own clock begins late if all its labels may be times of that clock; otherwise returns "".
+std::string DoubtClock(const std::vector<Label>& labels, const std::string& file, const NamedStream& stream) {
+  constexpr double kNoticeable = 0.1;
+  double first = stream.start_s + static_cast<double>(stream.stream.frames.size()) / stream.stream.rate_hz;
+  for (const Label& label : labels) {
+    if (label.from_s && !label.by_own_clock && IsLabelOf(label, stream.name)) first = std::min(first, *label.from_s);
+  }
+  const double end = static_cast<double>(stream.stream.frames.size()) / stream.stream.rate_hz;
+  if (stream.start_s < kNoticeable || first < stream.start_s || first >= end) return "";
+  return fmt::format(
+      "{}: doubtful: the clock of {} begins at {:.3f} s, and no label begins earlier; from_s and to_s count from the "
+      "first frame, so subtract {:.3f} s if they are times of that clock",
+      file, stream.name, stream.start_s, stream.start_s);
+}
+
 }  // namespace
 
 std::string PersonInName(std::string_view name) {
@@ -75,6 +107,7 @@ Result<std::vector<LabelledPart>> MatchLabels(const std::vector<Label>& labels, 
   std::ranges::stable_sort(parts, [](const LabelledPart& a, const LabelledPart& b) {
     return a.stream != b.stream ? a.stream < b.stream : a.begin < b.begin;
   });
+  RETURN_IF_ERROR(RefuseTwice(parts, file, streams));
   return parts;
 }
 
@@ -112,6 +145,9 @@ std::vector<std::string> DescribeLabels(const std::vector<Label>& labels, const 
     const std::size_t shown = std::min(kShown, bare.size());
     lines.push_back(fmt::format("{}: no label for {}{}", file, Join(std::span(bare).first(shown)),
                                 bare.size() > shown ? fmt::format(" and {} more", bare.size() - shown) : ""));
+  }
+  for (const NamedStream& stream : streams) {
+    if (std::string doubt = DoubtClock(labels, file, stream); !doubt.empty()) lines.push_back(std::move(doubt));
   }
   if (!faults.empty()) {
     std::vector<std::string> truths{fmt::format("right {}", right)};

@@ -41,14 +41,15 @@ struct LabelledPart {
 
 /// Finds the frames of `streams` to which the labels refer, sorted by stream and then by time. Labels of other
 /// recordings are left out. Fails, with the label's line, if a performance begins more than half a second before the
-/// recording or after its end, or ends more than half a second after it. Also fails if no label belongs to any of the
-/// recordings.
+/// recording or after its end, or ends more than half a second after it. Also fails if two labels name one performance,
+/// and if no label belongs to any of the recordings.
 Result<std::vector<LabelledPart>> MatchLabels(const std::vector<Label>& labels, const std::string& file,
                                               const std::vector<NamedStream>& streams);
 
 /// Describes what `MatchLabels` passes over, one line each: labels of recordings that were not given, with the nearest
-/// name of a recording without a label; recordings without a label; and, if a performance is wrong, how often each
-/// value of `truth` occurs. Empty if there is nothing to tell.
+/// name of a recording without a label; recordings without a label; recordings whose labels may be times of the
+/// recording's own clock; and, if a performance is wrong, how often each value of `truth` occurs. Empty if there is
+/// nothing to tell.
 std::vector<std::string> DescribeLabels(const std::vector<Label>& labels, const std::string& file,
                                         const std::vector<NamedStream>& streams);
 

@@ -62,6 +62,16 @@ TEST(MatchLabels, RefusesTimesOutsideAndLabelsOfNothing) {
             "l: none of the labels belongs to a recording that was given, such as a");
 }
 
+TEST(MatchLabels, RefusesTwoLabelsOfOnePerformance) {
+  const auto match = [](const std::string& rows) {
+    return MatchLabels(*ReadLabels("clip,from_s,to_s,move,truth\n" + rows, "l"), "l", TwoStreams());
+  };
+  EXPECT_EQ(ToString(match("a,1,2,m,right\nb,1,2,m,right\na,1.2,2.1,m,half\n").error()),
+            "l:4: line 2 already labels this performance of m (a, at 1.200 s); allowed: one label");
+  EXPECT_TRUE(match("a,1,2,m,right\na,1.6,2.6,m,half\n")) << "less than half of each performance is common";
+  EXPECT_TRUE(match("a,1,2,m,right\na,1,2,n,right\n")) << "another move may be performed at the same time";
+}
+
 TEST(DescribeLabels, TellsWhatLabelsAndRecordingsDoNotShare) {
   std::vector<NamedStream> streams = TwoStreams();
   streams[0].name = "ah_clap1";
@@ -77,6 +87,20 @@ TEST(DescribeLabels, TellsWhatLabelsAndRecordingsDoNotShare) {
   EXPECT_EQ(
       lines("ah_clap1,,,clap,rihgt\nah_hammer1,,,hammer,right\nah_hammer1,1,2,hammer,half\nzz,,,wave,odd\n"),
       (Lines{"l:5: no recording zz is given", "l: truth: right 1, half 1, rihgt 1 (a fault; did you mean right?)"}));
+}
+
+TEST(DescribeLabels, DoubtsLabelsThatMayBeTimesOfTheRecordingsClock) {
+  std::vector<NamedStream> streams = TwoStreams();  // each lasts 3 s
+  streams[0].start_s = 1;
+  const auto lines = [&](const std::string& rows) {
+    return DescribeLabels(*ReadLabels("clip,from_s,to_s,move,truth\nb,0,1,m,right\n" + rows, "l"), "l", streams);
+  };
+  EXPECT_EQ(
+      lines("a,1.5,2,m,right\na,2.2,3,m,right\n"),
+      std::vector<std::string>{
+          "l: doubtful: the clock of a begins at 1.000 s, and no label begins earlier; from_s and to_s count from "
+          "the first frame, so subtract 1.000 s if they are times of that clock"});
+  EXPECT_TRUE(lines("a,0.5,1,m,right\na,2.2,3,m,right\n").empty()) << "the first label begins before the clock does";
 }
 
 TEST(PerformancesOf, AnActionPointIsTheTimeAroundIt) {
