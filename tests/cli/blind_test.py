@@ -74,6 +74,12 @@ class Blind(EtudeCase):
         told = self.ends(0, "blind", self.key_file, files[0])
         self.assertIn("Intervals need 6 raters", told.stdout)
 
+    def test_a_rater_is_known_by_the_name_without_case_and_spaces(self):
+        twice = [self.answers(name, self.side_of("faded-one")) for name in ("Anna B.", "annab. ")]
+        done = self.ends(2, "blind", self.key_file, *twice)
+        self.assertIn("annab. .json: is a second file with answers of 'Anna B.' to the page", done.stderr)
+        self.assertIn("rater: ''; allowed: the rater's name", self.ends(2, "blind", self.key_file, self.answers(" ", ["left", "left"])).stderr)
+
     def test_a_damaged_file_is_one_line_with_its_place(self):
         for changed, words in [({"preferred": ["left", "up"]}, "ben.json: preferred[1]: 'up'; allowed"),
                                ({"preferred": ["left"]}, "'ben' gave 1 answers"),
