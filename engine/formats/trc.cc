@@ -95,6 +95,27 @@ Result<TrcHeader> ReadHeader(std::string_view names, std::string_view values, co
   return TrcHeader{*rate, static_cast<std::size_t>(*frames), static_cast<std::size_t>(*markers), *metres};
 }
 
+/// Checks the line X1 Y1 Z1 X2 …. Labels with the same number belong to one marker; without numbers, each three do.
+/// Fails if a marker's three axes are in another order than X, Y, Z. Other texts are ignored.
+Result<void> CheckAxes(std::span<const std::string_view> cells, Place place) {
+  std::string order, number;
+  int column = 1;
+  for (const std::string_view cell : cells) {
+    const std::size_t axis = cell.empty() ? std::string_view::npos : std::string_view("XYZxyz").find(cell.front());
+    if (axis != std::string_view::npos) {
+      if (order.size() == 3 || cell.substr(1) != number) order.clear();
+      if (order.empty()) place.column = column;
+      number = cell.substr(1);
+      order += "XYZXYZ"[axis];
+      if (order != "XYZ" && std::ranges::is_permutation(order, std::string_view("XYZ"))) {
+        return Fail(place, "axes in the order {}; allowed: X, Y, Z of each marker", order);
+      }
+    }
+    column += static_cast<int>(cell.size()) + 1;
+  }
+  return {};
+}
+
 Result<std::vector<std::optional<glm::dvec3>>> ReadFrame(std::string_view line, const TrcHeader& header,
                                                          const Place& place) {
   const auto cells = Cells(line);
@@ -170,17 +191,10 @@ Result<MarkerRows> ReadTrcRows(std::string_view text, const std::string& file) {
       return Fail({file, line, 0}, "the header announces {} markers, but this line names {}", header.markers, marker);
     motion.names.emplace_back(names[at]);
   }
-  // Check the line X1 Y1 Z1 …; a line that begins with a number is the first frame of a file without that line.
+  // Check the axes; a line that begins with a number is the first frame of a file without that line.
   const std::string_view after_names = text;
   const auto axes = Cells(TakeLine(text, line));
-  std::string order;  // the axes of the first marker, in the file's order
-  for (const std::string_view cell : axes) {
-    const std::size_t axis = cell.empty() ? std::string_view::npos : std::string_view("XYZxyz").find(cell.front());
-    if (axis != std::string_view::npos && order.size() < 3) order += "XYZXYZ"[axis];
-  }
-  if (order != "XYZ" && std::ranges::is_permutation(order, std::string_view("XYZ"))) {
-    return Fail({file, line, 0}, "axes in the order {}; allowed: X, Y, Z of each marker", order);
-  }
+  RETURN_IF_ERROR(CheckAxes(axes, {file, line, 0}));
   if (NumberIn(axes.front())) {
     text = after_names;
     --line;

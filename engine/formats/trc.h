@@ -37,8 +37,9 @@ struct MarkerRows;
 /// Reads a TRC file in m, cm, mm, in or ft (`Units`), without changing its axes. A marker counts as not seen if a cell
 /// is empty, "nan" or beyond ±10⁶ m. The rows are placed on frames (`LayOnClock`) by the times in the column Time or,
 /// if it is empty, by the numbers in Frame#, as in OpenSim; the remark says what was changed. Returns an error with the
-/// line if there is no header, the number of frames or columns is wrong, a cell is not a number, or there are more than
-/// 1,000 markers, 64 MiB of text or 1 GB of frames; also returns the errors of GridOfRows.
+/// line if there is no header, the number of frames or columns is wrong, a marker's axes are not in the order X, Y, Z,
+/// a cell is not a number, or there are more than 1,000 markers, 64 MiB of text or 1 GB of frames; also returns the
+/// errors of GridOfRows.
 Result<MarkerMotion> ReadTrc(std::string_view text, const std::string& file);
 /// Reads a TRC file like ReadTrc, but keeps the rows as they are in the file, without placing them on frames.
 Result<MarkerRows> ReadTrcRows(std::string_view text, const std::string& file);

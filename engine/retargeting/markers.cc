@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <map>
 #include <optional>
 #include <string_view>
 
@@ -13,29 +12,17 @@
 #include "engine/base/order_statistics.h"
 #include "engine/motion/statistics.h"
 #include "engine/retargeting/exchanged_sides.h"
+#include "engine/retargeting/marker_people.h"
 #include "engine/retargeting/marker_repairs.h"
 #include "engine/retargeting/marker_sets.h"
 #include "engine/retargeting/shown_markers.h"
 #include "engine/retargeting/skin_markers.h"
+#include "engine/retargeting/to_body.h"
 
 namespace etude {
 namespace {
 
 constexpr double kMaxGap_s = 1;
-
-/// Returns each person's markers by name. Markers that no frame shows count as absent.
-std::map<std::string, MarkerColumns> PeopleOf(const MarkerMotion& markers) {
-  std::map<std::string, MarkerColumns> people;
-  for (std::size_t i = 0; i < markers.names.size(); ++i) {
-    if (std::ranges::none_of(markers.frames, [i](const auto& frame) { return frame[i].has_value(); })) continue;
-    const std::string& name = markers.names[i];
-    const std::size_t colon = name.rfind(':');
-    const std::string prefix = colon == std::string::npos ? "" : name.substr(0, colon);
-    // Of several markers with one name, the first is kept.
-    people[prefix].emplace(MarkerKey(name), i);
-  }
-  return people;
-}
 
 /// Fills gaps of at most `most` frames by linear interpolation; returns the number of filled frames.
 int BridgeGaps(std::vector<JointPositions>& frames, std::size_t joint, std::size_t most) {
@@ -159,15 +146,17 @@ bool IsWhole(const JointPositions& frame) {
   return std::ranges::all_of(kNeededJoints, [&](Role role) { return frame[Index(role)].has_value(); });
 }
 
-/// Finds the file's up axis; uses the frames with all needed joints. A foot without a marker is placed at its ankle.
+/// Finds the file's up axis; uses the frames with all needed joints. A foot without a marker is placed at its ankle,
+/// and a hand at its wrist, so that no estimated joint is the lowest one.
 UpFinding FindUpOf(const std::vector<JointPositions>& frames, double rate_hz, const UpRule& rule) {
   std::vector<BodyPose> poses;
   for (const JointPositions& places : frames) {
     if (!IsWhole(places)) continue;
     BodyPose& pose = poses.emplace_back(Complete(places));
-    for (const Role foot : {Role::kLeftFoot, Role::kRightFoot}) {
-      const Role ankle = foot == Role::kLeftFoot ? Role::kLeftAnkle : Role::kRightAnkle;
-      if (!places[Index(foot)]) pose[foot] = pose[ankle];
+    for (const auto& [tip, joint] :
+         {std::pair(Role::kLeftFoot, Role::kLeftAnkle), std::pair(Role::kRightFoot, Role::kRightAnkle),
+          std::pair(Role::kLeftHand, Role::kLeftWrist), std::pair(Role::kRightHand, Role::kRightWrist)}) {
+      if (!places[Index(tip)]) pose[tip] = pose[joint];
     }
   }
   return FindUp(poses, rate_hz, rule);
@@ -300,7 +289,12 @@ Result<std::optional<MarkerBody>> BodyOf(const MarkerMotion& markers, const Mark
                                         100 * *options.metres_per_unit, 100 * markers.metres_per_unit));
   }
   const double told = MiddleStature(body->motion);
-  if (told >= kMinStature && told <= kMaxStature) return body;
+  if (told >= kMinStature && told <= kMaxStature) {
+    const bool is_odd = !DescribeImpossibleHeight(body->motion.poses).empty();
+    std::string likely = is_odd ? DescribeLikelyUnit(told, told_scale * markers.metres_per_unit) : "";
+    if (!likely.empty()) body->changes.push_back(std::move(likely));
+    return body;
+  }
   if (options.metres_per_unit) {
     return Fail({file}, "in the unit given (1 unit = {:.4g} cm) the body is {:.3g} m tall; allowed: {:g} to {:g} m",
                 100 * *options.metres_per_unit, told, kMinStature, kMaxStature);
@@ -320,26 +314,20 @@ Result<std::optional<MarkerBody>> BodyOf(const MarkerMotion& markers, const Mark
               kMinStature, kMaxStature);
 }
 
-/// Returns true if the set determines every needed joint.
-bool IsComplete(const ChosenSet& chosen, const MarkerColumns& columns) {
-  return chosen.set() != nullptr && MissingFrom(*chosen.set(), columns).empty();
-}
-
 }  // namespace
 
 std::string DescribeUnknownMarkers(const MarkerMotion& markers, const MarkerOptions& options) {
   std::string nearest = "";
   std::size_t fewest = kNeededJoints.size() + 1;
-  for (const auto& [prefix, columns] : PeopleOf(markers)) {
-    const ChosenSet chosen = ChooseSet(columns, markers.names, options.set, options.roles);
-    if (IsComplete(chosen, columns)) return "";
-    const auto compare = [&, &columns = columns](const MarkerSet& set) {
-      const auto lacks = MissingFrom(set, columns);
+  for (const MarkerPerson& person : FindMarkerPeople(markers, options.set, options.roles)) {
+    if (person.IsComplete()) return "";
+    const auto compare = [&](const MarkerSet& set) {
+      const auto lacks = MissingFrom(set, person.columns);
       if (lacks.size() >= fewest || (!options.set.empty() && set.key != options.set)) return;
       fewest = lacks.size();
       nearest = fmt::format("{} lacks {}", set.name, Join(lacks));
     };
-    if (chosen.made) compare(*chosen.made);
+    if (person.chosen.made) compare(*person.chosen.made);
     for (const MarkerSet& set : MarkerSets()) compare(set);
   }
   const std::size_t shown = std::min<std::size_t>(markers.names.size(), 12);
@@ -355,16 +343,16 @@ Result<std::vector<MarkerBody>> FindMarkerBodies(MarkerMotion markers, const std
   RepairMarkers(markers);
   // Choose the marker set of each person, and make the body from it.
   std::vector<MarkerBody> bodies;
-  for (const auto& [prefix, columns] : PeopleOf(markers)) {
-    const ChosenSet chosen = ChooseSet(columns, markers.names, options.set, options.roles);
-    if (!IsComplete(chosen, columns)) continue;
-    ASSIGN_OR_RETURN(auto body, BodyOf(markers, *chosen.set(), columns, options, file));
+  for (const MarkerPerson& person : FindMarkerPeople(markers, options.set, options.roles)) {
+    if (!person.IsComplete()) continue;
+    ASSIGN_OR_RETURN(auto body, BodyOf(markers, *person.chosen.set(), person.columns, options, file));
     if (!body) continue;
-    body->name = prefix;
-    if (chosen.other != nullptr) {
-      body->changes.front() += fmt::format(", not {}, which the file also contains (--marker-set {})",
-                                           chosen.other->name, chosen.other->key);
+    body->name = person.name;
+    if (const MarkerSet* const other = person.chosen.other; other != nullptr) {
+      body->changes.front() +=
+          fmt::format(", not {}, which the file also contains (--marker-set {})", other->name, other->key);
     }
+    if (!person.remark.empty()) body->changes.push_back(person.remark);
     bodies.push_back(std::move(*body));
   }
   // Explain why there is no body.

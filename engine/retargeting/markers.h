@@ -26,7 +26,7 @@ struct MarkerOptions {
 
 /// A body found in the trajectories of markers.
 struct MarkerBody {
-  std::string name;   ///< the prefix of the body's markers ("Derrick" of "Derrick:LANK"), or ""
+  std::string name;   ///< the text that the body's markers share ("Derrick" of "Derrick:LANK"), or ""
   BodyMotion motion;  ///< at the file's rate; metres, Y up, feet on the floor
   UpFinding up;       ///< the axis of the file that became the motion's Y axis
   double floor = 0;   ///< the height of the floor in the file, metres; in `motion` this height is 0
@@ -47,8 +47,8 @@ struct MarkerBody {
 /// COCO, HALPE_26, the bones of Motive and HumanIK, the augmented markers of OpenCap and Pose2Sim, Plug-in Gait; if
 /// none is complete, a naming scheme of skeletons (SetOfSkeletonNames). For each person who has the markers that
 /// `options.roles` names, its rules replace the set's rules; without a known set, they are the only rules. Case is
-/// ignored. The text before the last ':' is a prefix, and each prefix is one person. Joint centres are found by these
-/// rules, which are ours where no source is named:
+/// ignored. FindMarkerPeople finds whose markers are whose. Joint centres are found by these rules, which are ours
+/// where no source is named:
 /// - the mean of the markers on both sides of a joint, if a set has both;
 /// - hips from the four markers of the pelvis (or its two front markers and one on the sacrum) by the regression of
 ///   Harrington et al. (2007);

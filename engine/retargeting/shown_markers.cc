@@ -21,7 +21,9 @@ RawMotion AsShown(double scale, const MarkerMotion& markers, const MarkerSet& se
   std::vector<std::size_t> own;
   for (const auto& [name, column] : columns) {
     const std::string& full = markers.names[column];
-    shown.joints.push_back(full.substr(full.size() - name.size()));
+    const std::size_t begin = full.rfind(':') + 1;  // 0 without ':'
+    const bool is_end = MarkerKey(full).ends_with(name);
+    shown.joints.push_back(full.substr(is_end ? full.size() - name.size() : begin, name.size()));
     own.push_back(column);
   }
   // A role is played by the marker at its joint or, if the joint must be computed from markers, by a joint that is

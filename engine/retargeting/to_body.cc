@@ -340,11 +340,26 @@ std::string DescribeResampling(double from_hz, double to_hz) {
 }
 
 std::string DescribeImpossibleHeight(std::span<const BodyPose> poses) {
-  constexpr double kLeast_m = 0.5, kMost_m = 2.75;  // a newborn, and more than the tallest man on record
+  // From a newborn to more than the tallest man on record. Below kMaxInfant_m, a child's legs, from hips to ankles, are
+  // at most 0.41 of its stature; an adult's are about half.
+  constexpr double kLeast_m = 0.5, kMost_m = 2.75, kMaxInfant_m = 0.85, kMaxInfantLegs = 0.46;
   if (poses.empty()) return "";
-  const double stature = MedianStature({poses.begin(), poses.end()});
-  if (stature >= kLeast_m && stature <= kMost_m) return "";
-  return fmt::format("the body is {:.3g} m tall, which is not a person's height; is its unit right?", stature);
+  const std::vector<BodyPose> all(poses.begin(), poses.end());
+  const double stature = MedianStature(all);
+  if (stature < kLeast_m || stature > kMost_m) {
+    return fmt::format("the body is {:.3g} m tall, which is not a person's height; is its unit right?", stature);
+  }
+  const double legs = LowerPercentile(OverFrames(all, LeftLegLength), 0.5);
+  if (stature > kMaxInfant_m || legs < kMaxInfantLegs * stature) return "";
+  return fmt::format(
+      "the body is {:.3g} m tall, but its legs are as long for that height as an adult's; is its unit right?", stature);
+}
+
+std::string DescribeLikelyUnit(double stature, double metres_per_unit) {
+  const Unit* const unit = UnitOf(stature / metres_per_unit);
+  if (unit == nullptr || std::abs(unit->metres / metres_per_unit - 1) < 1e-6) return "";
+  return fmt::format("its unit is taken to be {:.4g} cm, as stated; 1 unit = {:.4g} cm ({}) would give {:.2f} m",
+                     100 * metres_per_unit, 100 * unit->metres, unit->name, stature / metres_per_unit * unit->metres);
 }
 
 bool IsTPose(const BodyPose& pose) {

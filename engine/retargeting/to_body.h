@@ -109,8 +109,11 @@ glm::dmat4 WorldFromFile(const BodyConversion& body);
 std::string DescribeResampling(double from_hz, double to_hz);
 
 /// Returns a message for the user if no person is as tall as this body in its median frame (under 0.5 m or over 2.75
-/// m), otherwise "".
+/// m), or if the body is under 0.85 m tall and has an adult's long legs; otherwise "".
 std::string DescribeImpossibleHeight(std::span<const BodyPose> poses);
+/// Describes, for users, the unit in which a body is as tall as a person, if this is not the stated unit; otherwise "".
+/// `stature` is in metres, by the stated unit.
+std::string DescribeLikelyUnit(double stature, double metres_per_unit);
 
 /// Returns true if the body stands with straight legs and both arms stretched out sideways.
 bool IsTPose(const BodyPose& pose);

@@ -5,7 +5,9 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <initializer_list>
 #include <iterator>
+#include <optional>
 #include <vector>
 
 #include "engine/base/order_statistics.h"
@@ -21,7 +23,11 @@ struct Stance {
   double upright = 0;   ///< share of the frames with the trunk upright, the hips above the feet, and the head on top
   double balanced = 0;  ///< share of the frames with the mass centre over the feet
   double straight = 0;  ///< share of the frames with trunk, head and legs straight along the axis, as in static trials
+  double tall = 0;      ///< share of the frames with the hips above the ankles by nearly the length of the legs
+  double propped = 0;   ///< share of the frames in which hands and legs on one plane carry the body (IsPropped)
+  double lowest = 0;    ///< the lowest joint's height in the file's axes (5th percentile)
   double floor = 0;     ///< range of the lowest joint's height (5th to 95th percentile)
+  double hover_s = 0;   ///< longest time, seconds, with the lowest joint more than half a stature above `lowest`
   double way = 0;       ///< largest extent of the hip centre's path, perpendicular to the axis
   double steps = 0;     ///< of the frames in which the hips travel, the share in which an ankle stands
   double on_hands = 0;  ///< share of the frames with a wrist beyond the head, as in a handstand
@@ -45,6 +51,17 @@ bool IsUpright(const BodyPose& pose, const glm::dvec3& up) {
          glm::dot(pose[kHead] - pose[kShoulderCentre], up) > 0;
 }
 
+/// Returns a point at the body's weight.
+glm::dvec3 WeightOf(const BodyPose& pose) {
+  return 0.5 * pose[kHipCentre] + 0.35 * pose[kShoulderCentre] + 0.15 * pose[kHead];
+}
+
+double Lowest(const BodyPose& pose, const glm::dvec3& up) {
+  double lowest = glm::dot(pose[kHipCentre], up);
+  for (const Role role : AllRoles()) lowest = std::min(lowest, glm::dot(pose[role], up));
+  return lowest;
+}
+
 /// Returns true if the body's weight lies over the box around ankles, toes and (estimated) heels.
 bool IsBalanced(const BodyPose& pose, const glm::dvec3& up, double stature) {
   constexpr double kHeel = 0.035, kFootless = 0.09, kAboveFeet = 0.4, kMinFoot = 0.02;
@@ -55,13 +72,37 @@ bool IsBalanced(const BodyPose& pose, const glm::dvec3& up, double stature) {
   const glm::dvec3 some(up.y, up.z, up.x);  // an axis that is not parallel to `up`
   const glm::dvec3 ahead = length > kMinFoot * stature ? feet / length : some, aside = glm::cross(up, ahead);
   const double margin = (length > kMinFoot * stature ? kHeel : kFootless) * stature;
-  const glm::dvec3 weight = 0.5 * pose[kHipCentre] + 0.35 * pose[kShoulderCentre] + 0.15 * pose[kHead];
+  const glm::dvec3 weight = WeightOf(pose);
   return std::ranges::all_of(std::array{ahead, aside}, [&](const glm::dvec3& axis) {
     const auto [low, high] = std::minmax({glm::dot(pose[kLeftAnkle], axis), glm::dot(pose[kRightAnkle], axis),
                                           glm::dot(pose[kLeftFoot], axis), glm::dot(pose[kRightFoot], axis)});
     const double at = glm::dot(weight, axis);
     return at > low - margin && at < high + margin;
   });
+}
+
+/// Returns true if the body's weight lies between hands and legs that are near the plane of the lowest joint, as in
+/// push-ups and in crawling. People who stand are never propped along another axis: their weight is above their hands,
+/// or their hands are far from the plane of their feet.
+bool IsPropped(const BodyPose& pose, const glm::dvec3& up, double stature) {
+  constexpr double kNear = 0.1, kMinApart = 0.3, kBetween = 0.1;
+  const double plane = Lowest(pose, up) + kNear * stature;
+  const auto middle_of = [&](std::initializer_list<Role> roles) -> std::optional<glm::dvec3> {
+    glm::dvec3 sum(0);
+    double count = 0;
+    for (const Role role : roles) {
+      if (glm::dot(pose[role], up) > plane) continue;
+      sum += pose[role];
+      count += 1;
+    }
+    return count > 0 ? std::optional(sum / count) : std::nullopt;
+  };
+  const auto hands = middle_of({kLeftWrist, kLeftHand, kRightWrist, kRightHand});
+  const auto legs = middle_of({kLeftKnee, kLeftAnkle, kLeftFoot, kRightKnee, kRightAnkle, kRightFoot});
+  if (!hands || !legs || glm::distance(*hands, *legs) < kMinApart * stature) return false;
+  const glm::dvec3 span = *hands - *legs;
+  const double at = glm::dot(WeightOf(pose) - *legs, span) / glm::dot(span, span);
+  return at > kBetween && at < 1 - kBetween;
 }
 
 bool IsStraight(const BodyPose& pose, const glm::dvec3& up) {
@@ -78,17 +119,12 @@ bool IsStraight(const BodyPose& pose, const glm::dvec3& up) {
          is_leg_straight(kLeftHip, kLeftKnee, kLeftAnkle) && is_leg_straight(kRightHip, kRightKnee, kRightAnkle);
 }
 
-double Lowest(const BodyPose& pose, const glm::dvec3& up) {
-  double lowest = glm::dot(pose[kHipCentre], up);
-  for (const Role role : AllRoles()) lowest = std::min(lowest, glm::dot(pose[role], up));
-  return lowest;
-}
-
 /// The frames to measure: every n-th pose, each paired with the pose about a twentieth of a second later.
 struct Frames {
   std::span<const BodyPose> poses;
   std::size_t stride = 1, later = 1;
   double seconds = 1;  ///< time between a frame and its later pose
+  double rate_hz = 1;
   double stature = 1;
 };
 
@@ -96,7 +132,7 @@ Frames FramesOf(std::span<const BodyPose> poses, double rate_hz) {
   constexpr std::size_t kMaxFrames = 4000;
   constexpr double kLater_s = 0.05;
   std::vector<double> statures;
-  Frames frames{.poses = poses, .stride = 1 + poses.size() / kMaxFrames};
+  Frames frames{.poses = poses, .stride = 1 + poses.size() / kMaxFrames, .rate_hz = rate_hz};
   for (std::size_t i = 0; i < poses.size(); i += frames.stride) statures.push_back(Stature(poses[i]));
   frames.stature = std::max(LowerPercentile(std::move(statures), 0.5), 1e-12);
   frames.later = std::max<std::size_t>(1, static_cast<std::size_t>(std::lround(kLater_s * rate_hz)));
@@ -107,7 +143,7 @@ Frames FramesOf(std::span<const BodyPose> poses, double rate_hz) {
 Stance MeasureStance(const Frames& frames, const glm::dvec3& up) {
   // The hips travel if their speed is at least kTravelling statures per second. Meanwhile an ankle stands if it moves
   // less than kStands times as far as the hips.
-  constexpr double kTravelling = 0.15, kStands = 0.4;
+  constexpr double kTravelling = 0.15, kStands = 0.4, kTall = 0.8;
   Stance stance;
   std::vector<double> lowest;
   double count = 0, travelling = 0;
@@ -120,6 +156,9 @@ Stance MeasureStance(const Frames& frames, const glm::dvec3& up) {
     stance.upright += IsUpright(pose, up) ? 1 : 0;
     stance.balanced += IsBalanced(pose, up, frames.stature) ? 1 : 0;
     stance.straight += IsStraight(pose, up) ? 1 : 0;
+    const double hips_above = glm::dot(pose[kHipCentre] - MeanAnkle(pose), up);
+    stance.tall += hips_above > kTall * MeanLegLength(pose) ? 1 : 0;
+    stance.propped += IsPropped(pose, up, frames.stature) ? 1 : 0;
     const double wrist = std::max(glm::dot(pose[kLeftWrist], up), glm::dot(pose[kRightWrist], up));
     stance.on_hands += wrist > glm::dot(pose[kHead], up) ? 1 : 0;
     lowest.push_back(Lowest(pose, up));
@@ -137,9 +176,18 @@ Stance MeasureStance(const Frames& frames, const glm::dvec3& up) {
   stance.upright /= count;
   stance.balanced /= count;
   stance.straight /= count;
+  stance.tall /= count;
+  stance.propped /= count;
   stance.on_hands /= count;
   stance.steps = travelling > 0 ? stance.steps / travelling : 0;
-  stance.floor = (LowerPercentile(lowest, 0.95) - LowerPercentile(lowest, 0.05)) / frames.stature;
+  stance.lowest = LowerPercentile(lowest, 0.05) / frames.stature;
+  stance.floor = LowerPercentile(lowest, 0.95) / frames.stature - stance.lowest;
+  constexpr double kHovers = 0.5;
+  double run = 0;
+  for (const double height : lowest) {
+    run = height / frames.stature > stance.lowest + kHovers ? run + 1 : 0;
+    stance.hover_s = std::max(stance.hover_s, run * static_cast<double>(frames.stride) / frames.rate_hz);
+  }
   const glm::dvec3 box = flat(high - low);
   stance.way = std::max({std::abs(box.x), std::abs(box.y), std::abs(box.z)}) / frames.stature;
   return stance;
@@ -167,6 +215,34 @@ bool Overrules(const Stance& other, const Stance& usual, bool is_opposite, const
   // varies less than with the usual axis or the body is still.
   if (other.balanced > 0.75 && other.floor < kStillFloor && usual.floor > std::max(0.06, 2 * other.floor)) return true;
   return other.straight > 0.9 && other.balanced > 0.9 && other.floor < 0.02;
+}
+
+/// Describes, for users, how a body that seems upright along the usual axis shows that it may be on the floor, with
+/// `other` as the up axis; "" if it does not show that. Each limit is beyond what people do who stand, walk, sit, jump
+/// or climb stairs.
+std::string DescribeFloorWork(const Stance& usual, const Stance& other) {
+  // The body climbs along the usual axis, and the lowest joint's height hardly varies along the other axis. Who climbs
+  // stairs travels forwards too, and who jumps comes down at once.
+  constexpr double kClimb = 0.6, kHover_s = 2, kSteep = 0.5, kMaxFloor = 0.45;
+  const bool is_steep = usual.way < kSteep * usual.floor || usual.upright < 0.5;
+  if (usual.floor > kClimb && usual.hover_s > kHover_s && is_steep &&
+      other.floor < std::min(kMaxFloor, usual.floor / 4)) {
+    return fmt::format("its lowest joint would rise by {:.2g} times its stature", usual.floor);
+  }
+  // Hands and legs carry the body along the other axis; along the usual axis it would fall. Legs that are not straight
+  // may be those of a person who sits.
+  constexpr double kStillFloor = 0.05, kMostly = 0.75, kRarely = 0.25;
+  if (other.propped > kMostly && other.floor < kStillFloor && usual.tall > kMostly && usual.balanced < kRarely) {
+    return "it would lean without a support";
+  }
+  // The lowest joint stays near height 0 along the other axis, but is away from 0 along the usual axis.
+  constexpr double kBelow = 0.005, kAbove = 0.08, kAway = 0.12;
+  const bool is_away = usual.lowest > kAway || usual.lowest + usual.floor < -kAway;
+  const bool walks = usual.way > 0.5 && usual.steps > 0.4;
+  if (is_away && !walks && other.floor < kStillFloor && other.lowest > kBelow && other.lowest + other.floor < kAbove) {
+    return fmt::format("its lowest joint would be at {:.2g} times its stature", usual.lowest);
+  }
+  return "";
 }
 
 constexpr std::array<glm::dvec3, 6> kAxes = {{{0, 1, 0}, {0, 0, 1}, {0, -1, 0}, {1, 0, 0}, {-1, 0, 0}, {0, 0, -1}}};
@@ -209,6 +285,13 @@ UpFinding FindUp(std::span<const BodyPose> all, double rate_hz, const UpRule& ru
     found.doubt = fmt::format("the body stands along {}, but {}", AxisName(*best), usually);
   } else if (rule.evidence == UpEvidence::kPosture && usual.upright < kHardlyEver) {
     found.doubt = fmt::format("the posture never shows clearly which axis is up: {}, so it is assumed", usually);
+  } else if (rule.evidence == UpEvidence::kPosture && !rule.is_of_rest) {
+    const glm::dvec3 other = rule.axis.y != 0 ? glm::dvec3(0, 0, 1) : glm::dvec3(0, 1, 0);
+    const std::string odd = DescribeFloorWork(usual, MeasureStance(frames, other));
+    if (!odd.empty()) {
+      found.doubt = fmt::format("{}, so it is assumed, but then {}: if the body is on the floor, {} is up", usually,
+                                odd, AxisName(other));
+    }
   }
   if (!found.doubt.empty()) found.doubt += "; --up overrules that";
   return found;

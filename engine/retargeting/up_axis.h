@@ -49,8 +49,10 @@ struct UpFinding {
 ///     height varies less than along the usual axis;
 ///   - along the other axis, the body's weight is over its feet, and the body stands quite still and straight, as in
 ///     static trials.
-/// In case of doubt, the usual axis is taken. `poses` contains at least one pose, in the file's unit and axes. A
-/// missing toe must be at the position of its ankle.
+/// In case of doubt, the usual axis is taken. If it is only a guess, and the body would climb, lean or float along it
+/// but would be on the floor with Y or Z, the other of the two, as the up axis, `doubt` names both. `poses` contains at
+/// least one pose, in the file's unit and axes. A missing toe must be at the position of its ankle, and a missing hand
+/// at its wrist.
 UpFinding FindUp(std::span<const BodyPose> poses, double rate_hz, const UpRule& rule);
 
 /// Finds the up axis, Y or Z, of a clip with a skeleton. The usual axis is the axis along which the rest pose stands

@@ -131,7 +131,27 @@ TEST(ReadTrc, TakesTheFirstFrameAndTheAxesFromTheLineThatHasThem) {
   EXPECT_EQ(none->frames, wanted->frames) << "a file without that line";
   EXPECT_EQ(ReadTrc(with("\tx1\ty1\tz1\t\n"), "a.trc")->frames, wanted->frames);
   EXPECT_EQ(testing::Refusal(ReadTrc(with("\t\tX1\tZ1\tY1\n"), "a.trc")),
-            "a.trc:5: axes in the order XZY; allowed: X, Y, Z of each marker");
+            "a.trc:5:3: axes in the order XZY; allowed: X, Y, Z of each marker");
+}
+
+TEST(ReadTrc, RefusesAnyMarkersAxesInAnotherOrder) {
+  const auto read = [](const std::string& axes) {
+    return ReadTrc(
+        "PathFileType\t4\t(X/Y/Z)\ta.trc\nDataRate\tNumFrames\tNumMarkers\tUnits\n50\t2\t2\tm\n"
+        "Frame#\tTime\tA\t\t\tB\n" +
+            axes + "\n\n1\t0\t1\t2\t3\t4\t5\t6\n2\t.02\t1\t2\t3\t4\t5\t6\n",
+        "a.trc");
+  };
+  EXPECT_EQ(testing::Refusal(read("\t\tX1\tY1\tZ1\tX2\tZ2\tY2")),
+            "a.trc:5:12: axes in the order XZY; allowed: X, Y, Z of each marker");
+  EXPECT_EQ(testing::Refusal(read("\t\tX\tY\tZ\tY\tX\tZ")),
+            "a.trc:5:9: axes in the order YXZ; allowed: X, Y, Z of each marker");
+  // The controls: labels that are complete, missing, or of some markers only.
+  for (const char* axes : {"\t\tX1\tY1\tZ1\tX2\tY2\tZ2", "\t\tx\ty\tz\tx\ty\tz", "\t\tX1\tY1\tZ1",
+                           "\t\tX1\tY1\t\tX2\tY2\tZ2", "\t\tX1\tY1\tZ1\t\tX2\tY2\tZ2", ""}) {
+    ASSERT_OK(taken, read(axes));
+    EXPECT_EQ(*taken->frames[1][1], glm::dvec3(4, 5, 6)) << axes;
+  }
 }
 
 TEST(ReadTrc, RefusesShortRowsOfMoreMarkersThanFitIntoMemory) {

@@ -490,6 +490,24 @@ TEST(Markers, InAWrongUnitAreTakenForAPersonOrRefused) {
               HasSubstr("a.trc: its markers show a body 6.65 m tall"));
 }
 
+TEST(Markers, InAUnitThatMakesADwarfOrAGiantAreSaidWithTheLikelyUnit) {
+  const auto note = [](double factor, double metres_per_unit) {
+    MarkerMotion take = OwnJoints();
+    take.metres_per_unit = metres_per_unit;
+    for (auto& frame : take.frames) {
+      for (auto& place : frame) *place *= factor;
+    }
+    const auto bodies = FindMarkerBodies(take, "a.trc");
+    return bodies ? bodies->front().Note() : ToString(bodies.error());
+  };
+  EXPECT_EQ(note(1, .01), "Etude's joints");
+  EXPECT_THAT(note(.01 / .0254, .01),
+              HasSubstr("its unit is taken to be 1 cm, as stated; 1 unit = 2.54 cm (inch) would "
+                        "give 1.66 m"));
+  EXPECT_THAT(note(2, .0254), HasSubstr("its unit is taken to be 2.54 cm, as stated; 1 unit = 1 cm (centimetre) would "
+                                        "give 1.31 m"));
+}
+
 TEST(Markers, OfPlugInGaitGiveJointsInsideTheLimbs) {
   // The pelvis has front markers at (±a, h, back + f) from the hip centre, and back markers at (±0.05, h, back − f).
   // The expected hip joint is Harrington's regression, computed by hand.

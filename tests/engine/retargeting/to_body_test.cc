@@ -7,6 +7,7 @@
 #include "engine/base/angles.h"
 #include "engine/base/directions.h"
 #include "engine/motion/statistics.h"
+#include "tests/support/body_of_person.h"
 #include "tests/support/gaps.h"
 #include "tests/support/person.h"
 #include "tests/support/read_body.h"
@@ -474,11 +475,23 @@ TEST(ToBodyMotion, SaysAnImpossibleHeightAndNoChangeOfRateThatReadsAlike) {
   EXPECT_EQ(DescribeResampling(30.00003, 30), "");
   EXPECT_EQ(DescribeResampling(29.97, 30), "resampled from 29.97 to 30 Hz");
   EXPECT_THAT(Convert(AtRest(testing::PersonSkeleton(), 3, 30.00003))->Note(), Not(HasSubstr("resampled")));
-  for (const auto& [unit, is_said] : {std::pair(0.01, false), {0.0025, true}, {0.0029, false}, {0.018, true}}) {
+  for (const auto& [unit, is_said] :
+       {std::pair(0.01, false), {0.0025, true}, {0.0029, true}, {0.0052, false}, {0.018, true}}) {
     ASSERT_OK(body, Convert(AtRest(testing::PersonSkeleton()), {.metres_per_unit = unit}));
-    EXPECT_EQ(body->Note().find("m tall, which is not a person's height") != std::string::npos, is_said) << unit;
+    EXPECT_EQ(body->Note().find("; is its unit right?") != std::string::npos, is_said) << unit;
     EXPECT_EQ(body->doubts.empty(), !is_said) << unit;
   }
+  // A child of a year is as small as an adult in a wrong unit may seem, but its legs are shorter.
+  BodyPose adult = testing::BodyAtRest(testing::PersonSkeleton(), *FindJointMap(testing::PersonSkeleton(), "a.bvh"));
+  for (glm::dvec3& joint : adult.joints) joint *= .004;
+  EXPECT_THAT(DescribeImpossibleHeight({&adult, 1}), HasSubstr("its legs are as long for that height as an adult's"));
+  BodyPose child = adult;
+  for (const Role role : {Role::kLeftKnee, Role::kLeftAnkle, Role::kRightKnee, Role::kRightAnkle}) {
+    const bool is_left = role == Role::kLeftKnee || role == Role::kLeftAnkle;
+    const glm::dvec3 hip = adult[is_left ? Role::kLeftHip : Role::kRightHip];
+    child[role] = hip + .7 * (adult[role] - hip);
+  }
+  EXPECT_EQ(DescribeImpossibleHeight({&child, 1}), "");
 }
 
 TEST(ToBodyMotion, RefusesWhatGivesNoMotion) {

@@ -1,0 +1,219 @@
+#include <fmt/format.h>
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <functional>
+#include <vector>
+
+#include "engine/retargeting/up_axis.h"
+
+namespace etude {
+namespace {
+
+using enum Role;
+using ::testing::HasSubstr;
+
+constexpr double kRate_hz = 50;
+
+/// Returns a person who stands and faces +Z; metres, Y up.
+BodyPose Standing() {
+  BodyPose pose;
+  pose[kHipCentre] = {0, .9, 0};
+  pose[kSpine] = {0, 1.15, 0};
+  pose[kShoulderCentre] = {0, 1.4, 0};
+  pose[kHead] = {0, 1.6, 0};
+  for (const double side : {1.0, -1.0}) {
+    const auto of = [&](Role role) { return side > 0 ? role : Mirrored(role); };
+    pose[of(kLeftShoulder)] = {side * .18, 1.4, 0};
+    pose[of(kLeftElbow)] = {side * .2, 1.1, 0};
+    pose[of(kLeftWrist)] = {side * .2, .85, 0};
+    pose[of(kLeftHand)] = {side * .2, .75, 0};
+    pose[of(kLeftHip)] = {side * .09, .9, 0};
+    pose[of(kLeftKnee)] = {side * .09, .48, 0};
+    pose[of(kLeftAnkle)] = {side * .09, .07, 0};
+    pose[of(kLeftFoot)] = {side * .09, .02, .17};
+  }
+  return pose;
+}
+
+void Move(BodyPose& pose, const std::function<glm::dvec3(const glm::dvec3&)>& place) {
+  for (glm::dvec3& joint : pose.joints) joint = place(joint);
+}
+
+/// Rotates about X, forwards: a standing person then lies face down with the head towards +Z.
+glm::dvec3 Bowed(const glm::dvec3& p, double degrees) {
+  const double angle = degrees * 3.14159265 / 180, c = std::cos(angle), s = std::sin(angle);
+  return {p.x, c * p.y - s * p.z, s * p.y + c * p.z};
+}
+
+BodyPose Crawling(double time_s) {
+  BodyPose pose = Standing();
+  pose[kHipCentre] = {0, .47, 0};
+  pose[kSpine] = {0, .5, .25};
+  pose[kShoulderCentre] = {0, .5, .5};
+  pose[kHead] = {0, .6, .68};
+  for (const double side : {1.0, -1.0}) {
+    const double swing = .1 * side * std::sin(6 * time_s);
+    const auto of = [&](Role role) { return side > 0 ? role : Mirrored(role); };
+    pose[of(kLeftShoulder)] = {side * .18, .5, .48};
+    pose[of(kLeftElbow)] = {side * .18, .28, .5 + swing};
+    pose[of(kLeftWrist)] = {side * .18, .06, .55 + swing};
+    pose[of(kLeftHand)] = {side * .18, .03, .7 + swing};
+    pose[of(kLeftHip)] = {side * .09, .47, 0};
+    pose[of(kLeftKnee)] = {side * .09, .05, -swing};
+    pose[of(kLeftAnkle)] = {side * .09, .06, -.42 - swing};
+    pose[of(kLeftFoot)] = {side * .09, .02, -.55 - swing};
+  }
+  Move(pose, [&](const glm::dvec3& p) { return p + glm::dvec3(0, 0, .5 * time_s); });
+  return pose;
+}
+
+BodyPose PushingUp(double time_s) {
+  BodyPose pose = Standing();
+  const double rise = 13 + 6 * std::sin(3 * time_s);  // degrees
+  Move(pose,
+       [&](const glm::dvec3& p) { return Bowed(p - glm::dvec3(0, .02, .17), 90 - rise) + glm::dvec3(0, .03, 0); });
+  for (const double side : {1.0, -1.0}) {
+    const auto of = [&](Role role) { return side > 0 ? role : Mirrored(role); };
+    pose[of(kLeftWrist)] = {side * .25, .05, 1.3};
+    pose[of(kLeftHand)] = {side * .25, .03, 1.4};
+    pose[of(kLeftElbow)] = .5 * (pose[of(kLeftWrist)] + pose[of(kLeftShoulder)]) + glm::dvec3(side * .1, 0, -.1);
+  }
+  return pose;
+}
+
+BodyPose Swimming(double time_s) {
+  BodyPose pose = Standing();
+  Move(pose, [&](const glm::dvec3& p) { return Bowed(p, 90) + glm::dvec3(0, .9, 1.2 * time_s); });
+  return pose;
+}
+
+/// A cartwheel along +Z, turning about X.
+BodyPose Wheeling(double time_s) {
+  BodyPose pose = Standing();
+  Move(pose,
+       [&](const glm::dvec3& p) { return Bowed(p - glm::dvec3(0, .9, 0), 120 * time_s) + glm::dvec3(0, .95, time_s); });
+  return pose;
+}
+
+/// Lies on the back, two metres from the origin.
+BodyPose LyingAway(double time_s) {
+  BodyPose pose = Standing();
+  Move(pose, [&](const glm::dvec3& p) { return Bowed(p, -90) + glm::dvec3(0, .2, 2); });
+  pose[kLeftWrist].y += .1 * (1 + std::sin(3 * time_s));
+  return pose;
+}
+
+BodyPose StandingStill(double time_s) {
+  BodyPose pose = Standing();
+  Move(pose, [&](const glm::dvec3& p) { return p + glm::dvec3(.01 * p.y * std::sin(time_s), 0, 2); });
+  return pose;
+}
+
+/// Sits at a desk, both hands on it.
+BodyPose Sitting(double time_s) {
+  BodyPose pose = StandingStill(time_s);
+  Move(pose, [&](const glm::dvec3& p) { return p - glm::dvec3(0, .42, 0); });
+  for (const double side : {1.0, -1.0}) {
+    const auto of = [&](Role role) { return side > 0 ? role : Mirrored(role); };
+    pose[of(kLeftElbow)] = {side * .2, .75, 2.2};
+    pose[of(kLeftWrist)] = {side * .2, .8, 2.45};
+    pose[of(kLeftHand)] = {side * .2, .8, 2.55};
+    pose[of(kLeftKnee)] = {side * .1, .48, 2.42};
+    pose[of(kLeftAnkle)] = {side * .1, .07, 2.42};
+    pose[of(kLeftFoot)] = {side * .1, .02, 2.59};
+  }
+  return pose;
+}
+
+/// Goes up stairs towards +Z; one foot stands while the other is lifted.
+BodyPose ClimbingStairs(double time_s) {
+  BodyPose pose = Standing();
+  const double way = .5 * time_s;
+  const auto stairs = [&](double z) { return .6 * z; };
+  Move(pose, [&](const glm::dvec3& p) { return p + glm::dvec3(0, stairs(way), way); });
+  for (const bool is_left : {true, false}) {
+    const double phase = way / .3 + (is_left ? 0 : 1), cycle = std::floor(phase / 2), swing = phase - 2 * cycle - 1;
+    const double at = .6 * cycle + .6 * std::max(0.0, swing) - (is_left ? 0 : .3) + .15;
+    const auto of = [&](Role role) { return is_left ? role : Mirrored(role); };
+    for (const Role role : {of(kLeftAnkle), of(kLeftFoot)}) {
+      pose[role].z += at - way;
+      pose[role].y += stairs(at) - stairs(way);
+    }
+    pose[of(kLeftKnee)] = .5 * (pose[of(kLeftAnkle)] + pose[of(kLeftHip)]) + glm::dvec3(0, 0, .1);
+  }
+  return pose;
+}
+
+/// Jumps on a trampoline, 4 m high.
+BodyPose Bouncing(double time_s) {
+  BodyPose pose = StandingStill(time_s);
+  const double flight = std::fmod(time_s, 1.8);
+  Move(pose, [&](const glm::dvec3& p) { return p + glm::dvec3(0, .5 * 9.81 * flight * (1.8 - flight), 0); });
+  return pose;
+}
+
+/// Pushes against a wall, standing half a metre from it.
+BodyPose LeaningOnAWall(double time_s) {
+  BodyPose pose = Standing();
+  Move(pose, [&](const glm::dvec3& p) { return Bowed(p, 15) + glm::dvec3(0, 0, 2); });
+  for (const double side : {1.0, -1.0}) {
+    const auto of = [&](Role role) { return side > 0 ? role : Mirrored(role); };
+    pose[of(kLeftWrist)] = {side * .25, 1.3, 2.75};
+    pose[of(kLeftHand)] = {side * .25, 1.38, 2.77};
+    pose[of(kLeftElbow)] = .5 * (pose[of(kLeftWrist)] + pose[of(kLeftShoulder)]) + glm::dvec3(side * .1, -.1, 0);
+  }
+  pose[kHead].z += .01 * std::sin(time_s);
+  return pose;
+}
+
+struct Act {
+  const char* name;
+  BodyPose (*pose)(double);
+};
+
+/// Returns six seconds of an act, turned about the vertical by some quarters; `is_z_up`: in a file with Z up.
+std::vector<BodyPose> Film(const Act& act, int quarters, bool is_z_up) {
+  std::vector<BodyPose> poses;
+  for (int frame = 0; frame < 300; ++frame) {
+    BodyPose& pose = poses.emplace_back(act.pose(frame / kRate_hz));
+    for (int i = 0; i < quarters; ++i) Move(pose, [](const glm::dvec3& p) { return glm::dvec3(p.z, p.y, -p.x); });
+    if (is_z_up) Move(pose, [](const glm::dvec3& p) { return glm::dvec3(p.x, -p.z, p.y); });
+  }
+  return poses;
+}
+
+TEST(FloorWork, IsNeverStoodUpInSilence) {
+  int doubts = 0;
+  for (const Act& act : {Act{"crawling", &Crawling}, Act{"push-ups", &PushingUp}, Act{"swimming", &Swimming},
+                         Act{"cartwheel", &Wheeling}, Act{"lying", &LyingAway}}) {
+    for (int quarters = 0; quarters < 4; ++quarters) {
+      for (const bool is_z_up : {false, true}) {
+        // The file's usual axis is not the one that is up.
+        const UpFinding found = FindUp(Film(act, quarters, is_z_up), kRate_hz, is_z_up ? TrcUp() : C3dUp(0, false));
+        const std::string up = is_z_up ? "Z" : "Y";
+        if (AxisName(found.axis) == up) continue;
+        EXPECT_THAT(found.doubt, HasSubstr("--up overrules that")) << act.name << ", quarters: " << quarters;
+        doubts += found.doubt.ends_with("if the body is on the floor, " + up + " is up; --up overrules that") ? 1 : 0;
+      }
+    }
+  }
+  EXPECT_GE(doubts, 10) << "each act, with its head along the usual axis, in both kinds of file";
+}
+
+TEST(FloorWork, IsNotSeenInPeopleWhoStandSitClimbJumpOrLean) {
+  for (const Act& act : {Act{"standing", &StandingStill}, Act{"sitting", &Sitting}, Act{"stairs", &ClimbingStairs},
+                         Act{"bouncing", &Bouncing}, Act{"leaning", &LeaningOnAWall}}) {
+    for (int quarters = 0; quarters < 4; ++quarters) {
+      for (const bool is_z_up : {false, true}) {
+        const UpFinding found = FindUp(Film(act, quarters, is_z_up), kRate_hz, is_z_up ? C3dUp(0, false) : TrcUp());
+        EXPECT_EQ(AxisName(found.axis), is_z_up ? "Z" : "Y") << act.name;
+        EXPECT_EQ(found.doubt, "") << act.name << ", quarters: " << quarters;
+      }
+    }
+  }
+}
+
+}  // namespace
+}  // namespace etude
