@@ -19,40 +19,6 @@ PoseSteps StepsFrom(const BodyMotion& motion, int f) {
   return steps;
 }
 
-/// Returns how far the first step of a motion differs from what the next three steps let expect: the shortest of its
-/// differences from each of them and from the linear continuation of the first two. If only the first step contains a
-/// displacement, all four differences contain it. If a later step contains one, one of the differences does not.
-glm::dvec3 DifferenceAtEnd(const std::array<glm::dvec3, 4>& steps) {
-  glm::dvec3 shortest = steps[0] - (2.0 * steps[1] - steps[2]);
-  for (std::size_t i = 1; i < steps.size(); ++i) {
-    const glm::dvec3 difference = steps[0] - steps[i];
-    if (glm::dot(difference, difference) < glm::dot(shortest, shortest)) shortest = difference;
-  }
-  return shortest;
-}
-
-/// Returns, for each frame but the last, how far every joint's step to the next frame differs from the mean of the
-/// steps before and after: minus half of the third difference. For the first and the last step: DifferenceAtEnd.
-std::vector<PoseSteps> ThirdDifferences(const BodyMotion& motion) {
-  const int last_step = static_cast<int>(motion.poses.size()) - 2;
-  std::vector<PoseSteps> differences(motion.poses.size() - 1);
-  PoseSteps before = StepsFrom(motion, 0), here = StepsFrom(motion, 1);
-  for (int f = 1; f < last_step; ++f) {
-    const PoseSteps after = StepsFrom(motion, f + 1);
-    for (std::size_t j = 0; j < kRoleCount; ++j) differences[f][j] = here[j] - 0.5 * (before[j] + after[j]);
-    before = here;
-    here = after;
-  }
-  for (const int end : {0, last_step}) {
-    std::array<PoseSteps, 4> steps;
-    for (int i = 0; i < 4; ++i) steps[static_cast<std::size_t>(i)] = StepsFrom(motion, end == 0 ? i : end - i);
-    for (std::size_t j = 0; j < kRoleCount; ++j) {
-      differences[end][j] = DifferenceAtEnd({steps[0][j], steps[1][j], steps[2][j], steps[3][j]});
-    }
-  }
-  return differences;
-}
-
 /// Returns the median of each coordinate over the joints.
 glm::dvec3 MedianOfJoints(const PoseSteps& vectors) {
   glm::dvec3 median{0};
@@ -63,6 +29,48 @@ glm::dvec3 MedianOfJoints(const PoseSteps& vectors) {
     median[axis] = 0.5 * (values[kRoleCount / 2 - 1] + values[kRoleCount / 2]);
   }
   return median;
+}
+
+/// Returns how far the first step of each joint (`end` = 0), or the last one, differs from what its three neighbours
+/// let expect. This is the shortest of its differences from each of them and from the linear continuation of the two
+/// nearest. If only the step at the end contains a displacement, all four differences contain it. If a neighbour
+/// contains one, one of the differences does not. The shortest difference is chosen for the whole body (the median of
+/// the joints), and for what each joint moves relative to it.
+PoseSteps DifferencesAtEnd(const BodyMotion& motion, int end) {
+  std::array<PoseSteps, 4> steps, differences;
+  for (int i = 0; i < 4; ++i) steps[static_cast<std::size_t>(i)] = StepsFrom(motion, end == 0 ? i : end - i);
+  std::array<glm::dvec3, 4> medians;
+  for (std::size_t i = 0; i < 4; ++i) {
+    for (std::size_t j = 0; j < kRoleCount; ++j) {
+      differences[i][j] = steps[0][j] - (i == 0 ? 2.0 * steps[1][j] - steps[2][j] : steps[i][j]);
+    }
+    medians[i] = MedianOfJoints(differences[i]);
+  }
+  const auto length = [](const glm::dvec3& vector) { return glm::length(vector); };
+  const glm::dvec3 common = *std::ranges::min_element(medians, {}, length);
+  PoseSteps shortest;
+  for (std::size_t j = 0; j < kRoleCount; ++j) {
+    std::array<glm::dvec3, 4> relative;
+    for (std::size_t i = 0; i < 4; ++i) relative[i] = differences[i][j] - medians[i];
+    shortest[j] = common + *std::ranges::min_element(relative, {}, length);
+  }
+  return shortest;
+}
+
+/// Returns, for each frame but the last, how far every joint's step to the next frame differs from the mean of the
+/// steps before and after: minus half of the third difference. For the first and the last step: DifferencesAtEnd.
+std::vector<PoseSteps> ThirdDifferences(const BodyMotion& motion) {
+  const int last_step = static_cast<int>(motion.poses.size()) - 2;
+  std::vector<PoseSteps> differences(motion.poses.size() - 1);
+  PoseSteps before = StepsFrom(motion, 0), here = StepsFrom(motion, 1);
+  for (int f = 1; f < last_step; ++f) {
+    const PoseSteps after = StepsFrom(motion, f + 1);
+    for (std::size_t j = 0; j < kRoleCount; ++j) differences[f][j] = here[j] - 0.5 * (before[j] + after[j]);
+    before = here;
+    here = after;
+  }
+  for (const int end : {0, last_step}) differences[static_cast<std::size_t>(end)] = DifferencesAtEnd(motion, end);
+  return differences;
 }
 
 /// Returns the length of `median` if the vectors of enough joints, among them an ankle, are near it; otherwise 0. The

@@ -104,7 +104,7 @@ std::vector<Role> FindExchangedJoints(std::span<const JointPositions> frames) {
 
 namespace {
 
-constexpr double kMinApart_m = 0.05, kMinRate_hz = 10;
+constexpr double kMinExchangeApart_m = 0.05, kMinExchangeRate_hz = 10;
 
 /// An exchange of two points, and the distances that they move if their names are exchanged.
 struct Candidate {
@@ -113,7 +113,8 @@ struct Candidate {
 };
 
 /// Returns the frames in which two points exchange their places; `one` and `other` return a point's position in a
-/// frame, and `moves` returns true if both points move by more than a third of kMinApart_m, as each exchange does.
+/// frame, and `moves` returns true if both points move by more than a third of kMinExchangeApart_m, as each exchange
+/// does.
 template <typename One, typename Other, typename Moves>
 std::vector<Candidate> CandidatesOf(std::size_t frames, const One& one, const Other& other, const Moves& moves) {
   constexpr double kShorter = 0.25;
@@ -125,7 +126,7 @@ std::vector<Candidate> CandidatesOf(std::size_t frames, const One& one, const Ot
   const auto sums_at = [&](std::size_t f) -> Sums {
     if (f == 0 || f >= frames) return {};
     const MarkerPosition &a = one(f - 1), &b = other(f - 1), &c = one(f), &d = other(f);
-    if (!a || !b || !c || !d || glm::distance(*a, *b) < kMinApart_m) return {};
+    if (!a || !b || !c || !d || glm::distance(*a, *b) < kMinExchangeApart_m) return {};
     return {glm::distance(*a, *c) + glm::distance(*b, *d), glm::distance(*a, *d) + glm::distance(*b, *c)};
   };
   const auto step = [&](std::size_t f) {
@@ -145,7 +146,7 @@ std::vector<Candidate> CandidatesOf(std::size_t frames, const One& one, const Ot
 }
 
 bool Moves(const MarkerPosition& before, const MarkerPosition& after) {
-  return before && after && glm::distance(*before, *after) > kMinApart_m / 3;
+  return before && after && glm::distance(*before, *after) > kMinExchangeApart_m / 3;
 }
 
 /// Returns all pairs of joints, those of left and right first.
@@ -165,7 +166,7 @@ std::vector<std::pair<Role, Role>> PairsOfJoints() {
 }  // namespace
 
 std::vector<Exchange> FindExchanges(std::span<const JointPositions> frames, double rate_hz) {
-  if (rate_hz < kMinRate_hz) return {};
+  if (rate_hz < kMinExchangeRate_hz) return {};
   // Mark the joints that move far enough.
   std::vector<JointSet> moved(frames.size());
   for (std::size_t f = 1; f < frames.size(); ++f) {
@@ -198,7 +199,7 @@ std::vector<Exchange> FindExchanges(std::span<const JointPositions> frames, doub
 std::vector<std::size_t> FindExchangesOf(std::span<const MarkerPosition> one, std::span<const MarkerPosition> other,
                                          double rate_hz) {
   std::vector<std::size_t> found;
-  if (rate_hz < kMinRate_hz) return found;
+  if (rate_hz < kMinExchangeRate_hz) return found;
   const auto place = [](std::span<const MarkerPosition> track) {
     return [track](std::size_t f) -> const MarkerPosition& { return track[f]; };
   };
