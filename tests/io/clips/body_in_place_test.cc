@@ -2,6 +2,7 @@
 
 #include <gmock/gmock.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "engine/formats/npz.h"
@@ -27,7 +28,7 @@ class StretchesTest : public ClipFolder {
   FaultsInPlace Judged(const std::vector<Gap>& gaps) {
     BodyMotion motion = Swaying(kRate_hz, 400 / kRate_hz);
     EXPECT_EQ(motion.poses.size(), 400u);
-    NpyArray positions{.shape = {400, kRoleCount, 3}, .values = {}};
+    NumberArray positions{.shape = {400, kRoleCount, 3}, .values = {}};
     std::vector<std::string> names;
     for (const Role role : AllRoles()) names.emplace_back(RoleName(role));
     for (int f = 0; f < 400; ++f) {
