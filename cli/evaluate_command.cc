@@ -122,6 +122,18 @@ Json FactsOf(const ScenarioSummary& summary, const std::string& folder) {
   return {{"methods", std::move(methods)}, {"output", folder}};
 }
 
+constexpr std::string_view kSeenShare = "seen_share";
+
+/// Returns true if a method has no value for some joints that the truth shows.
+bool LeavesValuesOut(const ScenarioSummary& summary) {
+  return std::ranges::any_of(summary.conditions, [](const ConditionSummary& condition) {
+    return std::ranges::any_of(condition.methods, [](const MethodSummary& method) {
+      const auto seen = std::ranges::find(method.metrics, kSeenShare, &MetricSummary::id);
+      return seen != method.metrics.end() && seen->mean && *seen->mean < 1;
+    });
+  });
+}
+
 /// Prints a line for each headline metric of each method, under a line for each condition if there are several.
 void PrintTable(const ScenarioSummary& summary) {
   std::size_t width = 6;
@@ -129,8 +141,11 @@ void PrintTable(const ScenarioSummary& summary) {
   fmt::print("  {:<{}}  {:<28}  {:>9}  {:>9}  {:<22}  pairs\n", "method", width, "metric", "median", "mean",
              "95 % of its aggregate");
   const auto show = [](const std::optional<double>& value) { return value ? fmt::format("{:.4g}", *value) : "-"; };
+  // If a method leaves values out, its other figures look better than they are: also show the share that it gives.
+  std::vector<std::string> ids = summary.headline_metrics;
+  if (LeavesValuesOut(summary) && std::ranges::find(ids, kSeenShare) == ids.end()) ids.emplace_back(kSeenShare);
   const auto print_method = [&](const MethodSummary& method) {
-    for (const std::string& id : summary.headline_metrics) {
+    for (const std::string& id : ids) {
       const auto metric = std::ranges::find(method.metrics, id, &MetricSummary::id);
       if (metric == method.metrics.end()) continue;
       const std::string interval =

@@ -34,7 +34,9 @@ std::string NoteOnMissing(const Comparison& c) {
 
 /// Returns true if the numbers of worlds in which only one method has a value differ by more than chance (McNemar's
 /// mid-p). Methods of which one loses values are not equal, even if their other values are.
-bool LosesValues(const Comparison& c) { return McNemarMidP(c.only_method, c.only_baseline) <= kAlpha; }
+bool LosesValues(const Comparison& c, double alpha = kAlpha) {
+  return McNemarMidP(c.only_method, c.only_baseline) <= alpha;
+}
 
 std::string WhyValuesLost(const Comparison& c) {
   return fmt::format(
@@ -217,21 +219,28 @@ Finding JudgeComparison(const Expectation& expectation, const ConditionTable& ta
     with_failures = ComparePaired(all->pairs, metric, seed, purpose + "/failures", expectation.confidence);
   }
   const Verdict of_pairs = JudgeBothWays(found, with_failures, metric, expectation.confidence);
+  // As in JudgeFamily, methods of which one loses values are not equal.
+  found.baseline = other;
+  found.method = expectation.of;
+  found.only_baseline = worlds.only_baseline;
+  found.only_method = worlds.only_method;
+  const double alpha = 1 - expectation.confidence;
+  const bool is_open = found.verdict == Verdict::kNoDifference && LosesValues(found, alpha);
   // Decide from the verdict whether the expectation is met, unmet or undecided.
   const int without = worlds.only_baseline + worlds.only_method + worlds.neither;
   const std::string missing = without == 0 ? "" : fmt::format(", {} more do not have both values", without);
   if (!found.ci_low)
     return {ClaimOutcome::kUndecided, fmt::format("only {} worlds have both values{}", found.pairs, missing)};
-  const ClaimOutcome outcome = found.verdict == Verdict::kBetter      ? ClaimOutcome::kMet
-                               : found.verdict == Verdict::kUndecided ? ClaimOutcome::kUndecided
-                                                                      : ClaimOutcome::kUnmet;
+  const ClaimOutcome outcome = found.verdict == Verdict::kBetter                 ? ClaimOutcome::kMet
+                               : is_open || found.verdict == Verdict::kUndecided ? ClaimOutcome::kUndecided
+                                                                                 : ClaimOutcome::kUnmet;
   // Describe the figures that decided the outcome.
   const std::string unit = metric.unit.empty() ? "" : " " + metric.unit;
   std::string detail = fmt::format(
       "difference {:.4g}{} ({:.4g} % interval {:.4g} to {:.4g}, p = {:.2g}) on {} worlds{}", *found.difference, unit,
       100 * expectation.confidence, *found.ci_low, *found.ci_high, *found.p_holm, found.pairs, missing);
   if (found.verdict != of_pairs) return {outcome, detail + "; it does not hold if a failure counts as a loss"};
-  const double alpha = 1 - expectation.confidence;
+  if (is_open) return {outcome, detail + "; " + WhyValuesLost(found)};
   if (outcome == ClaimOutcome::kUndecided && SmallestP(found.differing) > alpha) {
     detail += fmt::format("; {} of these worlds differ, and a confidence of {:.4g} % needs at least {} that differ",
                           found.differing,

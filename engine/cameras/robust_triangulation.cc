@@ -174,12 +174,14 @@ std::optional<glm::dvec3> PointOf(std::span<const WeightedSighting> sightings, c
 std::optional<RobustPoint> TriangulateRobustly(std::span<const WeightedSighting> sightings,
                                                const RobustOptions& options) {
   RobustPoint found{.agrees = AgreeingOf(sightings, options.outlier_px)};
-  constexpr int kRounds = 3;
-  // Alternate between the position and the set of sightings within the threshold.
-  for (int round = 0; round < kRounds; ++round) {
+  // Alternate between the position and the set of sightings within the threshold. Each step lowers Σ w · min(d², T²),
+  // where T is the threshold, so the two settle; the last round keeps the set whose position it has computed.
+  constexpr int kMaxRounds = 20;
+  for (int round = 0; round < kMaxRounds; ++round) {
     const auto point = PointOf(sightings, found.agrees);
     if (!point) return std::nullopt;
     found.position = *point;
+    if (round + 1 == kMaxRounds) break;
     std::vector<bool> agrees;
     for (const WeightedSighting& s : sightings) {
       agrees.push_back(s.weight > 0 && DistancePx(s.sighting, found.position) <= options.outlier_px);

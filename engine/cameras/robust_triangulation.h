@@ -72,8 +72,8 @@ struct RobustPoint {
 /// Triangulates a point from sightings of which some may be outliers *(ours)*. The first set of sightings is the one of
 /// `AgreeingViews` (weighted). The position minimises Σ w · d² over the set, where d is the distance in the picture
 /// (`TriangulateLikeliest`). Then the set becomes all sightings within `outlier_px` of the position's projections.
-/// These two steps are done at most three times, until the set no longer changes. Returns nullopt if fewer than two
-/// sightings agree.
+/// These two steps are repeated until the set no longer changes, at most twenty times. The position always belongs to
+/// the set `agrees`. Returns nullopt if fewer than two sightings agree.
 std::optional<RobustPoint> TriangulateRobustly(std::span<const WeightedSighting> sightings,
                                                const RobustOptions& options = {});
 

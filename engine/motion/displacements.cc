@@ -19,21 +19,6 @@ PoseSteps StepsFrom(const BodyMotion& motion, int f) {
   return steps;
 }
 
-/// Returns, for each frame but the last, how far every joint's step to the next frame differs from the mean of the
-/// steps before and after: minus half of the third difference. The value is 0 for the first and the last step.
-std::vector<PoseSteps> ThirdDifferences(const BodyMotion& motion) {
-  const int last_step = static_cast<int>(motion.poses.size()) - 2;
-  std::vector<PoseSteps> differences(motion.poses.size() - 1);
-  PoseSteps before = StepsFrom(motion, 0), here = StepsFrom(motion, 1);
-  for (int f = 1; f < last_step; ++f) {
-    const PoseSteps after = StepsFrom(motion, f + 1);
-    for (std::size_t j = 0; j < kRoleCount; ++j) differences[f][j] = here[j] - 0.5 * (before[j] + after[j]);
-    before = here;
-    here = after;
-  }
-  return differences;
-}
-
 /// Returns the median of each coordinate over the joints.
 glm::dvec3 MedianOfJoints(const PoseSteps& vectors) {
   glm::dvec3 median{0};
@@ -44,6 +29,48 @@ glm::dvec3 MedianOfJoints(const PoseSteps& vectors) {
     median[axis] = 0.5 * (values[kRoleCount / 2 - 1] + values[kRoleCount / 2]);
   }
   return median;
+}
+
+/// Returns how far the first step of each joint (`end` = 0), or the last one, differs from what its three neighbours
+/// let expect. This is the shortest of its differences from each of them and from the linear continuation of the two
+/// nearest. If only the step at the end contains a displacement, all four differences contain it. If a neighbour
+/// contains one, one of the differences does not. The shortest difference is chosen for the whole body (the median of
+/// the joints), and for what each joint moves relative to it.
+PoseSteps DifferencesAtEnd(const BodyMotion& motion, int end) {
+  std::array<PoseSteps, 4> steps, differences;
+  for (int i = 0; i < 4; ++i) steps[static_cast<std::size_t>(i)] = StepsFrom(motion, end == 0 ? i : end - i);
+  std::array<glm::dvec3, 4> medians;
+  for (std::size_t i = 0; i < 4; ++i) {
+    for (std::size_t j = 0; j < kRoleCount; ++j) {
+      differences[i][j] = steps[0][j] - (i == 0 ? 2.0 * steps[1][j] - steps[2][j] : steps[i][j]);
+    }
+    medians[i] = MedianOfJoints(differences[i]);
+  }
+  const auto length = [](const glm::dvec3& vector) { return glm::length(vector); };
+  const glm::dvec3 common = *std::ranges::min_element(medians, {}, length);
+  PoseSteps shortest;
+  for (std::size_t j = 0; j < kRoleCount; ++j) {
+    std::array<glm::dvec3, 4> relative;
+    for (std::size_t i = 0; i < 4; ++i) relative[i] = differences[i][j] - medians[i];
+    shortest[j] = common + *std::ranges::min_element(relative, {}, length);
+  }
+  return shortest;
+}
+
+/// Returns, for each frame but the last, how far every joint's step to the next frame differs from the mean of the
+/// steps before and after: minus half of the third difference. For the first and the last step: DifferencesAtEnd.
+std::vector<PoseSteps> ThirdDifferences(const BodyMotion& motion) {
+  const int last_step = static_cast<int>(motion.poses.size()) - 2;
+  std::vector<PoseSteps> differences(motion.poses.size() - 1);
+  PoseSteps before = StepsFrom(motion, 0), here = StepsFrom(motion, 1);
+  for (int f = 1; f < last_step; ++f) {
+    const PoseSteps after = StepsFrom(motion, f + 1);
+    for (std::size_t j = 0; j < kRoleCount; ++j) differences[f][j] = here[j] - 0.5 * (before[j] + after[j]);
+    before = here;
+    here = after;
+  }
+  for (const int end : {0, last_step}) differences[static_cast<std::size_t>(end)] = DifferencesAtEnd(motion, end);
+  return differences;
 }
 
 /// Returns the length of `median` if the vectors of enough joints, among them an ankle, are near it; otherwise 0. The
@@ -124,17 +151,35 @@ bool IsAtFrozenEnd(const FrameRange& span, const std::vector<FrameRange>& frozen
   return std::ranges::any_of(frozen, [&](const FrameRange& f) { return is_near(f.first) || is_near(f.last); });
 }
 
+/// Returns the mean of the steps just before and after these steps. At an end of the motion, there is only one of them.
+PoseSteps UsualSteps(const BodyMotion& motion, const FrameRange& steps) {
+  PoseSteps mean{};
+  const bool has_before = steps.first > 0, has_after = steps.last + 2 < static_cast<int>(motion.poses.size());
+  const double share = has_before && has_after ? 0.5 : 1;
+  const auto add = [&](const PoseSteps& one) {
+    for (std::size_t j = 0; j < kRoleCount; ++j) mean[j] += share * one[j];
+  };
+  if (has_before) add(StepsFrom(motion, steps.first - 1));
+  if (has_after) add(StepsFrom(motion, steps.last + 1));
+  return mean;
+}
+
 /// Measures the displacement of `joint` over `steps`; if `joint` is absent, measures the displacement of the whole
-/// body. Subtracts the mean of the steps just before and after.
+/// body. Subtracts the usual steps.
 Displacement Measure(const BodyMotion& motion, const FrameRange& steps, std::optional<Role> joint = std::nullopt) {
-  const PoseSteps before = StepsFrom(motion, steps.first - 1), after = StepsFrom(motion, steps.last + 1);
+  const PoseSteps usual = UsualSteps(motion, steps);
   Displacement found{.before = steps.first, .after = steps.last + 1};
   PoseSteps moved{};
+  std::vector<glm::dvec3> places = {glm::dvec3(0)};  // the displacement of each frame from the frame `before`
   for (int f = steps.first; f <= steps.last; ++f) {
     const PoseSteps step = StepsFrom(motion, f);
-    for (std::size_t j = 0; j < kRoleCount; ++j) moved[j] += step[j] - 0.5 * (before[j] + after[j]);
+    for (std::size_t j = 0; j < kRoleCount; ++j) moved[j] += step[j] - usual[j];
     found.lasting = joint ? moved[Index(*joint)] : MedianOfJoints(moved);
     if (glm::length(found.lasting) > glm::length(found.largest)) found.largest = found.lasting;
+    for (const glm::dvec3& place : places) {
+      if (glm::distance(place, found.lasting) > glm::length(found.span)) found.span = found.lasting - place;
+    }
+    places.push_back(found.lasting);
   }
   return found;
 }
@@ -151,10 +196,10 @@ FrameRange MainSteps(FrameRange steps, double largest, SizeOf size_of) {
 
 std::vector<Displacement> FindCommon(const BodyMotion& motion, const std::vector<double>& agreed,
                                      const std::vector<FrameRange>& frozen) {
-  constexpr double kMin = 0.03;
+  const double min = fault_limits::kMinCommon_m * fault_limits::TimesAt(motion.rate_hz, fault_limits::kSlow_hz);
   std::vector<int> hot;
   for (int f = 0; f < static_cast<int>(agreed.size()); ++f) {
-    if (agreed[f] > kMin) hot.push_back(f);
+    if (agreed[f] > min) hot.push_back(f);
   }
   std::vector<Displacement> found;
   for (const FrameRange& group : GroupsOf(hot)) {
@@ -173,16 +218,19 @@ struct Hot {
 };
 
 std::vector<Hot> FindHot(const std::vector<PoseSteps>& differences, const std::vector<glm::dvec3>& common,
-                         std::span<const JointSet> unseen) {
+                         std::span<const JointSet> unseen, double rate_hz) {
   using namespace fault_limits;
+  const double times = TimesAt(rate_hz, kSlow_hz), sure = times * kSurePop_m, at_least = times * kShortPop_m;
   std::vector<Hot> hot;
   std::vector<double> sizes(common.size());
   for (const Role joint : AllRoles()) {
     const std::size_t j = Index(joint);
-    // A third difference is computed from four frames, all of which must show the joint.
+    // A third difference is computed from four frames, and at an end from five, all of which must show the joint.
     const auto is_seen = [&](std::size_t f) {
-      const std::size_t from = std::max<std::size_t>(f, 1) - 1, to = std::min(f + 3, unseen.size());
-      return std::none_of(unseen.begin() + from, unseen.begin() + std::max(from, to),
+      const std::size_t from = f == 0 ? 0 : f + 1 == common.size() ? f - 3 : f - 1;
+      const std::size_t to = f == 0 ? 5 : std::min(f + 3, unseen.size());
+      return std::none_of(unseen.begin() + static_cast<std::ptrdiff_t>(from),
+                          unseen.begin() + static_cast<std::ptrdiff_t>(to),
                           [j](const JointSet& joints) { return joints[j]; });
     };
     for (std::size_t f = 0; f < common.size(); ++f) {
@@ -193,8 +241,8 @@ std::vector<Hot> FindHot(const std::vector<PoseSteps>& differences, const std::v
     // motion.
     const auto count = static_cast<double>(sizes.size());
     const double share = count < kShortClipFrames ? kUsualPop : std::min(1 - kPopFrames / count, kUsualPop);
-    const double large = std::max(kPopTimesUsual * Quantile(sizes, share), kShortPop_m);
-    const double limit = std::min(std::clamp(kPopTimesUsual * Quantile(sizes, kUsualPop), kPop_m, kSurePop_m), large);
+    const double large = std::max(kPopTimesUsual * Quantile(sizes, share), at_least);
+    const double limit = std::min(std::clamp(kPopTimesUsual * Quantile(sizes, kUsualPop), kPop_m, sure), large);
     for (std::size_t f = 0; f < sizes.size(); ++f) {
       if (sizes[f] > limit) hot.push_back({static_cast<int>(f), joint, sizes[f]});
     }
@@ -207,7 +255,7 @@ std::vector<Pop> FindPops(const BodyMotion& motion, const std::vector<PoseSteps>
                           const std::vector<glm::dvec3>& common, const std::vector<FrameRange>& frozen,
                           std::span<const JointSet> unseen) {
   constexpr double kAsLarge = 0.8;
-  const std::vector<Hot> hot = FindHot(differences, common, unseen);
+  const std::vector<Hot> hot = FindHot(differences, common, unseen, motion.rate_hz);
   std::vector<int> steps;
   for (const Hot& h : hot) steps.push_back(h.step);
   std::vector<Pop> pops;
@@ -227,7 +275,7 @@ std::vector<Pop> FindPops(const BodyMotion& motion, const std::vector<PoseSteps>
     }
     const FrameRange main = MainSteps(group, largest[Index(joint)],
                                       [&](int f) { return glm::distance(differences[f][Index(joint)], common[f]); });
-    pops.push_back({{main.first, main.last + 1}, joint, glm::length(Measure(motion, main, joint).largest)});
+    pops.push_back({{main.first, main.last + 1}, joint, glm::length(Measure(motion, main, joint).span)});
   }
   return pops;
 }
@@ -255,6 +303,7 @@ glm::dvec2 WeightedMean(const std::vector<PoseSteps>& excesses, int f) {
 std::vector<VelocityStep> FindVelocitySteps(const BodyMotion& motion, const Displacements& found) {
   constexpr double kTolerance = 0.4;
   constexpr int kNear = 3;
+  const double min_m_s = fault_limits::kStep_m_s * std::max(1.0, fault_limits::kSlow_hz / motion.rate_hz);
   // Compute each second difference along the floor, and its excess over the mean of its two neighbours.
   const int frames = static_cast<int>(motion.poses.size());
   std::vector<PoseSteps> bends(motion.poses.size()), excesses(motion.poses.size());
@@ -274,7 +323,7 @@ std::vector<VelocityStep> FindVelocitySteps(const BodyMotion& motion, const Disp
   std::vector<VelocityStep> steps;
   for (int f = 2; f + 2 < frames; ++f) {
     const double length = AgreedLength(excesses[f], MedianOfJoints(excesses[f]), kTolerance, 0);
-    if (length * motion.rate_hz < fault_limits::kStep_m_s || IsAtFrozenEnd({f, f}, found.frozen)) continue;
+    if (length * motion.rate_hz < min_m_s || IsAtFrozenEnd({f, f}, found.frozen)) continue;
     const bool is_displaced = std::ranges::any_of(
         found.common, [f](const Displacement& d) { return d.before - kNear <= f && f <= d.after + kNear; });
     if (!is_displaced) steps.push_back({f, motion.rate_hz * WeightedMean(excesses, f)});

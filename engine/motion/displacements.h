@@ -22,13 +22,14 @@ struct Displacement {
   int before = 0, after = 0;
   glm::dvec3 lasting{0};  ///< metres; displacement of all frames from `after` on
   glm::dvec3 largest{0};  ///< metres; largest displacement of a single frame in (`before`, `after`]
+  glm::dvec3 span{0};     ///< metres; longest displacement between two of the frames [`before`, `after`]
 };
 
 /// A displacement of one joint alone.
 struct Pop {
   FrameRange frames;
   Role joint = Role::kHipCentre;
-  double size = 0;  ///< distance, metres
+  double size = 0;  ///< distance, metres: as Displacement::span
 };
 
 /// A sudden change of the velocity along the floor, from one frame to the next, that all joints share.
@@ -45,8 +46,9 @@ struct Displacements {
   std::vector<VelocityStep> steps;   ///< none where a frozen stretch begins or ends
 };
 
-/// Finds displacements by third differences; FaultRules states the rules. The motion must have at least eight frames.
-/// `unseen`: see FaultOptions::unseen.
+/// Finds displacements by third differences; FaultRules states the rules. A displacement has the same size in every
+/// step, the first and the last included. The motion must have at least eight frames. `unseen`: see
+/// FaultOptions::unseen.
 Displacements FindDisplacements(const BodyMotion& motion, std::span<const JointSet> unseen = {});
 
 }  // namespace etude

@@ -1,9 +1,22 @@
 #pragma once
 
+#include <algorithm>
+
 /// The thresholds of FindMotionFaults, in metres, seconds and degrees. FaultRules states the rules in words.
 namespace etude::fault_limits {
 
 inline constexpr double kAgreeingShare = 0.7;  ///< share of joints that move alike in a whole-body displacement
+
+/// Below this rate, the third differences of fast honest motion reach the limits of pops: at 10 Hz those of the hand in
+/// a recorded tennis serve are 1 m. If accelerations stay below a, third differences (halved) stay below a / rate², so
+/// the limits grow with 1 / rate². In 160 clips of people at 5 to 30 Hz, third differences stay below these limits.
+inline constexpr double kSlow_hz = 20;
+/// Below this rate the same is true of the limits of whole-body displacements.
+inline constexpr double kSlowJump_hz = 12;
+/// Returns by how much a limit of third differences grows at this rate if it holds from `slow_hz` on.
+constexpr double TimesAt(double rate_hz, double slow_hz) {
+  return std::max(1.0, slow_hz * slow_hz / (rate_hz * rate_hz));
+}
 
 // Floats and sinks.
 inline constexpr double kFloatInAll_m = 0.10, kSink_m = 0.06, kSink_s = 0.15;
@@ -25,6 +38,7 @@ inline constexpr double kFootSkate_m_s = 0.14, kFootSkate_s = 0.4,
                         kEvenFootSkate_s = 0.25;  ///< minimum duration for one foot whose velocity is constant
 
 // Jumps and pops.
+inline constexpr double kMinCommon_m = 0.03;  ///< smaller displacements of the whole body are not considered
 inline constexpr double kJumpAlongFloor_m = 0.10, kJump_m = 0.25;
 inline constexpr double kPop_m = 0.25, kSurePop_m = 0.45, kPopTimesUsual = 6, kUsualPop = 0.95;
 /// The second rule for pops. A third difference is also a pop if it exceeds both `kShortPop_m` and `kPopTimesUsual`

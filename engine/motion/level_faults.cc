@@ -11,11 +11,11 @@ namespace etude {
 namespace {
 
 void FindJumps(const GroundView& ground, std::vector<MotionFault>& faults) {
+  using namespace fault_limits;
+  const double times = TimesAt(ground.motion().rate_hz, kSlowJump_hz);
   for (const Displacement& d : ground.displacements()) {
-    if (std::hypot(d.largest.x, d.largest.z) <= fault_limits::kJumpAlongFloor_m &&
-        glm::length(d.largest) <= fault_limits::kJump_m)
-      continue;
-    faults.push_back(ground.FaultOf(FaultKind::kJumps, {d.before, d.after}, glm::length(d.largest)));
+    if (std::hypot(d.span.x, d.span.z) <= times * kJumpAlongFloor_m && glm::length(d.span) <= times * kJump_m) continue;
+    faults.push_back(ground.FaultOf(FaultKind::kJumps, {d.before, d.after}, glm::length(d.span)));
   }
 }
 

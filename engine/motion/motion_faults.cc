@@ -32,9 +32,11 @@ void AppendDisplacements(const BodyMotion& motion, const Displacements& displace
 /// Appends the stretches in which joints are not shown, if other frames show these joints.
 void AppendGaps(const BodyMotion& motion, const FaultOptions& options, std::vector<MotionFault>& faults) {
   using fault_limits::kGap_s;
+  if (motion.poses.empty()) return;
   JointSet always;
   always.set();
   for (const JointSet& unseen : options.unseen) always &= unseen;
+  if (options.never) always = *options.never;
   std::vector<bool> is_lost;
   for (const JointSet& unseen : options.unseen) is_lost.push_back((unseen & ~always).any());
   for (const FrameRange& range : RangesOf(is_lost)) {
@@ -61,6 +63,21 @@ void AppendSpeed(const BodyMotion& motion, std::vector<MotionFault>& faults) {
   if (speed <= fault_limits::kFast_m_s) return;
   const double end = static_cast<double>(motion.poses.size() - 1) / motion.rate_hz;
   faults.push_back({kSpeed, 0, end, std::nullopt, speed});
+}
+
+/// Appends all faults but gaps.
+void FindInFrames(const BodyMotion& motion, const FaultOptions& options, MotionFaults& found) {
+  const Displacements displacements = FindDisplacements(motion, options.unseen);
+  const GroundView ground(motion, displacements, options.floor_m);
+  found.floor_m = ground.floor();
+  found.is_floor_found = ground.is_floor_found();
+  FindLevelFaults(ground, found.faults);
+  FindSkates(ground, options.unseen, found.faults);
+  AppendDisplacements(motion, displacements, found.faults);
+  FindLimbFaults(motion, options, displacements.pops, found.faults);
+  const std::size_t count = found.faults.size();
+  FindFalls(ground, found.faults);
+  if (found.faults.size() == count) AppendSpeed(motion, found.faults);
 }
 
 std::string GravitySentence(const MotionFault& fault) {
@@ -144,24 +161,27 @@ std::vector<FaultRule> MakeFaultRules() {
       {"skates", "m/s",
        fmt::format(
            "Feet that should stand share a velocity along the floor of {}/s or more for {:g} s, and few of them "
-           "rest; or {} change their velocity by {}/s from one frame to the next and back after {:g} to {:g} s, "
-           "while low feet move with them; or ankle and toes of one low foot move alike along the floor, faster than "
+           "rest; or {} change their velocity by {}/s (below {:g} Hz, more) from one frame to the next and back after "
+           "{:g} to {:g} "
+           "s, while low feet move with them; or ankle and toes of one low foot move alike along the floor, faster "
+           "than "
            "{}/s, for {:g} s ({:g} s at one velocity).",
-           cm(kGlide_m_s), kGlide_s, whole_body, cm(kStep_m_s), kMinCarried_s, kMaxCarried_s, cm(kFootSkate_m_s),
-           kFootSkate_s, kEvenFootSkate_s)},
+           cm(kGlide_m_s), kGlide_s, whole_body, cm(kStep_m_s), kSlow_hz, kMinCarried_s, kMaxCarried_s,
+           cm(kFootSkate_m_s), kFootSkate_s, kEvenFootSkate_s)},
       {"jumps", "m",
        fmt::format(
            "{} are displaced alike from one frame to the next (by third differences of positions): by more than "
-           "{} along the floor, or {} in any direction.",
-           whole_body, cm(kJumpAlongFloor_m), cm(kJump_m))},
+           "{} along the floor, or {} in any direction. Below {:g} Hz, both limits grow with 1 / rate².",
+           whole_body, cm(kJumpAlongFloor_m), cm(kJump_m), kSlowJump_hz)},
       {"pops", "m",
        fmt::format(
            "One joint alone is displaced from one frame to the next: its third difference is above {}, and above {:g} "
            "times its {}th percentile in the clip; a third difference above {} always counts. In clips of {:g} to "
            "{:.0f} frames a third difference also counts if it is above {}, and above {:g} times the value that all "
-           "but {:g} of the joint's third differences stay below.",
+           "but {:g} of the joint's third differences stay below. Below {:g} Hz, the limits of {} and {} grow with "
+           "1 / rate², as the third differences of fast motion do.",
            cm(kPop_m), kPopTimesUsual, 100 * kUsualPop, cm(kSurePop_m), kShortClipFrames, kPopFrames / (1 - kUsualPop),
-           cm(kShortPop_m), kPopTimesUsual, kPopFrames)},
+           cm(kShortPop_m), kPopTimesUsual, kPopFrames, kSlow_hz, cm(kSurePop_m), cm(kShortPop_m))},
       {"freezes", "s",
        fmt::format("No joint is faster than {:g} mm/s for {:g} s, and the body stops or starts abruptly (from or to a "
                    "mean speed of its joints above {}/s), or its frames repeat one pose exactly for {:g} s.",
@@ -216,32 +236,25 @@ std::string_view FaultUnit(FaultKind kind) { return FaultRules()[static_cast<std
 
 MotionFaults FindMotionFaults(const BodyMotion& motion, const FaultOptions& options) {
   MotionFaults found{.floor_m = options.floor_m.value_or(0)};
-  if (motion.poses.size() < kMinFramesForFaults) return found;
-  // Find the faults of each kind.
-  const Displacements displacements = FindDisplacements(motion, options.unseen);
-  const GroundView ground(motion, displacements, options.floor_m);
-  found.floor_m = ground.floor();
-  found.is_floor_found = ground.is_floor_found();
-  FindLevelFaults(ground, found.faults);
-  FindSkates(ground, options.unseen, found.faults);
-  AppendDisplacements(motion, displacements, found.faults);
-  FindLimbFaults(motion, options, displacements.pops, found.faults);
   AppendGaps(motion, options, found.faults);
-  const std::size_t count = found.faults.size();
-  FindFalls(ground, found.faults);
-  if (found.faults.size() == count) AppendSpeed(motion, found.faults);
+  if (motion.poses.size() >= kMinFramesForFaults) FindInFrames(motion, options, found);
   // Convert the faults' times to the file's clock, write the sentences, and sort the faults.
-  const double duration = static_cast<double>(motion.poses.size() - 1) / motion.rate_hz;
+  const double duration = (static_cast<double>(motion.poses.size()) - 1) / motion.rate_hz;
+  const bool is_whole = options.lost_before_s < fault_limits::kGap_s && options.lost_after_s < fault_limits::kGap_s;
   for (MotionFault& fault : found.faults) {
-    const bool is_always = fault.from_s <= 0 && fault.to_s >= duration;
+    const bool is_always = is_whole && fault.from_s <= 0 && fault.to_s >= duration;
     fault.from_s += options.begin_s;
     fault.to_s += options.begin_s;
     fault.text = SentenceOf(fault, is_always);
   }
-  std::ranges::stable_sort(found.faults, [](const MotionFault& a, const MotionFault& b) {
+  SortFaults(found.faults);
+  return found;
+}
+
+void SortFaults(std::vector<MotionFault>& faults) {
+  std::ranges::stable_sort(faults, [](const MotionFault& a, const MotionFault& b) {
     return a.kind != b.kind ? a.kind < b.kind : a.from_s < b.from_s;
   });
-  return found;
 }
 
 std::vector<std::string> FaultSentences(const std::vector<MotionFault>& faults) {

@@ -63,7 +63,10 @@ struct FaultOptions {
   /// For each frame, the joints that it does not show, because the file lacks them and a reader guessed their
   /// positions; empty: all joints are shown. Limbs that end at such joints are not judged.
   std::vector<JointSet> unseen = {};
-  /// The durations of the file's first and last frames that are not in the motion because joints are missing.
+  /// Joints that no frame of the file shows, if the motion is only a part of the file; absent: joints that no frame of
+  /// the motion shows. Only joints that other frames show can be lost in a gap.
+  std::optional<JointSet> never = {};
+  /// The durations of the frames before and after the motion that are not in it because joints are missing.
   double lost_before_s = 0, lost_after_s = 0;
   bool is_of_markers = false;  ///< true: joints were found from markers on the skin, so the lengths of limbs may change
 };
@@ -74,9 +77,12 @@ constexpr std::size_t kMinFramesForFaults = 8;
 /// Finds the faults of a motion without a reference motion; the method is our own. FaultRules states the rules. The
 /// motion is in metres, Y up, with finite positions, and at its own rate, because resampling hides displaced or
 /// repeated frames. If `floor_m` is absent, the floor is at height 0; but if the 5th percentile of the lowest joint's
-/// height is then more than 60 cm from 0, the floor is found from the height at which the feet rest. A motion of
-/// fewer than kMinFramesForFaults frames returns no faults.
+/// height is then more than 60 cm from 0, the floor is found from the height at which the feet rest. In a motion of
+/// fewer than kMinFramesForFaults frames, only gaps are found.
 MotionFaults FindMotionFaults(const BodyMotion& motion, const FaultOptions& options = {});
+
+/// Sorts faults by kind, then by time.
+void SortFaults(std::vector<MotionFault>& faults);
 
 /// Returns the sentences of the three largest faults of each kind. If faults are left out, one more sentence states
 /// their number.

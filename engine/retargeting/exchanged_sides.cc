@@ -6,11 +6,14 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <map>
 #include <optional>
 #include <set>
+#include <utility>
 #include <vector>
 
 #include "engine/base/names.h"
+#include "engine/motion/support.h"
 
 namespace etude {
 namespace {
@@ -99,30 +102,119 @@ std::vector<Role> FindExchangedJoints(std::span<const JointPositions> frames) {
   return exchanged.size() <= others.size() ? exchanged : others;
 }
 
-std::vector<Exchange> FindExchanges(std::span<const JointPositions> frames, double rate_hz) {
-  constexpr double kShorter = 0.25, kMinApart_m = 0.05, kMinRate_hz = 10;
-  std::vector<Exchange> found;
+namespace {
+
+constexpr double kMinExchangeApart_m = 0.05, kMinExchangeRate_hz = 10;
+
+/// An exchange of two points, and the distances that they move if their names are exchanged.
+struct Candidate {
+  std::size_t frame = 0;
+  double crossed = 0;
+};
+
+/// Returns the frames in which two points exchange their places; `one` and `other` return a point's position in a
+/// frame, and `moves` returns true if both points move by more than a third of kMinExchangeApart_m, as each exchange
+/// does.
+template <typename One, typename Other, typename Moves>
+std::vector<Candidate> CandidatesOf(std::size_t frames, const One& one, const Other& other, const Moves& moves) {
+  constexpr double kShorter = 0.25;
+  // The sums of the distances that the two points move from the frame before, with their names as they are (`straight`)
+  // or exchanged in this frame (`crossed`); NaN if a point is not seen.
+  struct Sums {
+    double straight = kUnseen, crossed = kUnseen;
+  };
+  const auto sums_at = [&](std::size_t f) -> Sums {
+    if (f == 0 || f >= frames) return {};
+    const MarkerPosition &a = one(f - 1), &b = other(f - 1), &c = one(f), &d = other(f);
+    if (!a || !b || !c || !d || glm::distance(*a, *b) < kMinExchangeApart_m) return {};
+    return {glm::distance(*a, *c) + glm::distance(*b, *d), glm::distance(*a, *d) + glm::distance(*b, *c)};
+  };
+  const auto step = [&](std::size_t f) {
+    const Sums sums = sums_at(f);
+    return std::min(sums.straight, sums.crossed);
+  };
+  std::vector<Candidate> found;
+  for (std::size_t f = 1; f < frames; ++f) {
+    if (!moves(f)) continue;
+    const Sums here = sums_at(f);
+    if (!(here.crossed < kShorter * here.straight)) continue;
+    // fmax ignores a NaN, the value of a neighbouring frame in which a joint is not seen.
+    const double usual = std::fmax(std::fmax(step(f - 1), step(f + 1)), here.crossed);
+    if (usual < kShorter * here.straight) found.push_back({f, here.crossed});
+  }
+  return found;
+}
+
+bool Moves(const MarkerPosition& before, const MarkerPosition& after) {
+  return before && after && glm::distance(*before, *after) > kMinExchangeApart_m / 3;
+}
+
+/// Returns all pairs of joints, those of left and right first.
+std::vector<std::pair<Role, Role>> PairsOfJoints() {
+  std::vector<std::pair<Role, Role>> pairs;
   for (const auto& chain : kChains) {
-    for (const Role left : chain) {
-      // For each frame: the sum of the distances that the two joints move from the frame before, with their names as
-      // they are (`straight`) or exchanged in this frame (`crossed`); NaN if a joint is not seen.
-      std::vector<double> straight(frames.size(), kUnseen), crossed = straight;
-      for (std::size_t f = 1; f < frames.size() && rate_hz >= kMinRate_hz; ++f) {
-        const auto &a = frames[f - 1][Index(left)], &b = frames[f - 1][Index(Mirrored(left))];
-        const auto &c = frames[f][Index(left)], &d = frames[f][Index(Mirrored(left))];
-        if (!a || !b || !c || !d || glm::distance(*a, *b) < kMinApart_m) continue;
-        straight[f] = glm::distance(*a, *c) + glm::distance(*b, *d);
-        crossed[f] = glm::distance(*a, *d) + glm::distance(*b, *c);
-      }
-      const auto step = [&](std::size_t f) { return f < frames.size() ? std::min(straight[f], crossed[f]) : kUnseen; };
-      for (std::size_t f = 1; f < frames.size(); ++f) {
-        // fmax ignores a NaN, the value of a neighbouring frame in which a joint is not seen.
-        const double usual = std::fmax(std::fmax(step(f - 1), step(f + 1)), crossed[f]);
-        if (usual < kShorter * straight[f]) found.push_back({left, f});
+    for (const Role left : chain) pairs.emplace_back(left, Mirrored(left));
+  }
+  for (const Role joint : AllRoles()) {
+    for (const Role other : AllRoles()) {
+      if (Index(joint) < Index(other) && other != Mirrored(joint)) pairs.emplace_back(joint, other);
+    }
+  }
+  return pairs;
+}
+
+}  // namespace
+
+std::vector<Exchange> FindExchanges(std::span<const JointPositions> frames, double rate_hz) {
+  if (rate_hz < kMinExchangeRate_hz) return {};
+  // Mark the joints that move far enough.
+  std::vector<JointSet> moved(frames.size());
+  for (std::size_t f = 1; f < frames.size(); ++f) {
+    for (std::size_t j = 0; j < kRoleCount; ++j) moved[f][j] = Moves(frames[f - 1][j], frames[f][j]);
+  }
+  // Find the candidates of each pair, and the least sum of each joint in each frame.
+  std::vector<std::pair<Exchange, double>> candidates;
+  std::map<std::pair<std::size_t, Role>, double> least;
+  for (const auto& [joint, other] : PairsOfJoints()) {
+    const std::size_t i = Index(joint), j = Index(other);
+    const auto place = [&frames](std::size_t at) {
+      return [&frames, at](std::size_t f) -> const MarkerPosition& { return frames[f][at]; };
+    };
+    for (const Candidate& one :
+         CandidatesOf(frames.size(), place(i), place(j), [&](std::size_t f) { return moved[f][i] && moved[f][j]; })) {
+      candidates.push_back({{joint, other, one.frame}, one.crossed});
+      for (const Role role : {joint, other}) {
+        const auto [at, is_new] = least.emplace(std::pair(one.frame, role), one.crossed);
+        if (!is_new) at->second = std::min(at->second, one.crossed);
       }
     }
   }
+  std::vector<Exchange> found;
+  for (const auto& [one, crossed] : candidates) {
+    if (crossed <= least[{one.frame, one.joint}] && crossed <= least[{one.frame, one.other}]) found.push_back(one);
+  }
   return found;
+}
+
+std::vector<std::size_t> FindExchangesOf(std::span<const MarkerPosition> one, std::span<const MarkerPosition> other,
+                                         double rate_hz) {
+  std::vector<std::size_t> found;
+  if (rate_hz < kMinExchangeRate_hz) return found;
+  const auto place = [](std::span<const MarkerPosition> track) {
+    return [track](std::size_t f) -> const MarkerPosition& { return track[f]; };
+  };
+  const auto moves = [&](std::size_t f) { return Moves(one[f - 1], one[f]) && Moves(other[f - 1], other[f]); };
+  for (const Candidate& candidate : CandidatesOf(std::min(one.size(), other.size()), place(one), place(other), moves)) {
+    found.push_back(candidate.frame);
+  }
+  return found;
+}
+
+std::string DescribeExchanges(std::string_view what, const std::set<std::size_t>& times, double rate_hz,
+                              const std::vector<std::string>& pairs) {
+  return fmt::format("{} exchange their places from one frame to the next, {} (first at {:.2f} s): {}", what,
+                     times.size() == 1 ? "once" : fmt::format("{} times", times.size()),
+                     static_cast<double>(*times.begin()) / rate_hz, Join(pairs));
 }
 
 std::string DescribeExchangedJoints(std::span<const JointPositions> frames, double rate_hz,
@@ -131,17 +223,19 @@ std::string DescribeExchangedJoints(std::span<const JointPositions> frames, doub
   std::vector<std::string> said, pairs;
   for (const Role left : FindExchangedJoints(frames)) pairs.push_back(pair_of(left));
   if (!pairs.empty()) said.push_back("left and right look exchanged, because limbs cross: " + Join(pairs));
-  pairs.clear();
-  std::set<std::size_t> times;
-  for (const auto& [left, frame] : FindExchanges(frames, rate_hz)) {
-    if (pairs.empty() || pairs.back() != pair_of(left)) pairs.push_back(pair_of(left));
-    times.insert(frame);
-  }
-  if (!times.empty()) {
-    said.push_back(
-        fmt::format("left and right exchange their places from one frame to the next, {} (first at {:.2f} s): {}",
-                    times.size() == 1 ? "once" : fmt::format("{} times", times.size()),
-                    static_cast<double>(*times.begin()) / rate_hz, Join(pairs)));
+  // Describe the exchanges of left and right, and those of other joints.
+  const std::vector<Exchange> exchanges = FindExchanges(frames, rate_hz);
+  for (const bool is_mirrored : {true, false}) {
+    pairs.clear();
+    std::set<std::size_t> times;
+    for (const auto& [joint, other, frame] : exchanges) {
+      if ((other == Mirrored(joint)) != is_mirrored) continue;
+      const std::string pair = name_of(joint) + " – " + name_of(other);
+      if (std::ranges::find(pairs, pair) == pairs.end()) pairs.push_back(pair);
+      times.insert(frame);
+    }
+    if (times.empty()) continue;
+    said.push_back(DescribeExchanges(is_mirrored ? "left and right" : "joints", times, rate_hz, pairs));
   }
   return Join(said, "; ");
 }

@@ -2,8 +2,10 @@
 
 #include <cstddef>
 #include <functional>
+#include <set>
 #include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "engine/motion/body.h"
@@ -19,18 +21,27 @@ namespace etude {
 /// crossings disappear if one of two complementary sets of joints is exchanged; the smaller set is returned. `frames`
 /// have any unit; unseen joints do not count.
 std::vector<Role> FindExchangedJoints(std::span<const JointPositions> frames);
-/// A left joint that exchanges its place with the right one between two frames.
+/// Two joints that exchange their places between two frames.
 struct Exchange {
-  Role left;
+  Role joint, other;
   std::size_t frame;  ///< the first frame after the exchange
 };
-/// Finds exchanges within a motion (ours): frames in which each joint of a pair moves to the other joint's place.
-/// Let d be the distance that the left joint moves from the frame before, plus the distance that the right joint
-/// moves. If the two names are exchanged in this frame, the sum must be less than d / 4. So that crossing arms are no
-/// exchange, the sums of the frame before and of the frame after must also be less than d / 4, each with the names
-/// exchanged or not. Joints nearer than 5 cm to each other and rates below 10 Hz are not judged. `frames` are in
-/// metres.
+/// Finds exchanges within a motion (ours): frames in which each joint of a pair moves to the other joint's place. All
+/// pairs of joints are searched, those of left and right first. Let d be the distance that the one joint moves from the
+/// frame before, plus the distance that the other joint moves. If the two names are exchanged in this frame, the sum
+/// must be less than d / 4. So that crossing arms are no exchange, the sums of the frame before and of the frame after
+/// must also be less than d / 4, each with the names exchanged or not. A joint exchanges its place with one joint only,
+/// the one for which the sum is least. Joints nearer than 5 cm to each other and rates below 10 Hz are not judged.
+/// Exchanges of three joints are not found. `frames` are in metres.
 std::vector<Exchange> FindExchanges(std::span<const JointPositions> frames, double rate_hz);
+/// Finds the frames in which two points exchange their places, by the same rule. Unseen points do not count.
+std::vector<std::size_t> FindExchangesOf(std::span<const MarkerPosition> one, std::span<const MarkerPosition> other,
+                                         double rate_hz);
+
+/// Returns "`what` exchange their places from one frame to the next, 2 times (first at 1.20 s): " and the pairs.
+/// `times` are frames.
+std::string DescribeExchanges(std::string_view what, const std::set<std::size_t>& times, double rate_hz,
+                              const std::vector<std::string>& pairs);
 
 /// Returns a message for the user about all that FindExchangedJoints and FindExchanges find; "" if that is nothing.
 /// `name_of` returns the name of a joint for the message.

@@ -11,6 +11,7 @@
 #include "engine/base/names.h"
 #include "engine/base/order_statistics.h"
 #include "engine/motion/statistics.h"
+#include "engine/retargeting/exchanged_people.h"
 #include "engine/retargeting/exchanged_sides.h"
 #include "engine/retargeting/marker_people.h"
 #include "engine/retargeting/marker_repairs.h"
@@ -162,16 +163,37 @@ UpFinding FindUpOf(const std::vector<JointPositions>& frames, double rate_hz, co
   return FindUp(poses, rate_hz, rule);
 }
 
-/// Returns the longest range of frames in which every needed joint is known, as [first, end).
-std::pair<std::size_t, std::size_t> LongestStretch(const std::vector<JointPositions>& frames) {
-  std::pair<std::size_t, std::size_t> best{0, 0};
+/// Frames of a file, as [first, second).
+using Stretch = std::pair<std::size_t, std::size_t>;
+
+/// Returns all ranges of frames in which every needed joint is known, each as long as possible, in order.
+std::vector<Stretch> StretchesOf(const std::vector<JointPositions>& frames) {
+  std::vector<Stretch> stretches;
   std::size_t begin = 0;
   for (std::size_t t = 0; t <= frames.size(); ++t) {
     if (t < frames.size() && IsWhole(frames[t])) continue;
-    if (t - begin > best.second - best.first) best = {begin, t};
+    if (t > begin) stretches.emplace_back(begin, t);
     begin = t + 1;
   }
-  return best;
+  return stretches;
+}
+
+std::vector<BodyPose> PosesOf(const std::vector<JointPositions>& frames, const Stretch& stretch) {
+  std::vector<BodyPose> poses;
+  for (std::size_t t = stretch.first; t < stretch.second; ++t) poses.push_back(Complete(frames[t]));
+  return poses;
+}
+
+/// Says which frames the body's motion does not have.
+std::string DescribeStretches(const std::vector<Stretch>& stretches, const Stretch& longest, std::size_t frames,
+                              bool keeps_others) {
+  if (keeps_others && stretches.size() > 1) {
+    return fmt::format("{} stretches of frames, between which joints are missing for over {:g} s", stretches.size(),
+                       kMaxGap_s);
+  }
+  return fmt::format("only frames {} to {} of {} are used ({})", longest.first + 1, longest.second, frames,
+                     stretches.size() > 1 ? fmt::format("elsewhere joints are missing for over {:g} s", kMaxGap_s)
+                                          : "joints are missing before and after these");
 }
 
 /// Returns the floor's height: the 5th percentile of the lowest joint's height.
@@ -191,9 +213,13 @@ void StandOnFloor(bool keeps_floor, bool is_own, MarkerBody& body) {
   const double floor = FloorOf(body.motion.poses);
   if (keeps_floor || (is_own && std::abs(floor) <= kMaxOwn)) return;
   body.floor = floor;
-  for (BodyPose& pose : body.motion.poses) {
-    for (glm::dvec3& joint : pose.joints) joint.y -= floor;
-  }
+  const auto lower = [floor](std::vector<BodyPose>& poses) {
+    for (BodyPose& pose : poses) {
+      for (glm::dvec3& joint : pose.joints) joint.y -= floor;
+    }
+  };
+  lower(body.motion.poses);
+  for (BodyStretch& other : body.others) lower(other.poses);
   if (std::abs(floor) >= kMinTold) {
     body.changes.push_back(fmt::format("the floor was at {:.4g} cm: moved to 0", 100 * floor));
   }
@@ -231,20 +257,19 @@ std::optional<MarkerBody> BodyAt(double scale, const MarkerMotion& markers, cons
       if (place) place = TurnedUp(*place, body.up.axis);
     }
   }
-  // Keep the longest range without gaps.
-  const auto [begin, end] = LongestStretch(frames);
-  if (begin == end) return std::nullopt;
-  body.first_frame = begin;
-  for (std::size_t t = begin; t < end; ++t) body.motion.poses.push_back(Complete(frames[t]));
+  // The longest range without gaps is the motion.
+  const std::vector<Stretch> stretches = StretchesOf(frames);
+  if (stretches.empty()) return std::nullopt;
+  const Stretch longest = *std::ranges::max_element(stretches, {}, [](const Stretch& s) { return s.second - s.first; });
+  body.first_frame = longest.first;
+  body.motion.poses = PosesOf(frames, longest);
+  for (const Stretch& stretch : stretches) {
+    if (options.keeps_others && stretch != longest) body.others.push_back({stretch.first, PosesOf(frames, stretch)});
+  }
   // Describe the corrections.
   if (filled > 0) body.changes.push_back(fmt::format("{} positions interpolated in gaps", filled));
-  if (end - begin < frames.size()) {
-    const bool is_inside = std::ranges::any_of(std::span(frames).first(begin), IsWhole) ||
-                           std::ranges::any_of(std::span(frames).subspan(end), IsWhole);
-    body.changes.push_back(fmt::format("only frames {} to {} of {} are used ({})", begin + 1, end, frames.size(),
-                                       is_inside
-                                           ? fmt::format("elsewhere joints are missing for over {:g} s", kMaxGap_s)
-                                           : "joints are missing before and after these"));
+  if (body.motion.poses.size() < frames.size()) {
+    body.changes.push_back(DescribeStretches(stretches, longest, frames.size(), options.keeps_others));
   }
   if (!centres.empty()) body.changes.push_back(centres);
   std::vector<std::string> guessed;
@@ -343,7 +368,8 @@ Result<std::vector<MarkerBody>> FindMarkerBodies(MarkerMotion markers, const std
   RepairMarkers(markers);
   // Choose the marker set of each person, and make the body from it.
   std::vector<MarkerBody> bodies;
-  for (const MarkerPerson& person : FindMarkerPeople(markers, options.set, options.roles)) {
+  const std::vector<MarkerPerson> people = FindMarkerPeople(markers, options.set, options.roles);
+  for (const MarkerPerson& person : people) {
     if (!person.IsComplete()) continue;
     ASSIGN_OR_RETURN(auto body, BodyOf(markers, *person.chosen.set(), person.columns, options, file));
     if (!body) continue;
@@ -353,6 +379,11 @@ Result<std::vector<MarkerBody>> FindMarkerBodies(MarkerMotion markers, const std
           fmt::format(", not {}, which the file also contains (--marker-set {})", other->name, other->key);
     }
     if (!person.remark.empty()) body->changes.push_back(person.remark);
+    for (const MarkerPerson& other : people) {
+      if (&other == &person) continue;
+      const std::string said = DescribeExchangedMarkers(markers, person.columns, other.columns);
+      if (!said.empty()) body->changes.push_back(said);
+    }
     bodies.push_back(std::move(*body));
   }
   // Explain why there is no body.

@@ -22,6 +22,13 @@ struct MarkerOptions {
   std::string set = "";                                  ///< a key of MarkerSets; "" = chosen by rank
   std::map<Role, std::string> roles = {};                ///< the markers that play roles, as given by the user
   bool keeps_shown = false;                              ///< true: MarkerBody::shown is filled
+  bool keeps_others = false;                             ///< true: MarkerBody::others is filled
+};
+
+/// Consecutive frames of a file in which a body has all needed joints.
+struct BodyStretch {
+  std::size_t first_frame = 0;  ///< the file's index of the first frame
+  std::vector<BodyPose> poses;
 };
 
 /// A body found in the trajectories of markers.
@@ -31,6 +38,9 @@ struct MarkerBody {
   UpFinding up;       ///< the axis of the file that became the motion's Y axis
   double floor = 0;   ///< the height of the floor in the file, metres; in `motion` this height is 0
   std::size_t first_frame = 0;  ///< the file's index of the first kept frame
+  /// The shorter stretches without a gap of over a second, in order of time, in the coordinates of `motion`. Empty
+  /// unless MarkerOptions::keeps_others is set.
+  std::vector<BodyStretch> others = {};
   /// The name of the marker set, then a text for users about each correction of the file's data.
   std::vector<std::string> changes;
   /// The markers exactly as the file shows them, in all its frames: gaps are not filled, no joint is placed by a rule,
@@ -57,11 +67,12 @@ struct MarkerBody {
 ///   these centres, the head 0.3 trunk lengths beyond the shoulder centre, hands 0.7 forearm lengths beyond the wrist,
 ///   toes 16 cm ahead of the ankle and 4 cm below it.
 /// Gaps of up to a second are interpolated linearly and counted. If there are longer gaps, only the longest stretch
-/// without such a gap is kept, and the note states this. Positions at 0, 0, 0 may count as gaps (RepairMarkers). The
-/// note names joints that seem to be exchanged between left and right (FindExchangedJoints). FindUp finds the up axis
-/// by the rule `options.up`. The floor (5th percentile of the lowest joint's height) becomes 0. For Etude's own joints,
-/// Y is up, and the floor stays unless it is over half a metre from 0. If a person has several complete sets, ChooseSet
-/// chooses one by rank, and the note names the best other set whose knee markers differ.
+/// without such a gap becomes the motion, and the note states this. Positions at 0, 0, 0 may count as gaps
+/// (RepairMarkers). The note names joints that seem to be exchanged between left and right (FindExchangedJoints).
+/// FindUp finds the up axis by the rule `options.up`. The floor (5th percentile of the lowest joint's height) becomes
+/// 0. For Etude's own joints, Y is up, and the floor stays unless it is over half a metre from 0. If a person has
+/// several complete sets, ChooseSet chooses one by rank, and the note names the best other set whose knee markers
+/// differ.
 ///
 /// If a body is not 0.4 to 4 m tall (median), its unit is assumed to be wrong. The unit is then multiplied by the power
 /// of ten that makes the body 1.2 to 2.3 m tall, and the note states this. A unit given in `options` is never changed.

@@ -2,6 +2,7 @@
 
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "engine/base/result.h"
@@ -12,7 +13,15 @@
 
 namespace etude {
 
-/// The body of a clip, at the position and the rate that the clip's file states.
+/// A shorter stretch of a body's frames, which a gap of over a second separates from the others.
+struct OtherStretch {
+  double begin_s = 0;  ///< time of the first frame by the clock of BodyInPlace::begin_s
+  BodyMotion motion;
+  std::vector<JointSet> unseen = {};  ///< as BodyInPlace::unseen
+};
+
+/// The body of a clip, at the position and the rate that the clip's file states. If joints are missing for over a
+/// second, the motion is the longest stretch without such a gap.
 struct BodyInPlace {
   BodyMotion motion;                    ///< the twenty joints at the file's own rate and heights, metres, Y up
   /// The time of the first frame: above 0 if a leading T-pose, or frames before the body is complete, were left out.
@@ -24,6 +33,7 @@ struct BodyInPlace {
   std::vector<JointSet> unseen = {};    ///< for each frame: joints that the file does not show (FaultOptions::unseen)
   bool is_of_markers = false;           ///< true if the joints were found from markers on the skin
   std::vector<std::string> notes = {};  ///< findings and corrections (BodyConversion::changes)
+  std::vector<OtherStretch> others = {};  ///< the other stretches, in order of time; empty: see OpenBodyInPlace
 };
 
 /// Returns the options for finding faults in this body; `floor_m` becomes FaultOptions::floor_m.
@@ -33,7 +43,21 @@ FaultOptions FaultOptionsOf(const BodyInPlace& body, std::optional<double> floor
 /// if UnderstandClip fails.
 Result<BodyInPlace> BodyInPlaceOf(SourceClip clip, const OpenOptions& options);
 
-/// Reads one clip (ReadOneClip) and finds its body.
+/// The faults of all stretches of a body.
+struct FaultsInPlace {
+  MotionFaults found;
+  std::size_t frames = 0;  ///< number of judged frames
+  double judged_s = 0;     ///< duration of the judged stretches
+  double file_s = 0;       ///< duration of the file, with the frames that lack needed joints
+  /// The times that are not judged, because joints are missing or a stretch has fewer than kMinFramesForFaults frames.
+  std::vector<std::pair<double, double>> not_judged_s = {};
+};
+
+/// Finds the faults of each stretch; the longest one determines the floor. Each gap between two stretches is a fault of
+/// its own.
+FaultsInPlace FindFaultsInPlace(const BodyInPlace& body, std::optional<double> floor_m = {});
+
+/// Reads one clip (ReadOneClip) and finds its body, with all its stretches.
 Result<BodyInPlace> OpenBodyInPlace(const std::string& reference, const OpenOptions& options);
 
 }  // namespace etude

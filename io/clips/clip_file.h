@@ -12,6 +12,7 @@
 #include "engine/motion/raw_motion.h"
 #include "engine/retargeting/joint_map.h"
 #include "engine/retargeting/map_file.h"
+#include "engine/retargeting/markers.h"
 #include "engine/retargeting/to_body.h"
 #include "io/clips/recorded_motions.h"
 
@@ -48,6 +49,7 @@ struct MadeBody {
   double floor_m = 0;                  ///< the height in the file that became 0
   std::size_t first_frame = 0;         ///< the frame of the file that became the first frame
   std::optional<double> start_s = {};  ///< the first frame's time by the file's own clock, if the file states times
+  std::vector<BodyStretch> others = {};  ///< MarkerBody::others
 };
 
 /// The content of a motion file.
@@ -71,7 +73,8 @@ struct OpenOptions {
   BodyOptions body;
   /// For marker files: the marker set to use (MarkerSetKeys); "" = the set that fits best.
   std::string marker_set = "";
-  bool keeps_shown = false;  ///< if true, SourceClip::shown is also filled for marker files
+  bool keeps_shown = false;   ///< if true, SourceClip::shown is also filled for marker files
+  bool keeps_others = false;  ///< if true, MadeBody::others is also filled for marker files
   /// Reads "RUN#CELL@NAME"; null = a reference of this form is treated as a file.
   const RecordedMotions* recorded = nullptr;
 };

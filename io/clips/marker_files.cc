@@ -37,7 +37,8 @@ MarkerOptions ToldOfMarkers(const OpenOptions& options, UpRule rule) {
       .keep_floor = KeepsFloor(options),
       .metres_per_unit = ToldUnit(options),
       .set = options.roles && options.marker_set.empty() ? options.roles->marker_set : options.marker_set,
-      .keeps_shown = options.keeps_shown};
+      .keeps_shown = options.keeps_shown,
+      .keeps_others = options.keeps_others};
   if (!options.roles) return told;
   for (const auto& [role, joint] : options.roles->joints) told.roles[role] = joint.name;
   return told;
@@ -50,7 +51,7 @@ Result<ClipFile> FileOfMarkers(ClipFormat format, MarkerMotion markers, const st
   ClipFile file{.format = format, .figure = {.name = "", .skeleton = {}, .materials = {}, .meshes = {}}, .clips = {}};
   for (MarkerBody& body : bodies) {
     file.clips.push_back(RigClip(body.motion, StandingPose(), body.name));
-    file.bodies.push_back({body.changes, body.up, body.floor, body.first_frame});
+    file.bodies.push_back({body.changes, body.up, body.floor, body.first_frame, {}, std::move(body.others)});
     if (options.keeps_shown) file.shown.push_back(std::move(body.shown));
   }
   file.figure.skeleton = file.clips.front().skeleton;

@@ -213,8 +213,52 @@ std::string NoteOnStrangers(const MatchedMotions& matched) {
       SomeOf(strangers), 1000 * median);
 }
 
+/// Returns a note on the positions that one of the motions lacks, which no mean includes; "" if it lacks none. `who` is
+/// "the truth" or "the answer". `is_asked` returns true for the frames and joints that the motion should have.
+template <typename IsAsked>
+std::string NoteOnUnseen(std::string_view who, const PointTracks& tracks, const std::vector<std::string>& joints,
+                         const IsAsked& is_asked) {
+  std::size_t asked = 0, unseen = 0, frames = 0, empty_frames = 0;
+  std::vector<std::size_t> asked_of(joints.size()), seen_of(joints.size());
+  for (std::size_t f = 0; f < tracks.FrameCount(); ++f) {
+    std::size_t asked_here = 0, seen_here = 0;
+    for (std::size_t j = 0; j < joints.size(); ++j) {
+      if (!is_asked(f, j)) continue;
+      const bool is_seen = !std::isnan(tracks.Frame(f)[j].x);
+      ++asked_here;
+      ++asked_of[j];
+      seen_here += is_seen ? 1 : 0;
+      seen_of[j] += is_seen ? 1 : 0;
+    }
+    asked += asked_here;
+    unseen += asked_here - seen_here;
+    frames += asked_here > 0 ? 1 : 0;
+    empty_frames += asked_here > 0 && seen_here == 0 ? 1 : 0;
+  }
+  if (unseen == 0) return "";
+  std::vector<std::string> never;
+  for (std::size_t j = 0; j < joints.size(); ++j) {
+    if (asked_of[j] > 0 && seen_of[j] == 0) never.push_back(joints[j]);
+  }
+  const double percent = 100 * static_cast<double>(unseen) / static_cast<double>(asked);
+  std::string note =
+      fmt::format(", {} has no value for {:.3g} % of the joints and frames, which no mean includes", who, percent);
+  if (empty_frames > 0) note += fmt::format(", and no joint in {} of {} frames", empty_frames, frames);
+  if (!never.empty()) note += fmt::format(", and never shows {}", Join(never));
+  return note;
+}
+
+/// Returns notes on the positions that the truth lacks, and on those that the truth has and the answer lacks. Frames
+/// outside the answer (`is_covered` is false) do not count; they have a note of their own.
+std::string NoteOnUnseen(const MatchedMotions& matched, const std::vector<bool>& is_covered) {
+  const PointTracks &truth = matched.pair.truth, &found = matched.pair.found;
+  return NoteOnUnseen("the truth", truth, matched.joints, [](std::size_t, std::size_t) { return true; }) +
+         NoteOnUnseen("the answer", found, matched.joints,
+                      [&](std::size_t f, std::size_t j) { return is_covered[f] && !std::isnan(truth.Frame(f)[j].x); });
+}
+
 std::string NoteOn(const RawMotion& truth, const RawMotion& answer, const std::string& clock,
-                   const MatchedMotions& matched) {
+                   const MatchedMotions& matched, const std::vector<bool>& is_covered) {
   const auto count = [](auto number, std::string_view thing) {
     return fmt::format("{} {}{}", number, thing, number == 1 ? "" : "s");
   };
@@ -231,6 +275,7 @@ std::string NoteOn(const RawMotion& truth, const RawMotion& answer, const std::s
   if (matched.surplus > 1) note += fmt::format(", {} frames of the answer outside the truth", matched.surplus);
   if (matched.uncovered > 0)
     note += fmt::format(", {} of the truth outside the answer", count(matched.uncovered, "frame"));
+  note += NoteOnUnseen(matched, is_covered);
   for (const RawMotion* motion : {&truth, &answer}) {
     if (motion->notes.empty()) continue;
     note += fmt::format("; {}: {}", motion == &truth ? "truth" : "answer", Join(motion->notes, "; "));
@@ -300,11 +345,13 @@ Result<MatchedMotions> Match(const RawMotion& given_truth, const RawMotion& give
   matched.parents = FindParents(common, truth);
   MatchAngles(truth, sampled, matched);
   // Count the truth's frames before the answer's beginning and after its end.
+  std::vector<bool> is_covered(frames, true);
   for (std::size_t f = 0; f < frames; ++f) {
     constexpr double kRounding = 1e-6;  // tolerance in frames, as in `Sampled`
     const double at = (start_s + static_cast<double>(f) / rate_hz) * answer.rate_hz;
-    if (at < -kRounding || at > static_cast<double>(answer.FrameCount() - 1) + kRounding) ++matched.uncovered;
+    if (at < -kRounding || at > static_cast<double>(answer.FrameCount() - 1) + kRounding) is_covered[f] = false;
   }
+  matched.uncovered = static_cast<std::size_t>(std::ranges::count(is_covered, false));
   // Count the frames of the answer that come before the truth's first frame or after the truth's last frame.
   for (std::size_t f = 0; f < answer.FrameCount(); ++f) {
     constexpr double kOutside = 0.5;  // frames
@@ -314,7 +361,7 @@ Result<MatchedMotions> Match(const RawMotion& given_truth, const RawMotion& give
   if (SeenShare(matched.pair).value_or(0) == 0) {
     return Fail({answer.name}, "no joint of '{}' is ever seen in both motions", truth.name);
   }
-  matched.note = NoteOn(truth, answer, clock.note, matched);
+  matched.note = NoteOn(truth, answer, clock.note, matched, is_covered);
   return matched;
 }
 

@@ -65,12 +65,25 @@ std::string FloorWords(const MotionFaults& found, const PlausibilityOptions& opt
   return fmt::format("floor not at height 0 but at {:.2f} m, where the feet rest", found.floor_m);
 }
 
-std::string DigestOf(const BodyMotion& motion) {
+/// Describes how much of the file was judged, and which times were not.
+std::string ExtentWords(const BodyInPlace& body, const FaultsInPlace& judged) {
+  std::string words = fmt::format("{} frames at {:g} Hz", judged.frames, body.motion.rate_hz);
+  if (judged.not_judged_s.empty()) return words;
+  std::vector<std::string> times;
+  for (const auto& [from, to] : judged.not_judged_s) times.push_back(fmt::format("{:.2f} to {:.2f}", from, to));
+  return words + fmt::format(" (not judged, because joints are missing: {} s)", Join(times));
+}
+
+std::string DigestOf(const BodyInPlace& body) {
   Digest digest;
-  digest.Add(motion.rate_hz);
-  for (const BodyPose& pose : motion.poses) {
-    for (const glm::dvec3& joint : pose.joints) digest.Add(joint.x).Add(joint.y).Add(joint.z);
-  }
+  digest.Add(body.motion.rate_hz);
+  const auto add = [&](const BodyMotion& motion) {
+    for (const BodyPose& pose : motion.poses) {
+      for (const glm::dvec3& joint : pose.joints) digest.Add(joint.x).Add(joint.y).Add(joint.z);
+    }
+  };
+  add(body.motion);
+  for (const OtherStretch& other : body.others) add(other.motion);
   return digest.Hex();
 }
 
@@ -81,7 +94,10 @@ Recording RecordingOf(BodyInPlace body, const MotionFaults& found) {
     const auto frame = static_cast<int>(std::lround((time_s - body.begin_s) * body.motion.rate_hz));
     return std::clamp(frame, 0, static_cast<int>(body.motion.poses.size()) - 1);
   };
+  // Only the longest stretch is recorded, so faults of other stretches are left out.
+  const double end_s = body.begin_s + static_cast<double>(body.motion.poses.size()) / body.motion.rate_hz;
   for (const MotionFault& fault : found.faults) {
+    if (fault.from_s > end_s || fault.to_s < body.begin_s) continue;
     extras.faults.push_back(
         {std::string(FaultName(fault.kind)), fault.text, frame_at(fault.from_s), frame_at(fault.to_s)});
   }
@@ -104,21 +120,19 @@ std::vector<std::string> PlausibilityMetrics() {
 }
 
 CellResult JudgeAlone(BodyInPlace body, const PlausibilityOptions& options, bool keeps_motion) {
-  const std::size_t frames = body.motion.poses.size();
-  if (frames < kMinFramesForFaults) {
+  if (const std::size_t frames = body.motion.poses.size(); frames < kMinFramesForFaults) {
     return CellResult::Ended(
         Status::kFailed, fmt::format("{} frames; a search for faults needs at least {}", frames, kMinFramesForFaults));
   }
-  const MotionFaults found = FindMotionFaults(body.motion, FaultOptionsOf(body, options.floor_m));
+  const FaultsInPlace judged = FindFaultsInPlace(body, options.floor_m);
+  const MotionFaults& found = judged.found;
   // Measure all kinds of faults.
-  const double duration_s = static_cast<double>(frames - 1) / body.motion.rate_hz;
-  const double file_s = body.lost_before_s + duration_s + body.lost_after_s;
   CellResult result;
   result.status = Status::kOk;
   result.Measure("faults", static_cast<double>(found.faults.size()));
   for (const FaultMetric& metric : kMetrics) {
     // Gaps are relative to the duration of the file, which includes the time without a whole body.
-    result.Measure(metric.id, ValueOf(metric, found.faults, metric.kind == kGaps ? file_s : duration_s));
+    result.Measure(metric.id, ValueOf(metric, found.faults, metric.kind == kGaps ? judged.file_s : judged.judged_s));
   }
   result.Measure("wrong_rate", FaultCount(found.faults, kRate) + FaultCount(found.faults, kSpeed) > 0 ? 1 : 0);
   // Compare with the limits.
@@ -138,11 +152,10 @@ CellResult JudgeAlone(BodyInPlace body, const PlausibilityOptions& options, bool
   }
   for (const std::string& sentence : FaultSentences(found.faults)) words.push_back(sentence);
   if (found.faults.empty()) words.emplace_back("no fault");
-  const std::string file =
-      fmt::format("{} frames at {:g} Hz, {}", frames, body.motion.rate_hz, FloorWords(found, options));
+  const std::string file = fmt::format("{}, {}", ExtentWords(body, judged), FloorWords(found, options));
   result.reason = fmt::format("{}{}{}", Join(words, "; "), kAboutFile, file);
   if (!body.notes.empty()) result.reason += ", " + Join(body.notes);
-  result.digests = {{"motion", DigestOf(body.motion)}};
+  result.digests = {{"motion", DigestOf(body)}};
   if (keeps_motion) result.recording = RecordingOf(std::move(body), found);
   return result;
 }

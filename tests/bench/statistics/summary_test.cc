@@ -237,6 +237,34 @@ TEST_F(SummaryTest, AnExpectationIsHeldToItsConfidence) {
   EXPECT_THAT(result.detail, ::testing::HasSubstr("on 9 worlds, 1 more do not have both values"));
 }
 
+/// Method b equals a wherever it has a value. It has none in the last `lost` of the 30 worlds, in which a does worse.
+TEST_F(SummaryTest, AnExpectationIsOpenIfOneOfTwoEqualMethodsLosesValues) {
+  study.conditions.pop_back();
+  const auto expectation_when = [&](int lost, Status status) {
+    std::vector<Row> equal;
+    for (int trial = 0; trial < 30; ++trial) {
+      for (const char* method : {"a", "b"}) {
+        Row row{"s", "ik", study.conditions[0], trial, "", {}, method, {}};
+        row.result.status = Status::kOk;
+        if (method[0] == 'b' && trial >= 30 - lost) {
+          row.result.status = status;
+          row.result.Missing("position_error_cm", "left out");
+        } else {
+          row.result.Measure("position_error_cm", trial < 20 ? 5 + 1e-6 * (method[0] == 'b' ? trial - 10 : 0) : 50);
+        }
+        equal.push_back(std::move(row));
+      }
+    }
+    return JudgeExpectation(study.expectations[0], study, Tabulate(study, equal), 1);
+  };
+  EXPECT_EQ(expectation_when(0, Status::kOk).outcome, ClaimOutcome::kUnmet) << "the control: no value is lost";
+  EXPECT_EQ(expectation_when(2, Status::kOk).outcome, ClaimOutcome::kUnmet) << "the control: two may be chance";
+  const ExpectationResult open = expectation_when(10, Status::kOk);
+  EXPECT_EQ(open.outcome, ClaimOutcome::kUndecided);
+  EXPECT_THAT(open.detail, ::testing::HasSubstr("only “a” has a value in 10 worlds, and only “b” in 0"));
+  EXPECT_NE(expectation_when(10, Status::kFailed).outcome, ClaimOutcome::kMet);
+}
+
 TEST_F(SummaryTest, AMissingValueNeverMeetsABound) {
   Expectation bound{.metric = "position_error_cm", .of = "b", .at_most = 100};
   EXPECT_EQ(JudgeExpectation(bound, study, Tabulate(study, rows), 1).outcome, ClaimOutcome::kUndecided);

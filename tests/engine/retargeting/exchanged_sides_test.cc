@@ -37,7 +37,10 @@ void Exchange(std::vector<JointPositions>& frames, std::size_t begin, std::size_
 
 std::vector<std::pair<Role, std::size_t>> Found(const std::vector<JointPositions>& frames, double rate_hz = kRate_hz) {
   std::vector<std::pair<Role, std::size_t>> found;
-  for (const auto& [left, frame] : FindExchanges(frames, rate_hz)) found.emplace_back(left, frame);
+  for (const auto& [joint, other, frame] : FindExchanges(frames, rate_hz)) {
+    EXPECT_EQ(other, Mirrored(joint));
+    found.emplace_back(joint, frame);
+  }
   return found;
 }
 
@@ -57,6 +60,36 @@ TEST(Exchanges, AreFoundAtTheFramesWhereTheyWereMade) {
   frames[19][Index(kRightHip)].reset();
   EXPECT_THAT(Found(frames), ElementsAre(std::pair(kLeftKnee, 20u), std::pair(kLeftKnee, 21u)));
   EXPECT_THAT(Found(frames, 5), IsEmpty()) << "so far apart, people change their places";
+}
+
+TEST(Exchanges, OfAnyTwoJointsAreFoundAndNameOnlyTheseTwo) {
+  int pairs = 0;
+  for (const Role joint : AllRoles()) {
+    for (const Role other : AllRoles()) {
+      if (Index(joint) >= Index(other)) continue;
+      std::vector<JointPositions> frames = Dance("boxing");
+      // The joints of one pair must be apart, and must not pass each other in these frames.
+      const auto apart = [&](std::size_t f) {
+        return glm::distance(*frames[f][Index(joint)], *frames[f][Index(other)]);
+      };
+      if (apart(19) < 0.2 || apart(20) < 0.2 || apart(39) < 0.2 || apart(40) < 0.2) continue;
+      for (std::size_t f = 20; f < 40; ++f) std::swap(frames[f][Index(joint)], frames[f][Index(other)]);
+      const std::vector<etude::Exchange> found = FindExchanges(frames, kRate_hz);
+      ASSERT_EQ(found.size(), 2u) << RoleName(joint) << ", " << RoleName(other);
+      for (const auto& one : found) {
+        EXPECT_EQ(std::minmax(Index(one.joint), Index(one.other)), std::minmax(Index(joint), Index(other)));
+      }
+      EXPECT_EQ(found[0].frame, 20u);
+      EXPECT_EQ(found[1].frame, 40u);
+      ++pairs;
+    }
+  }
+  EXPECT_GT(pairs, 100);
+  std::vector<JointPositions> frames = Dance("boxing");
+  for (std::size_t f = 20; f < 40; ++f) std::swap(frames[f][Index(kLeftWrist)], frames[f][Index(kLeftElbow)]);
+  EXPECT_EQ(
+      DescribeExchangedJoints(frames, kRate_hz),
+      "joints exchange their places from one frame to the next, 2 times (first at 0.67 s): left_elbow – left_wrist");
 }
 
 TEST(Exchanges, AreNoneOfPeopleWhoCrossTheirArms) {

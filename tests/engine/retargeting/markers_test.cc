@@ -609,6 +609,36 @@ TEST(Markers, LostAtTheBeginningAndTheEndAreNotSaidToBeLostForLong) {
             "Etude's joints; only frames 3 to 39 of 40 are used (joints are missing before and after these)");
 }
 
+TEST(Markers, ThatTwoPeopleExchangeAreNamedInBothBodies) {
+  std::vector<Placed> placed;
+  for (const char* name : {"Ann:", "Bob:"}) {
+    for (const Role role : AllRoles()) {
+      placed.push_back({name + std::string(RoleName(role)), role, glm::dvec3(name[0] == 'B' ? 1.5 : 0, 0, 0)});
+    }
+  }
+  const MarkerMotion honest = Take(placed);
+  const std::size_t wrist = Index(Role::kLeftWrist);
+  const auto bodies_of = [&](bool is_whole, bool is_exchanged) {
+    MarkerMotion take = honest;
+    for (std::size_t t = 5; is_exchanged && t < take.frames.size(); ++t) {
+      for (std::size_t j = 0; j < kRoleCount; ++j) {
+        if (is_whole || j == wrist) std::swap(take.frames[t][j], take.frames[t][kRoleCount + j]);
+      }
+    }
+    auto bodies = FindMarkerBodies(take, "two.trc");
+    EXPECT_TRUE(bodies);
+    return *bodies;
+  };
+  for (const MarkerBody& body : bodies_of(false, true)) {
+    EXPECT_THAT(body.Note(), HasSubstr("markers of two people exchange their places from one frame to the next, once "
+                                       "(first at 0.10 s): "));
+    EXPECT_THAT(body.Note(), HasSubstr("Ann:left_wrist"));
+    EXPECT_THAT(body.Note(), HasSubstr("Bob:left_wrist"));
+  }
+  for (const MarkerBody& body : bodies_of(true, true)) EXPECT_THAT(body.Note(), HasSubstr(", once (first at 0.10 s)"));
+  for (const MarkerBody& body : bodies_of(true, false)) EXPECT_THAT(body.Note(), Not(HasSubstr("exchange")));
+}
+
 TEST(Markers, OfTwoPeopleAreTwoBodies) {
   MarkerMotion take = OwnJoints();
   for (std::string& name : take.names) name = "Ann:" + name;

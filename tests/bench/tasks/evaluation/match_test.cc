@@ -65,6 +65,28 @@ TEST(Match, AnAnswerThatEndsEarlyIsJudgedWhereItIs) {
   EXPECT_THAT(result.reason, HasSubstr("15 frames of the truth outside the answer"));
 }
 
+/// Of 60 frames × 20 joints, the answer lacks 6 frames and one joint, and the truth lacks another joint in 30 frames.
+TEST(Match, SaysWhatTheMeansLeaveOut) {
+  const glm::dvec3 unseen(std::nan(""));
+  RawMotion truth = Gliding(30, 60), answer = Gliding(30, 60);
+  const auto head = static_cast<std::size_t>(Index(Role::kHead)),
+             foot = static_cast<std::size_t>(Index(Role::kLeftFoot));
+  for (std::size_t f = 0; f < 60; ++f) {
+    answer.positions[f * kRoleCount + head] = unseen;
+    if (f < 30) truth.positions[f * kRoleCount + foot] = unseen;
+    for (std::size_t j = 0; f >= 54 && j < kRoleCount; ++j) answer.positions[f * kRoleCount + j] = unseen;
+  }
+  const CellResult result = Judged(truth, answer);
+  // The truth shows 1200 − 30 positions; of these, the answer lacks 54 of the head and 6 × 20.
+  EXPECT_NEAR(ValueIn(result, "seen_share"), 1 - 174.0 / 1170, 1e-12);
+  EXPECT_THAT(result.reason, HasSubstr("the truth has no value for 2.5 % of the joints and frames, which no mean "
+                                       "includes, the answer has no value for 14.9 % of the joints and frames, which "
+                                       "no mean includes, and no joint in 6 of 60 frames, and never shows head"));
+  EXPECT_THAT(Judged(Gliding(30, 60), Gliding(30, 60)).reason, ::testing::Not(HasSubstr("no value")));
+  EXPECT_THAT(Judged(Gliding(30, 60), Gliding(30, 45)).reason, ::testing::Not(HasSubstr("no value")))
+      << "frames outside the answer have a note of their own";
+}
+
 TEST(Match, FramesOfTheAnswerOutsideTheTruthAreSaid) {
   EXPECT_THAT(Judged(Gliding(30, 60), Gliding(30, 120)).reason, HasSubstr("60 frames of the answer outside the truth"));
   EXPECT_THAT(Judged(Gliding(30, 60), Gliding(60, 240)).reason,
