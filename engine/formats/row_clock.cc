@@ -145,12 +145,17 @@ std::optional<double> FirstTimeOf(std::span<const double> times, Stretch stretch
   return high - low <= step + kRounding ? std::optional((low + high) / 2) : std::nullopt;
 }
 
-/// Returns the rates that coarsely printed times may have, in the order of preference: the stated rate, the usual rate
-/// nearest to the mean, the mean rounded to a whole number n, n · 1000 / 1001 (television), and the mean.
-std::vector<double> CoarseRates(double mean, std::optional<double> told_hz) {
-  const double usual = *std::ranges::min_element(kUsualRates_hz, {}, [&](double r) { return std::abs(r - mean); });
+/// Returns the rates that coarsely printed times may have, in the order of preference: the stated rate, the usual rates
+/// within `error` (a share) of the mean, nearest first, the mean rounded to a whole number n, n · 1000 / 1001
+/// (television), and the mean.
+std::vector<double> CoarseRates(double mean, double error, std::optional<double> told_hz) {
+  std::vector<double> rates(kUsualRates_hz.begin(), kUsualRates_hz.end());
+  std::ranges::sort(rates, {}, [&](double rate) { return std::pair(std::abs(rate - mean), rate); });
+  std::erase_if(rates, [&](double rate) { return std::abs(rate / mean - 1) > error; });
+  if (told_hz) rates.insert(rates.begin(), *told_hz);
   const double whole = std::round(mean);
-  return {told_hz.value_or(usual), usual, whole, whole * kTelevision, mean};
+  rates.insert(rates.end(), {whole, whole * kTelevision, mean});
+  return rates;
 }
 
 /// Returns the grid of rows whose times are printed so coarsely that neighbouring rows share a time, e.g. 120 Hz
@@ -169,7 +174,8 @@ std::optional<RowGrid> GridOfCoarseTimes(std::span<const double> times, std::opt
   const double mean = static_cast<double>(times.size() - stretches.size()) / span;
   if (mean * step < kMinPerStep) return std::nullopt;
 
-  for (const double rate : CoarseRates(mean, told_hz)) {
+  const double error = static_cast<double>(stretches.size()) * step / span;  // each stretch is uncertain by a step
+  for (const double rate : CoarseRates(mean, error, told_hz)) {
     std::vector<double> begins;
     for (const Stretch& stretch : stretches) {
       if (const auto first_s = FirstTimeOf(times, stretch, rate, step)) begins.push_back(*first_s);

@@ -9,6 +9,7 @@
 
 #include "engine/base/names.h"
 #include "engine/base/order_statistics.h"
+#include "engine/formats/usual_rates.h"
 
 namespace etude {
 namespace {
@@ -35,28 +36,33 @@ std::optional<TimeUnit> UnitByRate(double step, double rate_hz) {
   return found == units.end() ? std::nullopt : std::optional(*found);
 }
 
-/// Returns the unit of times that, as seconds, have more than a second between rows; seconds for other times. Small
-/// units are preferred that give a usual rate, from 10 to 400 Hz; otherwise the largest is taken that gives at least 1
-/// Hz. `remark` states the unit, its rate, and the other units that give a usual rate.
+/// Returns the unit of times that, as seconds, have more than a second between rows; seconds for other times. The unit
+/// is the largest one that gives a usual rate, or else 10 to 400 Hz, or else at least 1 Hz. `remark` states the unit,
+/// its rate, and the other units that give 10 to 400 Hz.
 TimeUnit UnitByStep(double step, const std::string& times, std::string& remark) {
-  constexpr double kMinUsual_hz = 10, kMaxUsual_hz = 400;
+  constexpr double kMinLikely_hz = 10, kMaxLikely_hz = 400;
   if (!(step > 1)) return kSeconds;
+  const auto rate_in = [&](const TimeUnit& unit) { return 1 / (step * unit.seconds); };
   const auto is_usual = [&](const TimeUnit& unit) {
-    const double rate = 1 / (step * unit.seconds);
-    return rate >= kMinUsual_hz && rate <= kMaxUsual_hz;
+    constexpr double kNear = 0.01, kSlowSensors_hz[] = {10, 15, 20};
+    const auto is_near = [&](double rate) { return std::abs(rate_in(unit) / rate - 1) < kNear; };
+    return std::ranges::any_of(kUsualRates_hz, is_near) || std::ranges::any_of(kSlowSensors_hz, is_near);
   };
+  const auto is_likely = [&](const TimeUnit& unit) {
+    return rate_in(unit) >= kMinLikely_hz && rate_in(unit) <= kMaxLikely_hz;
+  };
+  const auto is_possible = [&](const TimeUnit& unit) { return rate_in(unit) >= kMinMotionRate_hz; };
   const auto* unit = std::ranges::find_if(kSmallUnits, is_usual);
-  if (unit == std::end(kSmallUnits)) {
-    unit = std::ranges::find_if(kSmallUnits, [&](const TimeUnit& one) { return step * one.seconds <= 1; });
-  }
+  if (unit == std::end(kSmallUnits)) unit = std::ranges::find_if(kSmallUnits, is_likely);
+  if (unit == std::end(kSmallUnits)) unit = std::ranges::find_if(kSmallUnits, is_possible);
   if (unit == std::end(kSmallUnits)) return kSeconds;
   std::vector<std::string> others;
   for (const TimeUnit& other : {kHundredths, kSmallUnits[0], kSmallUnits[1], kSmallUnits[2], kSmallUnits[3]}) {
-    if (!is_usual(other) || other.seconds == unit->seconds) continue;
-    others.push_back(fmt::format("as {}, it would be {:.4g} Hz", other.name, 1 / (step * other.seconds)));
+    if (!is_likely(other) || other.seconds == unit->seconds) continue;
+    others.push_back(fmt::format("as {}, it would be {:.4g} Hz", other.name, rate_in(other)));
   }
   remark = fmt::format("{} taken as {}: as seconds, rows would be more than a second apart; the rate is {:.4g} Hz{}",
-                       times, unit->name, 1 / (step * unit->seconds),
+                       times, unit->name, rate_in(*unit),
                        others.empty() ? "" : " (" + Join(others) + "; `--rate`, in convert `--file-rate`, states it)");
   return *unit;
 }
