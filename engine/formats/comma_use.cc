@@ -16,7 +16,8 @@ bool IsShortNumber(std::string_view text) {
 
 }  // namespace
 
-void CommaUse::Add(std::string_view number, std::size_t column, int line) {
+void CommaUse::Add(std::string_view number, std::size_t column, std::string_view line_text, int line) {
+  const int character = static_cast<int>(number.data() - line_text.data()) + 1;
   if (!number.empty() && (number.front() == '-' || number.front() == '+')) number.remove_prefix(1);
   columns_.resize(std::max(columns_.size(), column + 1));
   const std::size_t comma = number.find(',');
@@ -25,7 +26,7 @@ void CommaUse::Add(std::string_view number, std::size_t column, int line) {
     if (pointed_.empty() && number.find('.') != std::string_view::npos) pointed_ = number;
     return;
   }
-  if (!first_) first_ = First{std::string(number), column, line};
+  if (!first_) first_ = First{std::string(number), column, line, character};
   columns_[column].has_comma = true;
   const std::string_view after = number.substr(comma + 1);
   has_decimal_comma_ |=
@@ -35,8 +36,9 @@ void CommaUse::Add(std::string_view number, std::size_t column, int line) {
 Result<void> CommaUse::Check(const std::string& file) const {
   const bool is_mixed = std::ranges::any_of(columns_, [](Column one) { return one.has_comma && one.has_short; });
   if (!first_ || has_decimal_comma_ || (pointed_.empty() && !is_mixed)) return {};
-  return Fail({file, first_->line}, "value {}: {} has a thousands separator{}; allowed: numbers without one, e.g. 1234.5",
-              first_->column + 1, Quote(first_->number),
+  return Fail({file, first_->line, first_->character},
+              "value {}: {} has a thousands separator{}; allowed: numbers without one, e.g. 1234.5", first_->column + 1,
+              Quote(first_->number),
               pointed_.empty() ? "" : ", because other numbers have a decimal point, as " + pointed_);
 }
 

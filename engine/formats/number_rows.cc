@@ -118,7 +118,7 @@ Result<NumberRows> ReadNumberRows(std::string_view text, const std::string& file
         value = NumberWithComma(words[i]);
         table.has_decimal_commas = table.has_decimal_commas || value;
       }
-      if (value && separator != 0) commas.Add(words[i], i, line_number);
+      if (value && separator != 0) commas.Add(words[i], i, whole, line_number);
       // In the first row, a word makes its column a column of texts.
       const bool may_be_text = is_first && allows_texts && table.texts.size() < kMaxTextColumns;
       if (!value && may_be_text) table.texts.emplace_back(i, words[i]);

@@ -212,6 +212,13 @@ Result<std::optional<RowGrid>> GridOfRows(std::span<const double> times_s, std::
   if (auto grid = GridOfCoarseTimes(times_s, told_hz, width)) return grid;
   ASSIGN_OR_RETURN(const auto rows, CountingRows(times_s, lines, file));
   if (rows.size() < 2) return std::nullopt;
+  constexpr std::size_t kMaxPerTime = 4;  // mean number of rows; with more, most of the motion would be left out
+  if (times_s.size() > kMaxPerTime * rows.size()) {
+    return Fail(
+        {file},
+        "{} rows have only {} different times; allowed: times with more decimals, or no times, but frame numbers",
+        times_s.size(), rows.size());
+  }
 
   // Fit the rate to the time steps between rows.
   std::vector<double> steps;

@@ -37,8 +37,8 @@ struct RowGrid {
 /// by the rounding of the times). Without such a row, the frame is interpolated between two rows, or it is a hole if a
 /// row is missing. Of rows with equal times only the last is used. Returns nullopt if there is no clock: there are
 /// fewer than two rows, no row has a time, or all times are equal. Fails, naming the row's line (`lines` may be empty),
-/// for a missing time, decreasing times, steps over ten minutes, more than 10 kHz, and holes of more than ten million
-/// values in total, `width` values per frame.
+/// for a missing time, decreasing times, steps over ten minutes, more than four rows per time, more than 10 kHz, and
+/// holes of more than ten million values in total, `width` values per frame.
 Result<std::optional<RowGrid>> GridOfRows(std::span<const double> times_s, std::span<const int> lines,
                                           std::optional<double> told_hz, std::size_t width, const std::string& file);
 

@@ -206,7 +206,7 @@ Result<MarkerRows> ReadTrcRows(std::string_view text, const std::string& file) {
     ASSIGN_OR_RETURN(auto frame, ReadFrame(here, header, {file, line, 0}));
     motion.frames.push_back(std::move(frame));
     const auto cells = Cells(here);
-    for (std::size_t i = 0; has_commas && i < cells.size(); ++i) commas.Add(cells[i], i, line);
+    for (std::size_t i = 0; has_commas && i < cells.size(); ++i) commas.Add(cells[i], i, here, line);
     rows.numbers.push_back(NumberIn(cells[0]).value_or(kNone));
     rows.times_s.push_back(NumberIn(cells[1]).value_or(kNone));
     rows.lines.push_back(line);

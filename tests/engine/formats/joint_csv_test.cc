@@ -101,11 +101,12 @@ TEST(JointCsv, TakesTabsDecimalCommasQuotesAndTimesSince1970AndLeavesTextsOut) {
   const auto read = [](const std::string& text) { return testing::Refusal(ReadJointCsv(text, "m.csv")); };
   // Commas that separate thousands.
   const std::string few = "head_x_m;head_y_m;head_z_m\n";
-  EXPECT_EQ(read(few + "12.5;1;2\n3.5;1,891;2\n"),
-            "m.csv:3: value 2: '1,891' has a thousands separator, because other numbers have a decimal point, as 12.5; "
-            "allowed: numbers without one, e.g. 1234.5");
+  EXPECT_EQ(
+      read(few + "12.5;1;2\n3.5;1,891;2\n"),
+      "m.csv:3:5: value 2: '1,891' has a thousands separator, because other numbers have a decimal point, as 12.5; "
+      "allowed: numbers without one, e.g. 1234.5");
   EXPECT_EQ(read(few + "1;998;2\n3;1,001;2\n"),
-            "m.csv:3: value 2: '1,001' has a thousands separator; allowed: numbers without one, e.g. 1234.5");
+            "m.csv:3:3: value 2: '1,001' has a thousands separator; allowed: numbers without one, e.g. 1234.5");
   for (const char* number : {"1,234.5", "1.234,5", "1,234,567"}) {
     EXPECT_EQ(
         read(few + "1;2;3\n1;" + number + ";3\n"),

@@ -278,6 +278,9 @@ TEST(RowClock, RefusesWhatIsNoClock) {
             "a:4: the time 700 s follows 0.1 s; allowed: a clock that advances by at most 600 s per row");
   EXPECT_THAT(reason({0, 1e-4, 2e-4, 500}, 3),
               HasSubstr("allowed: 1e+07 missing values in total, with 3 values per frame"));
+  EXPECT_EQ(
+      reason({0, 0, 0, 0, 0, 0, 1, 2, 2, 2, 2, 2, 2}),
+      "a: 13 rows have only 3 different times; allowed: times with more decimals, or no times, but frame numbers");
   EXPECT_EQ(reason({nan, nan, nan}), "no complaint");
   EXPECT_EQ(reason({4, 4, 4}), "no complaint") << "a column that tells nothing";
 }
