@@ -76,9 +76,7 @@ std::size_t WidthOf(const NumberArray* array) {
 
 Result<Clip> ReadAmass(const Npz& npz, const std::string& file, std::optional<double> told_hz) {
   // Find the arrays and check their shapes.
-  const NumberArray *poses = npz.Find("poses"), *places = npz.Find("trans"), *rate = npz.Find("mocap_framerate");
-  const NumberArray* other_rate = npz.Find("mocap_frame_rate");
-  if (rate == nullptr) rate = other_rate;
+  const NumberArray *poses = npz.Find("poses"), *places = npz.Find("trans");
   const std::size_t width = WidthOf(poses);
   std::vector<std::string> names;
   for (const auto& [name, array] : npz.arrays) names.push_back(name);
@@ -97,19 +95,18 @@ Result<Clip> ReadAmass(const Npz& npz, const std::string& file, std::optional<do
   if (places->shape[0] != frames) {
     return Fail({file}, "trans has {} frames; poses has {}", places->shape[0], frames);
   }
-  if (!told_hz && (rate == nullptr || rate->values.size() != 1)) {
-    return Fail({file},
-                "states no frame rate (its arrays: {}); allowed: mocap_framerate or mocap_frame_rate, a number of "
-                "frames per second, or `--rate` (in convert `--file-rate`, in a joint map `rate: 60`)",
-                Join(names));
-  }
-  if (!told_hz && other_rate != nullptr && other_rate->values != rate->values) {
-    return Fail({file},
-                "mocap_framerate and mocap_frame_rate differ; allowed: one rate, or `--rate` (in convert "
-                "`--file-rate`)");
+  std::optional<ArrayRate> stated;
+  if (!told_hz) {
+    ASSIGN_OR_RETURN(stated, RateOfArrays(npz, file));
+    if (!stated) {
+      return Fail({file},
+                  "states no frame rate (its arrays: {}); allowed: mocap_framerate or mocap_frame_rate, a number of "
+                  "frames per second, or `--rate` (in convert `--file-rate`, in a joint map `rate: 60`)",
+                  Join(names));
+    }
   }
   constexpr double kMinRate_hz = 1, kMaxRate_hz = 10'000, kMaxValue = 1e6;
-  const double rate_hz = told_hz ? *told_hz : rate->values.front();
+  const double rate_hz = told_hz ? *told_hz : stated->rate_hz;
   if (!(rate_hz >= kMinRate_hz && rate_hz <= kMaxRate_hz)) {
     return Fail({file}, "a rate of {} Hz; allowed: {} to {}", rate_hz, kMinRate_hz, kMaxRate_hz);
   }

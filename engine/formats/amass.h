@@ -10,12 +10,12 @@
 namespace etude {
 
 /// Reads a motion of AMASS (Mahmood et al. 2019) from its arrays: `poses` with 72 (SMPL), 156 (SMPL-H) or 165 (SMPL-X)
-/// numbers per frame, the rotation vectors of the joints; `trans` in metres, Z up; `mocap_framerate` or
-/// `mocap_frame_rate`. The clip has SMPL's 22 body joints; fingers, jaw and eyes are left out. The licence forbids us
-/// to distribute the body model and its shapes, so limbs have our own lengths, for a height of 1.70 m: rotations are
-/// those of the recorded person, but positions are not accurate to the centimetre. Returns an error if arrays are
-/// missing or have another shape, if numbers are not finite, or if the rate is missing or out of range. `told_hz`
-/// replaces the file's rate.
+/// numbers per frame, the rotation vectors of the joints; `trans` in metres, Z up; the rate in
+/// `mocap_framerate`, `mocap_frame_rate` or another array of RateOfArrays. The clip has SMPL's 22 body joints; fingers,
+/// jaw and eyes are left out. The licence forbids us to distribute the body model and its shapes, so limbs have our own
+/// lengths, for a height of 1.70 m: rotations are those of the recorded person, but positions are not accurate to the
+/// centimetre. Returns an error if arrays are missing or have another shape, if numbers are not finite, or if the rate
+/// is missing or out of range. `told_hz` replaces the file's rate.
 Result<Clip> ReadAmass(const Npz& arrays, const std::string& file, std::optional<double> told_hz = {});
 
 }  // namespace etude

@@ -28,13 +28,16 @@ namespace etude {
 ///   rest position.
 /// - If the positions of most joints with an OFFSET stay near 0, positions are relative to the OFFSETs, so the OFFSETs
 ///   are added.
+/// - If the frame time has so few digits that the period of a usual rate, rounded or cut off, has the same (0.033 s may
+///   be 30 Hz), the stated time is taken, unless the caller states the rate as `told_hz`.
 /// - If no joint rotates by more than 6.28 degrees, the file's angles may be radians.
 ///
 /// Returns an error with line and column for anything outside the grammar, a second ROOT, a frame that is not one line
 /// with one number per channel, a wrong number of frames, no frames, frame times outside 0.1 ms…10 s, nesting deeper
 /// than 128 levels, more than 1,024 joints, names longer than 500 bytes, and, before any frame is read, frames that
 /// would take more than 1 GB (an hour of 25 joints at 120 Hz).
-Result<Clip> ReadBvh(std::string_view bytes, const std::string& file, std::vector<std::string>* remarks = nullptr);
+Result<Clip> ReadBvh(std::string_view bytes, const std::string& file, std::vector<std::string>* remarks = nullptr,
+                     std::optional<double> told_hz = {});
 
 /// Writes a clip as BVH. The root and every joint whose translation changes get three position channels, and an OFFSET
 /// of 0: some readers replace OFFSET by the position, others add the two. Every joint gets Z, X, Y rotations in

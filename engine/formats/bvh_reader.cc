@@ -17,6 +17,7 @@
 #include "engine/formats/bvh.h"
 #include "engine/formats/text_scanner.h"
 #include "engine/formats/unique_names.h"
+#include "engine/formats/usual_rates.h"
 #include "engine/motion/body.h"
 #include "engine/motion/clip.h"
 
@@ -191,6 +192,7 @@ constexpr double kMaxFrameBytes = 1e9;
 struct MotionHeader {
   int frame_count = 0;
   double rate_hz = 0;
+  std::string rough_time = "";  ///< a remark about a frame time with few digits; "" for others
   Token frames_place;  ///< position of the number of frames, for error messages
 };
 
@@ -200,6 +202,31 @@ double RateOf(double frame_seconds) {
   const double rate = 1.0 / frame_seconds;
   const double whole = std::round(rate);
   return std::abs(rate - whole) < kPrintedPrecision * whole ? whole : rate;
+}
+
+/// Returns a remark if the frame time is printed with so few digits that a usual rate has the same digits, rounded or
+/// cut off, and the file's duration at that rate differs by at least half a frame; otherwise "". A frame time of a
+/// usual rate itself gets no remark (0.04 is 25 Hz, although 1/24 s rounds to it).
+std::string DescribeRoughTime(const Token& printed, double seconds, double frames) {
+  const std::size_t point = printed.text.find('.');
+  if (point == std::string_view::npos || printed.text.find_first_of("eE") != std::string_view::npos) return "";
+  const double digit = std::pow(10, -static_cast<double>(printed.text.size() - point - 1)), rate = RateOf(seconds);
+  double likely = 0;
+  for (const double whole : kUsualRates_hz) {
+    for (const double usual : {whole, whole * kTelevision}) {
+      constexpr double kSameRate = 1e-4;
+      if (std::abs(rate / usual - 1) < kSameRate) return "";
+      const double more = 1 / usual - seconds;
+      const bool is_nearer = likely == 0 || std::abs(more) < std::abs(1 / likely - seconds);
+      if (more >= -digit / 2 && more < digit && (usual == whole ? is_nearer : likely == 0)) likely = usual;
+    }
+  }
+  const double longer_s = likely == 0 ? 0 : frames * (1 / likely - seconds);
+  if (std::abs(longer_s) * likely < 0.5) return "";
+  return fmt::format(
+      "the Frame Time {} is taken as it is, {:.6g} Hz, but has few digits, and 1 / {:.6g} s has the same: at {:.6g} Hz "
+      "its {:g} frames last {:.2g} s {}; `--rate {:.6g}` (in convert `--file-rate`) states it",
+      printed.text, rate, likely, likely, frames, std::abs(longer_s), longer_s > 0 ? "longer" : "shorter", likely);
 }
 
 Result<void> ExpectWords(TextScanner& scanner, std::initializer_list<std::string_view> words) {
@@ -238,7 +265,8 @@ Result<MotionHeader> ReadMotionHeader(TextScanner& scanner, std::size_t joints) 
     return Fail(scanner.At(extra), "found {} after the frame time; expected the first frame on a line of its own",
                 Quote(extra.text));
   }
-  return MotionHeader{static_cast<int>(count), RateOf(seconds), count_token};
+  return MotionHeader{static_cast<int>(count), RateOf(seconds), DescribeRoughTime(time_token, seconds, count),
+                      count_token};
 }
 
 /// Multiplies `rotation` from the right by a rotation about the axis `kAxis` (0 = x, 1 = y, 2 = z). Products with zero
@@ -352,7 +380,8 @@ bool TakeOffsetsFromFrame(const LocalPose& frame, Skeleton& skeleton) {
 
 }  // namespace
 
-Result<Clip> ReadBvh(std::string_view bytes, const std::string& file, std::vector<std::string>* remarks) {
+Result<Clip> ReadBvh(std::string_view bytes, const std::string& file, std::vector<std::string>* remarks,
+                     std::optional<double> told_hz) {
   const auto remark = [&](std::string text) {
     if (remarks != nullptr) remarks->push_back(std::move(text));
   };
@@ -365,7 +394,8 @@ Result<Clip> ReadBvh(std::string_view bytes, const std::string& file, std::vecto
   Clip clip;
   clip.name = std::filesystem::path(file).stem().string();
   clip.skeleton = std::move(hierarchy.skeleton);
-  clip.rate_hz = header.rate_hz;
+  clip.rate_hz = told_hz.value_or(header.rate_hz);
+  if (!told_hz && !header.rough_time.empty()) remark(header.rough_time);
   const LocalPose rest = RestPose(clip.skeleton);
   const auto announced = static_cast<std::size_t>(header.frame_count);
   while (scanner.SkipToText()) {

@@ -1,5 +1,6 @@
 #include "engine/formats/kinect_text.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include "engine/formats/number_rows.h"
@@ -13,7 +14,7 @@ constexpr std::array<std::size_t, kRoleCount> kJointOfRole = {0,  1,  20, 3,    
                                                               12, 13, 14, 15, 16, 17, 18, 19};
 constexpr std::size_t kPlaceColumns = 3 * kKinectV2JointCount;
 constexpr std::size_t kPoseColumns = 7 * kKinectV2JointCount;
-constexpr double kMaxDistance = 20;  // metres; a Kinect's range is 4.5
+constexpr double kMinDistance = 0.05, kMaxDistance = 20;  // metres; a Kinect's range is 0.5 to 4.5
 
 }  // namespace
 
@@ -25,11 +26,13 @@ Result<std::vector<KinectV2Frame>> ReadKinectV2Text(std::string_view text, const
   }
   const std::size_t stride = table.columns / kKinectV2JointCount;
   std::vector<KinectV2Frame> frames(table.RowCount());
+  double farthest = 0;
   for (std::size_t t = 0; t < frames.size(); ++t) {
     const auto row = table.Row(t);
     for (std::size_t j = 0; j < kKinectV2JointCount; ++j) {
       const glm::dvec3 place(row[stride * j], row[stride * j + 1], row[stride * j + 2]);
-      if (std::isnan(place.x + place.y + place.z) || place == glm::dvec3(0)) continue;
+      if (std::isnan(place.x + place.y + place.z) || place == glm::dvec3(0) || place == glm::dvec3(-1)) continue;
+      farthest = std::max(farthest, glm::length(place));
       if (glm::length(place) > kMaxDistance) {
         return Fail({file, table.lines[t]},
                     "joint {} is {:.1f} away; allowed: positions in metres, at most {} m from the sensor", j,
@@ -37,6 +40,9 @@ Result<std::vector<KinectV2Frame>> ReadKinectV2Text(std::string_view text, const
       }
       frames[t][j] = place;
     }
+  }
+  if (farthest > 0 && farthest < kMinDistance) {
+    return Fail({file}, "all joints are within {:.3g} of the sensor; allowed: positions in metres", farthest);
   }
   return frames;
 }

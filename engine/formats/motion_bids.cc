@@ -159,6 +159,20 @@ std::optional<glm::dvec3> UpOfSpatialAxes(std::string_view axes) {
   return axes.size() == 3 && pairs == "ALS" ? std::optional(up) : std::nullopt;
 }
 
+std::set<std::string, std::less<>> FramesOfBids(std::string_view channels_tsv) {
+  const auto heads = SplitAt(TakeLine(channels_tsv), '\t');
+  const auto index = [&](std::string_view head) {
+    return static_cast<std::size_t>(std::ranges::find(heads, head) - heads.begin());
+  };
+  const std::size_t type = index("type"), frame = index("reference_frame");
+  std::set<std::string, std::less<>> frames;
+  while (!channels_tsv.empty() && std::max(type, frame) < heads.size()) {
+    const auto cells = SplitAt(TakeLine(channels_tsv), '\t');
+    if (cells.size() == heads.size() && cells[type] == "POS" && cells[frame] != "n/a") frames.emplace(cells[frame]);
+  }
+  return frames;
+}
+
 Result<MarkerMotion> ReadMotionBids(std::string_view motion_tsv, std::string_view channels_tsv, const BidsFacts& facts,
                                     const std::array<std::string, 2>& files) {
   ASSIGN_OR_RETURN(const BidsChannels channels, ReadChannels(channels_tsv, files[1]));

@@ -1,8 +1,10 @@
 #pragma once
 
 #include <array>
+#include <functional>
 #include <glm/vec3.hpp>
 #include <optional>
+#include <set>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -34,6 +36,9 @@ struct BidsFacts {
 /// Returns the axis that points up. `axes` is a SpatialAxes of Motion-BIDS: one letter each for x, y and z, namely A or
 /// P (anterior, posterior), L or R, and S or I (superior, inferior). Returns nothing for other texts, such as "n/a".
 std::optional<glm::dvec3> UpOfSpatialAxes(std::string_view axes);
+
+/// Returns the reference frames that `channels_tsv` states for channels of the type POS; empty if it states none.
+std::set<std::string, std::less<>> FramesOfBids(std::string_view channels_tsv);
 
 /// Reads the POS channels of a recording: tracked points with the components x, y, z in m, cm, mm, in or ft. A point is
 /// not seen in a frame if one of its values is missing or, in files that write 0 for missing values, if all three are

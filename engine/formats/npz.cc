@@ -198,6 +198,34 @@ const NumberArray* Npz::Find(const std::string& name) const {
   return found == arrays.end() ? nullptr : &found->second;
 }
 
+bool Npz::Contains(const std::string& name) const {
+  return arrays.contains(name) || texts.contains(name) || std::ranges::find(skipped, name) != skipped.end();
+}
+
+Result<std::optional<ArrayRate>> RateOfArrays(const Npz& arrays, const std::string& file) {
+  constexpr double kMinRate_hz = 0.1, kMaxRate_hz = 10'000;
+  std::optional<ArrayRate> found;
+  for (const char* name : {"rate_hz", "fps", "framerate", "frame_rate", "mocap_framerate", "mocap_frame_rate"}) {
+    if (!arrays.Contains(name)) continue;
+    const NumberArray* rate = arrays.Find(name);
+    const double value = rate != nullptr && rate->values.size() == 1 ? rate->values[0] : 0;
+    if (!(value >= kMinRate_hz && value <= kMaxRate_hz)) {
+      return Fail({file},
+                  "{} is out of range, or not one number; allowed: one number from {:g} to {:g}, frames per second, or "
+                  "`--rate` (in convert `--file-rate`, in a joint map `rate: 30`)",
+                  name, kMinRate_hz, kMaxRate_hz);
+    }
+    if (found && found->rate_hz != value) {
+      return Fail({file},
+                  "{} is {:g} and {} is {:g}; allowed: one rate, or `--rate` (in convert `--file-rate`, in a joint map "
+                  "`rate: 30`)",
+                  found->name, found->rate_hz, name, value);
+    }
+    if (!found) found = ArrayRate{value, name};
+  }
+  return found;
+}
+
 std::string ShapeText(const NumberArray& array) {
   std::vector<std::string> sizes;
   for (const std::size_t size : array.shape) sizes.push_back(std::to_string(size));

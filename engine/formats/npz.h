@@ -2,6 +2,7 @@
 
 #include <cstddef>
 #include <map>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -24,10 +25,21 @@ struct Npz {
 
   /// Returns the array of that name, or null.
   const NumberArray* Find(const std::string& name) const;
+  /// Returns true if there is an array with this name, of any type.
+  bool Contains(const std::string& name) const;
 };
 
 /// Returns the shape as text for messages: "3 × 20 × 3".
 std::string ShapeText(const NumberArray& array);
+
+/// The frame rate that arrays state, and the name of the array that states it.
+struct ArrayRate {
+  double rate_hz = 0;
+  std::string name;
+};
+/// Finds the frame rate in one of the arrays rate_hz, fps, framerate, frame_rate, mocap_framerate and mocap_frame_rate;
+/// nullopt if there is none. Fails if such an array is not one number from 0.1 to 10,000, or if two of them differ.
+Result<std::optional<ArrayRate>> RateOfArrays(const Npz& arrays, const std::string& file);
 
 /// Returns true if bytes begin like a ZIP file.
 bool IsZip(std::string_view bytes);

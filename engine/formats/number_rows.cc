@@ -8,6 +8,7 @@
 #include "engine/base/names.h"
 #include "engine/base/text.h"
 #include "engine/base/utf8.h"
+#include "engine/formats/comma_use.h"
 
 namespace etude {
 namespace {
@@ -72,6 +73,11 @@ std::optional<double> NumberWithComma(std::string_view word) {
   return NumberOf(pointed);
 }
 
+/// Returns true if a word has only digits, points, commas and signs, such as 1,234.5, which has two separators.
+bool IsOfDigits(std::string_view word) {
+  return word.find(',') != std::string_view::npos && word.find_first_not_of("0123456789.,+-") == std::string_view::npos;
+}
+
 bool IsRemark(std::string_view line) { return line.empty() || line.starts_with('#') || line.starts_with("//"); }
 
 }  // namespace
@@ -85,6 +91,7 @@ Result<NumberRows> ReadNumberRows(std::string_view text, const std::string& file
   NumberRows table;
   char separator = 0;
   std::size_t headings = 0;
+  CommaUse commas;
   for (int line_number = 1; !text.empty(); ++line_number) {
     const char* const line_start = text.data();
     const std::string_view whole = TakeLine(text), line = Trimmed(whole);
@@ -111,6 +118,7 @@ Result<NumberRows> ReadNumberRows(std::string_view text, const std::string& file
         value = NumberWithComma(words[i]);
         table.has_decimal_commas = table.has_decimal_commas || value;
       }
+      if (value && separator != 0) commas.Add(words[i], i, whole, line_number);
       // In the first row, a word makes its column a column of texts.
       const bool may_be_text = is_first && allows_texts && table.texts.size() < kMaxTextColumns;
       if (!value && may_be_text) table.texts.emplace_back(i, words[i]);
@@ -121,13 +129,15 @@ Result<NumberRows> ReadNumberRows(std::string_view text, const std::string& file
         // positions. The larger limit `largest` applies only to the column of times.
         const int column = static_cast<int>(words[i].data() - line_start) + 1;
         return Fail({file, line_number, column},
-                    "value {}: {}; allowed: a number within ±{:g}, or nan for a missing one", i + 1, Quote(words[i]),
-                    value || !allows_texts ? largest : kMaxPosition);
+                    "value {}: {}; allowed: a number within ±{:g}{}, or nan for a missing one", i + 1, Quote(words[i]),
+                    value || !allows_texts ? largest : kMaxPosition,
+                    IsOfDigits(words[i]) ? ", without a thousands separator" : "");
       }
       table.values.push_back(*value);
     }
   }
   if (table.columns == 0) return Fail({file}, "no rows of numbers");
+  RETURN_IF_ERROR(commas.Check(file));
   return table;
 }
 

@@ -32,10 +32,11 @@ constexpr std::size_t kMaxNumberTextBytes = std::size_t{64} << 20;
 /// Reads a table of numbers. Empty lines and lines that begin with '#' or "//" are skipped. A missing value is "nan",
 /// "na", "n/a" or "null" in any case, or nothing between two commas or after the last comma. If the heading contains
 /// semicolons or tabs but no commas, rows that contain this separator are split only at it, and a comma within a
-/// number is a decimal comma. Quotes around a value are ignored. Returns an error, with the position as far as it
-/// is known, for a word, for infinity, for a number beyond ±`largest` (times may need a larger limit than positions),
-/// for rows of different lengths, for a table without rows, and for more than `kMaxNumberTextBytes` bytes. If
-/// `allows_texts`, up to a hundred columns whose first value is a word are columns of texts.
+/// number is a decimal comma; commas that separate thousands are refused (CommaUse). Quotes around a value are ignored.
+/// Returns an error, with the position as far as it is known, for a word, for infinity, for a number beyond ±`largest`
+/// (times may need a larger limit than positions), for rows of different lengths, for a table without rows, and for
+/// more than `kMaxNumberTextBytes` bytes. If `allows_texts`, up to a hundred columns whose first value is a word are
+/// columns of texts.
 Result<NumberRows> ReadNumberRows(std::string_view text, const std::string& file, double largest = 1e9,
                                   bool allows_texts = false);
 

@@ -9,6 +9,7 @@
 
 #include "engine/base/names.h"
 #include "engine/base/order_statistics.h"
+#include "engine/formats/usual_rates.h"
 
 namespace etude {
 namespace {
@@ -20,11 +21,15 @@ constexpr double kBriefTolerance = 0.05;
 constexpr double kEven = 0.1, kMaxEven = 0.45, kExact = 1e-4;
 constexpr double kMaxAddedValues = 1e7;
 
-/// Returns the last decimal to which all times were printed: the largest power of ten, at most 0.1, of which all times
-/// are multiples. Returns 0 if a time has more than six decimals.
-double PrintedStep(std::span<const double> times) {
+void AddRemark(std::string& remark, const std::string& text) {
+  if (!text.empty()) remark += (remark.empty() ? "" : "; ") + text;
+}
+
+/// Returns the last decimal to which all times were printed: the largest power of ten, at most `largest`, of which all
+/// times are multiples. Returns 0 if a time has more than six decimals.
+double PrintedStep(std::span<const double> times, double largest = 0.1) {
   constexpr double kRounding = 1e-6;
-  for (double scale = 10; scale < 2e6; scale *= 10) {
+  for (double scale = 1 / largest; scale < 2e6; scale *= 10) {
     const auto is_multiple = [&](double time) { return std::abs(time * scale - std::round(time * scale)) < kRounding; };
     if (std::ranges::all_of(times, is_multiple)) return 1 / scale;
   }
@@ -104,40 +109,99 @@ std::string DescribeGrid(const RowGrid& grid, std::size_t twice) {
   return Join(said, "; ");
 }
 
-/// Returns the grid of evenly spaced rows if their times are printed so coarsely that neighbouring rows share a time,
-/// e.g. 120 Hz printed to 0.01 s; nullopt for other rows. The grid has the first of these rates that fits within the
-/// rounding: the stated rate, the mean rate rounded to a whole number n, n · 1000 / 1001 (television), the mean rate.
-std::optional<RowGrid> GridOfCoarseTimes(std::span<const double> times, std::optional<double> told_hz) {
-  constexpr std::size_t kMinRows = 8;
-  constexpr double kMinPerStep = 1.05;  // minimum mean number of rows per step; with fewer, equal times are duplicates
-  const double step = PrintedStep(times), span = times.back() - times.front();
-  if (times.size() < kMinRows || step == 0 || !(span > 0) || std::ranges::adjacent_find(times) == times.end()) {
-    return std::nullopt;
+/// Returns true if the gaps of a grid of `frames` frames with `width` values each may be stored.
+bool AreGapsStorable(double frames, std::size_t rows, std::size_t width) {
+  return (frames - static_cast<double>(rows)) * static_cast<double>(width) <= kMaxAddedValues;
+}
+
+/// Rows that follow each other without a missing row.
+struct Stretch {
+  std::size_t first = 0, end = 0;
+};
+
+/// Splits coarsely printed times where they advance by more than one step of their last decimal: rows are missing
+/// there. Returns an empty list if times decrease, or if a step is too long.
+std::vector<Stretch> StretchesOf(std::span<const double> times, double step) {
+  std::vector<Stretch> stretches = {{0, 1}};
+  for (std::size_t i = 1; i < times.size(); ++i) {
+    const double advance = times[i] - times[i - 1];
+    if (advance < 0 || advance > kMaxStep_s) return {};
+    if (advance > 1.5 * step) stretches.push_back({i, i});
+    stretches.back().end = i + 1;
   }
-  const double mean = static_cast<double>(times.size() - 1) / span, whole = std::round(mean);
+  return stretches;
+}
+
+/// Returns the times at which the stretch's first row may have been recorded, as their middle, seconds; nullopt if the
+/// rate does not fit the stretch's times, which are rounded to `step`.
+std::optional<double> FirstTimeOf(std::span<const double> times, Stretch stretch, double rate, double step) {
+  double low = times[stretch.first], high = low;
+  for (std::size_t i = stretch.first; i < stretch.end; ++i) {
+    const double first = times[i] - static_cast<double>(i - stretch.first) / rate;
+    low = std::min(low, first);
+    high = std::max(high, first);
+  }
+  constexpr double kRounding = 1e-6;
+  return high - low <= step + kRounding ? std::optional((low + high) / 2) : std::nullopt;
+}
+
+/// Returns the rates that coarsely printed times may have, in the order of preference: the stated rate, the usual rates
+/// within `error` (a share) of the mean, nearest first, the mean rounded to a whole number n, n · 1000 / 1001
+/// (television), and the mean.
+std::vector<double> CoarseRates(double mean, double error, std::optional<double> told_hz) {
+  std::vector<double> rates(kUsualRates_hz.begin(), kUsualRates_hz.end());
+  std::ranges::sort(rates, {}, [&](double rate) { return std::pair(std::abs(rate - mean), rate); });
+  std::erase_if(rates, [&](double rate) { return std::abs(rate / mean - 1) > error; });
+  if (told_hz) rates.insert(rates.begin(), *told_hz);
+  const double whole = std::round(mean);
+  rates.insert(rates.end(), {whole, whole * kTelevision, mean});
+  return rates;
+}
+
+/// Returns the grid of rows whose times are printed so coarsely that neighbouring rows share a time, e.g. 120 Hz
+/// printed to 0.01 s; nullopt for other rows. The grid has the first of CoarseRates that fits all stretches without a
+/// missing row. A gap between two stretches gets the number of frames that their times suggest.
+std::optional<RowGrid> GridOfCoarseTimes(std::span<const double> times, std::optional<double> told_hz,
+                                         std::size_t width) {
+  constexpr std::size_t kMinRows = 8;   // of the file, and of the mean stretch
+  constexpr double kMinPerStep = 1.05;  // minimum mean number of rows per step; with fewer, equal times are duplicates
+  const double step = PrintedStep(times, 1);
+  if (times.size() < kMinRows || step == 0 || std::ranges::adjacent_find(times) == times.end()) return std::nullopt;
+  const std::vector<Stretch> stretches = StretchesOf(times, step);
+  double span = 0;
+  for (const auto& [first, end] : stretches) span += times[end - 1] - times[first];
+  if (!(span > 0) || stretches.size() * kMinRows > times.size()) return std::nullopt;
+  const double mean = static_cast<double>(times.size() - stretches.size()) / span;
   if (mean * step < kMinPerStep) return std::nullopt;
-  for (const double rate : {told_hz.value_or(whole), whole, whole * 1000 / 1001, mean}) {
-    double low = 0, high = 0;
-    for (std::size_t i = 0; i < times.size(); ++i) {
-      const double off = times[i] - times.front() - static_cast<double>(i) / rate;
-      low = std::min(low, off);
-      high = std::max(high, off);
+
+  const double error = static_cast<double>(stretches.size()) * step / span;  // each stretch is uncertain by a step
+  for (const double rate : CoarseRates(mean, error, told_hz)) {
+    std::vector<double> begins;
+    for (const Stretch& stretch : stretches) {
+      if (const auto first_s = FirstTimeOf(times, stretch, rate, step)) begins.push_back(*first_s);
     }
-    constexpr double kRounding = 1e-6;
-    if (!(high - low <= step + kRounding)) continue;
+    if (begins.size() < stretches.size()) continue;
+    // Place each stretch on the frame nearest to its first time, and holes between the stretches.
     RowGrid grid{.rate_hz = rate, .frames = {}, .remark = {}};
-    for (std::size_t i = 0; i < times.size(); ++i) grid.frames.push_back({i, i});
+    if (!AreGapsStorable((begins.back() - begins.front()) * rate, times.size(), width)) return std::nullopt;
+    for (std::size_t s = 0; s < stretches.size(); ++s) {
+      const auto [first, end] = stretches[s];
+      const double begin = std::round((begins[s] - begins.front()) * rate),
+                   last = static_cast<double>(grid.frames.size());
+      for (double k = last; k < begin; ++k) {
+        grid.frames.push_back({first - 1, first, (k + 1 - last) / (begin + 1 - last), true});
+      }
+      for (std::size_t i = first; i < end; ++i) grid.frames.push_back({i, i});
+    }
+    grid.is_even = grid.frames.size() == times.size();
     grid.remark = fmt::format(
         "its times are rounded to {:g} s, so several rows have the same time; the rows are taken as evenly spaced, at "
         "{:.6g} Hz",
         step, rate);
+    AddRemark(grid.remark, DescribeGrid(grid, 0));
     return grid;
   }
   return std::nullopt;
-}
-
-void AddRemark(std::string& remark, const std::string& text) {
-  if (!text.empty()) remark += (remark.empty() ? "" : "; ") + text;
 }
 
 }  // namespace
@@ -145,9 +209,16 @@ void AddRemark(std::string& remark, const std::string& text) {
 Result<std::optional<RowGrid>> GridOfRows(std::span<const double> times_s, std::span<const int> lines,
                                           std::optional<double> told_hz, std::size_t width, const std::string& file) {
   if (std::ranges::all_of(times_s, [](double time) { return std::isnan(time); })) return std::nullopt;
-  if (auto grid = GridOfCoarseTimes(times_s, told_hz)) return grid;
+  if (auto grid = GridOfCoarseTimes(times_s, told_hz, width)) return grid;
   ASSIGN_OR_RETURN(const auto rows, CountingRows(times_s, lines, file));
   if (rows.size() < 2) return std::nullopt;
+  constexpr std::size_t kMaxPerTime = 4;  // mean number of rows; with more, most of the motion would be left out
+  if (times_s.size() > kMaxPerTime * rows.size()) {
+    return Fail(
+        {file},
+        "{} rows have only {} different times; allowed: times with more decimals, or no times, but frame numbers",
+        times_s.size(), rows.size());
+  }
 
   // Fit the rate to the time steps between rows.
   std::vector<double> steps;
@@ -184,10 +255,16 @@ Result<std::optional<RowGrid>> GridOfRows(std::span<const double> times_s, std::
     break;
   }
 
-  // Refuse holes that would take too much memory.
+  // Refuse rates that no recording of people has, and holes that would take too much memory.
+  constexpr double kRounding = 1e-6;
+  if (grid.rate_hz > kMaxMotionRate_hz * (1 + kRounding)) {
+    return Fail({file},
+                "the times of {} rows are mostly {:.3g} s apart, which gives {:.4g} Hz; allowed: at most {:g} Hz, with "
+                "times in seconds",
+                rows.size(), 1 / grid.rate_hz, grid.rate_hz, kMaxMotionRate_hz);
+  }
   const double slack = tolerance(grid.rate_hz), count = std::floor(span * grid.rate_hz + slack) + 1;
-  const double added = (count - static_cast<double>(rows.size())) * static_cast<double>(width);
-  if (!(added <= kMaxAddedValues)) {
+  if (!AreGapsStorable(count, rows.size(), width)) {
     return Fail({file},
                 "{} rows in {:.6g} s, mostly {:.3g} s apart, leave gaps that are too large to fill; allowed: {:g} "
                 "missing values in total, with {} values per frame",
@@ -228,13 +305,21 @@ std::vector<double> TimesOfNumbers(std::span<const double> numbers, double rate_
 
 namespace {
 
-/// Returns a remark if the rows cover too short a time to judge the stated rate, but suggest another; otherwise "".
-std::string DescribeBriefClock(const MarkerRows& rows, double told_hz) {
-  if (rows.times_s.size() < 3) return "";
-  const double rate = static_cast<double>(rows.times_s.size() - 1) / (rows.times_s.back() - rows.times_s.front());
-  if (!(std::abs(rate / told_hz - 1) > kBriefTolerance)) return "";  // also if a time is missing
-  return fmt::format("{} states {:g} Hz, which is used, although {} suggests {:.3g} Hz: {} rows are too few to tell",
-                     rows.rate_name, told_hz, rows.time_name, rate, rows.times_s.size());
+/// Returns a remark if the times contradict the stated rate; otherwise "". Without a grid, the times are too brief or
+/// all equal, and the stated rate is used.
+std::string DescribeOtherRate(const MarkerRows& rows, double told_hz, const std::optional<RowGrid>& grid) {
+  const std::size_t count = rows.times_s.size();
+  if (count < 3) return "";
+  const double span = rows.times_s.back() - rows.times_s.front();
+  if (span == 0)
+    return fmt::format("all times in {} are equal; {} states {:g} Hz, which is used", rows.time_name, rows.rate_name,
+                       told_hz);
+  const double rate = grid ? grid->rate_hz : static_cast<double>(count - 1) / span;
+  const bool is_other = grid ? rate != told_hz : std::abs(rate / told_hz - 1) > kBriefTolerance;
+  if (!is_other) return "";  // also if a time is missing
+  return fmt::format("{} states {:g} Hz{}, but {} runs at {:g} Hz{}", rows.rate_name, told_hz,
+                     grid ? "" : ", which is used", rows.time_name, rate,
+                     grid ? std::string(", which is used") : fmt::format(": {} rows are too few to tell", count));
 }
 
 /// Returns a remark about the first place where the frame numbers jump and the times do not, or the reverse; "" if
@@ -272,13 +357,9 @@ Result<MarkerMotion> LayOnClock(MarkerRows rows, const std::string& file) {
   for (double& time : rows.times_s) time = scale.SecondsOf(time);
   AddRemark(markers.remark, scale.remark);
   ASSIGN_OR_RETURN(const auto grid, GridOfRows(rows.times_s, rows.lines, told, markers.names.size(), file));
-  if (!grid && told) AddRemark(markers.remark, DescribeBriefClock(rows, *told));
+  if (told) AddRemark(markers.remark, DescribeOtherRate(rows, *told, grid));
   if (rows.has_clock) AddRemark(markers.remark, DescribeOtherNumbers(rows));
   if (!grid) return std::move(markers);
-  if (told && grid->rate_hz != *told) {
-    AddRemark(markers.remark, fmt::format("{} states {:g} Hz, but {} runs at {:g} Hz, which is used",
-                                          rows.rate_name, *told, rows.time_name, grid->rate_hz));
-  }
   markers.rate_hz = grid->rate_hz;
   if (!rows.has_clock && rows.first_number > 1) {
     AddRemark(markers.remark,

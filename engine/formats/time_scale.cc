@@ -4,11 +4,70 @@
 
 #include <algorithm>
 #include <cmath>
-#include <utility>
+#include <string>
+#include <vector>
 
+#include "engine/base/names.h"
 #include "engine/base/order_statistics.h"
+#include "engine/formats/usual_rates.h"
 
 namespace etude {
+namespace {
+
+/// A unit in which files count time.
+struct TimeUnit {
+  double seconds = 1;
+  const char* name = "seconds";
+};
+constexpr TimeUnit kSeconds{}, kHundredths = {1e-2, "hundredths of a second"};
+constexpr TimeUnit kSmallUnits[] = {
+    {1e-3, "milliseconds"}, {1e-6, "microseconds"}, {1e-7, "ticks of 100 ns"}, {1e-9, "nanoseconds"}};
+
+/// Returns the unit in which a step between rows agrees with the stated rate; nullopt if there is none. A step of 1 may
+/// also be a frame.
+std::optional<TimeUnit> UnitByRate(double step, double rate_hz) {
+  constexpr double kTolerance = 0.1;
+  std::vector<TimeUnit> units = {kSeconds};
+  units.insert(units.end(), std::begin(kSmallUnits), std::end(kSmallUnits));
+  units.push_back(kHundredths);
+  if (step == 1) units.push_back({1 / rate_hz, "frame numbers"});
+  const auto fits = [&](const TimeUnit& unit) { return std::abs(step * unit.seconds * rate_hz - 1) < kTolerance; };
+  const auto found = std::ranges::find_if(units, fits);
+  return found == units.end() ? std::nullopt : std::optional(*found);
+}
+
+/// Returns the unit of times that, as seconds, have more than a second between rows; seconds for other times. The unit
+/// is the largest one that gives a usual rate, or else 10 to 400 Hz, or else at least 1 Hz. `remark` states the unit,
+/// its rate, and the other units that give 10 to 400 Hz.
+TimeUnit UnitByStep(double step, const std::string& times, std::string& remark) {
+  constexpr double kMinLikely_hz = 10, kMaxLikely_hz = 400;
+  if (!(step > 1)) return kSeconds;
+  const auto rate_in = [&](const TimeUnit& unit) { return 1 / (step * unit.seconds); };
+  const auto is_usual = [&](const TimeUnit& unit) {
+    constexpr double kNear = 0.01, kSlowSensors_hz[] = {10, 15, 20};
+    const auto is_near = [&](double rate) { return std::abs(rate_in(unit) / rate - 1) < kNear; };
+    return std::ranges::any_of(kUsualRates_hz, is_near) || std::ranges::any_of(kSlowSensors_hz, is_near);
+  };
+  const auto is_likely = [&](const TimeUnit& unit) {
+    return rate_in(unit) >= kMinLikely_hz && rate_in(unit) <= kMaxLikely_hz;
+  };
+  const auto is_possible = [&](const TimeUnit& unit) { return rate_in(unit) >= kMinMotionRate_hz; };
+  const auto* unit = std::ranges::find_if(kSmallUnits, is_usual);
+  if (unit == std::end(kSmallUnits)) unit = std::ranges::find_if(kSmallUnits, is_likely);
+  if (unit == std::end(kSmallUnits)) unit = std::ranges::find_if(kSmallUnits, is_possible);
+  if (unit == std::end(kSmallUnits)) return kSeconds;
+  std::vector<std::string> others;
+  for (const TimeUnit& other : {kHundredths, kSmallUnits[0], kSmallUnits[1], kSmallUnits[2], kSmallUnits[3]}) {
+    if (!is_likely(other) || other.seconds == unit->seconds) continue;
+    others.push_back(fmt::format("as {}, it would be {:.4g} Hz", other.name, rate_in(other)));
+  }
+  remark = fmt::format("{} taken as {}: as seconds, rows would be more than a second apart; the rate is {:.4g} Hz{}",
+                       times, unit->name, rate_in(*unit),
+                       others.empty() ? "" : " (" + Join(others) + "; `--rate`, in convert `--file-rate`, states it)");
+  return *unit;
+}
+
+}  // namespace
 
 double TimeScale::SecondsOf(double count) const {
   if (first == 0) return count * seconds;
@@ -17,30 +76,25 @@ double TimeScale::SecondsOf(double count) const {
 }
 
 TimeScale FindTimeScale(std::span<const double> times, const ToldRate& told) {
-  constexpr double kTolerance = 0.1, kMaxStart_s = 1e6;
-  constexpr std::size_t kMinSteps = 5;
-  constexpr std::pair<double, const char*> kUnits[] = {
-      {1e-3, "milliseconds"}, {1e-6, "microseconds"}, {1e-9, "nanoseconds"}};
+  constexpr double kMaxStart_s = 1e6;
+  constexpr std::size_t kMinSteps = 5;  // without a stated rate
   TimeScale scale;
-  // Choose the unit in which the median step agrees with the stated rate or, without a rate, is at most a second.
+  // Choose the unit by the stated rate, otherwise by the median step.
   std::vector<double> steps;
   for (std::size_t i = 1; i < times.size(); ++i) {
     if (const double step = times[i] - times[i - 1]; !std::isnan(step)) steps.push_back(step);
   }
-  if (steps.size() >= (told.rate_hz ? 1 : kMinSteps)) {
-    const double step = Median(std::move(steps));
-    const auto* const unit = std::ranges::find_if(kUnits, [&](const auto& one) {
-      return told.rate_hz ? std::abs(step * one.first * *told.rate_hz - 1) < kTolerance
-                          : step > 1 && step * one.first <= 1;
-    });
-    if (unit != std::end(kUnits)) {
-      scale.seconds = unit->first;
-      scale.remark = told.rate_hz
-                         ? fmt::format("{} is taken as {}, because the rows then have the {} of {:g} Hz", told.times,
-                                       unit->second, told.header, *told.rate_hz)
-                         : fmt::format("its times are taken as {}: as seconds, rows would be more than a second apart",
-                                       unit->second);
+  const std::size_t count = steps.size();
+  const double step = count == 0 ? 0 : Median(std::move(steps));
+  const auto by_rate = told.rate_hz ? UnitByRate(step, *told.rate_hz) : std::nullopt;
+  if (by_rate) {
+    scale.seconds = by_rate->seconds;
+    if (by_rate->seconds != kSeconds.seconds) {
+      scale.remark = fmt::format("{} is taken as {}, because the rows then have the {} of {:g} Hz", told.times,
+                                 by_rate->name, told.header, *told.rate_hz);
     }
+  } else if (count >= kMinSteps) {
+    scale.seconds = UnitByStep(step, told.rate_hz ? told.times + " is" : "its times are", scale.remark).seconds;
   }
   // Subtract the first time if it is very large, as in times since 1970.
   const auto first = std::ranges::find_if(times, [](double time) { return !std::isnan(time); });

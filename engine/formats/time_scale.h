@@ -24,9 +24,10 @@ struct ToldRate {
 };
 
 /// Finds the origin and unit of a file's times (NaN: missing). The unit is the second, with two exceptions. If the
-/// times agree with the stated rate only when they are read as milli-, micro- or nanoseconds, that unit is taken. If
-/// no rate is stated and rows would be more than a second apart, a smaller unit is taken. If the first time is beyond
-/// ±10⁶ s (as times since 1970 are), it becomes 0 s.
+/// times agree with the stated rate only in another unit (milli-, micro- or nanoseconds, ticks of 100 ns, hundredths of
+/// a second, frames), that unit is taken. If they agree in none, or no rate is stated, and six or more rows would be
+/// more than a second apart, the unit is taken that gives a usual rate, or else 10 to 400 Hz, or else at least 1 Hz. If
+/// the first time is beyond ±10⁶ s (as times since 1970 are), it becomes 0 s.
 TimeScale FindTimeScale(std::span<const double> times, const ToldRate& told);
 
 }  // namespace etude

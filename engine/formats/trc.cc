@@ -10,6 +10,7 @@
 
 #include "engine/base/names.h"
 #include "engine/base/text.h"
+#include "engine/formats/comma_use.h"
 #include "engine/formats/length_units.h"
 #include "engine/formats/row_clock.h"
 
@@ -199,7 +200,8 @@ Result<MarkerRows> ReadTrcRows(std::string_view text, const std::string& file) {
     text = after_names;
     --line;
   }
-  if (text.find(',') != std::string_view::npos) motion.remark = "its numbers have decimal commas";
+  const bool has_commas = text.find(',') != std::string_view::npos;
+  if (has_commas) motion.remark = "its numbers have decimal commas";
   // Check the size before any frame is stored: rows may leave out the cells of their last markers, so frames may take
   // far more memory than the text.
   constexpr double kMaxFrameBytes = 1e9;
@@ -211,16 +213,19 @@ Result<MarkerRows> ReadTrcRows(std::string_view text, const std::string& file) {
   }
   // Read the frames, their numbers and their times.
   constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
+  CommaUse commas;
   while (!text.empty()) {
     const std::string_view here = TakeLine(text, line);
     if (here.find_first_not_of(" \t") == std::string_view::npos) continue;
     ASSIGN_OR_RETURN(auto frame, ReadFrame(here, header, {file, line, 0}));
     motion.frames.push_back(std::move(frame));
     const auto cells = Cells(here);
+    for (std::size_t i = 0; has_commas && i < cells.size(); ++i) commas.Add(cells[i], i, here, line);
     rows.numbers.push_back(NumberIn(cells[0]).value_or(kNone));
     rows.times_s.push_back(NumberIn(cells[1]).value_or(kNone));
     rows.lines.push_back(line);
   }
+  RETURN_IF_ERROR(commas.Check(file));
   if (motion.frames.size() != header.frames) {
     return Fail({file}, "the file contains {} frames, but its header announces {}", motion.frames.size(),
                 header.frames);

@@ -9,6 +9,7 @@
 #include <string_view>
 
 #include "engine/base/names.h"
+#include "engine/formats/row_clock.h"
 #include "engine/retargeting/array_evidence.h"
 #include "engine/retargeting/joint_layouts.h"
 #include "engine/retargeting/map_file.h"
@@ -40,25 +41,23 @@ std::string TextOf(const Npz& arrays, const std::string& name) {
   return text;
 }
 
-/// Returns true if the file has an array with this name, of any type.
-bool Contains(const Npz& arrays, const std::string& name) {
-  return arrays.Find(name) != nullptr || arrays.texts.contains(name) ||
-         std::ranges::find(arrays.skipped, name) != arrays.skipped.end();
-}
-
-Result<double> RateOf(const Npz& arrays, const std::string& file) {
-  constexpr double kMinRate_hz = 0.1, kMaxRate_hz = 10'000;
-  const NumberArray* rate = arrays.Find("rate_hz");
-  const bool is_right =
-      rate != nullptr && rate->values.size() == 1 && rate->values[0] >= kMinRate_hz && rate->values[0] <= kMaxRate_hz;
-  if (is_right) return rate->values[0];
-  return Fail(
-      {file},
-      "{}; allowed: one number from {:g} to {:g}, as numpy.savez(…, positions=p, rate_hz=30) writes it, or `rate: "
-      "30` in a joint map",
-      Contains(arrays, "rate_hz") ? "rate_hz is out of range, or not one number"
-                                  : "positions without rate_hz, the frames per second",
-      kMinRate_hz, kMaxRate_hz);
+/// An array of the times of frames; `name` is "" without one.
+struct FrameTimes {
+  std::string name = "";
+  std::vector<double> values = {};
+};
+/// Finds the times of the frames: one number for each frame. Fails if an array that is named like times has another
+/// number of values.
+Result<FrameTimes> TimesOf(const Npz& arrays, std::size_t frames, const std::string& file) {
+  for (const char* name : {"times_s", "time_s", "timestamps_s", "times", "timestamps", "time", "timestamp", "t"}) {
+    const NumberArray* times = arrays.Find(name);
+    if (times == nullptr) continue;
+    if (times->values.size() == frames && frames > 1) return FrameTimes{name, times->values};
+    if (times->shape.size() != 1 || times->values.size() < 2 || std::string_view(name) == "t") continue;
+    return Fail({file}, "{} has {} values, and positions have {} frames; allowed: one time for each frame", name,
+                times->values.size(), frames);
+  }
+  return FrameTimes{};
 }
 
 /// Returns the length of the arrays' unit in metres; appends each assumption to `notes`.
@@ -69,7 +68,7 @@ Result<double> UnitOf(const Npz& arrays, const RawMotion& motion, const std::str
     unit = number->values[0];
   } else if (const std::string text = TextOf(arrays, "unit"); !text.empty()) {
     ASSIGN_OR_RETURN(unit, ReadUnit(text, {file}));
-  } else if (Contains(arrays, "unit")) {
+  } else if (arrays.Contains("unit")) {
     return Fail({file}, "unit is neither one number nor one text; allowed: its length in metres, or its name");
   }
   constexpr double kMinExtent_m = 0.3, kMaxExtent_m = 4;
@@ -92,16 +91,32 @@ Result<double> UnitOf(const Npz& arrays, const RawMotion& motion, const std::str
   return *likely;
 }
 
-/// Replaces positions that stand for gaps by NaN (RepairMarkers), and states this in the notes.
-void LeaveGapsOut(RawMotion& motion) {
+/// Replaces positions that stand for gaps by NaN (RepairMarkers), places the frames at even steps by their times, if
+/// there are any (LayOnClock), and states this in the notes. `rate` is the stated rate, if there is one.
+Result<void> LeaveGapsOut(const std::optional<ArrayRate>& rate, FrameTimes times, const std::string& file,
+                          RawMotion& motion) {
   MarkerMotion markers = MarkersOf(motion);
   RepairMarkers(markers);
-  if (markers.remark.empty()) return;
-  motion.notes.push_back(markers.remark);
-  auto place = motion.positions.begin();
-  for (const auto& frame : markers.frames) {
-    for (const auto& shown : frame) *place++ = shown.value_or(NotSeen());
+  if (!times.name.empty()) {
+    MarkerRows rows{.markers = std::move(markers),
+                    .times_s = std::move(times.values),
+                    .lines = {},
+                    .rate_name = rate ? rate->name : "",
+                    .time_name = "the array " + times.name};
+    ASSIGN_OR_RETURN(markers, LayOnClock(std::move(rows), file));
+    if (!rate && !markers.start_s) {
+      return Fail({file}, "{} has no two different times; allowed: times in seconds, or rate_hz", times.name);
+    }
+    motion.rate_hz = markers.rate_hz;
+    motion.start_s = markers.start_s;
   }
+  if (markers.remark.empty() && markers.frames.size() == motion.FrameCount()) return {};
+  if (!markers.remark.empty()) motion.notes.push_back(markers.remark);
+  motion.positions.clear();
+  for (const auto& frame : markers.frames) {
+    for (const auto& shown : frame) motion.positions.push_back(shown.value_or(NotSeen()));
+  }
+  return {};
 }
 
 NumberArray ArrayOf(std::vector<std::size_t> shape, std::vector<double> values = {}) {
@@ -231,11 +246,19 @@ Result<RawMotion> ReadRawNpz(const Npz& arrays, const std::string& file, const A
   }
   RawMotion motion;
   motion.name = file;
-  if (told.rate_hz) {
-    motion.rate_hz = *told.rate_hz;
-  } else {
-    ASSIGN_OR_RETURN(motion.rate_hz, RateOf(arrays, file));
+  std::optional<ArrayRate> rate;
+  FrameTimes times;
+  if (!told.rate_hz) {
+    ASSIGN_OR_RETURN(rate, RateOfArrays(arrays, file));
+    ASSIGN_OR_RETURN(times, TimesOf(arrays, shape[0], file));
+    if (!rate && times.name.empty()) {
+      return Fail(
+          {file},
+          "positions without rate_hz, the frames per second; allowed: one number from 0.1 to 10000, as "
+          "numpy.savez(…, positions=p, rate_hz=30) writes it, `times` in seconds, or `rate: 30` in a joint map");
+    }
   }
+  motion.rate_hz = rate ? rate->rate_hz : told.rate_hz.value_or(kJudgedRateHz);
   // Read the joints' names, and find the roles that they play.
   if (const auto names = arrays.texts.find("names"); names != arrays.texts.end()) {
     motion.joints = names->second;
@@ -264,7 +287,7 @@ Result<RawMotion> ReadRawNpz(const Npz& arrays, const std::string& file, const A
     if (!place) return Fail({file}, "positions of frame {}: joint {} lies beyond ±10⁹", i / joints, i % joints);
     motion.positions.push_back(*place);
   }
-  LeaveGapsOut(motion);
+  RETURN_IF_ERROR(LeaveGapsOut(rate, std::move(times), file, motion));
   // Convert to metres and Y up.
   double unit = told.metres_per_unit.value_or(1);
   if (told.metres_per_unit) {
@@ -280,7 +303,7 @@ Result<RawMotion> ReadRawNpz(const Npz& arrays, const std::string& file, const A
   }
   const std::string axis = TextOf(arrays, "up");
   if (!axis.empty() && axis != "y" && axis != "z") return Fail({file}, "up is {}; allowed: y, z", Quote(axis));
-  if (axis.empty() && Contains(arrays, "up")) return Fail({file}, "up is not one text; allowed: 'y', 'z'");
+  if (axis.empty() && arrays.Contains("up")) return Fail({file}, "up is not one text; allowed: 'y', 'z'");
   const UpAxis up = told.up.value_or(axis == "z" ? UpAxis::kZ : UpAxis::kY);
   if (up == UpAxis::kZ) {
     motion.notes.push_back(fmt::format("turned upright from Z up ({})", told.up ? "given" : "the file's `up`"));
@@ -331,6 +354,7 @@ std::vector<JointPositions> RolesIn(const RawMotion& motion) {
 
 MarkerMotion MarkersOf(const RawMotion& motion) {
   MarkerMotion markers{.rate_hz = motion.rate_hz, .names = motion.joints, .frames = {}};
+  markers.start_s = motion.start_s;
   for (std::size_t f = 0; f < motion.FrameCount(); ++f) {
     auto& frame = markers.frames.emplace_back(motion.joints.size());
     for (std::size_t j = 0; j < frame.size(); ++j) {

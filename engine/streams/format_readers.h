@@ -1,11 +1,15 @@
 #pragma once
 
+#include <glm/vec3.hpp>
 #include <string>
 #include <string_view>
 
 #include "engine/streams/recording.h"
 
 namespace etude {
+
+/// Returns true for three coordinates that stand for a missing joint: 0, 0, 0 or −1, −1, −1.
+inline bool IsNoPlace(const glm::dvec3& place) { return place == glm::dvec3(0) || place == glm::dvec3(-1); }
 
 /// Each function reads one format. The positions in the result are in the file's own unit. ReadStreamRecording then
 /// applies the checks that all formats share.

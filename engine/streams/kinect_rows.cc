@@ -102,7 +102,7 @@ RecordedFrame FrameOf(std::span<const double> row, const RowLayout& layout, bool
   for (std::size_t j = 0; j < layout.joints; ++j) {
     const auto at = row.subspan(layout.first + layout.stride * j, layout.stride);
     const glm::dvec3 place(at[0], at[1], at[2]);
-    if (std::isnan(place.x + place.y + place.z) || place == glm::dvec3(0)) continue;
+    if (std::isnan(place.x + place.y + place.z) || IsNoPlace(place)) continue;
     if (has_states && at[3] == 0) continue;
     if (has_states && at[3] == 1) states[j] = TrackingState::kInferred;
     places[j] = FromSensor(place);

@@ -15,6 +15,7 @@
 #include "engine/formats/number_rows.h"
 #include "engine/formats/row_clock.h"
 #include "engine/formats/trc.h"
+#include "engine/formats/usual_rates.h"
 #include "engine/streams/format_readers.h"
 
 namespace etude {
@@ -83,6 +84,17 @@ double MiddleDistance(const StreamRecording& recording, Role a, Role b) {
   return UpperMedian(std::move(lengths));
 }
 
+/// Returns the time of each row on the grid, seconds from the first row; empty if a row is on no frame.
+std::vector<double> TimesOnGrid(const RowGrid& grid, std::size_t rows) {
+  std::vector<double> times;
+  for (std::size_t k = 0; k < grid.frames.size(); ++k) {
+    const GridFrame& frame = grid.frames[k];
+    if (!frame.is_hole && frame.part == 0 && frame.row == times.size())
+      times.push_back(static_cast<double>(k) / grid.rate_hz);
+  }
+  return times.size() == rows ? times : std::vector<double>{};
+}
+
 /// Fails if a joint is farther from the sensor than a person can be.
 Result<void> CheckReach(const StreamRecording& recording, const std::string& file) {
   constexpr double kMaxDistance_m = 100;
@@ -115,6 +127,23 @@ Result<void> OrderTimes(StreamRecording& recording, const std::string& file) {
   }
   recording.frames = std::move(ordered);
   return {};
+}
+
+/// Fails if the frames have a rate at which nobody records people, because the clock is then in another unit.
+Result<void> CheckRate(const StreamRecording& recording, const std::string& file) {
+  constexpr std::size_t kMinSteps = 5;
+  std::vector<double> steps;
+  for (std::size_t t = 1; t < recording.frames.size(); ++t) {
+    steps.push_back(recording.frames[t].time_s - recording.frames[t - 1].time_s);
+  }
+  if (!recording.records_times || steps.size() < kMinSteps) return {};
+  const double rate = 1 / Median(std::move(steps));
+  constexpr double kRounding = 1e-6;
+  if (rate >= kMinMotionRate_hz * (1 - kRounding) && rate <= kMaxMotionRate_hz * (1 + kRounding)) return {};
+  return Fail({file},
+              "its times give {:.3g} Hz; allowed: {:g} to {:g} Hz, with times in the format's unit; `--rate 30` reads "
+              "frames at a rate, without their times",
+              rate, kMinMotionRate_hz, kMaxMotionRate_hz);
 }
 
 }  // namespace
@@ -209,6 +238,7 @@ Result<StreamRecording> ReadStreamRecording(std::string_view text, const std::st
   // Apply the checks that all formats share.
   RETURN_IF_ERROR(CheckRoles(recording, file));
   RETURN_IF_ERROR(OrderTimes(recording, file));
+  RETURN_IF_ERROR(CheckRate(recording, file));
   if (!recording.is_level) RETURN_IF_ERROR(ToMetres(recording, file));
   RETURN_IF_ERROR(CheckReach(recording, file));
   return recording;
@@ -250,10 +280,12 @@ Result<StreamRecording> ReadTrcStream(std::string_view text, const std::string& 
   for (const std::string& remark : {markers.remark, scale.remark}) {
     if (!remark.empty()) recording.remarks.push_back(remark);
   }
-  const bool is_even = !grid || grid->is_even;
+  const std::vector<double> evenly = grid ? TimesOnGrid(*grid, markers.frames.size()) : std::vector<double>{};
   for (std::size_t t = 0; t < markers.frames.size(); ++t) {
     RecordedFrame& frame = recording.frames.emplace_back();
-    frame.time_s = is_even ? static_cast<double>(t) / recording.rate_hz : rows.times_s[t] - rows.times_s.front();
+    frame.time_s = !grid            ? static_cast<double>(t) / recording.rate_hz
+                   : evenly.empty() ? rows.times_s[t] - rows.times_s.front()
+                                    : evenly[t];
     frame.line = rows.lines[t];
     for (std::size_t marker = 0; marker < markers.names.size(); ++marker) {
       if (const auto role = FindRole(markers.names[marker])) frame.places[Index(*role)] = markers.frames[t][marker];

@@ -185,10 +185,10 @@ const Json* ConfidencesOf(const Json& body) {
 
 /// Converts a position from the depth camera's space (X to the camera's right, Y down, Z away from the camera,
 /// millimetres) to a space with Y up in which a person who faces the camera looks along +Z. Returns nullopt for a
-/// missing or zero position.
+/// missing position.
 std::optional<glm::dvec3> PlaceAt(const Json& joint) {
   const auto x = NumberAt(joint, 0), y = NumberAt(joint, 1), z = NumberAt(joint, 2);
-  if (!x || !y || !z || (*x == 0 && *y == 0 && *z == 0)) return std::nullopt;
+  if (!x || !y || !z || IsNoPlace({*x, *y, *z})) return std::nullopt;
   return glm::dvec3(*x, -*y, -*z);
 }
 
@@ -340,7 +340,7 @@ class NtuReader {
     const glm::dvec3 p(values[0], values[1], values[2]);
     const double state = values[11];
     Joint joint;
-    if (is_missing || p == glm::dvec3(0) || state == 0) return joint;
+    if (is_missing || IsNoPlace(p) || state == 0) return joint;
     joint.place = glm::dvec3(-p.x, p.y, -p.z);  // converted as in kinect_rows.cc (FromSensor)
     if (state == 1) joint.state = TrackingState::kInferred;
     return joint;

@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <map>
 #include <nlohmann/json.hpp>
+#include <set>
 
 #include "engine/base/names.h"
 #include "engine/base/utf8.h"
@@ -156,8 +157,8 @@ Result<BidsFacts> ReadBidsFacts(const std::string& file, CappedReader& reader) {
 }
 
 /// Returns the rule for the up axis of a Motion-BIDS recording. The optional file _channels.json states the axes of its
-/// reference frames. Fails if two of them differ.
-Result<UpRule> UpOfBids(const std::string& file, CappedReader& reader) {
+/// reference frames. Fails if two of them differ. Only the frames named in `used` count, or all if `used` is empty.
+Result<UpRule> UpOfBids(const std::string& file, const std::set<std::string, std::less<>>& used, CappedReader& reader) {
   UpRule rule = ArrayUp();
   std::error_code error;
   if (!fs::exists(file, error)) return rule;
@@ -166,7 +167,8 @@ Result<UpRule> UpOfBids(const std::string& file, CappedReader& reader) {
   const Json frames = json.is_object() ? json.value("reference_frame", Json()) : Json();
   const Json levels = frames.is_object() ? frames.value("Levels", Json()) : Json();
   std::string stated;
-  for (const Json& level : levels.is_object() ? levels : Json()) {
+  for (const auto& [name, level] : levels.items()) {
+    if (!used.empty() && !used.contains(name)) continue;
     const auto axes = level.is_object() ? level.value("SpatialAxes", Json()) : Json();
     const auto up = axes.is_string() ? UpOfSpatialAxes(axes.get<std::string>()) : std::nullopt;
     if (!up) continue;
@@ -226,6 +228,7 @@ Result<ClipFile> ReadClipFile(const std::string& path, const std::optional<std::
           notes.push_back(std::move(crossing));
         }
         file = FileOfBody(ClipFormat::kNpz, *motion, path, std::move(notes));
+        file.bodies[0].start_s = raw.start_s;
         if (const auto up = ToldUp(options)) file.bodies[0].up = {.axis = AxisOf(*up), .evidence = UpEvidence::kTold};
         return file;
       }
@@ -257,7 +260,7 @@ Result<ClipFile> ReadClipFile(const std::string& path, const std::optional<std::
     ASSIGN_OR_RETURN(const auto channels, reader.Read(stem + "_channels.tsv"));
     ASSIGN_OR_RETURN(const BidsFacts facts, ReadBidsFacts(stem + "_motion.json", reader));
     ASSIGN_OR_RETURN(auto joints, ReadMotionBids(bytes, channels, facts, {path, stem + "_channels.tsv"}));
-    ASSIGN_OR_RETURN(auto up, UpOfBids(stem + "_channels.json", reader));
+    ASSIGN_OR_RETURN(auto up, UpOfBids(stem + "_channels.json", FramesOfBids(channels), reader));
     return FileOfMarkers(ClipFormat::kBids, std::move(joints), path, options, std::move(up));
   }
   // Try markers, and recordings of runs.
@@ -324,7 +327,7 @@ Result<ClipFile> ReadClipFile(const std::string& path, const std::optional<std::
         "motions",
         DescribeOtherFile(bytes, first.text));
   }
-  ASSIGN_OR_RETURN(auto clip, ReadBvh(bytes, path, &file.remarks));
+  ASSIGN_OR_RETURN(auto clip, ReadBvh(bytes, path, &file.remarks, ToldOfArrays(options).rate_hz));
   ClipFile read = FileOfOne(ClipFormat::kBvh, std::move(clip));
   read.remarks = std::move(file.remarks);
   return read;

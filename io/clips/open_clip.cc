@@ -214,9 +214,12 @@ Result<std::vector<SourceClip>> ReadClips(const std::string& reference, const Op
   } else if (!file.has_rate) {
     say(fmt::format("the file states no rate; {:g} Hz is assumed", file.clips.front().rate_hz));
   }
-  const auto is_slow = [](const Clip& clip) { return clip.rate_hz < 1; };
+  const auto is_slow = [](const Clip& clip) { return clip.rate_hz <= 1; };
   if (const auto slow = std::ranges::find_if(file.clips, is_slow); slow != file.clips.end() && !is_recording) {
-    say(fmt::format("its frames are {:.3g} s apart: does the file count in milliseconds?", 1 / slow->rate_hz));
+    say(fmt::format(
+        "its frames are {:.3g} s apart: does the file count in milliseconds or in frames? `--rate` (in convert "
+        "`--file-rate`) states the rate",
+        1 / slow->rate_hz));
   }
   if (is_recording && wanted.animation == "") wanted.animation = options.recorded->OwnTrack(file.clips);
   const auto shown_of = [&](std::size_t i) {

@@ -534,6 +534,10 @@ class Formats(MotionFileCase):
         axes.write_text(text.replace("LSA", "ALS"))
         self.assertIn("Z up (its SpatialAxes)", self.ends(0, "clip", "info", motion).stdout)
         axes.write_text(text.replace('"Levels": {', '"Levels": {"other": {"SpatialAxes": "ALS"}, '))
+        self.assertIn("Y up (its SpatialAxes)", self.ends(0, "clip", "info", motion).stdout)  # no channel uses the other
+        (channels,) = folder.rglob("*_channels.tsv")
+        lines = channels.read_text().splitlines()
+        channels.write_text("\n".join(line.replace("global", "other") if line.startswith("head_") else line for line in lines) + "\n")
         self.assertIn("SpatialAxes ALS and LSA; allowed: the same for all", self.ends(2, "clip", "info", motion).stderr)
         axes.write_text("{")
         self.assertIn("_channels.json", self.ends(2, "clip", "info", motion).stderr)

@@ -2,6 +2,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -172,6 +173,45 @@ TEST(BvhHabits, IncludePlacesRelativeToTheOffset) {
   EXPECT_EQ(absolute->frames[1][1].translation, glm::dvec3(0, 10.5, 0));
   EXPECT_EQ(absolute->frames[1][2].translation, glm::dvec3(5, 0, .1));
   EXPECT_EQ(remarks.size(), 1u);
+}
+
+/// Returns the remarks on a file of `frames` frames with this frame time.
+std::vector<std::string> RemarksOnFrameTime(const std::string& time, int frames, std::optional<double> told_hz = {}) {
+  std::string text = Replaced(kSmallBvh, ".0083333", time);
+  text = Replaced(text, "Frames: 2", "Frames: " + std::to_string(frames));
+  for (int frame = 2; frame < frames; ++frame) text += "1 2 3 90 0 0 0 0 0\n";
+  std::vector<std::string> remarks;
+  const auto clip = ReadBvh(text, "a.bvh", &remarks, told_hz);
+  EXPECT_TRUE(clip);
+  if (clip) EXPECT_NEAR(clip->rate_hz, told_hz.value_or(1 / std::stod(time)), 1e-3);
+  return remarks;
+}
+
+TEST(BvhHabits, FrameTimesOfFewDigitsAreTakenAndSaid) {
+  // 1 / 30 s - 0.033 s = 1 / 3000 s, in 600 frames 0.2 s.
+  EXPECT_EQ(
+      RemarksOnFrameTime("0.033", 600),
+      std::vector<std::string>{"the Frame Time 0.033 is taken as it is, 30.303 Hz, but has few digits, and 1 / 30 s "
+                               "has the same: at 30 Hz its 600 frames last 0.2 s longer; `--rate 30` (in convert "
+                               "`--file-rate`) states it"});
+  for (const auto& [time, likely] :
+       {std::pair("0.017", "1 / 60 s has the same: at 60 Hz its 600 frames last 0.2 s sho"),
+        {"0.016", "1 / 60 s has the same: at 60 Hz its 600 frames last 0.4 s longer"},
+        {"0.0083", "1 / 120 s has the same: at 120 Hz its 600 frames last 0.02 s longer"},
+        {"0.042", "1 / 24 s has the same: at 24 Hz its 600 frames last 0.2 s shorter"},
+        {"0.0334", "1 / 29.97 s has the same"}}) {
+    const auto remarks = RemarksOnFrameTime(time, 600);
+    ASSERT_EQ(remarks.size(), 1u) << time;
+    EXPECT_THAT(remarks[0], ::testing::HasSubstr(likely));
+  }
+  // The controls: usual rates and whole rates, enough digits, a drift of less than half a frame, and a stated rate.
+  for (const char* time :
+       {"0.04", "0.02", "0.05", "0.01", "0.1", "0.0125", "0.0333333", ".0083333", "0.0333667", "0.041708"}) {
+    EXPECT_THAT(RemarksOnFrameTime(time, 600), ::testing::IsEmpty()) << time;
+  }
+  EXPECT_THAT(RemarksOnFrameTime("0.0333", 400), ::testing::IsEmpty()) << "0.4 frames";
+  EXPECT_EQ(RemarksOnFrameTime("0.0333", 600).size(), 1u) << "0.6 frames";
+  EXPECT_THAT(RemarksOnFrameTime("0.033", 600, 30), ::testing::IsEmpty());
 }
 
 }  // namespace

@@ -99,6 +99,23 @@ TEST(JointCsv, TakesTabsDecimalCommasQuotesAndTimesSince1970AndLeavesTextsOut) {
                                 "columns of texts are left out: label, head_note");
   }
   const auto read = [](const std::string& text) { return testing::Refusal(ReadJointCsv(text, "m.csv")); };
+  // Commas that separate thousands.
+  const std::string few = "head_x_m;head_y_m;head_z_m\n";
+  EXPECT_EQ(
+      read(few + "12.5;1;2\n3.5;1,891;2\n"),
+      "m.csv:3:5: value 2: '1,891' has a thousands separator, because other numbers have a decimal point, as 12.5; "
+      "allowed: numbers without one, e.g. 1234.5");
+  EXPECT_EQ(read(few + "1;998;2\n3;1,001;2\n"),
+            "m.csv:3:3: value 2: '1,001' has a thousands separator; allowed: numbers without one, e.g. 1234.5");
+  for (const char* number : {"1,234.5", "1.234,5", "1,234,567"}) {
+    EXPECT_EQ(
+        read(few + "1;2;3\n1;" + number + ";3\n"),
+        fmt::format("m.csv:3:3: value 2: '{}'; allowed: a number within ±1e+09, without a thousands separator, or "
+                    "nan for a missing one",
+                    number));
+  }
+  EXPECT_TRUE(ReadJointCsv(few + "1;865,636;2\n0;1,234;2\n", "m.csv")) << "the control: each column is alike";
+  EXPECT_TRUE(ReadJointCsv(few + "0,5;1,234;2\n1.5;1;2\n", "m.csv")) << "0,5 is a decimal comma";
   EXPECT_EQ(read("head_x_m,head_y_m,head_z_m\n0,1,0,2,0,3\n"),
             "m.csv:1: 3 headings over 6 columns; if numbers have decimal commas, columns must be separated by "
             "semicolons or tabs");

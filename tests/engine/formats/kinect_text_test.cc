@@ -52,10 +52,13 @@ TEST(KinectText, TakesZerosAndNanForMissingJoints) {
   row.replace(0, row.find(" 0.2 "), "0 0 0");
   const std::size_t second = row.find("0.2 ");
   row.replace(second, 3, "nan");
+  const std::size_t third = row.find("0.4 0.5 2");
+  row.replace(third, 9, "-1 -1 -1");
   ASSERT_OK(read, ReadKinectV2Text(row, "k.txt"));
   EXPECT_FALSE((*read)[0][0]);
   EXPECT_FALSE((*read)[0][1]);
   EXPECT_TRUE((*read)[0][2]);
+  EXPECT_FALSE((*read)[0][3]);
 }
 
 TEST(KinectText, NamesTheLineOfWhatItRefuses) {
@@ -68,6 +71,9 @@ TEST(KinectText, NamesTheLineOfWhatItRefuses) {
   EXPECT_TRUE(KinectComplaint(good + "\ninf" + good.substr(3)).starts_with("k.txt:2:1: value 1"));
   EXPECT_TRUE(KinectComplaint(Row(0, true) + "\n" + Row(4000, true)).starts_with("k.txt:2: joint 0 is 4000"));
   EXPECT_NE(KinectComplaint("1 2 3\n").find("3 values in a row; a Kinect v2 recording has 75"), std::string::npos);
+  std::string tiny;
+  for (int i = 0; i < 75; ++i) tiny += "0.002 ";
+  EXPECT_EQ(KinectComplaint(tiny), "k.txt: all joints are within 0.00346 of the sensor; allowed: positions in metres");
   EXPECT_EQ(KinectComplaint(""), "k.txt: no rows of numbers");
   EXPECT_EQ(KinectComplaint("# only remarks\n"), "k.txt: no rows of numbers");
 }

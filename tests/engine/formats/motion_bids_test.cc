@@ -25,6 +25,13 @@ std::map<std::string, std::string> Written(const BodyMotion& motion) {
 
 const std::string kStem = "sub-01/motion/sub-01_task-aclap1_tracksys-etude";
 
+TEST(MotionBids, ReferenceFramesAreThoseOfItsPositions) {
+  const std::string heads = "name\tcomponent\ttype\ttracked_point\tunits\treference_frame\n";
+  const std::string rows = "a_x\tx\tPOS\ta\tm\tlab\na_w\tquat_w\tORNT\ta\tn/a\tsensor\nb_x\tx\tPOS\tb\tm\tn/a\n";
+  EXPECT_EQ(FramesOfBids(heads + rows), (std::set<std::string, std::less<>>{"lab"}));
+  EXPECT_TRUE(FramesOfBids("name\ttype\na_x\tPOS\n").empty());
+}
+
 TEST(MotionBids, SpatialAxesNameTheUpAxis) {
   EXPECT_EQ(UpOfSpatialAxes("LSA"), glm::dvec3(0, 1, 0));
   EXPECT_EQ(UpOfSpatialAxes("ALS"), glm::dvec3(0, 0, 1));

@@ -80,7 +80,68 @@ TEST(RowClock, RowsMoreThanASecondApartAreMilliseconds) {
   ASSERT_OK(laid, LayOnClock(RowsAt(times), "a.csv"));
   EXPECT_NEAR(laid->rate_hz, 30, 1e-9);
   EXPECT_EQ(laid->frames.size(), 60u);
-  EXPECT_EQ(laid->remark, "its times are taken as milliseconds: as seconds, rows would be more than a second apart");
+  EXPECT_EQ(
+      laid->remark,
+      "its times are taken as milliseconds: as seconds, rows would be more than a second apart; the rate is 30 Hz");
+}
+
+/// Returns `count` rows whose times are counted in units of `unit_s` seconds, rounded if the unit is small.
+MarkerRows RowsCounted(double rate_hz, double unit_s, double told_hz = 0) {
+  MarkerRows rows = RowsAt(TimesAt(rate_hz, 120), told_hz);
+  for (double& time : rows.times_s) time = unit_s > 1 ? time / unit_s : std::round(1e4 * time / unit_s) / 1e4;
+  return rows;
+}
+
+TEST(RowClock, TimesInOtherUnitsGetTheirRate) {
+  // Without a stated rate. Ticks of 100 ns are .NET's; microseconds of a slow sensor stay microseconds.
+  for (const double rate : {30.0, 60.0, 90.0, 120.0, 240.0}) {
+    for (const auto& [unit_s, name] :
+         {std::pair(1e-3, "milliseconds"), {1e-6, "microseconds"}, {1e-7, "ticks of 100 ns"}, {1e-9, "nanoseconds"}}) {
+      ASSERT_OK(laid, LayOnClock(RowsCounted(rate, unit_s), "a"));
+      EXPECT_NEAR(laid->rate_hz, rate, 1e-3 * rate) << name;
+      EXPECT_EQ(laid->frames.size(), 120u);
+      EXPECT_THAT(laid->remark, HasSubstr(fmt::format("taken as {}:", name)));
+      EXPECT_THAT(laid->remark, HasSubstr(fmt::format("the rate is {:.4g} Hz", rate)));
+    }
+  }
+  EXPECT_NEAR(LayOnClock(RowsCounted(15, 1e-6), "a")->rate_hz, 15, 1e-3);
+  // With a stated rate, also hundredths of a second and frame numbers; a wrong header does not hide the unit.
+  for (const auto& [unit_s, name] :
+       {std::pair(1e-2, "hundredths of a second"), {1e-7, "ticks of 100 ns"}, {1.0 / 30, "frame numbers"}}) {
+    ASSERT_OK(laid, LayOnClock(RowsCounted(30, unit_s, 30), "a"));
+    EXPECT_EQ(laid->rate_hz, 30);
+    EXPECT_EQ(laid->frames.size(), 120u);
+    EXPECT_THAT(laid->remark, HasSubstr(fmt::format("the column Time is taken as {}, because", name)));
+  }
+  ASSERT_OK(wrong, LayOnClock(RowsCounted(30, 1e-3, 25), "a"));
+  EXPECT_EQ(wrong->rate_hz, 30);
+  EXPECT_THAT(wrong->remark, HasSubstr("the column Time is taken as milliseconds: as seconds, rows would be more"));
+  EXPECT_THAT(wrong->remark, HasSubstr("DataRate states 25 Hz, but the column Time runs at 30 Hz, which is used"));
+}
+
+TEST(RowClock, HundredthsThatMayBeMillisecondsAreSaid) {
+  ASSERT_OK(laid, LayOnClock(RowsCounted(30, 1e-2), "a"));
+  EXPECT_NEAR(laid->rate_hz, 300, 1e-6);
+  EXPECT_THAT(laid->remark, HasSubstr("the rate is 300 Hz (as hundredths of a second, it would be 30 Hz; `--rate`, in "
+                                      "convert `--file-rate`, states it)"));
+}
+
+TEST(RowClock, RatesAboveTenKilohertzAreRefused) {
+  const auto reason = [](double unit_s) {
+    const auto laid = LayOnClock(RowsCounted(30, unit_s), "a");
+    return laid ? std::string("no complaint") : ToString(laid.error());
+  };
+  EXPECT_THAT(reason(3600), HasSubstr("which gives 1.08e+05 Hz; allowed: at most 10000 Hz, with times in seconds"));
+  EXPECT_EQ(reason(60), "no complaint") << "1800 Hz is possible";
+}
+
+TEST(RowClock, EqualTimesLeaveTheStatedRate) {
+  ASSERT_OK(laid, LayOnClock(RowsAt(std::vector<double>(20, 4.0), 30), "a"));
+  EXPECT_EQ(laid->rate_hz, 30);
+  EXPECT_EQ(laid->remark, "all times in the column Time are equal; DataRate states 30 Hz, which is used");
+  ASSERT_OK(brief, LayOnClock(RowsAt(TimesAt(30, 14), 60), "a"));
+  EXPECT_EQ(brief->remark,
+            "DataRate states 60 Hz, which is used, but the column Time runs at 30 Hz: 14 rows are too few to tell");
 }
 
 TEST(RowClock, TimesMayBePrintedWithFewDecimals) {
@@ -112,6 +173,37 @@ TEST(RowClock, TimesThatSeveralRowsShareByRoundingKeepTheirRate) {
   ASSERT_OK(twice, LayOnClock(RowsAt(times, 0, 0.01), "a"));
   EXPECT_EQ(twice->rate_hz, 100);
   EXPECT_EQ(twice->remark, "1 rows have the same time as another; the last of these is used");
+}
+
+TEST(RowClock, CoarseTimesKeepTheirRateBesideHoles) {
+  for (const double rate : {119.88, 120.0, 144.0, 200.0, 240.0}) {
+    for (const double printed : {0.01, 0.1, 1.0}) {
+      const int lost = static_cast<int>(6 * rate) + 70, found = lost + static_cast<int>(4 * rate), count = 16 * 240;
+      SCOPED_TRACE(fmt::format("{} Hz to {} s", rate, printed));
+      for (const double told : {0.0, rate}) {
+        if (told == 0 && (rate == 119.88 || printed > 0.01)) continue;  // other rates fit as well
+        ASSERT_OK(laid, LayOnClock(RowsAt(TimesAt(rate, count, lost, found), told, printed), "a"));
+        EXPECT_NEAR(laid->rate_hz, rate, 1e-9 * rate);
+        ASSERT_NEAR(static_cast<double>(laid->frames.size()), count, 1) << "the hole may be a frame longer or shorter";
+        EXPECT_LT(FarthestFromCurve(*laid), 1.21 / rate) << "at 1.2 m/s, a frame beside its time";
+        EXPECT_THAT(laid->remark, HasSubstr("several rows have the same time"));
+        EXPECT_THAT(laid->remark, HasSubstr("in 1 gap of at most 4"));
+        for (int k = 0; k < lost; ++k) EXPECT_TRUE(laid->frames[static_cast<std::size_t>(k)][0]) << k;
+      }
+    }
+  }
+  // With hundredths of a second at 120 Hz, the hole's length is exact.
+  ASSERT_OK(exact, LayOnClock(RowsAt(TimesAt(120, 994, 400, 460), 0, 0.01), "a"));
+  EXPECT_EQ(exact->rate_hz, 120);
+  EXPECT_EQ(exact->frames.size(), 994u);
+  EXPECT_LT(FarthestFromCurve(*exact), 1e-9);
+  // The control: at 100 Hz, a repeated time beside a hole is a repeated row.
+  std::vector<double> times = TimesAt(100, 200, 80, 100);
+  times.insert(times.begin() + 30, times[30]);
+  ASSERT_OK(twice, LayOnClock(RowsAt(times, 0, 0.01), "a"));
+  EXPECT_EQ(twice->rate_hz, 100);
+  EXPECT_EQ(twice->frames.size(), 200u);
+  EXPECT_THAT(twice->remark, HasSubstr("1 rows have the same time as another; the last of these is used"));
 }
 
 TEST(RowClock, TimesSince1970AndInSmallerUnitsCountFromTheFirstRow) {
@@ -186,6 +278,9 @@ TEST(RowClock, RefusesWhatIsNoClock) {
             "a:4: the time 700 s follows 0.1 s; allowed: a clock that advances by at most 600 s per row");
   EXPECT_THAT(reason({0, 1e-4, 2e-4, 500}, 3),
               HasSubstr("allowed: 1e+07 missing values in total, with 3 values per frame"));
+  EXPECT_EQ(
+      reason({0, 0, 0, 0, 0, 0, 1, 2, 2, 2, 2, 2, 2}),
+      "a: 13 rows have only 3 different times; allowed: times with more decimals, or no times, but frame numbers");
   EXPECT_EQ(reason({nan, nan, nan}), "no complaint");
   EXPECT_EQ(reason({4, 4, 4}), "no complaint") << "a column that tells nothing";
 }

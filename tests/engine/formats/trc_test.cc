@@ -183,6 +183,11 @@ TEST(ReadTrc, TakesDecimalCommasAndSaysSo) {
   EXPECT_EQ(read->frames, pointed->frames);
   EXPECT_EQ(read->remark, "its numbers have decimal commas");
   EXPECT_EQ(pointed->remark, "");
+  // A control: a comma between thousands, beside times with decimal points.
+  std::string thousands = WriteTrc(Steps(), "steps");
+  thousands.replace(thousands.rfind('\t') + 1, std::string::npos, "1,891\n");
+  EXPECT_THAT(testing::Refusal(ReadTrc(thousands, "a.trc")),
+              ::testing::HasSubstr("'1,891' has a thousands separator, because other numbers have a decimal point"));
 }
 
 TEST(ReadTrc, KnowsUnitsByTheirNamesInAnyCase) {

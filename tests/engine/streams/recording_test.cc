@@ -1,5 +1,6 @@
 #include "engine/streams/recording.h"
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -105,6 +106,65 @@ TEST(Streams, AClockMayCountMicrosecondsMillisecondsSecondsOrFrames) {
   // Whole milliseconds at 60 Hz, and fractions of milliseconds at any rate, are read as milliseconds.
   EXPECT_EQ(Made(WithClock(rows, 1000, 17)).stream.frames.size(), 31u);
   EXPECT_EQ(Made(WithClock(rows, 1000.5, 8)).stream.frames.size(), 15u);
+}
+
+TEST(Streams, ClocksInAnotherUnitAreRefused) {
+  const std::string text = AzureText(WavingMotion());
+  const auto scaled = [&](double factor) {
+    std::string out;
+    const std::string key = "\"timestamp_usec\":";
+    std::size_t at = 0;
+    for (std::size_t found; (found = text.find(key, at)) != std::string::npos;) {
+      const std::size_t start = found + key.size(), end = text.find_first_not_of(" 0123456789.", start);
+      out += text.substr(at, start - at) + fmt::format("{:.0f}", factor * std::stod(text.substr(start, end - start)));
+      at = end;
+    }
+    return out + text.substr(at);
+  };
+  EXPECT_EQ(Made(scaled(1)).stream.frames.size(), 60u);
+  EXPECT_TRUE(ComplaintOf(scaled(1e-3)).find("Hz; allowed: 1 to 10000 Hz") != std::string::npos);
+  EXPECT_TRUE(ComplaintOf(scaled(1e3)).find("its times give 0.03 Hz; allowed: 1 to 10000 Hz") != std::string::npos);
+  EXPECT_EQ(ComplaintOf(scaled(1e3), {.rate_hz = 30}), "accepted");
+}
+
+TEST(Streams, APlaceOfThreeTimesMinusOneIsNoPlace) {
+  std::string rows;
+  std::istringstream text(KinectV1Text(WavingMotion()));
+  int row = 0;
+  for (std::string line; std::getline(text, line); ++row) {
+    std::istringstream words(line);
+    std::string word;
+    for (int i = 0; words >> word; ++i) rows += (row >= 20 && row < 40 && i / 3 == 7 ? "-1" : word) + " ";
+    rows += '\n';
+  }
+  const auto read = ReadStreamRecording(rows, "s");
+  ASSERT_TRUE(read) << ToString(read.error());
+  for (std::size_t t = 0; t < read->frames.size(); ++t) {
+    EXPECT_EQ(read->frames[t].places[7].has_value(), t < 20 || t >= 40) << t;
+  }
+}
+
+TEST(Streams, RowsOfCoarseTimesKeepTheirPlaceBesideAHole) {
+  const BodyMotion motion = WavingMotion(600, 120);
+  std::string trc, line;
+  std::istringstream text(WriteTrc(motion, "m"));
+  for (int row = 0; std::getline(text, line); ++row) {
+    const int frame = row - 6;  // after six lines of header
+    if (frame >= 200 && frame < 260) continue;
+    if (frame >= 0) {
+      const std::size_t first = line.find('\t'), second = line.find('\t', first + 1);
+      line = line.substr(0, first + 1) + fmt::format("{:.2f}", frame / 120.0) + line.substr(second);
+    }
+    const std::size_t count = line.find("\t600\t");
+    if (frame < 0 && count != std::string::npos) line.replace(count, 5, "\t540\t");
+    trc += line + "\n";
+  }
+  const auto read = ReadStreamRecording(trc, "s");
+  ASSERT_TRUE(read) << ToString(read.error());
+  ASSERT_EQ(read->frames.size(), 540u);
+  for (int t = 0; t < 540; ++t) {
+    EXPECT_NEAR(read->frames[static_cast<std::size_t>(t)].time_s, (t < 200 ? t : t + 60) / 120.0, 1e-9) << t;
+  }
 }
 
 TEST(Streams, TablesMayCountMillisecondsOrSince1970) {

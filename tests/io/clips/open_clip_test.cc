@@ -50,7 +50,11 @@ TEST_F(OpenClipTest, AClockOfMillisecondsAndARateThatNoFileStatesAreSaid) {
   std::string slow(kTwoJoints);
   slow.replace(slow.find("Time: 0.1"), 9, "Time: 8.3");
   EXPECT_THAT(ReadClips(Write("a.bvh", slow))->at(0).remarks,
-              ElementsAre("its frames are 8.3 s apart: does the file count in milliseconds?"));
+              ElementsAre("its frames are 8.3 s apart: does the file count in milliseconds or in frames? `--rate` (in "
+                          "convert `--file-rate`) states the rate"));
+  slow.replace(slow.find("Time: 8.3"), 9, "Time: 1.0");
+  EXPECT_THAT(ReadClips(Write("a.bvh", slow))->at(0).remarks,
+              ElementsAre(::testing::StartsWith("its frames are 1 s apart: does the file count")));
   EXPECT_THAT(ReadClips(Write("b.bvh", kTwoJoints))->at(0).remarks, ElementsAre());
   const std::string asf =
       ":root\norder TX\nposition 0 0 0\n:bonedata\nbegin\nname a\ndirection 1 0 0\nlength 1\nend\n:hierarchy\nbegin\n"
