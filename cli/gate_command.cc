@@ -63,9 +63,9 @@ void PrintWorlds(const std::string& title, const std::vector<TailLine>& lines) {
 void PrintReport(const GateReport& report) {
   PrintList("Answers that became worse:", FallenLines(report));
   PrintMoves(report.comparison, "baseline", "now", kMaxRows);
-  PrintWorlds("Worlds that are far worse:", TailLines(report, true, kMaxWorldsEach, kMaxWorlds));
-  PrintWorlds("Single worlds that are far worse, but too few to fail:",
-              TailLines(report, false, kMaxWorldsEach, kMaxWorlds));
+  for (const TailGroup group : {TailGroup::kFailing, TailGroup::kTooFew, TailGroup::kNotJudged}) {
+    PrintWorlds(std::string(TailHeading(group)), TailLines(report, group, kMaxWorldsEach, kMaxWorlds));
+  }
   for (const GateExpectation& e : report.expectations) {
     if (e.result.outcome != ClaimOutcome::kUnmet) continue;
     fmt::print("{}: {}: {} [{}]\n", ClaimOutcomeName(e.result.outcome), e.scenario, e.result.text, e.result.detail);

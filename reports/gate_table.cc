@@ -207,12 +207,27 @@ std::vector<TailLine> TailLines(const std::vector<const MetricMove*>& moves, con
   return lines;
 }
 
-std::vector<TailLine> TailLines(const GateReport& report, bool failing, std::size_t most_each, std::size_t most) {
+std::string_view TailHeading(TailGroup group) {
+  switch (group) {
+    case TailGroup::kFailing:
+      return "Worlds that are far worse:";
+    case TailGroup::kTooFew:
+      return "Single worlds that are far worse, but too few to fail:";
+    case TailGroup::kNotJudged:
+      break;
+  }
+  return "Single worlds that are far worse, but not judged, because the scenario turned the tail rule off:";
+}
+
+std::vector<TailLine> TailLines(const GateReport& report, TailGroup group, std::size_t most_each, std::size_t most) {
+  const auto group_of = [](const MetricMove& move) {
+    return IsRegression(move) ? TailGroup::kFailing : move.is_tail_judged ? TailGroup::kTooFew : TailGroup::kNotJudged;
+  };
   // The changes of metrics of each method under each condition, in the order of the run.
   std::vector<std::vector<const MetricMove*>> methods;
   std::map<std::tuple<std::string, std::string, std::string>, std::size_t> places;
   for (const MetricMove& move : report.comparison.moves) {
-    if (move.tail.empty() || IsRegression(move) != failing) continue;
+    if (move.tail.empty() || group_of(move) != group) continue;
     const MoveIdentity& one = move.identity;
     const auto [place, is_new] = places.emplace(std::tuple(one.scenario, one.condition, one.method), methods.size());
     if (is_new) methods.emplace_back();
@@ -341,11 +356,15 @@ std::string WriteGateMarkdown(const GateReport& report) {
   std::vector<GateTableRow> failing, others;
   for (GateTableRow& row : MovedRows(report.comparison)) (row.fails ? failing : others).push_back(std::move(row));
   if (!failing.empty()) text += MoveTable(failing);
-  text += WorldList("**Worlds that are far worse:**", TailLines(report, true, kMaxWorldsEach, kMaxWorlds));
+  const auto worlds = [&](TailGroup group) {
+    const std::string stars = group == TailGroup::kFailing ? "**" : "";
+    return WorldList(fmt::format("{0}{1}{0}", stars, TailHeading(group)),
+                     TailLines(report, group, kMaxWorldsEach, kMaxWorlds));
+  };
+  text += worlds(TailGroup::kFailing);
   if (!others.empty()) {
     text += FoldedAway(fmt::format("What else changed ({})", others.size()),
-                       MoveTable(others) + WorldList("Single worlds that are far worse, but too few to fail:",
-                                                     TailLines(report, false, kMaxWorldsEach, kMaxWorlds)));
+                       MoveTable(others) + worlds(TailGroup::kTooFew) + worlds(TailGroup::kNotJudged));
   }
   // Write the undecided claims (which pass), the run's own answers, the entries that could not be compared, and the
   // methods with changed settings.

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "bench/gate/gate.h"
@@ -53,9 +54,17 @@ struct TailLine {
 std::vector<TailLine> TailLines(const std::vector<const MetricMove*>& moves, const GateReport& report,
                                 std::size_t most);
 
-/// Returns lines about the worlds that are far worse: for all metrics that fail the gate if `failing` is true, for all
-/// other metrics if it is false. Each method has at most `most_each` worlds, and there are about `most` lines in total.
-std::vector<TailLine> TailLines(const GateReport& report, bool failing, std::size_t most_each, std::size_t most);
+/// What far worse worlds mean for the gate.
+enum class TailGroup {
+  kFailing,    ///< their metric fails the gate
+  kTooFew,     ///< the tail rule judged them: too few to fail
+  kNotJudged,  ///< the scenario turned the tail rule off
+};
+/// Returns the heading of a list of these worlds.
+std::string_view TailHeading(TailGroup group);
+/// Returns lines about the worlds of a group. Each method has at most `most_each` worlds, and there are about `most`
+/// lines in total.
+std::vector<TailLine> TailLines(const GateReport& report, TailGroup group, std::size_t most_each, std::size_t most);
 
 /// Returns the results of a gate as a comment on a pull request: the verdict, the failures, other changes, and the
 /// entries that could not be compared.

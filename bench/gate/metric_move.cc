@@ -232,6 +232,8 @@ bool IsTailRegression(const std::vector<TailWorld>& tail, int compared, const Ta
 }
 
 void JudgeTail(MetricMove& move, const TailRule& rule) {
+  const bool has_lost = std::ranges::any_of(move.tail, &TailWorld::lost);
+  move.is_tail_judged = rule.worlds > 0 || (rule.lost > 0 && has_lost);
   if (move.movement == Movement::kWorse || move.movement == Movement::kChanged) return;
   if (!IsTailRegression(move.tail, move.worlds, rule)) return;
   move.movement = Movement::kWorse;

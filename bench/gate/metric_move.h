@@ -59,6 +59,8 @@ struct MetricMove {
   std::optional<Comparison> presence;  ///< comparison of "has a value" (1 or 0), if values were lost or gained
   /// Far worse worlds: first those that lost their value, then the others, the worst first.
   std::vector<TailWorld> tail;
+  /// True if the tail rule judged the worlds of `tail`; false if the rule is off, at least for these worlds.
+  bool is_tail_judged = false;
   bool by_tail = false;  ///< true: only the tail rule makes this change a regression
 };
 
@@ -104,8 +106,8 @@ std::vector<TailWorld> FindTail(const MoveColumns& columns, const MetricInfo& me
 int WorldsThatFail(int compared, const TailRule& rule);
 bool IsTailRegression(const std::vector<TailWorld>& tail, int compared, const TailRule& rule);
 
-/// Sets `move.movement` to kWorse if the far worse worlds of the metric are a regression, unless `movement` is already
-/// kWorse or kChanged.
+/// Sets `move.is_tail_judged`, and sets `move.movement` to kWorse if the far worse worlds of the metric are a
+/// regression, unless `movement` is already kWorse or kChanged.
 void JudgeTail(MetricMove& move, const TailRule& rule);
 
 }  // namespace etude

@@ -66,6 +66,7 @@ void ErrorLog::Trim() {
   if (end < static_cast<long>(ProgramLimits::kFileBytes / 2)) {
     std::ignore = ::fallocate(memory_, FALLOC_FL_PUNCH_HOLE | FALLOC_FL_KEEP_SIZE, kMaxBytes, end - kMaxBytes);
   } else {
+    kept_tail_ = Tail();
     std::ignore = ::ftruncate(memory_, kMaxBytes);
   }
 }
@@ -77,9 +78,18 @@ std::string ErrorLog::Read(long start, long size) const {
   return text;
 }
 
-std::string ErrorLog::LastLine() const {
+// After a truncation, the first kMaxBytes of the file are older than `kept_tail_`, and all bytes behind them are newer.
+std::string ErrorLog::Tail() const {
   const long size = Size();
-  std::string tail = Read(std::max(size - kTailBytes, 0L), std::min(size, kTailBytes));
+  const long start = std::max(size - kTailBytes, kept_tail_.empty() ? 0L : kMaxBytes);
+  std::string tail = kept_tail_ + Read(start, std::max(size - start, 0L));
+  constexpr auto kTail = static_cast<std::size_t>(kTailBytes);
+  if (tail.size() > kTail) tail.erase(0, tail.size() - kTail);
+  return tail;
+}
+
+std::string ErrorLog::LastLine() const {
+  std::string tail = Tail();
   const std::size_t last = tail.find_last_not_of(" \t\r\n");
   if (last == std::string::npos) return "";
   tail.resize(last + 1);
@@ -89,6 +99,7 @@ std::string ErrorLog::LastLine() const {
 // The file is created only if there is output. If it cannot be written, the output is lost, but the cell does not fail.
 void ErrorLog::Save() {
   const long size = Size();
+  kept_tail_.clear();
   if (size == 0) return;
   if (const auto file = OpenLog(file_)) {
     struct stat status {};

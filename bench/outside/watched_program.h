@@ -30,8 +30,7 @@ class ErrorLog {
   /// Returns the path that must be opened as the program's standard error; "" if the program shares Etude's standard
   /// error.
   std::string path() const;
-  /// Frees the memory of collected output beyond kMaxBytes. The last 4 KiB are kept for LastLine, unless the program
-  /// has written more than 128 MiB.
+  /// Frees the memory of collected output beyond kMaxBytes. The last 4 KiB are kept for LastLine.
   void Trim();
   /// Returns the last non-empty line since the last Save; "" if there is none.
   std::string LastLine() const;
@@ -40,10 +39,12 @@ class ErrorLog {
 
  private:
   std::string Read(long start, long size) const;
+  std::string Tail() const;  ///< the last 4 KiB of the output, or all of it if it is shorter
   long Size() const;
 
   std::string file_;
   int memory_ = -1;
+  std::string kept_tail_;  ///< the last 4 KiB before the last truncation; "" if the file was not truncated
   Descriptor unbuffered_;  ///< the log file itself, if the system cannot make a memory file
 };
 

@@ -1,6 +1,6 @@
 #include "bench/scenario/outside_metrics.h"
 
-#include <fmt/ranges.h>
+#include <fmt/format.h>
 
 #include <algorithm>
 #include <nlohmann/json.hpp>
@@ -19,9 +19,8 @@ constexpr const char* kIdPattern = "^[a-z][a-z0-9_]{0,59}$";
 /// The keys of a row of cells.jsonl that are not metrics. A metric must not have one of these names.
 constexpr std::string_view kRowKeys[] = {"cell",  "scenario", "task",   "condition", "trial",        "clip",
                                          "units", "method",   "status", "reason",    "null_reasons", "ok_share"};
-/// The tasks for which a scenario cannot define metrics. Cells of task pose-distance keep no motion; the worlds of the
-/// other three tasks come from files.
-constexpr std::string_view kTasksWithoutOwnMetrics[] = {"pose-distance", "evaluation", "plausibility", "inbetween"};
+/// The task for which a scenario cannot define metrics, because its cells keep no motion.
+constexpr std::string_view kTaskWithoutMotion = "pose-distance";
 
 bool IsMetricId(const std::string& name) {
   const auto plain = [](char c) { return (c >= 'a' && c <= 'z') || (c >= '0' && c <= '9') || c == '_'; };
@@ -195,9 +194,11 @@ std::vector<std::string> ReadHeadline(Fields& fields, const TaskKind& kind, std:
       NoteMetric(fields, kind.name, known, item.scalar, item.place, names);
       continue;
     }
-    if (std::ranges::find(kTasksWithoutOwnMetrics, kind.name) != std::end(kTasksWithoutOwnMetrics)) {
-      fields.Complain(item.place, fmt::format("scenarios of these tasks cannot define metrics of their own: {}",
-                                              fmt::join(kTasksWithoutOwnMetrics, ", ")));
+    if (kind.name == kTaskWithoutMotion) {
+      fields.Complain(item.place,
+                      fmt::format("a scenario of task {} cannot define metrics of its own, because its cells "
+                                  "keep no motion that a program could measure",
+                                  kind.name));
     }
     auto read = ReadMapping(item, "your own metric", OutsideMetricFields());
     if (!read) {

@@ -103,7 +103,10 @@ Result<Camera> CameraOf(const OpenCvParameters& p) {
   if (K[3] != 0 || K[6] != 0 || K[7] != 0 || K[8] != 1) {
     return Fail({}, "the last two rows of the camera matrix must be 0 fy cy and 0 0 1");
   }
-  if (!IsRotation(p.R)) return Fail({}, "R is not a rotation matrix");
+  if (!IsRotation(p.R)) {
+    return Fail({}, "R is not a rotation matrix{}",
+                IsRotation(-p.R) ? "; it mirrors: its determinant is -1; allowed: 1" : "");
+  }
   Camera camera;
   camera.intrinsics = {.width = static_cast<int>(p.width),
                        .height = static_cast<int>(p.height),

@@ -173,6 +173,9 @@ Result<OpenCvParameters> InsideOf(const ColmapLine& line) {
     return Fail(place, "{} parameters of {}; allowed: {}", line.words.size() - kBefore, model->first, wanted);
   }
   ASSIGN_OR_RETURN(const auto n, NumbersFrom(line, 2, line.words.size()));
+  if (n[0] == 0 || n[1] == 0) {  // unlike EasyMocap, COLMAP always knows the pictures' size
+    return Fail(place, "a picture of {:g} x {:g} pixels; allowed: whole numbers of 1 to 65536", n[0], n[1]);
+  }
   const std::size_t at = 2 + of.focal.size();
   constexpr double kPixelCentre = 0.5;
   OpenCvParameters p{.width = n[0], .height = n[1]};

@@ -59,7 +59,9 @@ ClockOffset FindOffset(const std::function<std::optional<double>(int offset)>& m
   constexpr double kTold = 1.25;
   const bool is_better = *assumed - min_misfit + minimum.gain > kNothing + kNoBetter * *assumed;
   const bool is_told = std::abs(best) < max_frames && sum / evaluated > kNothing + kTold * (min_misfit - minimum.gain);
-  return {is_better ? best + minimum.shift : 0, is_told};
+  const double least = min_misfit - minimum.gain;
+  return {is_better ? best + minimum.shift : 0, is_told, is_better ? least : *assumed,
+          sum > 0 ? std::clamp(1 - least * evaluated / sum, 0.0, 1.0) : 0};
 }
 
 OptionalPixel PixelBetween(const OptionalPixel& a, const OptionalPixel& b, const OptionalPixel& c, const OptionalPixel& d, double share) {

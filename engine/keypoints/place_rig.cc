@@ -6,6 +6,7 @@
 #include <array>
 #include <cmath>
 #include <glm/gtc/quaternion.hpp>
+#include <optional>
 
 #include "engine/base/angles.h"
 #include "engine/base/directions.h"
@@ -176,7 +177,18 @@ struct ChosenUp {
   std::string told;
 };
 
-Result<ChosenUp> UpOf(const RigFile& rig, const glm::dvec3& person, const FoundUp& found,
+/// Returns true if most cameras take level pictures and do not look up steeply, with this direction up.
+bool AreMostLevel(const RigFile& rig, const glm::dvec3& up) {
+  constexpr double kMaxTilt = Radians(15), kMaxLookUp = Radians(45);
+  const auto level = std::ranges::count_if(rig.cameras, [&](const NamedCamera& named) {
+    const glm::dvec3 up_C = named.camera.R_CW * up;  // the camera's x is right, y down, z ahead
+    return std::abs(up_C.x) < std::sin(kMaxTilt) && up_C.y < std::sin(kMaxTilt) && up_C.z < std::sin(kMaxLookUp);
+  });
+  return 2 * level > std::ssize(rig.cameras);
+}
+
+/// @param person the direction from the person's ankles to the shoulders; nullopt if there is no person
+Result<ChosenUp> UpOf(const RigFile& rig, const std::optional<glm::dvec3>& person, const FoundUp& found,
                       const PlacementOptions& options) {
   const glm::dvec3 usual(0, 1, 0);
   constexpr double kUpsideDown = 100, kFar = 35, kAxisItself = 4, kStillAxis = 10;
@@ -186,19 +198,22 @@ Result<ChosenUp> UpOf(const RigFile& rig, const glm::dvec3& person, const FoundU
     }
     return std::string("y");
   };
-  const auto lean_from = [&](const glm::dvec3& up) { return Degrees(AngleBetween(up, person)); };
+  const auto reason = [&](const glm::dvec3& up, const std::string& given) {
+    if (!person) return given.empty() ? std::string(", as in the format") : fmt::format(" ({})", given);
+    return fmt::format(" ({}{}the person leans {:.0f}° from it)", given, given.empty() ? "" : "; ",
+                       Degrees(AngleBetween(up, *person)));
+  };
   // A requested axis must not put the pictures upside down.
   if (options.up != "auto" && options.up != "floor") {
     const glm::dvec3 up = rig.R_WF * AxisOf(options.up)->direction;
     const double off = Degrees(AngleBetween(up, found.up));
-    if (off > kUpsideDown) {
+    if (person && off > kUpsideDown) {
       return Fail({},
                   "with {} up, everything would be upside down: this axis is {:.0f}° away from the up direction, which "
                   "is known from {}",
                   options.up, off, found.by);
     }
-    return ChosenUp{up, false,
-                    fmt::format("up is {} (as given; the person leans {:.0f}° from it)", options.up, lean_from(up))};
+    return ChosenUp{up, false, fmt::format("up is {}{}", options.up, reason(up, "as given"))};
   }
   const std::string camera = CameraOfTheWorld(rig);
   const double tilt = Degrees(AngleBetween(usual, found.up)), accuracy = Degrees(found.deviation);
@@ -207,9 +222,10 @@ Result<ChosenUp> UpOf(const RigFile& rig, const glm::dvec3& person, const FoundU
   // If the format defines an up axis, feet that are not level (on a beam) are no reason to tilt the world. Caliscope's
   // axes are those of a calibration board, so they do not define an up axis.
   const bool is_level = rig.format != "Caliscope" || tilt < std::max(kSure * accuracy, kTilted);
-  if (options.up == "auto" && camera.empty() && rig.has_unit && tilt < std::max(kFar, within) && is_level) {
-    std::string told = fmt::format("up is {} (the person leans {:.0f}° from it)", usual_name(), lean_from(usual));
-    if (tilt > std::max(kSure * accuracy, kTold)) {
+  const bool is_usual = tilt < std::max(kFar, within) || (!person && AreMostLevel(rig, usual));
+  if (options.up == "auto" && camera.empty() && rig.has_unit && is_usual && is_level) {
+    std::string told = fmt::format("up is {}{}", usual_name(), reason(usual, ""));
+    if (person && tilt > std::max(kSure * accuracy, kTold)) {
       told += fmt::format("; according to {}, up is {:.0f}° away from this axis: if that is right, give --rig-up floor",
                           found.by, tilt);
     }
@@ -271,6 +287,19 @@ Result<void> CheckDistances(const RigFile& rig) {
               UnitText(rig.unit_m), apart, kMinApart, kMaxApart, usual);
 }
 
+/// Returns a sentence that names the cameras below the floor; "" if there are none.
+std::string DoubtOnFloor(const RigFile& rig, const RigPlacement& place) {
+  constexpr double kBelow_m = 0.1;  // more than the error of a calibration, or of a floor under the feet
+  std::string names;
+  for (const NamedCamera& named : rig.cameras) {
+    const double height = place(named.camera.p_WC).y;
+    if (height >= -kBelow_m) continue;
+    names += fmt::format("{}{} by {:.2f} m", names.empty() ? "" : ", ", named.name, -height);
+  }
+  if (names.empty()) return "";
+  return fmt::format("cameras lie below the floor: {}; --rig-up sets the rig's up axis, and --floor its floor", names);
+}
+
 }  // namespace
 
 std::string RigUnits() {
@@ -320,6 +349,7 @@ Result<RigPlacement> PlaceRig(const RigFile& rig, std::span<const LandmarkPositi
     floor_told = ", the floor under the feet";
   }
   place.told = unit_told + "; " + chosen.told + floor_told + AxesTold(place.R * rig.R_WF);
+  place.doubt = DoubtOnFloor(rig, place);
   return place;
 }
 
@@ -333,17 +363,23 @@ Result<RigPlacement> PlaceRig(const RigFile& rig, const PlacementOptions& option
   } else {
     RETURN_IF_ERROR(CheckDistances(rig));
   }
-  if (const FileAxis* axis = AxisOf(options.up)) {
-    place.R = Upright(rig.R_WF * axis->direction);
-  } else if (const std::string camera = CameraOfTheWorld(rig); !camera.empty() || options.up == "floor") {
+  // Choose the up axis. Without feet, the floor of a camera's own frame is not known either.
+  const std::string camera = CameraOfTheWorld(rig);
+  if (AxisOf(options.up) == nullptr && (!camera.empty() || options.up == "floor")) {
     return Fail({}, "the rig does not show which direction is up{}; give the file's axis by --rig-up",
                 camera.empty() ? "" : fmt::format(" in {}'s own frame", camera));
   }
-  place.told = fmt::format("lengths in {}{}", UnitText(place.scale * rig.unit_m), AxesTold(place.R * rig.R_WF));
+  constexpr double kNoRate = 1, kNoStature = 1, kNoMetre = 1;  // these matter only for a person's points
+  const FoundUp found = FindUp(rig.cameras, {}, kNoRate, kNoStature, kNoMetre);
+  ASSIGN_OR_RETURN(const ChosenUp chosen, UpOf(rig, std::nullopt, found, options));
+  place.R = Upright(chosen.up);
+  place.told = fmt::format("lengths in {}; {}", UnitText(place.scale * rig.unit_m), chosen.told);
   if (const auto height = ParseFinite(options.floor)) {
     place.shift.y = -*height;
-    place.told += fmt::format("; the floor at height {:g} m", *height);
+    place.told += fmt::format(", the floor at height {:g} m", *height);
   }
+  place.told += AxesTold(place.R * rig.R_WF);
+  place.doubt = DoubtOnFloor(rig, place);
   return place;
 }
 

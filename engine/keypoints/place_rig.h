@@ -34,6 +34,7 @@ struct RigPlacement {
   glm::dvec3 shift{0};
   double stature_m = 0;  ///< the person's stature, from the legs, to within 15 %; 0 if no person was used
   std::string told;      ///< explanation for users: "lengths in mm (…), up is -y (…)"
+  std::string doubt;     ///< the cameras that lie below the floor, for users; "" if there are none
 
   glm::dvec3 operator()(const glm::dvec3& p) const { return scale * (R * p) + shift; }
   bool IsNone() const { return scale == 1 && R == glm::dmat3(1) && shift == glm::dvec3(0); }
@@ -57,8 +58,10 @@ struct RigPlacement {
 Result<RigPlacement> PlaceRig(const RigFile& rig, std::span<const LandmarkPositions> points, double rate_hz,
                               const PlacementOptions& options);
 
-/// Places a rig without a person, by `options` and, for "auto", by the format's conventions. Fails if lengths have no
-/// unit, if the format's unit puts the outermost cameras less than 3 cm or more than 100 m apart, or if the world is a
+/// Places a rig without a person, by `options` and, for "auto", by the format's conventions. The up axis is found as
+/// with a person, but from the cameras alone: another axis than the format's is taken only if most pictures would be
+/// tilted, or look up, with the format's. Fails if lengths have no unit, if the format's unit puts the outermost
+/// cameras less than 3 cm or more than 100 m apart, if the cameras do not determine the up axis, or if the world is a
 /// camera's frame and no up axis is given; the message names the options.
 Result<RigPlacement> PlaceRig(const RigFile& rig, const PlacementOptions& options);
 

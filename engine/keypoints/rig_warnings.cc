@@ -176,16 +176,31 @@ class RigChecker {
     if (!best) return std::nullopt;
     const double off = std::abs(best->gain - 1);
     if (off < kMinChange || off > kMaxChange || off < kMinStandardErrors * best->error) return std::nullopt;
-    std::string whose = best->film ? fmt::format("with a focal length {:.3f} ± {:.3f} times {}'s", best->gain,
-                                                 best->error, names_[*best->film])
-                                   : fmt::format("with focal lengths {:.3f} ± {:.3f} times those of all cameras",
-                                                 best->gain, best->error);
-    if (best->film && cameras_.size() == 2) {
-      whose += fmt::format(" (or {:.3f} times {}'s)", 1 / best->gain, names_[1 - *best->film]);
+    const double better = MedianMiss(Gains(best->film, best->gain), AsDeclared);
+    if (!(better < miss)) return std::nullopt;
+    return TextOf(*best, miss, better);
+  }
+
+  /// Describes the evidence for another focal length: its standard error, and the median distances of the rays, pixels,
+  /// with the rig's focal length and with this one.
+  std::string TextOf(const FocalGain& found, double miss, double better) const {
+    std::string whose =
+        fmt::format("all cameras: focal lengths {:.3f} ± {:.3f} times the rig's", found.gain, found.error);
+    if (found.film) {
+      whose = fmt::format("{}: a focal length {:.3f} ± {:.3f} times the rig's", names_[*found.film], found.gain,
+                          found.error);
     }
-    return fmt::format("{}, the residual of the rays would be {:.2f} px instead of {:.2f}{}", whose,
-                       MedianMiss(Gains(best->film, best->gain), AsDeclared), miss,
-                       best->film ? " (or the camera was moved)" : "");
+    if (found.film && cameras_.size() == 2) {
+      whose += fmt::format(", or one of {} {:.3f} times the rig's,", names_[1 - *found.film], 1 / found.gain);
+    }
+    constexpr double kClearly = 0.95;
+    const std::string strength = better < kClearly * miss ? "" : ", which is weak evidence";
+    const std::string rivals = found.film ? "a camera that was moved, or a wrong lens, can look like this"
+                                          : "the person's size changes by about the same factor";
+    return fmt::format(
+        "{} would fit the keypoints better: rays would miss each other by {:.3f} px (median) instead of "
+        "{:.3f}{}; {} (±: standard error)",
+        whose, better, miss, strength, rivals);
   }
 
   /// Returns the median shoulder width as a share of the leg length; 0 if shoulders or legs are not seen.

@@ -17,9 +17,10 @@ namespace etude {
 /// other films' epipolar lines, and σ is their usual size. Of these factors, the one with the smallest sum is judged:
 /// a warning is given if it differs from 1 by at least 2 % and by four of its standard errors. The standard error is
 /// the jackknife's, over landmarks or over tenths of the time, whichever is larger, so that constant errors of an
-/// estimator are taken into account. If all focal lengths are wrong by the same factor, mainly the person's size
-/// changes. With errors of 2 px, the standard error of the factor is then 1 % for four cameras around the person, and
-/// 4 % for two, so two cameras give no warning.
+/// estimator are taken into account. The median distance must also fall; if it falls by less than 5 %, the warning
+/// calls the evidence weak. If all focal lengths are wrong by the same factor, mainly the person's size changes. With
+/// errors of 2 px, the standard error of the factor is then 1 % for four cameras around the person, and 4 % for two, so
+/// two cameras give no warning.
 ///
 /// **Coordinates relative to a square**, if interpreted as relative to the picture, show a person who is too wide or
 /// too narrow. A warning is given if the ratio of shoulder width to leg length differs from the usual 0.42 by a factor

@@ -2,55 +2,19 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
+#include <functional>
+#include <numeric>
 
 #include "engine/cameras/triangulation.h"
-#include "engine/keypoints/least_loss.h"
+#include "engine/keypoints/moving_person.h"
 
 namespace etude {
 namespace {
 
-/// A tracked person of one camera, interpolated between frames.
-class MovingPerson {
- public:
-  MovingPerson(const SeenPeople& people, const PersonTrack& track) : people_(people), track_(track) {}
-
-  const PersonTrack& track() const { return track_; }
-
-  /// Returns the person at a fractional frame; nullopt if a frame next to it does not show the person.
-  std::optional<SeenPerson> At(double frame) const {
-    if (frame < 0) return std::nullopt;
-    const auto at = static_cast<std::size_t>(frame);
-    const double share = frame - static_cast<double>(at);
-    const SeenPerson *a = at > 0 ? In(at - 1) : nullptr, *b = In(at), *c = In(at + 1), *d = In(at + 2);
-    if (b == nullptr || (share > 0 && c == nullptr)) return std::nullopt;
-    if (share == 0) return *b;
-    SeenPerson between;
-    for (std::size_t i = 0; i < kLandmarkCount; ++i) {
-      const auto pixel = PixelBetween(PixelOf(a, i), PixelOf(b, i), PixelOf(c, i), PixelOf(d, i), share);
-      if (pixel) between.keypoints[i] = {*pixel, std::min(b->keypoints[i].confidence, c->keypoints[i].confidence)};
-    }
-    return between;
-  }
-
- private:
-  const SeenPerson* In(std::size_t frame) const {
-    const auto entry = track_.entries.find(frame);
-    return entry == track_.entries.end() ? nullptr : &people_[frame][entry->second];
-  }
-
-  static OptionalPixel PixelOf(const SeenPerson* person, std::size_t landmark) {
-    if (person == nullptr || !(person->keypoints[landmark].confidence > 0)) return std::nullopt;
-    return person->keypoints[landmark].pixel;
-  }
-
-  const SeenPeople& people_;
-  const PersonTrack& track_;
-};
-
-/// The tracked people of one camera, and the offset of its clock, given or estimated.
-struct OffsetFilm {
-  std::vector<MovingPerson> people;
-  ClockOffset offset;
+/// The frames [begin, end) of the first camera's time.
+struct FrameSpan {
+  std::size_t begin = 0, end = 0;
 };
 
 struct Misfit {
@@ -63,12 +27,12 @@ struct Misfit {
 
 /// Computes the misfit of two people over fewer than 200 frames, evenly spaced in the first camera's time.
 Misfit MisfitOf(const EpipolarGeometry& geometry, const MovingPerson& one, double one_offset, const MovingPerson& other,
-                double other_offset, std::size_t frames, const PeopleSyncOptions& options) {
+                double other_offset, FrameSpan frames, const PeopleSyncOptions& options) {
   constexpr std::size_t kMaxFrames = 100;  // with twice as many frames or more, frames are skipped
-  const std::size_t stride = std::max<std::size_t>(1, frames / kMaxFrames);
+  const std::size_t stride = std::max<std::size_t>(1, (frames.end - frames.begin) / kMaxFrames);
   std::array<double, kLandmarkCount> sums{}, squares{};
   std::array<int, kLandmarkCount> counts{};
-  for (std::size_t frame = 0; frame < frames; frame += stride) {
+  for (std::size_t frame = frames.begin; frame < frames.end; frame += stride) {
     const auto time = static_cast<double>(frame);
     const auto here = one.At(time - one_offset), there = other.At(time - other_offset);
     if (!here || !there) continue;
@@ -93,190 +57,219 @@ Misfit MisfitOf(const EpipolarGeometry& geometry, const MovingPerson& one, doubl
   return misfit;
 }
 
-/// Finds, for each person of film `one`, the best-fitting person of film `other`, and adds the misfit of these two to
-/// `all`.
-void AddMisfit(const EpipolarGeometry& geometry, const OffsetFilm& one, const OffsetFilm& other, double offset,
-               std::size_t frames, const PeopleSyncOptions& options, Misfit& all) {
-  constexpr int kMinCount = 30;
-  for (const MovingPerson& person : one.people) {
-    Misfit best;
-    for (const MovingPerson& somebody : other.people) {
-      const Misfit pair = MisfitOf(geometry, person, one.offset.frames, somebody, offset, frames, options);
-      if (pair.count >= kMinCount && (best.count == 0 || pair.mean() < best.mean())) best = pair;
+/// The films of a rig, their tracked people, and the offsets of their clocks that are known so far.
+class OffsetFinder {
+ public:
+  using Films = std::vector<std::size_t>;
+
+  OffsetFinder(std::span<const ProjectionMatrix> cameras, std::span<const SeenPeople> people,
+               const PeopleSyncOptions& options)
+      : options_(options), geometry_(cameras), offsets_(people.size()) {
+    for (const SeenPeople& of_camera : people) tracks_.push_back(FollowPeople(of_camera, options.follow));
+    for (std::size_t film = 0; film < people.size(); ++film) {
+      auto& of_film = people_.emplace_back();
+      for (const PersonTrack& track : tracks_[film]) of_film.emplace_back(people[film], track);
+      all_.end = std::max(all_.end, people[film].size());
     }
-    all.variance += best.variance;
-    all.count += best.count;
   }
+
+  /// Returns the offset of a film, in frames of the first camera, at which it fits the films `others` best. Searches
+  /// max_frames around `from`; the misfits at whole frames, and thus around whole `from`, are the exact ones
+  /// (FindOffset).
+  ClockOffset OffsetAgainst(std::size_t film, const Films& others, double from, FrameSpan frames) const {
+    const auto misfit_at = [&](int offset) { return MisfitAt(film, from + offset, others, frames); };
+    ClockOffset found = FindOffset(misfit_at, options_.clocks.max_frames);
+    found.frames += from;
+    return found;
+  }
+
+  /// Compares each person of each film in `others` with the best-fitting person of `film`, whose offset is `offset`.
+  /// Returns the mean misfit, squared pixels; nullopt if there are too few pairs of keypoints.
+  std::optional<double> MisfitAt(std::size_t film, double offset, const Films& others, FrameSpan frames) const {
+    constexpr int kMinCount = 30;
+    Misfit all;
+    for (const std::size_t other : others) {
+      const auto& geometry = geometry_(other, film);
+      for (const MovingPerson& person : people_[other]) {
+        Misfit best;
+        for (const MovingPerson& somebody : people_[film]) {
+          if (!geometry) break;
+          const Misfit pair = MisfitOf(*geometry, person, At(other), somebody, offset, frames, options_);
+          if (pair.count >= kMinCount && (best.count == 0 || pair.mean() < best.mean())) best = pair;
+        }
+        all.variance += best.variance;
+        all.count += best.count;
+      }
+    }
+    return all.count > 0 ? std::optional(all.variance / all.count) : std::nullopt;
+  }
+
+  /// Returns the offsets of all films. The films that agree with each other determine them: the two films that show
+  /// their offset most clearly come first, then one film at a time, while the keypoints show its offset against all
+  /// films before it. So a film whose clock is out of range does not change the offsets of the other films.
+  std::vector<ClockOffset> Find() {
+    MeasurePairs();
+    Films agreeing = JoinFilms();
+    // Estimate each offset once more, against all films that agree.
+    for (std::size_t i = 1; i < agreeing.size(); ++i) {
+      const ClockOffset again =
+          OffsetAgainst(agreeing[i], Without(agreeing, agreeing[i]), std::round(At(agreeing[i])), all_);
+      if (again.is_told) offsets_[agreeing[i]] = again;
+    }
+    if (!agreeing.empty()) offsets_[agreeing.front()].misfit = offsets_[agreeing[1]].misfit;
+    // The first film's offset is 0 by definition; if it does not agree, the first agreeing film's is.
+    std::ranges::sort(agreeing);
+    const double first = agreeing.empty() ? 0 : At(agreeing.front());
+    for (const std::size_t film : agreeing) offsets_[film].frames -= first;
+    for (std::size_t film = 0; film < offsets_.size() && !agreeing.empty(); ++film) {
+      if (offsets_[film].is_told) continue;
+      offsets_[film] = OffsetAgainst(film, agreeing, 0, all_);
+      offsets_[film].is_told = false;
+      offsets_[film].frames = 0;
+    }
+    return offsets_;
+  }
+
+ private:
+  double At(std::size_t film) const { return offsets_[film].frames; }
+
+  static Films Without(const Films& films, std::size_t left_out) {
+    Films others = films;
+    std::erase(others, left_out);
+    return others;
+  }
+
+  const ClockOffset& Pair(std::size_t one, std::size_t other) const { return pairs_[one * offsets_.size() + other]; }
+
+  /// Finds the offset of each film against each other film alone.
+  void MeasurePairs() {
+    const std::size_t count = offsets_.size();
+    pairs_.resize(count * count);
+    for (std::size_t one = 0; one < count; ++one) {
+      for (std::size_t other = one + 1; other < count; ++other) {
+        const ClockOffset found = OffsetAgainst(other, {one}, 0, all_);
+        pairs_[one * count + other] = pairs_[other * count + one] = found;
+        pairs_[other * count + one].frames *= -1;
+      }
+    }
+  }
+
+  /// Returns the film outside of `joined` that shows its offset against one of the joined films most clearly, and this
+  /// joined film. Without joined films, returns the clearest pair. Films in `refused` are left out.
+  std::optional<std::pair<std::size_t, std::size_t>> Clearest(const Films& joined, const Films& refused) const {
+    const auto is_in = [](const Films& films, std::size_t film) { return std::ranges::count(films, film) > 0; };
+    std::optional<std::pair<std::size_t, std::size_t>> best;
+    for (std::size_t film = 0; film < offsets_.size(); ++film) {
+      if (is_in(joined, film) || is_in(refused, film)) continue;
+      for (std::size_t other = 0; other < offsets_.size(); ++other) {
+        const bool is_allowed = joined.empty() ? other < film : is_in(joined, other);
+        if (!is_allowed || !Pair(other, film).is_told) continue;
+        if (!best || Pair(other, film).explained > Pair(best->second, best->first).explained) best = {film, other};
+      }
+    }
+    return best;
+  }
+
+  /// Sets the offsets of the films that agree, relative to the first of the returned films.
+  Films JoinFilms() {
+    Films joined, refused;
+    while (const auto next = Clearest(joined, refused)) {
+      const auto [film, other] = *next;
+      if (joined.empty()) {
+        joined.push_back(other);
+        offsets_[other].is_told = true;
+      }
+      const ClockOffset found = OffsetAgainst(film, joined, std::round(At(other) + Pair(other, film).frames), all_);
+      if (!found.is_told || !AgreesWithMost(film, found.frames, joined)) {
+        refused.push_back(film);
+        continue;
+      }
+      offsets_[film] = found;
+      joined.push_back(film);
+    }
+    return joined.size() > 1 ? joined : Films{};
+  }
+
+  /// Returns true if the film's offset against most of the joined films, each alone, is the offset against all of them.
+  bool AgreesWithMost(std::size_t film, double offset, const Films& joined) const {
+    constexpr double kMaxApart = 2;  // frames; more than the error of one pair
+    int told = 0, agree = 0;
+    for (const std::size_t other : joined) {
+      const ClockOffset& pair = Pair(other, film);
+      if (!pair.is_told) continue;
+      ++told;
+      if (std::abs(At(other) + pair.frames - offset) <= kMaxApart) ++agree;
+    }
+    return 2 * agree > told;
+  }
+
+  PeopleSyncOptions options_;
+  PairGeometry geometry_;
+  std::vector<std::vector<PersonTrack>> tracks_;
+  std::vector<std::vector<MovingPerson>> people_;
+  FrameSpan all_;
+  std::vector<ClockOffset> offsets_, pairs_;
+};
+
+/// Returns the drift of a film against other films; nullopt if the keypoints show none.
+std::optional<ClockDrift> DriftOf(const OffsetFinder& finder, std::size_t film, const OffsetFinder::Films& others,
+                                  std::size_t frames) {
+  const ClockOffset whole = finder.OffsetAgainst(film, others, 0, {0, frames});
+  // Estimate the offset in each quarter of the film. A drift changes it from quarter to quarter in one direction. All
+  // misfits are taken at the same fraction of a frame, so that interpolation reduces their noise alike.
+  constexpr std::size_t kParts = 4;
+  std::array<double, kParts> offsets{};
+  double constant = 0, changing = 0;  // mean misfits of the quarters, squared pixels
+  for (std::size_t part = 0; part < kParts; ++part) {
+    const FrameSpan span{part * frames / kParts, (part + 1) * frames / kParts};
+    const auto unchanged = finder.MisfitAt(film, whole.frames, others, span);
+    const ClockOffset found = finder.OffsetAgainst(film, others, whole.frames, span);
+    if (!unchanged || !found.is_told) return std::nullopt;
+    offsets[part] = found.frames;
+    constant += *unchanged / kParts;
+    changing += found.misfit / kParts;
+  }
+  const ClockDrift drift{film, 0.5 * (offsets[2] + offsets[3] - offsets[0] - offsets[1]), std::sqrt(constant),
+                         std::sqrt(changing)};
+  constexpr double kMinFrames = 0.5, kMaxMisfit = 0.9;
+  const bool is_steady = std::ranges::is_sorted(offsets) || std::ranges::is_sorted(offsets, std::greater());
+  if (!is_steady || std::abs(drift.frames) < kMinFrames || changing > kMaxMisfit * constant) return std::nullopt;
+  return drift;
 }
 
 }  // namespace
 
 std::vector<ClockOffset> EstimateOffsets(std::span<const ProjectionMatrix> cameras, std::span<const SeenPeople> people,
                                          const PeopleSyncOptions& options) {
-  // Track the people of each camera.
-  std::vector<std::vector<PersonTrack>> tracks;
-  std::vector<OffsetFilm> offset_films;
-  for (const SeenPeople& of_camera : people) tracks.push_back(FollowPeople(of_camera, options.follow));
-  for (std::size_t camera = 0; camera < people.size(); ++camera) {
-    OffsetFilm& added = offset_films.emplace_back();
-    for (const PersonTrack& track : tracks[camera]) added.people.emplace_back(people[camera], track);
-  }
-  // Estimate each offset against the cameras before it, then once more against all cameras.
-  offset_films.front().offset.is_told = true;
-  constexpr int kRounds = 2;
-  for (int round = 0; round < kRounds; ++round) {
-    for (std::size_t camera = 1; camera < cameras.size(); ++camera) {
-      const auto misfit_at = [&](int offset) -> std::optional<double> {
-        Misfit all;
-        for (std::size_t other = 0; other < (round == 0 ? camera : cameras.size()); ++other) {
-          const auto geometry = EpipolarGeometry::Of(cameras[other], cameras[camera]);
-          if (other == camera || !geometry) continue;
-          AddMisfit(*geometry, offset_films[other], offset_films[camera], offset, people[0].size(), options, all);
-        }
-        return all.count > 0 ? std::optional(all.variance / all.count) : std::nullopt;
-      };
-      offset_films[camera].offset = FindOffset(misfit_at, options.clocks.max_frames);
-    }
-  }
-  std::vector<ClockOffset> offsets;
-  for (const OffsetFilm& added : offset_films) offsets.push_back(added.offset);
-  return offsets;
+  return OffsetFinder(cameras, people, options).Find();
 }
 
-namespace {
-
-/// The people of one camera, and its clock.
-struct ClockedFilm {
-  std::vector<MovingPerson> people;
-  FilmClock clock;
-};
-
-class ClockFinder {
- public:
-  ClockFinder(std::span<const ProjectionMatrix> cameras, std::vector<ClockedFilm> films, std::size_t frames,
-              double min_confidence)
-      : films_(std::move(films)), geometry_(cameras), frames_(frames), least_confidence_(min_confidence) {}
-
-  std::vector<FoundClock> Find(int max_frames) {
-    std::vector<FoundClock> found(films_.size());
-    for (std::size_t c = 0; c < films_.size(); ++c) found[c].clock = found[c].nearest = films_[c].clock;
-    constexpr int kRounds = 2;
-    constexpr double kHalf = 0.5;
-    for (int round = 0; round < kRounds; ++round) {
-      for (std::size_t c = 1; c < films_.size(); ++c) {
-        // In the first pass, compare the film only with the films before it, whose clocks are already found.
-        const std::size_t others = round == 0 ? c : films_.size();
-        const FilmClock given = films_[c].clock;
-        const auto before = LossOf(c, given, others);
-        if (!before) continue;
-        const auto [clock, after] = Search(c, given, *before, round == 0 ? max_frames : 0, others);
-        found[c].nearest = clock;
-        if (!(after < kHalf * *before) || after == *before) continue;
-        films_[c].clock = found[c].clock = clock;
-        if (!found[c].is_mended) found[c].before = *before;
-        found[c].after = after;
-        found[c].is_mended = true;
-      }
+std::vector<ClockDrift> FindDrifts(std::span<const ProjectionMatrix> cameras, std::span<const SeenPeople> people,
+                                   const PeopleSyncOptions& options) {
+  std::size_t frames = people.empty() ? 0 : people.front().size();
+  for (const SeenPeople& of_camera : people) frames = std::min(frames, of_camera.size());
+  // Far from the right offset, the few frames of a quarter may fit by chance.
+  PeopleSyncOptions near = options;
+  near.clocks.max_frames = std::clamp(static_cast<int>(frames / 16), 1, options.clocks.max_frames);
+  const OffsetFinder finder(cameras, people, near);
+  std::vector<std::size_t> steady(people.size());
+  std::iota(steady.begin(), steady.end(), 0);
+  // Find the film that drifts most against all others, leave it out, and search again.
+  std::vector<ClockDrift> drifts;
+  while (steady.size() > 1) {
+    std::optional<ClockDrift> most;
+    for (std::size_t i = 0; i < steady.size(); ++i) {
+      if (steady.size() == 2 && i == 0) continue;  // of two films, the first one's clock is taken as right
+      std::vector<std::size_t> others = steady;
+      others.erase(others.begin() + static_cast<std::ptrdiff_t>(i));
+      const auto drift = DriftOf(finder, steady[i], others, frames);
+      if (drift && (!most || std::abs(drift->frames) > std::abs(most->frames))) most = drift;
     }
-    return found;
+    if (!most) break;
+    drifts.push_back(*most);
+    std::erase(steady, most->film);
   }
-
- private:
-  /// Returns the mean loss over keypoints: each person is compared with the best-fitting person in each of the first
-  /// `others` cameras. Returns nullopt if there are too few pairs of keypoints.
-  std::optional<double> LossOf(std::size_t c, const FilmClock& clock, std::size_t others) const {
-    constexpr std::size_t kMaxFrames = 60;
-    const std::size_t stride = std::max<std::size_t>(1, frames_ / kMaxFrames);
-    double sum = 0;
-    std::size_t count = 0;
-    // Sum the losses over fewer than 120 frames, the other cameras, and the people.
-    for (std::size_t frame = 0; frame < frames_; frame += stride) {
-      const auto time = static_cast<double>(frame);
-      const std::vector<SeenPerson> here = PeopleAt(films_[c], clock, time);
-      for (std::size_t o = 0; !here.empty() && o < others; ++o) {
-        if (o == c || !geometry_(o, c)) continue;
-        const std::vector<SeenPerson> there = PeopleAt(films_[o], films_[o].clock, time);
-        for (const SeenPerson& person : here) {
-          // Compare with the person in the other camera who has the lowest mean loss.
-          std::pair<double, std::size_t> best{0, 0};
-          for (const SeenPerson& somebody : there) {
-            const auto pair = PairLoss(*geometry_(o, c), somebody, person);
-            if (pair.second > 0 && (best.second == 0 || pair.first * static_cast<double>(best.second) <
-                                                            best.first * static_cast<double>(pair.second))) {
-              best = pair;
-            }
-          }
-          sum += best.first;
-          count += best.second;
-        }
-      }
-    }
-    constexpr std::size_t kMinCount = 60;
-    return count < kMinCount ? std::nullopt : std::optional(sum / static_cast<double>(count));
-  }
-
-  static std::vector<SeenPerson> PeopleAt(const ClockedFilm& film, const FilmClock& clock, double time) {
-    std::vector<SeenPerson> people;
-    for (const MovingPerson& person : film.people) {
-      if (auto at = person.At(clock.FrameAt(time))) people.push_back(std::move(*at));
-    }
-    return people;
-  }
-
-  std::pair<double, std::size_t> PairLoss(const EpipolarGeometry& geometry, const SeenPerson& a,
-                                          const SeenPerson& b) const {
-    constexpr double kMinPx = 1.5, kShare = 0.01;
-    const double scale = std::max(kMinPx, kShare * HeightPx(b));
-    double sum = 0;
-    std::size_t count = 0;
-    for (std::size_t i = 0; i < kLandmarkCount; ++i) {
-      const Keypoint &p = a.keypoints[i], &q = b.keypoints[i];
-      if (std::min(p.confidence, q.confidence) < least_confidence_) continue;
-      const double px = geometry.DistancePx(p.pixel, q.pixel);
-      sum += px * px / (px * px + scale * scale);
-      ++count;
-    }
-    return {sum, count};
-  }
-
-  std::pair<FilmClock, double> Search(std::size_t c, const FilmClock& given, double before, int max_frames,
-                                      std::size_t others) const {
-    const double middle = 0.5 * static_cast<double>(frames_);
-    const auto moved = [&](double shift, double stretch) {  // `stretch`: drift over half of the film, frames
-      const double drift = stretch / std::max(1.0, middle);
-      return FilmClock{given.offset + shift - stretch, given.drift + drift};
-    };
-    LeastLoss2 least([&](double shift, double stretch) { return LossOf(c, moved(shift, stretch), others); }, before);
-    // Grid search: offsets first, then drifts near the best offset.
-    for (int s = -max_frames; s <= max_frames; ++s) least.Try(s, 0);
-    const double coarse = least.x();
-    constexpr double kMaxStretch = 3;
-    for (double t = -kMaxStretch; max_frames > 0 && t <= kMaxStretch; t += 1) {
-      for (double s = -2; s <= 2; s += 1) least.Try(coarse + s, t);
-    }
-    least.Refine();
-    return {moved(least.x(), least.y()), least.loss()};
-  }
-
-  std::vector<ClockedFilm> films_;
-  PairGeometry geometry_;
-  std::size_t frames_;
-  double least_confidence_;
-};
-
-}  // namespace
-
-std::vector<FoundClock> FindClocks(std::span<const ProjectionMatrix> cameras, std::span<const SeenPeople> people,
-                                   std::span<const FilmClock> given, int max_frames, const FollowOptions& options) {
-  std::vector<std::vector<PersonTrack>> tracks;
-  for (const SeenPeople& of_camera : people) tracks.push_back(FollowPeople(of_camera, options));
-  std::vector<ClockedFilm> films(people.size());
-  for (std::size_t c = 0; c < people.size(); ++c) {
-    films[c].clock = given[c];
-    for (const PersonTrack& track : tracks[c]) films[c].people.emplace_back(people[c], track);
-  }
-  const std::size_t frames = people.empty() ? 0 : people.front().size();
-  return ClockFinder(cameras, std::move(films), frames, options.min_confidence).Find(max_frames);
+  return drifts;
 }
 
 SeenPeople PeopleInTime(const SeenPeople& people, const FilmClock& clock, std::size_t frames,

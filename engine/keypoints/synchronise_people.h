@@ -17,13 +17,31 @@ struct PeopleSyncOptions {
 /// Estimates the delay of each camera's pictures *(ours)*, like the overload for marks in
 /// `engine/capture/synchronise.h`: frame k of a camera was taken at the first camera's time k + offset. People need
 /// not be identified: at each offset, every person tracked in another camera is compared with all people of this
-/// camera, and the person with the lowest mean squared epipolar distance (`EpipolarGeometry`) counts. Each camera is
-/// compared with the cameras before it, and then again with all others. A camera whose offset cannot be determined
-/// gets 0; the offset of the first camera is 0 by definition.
+/// camera, and the person with the lowest mean squared epipolar distance (`EpipolarGeometry`) counts. The cameras that
+/// agree with each other determine the offsets: first the pair that shows its offset most clearly, then one camera at a
+/// time. A camera whose offset cannot be determined gets 0 and is not told. The offset of the first camera is 0 by
+/// definition; if it is not told, the offset of the first camera that is told is 0.
 /// @param cameras the cameras of the rig, without lens distortion; all pixels must be undistorted
 /// @param people the people of each camera, each with its own number of frames
 std::vector<ClockOffset> EstimateOffsets(std::span<const ProjectionMatrix> cameras, std::span<const SeenPeople> people,
                                          const PeopleSyncOptions& options = {});
+
+/// A film whose delay against the other films changes.
+struct ClockDrift {
+  std::size_t film = 0;
+  double frames = 0;  ///< how much later its frames are in the second half than in the first, frames
+  /// The misfits of its keypoints with those of the other films, root mean square, pixels: with the best constant
+  /// delay, and with a delay of its own for each quarter of the film.
+  double constant_px = 0, changing_px = 0;
+};
+
+/// Finds the films whose clocks drift *(ours)*, from the delays in the four quarters of the films: the film that drifts
+/// most against all others, then the next one without that film, and so on. The delays must increase, or decrease, from
+/// quarter to quarter, by at least half a frame between the halves, and must explain a tenth of the squared misfits. Of
+/// two films, only the second can be named. Delays of at most a sixteenth of the film are searched.
+/// @param people the people of each camera at the first camera's times (`PeopleInTime`)
+std::vector<ClockDrift> FindDrifts(std::span<const ProjectionMatrix> cameras, std::span<const SeenPeople> people,
+                                   const PeopleSyncOptions& options = {});
 
 /// A film's clock: frame k of the film was taken at offset + (1 + drift) · k, in frames of the first film.
 struct FilmClock {

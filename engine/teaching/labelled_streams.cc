@@ -85,10 +85,11 @@ Result<std::vector<LabelledPart>> MatchLabels(const std::vector<Label>& labels, 
       if (!IsLabelOf(label, stream.name)) continue;
       const double shift = label.by_own_clock ? stream.start_s : 0;
       const double from = label.from_s ? *label.from_s - shift : 0, to = label.to_s ? *label.to_s - shift : length;
-      if (from < -kOutside || from > length || to > length + kOutside) {
-        return Fail({file, label.line},
-                    "a label from {:.3f} to {:.3f} s of {}; allowed: within the recording, which lasts {:.3f} s", from,
-                    to, stream.name, length);
+      if (from < -kOutside || from >= length || to <= 0 || to > length + kOutside) {
+        return Fail(
+            {file, label.line}, "a label {} of {}; allowed: within the recording, which lasts {:.3f} s",
+            label.IsActionPoint() ? fmt::format("at {:.3f} s", from) : fmt::format("from {:.3f} to {:.3f} s", from, to),
+            stream.name, length);
       }
       LabelledPart& part = parts.emplace_back();
       part.stream = s;

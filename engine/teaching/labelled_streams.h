@@ -40,9 +40,10 @@ struct LabelledPart {
 };
 
 /// Finds the frames of `streams` to which the labels refer, sorted by stream and then by time. Labels of other
-/// recordings are left out. Fails, with the label's line, if a performance begins more than half a second before the
-/// recording or after its end, or ends more than half a second after it. Also fails if two labels name one performance,
-/// and if no label belongs to any of the recordings.
+/// recordings are left out. Fails, with the label's line, if a performance or an action point begins more than half
+/// a second before the recording or after its last frame, or if a performance ends before the recording or more than
+/// half a second after it. Also fails if two labels name one performance, and if no label belongs to any of the
+/// recordings.
 Result<std::vector<LabelledPart>> MatchLabels(const std::vector<Label>& labels, const std::string& file,
                                               const std::vector<NamedStream>& streams);
 

@@ -74,7 +74,7 @@ class Forecast(EtudeCase):
         # A second call gives the same facts; a third prints them as text.
         self.assertEqual(self.facts("forecast", path), told)
         said = self.etude("forecast", path).stdout
-        self.assertIn("OpenCV's YAML: lengths in m\n  cam0           x 3.00, z 3.00, 1.50 m high\n", said)
+        self.assertIn("OpenCV's YAML: lengths in m; up is y, as in the format\n  cam0           x 3.00, z 3.00, 1.50 m high\n", said)
         self.assertIn("OpenCV&#39;s YAML: lengths in m", page)
         self.assertIn(f"A point errs by {told['median_mm']:.1f} mm in the median", said)
         self.assertEqual(self.etude("forecast", path, "--picture", names["map.png"]).returncode, 2)
@@ -103,7 +103,7 @@ class Forecast(EtudeCase):
             f"[{name}]\nsize = [1280, 960]\nfov_deg = 70\nposition = [{x}, 3, 2]\nlook_at = [0, 0, 1]\n"
             for name, x in (("left", -2), ("right", 2))))
         said = self.etude("forecast", path).stdout
-        self.assertIn("lengths in m; x is the file's y, z its x, up its z\n  left           x 3.00, z -2.00, 2.00 m high\n"
+        self.assertIn("lengths in m; up is z, as in the format; x is the file's y, z its x, up its z\n  left           x 3.00, z -2.00, 2.00 m high\n"
                       "  right          x 3.00, z 2.00, 2.00 m high\n", said)
         self.assertEqual(self.facts("forecast", path)["middle_m"], [0, 0])
 

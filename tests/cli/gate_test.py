@@ -99,6 +99,7 @@ class Gate(EtudeCase):
             text = self.gate(self.out, "--baseline", self.baseline, "--unsealed", expect=code)
             self.assertIn(f"{far} far worse", text)
             self.assertIn("too few to fail" if far == 3 else "worse in 4 worlds", text)
+            self.assertNotIn("not judged", text)
         commands = re.findall(r"etude replay (\S+) --cell (\S+)", text)
         self.assertEqual(commands, [(str(self.out), f"ik/joint_noise_deg=2/{trial:03}/fixed") for trial in range(4)])
         self.assertIn(commands[0][1], (self.out / "report" / "gate.md").read_text())
@@ -109,6 +110,17 @@ class Gate(EtudeCase):
         self.assertEqual(replayed.returncode, 0, replayed.stdout + replayed.stderr)
         self.assertIn(f"  {line['metric']}: {line['values'][0]} in the baseline, {whole[0]} now\n", replayed.stdout)
         self.assertIn(" in the baseline, and now\n", replayed.stdout)
+
+    def test_far_worse_worlds_of_a_tail_rule_that_is_off_are_named_as_not_judged(self):
+        self.make_baseline(SCENARIO + "gate: {tail: {worlds: 0, lost: 0}}\n")
+        baseline = json.loads(self.baseline.read_text())
+        line = next(line for line in baseline["values"] if line["metric"] == "position_error_cm")
+        line["values"][:4] = [value - 5 for value in line["values"][:4]]
+        self.baseline.write_text(json.dumps(baseline))
+        text = self.gate(self.out, "--baseline", self.baseline, "--unsealed", expect=0)
+        self.assertIn("4 far worse", text)
+        self.assertIn("not judged, because the scenario turned the tail rule off:\n", text)
+        self.assertNotIn("too few to fail", text + (self.out / "report" / "gate.md").read_text())
 
     def test_an_update_shows_what_moved_and_is_the_new_standard(self):
         self.make_baseline()

@@ -276,7 +276,7 @@ class OwnMetrics(EtudeCase):
                               (f"[{{name: a, {program}, files: [nowhere]}}]", "'files' of metric 'a': 'nowhere'")):
             self.refused(HEAD + f"metrics: {metrics}\n", says, "refused.yaml")
         self.refused(f"scenario: s\nquestion: why\ntask: pose-distance\nmethods: [{{name: a}}]\nmetrics: [{{name: a, {program}}}]\n",
-                     "scenarios of these tasks cannot define metrics of their own: pose-distance,")
+                     "a scenario of task pose-distance cannot define metrics of its own, because its cells keep no motion")
         self.refused("defaults: {task: ik, methods: [{name: a}]}\nscenarios:\n"
                      f"  - {{scenario: x, question: why, metrics: [{{name: twice, {program}}}]}}\n"
                      f"  - {{scenario: y, question: why, metrics: [{{name: twice, {program}, unit: mm}}]}}\n",

@@ -60,6 +60,7 @@ TEST(GateMarkdown, ShowsAReviewerWhatFailsBeforeWhatElseMoved) {
 /// lost.
 MetricMove TailMove(Movement movement) {
   MetricMove move = MoveOf("adaptive", "orientation_error_deg", movement, 2, 2);
+  move.is_tail_judged = true;
   move.by_tail = movement == Movement::kWorse;
   move.tail = {{7, 0.05, std::nullopt, 'o', 'f', true}, {12, 2.0, std::nullopt, 'o', 'o', true}};
   for (int trial : {3, 1, 41}) move.tail.push_back({trial, 0.05, 60.05, 'o', 'u', false});
@@ -100,7 +101,7 @@ TEST(GateTail, TellsAWorldOnceHoweverManyMetricsAreFarWorse) {
   ended.identity.metric = kOkShare;
   ended.tail = {{3, 1.0, 0.0, 'o', 'u', false}};
   report.comparison.moves = {ended, error};
-  const auto lines = TailLines(report, true, 5, 40);
+  const auto lines = TailLines(report, TailGroup::kFailing, 5, 40);
   ASSERT_EQ(lines.size(), 5u);
   EXPECT_THAT(lines[0].world,
               HasSubstr("trial 3, adaptive: ok → unsolved; effector orientation error 0.0500° → 60.0°"));
@@ -113,6 +114,12 @@ TEST(GateMarkdown, ShowsFarWorseWorldsThatAreTooFewToFailAmongWhatElseMoved) {
   EXPECT_THAT(text, Not(HasSubstr("**Worlds that are far worse:**")));
   EXPECT_LT(text.find("<details>"), text.find("Single worlds that are far worse, but too few to fail:"));
   EXPECT_LT(text.find("trial 7, adaptive"), text.find("</details>"));
+  // With the tail rule off, no number of worlds would fail.
+  report.comparison.moves.front().is_tail_judged = false;
+  const std::string off = WriteGateMarkdown(report);
+  EXPECT_THAT(off, Not(HasSubstr("too few to fail")));
+  EXPECT_THAT(off, HasSubstr("but not judged, because the scenario turned the tail rule off:"));
+  EXPECT_LT(off.find("trial 7, adaptive"), off.find("</details>"));
 }
 
 TEST(GateJunit, NamesFarWorseWorldsInTheFailure) {

@@ -12,6 +12,7 @@
 #include "engine/cameras/camera_parameters.h"
 #include "engine/cameras/dlt.h"
 #include "engine/cameras/pairs_file.h"
+#include "engine/cameras/rig_doubts.h"
 #include "engine/cameras/rig_file.h"
 #include "io/files/files.h"
 #include "io/images/image_files.h"
@@ -265,6 +266,7 @@ Result<Calibrated> CalibrateRig(const CalibrateOptions& options) {
     return Fail({}, "--picture and --beside need pictures of boards; {} has point pairs", options.inputs.front());
   ASSIGN_OR_RETURN(Calibrated rig, is_pairs ? FromPairs(options) : CalibrateFromPictures(options));
   options.listener.print(TextOf(rig));
+  for (const std::string& doubt : RigDoubts(rig.cameras)) options.listener.print("doubtful: " + doubt + "\n");
   RETURN_IF_ERROR(WriteFileAtomically(options.output, WriteRig(rig.cameras)));
   options.listener.print("\n");
   TellWritten(options.listener, options.output);

@@ -70,6 +70,8 @@ Result<CapturedFilms> CaptureFilms(const CaptureFilmsOptions& options) {
     const auto place = PlaceRig(session.rig, options.place);
     if (!place) return Fail({options.rig}, "{}", place.error().message);
     session.told.push_back(fmt::format("rig, {}: {}", session.rig.format, place->told));
+    if (!place->doubt.empty()) session.told.push_back("doubtful: " + place->doubt);
+    for (const std::string& doubt : DoubtsOnCameras(session.views)) session.told.push_back(doubt);
     for (FilmedView& view : session.views) {
       if (view.fit.quarter_turns != 0) {
         return Fail({view.path.string()},

@@ -273,6 +273,7 @@ Result<bool> CaptureKeypoints(const CaptureFilmsOptions& options, FilmedSession 
   }
   if (!place) return Fail({options.rig}, "{}", place.error().message);
   films.told.Tell(fmt::format("rig, {}: {}", session.rig.format, place->told));
+  if (!place->doubt.empty()) films.told.Tell("doubtful: " + place->doubt);
   if (!place->IsNone()) {
     for (std::size_t i = 0; i < views.size(); ++i) {
       views[i].camera.camera = Placed(*place, views[i].camera.camera);

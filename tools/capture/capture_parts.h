@@ -44,6 +44,9 @@ struct FilmedSession {
 /// have different lengths.
 Result<FilmedSession> OpenFilms(const CaptureFilmsOptions& options);
 
+/// Returns the lines "doubtful: …" about the cameras of the films (RigDoubts).
+std::vector<std::string> DoubtsOnCameras(const std::vector<FilmedView>& views);
+
 /// The cameras and the keypoints from which a person is recovered.
 struct SeenFilms {
   std::vector<ProjectionMatrix> cameras;  ///< cameras without lens distortion, because the keypoints have none

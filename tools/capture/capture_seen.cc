@@ -6,6 +6,7 @@
 #include <string>
 
 #include "engine/base/named.h"
+#include "engine/base/order_statistics.h"
 #include "engine/keypoints/guess_session.h"
 #include "io/keypoints/read_people.h"
 #include "tools/capture/capture_parts.h"
@@ -93,20 +94,24 @@ void Synchronise(const CaptureFilmsOptions& options, const std::vector<FilmedVie
   const SyncOptions clocks{.max_frames = max_frames, .max_px = recover.triangulate.robust.outlier_px};
   const std::vector<ClockOffset> found = EstimateOffsets(films.cameras, films.people, {clocks, recover.match.follow});
   // Report each clock, and the cameras whose clock the keypoints do not determine.
-  std::string untold;
-  std::string told = fmt::format("clocks, after {}'s:", views.front().camera.name);
+  std::string untold, told;
   for (std::size_t i = 0; i < views.size(); ++i) {
     films.clocks[i].offset = found[i].frames;
-    if (!found[i].is_told) untold += (untold.empty() ? "" : ", ") + views[i].camera.name;
-    if (i == 0) continue;
-    told += fmt::format("{} {} {:+.2f} frames ({:+.0f} ms)", i == 1 ? "" : ",", views[i].camera.name,
-                        films.clocks[i].offset, kMsPerSecond * films.clocks[i].offset / rate);
+    if (!found[i].is_told) {
+      untold += (untold.empty() ? "" : ", ") + views[i].camera.name;
+    } else if (told.empty()) {
+      told = fmt::format("clocks, after {}'s:", views[i].camera.name);
+    } else {
+      told += fmt::format("{} {} {:+.2f} frames ({:+.0f} ms)", told.ends_with(':') ? "" : ",", views[i].camera.name,
+                          films.clocks[i].offset, kMsPerSecond * films.clocks[i].offset / rate);
+    }
   }
-  films.told.Tell(told);
+  if (!told.ends_with(':')) films.told.Tell(told);
   if (untold.empty()) return;
-  films.told.Tell(fmt::format(
-      "the keypoints do not show the delay of {}: people hardly move, or the delay is more than --sync {:g}", untold,
-      options.sync_s));
+  films.told.Tell(
+      fmt::format("the keypoints do not show the delay of {}, so no delay is assumed: people hardly move, the delay is "
+                  "more than --sync {:g}, or a camera is not where the rig says",
+                  untold, options.sync_s));
 }
 
 /// Sets the clocks from the films' frame rates, and reports rates that differ.
@@ -123,18 +128,64 @@ void ClocksOfRates(const std::vector<FilmedView>& views, SeenFilms& films) {
   }
 }
 
+/// Returns a camera's name in front of "'s": with more than two cameras, a delay is one against all others.
+std::string OthersOf(const std::vector<FilmedView>& views) {
+  return views.size() > 2 ? "the other cameras'" : views.front().camera.name + "'s";
+}
+
+/// Reports the films whose keypoints fit the other films' at no delay, although the other films agree with each other.
+void WarnOfMisfits(const std::vector<FilmedView>& views, const std::vector<ClockOffset>& found, int max_frames,
+                   double rate_hz, SeenFilms& films) {
+  double most = 0;  // the largest misfit of the films that agree, squared pixels
+  for (const ClockOffset& clock : found) {
+    if (clock.is_told) most = std::max(most, clock.misfit);
+  }
+  constexpr double kMinPx = 1, kMuchMore = 4;
+  for (std::size_t i = 0; most > 0 && i < views.size(); ++i) {
+    if (found[i].is_told || found[i].misfit < kMuchMore * std::max(kMinPx, most)) continue;
+    films.told.Tell(fmt::format(
+        "doubtful: {}: its keypoints fit {} at no delay up to {} frames; --sync {:.1f} searches further, or the camera "
+        "is not where the rig says",
+        views[i].camera.name, OthersOf(views), max_frames, std::ceil(4 * max_frames / rate_hz)));
+  }
+}
+
 /// Reports films that seem delayed although the keypoints are too noisy to correct the delay.
 void WarnOfDelays(const std::vector<FilmedView>& views, const RecoverPersonOptions& recover, int max_frames,
                  SeenFilms& films) {
   const SyncOptions clocks{.max_frames = max_frames, .max_px = recover.triangulate.robust.outlier_px};
   const auto guessed = EstimateOffsets(films.cameras, films.people, {clocks, recover.match.follow});
-  for (std::size_t i = 1; i < views.size(); ++i) {
-    const double frames = guessed[i].frames;
+  WarnOfMisfits(views, guessed, max_frames, recover.rate_hz, films);
+  // A film is named if it differs from most films; of two films, the second one is.
+  std::vector<double> offsets;
+  for (const ClockOffset& clock : guessed) {
+    if (clock.is_told) offsets.push_back(clock.frames);
+  }
+  const double usual = offsets.size() > 2 ? UpperMedian(offsets) : 0;
+  for (std::size_t i = 0; i < views.size(); ++i) {
+    const double frames = guessed[i].frames - usual;
     if (!guessed[i].is_told || std::abs(frames) < 1) continue;
     films.told.Tell(
-        fmt::format("doubtful: {}: its frames seem to be {:.1f} frames {} than {}'s; --sync {:.1f} would correct this",
-                    views[i].camera.name, std::abs(frames), frames > 0 ? "later" : "earlier", views.front().camera.name,
+        fmt::format("doubtful: {}: its frames seem to be {:.1f} frames {} than {}; --sync {:.1f} would correct this",
+                    views[i].camera.name, std::abs(frames), frames > 0 ? "later" : "earlier", OthersOf(views),
                     std::ceil(10 * (std::abs(frames) + 2) / recover.rate_hz) / 10));
+  }
+}
+
+/// Reports clocks that drift although every film has one delay.
+void WarnOfDrifts(const std::vector<FilmedView>& views, const RecoverPersonOptions& recover, SeenFilms& films) {
+  constexpr double kMaxSeconds = 0.3;  // the films are synchronised, apart from drifts
+  const int max_frames = std::max(2, static_cast<int>(std::lround(kMaxSeconds * recover.rate_hz)));
+  const SyncOptions clocks{.max_frames = max_frames, .max_px = recover.triangulate.robust.outlier_px};
+  const double half = 0.5 * static_cast<double>(films.people.front().size());
+  for (const ClockDrift& drift : FindDrifts(films.cameras, films.people, {clocks, recover.match.follow})) {
+    films.told.Tell(fmt::format(
+        "doubtful: {}: its clock drifts: against {}, its frames are {:.1f} frames {} in the second half of the film "
+        "than in the first, as if its rate were {:.2f} Hz and not {:g}; not corrected (residual {:.2f} px with one "
+        "delay, "
+        "{:.2f} px with one for each quarter)",
+        views[drift.film].camera.name, OthersOf(views), std::abs(drift.frames), drift.frames > 0 ? "later" : "earlier",
+        recover.rate_hz / (1 + drift.frames / half), recover.rate_hz, drift.constant_px, drift.changing_px));
   }
 }
 
@@ -218,6 +269,7 @@ Result<SeenFilms> SeeFilms(const CaptureFilmsOptions& options, const RecoverPers
     films.people.push_back(std::move(people));
   }
   FitPeople(session.rig, views, films.people, recover.triangulate.min_confidence, films.told);
+  for (const std::string& doubt : DoubtsOnCameras(views)) films.told.Tell(doubt);
   for (std::size_t i = 0; i < views.size(); ++i) {
     films.people[i] = UndistortPeople(views[i].camera.camera, std::move(films.people[i]));
     films.cameras.push_back(MatrixOf(views[i].camera.camera));
@@ -231,6 +283,7 @@ Result<SeenFilms> SeeFilms(const CaptureFilmsOptions& options, const RecoverPers
   for (std::size_t i = 0; i < views.size(); ++i) {
     films.people[i] = PeopleInTime(films.people[i], films.clocks[i], frames, recover.match.follow);
   }
+  WarnOfDrifts(views, recover, films);
   return films;
 }
 

@@ -4,6 +4,7 @@
 #include <cctype>
 #include <cmath>
 
+#include "engine/cameras/rig_doubts.h"
 #include "engine/formats/bvh.h"
 #include "engine/formats/c3d.h"
 #include "engine/formats/gltf/gltf.h"
@@ -219,6 +220,14 @@ Result<FilmedSession> OpenFilms(const CaptureFilmsOptions& options) {
   }
   RETURN_IF_ERROR(CheckTogether(views, options.sync_s > 0));
   return FilmedSession{std::move(views), std::move(rig_file), std::move(told)};
+}
+
+std::vector<std::string> DoubtsOnCameras(const std::vector<FilmedView>& views) {
+  std::vector<NamedCamera> cameras;
+  for (const FilmedView& view : views) cameras.push_back(view.camera);
+  std::vector<std::string> doubts = RigDoubts(cameras);
+  for (std::string& doubt : doubts) doubt.insert(0, "doubtful: ");
+  return doubts;
 }
 
 Result<void> WriteMotion(const CaptureFilmsOptions& options, Clip clip, const BodyMotion& motion) {

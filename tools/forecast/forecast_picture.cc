@@ -174,7 +174,9 @@ std::string CamerasHtml(const RigForecast& forecast) {
     const glm::dvec3& p = camera.p_WC;
     table.rows.push_back({{name, fmt::format("{:.2f}", p.x), fmt::format("{:.2f}", p.z), fmt::format("{:.2f}", p.y)}});
   }
-  return fmt::format("<p>{}.</p>{}", EscapeMarkup(forecast.placed), TableHtml(table));
+  std::string doubts;
+  for (const std::string& doubt : forecast.doubts) doubts += fmt::format("<p>{}.</p>", EscapeMarkup(doubt));
+  return fmt::format("<p>{}.</p>{}{}", EscapeMarkup(forecast.placed), doubts, TableHtml(table));
 }
 
 std::string JointsHtml(const RigForecast& forecast) {

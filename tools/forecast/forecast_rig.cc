@@ -7,6 +7,7 @@
 
 #include "engine/base/angles.h"
 #include "engine/base/order_statistics.h"
+#include "engine/cameras/rig_doubts.h"
 #include "io/drawing/numbers.h"
 #include "io/drawing/table.h"
 #include "io/files/files.h"
@@ -35,6 +36,7 @@ Result<void> AddCameras(const ForecastOptions& options, RigForecast& forecast) {
   const auto place = PlaceRig(rig, options.place);
   if (!place) return Fail({options.rig}, "{}", place.error().message);
   forecast.placed = fmt::format("{}: {}", rig.format, place->told);
+  if (!place->doubt.empty()) forecast.doubts.push_back("doubtful: " + place->doubt);
   for (const NamedCamera& named : rig.cameras) {
     forecast.cameras.push_back({named.name, Placed(*place, named.camera)});
     Intrinsics& in = forecast.cameras.back().camera.intrinsics;
@@ -49,6 +51,8 @@ Result<void> AddCameras(const ForecastOptions& options, RigForecast& forecast) {
         fmt::format("{}: the rig states no picture size; {} x {} pixels are assumed, twice the principal point\n",
                     named.name, in.width, in.height));
   }
+  for (const std::string& doubt : RigDoubts(forecast.cameras)) forecast.doubts.push_back("doubtful: " + doubt);
+  for (const std::string& doubt : forecast.doubts) options.listener.print(doubt + "\n");
   return {};
 }
 
@@ -99,6 +103,20 @@ double ShareSeen(const std::vector<ForecastPlace>& places) {
   const auto seen =
       std::ranges::count_if(places, [](const ForecastPlace& place) { return place.error_mm.has_value(); });
   return static_cast<double>(seen) / static_cast<double>(places.size());
+}
+
+/// Adds a doubt for each camera that sees no place of the volume, and prints it.
+void AddBlindCameras(const ForecastOptions& options, RigForecast& forecast) {
+  for (const auto& [name, camera] : forecast.cameras) {
+    const Intrinsics& in = camera.intrinsics;
+    const bool is_blind = std::ranges::none_of(forecast.places, [&](const ForecastPlace& place) {
+      const auto pixel = Project(camera, place.place_m);
+      return pixel && pixel->x >= 0 && pixel->y >= 0 && pixel->x <= in.width && pixel->y <= in.height;
+    });
+    if (!is_blind) continue;
+    forecast.doubts.push_back(fmt::format("doubtful: {}: no place of the volume is in its picture", name));
+    options.listener.print(forecast.doubts.back() + "\n");
+  }
 }
 
 /// Returns the errors in `places`, mm, of those places that also have an error in `own`.
@@ -310,9 +328,11 @@ std::string WorthsText(const RigForecast& forecast) {
 std::string AssumedWords(const RigForecast& forecast, const ForecastOptions& options) {
   const SightingErrors& errors = options.errors;
   const std::string measured =
-      forecast.measured ? fmt::format("Measured: keypoints err by {:.1f} px along each axis ({} points). Assumed:",
-                                      forecast.measured->all_px, forecast.measured->points)
-                        : fmt::format("Assumed: keypoints err by {:g} px along each axis,", errors.noise_px);
+      forecast.measured
+          ? fmt::format(
+                "Measured (standard deviation): keypoints err by {:.1f} px along each axis ({} points). Assumed:",
+                forecast.measured->all_px, forecast.measured->points)
+          : fmt::format("Assumed (standard deviations): keypoints err by {:g} px along each axis,", errors.noise_px);
   return fmt::format(
       "{} a camera gives no keypoint in {:g} % of its pictures; cameras err by {:g} mm, {:g} degrees, {:g} % of the "
       "focal length",
@@ -347,6 +367,7 @@ Result<RigForecast> ForecastRig(const ForecastOptions& asked) {
   // Compute the error at every place of the grid.
   forecast.places = PlacesOf(cameras, forecast.middle_m, options, options.errors);
   forecast.seen = ShareSeen(forecast.places);
+  AddBlindCameras(options, forecast);
   if (forecast.seen == 0) {
     return Fail(
         {options.rig},

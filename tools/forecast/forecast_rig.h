@@ -71,6 +71,7 @@ struct ForecastJoint {
 struct RigForecast {
   std::vector<NamedCamera> cameras;   ///< cameras in the world, metres, Y up
   std::string placed;                 ///< the file's format, its unit and its axes, in words for users
+  std::vector<std::string> doubts;    ///< doubts about the rig, "doubtful: …", for users
   std::optional<KeypointNoise> measured;  ///< noise measured from the take's keypoints; absent without a take
   glm::dvec2 middle_m{0};                 ///< middle of the volume on the floor (x, z); if computed, in whole mm
   std::vector<ForecastPlace> places;      ///< places sorted by height, then z, then x; in whole micrometres

@@ -92,6 +92,22 @@ TEST(Tail, IsARegressionFromSoManyWorldsOn) {
   EXPECT_FALSE(fails(24, 24, {20, 0, 0, 0}));
 }
 
+TEST(Tail, IsNotJudgedByARuleThatIsOff) {
+  const auto is_judged = [](bool lost, const TailRule& rule) {
+    MetricMove move;
+    move.worlds = 1000;
+    move.tail = {{.trial = 0, .lost = false}, {.trial = 1, .lost = lost}};
+    JudgeTail(move, rule);
+    EXPECT_EQ(move.movement, Movement::kSame);
+    return move.is_tail_judged;
+  };
+  EXPECT_TRUE(is_judged(false, {20, 3, 0, 0}));
+  EXPECT_FALSE(is_judged(false, {20, 0, 0, 0}));
+  EXPECT_FALSE(is_judged(true, {20, 0, 0, 0}));
+  EXPECT_FALSE(is_judged(false, {20, 0, 0, 2})) << "nothing was lost, and only lost values are judged";
+  EXPECT_TRUE(is_judged(true, {20, 0, 0, 2}));
+}
+
 TEST(Tail, MustBeAShareOfManyWorldsToo) {
   const TailRule rule{.times = 20, .worlds = 3, .share = 0.02, .lost = 0};
   for (const auto& [compared, needed] : {std::pair{5, 3}, {30, 3}, {150, 3}, {151, 4}, {1000, 20}}) {

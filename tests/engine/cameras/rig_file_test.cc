@@ -142,6 +142,24 @@ TEST(RigFile, RefusesWhateverNumberIsNotFinite) {
   spoilt(yaml, ".nan", "image_width");
 }
 
+// A mirrored camera has a matrix of orthogonal rows, but the determinant -1.
+TEST(RigFile, RefusesAMirroredCameraInEveryFormatWithAMatrix) {
+  const std::string said = "R is not a rotation matrix; it mirrors: its determinant is -1; allowed: 1";
+  Camera mirrored = TwoCameras().front().camera;
+  mirrored.R_CW = glm::dmat3(-1, 0, 0, 0, 1, 0, 0, 0, 1) * mirrored.R_CW;
+  EXPECT_EQ(testing::Message(CameraOf(ParametersOf(mirrored))), said);
+  EXPECT_THAT(testing::Refusal(ReadRig(WriteOpenCvCamera(mirrored), "rig")), HasSubstr(said));
+  const std::string toml =
+      "[a]\nsize = [640, 480]\nmatrix = [[600, 0, 320], [0, 600, 240], [0, 0, 1]]\ndistortions = [0, 0, 0, 0]\n"
+      "rotation = [[1, 0, 0], [0, 1, 0], [0, 0, 1]]\ntranslation = [0, 0, 4]\n";
+  EXPECT_TRUE(ReadRig(toml, "rig"));
+  EXPECT_THAT(testing::Refusal(
+                  ReadRig(testing::Replaced(toml, "[0, 1, 0], [0, 0, 1]]\nt", "[0, -1, 0], [0, 0, 1]]\nt"), "rig")),
+              HasSubstr(said));
+  const std::string qualisys = testing::Replaced(kQualisys, "r12=\"1", "r12=\"-1");
+  EXPECT_THAT(testing::Refusal(ReadRig(qualisys, "rig")), HasSubstr("R is not a rotation matrix"));
+}
+
 TEST(RigFile, RefusesALensThatItCannotRead) {
   const std::string toml = WritePose2SimCalibration(TwoCameras());
   EXPECT_THAT(testing::Message(ReadRig(testing::Replaced(toml, "fisheye = false", "fisheye = yes"), "rig")),

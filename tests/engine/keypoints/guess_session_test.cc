@@ -222,7 +222,7 @@ TEST(GuessSession, TellsOfAFocalLengthAndLeavesIt) {
   films[2].camera.intrinsics.fy /= 1.1;
   const SessionGuess guess = GuessSession(films, kFilms, glm::dmat3(1), 0.1);
   EXPECT_EQ(guess.mended, "");
-  EXPECT_THAT(Doubts(films), ElementsAre(StartsWith("with a focal length 1.10")));
+  EXPECT_THAT(Doubts(films), ElementsAre(HasSubstr(": a focal length 1.10")));
   EXPECT_EQ(guess.cameras[2].intrinsics.fx, films[2].camera.intrinsics.fx);
 }
 

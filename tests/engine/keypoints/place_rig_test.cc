@@ -195,12 +195,64 @@ TEST(PlaceRig, WithoutAPersonTakesWhatIsTold) {
 TEST(PlaceRig, TellsWhichAxesOfTheFileAreOurs) {
   RigFile rig = SomeRig();
   rig.R_WF = glm::dmat3(0, 0, 1, 1, 0, 0, 0, 1, 0);  // (x, y, z) of the file is our (y, z, x)
-  EXPECT_EQ(PlaceRig(rig, {})->told, "lengths in m; x is the file's y, z its x, up its z");
+  EXPECT_EQ(PlaceRig(rig, {})->told, "lengths in m; up is z, as in the format; x is the file's y, z its x, up its z");
   EXPECT_EQ(PlaceRig(rig, {.unit = "mm", .up = "-y", .floor = "0.2"})->told,
-            "lengths in mm; x is the file's z, z its x, up its -y; the floor at height 0.2 m");
-  EXPECT_EQ(PlaceRig(SomeRig(), {})->told, "lengths in m") << "the axes are the same";
+            "lengths in mm; up is -y (as given), the floor at height 0.2 m; x is the file's z, z its x, up its -y");
+  EXPECT_EQ(PlaceRig(SomeRig(), {})->told, "lengths in m; up is y, as in the format") << "the axes are the same";
   ASSERT_OK(seen, PlaceRig(rig, Stander([](glm::dvec3 p) { return p; }), kPlaceRate, {}));
   EXPECT_THAT(seen->told, ::testing::EndsWith("the floor as in the file; x is the file's y, z its x, up its z"));
+}
+
+/// Returns four cameras around a person, 1 to 3 m high, in a file whose axes are `R_FW` times ours, but whose format
+/// has our axes.
+RigFile RigOnItsSide(const glm::dmat3& R_FW) {
+  RigFile rig;
+  rig.format = "OpenCV's YAML";
+  for (const glm::dvec3& p : {glm::dvec3(-3, 2.2, 3.5), {3, 1.5, 3.2}, {3.2, 2.4, -3}, {-2.8, 1.2, -3.4}}) {
+    Camera camera = LookAt({}, p, {0, 1, 0});
+    camera.R_CW = camera.R_CW * glm::transpose(R_FW);
+    camera.p_WC = R_FW * camera.p_WC;
+    rig.cameras.push_back({"c" + std::to_string(rig.cameras.size() + 1), camera});
+  }
+  return rig;
+}
+
+// A forecast (without a person) and a capture (with one) of one rig file must agree about the up axis.
+TEST(PlaceRig, FindsTheSameAxisWithAndWithoutAPerson) {
+  const glm::dmat3 z_up(0, 1, 0, 0, 0, 1, 1, 0, 0), x_up(0, 0, 1, 1, 0, 0, 0, 1, 0);
+  for (const auto& [R_FW, told] : {std::pair(glm::dmat3(1), "up is y, as in the format"),
+                                   {z_up, "up is z (found: the cameras' horizons)"},
+                                   {x_up, "up is x (found: the cameras' horizons)"},
+                                   {TurnAboutX(180), "up is -y (found: the cameras' horizons)"}}) {
+    const RigFile rig = RigOnItsSide(R_FW);
+    ASSERT_OK(alone, PlaceRig(rig, {}));
+    EXPECT_THAT(alone->told, HasSubstr(told));
+    EXPECT_EQ(alone->doubt, "");
+    ASSERT_OK(seen, PlaceRig(rig, Stander([&](glm::dvec3 p) { return R_FW * p; }), kPlaceRate, {}));
+    for (int axis = 0; axis < 3; ++axis) EXPECT_LT(glm::distance(alone->R[axis], seen->R[axis]), 1e-9) << told;
+    EXPECT_EQ(seen->doubt, "");
+  }
+}
+
+TEST(PlaceRig, KeepsTheFormatsAxisForCamerasThatLookDown) {
+  RigFile rig = RigOnItsSide(glm::dmat3(1));
+  // The columns are the world's axes in the camera: x is right, y is behind, z is down in the picture.
+  for (NamedCamera& named : rig.cameras) named.camera.R_CW = glm::dmat3(1, 0, 0, 0, 0, -1, 0, 1, 0);
+  EXPECT_NEAR(glm::transpose(rig.cameras.front().camera.R_CW)[2].y, -1, 1e-12);
+  EXPECT_EQ(PlaceRig(rig, {})->told, "lengths in m; up is y, as in the format");
+}
+
+TEST(PlaceRig, NamesCamerasBelowTheFloor) {
+  RigFile rig = RigOnItsSide(glm::dmat3(1));
+  EXPECT_THAT(PlaceRig(rig, {.floor = "1.35"})->doubt, HasSubstr("floor: c4 by 0.15 m;"));
+  rig.cameras[1].camera.p_WC.y = -0.05;
+  EXPECT_EQ(PlaceRig(rig, {})->doubt, "") << "within the error of a calibration";
+  rig.cameras[1].camera.p_WC.y = -0.84;
+  const std::string said =
+      "cameras lie below the floor: c2 by 0.84 m; --rig-up sets the rig's up axis, and --floor its floor";
+  EXPECT_EQ(PlaceRig(rig, {})->doubt, said);
+  EXPECT_EQ(PlaceRig(rig, Stander([](glm::dvec3 p) { return p; }), kPlaceRate, {})->doubt, said);
+  EXPECT_THAT(PlaceRig(RigOnItsSide(glm::dmat3(1)), {.up = "-y"})->doubt, HasSubstr("c1 by 2.20 m, c2 by 1.50 m"));
 }
 
 TEST(PlaceRig, RefusesDistancesThatNoRigHas) {

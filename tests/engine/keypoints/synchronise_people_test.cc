@@ -109,6 +109,52 @@ TEST(SynchronisePeople, SaysSoWhereAClockIsFurtherOffThanItLooked) {
   EXPECT_FALSE(found[3].is_told) << "11 frames late";
 }
 
+// One camera's clock is far out of the search, so its keypoints fit the other cameras' at no offset. The clocks of the
+// other cameras, whichever of them comes first, must stay exact.
+TEST(SynchronisePeople, NamesTheCameraThatIsOutOfRangeAndNotTheOthers) {
+  for (const std::size_t cameras : {3u, 4u}) {
+    for (std::size_t odd = 0; odd < cameras; ++odd) {
+      std::vector<double> offsets(4, 0);
+      offsets[odd] = 20;
+      Session session = Filmed(1, 1.5, offsets);
+      session.cameras.resize(cameras);
+      session.people.resize(cameras);
+      const auto found = EstimateOffsets(session.cameras, session.people, {.clocks = {.max_frames = 6}, .follow = {}});
+      for (std::size_t c = 0; c < cameras; ++c) {
+        EXPECT_EQ(found[c].is_told, c != odd) << c << " of " << cameras << ", odd: " << odd;
+        EXPECT_NEAR(found[c].frames, 0, 0.3) << c << " of " << cameras << ", odd: " << odd;
+        if (c == odd) continue;
+        EXPECT_LT(4 * found[c].misfit, found[odd].misfit) << c << " of " << cameras << ", odd: " << odd;
+      }
+    }
+  }
+}
+
+TEST(FindDrifts, NamesTheFilmThatDriftsAndSaysByHowMuch) {
+  for (std::size_t odd = 0; odd < 4; ++odd) {
+    std::vector<double> drifts(4, 0), offsets(4, 0);
+    drifts[odd] = 0.08;   // over 60 frames: 4.8 frames, 2.4 between the middles of the halves
+    offsets[odd] = -2.4;  // right in the middle of the film
+    const Session session = Filmed(1, 1.5, offsets, 0, drifts);
+    const auto found = FindDrifts(session.cameras, session.people);
+    ASSERT_EQ(found.size(), 1u) << odd;
+    EXPECT_EQ(found[0].film, odd);
+    EXPECT_NEAR(found[0].frames, 2.4, 0.7);
+    EXPECT_LT(found[0].changing_px, found[0].constant_px);
+  }
+}
+
+TEST(FindDrifts, FindsNoneInClocksThatAgree) {
+  for (const int persons : {1, 2}) {
+    for (const double sigma_px : {0.0, 1.5, 6.0}) {
+      for (int luck = 0; luck < 4; ++luck) {
+        const Session session = Filmed(persons, sigma_px, {0, 0.3, -0.4, 0}, luck);
+        EXPECT_TRUE(FindDrifts(session.cameras, session.people).empty()) << persons << " people, " << sigma_px;
+      }
+    }
+  }
+}
+
 TEST(FindClocks, FindsOffsetsAndDriftsAndLeavesTheFirstFilm) {
   const std::vector<double> offsets = {0, 1.4, -2.25, 0.5}, drifts = {0, 0, 0.01, -0.015};
   const Session session = Filmed(1, 0.1, offsets, 0, drifts);

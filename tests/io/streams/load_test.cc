@@ -57,6 +57,19 @@ TEST(MatchLabels, RefusesTimesOutsideAndLabelsOfNothing) {
   const auto late = ReadLabels("clip,from_s,to_s,move,truth\na,1,2,m,right\na,2,9,m,right\n", "l");
   EXPECT_EQ(ToString(MatchLabels(*late, "l", TwoStreams()).error()),
             "l:3: a label from 2.000 to 9.000 s of a; allowed: within the recording, which lasts 3.000 s");
+  // No frame lies in these: the last frame is at 2.967 s.
+  for (const auto& [times, told] : {std::pair("3,3.4", "from 3.000 to 3.400 s"),
+                                    {"3.2,3.4", "from 3.200 to 3.400 s"},
+                                    {"-0.4,0", "from -0.400 to 0.000 s"},
+                                    {"3,", "at 3.000 s"}}) {
+    const auto beyond = ReadLabels(fmt::format("clip,from_s,to_s,move,truth\na,{},m,right\n", times), "l");
+    EXPECT_EQ(testing::Refusal(MatchLabels(*beyond, "l", TwoStreams())),
+              fmt::format("l:2: a label {} of a; allowed: within the recording, which lasts 3.000 s", told));
+  }
+  for (const char* times : {"2.99,3.4", "-0.4,0.01", "0,3", "2.99,"}) {
+    const auto within = ReadLabels(fmt::format("clip,from_s,to_s,move,truth\na,{},m,right\n", times), "l");
+    EXPECT_TRUE(MatchLabels(*within, "l", TwoStreams())) << times;
+  }
   const auto other = ReadLabels("clip,from_s,to_s,move,truth\nz,1,2,m,right\n", "l");
   EXPECT_EQ(ToString(MatchLabels(*other, "l", TwoStreams()).error()),
             "l: none of the labels belongs to a recording that was given, such as a");

@@ -1,5 +1,6 @@
 #include "tools/forecast/forecast_rig.h"
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -42,6 +43,22 @@ TEST_F(ForecastRigTest, StandsWhereTheCamerasLook) {
   for (const ForecastPlace& place : forecast->places) {
     EXPECT_LE(place.error_mm.value_or(0), *forecast->worst.error_mm);
   }
+}
+
+TEST_F(ForecastRigTest, NamesCamerasThatLookAwayOrLieBelowTheFloor) {
+  std::vector<NamedCamera> cameras = Around({-40, 40, 160});
+  EXPECT_EQ(Of(cameras)->doubts, std::vector<std::string>());
+  Camera& third = cameras[2].camera;
+  third.R_CW = glm::dmat3(-1, 0, 0, 0, 1, 0, 0, 0, -1) * third.R_CW;
+  ForecastOptions options;
+  options.middle_m = {1, -2};
+  EXPECT_EQ(Of(cameras, options)->doubts,
+            std::vector<std::string>{"doubtful: cam3: no place of the volume is in its picture"});
+  cameras = Around({-40, 40, 160});
+  cameras[1].camera.p_WC.y = -0.5;
+  ASSERT_OK(low, Of(cameras));
+  ASSERT_EQ(low->doubts.size(), 1u);
+  EXPECT_THAT(low->doubts[0], ::testing::StartsWith("doubtful: cameras lie below the floor: cam2 by 0.50 m;"));
 }
 
 TEST_F(ForecastRigTest, PutsAnotherCameraAcrossTwoThatFaceEachOther) {
