@@ -203,18 +203,17 @@ bool Npz::Contains(const std::string& name) const {
 }
 
 Result<std::optional<ArrayRate>> RateOfArrays(const Npz& arrays, const std::string& file) {
-  constexpr double kMinRate_hz = 0.1, kMaxRate_hz = 10'000;
   std::optional<ArrayRate> found;
   for (const char* name : {"rate_hz", "fps", "framerate", "frame_rate", "mocap_framerate", "mocap_frame_rate"}) {
     if (!arrays.Contains(name)) continue;
     const NumberArray* rate = arrays.Find(name);
-    const double value = rate != nullptr && rate->values.size() == 1 ? rate->values[0] : 0;
-    if (!(value >= kMinRate_hz && value <= kMaxRate_hz)) {
+    if (rate == nullptr || rate->values.size() != 1) {
       return Fail({file},
-                  "{} is out of range, or not one number; allowed: one number from {:g} to {:g}, frames per second, or "
-                  "`--rate` (in convert `--file-rate`, in a joint map `rate: 30`)",
-                  name, kMinRate_hz, kMaxRate_hz);
+                  "{} is not one number; allowed: the frames per second, or `--rate` (in convert `--file-rate`, in a "
+                  "joint map `rate: 30`)",
+                  name);
     }
+    const double value = rate->values[0];
     if (found && found->rate_hz != value) {
       return Fail({file},
                   "{} is {:g} and {} is {:g}; allowed: one rate, or `--rate` (in convert `--file-rate`, in a joint map "

@@ -38,7 +38,7 @@ struct ArrayRate {
   std::string name;
 };
 /// Finds the frame rate in one of the arrays rate_hz, fps, framerate, frame_rate, mocap_framerate and mocap_frame_rate;
-/// nullopt if there is none. Fails if such an array is not one number from 0.1 to 10,000, or if two of them differ.
+/// nullopt if there is none. Fails if such an array is not one number, or if two of them differ.
 Result<std::optional<ArrayRate>> RateOfArrays(const Npz& arrays, const std::string& file);
 
 /// Returns true if bytes begin like a ZIP file.

@@ -250,6 +250,10 @@ Result<RawMotion> ReadRawNpz(const Npz& arrays, const std::string& file, const A
   FrameTimes times;
   if (!told.rate_hz) {
     ASSIGN_OR_RETURN(rate, RateOfArrays(arrays, file));
+    constexpr double kMinRate_hz = 0.1, kMaxRate_hz = 10'000;
+    if (rate && !(rate->rate_hz >= kMinRate_hz && rate->rate_hz <= kMaxRate_hz)) {
+      return Fail({file}, "{} is {:g}; allowed: {:g} to {:g} Hz", rate->name, rate->rate_hz, kMinRate_hz, kMaxRate_hz);
+    }
     ASSIGN_OR_RETURN(times, TimesOf(arrays, shape[0], file));
     if (!rate && times.name.empty()) {
       return Fail(

@@ -87,7 +87,7 @@ class Formats(MotionFileCase):
         told = self.write("map.yaml", "rate: 50\n")
         self.assertIn("at 50 Hz", self.ends(0, "clip", "info", path, "--map", told).stdout)
         numpy.savez(path, positions=body["positions"], names=body["names"], rate_hz="30")
-        self.refused(path, "rate_hz is out of range, or not one number")
+        self.refused(path, "rate_hz is not one number; allowed: the frames per second")
         # A body in mm or cm with Z up: declared by options, or by keys of the file.
         z_up = body["positions"][:, :, [0, 2, 1]] * [1, -1, 1]
         for unit, name in (1000, "mm"), (100, "cm"):

@@ -183,7 +183,7 @@ std::vector<std::string> RemarksOnFrameTime(const std::string& time, int frames,
   std::vector<std::string> remarks;
   const auto clip = ReadBvh(text, "a.bvh", &remarks, told_hz);
   EXPECT_TRUE(clip);
-  if (clip) EXPECT_NEAR(clip->rate_hz, told_hz.value_or(1 / std::stod(time)), 1e-3);
+  EXPECT_NEAR(clip ? clip->rate_hz : 0, told_hz.value_or(1 / std::stod(time)), 1e-3);
   return remarks;
 }
 

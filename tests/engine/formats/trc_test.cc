@@ -89,7 +89,7 @@ TEST(ReadTrc, TakesTheRateOfItsTimesWhereDataRateIsAnother) {
   EXPECT_EQ(brief->rate_hz, 100) << "so few times tell no rate";
   EXPECT_EQ(
       brief->remark,
-      "DataRate states 100 Hz, which is used, although the column Time suggests 50 Hz: 20 rows are too few to tell");
+      "DataRate states 100 Hz, which is used, but the column Time runs at 50 Hz: 20 rows are too few to tell");
 }
 
 TEST(ReadTrc, SaysWhereFrameNumbersJumpAndTimesDoNot) {
