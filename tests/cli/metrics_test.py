@@ -284,7 +284,7 @@ class OwnMetrics(EtudeCase):
         (self.folder / "m.py").write_text(FILES_METRIC)
         scenario = self.write("files.yaml", "scenario: files\nquestion: Does it measure?\ntask: evaluation\ntruth: ['builtin:acts']\n"
                               "methods: [{name: moved, control: true, moved_cm: 10}]\n"
-                              "metrics: [mpjpe_unaligned_mm, {name: mine, exec: [python3, m.py], files: [m.py], unit: mm}]\n")
+                              f"metrics: [mpjpe_unaligned_mm, {{name: mine, exec: [python3, {self.folder}/m.py], unit: mm}}]\n")
         row = self.run_suite(scenario, *FEW)[0]
         self.assertAlmostEqual(row["mine"], 100, delta=1e-6)
         self.assertAlmostEqual(row["mine"], row["mpjpe_unaligned_mm"], delta=1e-6)
