@@ -67,6 +67,19 @@ BAD = {"absent": "its program: hips hid", "silent": "null without a 'reason'", "
        "falls": "about to fall"}
 
 
+# The mean distance of the joints of task evaluation, mm; its cells have the files' own joints, and no tracks of ours.
+FILES_METRIC = """import json, math, sys
+for line in sys.stdin:
+    told = json.loads(line)
+    reply = {"type": told["type"] if told["type"] == "hello" else "ready", "protocol": 1, "name": "own", "version": "1"}
+    if told["type"] == "problem":
+        extras = told["problem"]["extras"]
+        pairs = [(a[i:i + 3], b[i:i + 3]) for a, b in zip(extras["truth"], extras["answer"]) for i in range(0, len(a), 3)]
+        reply = {"type": "answer", "id": told["id"], "answer": {"value": 1000 * sum(math.dist(a, b) for a, b in pairs) / len(pairs)}}
+    print(json.dumps(reply), flush=True)
+"""
+
+
 def own(name, manner="good", more=""):
     return f"  - {{name: {name}, exec: [python3, FOLDER/m/m.py], options: {{manner: {manner}}}{more}}}\n"
 
@@ -265,6 +278,16 @@ class OwnMetrics(EtudeCase):
         self.assertTrue(all(row["off_m"] > 0 for row in run))
         self.assertEqual([file for folder in (self.out, self.folder / "run") for file in folder.rglob("*")
                           if file.is_file() and b"0123456789abcdef" in file.read_bytes()], [])
+
+    def test_cells_of_tasks_that_judge_files_are_measured_too(self):
+        """The oracle is our own metric: all joints are moved by 10 cm."""
+        (self.folder / "m.py").write_text(FILES_METRIC)
+        scenario = self.write("files.yaml", "scenario: files\nquestion: Does it measure?\ntask: evaluation\ntruth: ['builtin:acts']\n"
+                              "methods: [{name: moved, control: true, moved_cm: 10}]\n"
+                              f"metrics: [mpjpe_unaligned_mm, {{name: mine, exec: [python3, {self.folder}/m.py], unit: mm}}]\n")
+        row = self.run_suite(scenario, *FEW)[0]
+        self.assertAlmostEqual(row["mine"], 100, delta=1e-6)
+        self.assertAlmostEqual(row["mine"], row["mpjpe_unaligned_mm"], delta=1e-6)
 
     def test_what_cannot_be_is_refused_with_its_place(self):
         program = "exec: [python3, m.py]"
