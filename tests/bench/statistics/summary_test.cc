@@ -240,6 +240,7 @@ TEST_F(SummaryTest, AnExpectationIsHeldToItsConfidence) {
 /// Method b equals a wherever it has a value. It has none in the last `lost` of the 30 worlds, in which a does worse.
 TEST_F(SummaryTest, AnExpectationIsOpenIfOneOfTwoEqualMethodsLosesValues) {
   study.conditions.pop_back();
+  study.trials = 30;
   const auto expectation_when = [&](int lost, Status status) {
     std::vector<Row> equal;
     for (int trial = 0; trial < 30; ++trial) {

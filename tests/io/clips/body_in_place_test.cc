@@ -60,8 +60,9 @@ TEST_F(StretchesTest, AreAllJudgedAndEachGapHasItsOwnLength) {
   ASSERT_EQ(found.size(), 3u);
   for (std::size_t i = 0; i < 3; ++i) {
     EXPECT_NEAR(found[i].size, 40 / kRate_hz, 1e-9);
-    EXPECT_NEAR(found[i].from_s, (gaps[i].first - 1) / kRate_hz, 0.5 / kRate_hz + 1e-9) << found[i].text;
-    EXPECT_NEAR(found[i].to_s, gaps[i].last / kRate_hz, 1e-9) << found[i].text;
+    // From the last frame that shows the wrist to the last one that does not.
+    EXPECT_NEAR(found[i].from_s, (gaps[i].first - 1) / kRate_hz, 1e-9) << found[i].text;
+    EXPECT_NEAR(found[i].to_s, (gaps[i].last - 1) / kRate_hz, 1e-9) << found[i].text;
     EXPECT_NEAR(judged.not_judged_s[i].first, gaps[i].first / kRate_hz, 1e-9);
     EXPECT_NEAR(judged.not_judged_s[i].second, gaps[i].last / kRate_hz, 1e-9);
   }
