@@ -223,7 +223,7 @@ bool Overrules(const Stance& other, const Stance& usual, bool is_opposite, const
 std::string DescribeFloorWork(const Stance& usual, const Stance& other) {
   // The body climbs along the usual axis, and the lowest joint's height hardly varies along the other axis. Who climbs
   // stairs travels forwards too, and who jumps comes down at once.
-  constexpr double kClimb = 0.6, kHover_s = 2, kSteep = 0.5, kMaxFloor = 0.45;
+  constexpr double kClimb = 0.6, kHover_s = 2, kSteep = 0.5, kMaxFloor = 0.6;
   const bool is_steep = usual.way < kSteep * usual.floor || usual.upright < 0.5;
   if (usual.floor > kClimb && usual.hover_s > kHover_s && is_steep &&
       other.floor < std::min(kMaxFloor, usual.floor / 4)) {
