@@ -285,7 +285,7 @@ UpFinding FindUp(std::span<const BodyPose> all, double rate_hz, const UpRule& ru
     found.doubt = fmt::format("the body stands along {}, but {}", AxisName(*best), usually);
   } else if (rule.evidence == UpEvidence::kPosture && usual.upright < kHardlyEver) {
     found.doubt = fmt::format("the posture never shows clearly which axis is up: {}, so it is assumed", usually);
-  } else if (rule.evidence == UpEvidence::kPosture && !rule.is_of_rest) {
+  } else if (rule.evidence == UpEvidence::kPosture && !rule.is_y_or_z) {  // a skeleton also has a rest pose
     const glm::dvec3 other = rule.axis.y != 0 ? glm::dvec3(0, 0, 1) : glm::dvec3(0, 1, 0);
     const std::string odd = DescribeFloorWork(usual, MeasureStance(frames, other));
     if (!odd.empty()) {
