@@ -358,7 +358,7 @@ std::string DescribeImpossibleHeight(std::span<const BodyPose> poses) {
 std::string DescribeLikelyUnit(double stature, double metres_per_unit) {
   const Unit* const unit = UnitOf(stature / metres_per_unit);
   if (unit == nullptr || std::abs(unit->metres / metres_per_unit - 1) < 1e-6) return "";
-  return fmt::format("its unit is taken to be {:.4g} cm, as stated; 1 unit = {:.4g} cm ({}) would give {:.2f} m",
+  return fmt::format("1 unit is taken to be {:.4g} cm; 1 unit = {:.4g} cm ({}) would give {:.2f} m",
                      100 * metres_per_unit, 100 * unit->metres, unit->name, stature / metres_per_unit * unit->metres);
 }
 

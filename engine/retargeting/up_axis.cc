@@ -223,7 +223,7 @@ bool Overrules(const Stance& other, const Stance& usual, bool is_opposite, const
 std::string DescribeFloorWork(const Stance& usual, const Stance& other) {
   // The body climbs along the usual axis, and the lowest joint's height hardly varies along the other axis. Who climbs
   // stairs travels forwards too, and who jumps comes down at once.
-  constexpr double kClimb = 0.6, kHover_s = 2, kSteep = 0.5, kMaxFloor = 0.45;
+  constexpr double kClimb = 0.6, kHover_s = 2, kSteep = 0.5, kMaxFloor = 0.6;
   const bool is_steep = usual.way < kSteep * usual.floor || usual.upright < 0.5;
   if (usual.floor > kClimb && usual.hover_s > kHover_s && is_steep &&
       other.floor < std::min(kMaxFloor, usual.floor / 4)) {
@@ -285,7 +285,7 @@ UpFinding FindUp(std::span<const BodyPose> all, double rate_hz, const UpRule& ru
     found.doubt = fmt::format("the body stands along {}, but {}", AxisName(*best), usually);
   } else if (rule.evidence == UpEvidence::kPosture && usual.upright < kHardlyEver) {
     found.doubt = fmt::format("the posture never shows clearly which axis is up: {}, so it is assumed", usually);
-  } else if (rule.evidence == UpEvidence::kPosture && !rule.is_of_rest) {
+  } else if (rule.evidence == UpEvidence::kPosture && !rule.is_y_or_z) {  // a skeleton also has a rest pose
     const glm::dvec3 other = rule.axis.y != 0 ? glm::dvec3(0, 0, 1) : glm::dvec3(0, 1, 0);
     const std::string odd = DescribeFloorWork(usual, MeasureStance(frames, other));
     if (!odd.empty()) {

@@ -8,7 +8,7 @@
 
 #include "engine/retargeting/up_axis.h"
 
-namespace etude {
+namespace etude::floor_work {
 namespace {
 
 using enum Role;
@@ -100,7 +100,7 @@ BodyPose Wheeling(double time_s) {
 /// Lies on the back, two metres from the origin.
 BodyPose LyingAway(double time_s) {
   BodyPose pose = Standing();
-  Move(pose, [&](const glm::dvec3& p) { return Bowed(p, -90) + glm::dvec3(0, .2, 2); });
+  Move(pose, [&](const glm::dvec3& p) { return Bowed(p, -90) + glm::dvec3(0, .1, 2); });
   pose[kLeftWrist].y += .1 * (1 + std::sin(3 * time_s));
   return pose;
 }
@@ -216,4 +216,4 @@ TEST(FloorWork, IsNotSeenInPeopleWhoStandSitClimbJumpOrLean) {
 }
 
 }  // namespace
-}  // namespace etude
+}  // namespace etude::floor_work

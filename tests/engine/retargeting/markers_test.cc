@@ -501,11 +501,10 @@ TEST(Markers, InAUnitThatMakesADwarfOrAGiantAreSaidWithTheLikelyUnit) {
     return bodies ? bodies->front().Note() : ToString(bodies.error());
   };
   EXPECT_EQ(note(1, .01), "Etude's joints");
-  EXPECT_THAT(note(.01 / .0254, .01),
-              HasSubstr("its unit is taken to be 1 cm, as stated; 1 unit = 2.54 cm (inch) would "
-                        "give 1.66 m"));
-  EXPECT_THAT(note(2, .0254), HasSubstr("its unit is taken to be 2.54 cm, as stated; 1 unit = 1 cm (centimetre) would "
-                                        "give 1.31 m"));
+  EXPECT_THAT(note(.01 / .0254, .01), HasSubstr("1 unit is taken to be 1 cm; 1 unit = 2.54 cm (inch) would "
+                                                "give 1.66 m"));
+  EXPECT_THAT(note(2.4, .0254), HasSubstr("1 unit is taken to be 2.54 cm; 1 unit = 1 cm (centimetre) would "
+                                        "give 1.57 m"));
 }
 
 TEST(Markers, OfPlugInGaitGiveJointsInsideTheLimbs) {
