@@ -268,7 +268,10 @@ UpFinding FindUp(std::span<const BodyPose> all, double rate_hz, const UpRule& ru
   const glm::dvec3* best = nullptr;
   double most = 0;
   for (const glm::dvec3& axis : kAxes) {
-    if (axis == rule.axis || (rule.is_y_or_z && axis.y + axis.z < 1)) continue;
+    // Motions estimated from videos are often in a camera's frame, whose Y axis points down, also if the format is Z
+    // up.
+    const bool is_cameras = rule.evidence == UpEvidence::kFormat && rule.axis.z > 0 && axis.y < 0;
+    if (axis == rule.axis || (rule.is_y_or_z && axis.y + axis.z < 1 && !is_cameras)) continue;
     const Stance stance = MeasureStance(frames, axis);
     if (stance.upright <= most || !Overrules(stance, usual, axis == -rule.axis, rule)) continue;
     most = stance.upright;
@@ -293,7 +296,10 @@ UpFinding FindUp(std::span<const BodyPose> all, double rate_hz, const UpRule& ru
                                 odd, AxisName(other));
     }
   }
-  if (!found.doubt.empty()) found.doubt += "; --up overrules that";
+  const bool is_selectable = best == nullptr || !rule.is_y_or_z || best->y + best->z > 0;
+  if (!found.doubt.empty()) {
+    found.doubt += is_selectable ? "; --up overrules that" : "; allowed: Y or Z, so the file must be rotated first";
+  }
   return found;
 }
 

@@ -61,6 +61,16 @@ TEST(UpAxis, OfSeveralPosesIsTheirMean) {
   EXPECT_NEAR(glm::length(y), 1, 1e-12) << "of one pose it is a direction";
 }
 
+TEST(UpAxis, OfAmassInACamerasFrameIsDoubted) {
+  const auto doubt = [](const BodyPose& pose) { return FindUp(std::vector(3, pose), 30, AmassUp()).doubt; };
+  EXPECT_EQ(doubt(StandingAlongZ()), "");
+  EXPECT_EQ(doubt(Standing()), "the body stands along Y, but Z is the convention of AMASS; --up overrules that");
+  EXPECT_EQ(doubt(Turned(Standing(), kPi, {1, 0, 0})),
+            "the body stands along −Y, but Z is the convention of AMASS; allowed: Y or Z, so the file must be rotated "
+            "first");
+  EXPECT_EQ(doubt(Turned(Standing(), kPi / 2, {0, 0, 1})), "") << "lies along X";
+}
+
 TEST(Upright, KeepsHandednessAndTurnsMinusYToPlusZ) {
   const glm::dvec3 x = Upright({1, 0, 0}, UpAxis::kZ), y = Upright({0, 1, 0}, UpAxis::kZ),
                    z = Upright({0, 0, 1}, UpAxis::kZ);
