@@ -157,6 +157,7 @@ bool WantsTimes(const FinishedScenario& scenario) { return !scenario.study.gate.
 FinishedScenario FinishScenario(const Scenario& scenario, const ScenarioSetup& setup,
                                 std::span<const std::string> clip_digests) {
   FinishedScenario finished{.study = StudyOf(scenario), .seed = setup.seed.Public(), .worlds = {}, .methods = {}};
+  finished.study.unit = SampledUnit(scenario, setup);
   for (const Condition& condition : scenario.conditions) {
     finished.worlds.emplace_back(CompactLabel(condition.swept),
                                  WorldDigest(scenario.task, condition.node, clip_digests));

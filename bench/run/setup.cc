@@ -317,11 +317,7 @@ Result<PreparedScenario> Prepare(const SuiteSetup& suite, const ScenarioSetup& s
   ASSIGN_OR_RETURN(auto tasks, MakeTasks(prepared.scenario_, clips_of, suite.sources, prepared.recordings(), setup,
                                          *prepared.opening_));
   prepared.tasks_ = std::move(tasks);
-  // With the key `people`, several files may show the same person. The sampling unit is the person, not the file.
-  const auto has_person = [](const auto& file) { return !file.unit.empty(); };
-  if (prepared.scenario_.unit == SamplingUnit::kClip && std::ranges::any_of(setup.files, has_person)) {
-    prepared.scenario_.unit = SamplingUnit::kRecordedPerson;
-  }
+  prepared.scenario_.unit = SampledUnit(prepared.scenario_, setup);
   prepared.dice_names_ = NameDice(prepared.scenario_, setup.seed);
   if (suite.scored) {
     RETURN_IF_ERROR(AddScoredMethod(*suite.scored, prepared.scenario_));
@@ -342,6 +338,11 @@ Result<std::vector<PreparedScenario>> PrepareAll(const SuiteSetup& suite) {
     scenarios.push_back(std::move(prepared));
   }
   return scenarios;
+}
+
+SamplingUnit SampledUnit(const Scenario& scenario, const ScenarioSetup& setup) {
+  const bool knows_person = std::ranges::any_of(setup.files, [](const auto& file) { return !file.unit.empty(); });
+  return scenario.unit == SamplingUnit::kClip && knows_person ? SamplingUnit::kRecordedPerson : scenario.unit;
 }
 
 Result<void> AddScoredMethod(const ScoredMethod& method, Scenario& scenario) {

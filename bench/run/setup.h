@@ -45,6 +45,10 @@ struct ScenarioSetup {
   bool keeps_motions = false;
 };
 
+/// Returns the sampling unit of a run's worlds: the scenario's unit, or the person if it is known whom the judged files
+/// show (JudgedFiles::unit), because several files may show the same person.
+SamplingUnit SampledUnit(const Scenario& scenario, const ScenarioSetup& setup);
+
 /// A method whose answers are read from files and scored; it is not run (etude score).
 struct ScoredMethod {
   std::string name;

@@ -301,6 +301,7 @@ class Evaluate(EtudeCase):
         self.assertEqual([row["units"] for row in self.rows()], [["p1"], ["p1"], ["p2"]])
         unit = lambda: json.loads((self.out / "summary.json").read_text())["scenarios"][0]["unit"]
         self.assertEqual(unit(), "recorded-person")
+        self.ends(0, "verify", self.out)
         self.evaluate(self.folder / "t", f"m={self.folder}/t", "--overwrite")
         self.assertEqual(unit(), "clip", "the control: without people")
 
