@@ -214,7 +214,10 @@ Result<std::vector<SourceClip>> ReadClips(const std::string& reference, const Op
   } else if (!file.has_rate) {
     say(fmt::format("the file states no rate; {:g} Hz is assumed", file.clips.front().rate_hz));
   }
-  const auto is_slow = [](const Clip& clip) { return clip.rate_hz <= 1; };
+  // The frames of an animation are its keys, which may be 1 s apart.
+  const bool has_keys =
+      file.format == ClipFormat::kGltf || file.format == ClipFormat::kGlb || file.format == ClipFormat::kFbx;
+  const auto is_slow = [&](const Clip& clip) { return has_keys ? clip.rate_hz < 1 : clip.rate_hz <= 1; };
   if (const auto slow = std::ranges::find_if(file.clips, is_slow); slow != file.clips.end() && !is_recording) {
     say(fmt::format(
         "its frames are {:.3g} s apart: does the file count in milliseconds or in frames? `--rate` (in convert "

@@ -367,7 +367,6 @@ Result<RigForecast> ForecastRig(const ForecastOptions& asked) {
   // Compute the error at every place of the grid.
   forecast.places = PlacesOf(cameras, forecast.middle_m, options, options.errors);
   forecast.seen = ShareSeen(forecast.places);
-  AddBlindCameras(options, forecast);
   if (forecast.seen == 0) {
     return Fail(
         {options.rig},
@@ -375,6 +374,7 @@ Result<RigForecast> ForecastRig(const ForecastOptions& asked) {
         "--middle, --size or --rig-unit",
         options.size_m.x, options.size_m.z, forecast.middle_m.x, forecast.middle_m.y);
   }
+  AddBlindCameras(options, forecast);
   const std::vector<double> errors = ErrorsWhere(forecast.places, forecast.places);
   constexpr double kMedian = 0.5, k95Percent = 0.95;
   forecast.median_mm = Quantile(errors, kMedian);
