@@ -44,7 +44,7 @@ class Formats(MotionFileCase):
     def test_both_releases_of_amass_stored_and_deflated(self):
         seen = []
         for name, width, key, compressed in (("h.npz", 156, "mocap_framerate", False), ("x.npz", 165, "mocap_frame_rate", True),
-                                            ("smpl.npz", 72, "mocap_framerate", True)):
+                                            ("smpl.npz", 72, "mocap_framerate", True), ("f.npz", 156, "fps", True)):
             path = self.amass(name, width, key, compressed)
             joints = self.joints(path, "--rate", 120)
             self.assertEqual(len(joints), 60)
@@ -64,8 +64,8 @@ class Formats(MotionFileCase):
 
     def test_amass_that_is_none_is_told_what_lacks(self):
         self.refused(self.amass("no.npz", 150, "mocap_framerate", True), "allowed: a motion of AMASS with poses")
-        self.refused(self.amass("slow.npz", 156, "fps", True),
-                     "states no frame rate (its arrays: fps, poses, trans, gender (no plain numbers)); allowed:")
+        self.refused(self.amass("slow.npz", 156, "speed", True),
+                     "states no frame rate (its arrays: poses, speed, trans, gender (no plain numbers)); allowed:")
         bad = self.amass("nan.npz", 156, "mocap_framerate", True, trans=numpy.full((60, 3), numpy.nan))
         self.refused(bad, "trans of frame 0 is nan")
         whole = self.amass("cut.npz", 156, "mocap_framerate", True).read_bytes()
