@@ -299,16 +299,18 @@ Result<RigFile> ReadRigFile(std::string_view text, const std::string& file) {
   return Checked(Read(text, file), file);
 }
 
-Result<RigFile> ReadRigPair(std::string_view inside, std::string_view outside, const std::string& file) {
+Result<RigFile> ReadRigPair(std::string_view inside, std::string_view outside, const std::string& file,
+                            const std::string& outside_file) {
   // The maximum size of a pair of files, larger than the limit for one file, because COLMAP's files also list points.
   constexpr std::size_t kMaxPairBytes = 64 * kMaxRigBytes;
   if (inside.size() + outside.size() > kMaxPairBytes) {
     return Fail({file}, "{} bytes; allowed: at most {}", inside.size() + outside.size(), kMaxPairBytes);
   }
-  if (inside.find("opencv-matrix") == std::string_view::npos) return Checked(ReadColmap(inside, outside), file);
-  const auto parse = [&](std::string_view text) { return ParseYaml(WithoutDirective(text), file); };
-  ASSIGN_OR_RETURN(const Node intrinsics, parse(inside));
-  ASSIGN_OR_RETURN(const Node extrinsics, parse(outside));
+  if (inside.find("opencv-matrix") == std::string_view::npos) {
+    return Checked(ReadColmap(inside, outside, outside_file), file);
+  }
+  ASSIGN_OR_RETURN(const Node intrinsics, ParseYaml(WithoutDirective(inside), file));
+  ASSIGN_OR_RETURN(const Node extrinsics, ParseYaml(WithoutDirective(outside), outside_file));
   return Checked(intrinsics.Find("M1") != nullptr ? ReadOpenCvStereo(intrinsics, extrinsics)
                                                   : ReadEasyMocap(intrinsics, extrinsics),
                  file);

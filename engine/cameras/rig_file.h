@@ -45,8 +45,10 @@ struct RigFile {
 Result<RigFile> ReadRigFile(std::string_view text, const std::string& file);
 
 /// Reads a rig from two files (`rig_pairs.h`): EasyMocap's `intri.yml` and `extri.yml`, OpenCV's stereo
-/// `intrinsics.yml` and `extrinsics.yml`, COLMAP's `cameras.txt` and `images.txt`.
-Result<RigFile> ReadRigPair(std::string_view inside, std::string_view outside, const std::string& file);
+/// `intrinsics.yml` and `extrinsics.yml`, COLMAP's `cameras.txt` and `images.txt`. `file` and `outside_file` are the
+/// names of the two files, for errors.
+Result<RigFile> ReadRigPair(std::string_view inside, std::string_view outside, const std::string& file,
+                            const std::string& outside_file);
 
 /// Returns only the cameras of ReadRigFile.
 Result<std::vector<NamedCamera>> ReadRig(std::string_view text, const std::string& file);

@@ -4,6 +4,8 @@
 
 #include <glm/gtc/quaternion.hpp>
 #include <map>
+#include <set>
+#include <span>
 #include <string>
 
 #include "engine/base/text.h"
@@ -124,11 +126,12 @@ std::vector<ColmapLine> LinesOf(std::string_view text) {
 }
 
 // Parses the words [first, last) of a line as numbers.
-Result<std::vector<double>> NumbersFrom(const ColmapLine& line, std::size_t first, std::size_t last) {
+Result<std::vector<double>> NumbersFrom(const ColmapLine& line, std::size_t first, std::size_t last,
+                                        const Place& place) {
   std::vector<double> numbers;
   for (std::size_t i = first; i < last; ++i) {
     const auto value = ParseFinite(line.words[i]);
-    if (!value) return Fail({{}, line.number, 0}, "'{}' is not a number", line.words[i]);
+    if (!value) return Fail(place, "'{}' is not a number", line.words[i]);
     numbers.push_back(*value);
   }
   return numbers;
@@ -172,9 +175,10 @@ Result<OpenCvParameters> InsideOf(const ColmapLine& line) {
   if (line.words.size() != kBefore + wanted) {
     return Fail(place, "{} parameters of {}; allowed: {}", line.words.size() - kBefore, model->first, wanted);
   }
-  ASSIGN_OR_RETURN(const auto n, NumbersFrom(line, 2, line.words.size()));
+  ASSIGN_OR_RETURN(const auto n, NumbersFrom(line, 2, line.words.size(), place));
   if (n[0] == 0 || n[1] == 0) {  // unlike EasyMocap, COLMAP always knows the pictures' size
-    return Fail(place, "a picture of {:g} x {:g} pixels; allowed: whole numbers of 1 to 65536", n[0], n[1]);
+    return Fail(place, "camera {}: a picture of {:g} x {:g} pixels; allowed: whole numbers of 1 to 65536",
+                line.words[0], n[0], n[1]);
   }
   const std::size_t at = 2 + of.focal.size();
   constexpr double kPixelCentre = 0.5;
@@ -186,21 +190,44 @@ Result<OpenCvParameters> InsideOf(const ColmapLine& line) {
   return p;
 }
 
-std::string StemOf(std::string path) {
-  path.erase(0, path.find_last_of('/') + 1);
-  return path.substr(0, path.find_last_of('.'));
+/// Returns a part of a path, counted from its end: 0 is the file's name without its extension, 1 the name of the folder
+/// that contains it. Returns "" if there is no such part.
+std::string PartOf(std::string_view path, std::size_t from_end) {
+  const auto parts = SplitAt(path, '/');
+  if (from_end >= parts.size()) return "";
+  const std::string_view part = parts[parts.size() - 1 - from_end];
+  return std::string(from_end == 0 ? part.substr(0, part.find_last_of('.')) : part);
+}
+
+/// Names the cameras after their images or, if two of these have the same name, after the images' folders.
+Result<void> NameCameras(std::span<const std::string> paths, std::vector<NamedCamera>& cameras, const Place& place) {
+  constexpr std::size_t kMaxDepth = 8;
+  for (std::size_t part = 0; part < kMaxDepth; ++part) {
+    std::set<std::string> names;
+    for (const std::string& path : paths) names.insert(PartOf(path, part));
+    if (names.size() < paths.size() || (part > 0 && names.contains(""))) continue;
+    for (std::size_t i = 0; i < paths.size(); ++i) cameras[i].name = PartOf(paths[i], part);
+    return {};
+  }
+  return Fail(place,
+              "{} images, but neither their names nor their folders' names are all different; allowed: one image for "
+              "each camera, which has the camera's name or lies in a folder with this name",
+              paths.size());
 }
 
 }  // namespace
 
-Result<RigFile> ReadColmap(std::string_view cameras, std::string_view images) {
-  // Read the intrinsics, by camera.
+Result<RigFile> ReadColmap(std::string_view cameras, std::string_view images, const std::string& images_file) {
+  // Read the intrinsics, by camera, and the lines that state them.
   std::map<std::string, OpenCvParameters> inside;
+  std::map<std::string, int> lines;
   for (const ColmapLine& line : LinesOf(cameras)) {
     if (line.words.empty()) continue;
     ASSIGN_OR_RETURN(inside[line.words.front()], InsideOf(line));
+    lines[line.words.front()] = line.number;
   }
   RigFile rig{.cameras = {}, .format = "COLMAP", .R_WF = kOursOfZUp, .has_unit = false};
+  std::vector<std::string> paths;
   // Each image has two lines; the second one lists its points and is skipped.
   bool is_points = false;
   for (const ColmapLine& line : LinesOf(images)) {
@@ -209,7 +236,7 @@ Result<RigFile> ReadColmap(std::string_view cameras, std::string_view images) {
       continue;
     }
     is_points = true;
-    const Place place{{}, line.number, 0};
+    const Place place{images_file, line.number, 0};
     constexpr std::size_t kWords = 10;
     if (line.words.size() < kWords) {
       return Fail(
@@ -219,16 +246,19 @@ Result<RigFile> ReadColmap(std::string_view cameras, std::string_view images) {
     // Combine the pose of the image with the intrinsics of its camera.
     const auto camera = inside.find(line.words[8]);
     if (camera == inside.end()) return Fail(place, "camera {} is not in cameras.txt", line.words[8]);
-    ASSIGN_OR_RETURN(const auto n, NumbersFrom(line, 1, 8));
+    ASSIGN_OR_RETURN(const auto n, NumbersFrom(line, 1, 8, place));
     OpenCvParameters p = camera->second;
     const glm::dquat turn(n[0], n[1], n[2], n[3]);
     if (!(glm::length(turn) > 0)) return Fail(place, "a quaternion of length 0; allowed: QW QX QY QZ of a rotation");
     p.R = glm::mat3_cast(glm::normalize(turn));
     p.T = {n[4], n[5], n[6]};
-    ASSIGN_OR_RETURN(auto named, CameraIn(StemOf(line.words[9]), std::move(p), rig.R_WF, place));
+    const Place in_cameras{{}, lines[camera->first], 0};
+    ASSIGN_OR_RETURN(auto named, CameraIn(camera->first, std::move(p), rig.R_WF, in_cameras));
     rig.cameras.push_back(std::move(named));
+    paths.push_back(line.words[9]);
   }
-  if (rig.cameras.empty()) return Fail({}, "no image in images.txt");
+  if (rig.cameras.empty()) return Fail({images_file}, "no image in images.txt");
+  RETURN_IF_ERROR(NameCameras(paths, rig.cameras, {images_file}));
   return rig;
 }
 

@@ -104,10 +104,13 @@ Landmark LandmarkOfName(std::string_view name) {
   for (const std::string_view side : {"l", "r"}) {
     if (bare == std::string(side) + "footindex") bare = std::string(side) + "bigtoe";
   }
+  // A side may also be one letter at the end: "shoulder.L".
+  const bool has_side_at_end = bare.ends_with('l') || bare.ends_with('r');
+  const std::string turned = has_side_at_end ? bare.back() + bare.substr(0, bare.size() - 1) : bare;
   for (std::size_t i = 0; i < kLandmarkCount; ++i) {
     std::string own(kNames[i]);
     for (char& c : own) c = c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
-    if (own == bare) return static_cast<Landmark>(i);
+    if (own == bare || own == turned) return static_cast<Landmark>(i);
   }
   return Landmark::kNoLandmark;
 }

@@ -170,17 +170,18 @@ Displacement Measure(const BodyMotion& motion, const FrameRange& steps, std::opt
   const PoseSteps usual = UsualSteps(motion, steps);
   Displacement found{.before = steps.first, .after = steps.last + 1};
   PoseSteps moved{};
-  std::vector<glm::dvec3> places = {glm::dvec3(0)};  // the displacement of each frame from the frame `before`
+  std::vector<glm::dvec3> places = {glm::dvec3(0)};  // displacements from the frame `before`
   for (int f = steps.first; f <= steps.last; ++f) {
     const PoseSteps step = StepsFrom(motion, f);
     for (std::size_t j = 0; j < kRoleCount; ++j) moved[j] += step[j] - usual[j];
     found.lasting = joint ? moved[Index(*joint)] : MedianOfJoints(moved);
     if (glm::length(found.lasting) > glm::length(found.largest)) found.largest = found.lasting;
-    for (const glm::dvec3& place : places) {
-      if (glm::distance(place, found.lasting) > glm::length(found.span)) found.span = found.lasting - place;
-    }
     places.push_back(found.lasting);
   }
+  for (const glm::dvec3& place : places) {
+    if (glm::distance(place, found.lasting) > glm::length(found.size)) found.size = found.lasting - place;
+  }
+  if (glm::length(found.largest) < glm::length(found.size)) found.size = found.largest;
   return found;
 }
 
@@ -275,7 +276,7 @@ std::vector<Pop> FindPops(const BodyMotion& motion, const std::vector<PoseSteps>
     }
     const FrameRange main = MainSteps(group, largest[Index(joint)],
                                       [&](int f) { return glm::distance(differences[f][Index(joint)], common[f]); });
-    pops.push_back({{main.first, main.last + 1}, joint, glm::length(Measure(motion, main, joint).span)});
+    pops.push_back({{main.first, main.last + 1}, joint, glm::length(Measure(motion, main, joint).size)});
   }
   return pops;
 }

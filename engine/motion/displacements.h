@@ -22,14 +22,15 @@ struct Displacement {
   int before = 0, after = 0;
   glm::dvec3 lasting{0};  ///< metres; displacement of all frames from `after` on
   glm::dvec3 largest{0};  ///< metres; largest displacement of a single frame in (`before`, `after`]
-  glm::dvec3 span{0};     ///< metres; longest displacement between two of the frames [`before`, `after`]
+  /// Metres; as `largest`, but seen from `after` in reversed time if that is shorter. The same in reversed time.
+  glm::dvec3 size{0};
 };
 
 /// A displacement of one joint alone.
 struct Pop {
   FrameRange frames;
   Role joint = Role::kHipCentre;
-  double size = 0;  ///< distance, metres: as Displacement::span
+  double size = 0;  ///< distance, metres: the length of Displacement::size
 };
 
 /// A sudden change of the velocity along the floor, from one frame to the next, that all joints share.

@@ -14,8 +14,8 @@ void FindJumps(const GroundView& ground, std::vector<MotionFault>& faults) {
   using namespace fault_limits;
   const double times = TimesAt(ground.motion().rate_hz, kSlowJump_hz);
   for (const Displacement& d : ground.displacements()) {
-    if (std::hypot(d.span.x, d.span.z) <= times * kJumpAlongFloor_m && glm::length(d.span) <= times * kJump_m) continue;
-    faults.push_back(ground.FaultOf(FaultKind::kJumps, {d.before, d.after}, glm::length(d.span)));
+    if (std::hypot(d.size.x, d.size.z) <= times * kJumpAlongFloor_m && glm::length(d.size) <= times * kJump_m) continue;
+    faults.push_back(ground.FaultOf(FaultKind::kJumps, {d.before, d.after}, glm::length(d.size)));
   }
 }
 

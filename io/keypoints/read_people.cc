@@ -6,7 +6,6 @@
 #include <cctype>
 #include <cmath>
 #include <iterator>
-#include <map>
 #include <nlohmann/json.hpp>
 #include <span>
 #include <vector>
@@ -15,7 +14,10 @@
 #include "io/files/files.h"
 #include "io/files/json.h"
 #include "io/images/image_files.h"
+#include "io/keypoints/coco_file.h"
+#include "io/keypoints/frame_numbers.h"
 #include "io/keypoints/keypoint_lists.h"
+#include "io/keypoints/people_json.h"
 
 namespace etude {
 namespace {
@@ -23,35 +25,6 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr double kOurPixelCentre = 0.5;
-constexpr double kMaxPixel = 1e6;
-
-/// Returns true if name `a` sorts before `b`, with numbers compared by value: frame 9 comes before frame 10.
-bool NaturallyBefore(const fs::path& a, const fs::path& b) {
-  const std::string x = a.filename().string(), y = b.filename().string();
-  std::size_t i = 0, j = 0;
-  const auto is_digit = [](char c) { return c >= '0' && c <= '9'; };
-  while (i < x.size() && j < y.size()) {
-    if (is_digit(x[i]) && is_digit(y[j])) {
-      // Compare two numbers without their leading zeros.
-      std::size_t end_x = i, end_y = j;
-      while (end_x < x.size() && is_digit(x[end_x])) ++end_x;
-      while (end_y < y.size() && is_digit(y[end_y])) ++end_y;
-      std::string_view m = std::string_view(x).substr(i, end_x - i), n = std::string_view(y).substr(j, end_y - j);
-      while (m.size() > 1 && m.front() == '0') m.remove_prefix(1);
-      while (n.size() > 1 && n.front() == '0') n.remove_prefix(1);
-      if (m != n) return m.size() != n.size() ? m.size() < n.size() : m < n;
-      i = end_x;
-      j = end_y;
-    } else {
-      if (x[i] != y[j]) return x[i] < y[j];
-      ++i;
-      ++j;
-    }
-  }
-  // The numbers are equal up to leading zeros. The name with the shorter remainder comes first; if the remainders have
-  // equal lengths, the characters decide.
-  return x.size() - i != y.size() - j ? x.size() - i < y.size() - j : x < y;
-}
 
 Result<std::vector<fs::path>> FilesIn(const fs::path& folder, const char* ending) {
   std::vector<fs::path> files;
@@ -61,7 +34,7 @@ Result<std::vector<fs::path>> FilesIn(const fs::path& folder, const char* ending
   }
   if (error) return Fail({folder.string()}, "{}", error.message());
   if (files.empty()) return Fail({folder.string()}, "no {} file in it", ending);
-  std::ranges::sort(files, NaturallyBefore);
+  std::ranges::sort(files, NaturallyBefore, &fs::path::native);
   return files;
 }
 
@@ -96,9 +69,16 @@ Result<std::vector<SeenPerson>> ReadFrame(const fs::path& file, const std::strin
     std::ranges::copy_if(people, std::back_inserter(frame), IsAnySeen);
     return frame;
   }
-  const Json* people = Member(json, "people");
-  if (people == nullptr || !people->is_array())
-    return Fail(place, "no list 'people'; allowed: JSON as OpenPose writes it, or MMPose's list of people");
+  const Json* people = FirstMember(json, {"people", "instance_info"});
+  if (people == nullptr || !people->is_array()) {
+    return Fail(place,
+                "no list 'people' or 'instance_info'; allowed: JSON as OpenPose writes it, or MMPose's list of people");
+  }
+  if (people == Member(json, "instance_info")) {  // MMPose's own scripts write this object for a picture
+    ASSIGN_OR_RETURN(auto listed, PeopleOfList(*people, layout, NamesOfMeta(json), place));
+    std::ranges::copy_if(listed, std::back_inserter(frame), IsAnySeen);
+    return frame;
+  }
   if (people->size() > kMaxPeople) return Fail(place, "{} people; allowed: {}", people->size(), kMaxPeople);
   for (const Json& person : *people) {
     const Json* list = Member(person, "pose_keypoints_2d");
@@ -124,109 +104,75 @@ Result<PeopleOfFilm> ReadFolder(const fs::path& folder, const std::string& layou
   return film;
 }
 
-/// Returns the keypoint names of a COCO file's first category.
-std::vector<std::string> NamesOf(const Json& json) {
-  const Json* categories = Member(json, "categories");
-  if (categories == nullptr || !categories->is_array() || categories->empty()) return {};
-  return TextsOf(Member(categories->front(), "keypoints"));
-}
-
-struct CocoPerson {
-  std::size_t frame;
-  std::vector<Keypoint> points;  ///< the points; `confidence` holds COCO's visibility flag v
+/// How the coordinates of a film's keypoints are distributed.
+struct KeypointRange {
+  std::size_t confident = 0;  ///< number of keypoints that decide
+  std::size_t shares = 0;     ///< those of them within ±1.1
+  std::size_t negative = 0;   ///< those of them with a coordinate clearly below 0
+  std::size_t seen = 0;       ///< all keypoints that were seen
+  std::size_t outside = 0;    ///< those of them that lie outside the picture if coordinates are shares of 0…1
 };
 
-Result<std::map<double, std::size_t>> FramesOf(const Json& images, PeopleOfFilm& film, std::vector<std::string>& names,
-                                               const Place& place) {
-  std::map<double, std::size_t> frames;
-  for (const Json& image : images) {
-    const Json* name = Member(image, "file_name");
-    names.push_back(name != nullptr && name->is_string() ? fs::path(name->get<std::string>()).filename().string() : "");
-    const Json *id = Member(image, "id"), *width = Member(image, "width"), *height = Member(image, "height");
-    if (id == nullptr || !id->is_number()) return Fail(place, "an image without a number 'id'");
-    if (!frames.try_emplace(id->get<double>(), frames.size()).second) {
-      return Fail(place, "two images with the id {}", id->dump());
-    }
-    if (width != nullptr && width->is_number() && height != nullptr && height->is_number()) {
-      const int w = static_cast<int>(std::clamp(width->get<double>(), 0.0, kMaxPixel));
-      const int h = static_cast<int>(std::clamp(height->get<double>(), 0.0, kMaxPixel));
-      if (film.width != 0 && (w != film.width || h != film.height)) {
-        return Fail(place, "images of {} x {} and of {} x {} pixels in one film", film.width, film.height, w, h);
-      }
-      film.width = w;
-      film.height = h;
-    }
-  }
-  return frames;
-}
-
-Result<PeopleOfFilm> ReadCoco(const Json& json, const std::string& layout, const FilmOfKeypoints& of,
-                              const Place& place) {
-  const Json *images = Member(json, "images"), *annotations = Member(json, "annotations");
-  if (images == nullptr || !images->is_array() || annotations == nullptr || !annotations->is_array()) {
-    return Fail(place,
-                "no lists 'images' and 'annotations'; allowed: keypoint files or results of COCO, AlphaPose or MMPose, "
-                "landmarks of MediaPipe, or a folder of OpenPose's JSON files");
-  }
-  const std::vector<std::string> names = NamesOf(json);
-  PeopleOfFilm film;
-  std::vector<std::string> file_names;
-  ASSIGN_OR_RETURN(const auto frames, FramesOf(*images, film, file_names, place));
-  // Collect the people of every image.
-  std::vector<CocoPerson> people;
-  double max_confidence = 0;
-  for (const Json& annotation : *annotations) {
-    const Json* id = Member(annotation, "image_id");
-    const auto frame = id != nullptr && id->is_number() ? frames.find(id->get<double>()) : frames.end();
-    if (frame == frames.end()) return Fail(place, "an annotation of an image that is not listed");
-    ASSIGN_OR_RETURN(auto points, Triples(Member(annotation, "keypoints"), place));
-    for (const Keypoint& point : points) max_confidence = std::max(max_confidence, point.confidence);
-    people.push_back({frame->second, std::move(points)});
-  }
-  film.frames.resize(frames.size());
-  if (film.frames.empty()) return Fail(place, "no image");
-  for (CocoPerson& person : people) {
-    // If any value exceeds 1, the values are COCO's flags; otherwise they are scores.
-    for (Keypoint& point : person.points) point.confidence /= max_confidence > 1 ? 2 : 1;
-    ASSIGN_OR_RETURN(const SeenPerson seen, ToPerson(person.points, layout, names, place));
-    if (film.frames[person.frame].size() >= kMaxPeople)
-      return Fail(place, "more than {} people in a frame", kMaxPeople);
-    film.frames[person.frame].push_back(seen);
-  }
-  LayByNames(file_names, of, film);
-  return film;
-}
-
-/// If all seen keypoints lie within ±1.1, treats them as shares of the film's width and height (0…1 in the picture) and
-/// converts them to pixels.
-void Denormalise(const FilmOfKeypoints& of, PeopleOfFilm& film) {
-  constexpr double kMaxShare = 1.1;
-  constexpr int kSmallPicture = 16;
-  if (of.width < kSmallPicture || of.height < kSmallPicture) return;
-  // Keep the keypoints as they are if a coordinate of any seen keypoint lies outside ±1.1.
-  std::size_t seen = 0;
-  for (const auto& frame : film.frames) {
+KeypointRange RangeOf(const SeenPeople& frames, double min_confidence) {
+  constexpr double kMaxShare = 1.1, kMargin = 0.05;
+  KeypointRange range;
+  for (const auto& frame : frames) {
     for (const SeenPerson& person : frame) {
       for (const Keypoint& keypoint : person.keypoints) {
-        const glm::dvec2 p = keypoint.pixel - kOurPixelCentre;
         if (keypoint.confidence <= 0) continue;
-        if (std::abs(p.x) > kMaxShare || std::abs(p.y) > kMaxShare) return;
-        ++seen;
+        const glm::dvec2 p = keypoint.pixel - kOurPixelCentre;
+        const double low = std::min(p.x, p.y), high = std::max(p.x, p.y);
+        ++range.seen;
+        range.outside += low < -kMargin || high > 1 + kMargin;
+        if (keypoint.confidence < min_confidence) continue;
+        ++range.confident;
+        range.shares += low >= -kMaxShare && high <= kMaxShare;
+        range.negative += low < -kMargin;
       }
     }
   }
-  if (seen == 0) return;
+  return range;
+}
+
+/// Converts keypoints that are shares of the film's width and height, 0…1 or −1…1 in the picture, to pixels. The
+/// confident keypoints decide, because estimators such as MediaPipe also guess keypoints far outside the picture.
+void Denormalise(const FilmOfKeypoints& of, PeopleOfFilm& film) {
+  constexpr int kSmallPicture = 16;
+  if (of.width < kSmallPicture || of.height < kSmallPicture) return;
+  constexpr double kConfident = 0.5, kFew = 0.1;
+  KeypointRange range = RangeOf(film.frames, kConfident);
+  if (range.confident == 0) range = RangeOf(film.frames, 0);
+  const auto share_of = [](std::size_t part, std::size_t all) {
+    return static_cast<double>(part) / static_cast<double>(std::max<std::size_t>(all, 1));
+  };
+  const double shares = share_of(range.shares, range.confident);
+  if (shares <= 0.5) {
+    if (shares > kFew) {
+      film.Tell(fmt::format("{} of {} keypoints lie between -1 and 1, but most do not, so all are taken as pixels",
+                            range.shares, range.confident));
+    }
+    return;
+  }
+  const bool is_signed = share_of(range.negative, range.confident) > kFew;
   for (auto& frame : film.frames) {
     for (SeenPerson& person : frame) {
       for (Keypoint& keypoint : person.keypoints) {
-        keypoint.pixel = (keypoint.pixel - kOurPixelCentre) * glm::dvec2(of.width, of.height);
+        const glm::dvec2 p = keypoint.pixel - kOurPixelCentre;
+        keypoint.pixel = (is_signed ? 0.5 * (p + 1.0) : p) * glm::dvec2(of.width, of.height);
       }
     }
   }
-  film.told += film.told.empty() ? "" : "; ";
-  film.told +=
-      fmt::format("keypoints lie between 0 and 1, so they are taken as fractions of the picture's {} x {} pixels",
-                  of.width, of.height);
+  if (is_signed) {
+    film.Tell(
+        fmt::format("keypoints lie between -1 and 1, so these are taken as the edges of the picture's {} x {} "
+                    "pixels (OpenPose's --keypoint_scale 4)",
+                    of.width, of.height));
+    return;
+  }
+  const std::string but = range.outside == 0 ? "" : fmt::format(", all but {} of {}", range.outside, range.seen);
+  film.Tell(
+      fmt::format("keypoints lie between 0 and 1{}, so they are taken as fractions of the picture's {} x {} pixels",
+                  but, of.width, of.height));
 }
 
 Result<PeopleOfFilm> ReadFile(const fs::path& file, const std::string& layout, const FilmOfKeypoints& of) {
@@ -300,8 +246,7 @@ Result<PeopleOfFilm> ReadKeypoints(const fs::path& path, const std::string& layo
     // The number of keypoints may fit two layouts, which the mid-hip tells apart.
     auto other = ReadAs(path, "body_25", of);
     if (other && MidHipsOfBody25(other->frames).Are()) {
-      other->told += other->told.empty() ? "" : "; ";
-      other->told += "25 keypoints per person, one of them between the hips: layout body_25";
+      other->Tell("25 keypoints per person, one of them between the hips: layout body_25");
       film = std::move(other);
     }
   }

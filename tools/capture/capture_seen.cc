@@ -28,8 +28,11 @@ Result<SeenPeople> ReadPeople(const CaptureFilmsOptions& options, FilmedView& vi
   if (!film.doubt.empty()) told.Tell(fmt::format("doubtful: {}: {}", entry.filename().string(), film.doubt));
   // Check that the file has the film's number of frames and, up to a rotation by 90°, the film's picture size.
   if (film.frames.size() != static_cast<std::size_t>(view.facts.frames)) {
-    return Fail({entry.string()}, "keypoints of {} frames, but the film {} has {}", film.frames.size(),
-                view.path.string(), view.facts.frames);
+    return Fail(
+        {entry.string()},
+        "keypoints of {} frames, but the film {} has {}; allowed: an entry or a file for each frame, also if it "
+        "shows nobody, or frame numbers: frame_id, image_id, or at the end of the files' names",
+        film.frames.size(), view.path.string(), view.facts.frames);
   }
   const bool is_turned = film.width == view.facts.height && film.height == view.facts.width;
   if (film.width != 0 && !is_turned && (film.width != view.facts.width || film.height != view.facts.height)) {

@@ -173,7 +173,7 @@ Result<RigFile> OpenRig(const std::string& path) {
   ASSIGN_OR_RETURN(const auto text, ReadWholeFile(paths.first.string()));
   if (paths.second.empty()) return ReadRigFile(text, path);
   ASSIGN_OR_RETURN(const auto other, ReadWholeFile(paths.second.string()));
-  return ReadRigPair(text, other, paths.first.string());
+  return ReadRigPair(text, other, paths.first.string(), paths.second.string());
 }
 
 Result<FilmedSession> OpenFilms(const CaptureFilmsOptions& options) {

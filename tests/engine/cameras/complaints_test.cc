@@ -152,16 +152,16 @@ TEST(RigFile, ComplaintsAboutFilesOfOthersAreAsTheyWere) {
                                               {"stereo", stereo_in, stereo_out},
                                               {"COLMAP", colmap_in, colmap_out}}) {
     complaints.Add(std::string(what) + ", cameras", Spoilt(inside),
-                   [&, &out = outside](const std::string& text) { return ReadRigPair(text, out, "pair"); });
+                   [&, &out = outside](const std::string& text) { return ReadRigPair(text, out, "pair", "other"); });
     complaints.Add(std::string(what) + ", places", Spoilt(outside),
-                   [&, &in = inside](const std::string& text) { return ReadRigPair(in, text, "pair"); });
+                   [&, &in = inside](const std::string& text) { return ReadRigPair(in, text, "pair", "other"); });
   }
   for (const std::string cameras : {"", "<cameras/>", "<cameras><camera/></cameras>"}) {
     complaints.Add("'" + cameras + "'", std::vector{"<calibration>" + cameras + "</calibration>"}, ReadRigText);
   }
   complaints.Add("a camera",
                  std::vector<std::string>{"1", "1 PINHOLE 640", "1 PINHOLE 640 480", "1 PINHOLE 640 480 600"},
-                 [&](const std::string& text) { return ReadRigPair(text, colmap_out, "pair"); });
+                 [&](const std::string& text) { return ReadRigPair(text, colmap_out, "pair", "other"); });
   EXPECT_TRUE(testing::AreKept(complaints.lines(), "tests/engine/cameras/complaints_of_others.txt"));
 }
 

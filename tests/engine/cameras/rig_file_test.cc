@@ -210,7 +210,7 @@ TEST(RigPair, ReadsEasyMocapsFiles) {
                              : OpenCvMatrix("Rot_" + name, 3, pose.Rows());
         outside += OpenCvMatrix("T_" + name, 3, {pose.T.x, pose.T.y, pose.T.z});
       }
-      ASSERT_OK(rig, ReadRigPair(inside, outside, "intri.yml"));
+      ASSERT_OK(rig, ReadRigPair(inside, outside, "intri.yml", "extri.yml"));
       EXPECT_EQ(rig->format, "EasyMocap");
       EXPECT_TRUE(rig->has_unit);
       ASSERT_EQ(rig->cameras.size(), 2u);
@@ -220,8 +220,9 @@ TEST(RigPair, ReadsEasyMocapsFiles) {
         EXPECT_EQ(rig->cameras[i].camera.intrinsics.height, has_size ? cameras[i].camera.intrinsics.height : 0);
         ExpectSamePictures(rig->cameras[i].camera, cameras[i].camera, 1e-6);
       }
-      EXPECT_THAT(ToString(ReadRigPair(testing::Replaced(inside, "K_b:", "L_b:"), outside, "intri.yml").error()),
-                  HasSubstr("no K_b"));
+      EXPECT_THAT(
+          ToString(ReadRigPair(testing::Replaced(inside, "K_b:", "L_b:"), outside, "intri.yml", "extri.yml").error()),
+          HasSubstr("no K_b"));
     }
   }
 }
@@ -239,7 +240,7 @@ TEST(RigPair, ReadsOpenCvsStereoWhoseWorldIsTheLeftCamera) {
   const std::string outside =
       kYaml + OpenCvMatrix("R", 3, {R[0][0], R[1][0], R[2][0], R[0][1], R[1][1], R[2][1], R[0][2], R[1][2], R[2][2]}) +
       OpenCvMatrix("T", 3, {T.x, T.y, T.z});
-  ASSERT_OK(rig, ReadRigPair(inside, outside, "intrinsics.yml"));
+  ASSERT_OK(rig, ReadRigPair(inside, outside, "intrinsics.yml", "extrinsics.yml"));
   EXPECT_EQ(rig->format, "OpenCV stereo");
   ASSERT_EQ(rig->cameras.size(), 2u);
   EXPECT_EQ(rig->cameras[0].name, "left");
@@ -276,7 +277,7 @@ TEST(RigPair, ReadsColmapsModels) {
          1680,
          {.k1 = -0.05, .k2 = 0.1, .p1 = 0.0006, .p2 = -0.0004, .k3 = 0.01, .k4 = 0.02, .k5 = 0.03, .k6 = 0.04}},
         {"RADIAL_FISHEYE 1088 1920 1681 533 948 -0.05 0.01", 1681, {.k1 = -0.05, .k2 = 0.01, .is_fisheye = true}}}) {
-    const auto rig = ReadRigPair("3 " + model.line + "\n", image, "cameras.txt");
+    const auto rig = ReadRigPair("3 " + model.line + "\n", image, "cameras.txt", "images.txt");
     ASSERT_TRUE(rig) << model.line << ToString(rig.error());
     EXPECT_EQ(rig->format, "COLMAP");
     EXPECT_FALSE(rig->has_unit);
@@ -295,7 +296,7 @@ TEST(RigPair, ReadsColmapsModels) {
 
 TEST(RigPair, OfColmapIsRefusedWithLineAndReason) {
   const auto reason = [](const std::string& cameras, const std::string& images) {
-    const auto rig = ReadRigPair(cameras, images, "cameras.txt");
+    const auto rig = ReadRigPair(cameras, images, "cameras.txt", "images.txt");
     return rig ? fmt::format("{} cameras", rig->cameras.size()) : ToString(rig.error());
   };
   const std::string camera = "1 PINHOLE 640 480 600 600 320 240\n", image = "1 1 0 0 0 0 0 3 1 a.png\n";
@@ -305,6 +306,27 @@ TEST(RigPair, OfColmapIsRefusedWithLineAndReason) {
   EXPECT_THAT(reason(camera, "1 1 0 0 0 0 0 3 1\n"), HasSubstr("not an image; allowed: IMAGE_ID"));
   EXPECT_THAT(reason(camera, "1 1 0 0 0 0 0 3 2 a.png\n"), HasSubstr("camera 2 is not in cameras.txt"));
   EXPECT_THAT(reason(camera, "# none\n"), HasSubstr("no image in images.txt"));
+  // Each file is named where it is at fault.
+  EXPECT_THAT(reason(camera, "1 1 0 0 0 0 0 x 1 a.png\n"), HasSubstr("images.txt:1: 'x' is not a number"));
+  EXPECT_THAT(reason("1 PINHOLE 640 0 600 600 320 240\n", "# 1\n# 2\n" + image),
+              HasSubstr("cameras.txt:1: camera 1: "));
+}
+
+TEST(RigPair, OfColmapIsNamedAfterFoldersIfImagesHaveOneName) {
+  const auto names = [](const std::vector<std::string>& images) {
+    std::string lines;
+    for (const std::string& image : images) lines += "1 1 0 0 0 0 0 3 1 " + image + "\n\n";
+    const auto rig = ReadRigPair("1 PINHOLE 640 480 600 600 320 240\n", lines, "cameras.txt", "images.txt");
+    std::string text = rig ? "" : ToString(rig.error());
+    for (const NamedCamera& camera : rig ? rig->cameras : std::vector<NamedCamera>{}) text += camera.name + " ";
+    return text;
+  };
+  EXPECT_EQ(names({"cam1/000001.png", "cam2/000001.png"}), "cam1 cam2 ");
+  EXPECT_EQ(names({"cam1/a.png", "cam2/b.png"}), "a b ") << "the images' own names";
+  EXPECT_EQ(names({"take/cam1/images/1.png", "take/cam2/images/1.png"}), "cam1 cam2 ");
+  EXPECT_THAT(names({"cam1/1.png", "cam1/2.png", "cam2/1.png"}),
+              HasSubstr("images.txt: 3 images, but neither their names nor their folders' names are all different"));
+  EXPECT_THAT(names({"1.png", "cam2/1.png"}), HasSubstr("images.txt: 2 images"));
 }
 
 }  // namespace

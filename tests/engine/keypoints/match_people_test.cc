@@ -81,6 +81,9 @@ TEST(LandmarkOfName, KnowsOtherToolsNames) {
                                        {"NOSE", kNose},
                                        {"neck", kNeck},
                                        {"l-heel", kLeftHeel},
+                                       {"ankle.R", kRightAnkle},
+                                       {"Shoulder_L", kLeftShoulder},
+                                       {"heel", kNoLandmark},
                                        {"tail", kNoLandmark},
                                        {"", kNoLandmark}}) {
     EXPECT_EQ(LandmarkOfName(name), landmark) << name;

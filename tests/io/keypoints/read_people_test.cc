@@ -4,37 +4,14 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "io/files/files.h"
-#include "io/files/temporary_folder.h"
-#include "tests/support/results.h"
+#include "tests/io/keypoints/keypoint_files.h"
 
 namespace etude {
 namespace {
 
 using ::testing::HasSubstr;
 
-class ReadPeople : public ::testing::Test {
- protected:
-  ReadPeople() : folder_(*TemporaryFolder::Make("read-people")) {}
-  std::filesystem::path Write(const std::string& name, const std::string& text) {
-    const std::filesystem::path path = folder_.path() / name;
-    EXPECT_TRUE(WriteFileAtomically(path, text));
-    return path;
-  }
-  static std::string Triples(std::size_t count, const std::string& first = "10, 20, 0.5") {
-    std::string list = first;
-    for (std::size_t i = 1; i < count; ++i) list += ", 0, 0, 0";
-    return list;
-  }
-  static std::string OpenPose(std::size_t count, const std::string& first = "10, 20, 0.5") {
-    return R"({"version": 1.3, "people": [{"pose_keypoints_2d": [)" + Triples(count, first) + "]}]}";
-  }
-  std::string Reason(const std::filesystem::path& path, const std::string& layout = "") {
-    return testing::Refusal(ReadKeypoints(path, layout));
-  }
-
-  TemporaryFolder folder_;
-};
+class ReadPeople : public testing::KeypointFiles {};
 
 TEST_F(ReadPeople, TakesOpenPosesFramesInTheOrderOfTheirNumbers) {
   Write("a/f_10.json", OpenPose(25, "30, 40, 0.7"));
@@ -185,11 +162,11 @@ TEST_F(ReadPeople, ReadsCocoWithFlagsOrScores) {
   };
   ASSERT_OK(flags, ReadKeypoints(Write("flags.json", coco("2")), ""));
   ASSERT_EQ(flags->frames.size(), 2u);
-  EXPECT_TRUE(flags->frames[0].empty());
-  EXPECT_DOUBLE_EQ(flags->frames[1][0][Landmark::kNose].confidence, 1);
+  EXPECT_TRUE(flags->frames[1].empty()) << "the image with the higher id";
+  EXPECT_DOUBLE_EQ(flags->frames[0][0][Landmark::kNose].confidence, 1);
   EXPECT_EQ(flags->width, 640);
   const auto scores = ReadKeypoints(Write("scores.json", coco("0.25")), "");
-  EXPECT_DOUBLE_EQ(scores->frames[1][0][Landmark::kNose].confidence, 0.25);
+  EXPECT_DOUBLE_EQ(scores->frames[0][0][Landmark::kNose].confidence, 0.25);
 }
 
 TEST_F(ReadPeople, ReadsResultsOfAlphaPoseAndCocoInTheFramesThatTheirImagesName) {
@@ -252,6 +229,61 @@ TEST_F(ReadPeople, TakesSharesOfThePicture) {
   EXPECT_THAT(read->told, HasSubstr("fractions of the picture's 640 x 480 pixels"));
   EXPECT_EQ(ReadKeypoints(path, "")->frames[0][0][Landmark::kNose].pixel, glm::dvec2(0.75, 1))
       << "of an unknown film: pixels";
+}
+
+TEST_F(ReadPeople, AKeypointAtExactlyZeroWasNotSeen) {
+  std::string rest;
+  for (int i = 1; i < 17; ++i) rest += ", [30, 40]";
+  for (const std::string first : {"[0, 0]", "[0.0, 0.0, 0.3]"}) {
+    ASSERT_OK(film, ReadKeypoints(Write("z.json", R"([{"frame": 0, "keypoints": [)" + first + rest + "]}]"), ""));
+    EXPECT_EQ(film->frames[0][0][Landmark::kNose].confidence, 0) << first;
+    EXPECT_EQ(film->frames[0][0][Landmark::kLeftEye].confidence, 1) << first;
+  }
+  std::string points = R"({"x": 0, "y": 0})";
+  for (int i = 1; i < 17; ++i) points += R"(, {"x": 0, "y": 40})";
+  ASSERT_OK(film, ReadKeypoints(Write("o.json", R"([{"frame": 0, "keypoints": [)" + points + "]}]"), ""));
+  EXPECT_EQ(film->frames[0][0][Landmark::kNose].confidence, 0);
+  EXPECT_EQ(film->frames[0][0][Landmark::kLeftEye].confidence, 1);
+}
+
+TEST_F(ReadPeople, ConfidentKeypointsDecideWhetherCoordinatesAreShares) {
+  const FilmOfKeypoints film{.width = 640, .height = 480, .frames = 1};
+  // Each landmark lies at (x, 0.5); those of `odd` lie at (far, far).
+  const auto read = [&](int odd, double far, double sure, double x = 0.25) {
+    std::string points;
+    for (int i = 0; i < 33; ++i) {
+      points += fmt::format(R"({}{{"x": {}, "y": {}, "visibility": {}}})", i == 0 ? "" : ", ", i >= 33 - odd ? far : x,
+                            i >= 33 - odd ? far : 0.5, i >= 33 - odd ? sure : 0.9);
+    }
+    return ReadKeypoints(Write("p.json", R"([{"pose_landmarks": [)" + points + "]}]"), "", film).value();
+  };
+  const auto nose = [](const PeopleOfFilm& people) { return people.frames[0][0][Landmark::kNose].pixel; };
+  EXPECT_EQ(read(0, 0, 0).told,
+            "keypoints lie between 0 and 1, so they are taken as fractions of the picture's 640 x 480 pixels");
+  // The last two of MediaPipe's landmarks, the toes, lie below the picture.
+  for (const double sure : {0.02, 0.9}) {
+    const PeopleOfFilm toes = read(2, 1.25, sure);
+    EXPECT_EQ(nose(toes), glm::dvec2(160, 240)) << sure;
+    EXPECT_EQ(toes.frames[0][0][Landmark::kLeftBigToe].pixel, glm::dvec2(800, 600));
+    EXPECT_THAT(toes.told, HasSubstr("keypoints lie between 0 and 1, all but 2 of 21, so they are taken")) << sure;
+  }
+  const PeopleOfFilm pixels = read(33, 200, 0.9);
+  EXPECT_EQ(nose(pixels), glm::dvec2(200.5, 200.5));
+  EXPECT_EQ(pixels.told, "");
+  // Pixels of a person of whom some keypoints lie in the picture's first pixel.
+  EXPECT_EQ(nose(read(30, 200, 0.9)), glm::dvec2(0.75, 1));
+}
+
+TEST_F(ReadPeople, TakesTheRangeOfOpenPosesScaleFour) {
+  std::string points;
+  for (int i = 0; i < 17; ++i) points += fmt::format("{}{}, {}, 0.9", i == 0 ? "" : ", ", 0.5, i < 9 ? -0.5 : 0.5);
+  Write("s/0.json", R"({"people": [{"pose_keypoints_2d": [)" + points + "]}]}");
+  ASSERT_OK(film, ReadKeypoints(folder_.path() / "s", "", {.width = 640, .height = 480, .frames = 1}));
+  EXPECT_EQ(film->frames[0][0][Landmark::kNose].pixel, glm::dvec2(480, 120));
+  EXPECT_EQ(film->frames[0][0][Landmark::kLeftAnkle].pixel, glm::dvec2(480, 360));
+  EXPECT_EQ(film->told,
+            "keypoints lie between -1 and 1, so these are taken as the edges of the picture's 640 x 480 pixels "
+            "(OpenPose's --keypoint_scale 4)");
 }
 
 TEST_F(ReadPeople, RefusesWithTheFileAndTheReason) {
