@@ -194,7 +194,7 @@ Result<FbxMotion> FbxReader::Read(std::string_view bytes, const std::string& pat
   // The child answered: return its GLB file or its complaint.
   if (said && said->starts_with(kSaidGlb)) {
     std::string_view rest = *said;
-    FbxMotion motion{.reader = std::string(TakeLine(rest).substr(1))};
+    FbxMotion motion{.glb = "", .reader = std::string(TakeLine(rest).substr(1))};
     const auto number = [&] { return ParseNumber<double>(TakeLine(rest)).value_or(0); };
     FbxKeyFacts facts;
     facts.longest_s = number();
