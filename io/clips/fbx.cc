@@ -15,7 +15,9 @@
 #include <vector>
 
 #include "engine/base/names.h"
+#include "engine/base/text.h"
 #include "io/clips/fbx_rotations.h"
+#include "io/clips/fbx_takes.h"
 #include "io/process/pinned_environment.h"
 
 namespace etude {
@@ -93,8 +95,8 @@ std::optional<std::string> ReceiveBlock(int socket, std::size_t maximum, bool& i
   return ReceiveAll(socket, bytes.data(), size) ? std::optional(std::move(bytes)) : std::nullopt;
 }
 
-/// Runs in the child process. Answers each file with kSaidGlb, two lines (the reader's name, and `longest_s` of
-/// GlbOfFbxBytes) and the GLB file; or with kSaidComplaint and a complaint.
+/// Runs in the child process. Answers each file with kSaidGlb, four lines (the reader's name, and the numbers of
+/// FbxKeyFacts) and the GLB file; or with kSaidComplaint and a complaint.
 int ReadFilesInChild(int socket) {
   Limit(RLIMIT_AS, MappedBytes() + kMemoryBytes);
   Limit(RLIMIT_CORE, 0);
@@ -117,13 +119,56 @@ int ReadFilesInChild(int socket) {
   while (const auto bytes = ReceiveBlock(socket, kMaxGlbBytes, is_too_long)) {
     AllowProcessorTime(kProcessorSeconds);
     std::string said = missing;
-    double longest_s = 0;
-    const bool went_well = read != nullptr && read(*bytes, said, longest_s);
+    FbxKeyFacts facts;
+    const bool went_well = read != nullptr && read(*bytes, said, facts);
     const std::string head =
-        went_well ? fmt::format("{}{}\n{}\n", kSaidGlb, name, longest_s) : std::string(1, kSaidComplaint);
+        went_well ? fmt::format("{}{}\n{}\n{}\n{}\n", kSaidGlb, name, facts.longest_s, facts.cut_s, facts.empty_spans)
+                  : std::string(1, kSaidComplaint);
     if (!SendBlock(socket, head + said)) break;
   }
   return 0;
+}
+
+/// The bytes that assimp gets ("" if they are the file's own), and remarks about them.
+struct PreparedFbx {
+  std::string bytes;
+  std::vector<std::string> remarks;
+};
+
+/// Changes what assimp would read wrongly.
+PreparedFbx Prepare(std::string_view bytes) {
+  PreparedFbx prepared;
+  if (const std::size_t inactive = LeaveOutInactiveRotations(bytes, prepared.bytes); inactive > 0) {
+    prepared.remarks.push_back(fmt::format(
+        "joints whose pre-rotations, post-rotations and orders are left out, because RotationActive is not set: {}",
+        inactive));
+    bytes = prepared.bytes;
+  }
+  if (std::string doubt = DoubtOfScales(bytes); !doubt.empty()) prepared.remarks.push_back(std::move(doubt));
+  std::string changed;
+  for (std::string& remark : PrepareTakes(bytes, changed)) prepared.remarks.push_back(std::move(remark));
+  if (!changed.empty()) prepared.bytes = std::move(changed);
+  return prepared;
+}
+
+/// Adds remarks about the keys.
+void Describe(const FbxKeyFacts& facts, std::vector<std::string>& remarks) {
+  constexpr double kLong = 0.1;  // seconds; between keys that are closer in time, every curve is nearly straight
+  if (facts.longest_s > kLong) {
+    remarks.push_back(
+        fmt::format("its keys are up to {:.2f} s apart: between them joints turn along the shortest "
+                    "arc at a constant speed, whatever curves the file has",
+                    facts.longest_s));
+  }
+  if (facts.cut_s > 0) {
+    remarks.push_back(fmt::format(
+        "keys outside of the clip's time span (LocalStart to LocalStop) are left out: up to {:.2f} s", facts.cut_s));
+  }
+  if (facts.empty_spans > 0) {
+    remarks.push_back(fmt::format(
+        "clips whose time span (LocalStart to LocalStop) lies beside their keys, so that all keys are used: {}",
+        facts.empty_spans));
+  }
 }
 
 }  // namespace
@@ -136,9 +181,8 @@ Result<FbxMotion> FbxReader::Read(std::string_view bytes, const std::string& pat
     return Fail({path}, "an FBX file of version {}; allowed: {} (of 2011 or later): export it anew, or convert it",
                 version, kMinVersion);
   }
-  std::string without_rotations;
-  const std::size_t inactive = LeaveOutInactiveRotations(bytes, without_rotations);
-  if (inactive > 0) bytes = without_rotations;
+  PreparedFbx prepared = Prepare(bytes);
+  if (!prepared.bytes.empty()) bytes = prepared.bytes;
   if (!child_) {
     ASSIGN_OR_RETURN(auto started, ForkedCopy::Start(ReadFilesInChild));
     child_ = std::move(started);
@@ -149,21 +193,16 @@ Result<FbxMotion> FbxReader::Read(std::string_view bytes, const std::string& pat
   if (SendBlock(child_->socket(), bytes)) said = ReceiveBlock(child_->socket(), kMaxGlbBytes, is_too_long);
   // The child answered: return its GLB file or its complaint.
   if (said && said->starts_with(kSaidGlb)) {
-    const std::size_t name = said->find('\n'), longest = said->find('\n', name + 1);
-    FbxMotion motion{.glb = said->substr(longest + 1), .reader = said->substr(1, name - 1)};
-    std::vector<std::string> remarks;
-    if (inactive > 0) {
-      remarks.push_back(fmt::format(
-          "joints whose pre-rotations, post-rotations and orders are left out, because RotationActive is not set: {}",
-          inactive));
-    }
-    constexpr double kLong = 0.1;  // seconds; between keys that are closer in time, every curve is nearly straight
-    if (const double apart = std::strtod(said->c_str() + name + 1, nullptr); apart > kLong) {
-      remarks.push_back(
-          fmt::format("its keys are up to {:.2f} s apart: between them joints turn along the shortest "
-                      "arc at a constant speed, whatever curves the file has",
-                      apart));
-    }
+    std::string_view rest = *said;
+    FbxMotion motion{.glb = "", .reader = std::string(TakeLine(rest).substr(1))};
+    const auto number = [&] { return ParseNumber<double>(TakeLine(rest)).value_or(0); };
+    FbxKeyFacts facts;
+    facts.longest_s = number();
+    facts.cut_s = number();
+    facts.empty_spans = static_cast<int>(number());
+    motion.glb = rest;
+    std::vector<std::string> remarks = std::move(prepared.remarks);
+    Describe(facts, remarks);
     motion.remark = Join(remarks, "; ");
     return motion;
   }

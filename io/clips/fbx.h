@@ -9,10 +9,17 @@
 
 namespace etude {
 
-/// The function of the module `etude_clips_assimp.so`. It converts the bytes of an FBX file to a GLB file. On success
-/// it returns true; `said` then holds the GLB bytes, and `longest_s` the longest time, in seconds, between two
-/// consecutive keys of one channel whose values differ. On failure it returns false, and `said` holds a complaint.
-using GlbOfFbxBytes = bool(std::string_view bytes, std::string& said, double& longest_s);
+/// What the module found in the keys of a file.
+struct FbxKeyFacts {
+  double longest_s = 0;  ///< the longest time, seconds, between two consecutive keys of one channel that differ
+  double cut_s = 0;      ///< the longest time, seconds, of keys that lie outside the time span of their animation
+  int empty_spans = 0;   ///< animations whose time span lies beside their keys; all of their keys are used
+};
+
+/// The function of the module `etude_clips_assimp.so`. It converts the bytes of an FBX file, prepared by PrepareTakes,
+/// to a GLB file. On success it returns true; `said` then holds the GLB bytes, and `facts` describe the keys. On
+/// failure it returns false, and `said` holds a complaint.
+using GlbOfFbxBytes = bool(std::string_view bytes, std::string& said, FbxKeyFacts& facts);
 
 /// Returns true if `bytes` begin like a binary or text FBX file.
 bool IsFbx(std::string_view bytes);

@@ -15,6 +15,7 @@
 #include <set>
 #include <vector>
 
+#include "io/clips/assimp/span.h"
 #include "io/clips/fbx.h"
 
 namespace etude {
@@ -45,11 +46,13 @@ class MotionGlb {
  public:
   explicit MotionGlb(const aiScene& scene) {
     AddNode(*scene.mRootNode);
-    for (unsigned i = 0; i < scene.mNumAnimations; ++i) AddAnimation(*scene.mAnimations[i]);
+    for (unsigned i = 0; i < scene.mNumAnimations; ++i) {
+      CutToSpan(*scene.mAnimations[i], facts_);
+      AddAnimation(*scene.mAnimations[i]);
+    }
   }
 
-  /// Returns the longest time, in seconds, between two consecutive keys of one channel whose values differ.
-  double longest_s() const { return longest_s_; }
+  const FbxKeyFacts& facts() const { return facts_; }
 
   std::string Bytes() {
     Json document = {{"asset", {{"version", "2.0"}}}, {"scene", 0}, {"scenes", {{{"nodes", {0}}}}}, {"nodes", nodes_}};
@@ -77,15 +80,23 @@ class MotionGlb {
   }
 
  private:
+  static constexpr const char* kGeometric = "Geometric";
+
+  static bool IsPart(const aiNode& node, const char* kind = "") {
+    return std::strstr(node.mName.C_Str(), (std::string("_$AssimpFbx$_") + kind).c_str()) != nullptr;
+  }
+
   /// Adds a node and its subtree. assimp splits a joint with pivots into a chain of nodes; here, each chain becomes one
-  /// node.
+  /// node. A geometric transform moves the joint's mesh and nothing else, so its parts are left out; the parts that
+  /// undo it for the joint's children lie below the joint.
   std::size_t AddNode(const aiNode& first) {
     const std::size_t index = nodes_.size();
     std::vector<const aiNode*> parts = {&first};
-    while (std::strstr(parts.back()->mName.C_Str(), "_$AssimpFbx$_") != nullptr && parts.back()->mNumChildren == 1) {
-      parts.push_back(parts.back()->mChildren[0]);
-    }
+    while (IsPart(*parts.back()) && parts.back()->mNumChildren == 1) parts.push_back(parts.back()->mChildren[0]);
     const aiNode& node = *parts.back();
+    const aiNode* last = &node;
+    while (last->mNumChildren == 1 && IsPart(*last->mChildren[0], kGeometric)) last = last->mChildren[0];
+    std::erase_if(parts, [](const aiNode* part) { return IsPart(*part, kGeometric); });
     aiMatrix4x4 whole;
     for (const aiNode* part : parts) {
       by_name_.emplace(part->mName.C_Str(), index);
@@ -100,32 +111,16 @@ class MotionGlb {
                       {"rotation", {turn.x, turn.y, turn.z, turn.w}},
                       {"scale", {scale.x, scale.y, scale.z}}});
     std::vector<std::size_t> children;
-    for (unsigned i = 0; i < node.mNumChildren; ++i) children.push_back(AddNode(*node.mChildren[i]));
+    for (unsigned i = 0; i < last->mNumChildren; ++i) children.push_back(AddNode(*last->mChildren[i]));
     if (!children.empty()) nodes_[index]["children"] = children;
     return index;
   }
 
-  /// Interpolates the keys of a channel at a time: `mix(from, to, share)` blends the two neighbouring keys. Before the
-  /// first key and after the last one, the value is constant.
-  template <typename Key, typename Mix>
-  static auto ValueAt(const Key* keys, unsigned count, double time, Mix mix) {
-    const auto is_before = [](const Key& key, double at) { return key.mTime < at; };
-    const auto to = static_cast<unsigned>(std::lower_bound(keys, keys + count, time, is_before) - keys);
-    if (to == 0 || to == count) return keys[to == 0 ? 0 : count - 1].mValue;
-    const Key &a = keys[to - 1], &b = keys[to];
-    return mix(a.mValue, b.mValue, static_cast<ai_real>((time - a.mTime) / (b.mTime - a.mTime)));
-  }
-
   static aiMatrix4x4 MatrixAt(const aiNodeAnim& moved, double time) {
-    const auto mix = [](const aiVector3D& a, const aiVector3D& b, ai_real share) { return a + share * (b - a); };
-    const auto turn = [](const aiQuaternion& a, const aiQuaternion& b, ai_real share) {
-      aiQuaternion between;
-      aiQuaternion::Interpolate(between, a, b, share);
-      return between;
-    };
+    const auto mix = [](const auto& a, const auto& b, ai_real share) { return Mixed(a, b, share); };
     const auto place = ValueAt(moved.mPositionKeys, moved.mNumPositionKeys, time, mix);
-    const auto rotation = ValueAt(moved.mRotationKeys, moved.mNumRotationKeys, time, turn);
-    return {ValueAt(moved.mScalingKeys, moved.mNumScalingKeys, time, mix), rotation, place};
+    const auto turn = ValueAt(moved.mRotationKeys, moved.mNumRotationKeys, time, mix);
+    return {ValueAt(moved.mScalingKeys, moved.mNumScalingKeys, time, mix), turn, place};
   }
 
   /// The keys of a joint that assimp splits into parts: one joined key for each time at which any part has a key.
@@ -142,13 +137,25 @@ class MotionGlb {
       const bool has_all = moved.mNumPositionKeys > 0 && moved.mNumRotationKeys > 0 && moved.mNumScalingKeys > 0;
       if (part == parts.end() || !has_all) continue;
       moved_parts[*part] = &moved;
-      for (unsigned k = 0; k < moved.mNumPositionKeys; ++k) times.insert(moved.mPositionKeys[k].mTime);
-      for (unsigned k = 0; k < moved.mNumRotationKeys; ++k) times.insert(moved.mRotationKeys[k].mTime);
-      for (unsigned k = 0; k < moved.mNumScalingKeys; ++k) times.insert(moved.mScalingKeys[k].mTime);
+      // assimp adds constant tracks of one key at a time without meaning.
+      const auto see = [&](const auto* keys, unsigned count) {
+        for (unsigned k = 0; count > 1 && k < count; ++k) times.insert(keys[k].mTime);
+      };
+      see(moved.mPositionKeys, moved.mNumPositionKeys);
+      see(moved.mRotationKeys, moved.mNumRotationKeys);
+      see(moved.mScalingKeys, moved.mNumScalingKeys);
     }
-    // If only the joint's own node has keys, these keys hold the whole transform, because assimp includes the joint's
-    // pre-rotation in the keys.
+    if (times.empty() && !moved_parts.empty()) times.insert(0);
+    // If only the joint's own node has keys, these keys hold the whole transform, because assimp up to version 5.4.3
+    // includes the joint's pre-rotation and post-rotation in the keys: R_pre R R_post, where FBX means R_pre R
+    // R_post⁻¹. The part of the post-rotation is R_post⁻¹ in all versions; later versions give each part its own keys.
     const bool is_whole = moved_parts.size() == 1 && moved_parts.begin()->first == parts.back();
+    aiQuaternion undo;
+    for (const aiNode* part : parts) {
+      if (!is_whole || !IsPart(*part, "PostRotation")) continue;
+      const aiQuaternion inverse{aiMatrix3x3(part->mTransformation)};
+      undo = inverse * inverse;
+    }
     JoinedKeys joined;
     for (const double time : times) {
       aiMatrix4x4 whole;
@@ -160,7 +167,7 @@ class MotionGlb {
       aiQuaternion turn;
       whole.Decompose(scale, turn, place);
       joined.places.emplace_back(time, place);
-      joined.turns.emplace_back(time, turn);
+      joined.turns.emplace_back(time, turn * undo);
       joined.scales.emplace_back(time, scale);
     }
     return joined;
@@ -168,12 +175,11 @@ class MotionGlb {
 
   void AddAnimation(const aiAnimation& animation) {
     Json samplers = Json::array(), channels = Json::array();
-    const double rate = animation.mTicksPerSecond > 0 ? animation.mTicksPerSecond : 1;
     // Adds one channel: the keys of a node's translation, rotation or scale.
     const auto add = [&](std::size_t node, const char* path, const auto* keys, unsigned count, auto numbers_of) {
       std::vector<float> times, values;
       for (unsigned i = 0; i < count; ++i) {
-        times.push_back(static_cast<float>(keys[i].mTime / rate));
+        times.push_back(static_cast<float>(keys[i].mTime));
         for (const float number : numbers_of(keys[i].mValue)) values.push_back(number);
       }
       if (count == 0) return;
@@ -184,7 +190,7 @@ class MotionGlb {
       for (std::size_t i = width; i < values.size(); ++i) {
         const std::size_t key = i / width;
         if (std::abs(values[i] - values[i - width]) < kSame) continue;
-        longest_s_ = std::max(longest_s_, static_cast<double>(times[key]) - times[key - 1]);
+        facts_.longest_s = std::max(facts_.longest_s, static_cast<double>(times[key]) - times[key - 1]);
       }
       channels.push_back({{"sampler", samplers.size()}, {"target", {{"node", node}, {"path", path}}}});
       samplers.push_back({{"input", AddNumbers(times, count)}, {"output", AddNumbers(values, count)}});
@@ -232,10 +238,10 @@ class MotionGlb {
   std::map<std::string, std::size_t> by_name_;  ///< for each name, the first node with this name
   std::map<std::size_t, std::vector<const aiNode*>> parts_;  ///< for each joined node, its chain in the file
   std::string numbers_;
-  double longest_s_ = 0;
+  FbxKeyFacts facts_;
 };
 
-bool GlbOfFbxByAssimp(std::string_view bytes, std::string& said, double& longest_s) {
+bool GlbOfFbxByAssimp(std::string_view bytes, std::string& said, FbxKeyFacts& facts) {
   try {
     Assimp::Importer importer;
     // If pivots are not preserved, assimp drops the keys of joints that have pivots.
@@ -253,7 +259,7 @@ bool GlbOfFbxByAssimp(std::string_view bytes, std::string& said, double& longest
     }
     MotionGlb motion(*scene);
     said = motion.Bytes();
-    longest_s = motion.longest_s();
+    facts = motion.facts();
     return true;
   } catch (const std::exception& error) {
     said = std::string("an FBX file that cannot be read: ") + error.what();
