@@ -49,7 +49,7 @@ TEST(LoadMaskPng, KeepsTheIndicesOfAPalette) {
   ASSERT_TRUE(WriteFileAtomically(folder.path() / "a.png", PalettePng()));
   ASSERT_OK(mask, LoadMaskPng((folder.path() / "a.png").string()));
   EXPECT_TRUE(mask->is_indexed);
-  EXPECT_EQ(mask->values.pixels, (std::vector<std::uint8_t>{0, 1, 2, 3}));
+  EXPECT_EQ(mask->values.pixels, (std::vector<std::uint16_t>{0, 1, 2, 3}));
   ASSERT_TRUE(WriteFileAtomically(folder.path() / "b.png", PalettePng().substr(0, 60)));
   EXPECT_FALSE(LoadMaskPng((folder.path() / "b.png").string()));
 }
