@@ -125,14 +125,10 @@ Result<int> RecogniseLive(const RecogniseCommandOptions& options, const Taught& 
   const StreamOptions making = options.reading.Options();
   LiveStream live("standard input", options.reading.Reading(), making);
   StreamWatcher watcher(*taught.recogniser, taught.moves.size(), taught.watch, making.rate_hz);
-  bool has_begun = false;
   std::size_t spotted = 0;
-  // Report the reader's remark once, and every move that is spotted.
+  // Report the reader's remarks, and every move that is spotted.
   const auto take = [&](const std::vector<SensedFrame>& frames) {
-    if (!has_begun && !frames.empty()) {
-      has_begun = true;
-      if (const auto remark = live.RemarkOnLevel(); !remark.empty()) fmt::print(stderr, "standard input: {}\n", remark);
-    }
+    for (const std::string& remark : live.TakeRemarks()) fmt::print(stderr, "standard input: {}\n", remark);
     for (const SensedFrame& frame : frames) {
       for (const Spotting& spotting : watcher.Take(frame)) {
         ++spotted;

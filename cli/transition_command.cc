@@ -30,6 +30,7 @@ struct TransitionCommandOptions {
   TransitionFileOptions transition;
   ClipReading reading;
   bool overwrite = false, as_json = false;
+  bool has_join = false;  ///< true if the user stated a join
 };
 
 Result<int> TransitionCommand(TransitionCommandOptions asked) {
@@ -44,12 +45,16 @@ Result<int> TransitionCommand(TransitionCommandOptions asked) {
                           options.to, options.budget_s, made.why)});
     return kNothingWorked;
   }
-  // Report the transition.
+  // Report the transition. The choice "unbroken" joins nothing, and never plays the second clip.
+  const bool is_unbroken = made.branch == Branch::kUnbroken;
+  if (is_unbroken && asked.has_join) {
+    fmt::print(stderr, "--join {} has no effect, because --choice {} joins no clips\n", options.join, options.choice);
+  }
   if (asked.as_json) {
     RETURN_IF_ERROR(PrintFacts("transition", {{"from", options.from},
                                               {"to", options.to},
                                               {"choice", options.choice},
-                                              {"join", options.join},
+                                              {"join", is_unbroken ? Json() : Json(options.join)},
                                               {"branch", BranchName(made.branch)},
                                               {"left_s", made.left_s},
                                               {"entered_s", made.entered_s},
@@ -59,6 +64,9 @@ Result<int> TransitionCommand(TransitionCommandOptions asked) {
                                               {"duration_s", made.duration_s},
                                               {"why", made.why},
                                               {"output", options.output}}));
+  } else if (is_unbroken) {
+    fmt::print("{}; {} is not played\n  written as a body of twenty joints at 30 Hz, {:.2f} s long\n", made.why,
+               options.to, made.duration_s);
   } else {
     fmt::print("{} plays until {:.2f} s, {:.2f} s after the request{}; then {} plays from its {:.2f} s on\n",
                options.from, made.left_s, made.wait_s,
@@ -105,7 +113,10 @@ void DefineTransition(CLI::App& app, Action& action) {
   AddJson(*command, asked->as_json);
   AddClipReading(*command, asked->reading);
   command->footer(kTransitionNotes);
-  command->callback([=, &action] { action = [=] { return Finish(TransitionCommand(*asked)); }; });
+  command->callback([=, &action] {
+    asked->has_join = command->count("--join") > 0;
+    action = [=] { return Finish(TransitionCommand(*asked)); };
+  });
 }
 
 }  // namespace etude

@@ -108,9 +108,9 @@ Result<void> LiveCoach::Follow(std::istream& stream, LiveStream& live) {
   std::vector<SensedFrame> frames;
   std::string line;
   const auto pass_on = [&]() -> Result<void> {
-    const bool begins = !session_ && !frames.empty();
-    const std::string remark = begins ? live.RemarkOnLevel() : "";
-    if (!remark.empty() && options_.on_remark) options_.on_remark(remark);
+    for (const std::string& remark : live.TakeRemarks()) {
+      if (options_.on_remark) options_.on_remark(remark);
+    }
     for (const SensedFrame& frame : frames) RETURN_IF_ERROR(Take(frame, *live.Meaning()));
     frames.clear();
     return {};

@@ -73,6 +73,18 @@ std::optional<double> NumberWithComma(std::string_view word) {
   return NumberOf(pointed);
 }
 
+/// Returns the separator of a row of numbers with decimal commas; 0 if the row has none.
+char SeparatorOfNumbers(std::string_view line) {
+  if (line.find(',') == std::string_view::npos) return 0;
+  for (const char separator : {';', '\t'}) {
+    if (line.find(separator) == std::string_view::npos) continue;
+    const auto words = WordsOf(line, separator);
+    if (std::ranges::all_of(words, [](std::string_view word) { return NumberOf(word) || NumberWithComma(word); }))
+      return separator;
+  }
+  return 0;
+}
+
 /// Returns true if a word has only digits, points, commas and signs, such as 1,234.5, which has two separators.
 bool IsOfDigits(std::string_view word) {
   return word.find(',') != std::string_view::npos && word.find_first_not_of("0123456789.,+-") == std::string_view::npos;
@@ -96,10 +108,11 @@ Result<NumberRows> ReadNumberRows(std::string_view text, const std::string& file
     const char* const line_start = text.data();
     const std::string_view whole = TakeLine(text), line = Trimmed(whole);
     if (IsRemark(line)) continue;
+    if (table.columns == 0 && table.heading.empty()) separator = SeparatorOfNumbers(line);
     std::vector<std::string_view> words = WordsOf(separator == '\t' ? whole : line, separator);
     DropEmptyEnd(words, table.columns > 0 ? table.columns : headings);
     // The first line may be a heading.
-    if (table.columns == 0 && table.heading.empty() && !NumberOf(words.front())) {
+    if (table.columns == 0 && table.heading.empty() && separator == 0 && !NumberOf(words.front())) {
       table.heading = line;
       separator = SeparatorOf(line);
       headings = HeadingsOf(line).size();
@@ -138,6 +151,7 @@ Result<NumberRows> ReadNumberRows(std::string_view text, const std::string& file
   }
   if (table.columns == 0) return Fail({file}, "no rows of numbers");
   RETURN_IF_ERROR(commas.Check(file));
+  table.separator = separator;
   return table;
 }
 

@@ -18,6 +18,7 @@ struct NumberRows {
   std::vector<double> values;  ///< the numbers, row by row; NaN for a missing value
   std::vector<int> lines;      ///< line of each row in the text, from 1
   bool has_decimal_commas = false;
+  char separator = 0;  ///< ';' or a tab if rows are split only at it; 0: the separator is found in each row
   /// The columns that contain texts, each with its first text; all values of these columns are NaN.
   std::vector<std::pair<std::size_t, std::string>> texts = {};
 
@@ -32,11 +33,12 @@ constexpr std::size_t kMaxNumberTextBytes = std::size_t{64} << 20;
 /// Reads a table of numbers. Empty lines and lines that begin with '#' or "//" are skipped. A missing value is "nan",
 /// "na", "n/a" or "null" in any case, or nothing between two commas or after the last comma. If the heading contains
 /// semicolons or tabs but no commas, rows that contain this separator are split only at it, and a comma within a
-/// number is a decimal comma; commas that separate thousands are refused (CommaUse). Quotes around a value are ignored.
-/// Returns an error, with the position as far as it is known, for a word, for infinity, for a number beyond ±`largest`
-/// (times may need a larger limit than positions), for rows of different lengths, for a table without rows, and for
-/// more than `kMaxNumberTextBytes` bytes. If `allows_texts`, up to a hundred columns whose first value is a word are
-/// columns of texts.
+/// number is a decimal comma. The same holds without a heading if the first row, split only at it, consists of numbers;
+/// commas that separate thousands are refused (CommaUse). Quotes around a value are ignored. Returns an error, with the
+/// position as far as it is known, for a word, for infinity, for a number beyond ±`largest` (times may need a larger
+/// limit than positions), for rows of different lengths, for a table without rows, and for more than
+/// `kMaxNumberTextBytes` bytes. If `allows_texts`, up to a hundred columns whose first value is a word are columns of
+/// texts.
 Result<NumberRows> ReadNumberRows(std::string_view text, const std::string& file, double largest = 1e9,
                                   bool allows_texts = false);
 

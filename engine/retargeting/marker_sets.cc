@@ -195,12 +195,27 @@ std::optional<MarkerSet> SetOfSkeletonNames(const MarkerColumns& columns, std::s
   return set;
 }
 
+/// Returns true if the markers are Etude's own joints, some of which may be missing: ten or more of their names, with
+/// one that no other set has.
+bool AreOwnJoints(const MarkerColumns& columns) {
+  constexpr std::ptrdiff_t kMinNames = 10;
+  const auto has = [&](Role role) { return columns.contains(RoleName(role)); };
+  return (has(Role::kHipCentre) || has(Role::kShoulderCentre)) && std::ranges::count_if(AllRoles(), has) >= kMinNames;
+}
+
 }  // namespace
 
 ChosenSet ChooseSet(const MarkerColumns& columns, std::span<const std::string> names, const std::string& wanted,
                     const std::map<Role, std::string>& roles) {
   ChosenSet chosen = ChooseKnown(columns, wanted);
-  if (chosen.known == nullptr && wanted.empty()) chosen.made = SetOfSkeletonNames(columns, names);
+  if (chosen.known == nullptr && wanted.empty()) {
+    // If a column is missing, another scheme would take Etude's names for other joints: "left_hand" for the wrist.
+    if (AreOwnJoints(columns)) {
+      chosen.known = &MarkerSets().front();
+    } else {
+      chosen.made = SetOfSkeletonNames(columns, names);
+    }
+  }
   std::vector<MarkerRule> told;
   for (const auto& [role, marker] : roles) {
     if (const auto found = columns.find(MarkerKey(marker)); found != columns.end())

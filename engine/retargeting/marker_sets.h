@@ -74,8 +74,10 @@ struct ChosenSet {
 /// Chooses one of the sets that are complete. If the user wants a set, `wanted` is the set's key, and only that set is
 /// chosen. If `wanted` is "", chooses the set with the highest rank; of equal ranks, the set that determines the most
 /// joints. If no set is complete, makes a set if a naming scheme of skeletons (joint_names.h) names all needed joints.
-/// `roles` states which markers the user takes as joints. They replace the set's rules for the same joints; if there
-/// is no set, they form a set of their own, which may be incomplete. `names` are the file's names of all columns.
+/// Markers with the names of Etude's own joints keep their meaning: their set is then chosen, although it is
+/// incomplete. `roles` states which markers the user takes as joints. They replace the set's rules for the same joints;
+/// if there is no set, they form a set of their own, which may be incomplete. `names` are the file's names of all
+/// columns.
 ChosenSet ChooseSet(const MarkerColumns& columns, std::span<const std::string> names, const std::string& wanted,
                     const std::map<Role, std::string>& roles);
 

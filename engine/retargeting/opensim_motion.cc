@@ -241,6 +241,7 @@ Result<ReadPart> ReadPartLine(TextScanner& scanner, const std::vector<ReadPart>&
 struct AngleTable {
   std::vector<ReadPart> parts;
   double radians = Radians(1);            ///< radians per unit of angles
+  bool has_unit = false;                  ///< true if the header states the unit of angles
   std::array<std::size_t, 3> place = {};  ///< columns of the pelvis's translation
   std::vector<std::vector<double>> rows;  ///< the first column is the time, seconds
 };
@@ -266,6 +267,51 @@ Result<void> FindColumns(TextScanner& scanner, AngleTable& table, std::size_t& c
   return {};
 }
 
+/// Reads the unit of angles from a line of the header, given without blanks; other lines are skipped.
+Result<void> ReadUnit(std::string line, const Place& place, AngleTable& table) {
+  for (char& c : line) c = c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
+  if (!line.starts_with("indegrees")) return {};
+  const bool is_degrees = line == "indegrees=yes";
+  if (!is_degrees && line != "indegrees=no") {
+    return Fail(place, "found {}; allowed: inDegrees=yes or inDegrees=no", Quote(line));
+  }
+  table.radians = is_degrees ? Radians(1) : 1;
+  table.has_unit = true;
+  return {};
+}
+
+/// Compares the size of the angles with their unit. Without a stated unit, sets the unit by the angles. `note` receives
+/// a text for users. Angles beyond two turns are not radians. If no angle is beyond one turn in radians, all angles as
+/// degrees would be below 6.3, so the body would hardly leave its rest pose.
+Result<void> CheckUnit(AngleTable& table, const std::string& file, std::string& note) {
+  constexpr double kMaxRadians = 4 * kPi, kMinMoved = 0.5, kUsualRadians = 2 * kPi;
+  double largest = 0;
+  std::string name;
+  for (const ReadPart& part : table.parts) {
+    for (std::size_t i = 0; i < 3; ++i) {
+      for (const std::vector<double>& row : table.rows) {
+        if (std::abs(row[part.columns[i]]) <= std::abs(largest)) continue;
+        largest = row[part.columns[i]];
+        name = part.names[i];
+      }
+    }
+  }
+  const bool are_small = std::abs(largest) > kMinMoved && std::abs(largest) <= kUsualRadians;
+  if (!table.has_unit) {
+    if (are_small) table.radians = 1;
+    note = fmt::format("no line inDegrees: angles are taken as {} (the largest is {:.3g})",
+                       are_small ? "radians" : "degrees", largest);
+    return {};
+  }
+  if (table.radians == 1 && std::abs(largest) > kMaxRadians) {
+    return Fail({file}, "inDegrees=no, but {} is {:.4g}; allowed: at most 12.57 radians (4π)", name, largest);
+  }
+  if (table.radians != 1 && are_small) {
+    note = fmt::format("inDegrees=yes, but the largest angle is {:.3g} ({}): the angles may be radians", largest, name);
+  }
+  return {};
+}
+
 Result<AngleTable> ReadAngleTable(std::string_view bytes, const std::string& file) {
   TextScanner scanner(bytes, file);
   // Read the header, then the columns, then the rows.
@@ -274,13 +320,13 @@ Result<AngleTable> ReadAngleTable(std::string_view bytes, const std::string& fil
     const Token first = scanner.Next();
     if (first.text.empty()) return Fail(scanner.At(first), "no endheader");
     if (first.text == "endheader") break;
-    if (first.text == "inDegrees=no") table.radians = 1;
     if (first.text == "part") {
       ASSIGN_OR_RETURN(auto part, ReadPartLine(scanner, table.parts));
       table.parts.push_back(std::move(part));
     }
-    while (!scanner.NextInLine().text.empty()) {
-    }
+    std::string line(first.text);
+    for (Token word = scanner.NextInLine(); !word.text.empty(); word = scanner.NextInLine()) line += word.text;
+    RETURN_IF_ERROR(ReadUnit(std::move(line), scanner.At(first), table));
   }
   if (table.parts.size() != kRoleCount) {
     return Fail({file}, "a model of {} parts; allowed: {}, one for each role", table.parts.size(), kRoleCount);
@@ -298,17 +344,6 @@ Result<AngleTable> ReadAngleTable(std::string_view bytes, const std::string& fil
       return Fail(scanner.At(begin), "this row has {} numbers, but the header has {} names", row.size(), columns);
   }
   if (table.rows.empty()) return Fail({file}, "no rows of angles");
-  // Angles larger than two turns must be degrees, not radians.
-  constexpr double kMaxRadians = 4 * kPi;
-  for (const ReadPart& part : table.parts) {
-    for (std::size_t i = 0; i < 3 && table.radians == 1; ++i) {
-      for (const std::vector<double>& row : table.rows) {
-        if (std::abs(row[part.columns[i]]) <= kMaxRadians) continue;
-        return Fail({file}, "inDegrees=no, but {} is {:.4g}; allowed: at most 12.57 radians (4π)", part.names[i],
-                    row[part.columns[i]]);
-      }
-    }
-  }
   return table;
 }
 
@@ -337,7 +372,9 @@ Result<BodyMotion> ReadOpenSimMotion(std::string_view bytes, const std::string& 
                                      double* start_s) {
   constexpr std::size_t kMaxBytes = std::size_t{64} << 20;
   if (bytes.size() > kMaxBytes) return Fail({file}, "{} bytes; allowed: at most {}", bytes.size(), kMaxBytes);
-  ASSIGN_OR_RETURN(const AngleTable table, ReadAngleTable(bytes, file));
+  ASSIGN_OR_RETURN(AngleTable table, ReadAngleTable(bytes, file));
+  std::string unit;
+  RETURN_IF_ERROR(CheckUnit(table, file, unit));
   std::vector<double> times;
   for (const std::vector<double>& row : table.rows) times.push_back(row.front());
   RETURN_IF_ERROR(CheckTimes(times, file));
@@ -362,7 +399,9 @@ Result<BodyMotion> ReadOpenSimMotion(std::string_view bytes, const std::string& 
   double start = 0;
   ASSIGN_OR_RETURN(motion, LayOnClock(std::move(motion), times, file, changed, start));
   if (start_s != nullptr) *start_s = start;
-  if (note != nullptr && !changed.empty()) *note += (note->empty() ? "" : "; ") + changed;
+  for (const std::string& said : {unit, changed}) {
+    if (note != nullptr && !said.empty()) *note += (note->empty() ? "" : "; ") + said;
+  }
   return motion;
 }
 

@@ -32,7 +32,9 @@ bool HasModelOfAngles(std::string_view bytes);
 /// Reads a .mot file that contains the model of its angles, as WriteOpenSimMotion writes it. Returns the positions of
 /// the twenty parts' ends as joints, metres, Y up. `LayOnClock` resamples rows to a constant rate by their times, and
 /// `note` states what was changed; a single row has 30 Hz. `start_s` becomes the time of the first row. Angles are
-/// degrees, or radians after "inDegrees=no". Fails, with the line, for more than 64 MB, parts that are not the twenty
+/// degrees after "inDegrees=yes" and radians after "inDegrees=no", in any case and with blanks. Without this line they
+/// are radians if the largest is 0.5 to 2π, else degrees, and `note` says so; it also says if angles after
+/// "inDegrees=yes" are as small. Fails, with the line, for more than 64 MB, parts that are not the twenty
 /// roles (each once, after its parent), angles or translations without a column, rows of another length, numbers beyond
 /// ±10⁹, no rows, and times that run backwards.
 Result<BodyMotion> ReadOpenSimMotion(std::string_view bytes, const std::string& file, std::string* note = nullptr,

@@ -32,6 +32,12 @@ Result<StreamRecording> ReadFormat(StreamFormat format, std::string_view text, c
 /// gives a human trunk.
 Result<void> ToMetres(StreamRecording& recording, const std::string& file);
 
+/// Returns true for a frame rate that a Kinect's recordings have, 5 to 130 Hz, with a margin for jitter.
+inline bool IsKinectRate(double rate_hz) { return rate_hz > 4.75 && rate_hz < 133; }
+
+/// Returns a remark if the times of a Kinect's recording give a rate that no Kinect has (IsKinectRate); else "".
+std::string RateDoubt(const StreamRecording& recording);
+
 /// Returns true if the format has rows of `columns` numbers.
 bool HasColumnsOf(StreamFormat format, std::size_t columns);
 

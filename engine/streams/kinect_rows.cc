@@ -1,10 +1,13 @@
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
+#include <iterator>
 
 #include "engine/base/names.h"
 #include "engine/base/order_statistics.h"
 #include "engine/formats/number_rows.h"
+#include "engine/formats/usual_rates.h"
 #include "engine/streams/format_readers.h"
 
 namespace etude {
@@ -70,10 +73,19 @@ bool CountsWhole(const NumberRows& table) {
   return true;
 }
 
-/// Returns the length in seconds of the first column's unit, which is a second, a frame at 30 Hz, a millisecond or a
-/// microsecond. The unit follows from the median step between rows. Integers with a median step below 16 are taken as
-/// frame numbers, because no skeleton sensor is faster than 60 Hz; a remark states if this step is 2 or more, as frames
-/// are then missing. Returns nullopt if the clock stands still or its steps are too large.
+/// A unit of a clock.
+struct ClockUnit {
+  double seconds;
+  const char* name;
+};
+constexpr ClockUnit kClockUnits[] = {
+    {1e-3, "milliseconds"}, {1e-6, "microseconds"}, {1e-7, "ticks of 100 ns"}, {1e-9, "nanoseconds"}};
+
+/// Returns the length in seconds of the first column's unit, by the median step between rows. A step below 1 counts
+/// seconds. Integers with a step below 16 are frame numbers at 30 Hz, because no skeleton sensor is faster than 60 Hz.
+/// Larger steps have the largest unit of `kClockUnits` that gives a rate of a Kinect, or else the largest that gives at
+/// least 1 Hz. A remark states frame numbers, ticks and nanoseconds. Returns nullopt if the clock stands still or its
+/// steps are too large.
 std::optional<double> SecondsPerCount(const NumberRows& table, std::vector<std::string>& remarks) {
   constexpr double kMinStepMs = 16;
   std::vector<double> steps;
@@ -85,14 +97,24 @@ std::optional<double> SecondsPerCount(const NumberRows& table, std::vector<std::
   const double step = UpperMedian(std::move(steps));
   if (step < 1) return 1.0;
   if (step < (CountsWhole(table) ? kMinStepMs : 5)) {
-    if (step >= 2)
-      remarks.push_back(
-          fmt::format("the first column counts frames at 30 Hz, with one row for every {:g} frames", step));
+    const std::string rows = step >= 2 ? fmt::format(", with one row for every {:g} frames", step) : "";
+    remarks.push_back("the first column counts frames at 30 Hz" + rows);
     return 1 / kJudgedRateHz;
   }
-  if (step <= 1000) return 1e-3;
-  if (step <= 1e6) return 1e-6;
-  return std::nullopt;
+  // Choose among the units of clocks.
+  const auto rate_in = [&](const ClockUnit& unit) { return 1 / (step * unit.seconds); };
+  const auto* unit =
+      std::ranges::find_if(kClockUnits, [&](const ClockUnit& one) { return IsKinectRate(rate_in(one)); });
+  if (unit == std::end(kClockUnits)) {
+    unit = std::ranges::find_if(kClockUnits, [&](const ClockUnit& one) { return rate_in(one) >= kMinMotionRate_hz; });
+  }
+  if (unit == std::end(kClockUnits)) return std::nullopt;
+  if (unit->seconds < 1e-6) {
+    remarks.push_back(
+        fmt::format("the first column is taken as {}: the rate is then {:.3g} Hz; as {}, it would be {:.3g} Hz",
+                    unit->name, rate_in(*unit), unit[-1].name, rate_in(unit[-1])));
+  }
+  return unit->seconds;
 }
 
 // Converts a row to a frame. The frame lacks joints that have no position or are not tracked.
@@ -147,7 +169,8 @@ Result<StreamRecording> ReadKinectRows(std::string_view text, const std::string&
     return Fail({file, table.lines.front()}, "{} numbers in a row; allowed for {}: {}", table.columns,
                 StreamFormatName(format), ColumnsAllowed(format));
   }
-  StreamRecording recording{.format = format};
+  StreamRecording recording{.format = format, .separator = table.separator};
+  if (table.has_decimal_commas) recording.remarks.emplace_back("its numbers have decimal commas");
   recording.records_states = FourthsAreStates(table, *layout);
   recording.records_times = layout->first == 1 && !reading.rate_hz;
   recording.rate_hz = reading.rate_hz.value_or(kJudgedRateHz);
@@ -165,9 +188,10 @@ Result<StreamRecording> ReadKinectRows(std::string_view text, const std::string&
 
 Result<RecordedFrame> ReadKinectRow(std::string_view row, const std::string& file, const StreamRecording& recording,
                                     std::size_t index) {
-  // Put a heading before the row: otherwise ReadNumberRows would take a row that contains words for the heading and
-  // drop it.
-  ASSIGN_OR_RETURN(const NumberRows table, ReadNumberRows("row\n" + std::string(row), file, kMaxClock));
+  // Put a heading before the row, which tells the separator: otherwise ReadNumberRows would take a row that contains
+  // words for the heading and drop it.
+  const std::string heading = recording.separator == 0 ? "row" : std::string("row") + recording.separator;
+  ASSIGN_OR_RETURN(const NumberRows table, ReadNumberRows(heading + "\n" + std::string(row), file, kMaxClock));
   const RowLayout* layout = FindLayout(recording.format, table.columns);
   if (layout == nullptr || (layout->first == 0 && recording.records_times)) {
     return Fail({file, 1}, "{} numbers in a row, which differs from the rows before", table.columns);

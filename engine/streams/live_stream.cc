@@ -1,7 +1,10 @@
 #include "engine/streams/live_stream.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "engine/formats/joint_csv.h"
 #include "engine/streams/format_readers.h"
@@ -27,6 +30,11 @@ bool MayCountLessThanSeconds(const StreamRecording& recording) {
 
 bool ShowsTrunk(const RecordedFrame& frame) {
   return frame.places[Index(Role::kHipCentre)] && frame.places[Index(Role::kShoulderCentre)];
+}
+
+/// Returns a remark if frames are rotated upright, or if trunks are far from upright; else "".
+std::string RemarkOn(const StreamLevel& level) {
+  return level.turn_deg != 0 || level.trunk_deg != 0 ? Describe(level) : "";
 }
 
 }  // namespace
@@ -93,6 +101,10 @@ Result<void> LiveStream::Start(bool at_end, std::vector<SensedFrame>& stream) {
   // Estimate up direction and floor, then convert the lines read so far.
   if (options_.levels && !recording.is_level) level_ = EstimateLevel(recording.frames, recording.rate_hz);
   maker_.emplace(level_, options_, name_);
+  remarks_ = recording.remarks;
+  for (std::string remark : {RateDoubt(recording), RemarkOn(level_)}) {
+    if (!remark.empty()) remarks_.push_back(std::move(remark));
+  }
   std::vector<RecordedFrame> frames = std::move(recording.frames);
   recording.frames.clear();
   meaning_ = std::move(recording);
@@ -101,16 +113,30 @@ Result<void> LiveStream::Start(bool at_end, std::vector<SensedFrame>& stream) {
   return {};
 }
 
-std::string LiveStream::RemarkOnLevel() const {
-  return level_.turn_deg != 0 || level_.trunk_deg != 0 ? Describe(level_) : "";
-}
+std::vector<std::string> LiveStream::TakeRemarks() { return std::exchange(remarks_, {}); }
 
-/// Adds a frame unless the previous frame has the same time.
+/// Adds a frame unless the previous frame has the same time, or a time that is a little later.
 Result<void> LiveStream::Add(const RecordedFrame& frame, std::vector<SensedFrame>& stream) {
-  const bool again = frames_ > 0 && frame.time_s == last_s_;
+  constexpr double kMaxBack_s = 1;
+  const double back_s = frames_ > 0 ? last_s_ - frame.time_s : -1;
   ++frames_;
+  if (back_s > kMaxBack_s) {
+    return Fail({name_, frame.line},
+                "the clock goes back by {:.3g} s, from {:.6g} s to {:.6g} s; allowed: at most {} s", back_s, last_s_,
+                frame.time_s, kMaxBack_s);
+  }
+  if (back_s > 0 && !has_gone_back_) {
+    has_gone_back_ = true;
+    remarks_.push_back(
+        fmt::format("the time {:.6g} s in line {} follows {:.6g} s; rows with an earlier time are left out",
+                    frame.time_s, frame.line, last_s_));
+  }
+  if (back_s >= 0) return {};
   last_s_ = frame.time_s;
-  if (again) return {};
+  if (jumps_.Take(frame) && !has_jumped_) {
+    has_jumped_ = true;
+    remarks_.push_back(jumps_.Describe() + "; later jumps are not reported");
+  }
   return maker_->Add(frame, stream);
 }
 

@@ -7,6 +7,7 @@
 
 #include "engine/base/result.h"
 #include "engine/formats/joint_csv.h"
+#include "engine/streams/body_jumps.h"
 #include "engine/streams/stream_maker.h"
 
 namespace etude {
@@ -20,7 +21,8 @@ class LiveStream {
   /// `name` is the stream's name in error messages.
   LiveStream(std::string name, const StreamReading& reading, const StreamOptions& options);
 
-  /// Takes the next line, without its line end, and appends the frames that it completes. Fails, with the line, for the
+  /// Takes the next line, without its line end, and appends the frames that it completes. A row whose time is up to a
+  /// second earlier than that of the row before is left out. Fails, with the line, for the
   /// errors of ReadStreamRecording and StreamMaker, for formats that do not consist of rows, and after ten minutes
   /// without a body.
   Result<void> Take(std::string_view line, std::vector<SensedFrame>& stream);
@@ -29,9 +31,10 @@ class LiveStream {
 
   /// Returns the format, units and clock that were detected; nullopt before the first frames are returned.
   const std::optional<StreamRecording>& Meaning() const { return meaning_; }
-  /// Returns a remark if the frames were rotated upright, or if trunks are far from upright. Returns "" otherwise, and
-  /// before the first frames are returned.
-  std::string RemarkOnLevel() const;
+  /// Returns the remarks for users since the last call: with the first frames, those of the reader of the format, and
+  /// one if the frames were rotated upright or if trunks are far from upright; later one about the first row whose time
+  /// is earlier than that of the row before, and one about the first jump of the body (BodyJumps).
+  std::vector<std::string> TakeRemarks();
 
  private:
   Result<void> Start(bool at_end, std::vector<SensedFrame>& stream);
@@ -46,6 +49,10 @@ class LiveStream {
   int rows_ = 0;
   std::size_t frames_ = 0;
   double last_s_ = 0;
+  bool has_gone_back_ = false;
+  BodyJumps jumps_;
+  bool has_jumped_ = false;
+  std::vector<std::string> remarks_;        // not yet taken
   std::optional<StreamRecording> meaning_;  // the recording's properties, without frames
   StreamLevel level_;
   std::optional<StreamMaker> maker_;

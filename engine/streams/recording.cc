@@ -16,6 +16,7 @@
 #include "engine/formats/row_clock.h"
 #include "engine/formats/trc.h"
 #include "engine/formats/usual_rates.h"
+#include "engine/streams/body_jumps.h"
 #include "engine/streams/format_readers.h"
 
 namespace etude {
@@ -129,21 +130,28 @@ Result<void> OrderTimes(StreamRecording& recording, const std::string& file) {
   return {};
 }
 
-/// Fails if the frames have a rate at which nobody records people, because the clock is then in another unit.
-Result<void> CheckRate(const StreamRecording& recording, const std::string& file) {
+/// Returns the rate that the frames' times give; nullopt without times or with fewer than six frames.
+std::optional<double> RateOfTimes(const StreamRecording& recording) {
   constexpr std::size_t kMinSteps = 5;
   std::vector<double> steps;
   for (std::size_t t = 1; t < recording.frames.size(); ++t) {
     steps.push_back(recording.frames[t].time_s - recording.frames[t - 1].time_s);
   }
-  if (!recording.records_times || steps.size() < kMinSteps) return {};
-  const double rate = 1 / Median(std::move(steps));
+  if (!recording.records_times || steps.size() < kMinSteps) return std::nullopt;
+  return 1 / Median(std::move(steps));
+}
+
+/// Fails if the frames have a rate at which nobody records people, because the clock is then in another unit.
+Result<void> CheckRate(const StreamRecording& recording, const std::string& file) {
+  const auto rate = RateOfTimes(recording);
   constexpr double kRounding = 1e-6;
-  if (rate >= kMinMotionRate_hz * (1 - kRounding) && rate <= kMaxMotionRate_hz * (1 + kRounding)) return {};
+  const bool is_allowed =
+      !rate || (*rate >= kMinMotionRate_hz * (1 - kRounding) && *rate <= kMaxMotionRate_hz * (1 + kRounding));
+  if (is_allowed) return {};
   return Fail({file},
               "its times give {:.3g} Hz; allowed: {:g} to {:g} Hz, with times in the format's unit; `--rate 30` reads "
               "frames at a rate, without their times",
-              rate, kMinMotionRate_hz, kMaxMotionRate_hz);
+              *rate, kMinMotionRate_hz, kMaxMotionRate_hz);
 }
 
 }  // namespace
@@ -194,6 +202,17 @@ Result<StreamRecording> ReadFormat(StreamFormat format, std::string_view text, c
   return Fail({file}, "no format");
 }
 
+std::string RateDoubt(const StreamRecording& recording) {
+  using enum StreamFormat;
+  const auto rate = RateOfTimes(recording);
+  if (!rate || IsKinectRate(*rate) || recording.format == kEtudeCsv || recording.format == kTrc) return "";
+  return fmt::format(
+      "its times give {:.3g} Hz, which no Kinect has (5 to 130 Hz): the clock may be in another unit; `--rate 30` "
+      "reads "
+      "frames at a rate, without their times",
+      *rate);
+}
+
 Result<void> ToMetres(StreamRecording& recording, const std::string& file) {
   constexpr double kMinTrunk_m = 0.15, kMaxTrunk_m = 0.95;  // trunk lengths of a toddler and of a tall adult
   const double trunk = MiddleDistance(recording, kHipCentre, kShoulderCentre);
@@ -241,6 +260,12 @@ Result<StreamRecording> ReadStreamRecording(std::string_view text, const std::st
   RETURN_IF_ERROR(CheckRate(recording, file));
   if (!recording.is_level) RETURN_IF_ERROR(ToMetres(recording, file));
   RETURN_IF_ERROR(CheckReach(recording, file));
+  // Add doubts.
+  BodyJumps jumps;
+  for (const RecordedFrame& frame : recording.frames) jumps.Take(frame);
+  for (std::string remark : {RateDoubt(recording), jumps.Describe()}) {
+    if (!remark.empty()) recording.remarks.push_back(std::move(remark));
+  }
   return recording;
 }
 

@@ -50,6 +50,7 @@ struct StreamRecording {
   double seconds_per_count = 1;            ///< the unit of the clock's column, seconds
   double first_count = 0;                  ///< the number in the clock's column at 0 s
   double metres_per_unit = 1;              ///< the factor that was applied to positions
+  char separator = 0;  ///< the separator of a Kinect's rows (NumberRows::separator); 0: found in each row
   std::vector<RecordedFrame> frames = {};  ///< in ascending order of time
   std::vector<std::string> remarks = {};   ///< decisions made while reading ("2 bodies, of which body 0 is read")
 };

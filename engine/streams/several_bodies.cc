@@ -2,160 +2,21 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <nlohmann/json.hpp>
 #include <string>
 #include <string_view>
 #include <vector>
 
+#include "engine/base/names.h"
 #include "engine/formats/json_text.h"
 #include "engine/formats/text_scanner.h"
+#include "engine/streams/bodies.h"
 #include "engine/streams/format_readers.h"
 #include "engine/streams/recording.h"
 
 namespace etude {
 namespace {
-
-/// The people of one file, distinguished by the file's identifiers of bodies.
-class Bodies {
- public:
-  /// Adds a frame in which the body `id` is seen. `frame` is the frame's index in the file.
-  void Add(std::string_view id, std::size_t frame, const RolePositions& places,
-           const std::array<TrackingState, kRoleCount>& states);
-
-  /// Copies one body into the recording's frames: the requested body, counted by first appearance, or, without a
-  /// request, the body in most frames. Of bodies in equally many frames, takes the body that moves most, because
-  /// sensors sometimes take furniture for a person. Calls JoinContinued before it chooses.
-  Result<void> Choose(const StreamReading& reading, const std::string& file, StreamRecording& recording);
-
- private:
-  struct Seen {
-    std::size_t frame;
-    RolePositions places;
-    std::array<TrackingState, kRoleCount> states;
-  };
-  struct Body {
-    std::string id;
-    std::vector<Seen> frames;
-  };
-
-  /// Joins bodies that are one person (ours): a tracker that loses a person for a moment gives the person a new
-  /// identifier. The second body must appear at most a second after the first body disappears, and the joints of the
-  /// two must then be at most half a trunk apart on average. The nearest pair is joined first, and a body continues at
-  /// most one other body. A remark reports each pair.
-  void JoinContinued(StreamRecording& recording);
-
-  static double PathOf(const Body& body);
-  static std::optional<double> GapInTrunks(const Seen& before, const Seen& after);
-
-  std::vector<Body> bodies_;
-};
-
-void Bodies::Add(std::string_view id, std::size_t frame, const RolePositions& places,
-                 const std::array<TrackingState, kRoleCount>& states) {
-  auto body = std::ranges::find(bodies_, id, &Body::id);
-  if (body == bodies_.end()) body = bodies_.insert(bodies_.end(), Body{std::string(id), {}});
-  body->frames.push_back({frame, places, states});
-}
-
-/// Returns the total length of the paths of all joints, in the file's unit.
-double Bodies::PathOf(const Body& body) {
-  double path = 0;
-  for (std::size_t t = 1; t < body.frames.size(); ++t) {
-    for (std::size_t i = 0; i < kRoleCount; ++i) {
-      const auto &before = body.frames[t - 1].places[i], &now = body.frames[t].places[i];
-      if (before && now) path += glm::distance(*before, *now);
-    }
-  }
-  return path;
-}
-
-/// Returns the mean distance, in trunk lengths, between the joints that are in both frames; nullopt if a frame lacks
-/// the trunk.
-std::optional<double> Bodies::GapInTrunks(const Seen& before, const Seen& after) {
-  const auto &hips = before.places[Index(Role::kHipCentre)], &neck = before.places[Index(Role::kShoulderCentre)];
-  double sum = 0;
-  int joints = 0;
-  for (std::size_t i = 0; i < kRoleCount; ++i) {
-    if (!before.places[i] || !after.places[i]) continue;
-    sum += glm::distance(*before.places[i], *after.places[i]);
-    ++joints;
-  }
-  if (joints == 0 || !hips || !neck || *hips == *neck) return std::nullopt;
-  return sum / joints / glm::distance(*hips, *neck);
-}
-
-void Bodies::JoinContinued(StreamRecording& recording) {
-  constexpr double kMaxBreak_s = 1, kMaxGap = 0.5;
-  struct Pair {
-    double gap;
-    std::size_t before, after;
-  };
-  // Collect the pairs in which the second body can continue the first.
-  std::vector<Pair> pairs;
-  const auto begin_of = [](const Body& body) { return body.frames.front().frame; };
-  for (std::size_t a = 0; a < bodies_.size(); ++a) {
-    const Seen& end = bodies_[a].frames.back();
-    const auto first = std::ranges::upper_bound(bodies_, end.frame, {}, begin_of);  // sorted by first appearance
-    for (auto b = static_cast<std::size_t>(first - bodies_.begin()); b < bodies_.size(); ++b) {
-      const Seen& begin = bodies_[b].frames.front();
-      if (recording.frames[begin.frame].time_s - recording.frames[end.frame].time_s > kMaxBreak_s) break;
-      const auto gap = GapInTrunks(end, begin);
-      if (gap && *gap <= kMaxGap) pairs.push_back({*gap, a, b});
-    }
-  }
-  // Accept the nearest pairs first.
-  std::ranges::stable_sort(pairs, {}, &Pair::gap);
-  std::vector<std::optional<std::size_t>> next(bodies_.size());
-  std::vector<bool> continues(bodies_.size(), false);
-  for (const Pair& pair : pairs) {
-    if (next[pair.before] || continues[pair.after]) continue;
-    next[pair.before] = pair.after;
-    continues[pair.after] = true;
-  }
-  // Join the bodies of each chain of accepted pairs.
-  std::vector<Body> joined;
-  for (std::size_t a = 0; a < bodies_.size(); ++a) {
-    if (continues[a]) continue;
-    Body body = std::move(bodies_[a]);
-    for (auto b = next[a]; b; b = next[*b]) {
-      const Body& later = bodies_[*b];
-      recording.remarks.push_back(
-          fmt::format("body {} continues as body {} from frame {} on; both are read as one person", body.id, later.id,
-                      begin_of(later)));
-      body.frames.insert(body.frames.end(), later.frames.begin(), later.frames.end());
-      body.id = later.id;
-    }
-    joined.push_back(std::move(body));
-  }
-  bodies_ = std::move(joined);
-}
-
-Result<void> Bodies::Choose(const StreamReading& reading, const std::string& file, StreamRecording& recording) {
-  if (bodies_.empty()) return {};
-  JoinContinued(recording);
-  // Choose the requested body, or the most frequent one.
-  std::size_t chosen = 0;
-  if (reading.body) {
-    chosen = static_cast<std::size_t>(*reading.body);
-    if (chosen >= bodies_.size())
-      return Fail({file}, "there is no body {}; bodies in the file, counted from 0: {}", chosen, bodies_.size());
-  } else {
-    for (std::size_t b = 1; b < bodies_.size(); ++b) {
-      const std::size_t most = bodies_[chosen].frames.size(), here = bodies_[b].frames.size();
-      if (here > most || (here == most && PathOf(bodies_[b]) > PathOf(bodies_[chosen]))) chosen = b;
-    }
-  }
-  if (bodies_.size() > 1) {
-    recording.remarks.push_back(fmt::format("the file has {} bodies; body {} is read{}", bodies_.size(), chosen,
-                                            reading.body ? "" : ", which is in the most frames"));
-  }
-  // Copy the joints of the chosen body to the recording.
-  for (const Seen& seen : bodies_[chosen].frames) {
-    recording.frames[seen.frame].places = seen.places;
-    recording.frames[seen.frame].states = seen.states;
-  }
-  return {};
-}
 
 using Json = nlohmann::json;
 
@@ -170,6 +31,20 @@ std::optional<double> NumberAt(const Json& list, std::size_t i) {
   if (!list.is_array() || i >= list.size() || !list[i].is_number()) return std::nullopt;
   const double value = list[i].get<double>();
   return std::isfinite(value) ? std::optional(value) : std::nullopt;
+}
+
+/// The ends of the names K4ABT_JOINT_CONFIDENCE_*; the index is the value.
+constexpr std::string_view kConfidences[] = {"NONE", "LOW", "MEDIUM", "HIGH"};
+
+/// Returns a confidence, which is written as a number or as its name; a value that is missing is 0, "none". Returns
+/// nullopt for another name.
+std::optional<double> ConfidenceAt(const Json& list, std::size_t i) {
+  if (!list[i].is_string()) return NumberAt(list, i).value_or(0);
+  std::string name = list[i].get<std::string>();
+  for (char& c : name) c = c >= 'a' && c <= 'z' ? static_cast<char>(c - 'a' + 'A') : c;
+  const auto found = std::ranges::find(kConfidences, std::string_view(name).substr(name.rfind('_') + 1));
+  if (found == std::end(kConfidences)) return std::nullopt;
+  return static_cast<double>(found - std::begin(kConfidences));
 }
 
 /// Returns a body's confidences, K4ABT_JOINT_CONFIDENCE_* (0 none, 1 low, 2 medium, 3 high); null if the body has none.
@@ -238,10 +113,16 @@ class AzureReader {
     std::array<TrackingState, kRoleCount> states{};
     for (std::size_t i = 0; i < kRoleCount; ++i) {
       const std::size_t j = kJointOfRole[i];
-      const double confidence = confidences == nullptr ? 2 : NumberAt(*confidences, j).value_or(0);
-      if (confidence < 1) continue;
+      const auto confidence = confidences == nullptr ? std::optional(2.0) : ConfidenceAt(*confidences, j);
+      if (!confidence) {
+        return Fail({file_},
+                    "a body of frame {} has the confidence {}; allowed: 0 to 3, or K4ABT_JOINT_CONFIDENCE_NONE, _LOW, "
+                    "_MEDIUM or _HIGH",
+                    t, Quote((*confidences)[j].get<std::string>()));
+      }
+      if (*confidence < 1) continue;
       places[i] = PlaceAt(body["joint_positions"][j]);
-      if (confidence < 2) states[i] = TrackingState::kInferred;
+      if (*confidence < 2) states[i] = TrackingState::kInferred;
     }
     const auto id = body.find("body_id");
     bodies_.Add(id != body.end() && id->is_number() ? id->dump() : "", t, places, states);

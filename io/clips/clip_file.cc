@@ -22,6 +22,7 @@
 #include "engine/retargeting/joint_arrays.h"
 #include "engine/retargeting/opensim_motion.h"
 #include "engine/retargeting/rig.h"
+#include "io/clips/bids_files.h"
 #include "io/clips/fbx.h"
 #include "io/clips/marker_files.h"
 #include "io/clips/other_files.h"
@@ -142,14 +143,33 @@ std::optional<JointMapOverrides> RolesOfBones(const std::map<std::string, int>& 
   return roles.joints.empty() ? std::nullopt : std::optional(std::move(roles));
 }
 
-/// Reads the rate, and the text that stands for a missing value, from the _motion.json of Motion-BIDS.
-Result<BidsFacts> ReadBidsFacts(const std::string& file, CappedReader& reader) {
-  ASSIGN_OR_RETURN(const auto text, reader.Read(file));
-  ASSIGN_OR_RETURN(const Json json, ReadJson(text, file));
-  const auto rate = json.is_object() ? json.find("SamplingFrequency") : json.end();
+/// Reads the JSON files that describe a recording of Motion-BIDS, `stem` + `suffix` and those of higher folders, which
+/// state what the lower ones do not (FindBidsFiles). Returns an object; an empty one if there is no file.
+Result<Json> ReadBidsJson(const std::string& path, std::string_view suffix, CappedReader& reader) {
+  Json all = Json::object();
+  for (const std::string& file : FindBidsFiles(path, suffix)) {
+    ASSIGN_OR_RETURN(const auto text, reader.Read(file));
+    ASSIGN_OR_RETURN(const Json json, ReadJson(text, file));
+    if (json.is_object()) all.update(json);
+  }
+  return all;
+}
+
+/// Returns the file of channels that describes a recording of Motion-BIDS: the nearest one.
+std::string BidsChannelsOf(const std::string& path, const std::string& stem) {
+  const std::vector<std::string> files = FindBidsFiles(path, "channels.tsv");
+  return files.empty() ? stem + "_channels.tsv" : files.back();
+}
+
+/// Reads the rate, and the text that stands for a missing value, from the _motion.json of Motion-BIDS. `file` is the
+/// name of this file for messages.
+Result<BidsFacts> ReadBidsFacts(const std::string& path, const std::string& file, CappedReader& reader) {
+  ASSIGN_OR_RETURN(const Json json, ReadBidsJson(path, "motion.json", reader));
+  if (json.empty()) RETURN_IF_ERROR(reader.Read(file));
+  const auto rate = json.find("SamplingFrequency");
   constexpr double kMinRate_hz = 0.1, kMaxRate_hz = 10'000;
   BidsFacts facts{.rate_hz = rate != json.end() && rate->is_number() ? rate->get<double>() : 0};
-  if (const auto missing = json.is_object() ? json.find("MissingValues") : json.end(); missing != json.end()) {
+  if (const auto missing = json.find("MissingValues"); missing != json.end()) {
     facts.missing = missing->is_string() ? missing->get<std::string>() : missing->dump();
   }
   if (facts.rate_hz >= kMinRate_hz && facts.rate_hz <= kMaxRate_hz) return facts;
@@ -158,13 +178,11 @@ Result<BidsFacts> ReadBidsFacts(const std::string& file, CappedReader& reader) {
 
 /// Returns the rule for the up axis of a Motion-BIDS recording. The optional file _channels.json states the axes of its
 /// reference frames. Fails if two of them differ. Only the frames named in `used` count, or all if `used` is empty.
-Result<UpRule> UpOfBids(const std::string& file, const std::set<std::string, std::less<>>& used, CappedReader& reader) {
+Result<UpRule> UpOfBids(const std::string& path, const std::string& file,
+                        const std::set<std::string, std::less<>>& used, CappedReader& reader) {
   UpRule rule = ArrayUp();
-  std::error_code error;
-  if (!fs::exists(file, error)) return rule;
-  ASSIGN_OR_RETURN(const auto text, reader.Read(file));
-  ASSIGN_OR_RETURN(const Json json, ReadJson(text, file));
-  const Json frames = json.is_object() ? json.value("reference_frame", Json()) : Json();
+  ASSIGN_OR_RETURN(const Json json, ReadBidsJson(path, "channels.json", reader));
+  const Json frames = json.value("reference_frame", Json());
   const Json levels = frames.is_object() ? frames.value("Levels", Json()) : Json();
   std::string stated;
   for (const auto& [name, level] : levels.items()) {
@@ -253,14 +271,16 @@ Result<ClipFile> ReadClipFile(const std::string& path, const std::optional<std::
     ASSIGN_OR_RETURN(const auto array, ReadNpy(bytes, path));
     return FileOfArray(array, layout, path, options);
   }
-  // Try Motion-BIDS: a table of numbers; two files beside it hold the columns' names and the rate.
+  // Try Motion-BIDS: a table of numbers; two files beside it, or in folders above, hold the columns' names and the
+  // rate.
   constexpr std::string_view kBidsEnd = "_motion.tsv";
   if (path.ends_with(kBidsEnd)) {
     const std::string stem = path.substr(0, path.size() - kBidsEnd.size());
-    ASSIGN_OR_RETURN(const auto channels, reader.Read(stem + "_channels.tsv"));
-    ASSIGN_OR_RETURN(const BidsFacts facts, ReadBidsFacts(stem + "_motion.json", reader));
-    ASSIGN_OR_RETURN(auto joints, ReadMotionBids(bytes, channels, facts, {path, stem + "_channels.tsv"}));
-    ASSIGN_OR_RETURN(auto up, UpOfBids(stem + "_channels.json", FramesOfBids(channels), reader));
+    const std::string named = BidsChannelsOf(path, stem);
+    ASSIGN_OR_RETURN(const auto channels, reader.Read(named));
+    ASSIGN_OR_RETURN(const BidsFacts facts, ReadBidsFacts(path, stem + "_motion.json", reader));
+    ASSIGN_OR_RETURN(auto joints, ReadMotionBids(bytes, channels, facts, {path, named}));
+    ASSIGN_OR_RETURN(auto up, UpOfBids(path, stem + "_channels.json", FramesOfBids(channels), reader));
     return FileOfMarkers(ClipFormat::kBids, std::move(joints), path, options, std::move(up));
   }
   // Try markers, and recordings of runs.

@@ -9,7 +9,9 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <cassert>
+#include <csetjmp>
 #include <cstring>
 
 #include "io/files/files.h"
@@ -168,19 +170,85 @@ Result<void> BeginPng(const std::string& bytes, const std::string& path, png_ima
 
 }  // namespace
 
+namespace {
+
+/// The bytes of a PNG file that are not yet read.
+struct PngBytes {
+  const char* at;
+  std::size_t left;
+};
+
+/// Reads the samples of a grey PNG of 16 bits, without the conversion to another brightness that libpng's simplified
+/// interface makes. `rows` points to the rows of `values`. Returns false for a damaged file.
+bool ReadGrey16(const std::string& bytes, std::vector<png_bytep>& rows) {
+  PngBytes source{bytes.data(), bytes.size()};
+  png_structp png = png_create_read_struct(
+      PNG_LIBPNG_VER_STRING, nullptr, [](png_structp of, png_const_charp) { png_longjmp(of, 1); },
+      [](png_structp, png_const_charp) {});
+  png_infop info = png_create_info_struct(png);
+  // libpng reports errors by a jump to this place, over no object with a destructor.
+  if (setjmp(png_jmpbuf(png)) != 0) {
+    png_destroy_read_struct(&png, &info, nullptr);
+    return false;
+  }
+  png_set_read_fn(png, &source, [](png_structp of, png_bytep data, std::size_t size) {
+    auto* const from = static_cast<PngBytes*>(png_get_io_ptr(of));
+    if (size > from->left) png_error(of, "the file ends early");
+    std::memcpy(data, from->at, size);
+    from->at += size;
+    from->left -= size;
+  });
+  png_read_info(png, info);
+  if constexpr (std::endian::native == std::endian::little) png_set_swap(png);  // PNG stores the high byte first
+  png_set_interlace_handling(png);
+  png_read_update_info(png, info);
+  png_read_image(png, rows.data());
+  png_read_end(png, nullptr);
+  png_destroy_read_struct(&png, &info, nullptr);
+  return true;
+}
+
+}  // namespace
+
 Result<MaskPicture> LoadMaskPng(const std::string& path) {
   ASSIGN_OR_RETURN(const auto bytes, ReadWholeFile(path, kMaxPictureFileBytes));
   png_image png{};
   RETURN_IF_ERROR(BeginPng(bytes, path, png));
+  const auto width = static_cast<int>(png.width), height = static_cast<int>(png.height);
+  constexpr png_uint_32 kColour = PNG_FORMAT_FLAG_COLOR | PNG_FORMAT_FLAG_COLORMAP | PNG_FORMAT_FLAG_ALPHA;
+  MaskPicture mask{.values = {width, height}};
+  // Keep the samples of grey pictures of 16 bits, which may be small numbers.
+  mask.has_16_bits = (png.format & PNG_FORMAT_FLAG_LINEAR) != 0 && (png.format & kColour) == 0;
+  if (mask.has_16_bits) {
+    png_image_free(&png);
+    std::vector<png_bytep> rows;
+    for (int y = 0; y < height; ++y) rows.push_back(reinterpret_cast<png_bytep>(&mask.values.At(0, y)));
+    if (!ReadGrey16(bytes, rows)) return Fail({path}, "a damaged PNG picture");
+    return mask;
+  }
   // Keep the palette of a picture, so that pixels stay indices into the palette.
-  MaskPicture mask{.values = {static_cast<int>(png.width), static_cast<int>(png.height)},
-                   .is_indexed = (png.format & PNG_FORMAT_FLAG_COLORMAP) != 0};
-  png.format = mask.is_indexed ? PNG_FORMAT_RGB_COLORMAP : PNG_FORMAT_GRAY;
+  mask.is_indexed = (png.format & PNG_FORMAT_FLAG_COLORMAP) != 0;
+  const bool has_alpha = !mask.is_indexed && (png.format & PNG_FORMAT_FLAG_ALPHA) != 0;
+  png.format = mask.is_indexed ? PNG_FORMAT_RGB_COLORMAP : has_alpha ? PNG_FORMAT_GA : PNG_FORMAT_GRAY;
   std::array<std::uint8_t, std::size_t{3} * 256> palette{};
   const png_color black{};
-  if (!png_image_finish_read(&png, &black, mask.values.pixels.data(), 0, palette.data())) {
+  const std::size_t size = has_alpha ? 2 : 1;
+  std::vector<std::uint8_t> pixels(size * mask.values.pixels.size());
+  if (!png_image_finish_read(&png, &black, pixels.data(), 0, palette.data())) {
     return Fail({path}, "a damaged PNG picture: {}", png.message);
   }
+  if (!has_alpha) {
+    std::ranges::copy(pixels, mask.values.pixels.begin());
+    return mask;
+  }
+  // Blend transparent pixels with black.
+  mask.alpha = {width, height};
+  for (std::size_t i = 0; i < mask.values.pixels.size(); ++i) {
+    const int grey = pixels[2 * i], alpha = pixels[2 * i + 1];
+    mask.values.pixels[i] = static_cast<std::uint16_t>((grey * alpha + 127) / 255);
+    mask.alpha.pixels[i] = static_cast<std::uint8_t>(alpha);
+  }
+  if (std::ranges::all_of(mask.alpha.pixels, [](std::uint8_t alpha) { return alpha == 255; })) mask.alpha = {};
   return mask;
 }
 

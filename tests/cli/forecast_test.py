@@ -122,6 +122,17 @@ class Transition(EtudeCase):
                           "now", "--join", "cut")
         self.assertEqual(said.returncode, 0, said.stderr)
         self.assertIn("written as a body of twenty joints", said.stdout)
+        # Unbroken motion never plays the second clip, so no join is used.
+        unbroken = ["transition", "builtin:groove", "builtin:clap", "--at", "1", "-o", self.folder / "unbroken.trc", "--choice",
+                    "unbroken", "--overwrite"]
+        said = self.etude(*unbroken)
+        self.assertEqual((said.returncode, said.stderr), (0, ""))
+        self.assertIn("groove continues: no transition, for comparison; builtin:clap is not played\n", said.stdout)
+        self.assertNotIn("then", said.stdout)
+        said = self.etude(*unbroken, "--join", "cut")
+        self.assertEqual((said.returncode, said.stderr),
+                         (0, "--join cut has no effect, because --choice unbroken joins no clips\n"))
+        self.assertIsNone(self.facts(*unbroken)["join"])
         late = self.etude("transition", "builtin:groove", "builtin:clap", "--at", "99", "-o", self.folder / "late.bvh")
         self.assertEqual((late.returncode, late.stderr.count("\n")), (2, 1))
         self.assertIn("--at 99: builtin:groove plays from 0.00 to", late.stderr)

@@ -544,6 +544,25 @@ class Formats(MotionFileCase):
         axes.unlink()
         self.assertNotIn("SpatialAxes", self.ends(0, "clip", "info", motion).stdout)
 
+    def test_motion_bids_finds_what_higher_folders_state(self):
+        folder = self.folder / "bids"
+        self.ends(0, "clip", "convert", "builtin:clap", f"{folder}/")
+        (motion,), (facts,), (axes,) = (folder.rglob(f"*_{end}") for end in ("motion.tsv", "motion.json", "channels.json"))
+        wanted = self.facts("clip", "info", motion)
+        content, task = json.loads(facts.read_text()), next(part for part in motion.name.split("_") if part.startswith("task-"))
+        # All in the data set's folder; then a lower file, which states another rate, goes before it.
+        top = folder / f"{task}_motion.json"
+        facts.rename(top), axes.rename(folder / f"{task}_channels.json")
+        self.assertEqual(self.facts("clip", "info", motion), wanted)
+        facts.write_text(json.dumps({"SamplingFrequency": 2 * content["SamplingFrequency"]}))
+        self.assertEqual(self.facts("clip", "info", motion)["rate_hz"], 2 * wanted["rate_hz"])
+        facts.unlink()
+        # A file about another task does not apply, nor does one above the data set.
+        top.rename(folder / "task-other_motion.json")
+        self.assertIn("_motion.json", self.ends(2, "clip", "info", motion).stderr)
+        (folder / "task-other_motion.json").rename(folder.parent / "motion.json")
+        self.assertIn("_motion.json", self.ends(2, "clip", "info", motion).stderr)
+
     def test_units_told_that_make_no_body_are_refused(self):
         path = self.turned("metres.bvh")
         result = self.ends(2, "clip", "info", path, "--unit", "cm")

@@ -6,6 +6,7 @@
 #include <array>
 #include <filesystem>
 #include <functional>
+#include <span>
 
 #include "engine/base/names.h"
 #include "engine/vision/components.h"
@@ -59,8 +60,8 @@ Result<void> VisitFilm(const fs::path& path, const MaskVisit& visit) {
 
 /// Returns a reduced mask, in which a pixel is set if at least half of the film's pixels in the pixel's patch show the
 /// person.
-template <typename IsPerson>
-Mask Reduced(const Image<std::uint8_t>& values, const Image<FilmPatch>& patches, const IsPerson& is_person) {
+template <typename Value, typename IsPerson>
+Mask Reduced(const Image<Value>& values, const Image<FilmPatch>& patches, const IsPerson& is_person) {
   Mask mask(patches.width, patches.height);
   for (std::size_t i = 0; i < mask.pixels.size(); ++i) {
     const FilmPatch& patch = patches.pixels[i];
@@ -92,6 +93,12 @@ bool HasSeveral(const Mask& mask) {
   return 4 * largest[1] > largest[0];
 }
 
+/// Lists values for a message.
+std::string ListOf(const std::vector<std::string>& values) {
+  constexpr std::size_t kListed = 20;
+  return Join(std::span(values).first(std::min(values.size(), kListed))) + (values.size() > kListed ? ", …" : "");
+}
+
 }  // namespace
 
 Result<std::vector<Mask>> ReadMasks(const std::string& folder, std::optional<int> id, const FilmedView& view,
@@ -99,13 +106,14 @@ Result<std::vector<Mask>> ReadMasks(const std::string& folder, std::optional<int
   ASSIGN_OR_RETURN(const fs::path entry, EntryOfFilm(folder, view.path.stem().string()));
   const Image<FilmPatch> patches = PatchesOf(view.facts, view.camera.camera, view.fit, UnmarkedTake::kPictureSide);
   const auto frames = static_cast<std::size_t>(view.facts.frames);
-  // Values are shades (128 and above is the person) or region numbers. Keep both interpretations until all values are
-  // known.
-  std::vector<Mask> shades, numbers;
-  std::array<bool, 256> found{};
-  bool is_indexed = false;
+  // Values are shades (from half of the brightest on is the person), shades of 8 bits in a picture of 16, or region
+  // numbers. Transparent pictures are cut-outs, whose opacity shows the person. Keep all interpretations until all
+  // values are known.
+  std::vector<Mask> shades, shades_of_8_bits, numbers, cut_outs;
+  std::vector<bool> found(std::size_t{1} << 16, false);
+  bool is_indexed = false, has_16_bits = false, has_alpha = false;
   const MaskVisit visit = [&](const MaskPicture& mask, const std::string& file) -> Result<void> {
-    const Image<std::uint8_t>& values = mask.values;
+    const Image<std::uint16_t>& values = mask.values;
     if (values.width != view.facts.width || values.height != view.facts.height) {
       return Fail({file}, "a mask of {} x {} pixels, but the film {} has {} x {}", values.width, values.height,
                   view.path.string(), view.facts.width, view.facts.height);
@@ -115,9 +123,18 @@ Result<std::vector<Mask>> ReadMasks(const std::string& folder, std::optional<int
                   frames);
     }
     is_indexed |= mask.is_indexed;
-    for (const std::uint8_t value : values.pixels) found[value] = true;
-    numbers.push_back(Reduced(values, patches, [&](std::uint8_t value) { return id ? value == *id : value != 0; }));
-    if (!id) shades.push_back(Reduced(values, patches, [](std::uint8_t value) { return value >= 128; }));
+    has_16_bits |= mask.has_16_bits;
+    has_alpha |= !mask.alpha.pixels.empty();
+    for (const std::uint16_t value : values.pixels) found[value] = true;
+    numbers.push_back(Reduced(values, patches, [&](std::uint16_t value) { return id ? value == *id : value != 0; }));
+    if (id) return {};
+    const auto from = [&](int least) {
+      return Reduced(values, patches, [least](std::uint16_t value) { return value >= least; });
+    };
+    shades.push_back(from(mask.has_16_bits ? 32768 : 128));
+    if (mask.has_16_bits) shades_of_8_bits.push_back(from(128));
+    const auto is_opaque = [](std::uint8_t alpha) { return alpha >= 128; };
+    cut_outs.push_back(mask.alpha.pixels.empty() ? from(0) : Reduced(mask.alpha, patches, is_opaque));
     return {};
   };
   RETURN_IF_ERROR(fs::is_directory(entry) ? VisitFolder(entry, visit) : VisitFilm(entry, visit));
@@ -128,22 +145,31 @@ Result<std::vector<Mask>> ReadMasks(const std::string& folder, std::optional<int
   // Choose the interpretation.
   std::vector<std::string> ids;
   int largest = 0;
-  for (int value = 1; value < 256; ++value) {
+  for (int value = 1; value < static_cast<int>(found.size()); ++value) {
     if (!found[value]) continue;
     ids.push_back(std::to_string(value));
     largest = value;
   }
   const bool are_numbers = id || is_indexed || largest <= kMaxNumber;
-  if (!id && are_numbers && ids.size() > 1) {
-    return Fail({entry.string()}, "masks of several people or things: {}; choose one by --mask-id", Join(ids));
+  const bool are_cut_outs = has_alpha && !id;
+  if (!id && !are_cut_outs && are_numbers && ids.size() > 1) {
+    return Fail({entry.string()}, "masks of several people or things: {}; choose one by --mask-id", ListOf(ids));
   }
-  std::vector<Mask>& masks = are_numbers ? numbers : shades;
+  const bool has_8_bits = has_16_bits && largest < 256 && shades_of_8_bits.size() == shades.size();
+  std::vector<Mask>& masks = are_cut_outs ? cut_outs : are_numbers ? numbers : has_8_bits ? shades_of_8_bits : shades;
+  if (has_alpha) {
+    told.Tell(fmt::format("masks of {}: pictures have transparent pixels; {}", view.camera.name,
+                          id ? "the transparency is ignored, because --mask-id chooses by values"
+                             : "opaque pixels are taken as the person, whatever their colour"));
+  }
   const auto empty = std::ranges::count_if(masks, IsEmpty);
   if (static_cast<std::size_t>(empty) == masks.size()) {
     return Fail({entry.string()}, "no mask shows a person: {}",
-                ids.empty() ? "all pixels are 0"
-                : id        ? fmt::format("no pixel has the value {} of --mask-id; found: {}", *id, Join(ids))
-                            : fmt::format("the largest value is {}; allowed: 1, 255, shades from 128 on", largest));
+                are_cut_outs  ? "all pixels are transparent"
+                : ids.empty() ? "all pixels are 0"
+                : id          ? fmt::format("no pixel has the value {} of --mask-id; found: {}", *id, ListOf(ids))
+                              : fmt::format("the largest value is {}; allowed: 1, 255, shades from 128 on{}", largest,
+                                   has_16_bits ? ", in pictures of 16 bits from 32768 on" : ""));
   }
   // Report suspicious masks.
   if (empty > 0) {

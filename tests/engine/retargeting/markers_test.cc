@@ -83,6 +83,21 @@ double FurthestJoint(const BodyMotion& motion, double floor = 0) {
   return furthest;
 }
 
+TEST(Markers, OfOurOwnNamesKeepTheirMeaningWithoutOneOfThem) {
+  const auto without = [](Role missing) {
+    std::vector<Placed> markers;
+    for (const Role role : AllRoles()) {
+      if (role != missing) markers.push_back({std::string(RoleName(role)), role});
+    }
+    return FindMarkerBodies(Take(markers), "a.trc");
+  };
+  // A needed joint is refused: the hand is not taken for the wrist, nor the foot for the ankle.
+  EXPECT_THAT(testing::Refusal(without(Role::kLeftWrist)), HasSubstr("nearest: Etude's joints lacks left_wrist"));
+  EXPECT_THAT(testing::Refusal(without(Role::kRightAnkle)), HasSubstr("nearest: Etude's joints lacks right_ankle"));
+  ASSERT_OK(bodies, without(Role::kHead));
+  EXPECT_EQ(bodies->front().Note(), "Etude's joints; placed by rule: head");
+}
+
 TEST(Markers, OfOurOwnNamesAreTheJointsAsTheyWereWritten) {
   ASSERT_OK(bodies, FindMarkerBodies(OwnJoints(), "a.trc"));
   ASSERT_EQ(bodies->size(), 1u);

@@ -137,6 +137,55 @@ TEST(OpenSimMotion, ReadsRadiansAndClocksWithGaps) {
   EXPECT_EQ(rate("\n0.040000", "\n0.060000"), 50) << "two rows are missing";
 }
 
+TEST(OpenSimMotion, TheUnitOfAnglesIsReadOrSaid) {
+  ASSERT_OK(move, LoadBuiltinMove("boxing"));
+  const std::string degrees = WriteOpenSimMotion(move->motion, StandingPose(), "boxing");
+  // Write the angles of the rows again, in radians.
+  const std::size_t table = degrees.find("\nendheader\n") + 11, rows = degrees.find('\n', table) + 1;
+  std::string radians = degrees.substr(0, rows);
+  std::istringstream lines(degrees.substr(rows));
+  for (std::string line; std::getline(lines, line);) {
+    std::istringstream words(line);
+    int column = 0;
+    for (double value = 0; words >> value; ++column) {
+      const bool is_angle = column > 0 && (column < 4 || column > 6);  // after the time; the translation is 4 to 6
+      radians += fmt::format("{}{:.9f}", column == 0 ? "" : "\t", is_angle ? Radians(value) : value);
+    }
+    radians += '\n';
+  }
+  const auto noted = [&](const std::string& text, const std::string& unit) {
+    std::string note;
+    const auto read = ReadOpenSimMotion(testing::Replaced(text, "inDegrees=yes\n", unit), "a.mot", &note);
+    EXPECT_TRUE(read) << ToString(read.error());
+    if (read) EXPECT_LT(WorstJointDistance(*read, move->motion), 1e-4) << unit;
+    return note;
+  };
+  for (const char* unit : {"inDegrees=no\n", "inDegrees=No\n", "inDegrees = no\r\n", "INDEGREES=NO\n"}) {
+    EXPECT_EQ(noted(radians, unit), "") << unit;
+  }
+  for (const char* unit : {"inDegrees=yes\n", "inDegrees=YES\n", "indegrees = Yes\n"}) {
+    EXPECT_EQ(noted(degrees, unit), "") << unit;
+  }
+  EXPECT_THAT(noted(degrees, ""), HasSubstr("no line inDegrees: angles are taken as degrees (the largest is"));
+  EXPECT_THAT(noted(radians, ""), HasSubstr("no line inDegrees: angles are taken as radians (the largest is"));
+  // A unit that the angles contradict is refused, or said.
+  const auto read = [](const std::string& text, std::string* note = nullptr) {
+    return ReadOpenSimMotion(text, "a.mot", note);
+  };
+  EXPECT_THAT(testing::Refusal(read(testing::Replaced(degrees, "inDegrees=yes", "inDegrees = No"))),
+              HasSubstr("inDegrees=no, but"));
+  EXPECT_EQ(testing::Refusal(read(testing::Replaced(degrees, "inDegrees=yes", "inDegrees=maybe"))),
+            "a.mot:5:1: found 'indegrees=maybe'; allowed: inDegrees=yes or inDegrees=no");
+  std::string note;
+  ASSERT_OK(wrong, read(radians, &note));
+  EXPECT_THAT(note, HasSubstr("inDegrees=yes, but the largest angle is"));
+  // A body that hardly leaves its rest pose is no contradiction.
+  const BodyPose rest = StandingPose();
+  note.clear();
+  ASSERT_OK(still, read(WriteOpenSimMotion({.rate_hz = 25, .poses = {rest, rest, rest}}, rest, ""), &note));
+  EXPECT_EQ(note, "");
+}
+
 TEST(BodyNpz, ReadsBackWhereTheJointsWere) {
   const auto move = LoadBuiltinMove("boxing");
   ASSERT_OK(arrays, ReadNpz(WriteBodyNpz(move->motion, StandingPose()), "a.npz"));

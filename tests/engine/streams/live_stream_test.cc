@@ -119,11 +119,13 @@ TEST(LiveStream, ASensorUpsideDownIsTurnedBackAndSaid) {
   EXPECT_NEAR(turned.frames[0][Role::kHead].position.y, 1.65, 1e-5);
   LiveStream live("-", {}, {});
   std::vector<SensedFrame> frames;
-  EXPECT_EQ(live.RemarkOnLevel(), "");
+  EXPECT_TRUE(live.TakeRemarks().empty());
   for (std::size_t at = 0; at < text.size(); at = text.find('\n', at) + 1) {
     ASSERT_TRUE(live.Take(std::string_view(text).substr(at, text.find('\n', at) - at), frames));
   }
-  EXPECT_EQ(live.RemarkOnLevel().find("sensor rotated by 180 degrees, rotated back"), 0u);
+  EXPECT_THAT(live.TakeRemarks(),
+              ::testing::ElementsAre(::testing::StartsWith("sensor rotated by 180 degrees, rotated back")));
+  EXPECT_TRUE(live.TakeRemarks().empty());
 }
 
 TEST(LiveStream, EachLineOfCsvGivesItsFrameAtOnce) {

@@ -33,15 +33,47 @@ Image<std::uint8_t> Rectangle(int left, int right, std::uint8_t value, int width
   return values;
 }
 
+std::string BytesOf(std::string_view hex) {
+  std::string bytes;
+  for (std::size_t i = 0; i < hex.size(); i += 2)
+    bytes += static_cast<char>(std::stoi(std::string(hex.substr(i, 2)), nullptr, 16));
+  return bytes;
+}
+
 /// Returns a palette PNG of 4 x 1 pixels with the indices 0 to 3; index 1 is dark red.
 std::string PalettePng() {
   constexpr std::string_view kHex =
       "89504e470d0a1a0a0000000d4948445200000004000000010803000000cee2ffff0000000c504c5445000000800000008000"
       "80800038ec04800000000d49444154789c63606064620600000f0007848e996d0000000049454e44ae426082";
-  std::string bytes;
-  for (std::size_t i = 0; i < kHex.size(); i += 2)
-    bytes += static_cast<char>(std::stoi(std::string(kHex.substr(i, 2)), nullptr, 16));
-  return bytes;
+  return BytesOf(kHex);
+}
+
+/// Returns a grey PNG of 16 bits whose pixels are `value` in the rectangle of Rectangle(20, 40), and 0 elsewhere.
+/// `value` is 1, 255 or 40000.
+std::string Grey16Png(int value) {
+  constexpr std::string_view k1 =
+      "89504e470d0a1a0a0000000d494844520000006000000040100000000090cff191000000444944415478daedcf3111000008"
+      "c4b0c7bf692c30b0c0a555904492245da8860300000000000000000000000000000000000000000000000000000000fc0048"
+      "922449db35be20032165e48d0e0000000049454e44ae426082";
+  constexpr std::string_view k255 =
+      "89504e470d0a1a0a0000000d494844520000006000000040100000000090cff191000000444944415478daedcf3111000008"
+      "c4b0f76f1a2c30b0c0a555904492245da8860300000000000000000000000000000000000000000000000000000000fc0048"
+      "922449db358aa31d0e32a65be10000000049454e44ae426082";
+  constexpr std::string_view k40000 =
+      "89504e470d0a1a0a0000000d494844520000006000000040100000000090cff191000000464944415478daedcf4111000004"
+      "0041d1041556050f1f66ef126c8424493a50e56c00000000000000000000000000000000000000000000000000000000801f"
+      "0049922469bd060b84af9fbffa18bf0000000049454e44ae426082";
+  return BytesOf(value == 1 ? k1 : value == 255 ? k255 : k40000);
+}
+
+/// Returns an RGBA PNG: opaque dark brown in the rectangle of Rectangle(20, 40), and transparent light grey elsewhere.
+std::string CutOutPng() {
+  constexpr std::string_view kHex =
+      "89504e470d0a1a0a0000000d4948445200000060000000400806000000e534720e0000008f4944415478daeddb310d002010"
+      "04c117414d8d7f15e70a4c7c420853ac819bfa2a49e95e4600004000000800000100a0d701d61cbb33000000000000000000"
+      "0000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000"
+      "00000000000000386a0310000002004000000800000046000040003eed00a899263c4829c35e0000000049454e44ae426082";
+  return BytesOf(kHex);
 }
 
 TEST(LoadMaskPng, KeepsTheIndicesOfAPalette) {
@@ -49,15 +81,16 @@ TEST(LoadMaskPng, KeepsTheIndicesOfAPalette) {
   ASSERT_TRUE(WriteFileAtomically(folder.path() / "a.png", PalettePng()));
   ASSERT_OK(mask, LoadMaskPng((folder.path() / "a.png").string()));
   EXPECT_TRUE(mask->is_indexed);
-  EXPECT_EQ(mask->values.pixels, (std::vector<std::uint8_t>{0, 1, 2, 3}));
+  EXPECT_EQ(mask->values.pixels, (std::vector<std::uint16_t>{0, 1, 2, 3}));
   ASSERT_TRUE(WriteFileAtomically(folder.path() / "b.png", PalettePng().substr(0, 60)));
   EXPECT_FALSE(LoadMaskPng((folder.path() / "b.png").string()));
 }
 
 class ReadMasksTest : public ::testing::Test {
  protected:
-  void Add(const std::string& name, const Image<std::uint8_t>& values) {
-    ASSERT_TRUE(WriteFileAtomically(folder_.path() / "cam1_masks" / name, GreyPng(values)));
+  void Add(const std::string& name, const Image<std::uint8_t>& values) { AddBytes(name, GreyPng(values)); }
+  void AddBytes(const std::string& name, const std::string& png) {
+    ASSERT_TRUE(WriteFileAtomically(folder_.path() / "cam1_masks" / name, png));
   }
   Result<std::vector<Mask>> Read(std::optional<int> id = {}, int frames = 2) {
     FilmedView view{.path = "films/cam1.mp4", .facts = {kWidth, kHeight, 30, frames}, .camera = {}, .fit = {}};
@@ -83,6 +116,34 @@ TEST_F(ReadMasksTest, TakesBlackAndWhiteSoftOnesAndNumbers) {
     EXPECT_EQ(std::ranges::count((*masks)[0].pixels, 1), 20 * 40);
     EXPECT_TRUE(told_.lines.empty());
   }
+}
+
+TEST_F(ReadMasksTest, TakesGreyPicturesOf16Bits) {
+  for (const int value : {1, 255, 40000}) {
+    AddBytes("1.png", Grey16Png(value));
+    AddBytes("2.png", Grey16Png(value));
+    ASSERT_OK(masks, Read());
+    EXPECT_EQ(std::ranges::count((*masks)[0].pixels, 1), 20 * 40) << value;
+    EXPECT_EQ((*masks)[0].At(25, 30), 1) << value;
+    EXPECT_TRUE(told_.lines.empty());
+  }
+  ASSERT_OK(mask, LoadMaskPng((folder_.path() / "cam1_masks" / "1.png").string()));
+  EXPECT_TRUE(mask->has_16_bits);
+  EXPECT_EQ(mask->values.At(25, 30), 40000);
+  AddBytes("1.png", Grey16Png(1).substr(0, 90));
+  EXPECT_THAT(Reason(), HasSubstr("1.png: a damaged PNG picture"));
+}
+
+TEST_F(ReadMasksTest, OfCutOutsTakesTheOpacityAndSaysSo) {
+  AddBytes("1.png", CutOutPng());
+  AddBytes("2.png", CutOutPng());
+  ASSERT_OK(masks, Read());
+  EXPECT_EQ(std::ranges::count((*masks)[0].pixels, 1), 20 * 40);
+  EXPECT_EQ((*masks)[0].At(25, 30), 1);
+  ASSERT_EQ(told_.lines.size(), 1u);
+  EXPECT_EQ(told_.lines[0],
+            "masks of cam1: pictures have transparent pixels; opaque pixels are taken as the person, whatever their "
+            "colour");
 }
 
 TEST_F(ReadMasksTest, OfSeveralPeopleNeedTheNumberOfOne) {

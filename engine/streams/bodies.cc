@@ -1,0 +1,168 @@
+#include "engine/streams/bodies.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <limits>
+
+namespace etude {
+namespace {
+
+/// Two bodies that may be one person, and their distance in trunk lengths.
+struct Pair {
+  double gap;
+  std::size_t before, after;
+};
+
+std::string NameOf(const std::string& id) { return id.empty() ? "without an id" : id; }
+
+}  // namespace
+
+void Bodies::Add(std::string_view id, std::size_t frame, const RolePositions& places,
+                 const std::array<TrackingState, kRoleCount>& states) {
+  if (!pending_.empty() && pending_.front().frames.front().frame != frame) Assign();
+  pending_.push_back({std::string(id), {{frame, places, states}}});
+}
+
+void Bodies::Assign() {
+  while (!pending_.empty()) {
+    // Take the bodies that have the first one's identifier.
+    const std::string id = pending_.front().id;
+    const auto others = std::ranges::stable_partition(pending_, [&](const Body& body) { return body.id == id; });
+    std::vector<Body> same(pending_.begin(), others.begin());
+    pending_.erase(pending_.begin(), others.begin());
+    if (same.size() > 1 && !ambiguous_) ambiguous_ = Ambiguous{id, same.front().frames.front().frame};
+    AssignByNearness(same);
+  }
+}
+
+void Bodies::AssignByNearness(const std::vector<Body>& same) {
+  // Measure the distances from the earlier bodies of this identifier. Without a trunk, a distance is unknown.
+  std::vector<Pair> pairs;
+  for (std::size_t b = 0; b < bodies_.size(); ++b) {
+    if (bodies_[b].id != same.front().id) continue;
+    for (std::size_t i = 0; i < same.size(); ++i) {
+      const auto gap = GapInTrunks(bodies_[b].frames.back(), same[i].frames.front());
+      pairs.push_back({gap.value_or(std::numeric_limits<double>::infinity()), b, i});
+    }
+  }
+  // Continue the nearest bodies first; the others are new.
+  std::ranges::stable_sort(pairs, {}, &Pair::gap);
+  std::vector<bool> continued(bodies_.size(), false), placed(same.size(), false);
+  for (const Pair& pair : pairs) {
+    if (continued[pair.before] || placed[pair.after]) continue;
+    continued[pair.before] = placed[pair.after] = true;
+    bodies_[pair.before].frames.push_back(same[pair.after].frames.front());
+  }
+  for (std::size_t i = 0; i < same.size(); ++i) {
+    if (!placed[i]) bodies_.push_back(same[i]);
+  }
+}
+
+/// Returns the total length of the paths of all joints, in the file's unit.
+double Bodies::PathOf(const Body& body) {
+  double path = 0;
+  for (std::size_t t = 1; t < body.frames.size(); ++t) {
+    for (std::size_t i = 0; i < kRoleCount; ++i) {
+      const auto &before = body.frames[t - 1].places[i], &now = body.frames[t].places[i];
+      if (before && now) path += glm::distance(*before, *now);
+    }
+  }
+  return path;
+}
+
+/// Returns the mean distance, in trunk lengths, between the joints that are in both frames; nullopt if a frame lacks
+/// the trunk.
+std::optional<double> Bodies::GapInTrunks(const Seen& before, const Seen& after) {
+  const auto &hips = before.places[Index(Role::kHipCentre)], &neck = before.places[Index(Role::kShoulderCentre)];
+  double sum = 0;
+  int joints = 0;
+  for (std::size_t i = 0; i < kRoleCount; ++i) {
+    if (!before.places[i] || !after.places[i]) continue;
+    sum += glm::distance(*before.places[i], *after.places[i]);
+    ++joints;
+  }
+  if (joints == 0 || !hips || !neck || *hips == *neck) return std::nullopt;
+  return sum / joints / glm::distance(*hips, *neck);
+}
+
+void Bodies::JoinContinued(StreamRecording& recording) {
+  constexpr double kMaxBreak_s = 1, kMaxGap = 0.5;
+  // Collect the pairs in which the second body can continue the first.
+  std::vector<Pair> pairs;
+  const auto begin_of = [](const Body& body) { return body.frames.front().frame; };
+  for (std::size_t a = 0; a < bodies_.size(); ++a) {
+    const Seen& end = bodies_[a].frames.back();
+    const auto first = std::ranges::upper_bound(bodies_, end.frame, {}, begin_of);  // sorted by first appearance
+    for (auto b = static_cast<std::size_t>(first - bodies_.begin()); b < bodies_.size(); ++b) {
+      const Seen& begin = bodies_[b].frames.front();
+      if (recording.frames[begin.frame].time_s - recording.frames[end.frame].time_s > kMaxBreak_s) break;
+      const auto gap = GapInTrunks(end, begin);
+      if (gap && *gap <= kMaxGap) pairs.push_back({*gap, a, b});
+    }
+  }
+  // Accept the nearest pairs first.
+  std::ranges::stable_sort(pairs, {}, &Pair::gap);
+  std::vector<std::optional<std::size_t>> next(bodies_.size());
+  std::vector<bool> continues(bodies_.size(), false);
+  for (const Pair& pair : pairs) {
+    if (next[pair.before] || continues[pair.after]) continue;
+    next[pair.before] = pair.after;
+    continues[pair.after] = true;
+  }
+  // Join the bodies of each chain of accepted pairs.
+  std::vector<Body> joined;
+  for (std::size_t a = 0; a < bodies_.size(); ++a) {
+    if (continues[a]) continue;
+    Body body = std::move(bodies_[a]);
+    for (auto b = next[a]; b; b = next[*b]) {
+      const Body& later = bodies_[*b];
+      recording.remarks.push_back(
+          fmt::format("body {} continues as body {} from frame {} on; both are read as one person", NameOf(body.id),
+                      NameOf(later.id), begin_of(later)));
+      body.frames.insert(body.frames.end(), later.frames.begin(), later.frames.end());
+      body.id = later.id;
+    }
+    joined.push_back(std::move(body));
+  }
+  bodies_ = std::move(joined);
+}
+
+Result<void> Bodies::Choose(const StreamReading& reading, const std::string& file, StreamRecording& recording) {
+  Assign();
+  if (bodies_.empty()) return {};
+  if (ambiguous_) {
+    recording.remarks.push_back(fmt::format(
+        "several bodies of a frame have {} (first in frame {}); each is read as the nearest body of the frames before",
+        ambiguous_->id.empty() ? "no id" : "the id " + ambiguous_->id, ambiguous_->frame));
+  }
+  JoinContinued(recording);
+  // Choose the requested body, or the most frequent one.
+  std::size_t chosen = 0;
+  if (reading.body) {
+    chosen = static_cast<std::size_t>(*reading.body);
+    if (chosen >= bodies_.size())
+      return Fail({file}, "there is no body {}; bodies in the file, counted from 0: {}", chosen, bodies_.size());
+  } else {
+    for (std::size_t b = 1; b < bodies_.size(); ++b) {
+      const std::size_t most = bodies_[chosen].frames.size(), here = bodies_[b].frames.size();
+      if (here > most || (here == most && PathOf(bodies_[b]) > PathOf(bodies_[chosen]))) chosen = b;
+    }
+  }
+  if (bodies_.size() > 1) {
+    const std::size_t most = bodies_[chosen].frames.size();
+    const auto ties = std::ranges::count_if(bodies_, [&](const Body& body) { return body.frames.size() == most; });
+    const std::string why = ties > 1 ? fmt::format(", which moves most of the {} bodies in the most frames", ties)
+                                     : ", which is in the most frames";
+    recording.remarks.push_back(
+        fmt::format("the file has {} bodies; body {} is read{}", bodies_.size(), chosen, reading.body ? "" : why));
+  }
+  // Copy the joints of the chosen body to the recording.
+  for (const Seen& seen : bodies_[chosen].frames) {
+    recording.frames[seen.frame].places = seen.places;
+    recording.frames[seen.frame].states = seen.states;
+  }
+  return {};
+}
+
+}  // namespace etude
