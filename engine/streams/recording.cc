@@ -208,8 +208,7 @@ std::string RateDoubt(const StreamRecording& recording) {
   if (!rate || IsKinectRate(*rate) || recording.format == kEtudeCsv || recording.format == kTrc) return "";
   return fmt::format(
       "its times give {:.3g} Hz, which no Kinect has (5 to 130 Hz): the clock may be in another unit; `--rate 30` "
-      "reads "
-      "frames at a rate, without their times",
+      "reads frames at a rate, without their times",
       *rate);
 }
 

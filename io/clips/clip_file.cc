@@ -143,11 +143,11 @@ std::optional<JointMapOverrides> RolesOfBones(const std::map<std::string, int>& 
   return roles.joints.empty() ? std::nullopt : std::optional(std::move(roles));
 }
 
-/// Reads the JSON files that describe a recording of Motion-BIDS, `stem` + `suffix` and those of higher folders, which
-/// state what the lower ones do not (FindBidsFiles). Returns an object; an empty one if there is no file.
-Result<Json> ReadBidsJson(const std::string& path, std::string_view suffix, CappedReader& reader) {
+/// Reads JSON files that describe a recording of Motion-BIDS (FindBidsFiles); files of higher folders come first, and
+/// state what the lower ones do not. Returns an object; an empty one if there is no file.
+Result<Json> ReadBidsJson(const std::vector<std::string>& files, CappedReader& reader) {
   Json all = Json::object();
-  for (const std::string& file : FindBidsFiles(path, suffix)) {
+  for (const std::string& file : files) {
     ASSIGN_OR_RETURN(const auto text, reader.Read(file));
     ASSIGN_OR_RETURN(const Json json, ReadJson(text, file));
     if (json.is_object()) all.update(json);
@@ -155,17 +155,17 @@ Result<Json> ReadBidsJson(const std::string& path, std::string_view suffix, Capp
   return all;
 }
 
-/// Returns the file of channels that describes a recording of Motion-BIDS: the nearest one.
-std::string BidsChannelsOf(const std::string& path, const std::string& stem) {
-  const std::vector<std::string> files = FindBidsFiles(path, "channels.tsv");
-  return files.empty() ? stem + "_channels.tsv" : files.back();
+/// Returns the nearest of the files, or else the name of the file that should be beside the recording.
+std::string NearestOr(const std::vector<std::string>& files, const std::string& beside) {
+  return files.empty() ? beside : files.back();
 }
 
-/// Reads the rate, and the text that stands for a missing value, from the _motion.json of Motion-BIDS. `file` is the
-/// name of this file for messages.
-Result<BidsFacts> ReadBidsFacts(const std::string& path, const std::string& file, CappedReader& reader) {
-  ASSIGN_OR_RETURN(const Json json, ReadBidsJson(path, "motion.json", reader));
-  if (json.empty()) RETURN_IF_ERROR(reader.Read(file));
+/// Reads the rate, and the text that stands for a missing value, from the _motion.json of Motion-BIDS.
+Result<BidsFacts> ReadBidsFacts(const std::string& path, const std::string& stem, CappedReader& reader) {
+  const std::vector<std::string> files = FindBidsFiles(path, "motion.json");
+  const std::string file = NearestOr(files, stem + "_motion.json");
+  ASSIGN_OR_RETURN(const Json json, ReadBidsJson(files, reader));
+  if (files.empty()) RETURN_IF_ERROR(reader.Read(file));  // the error says which file is missing
   const auto rate = json.find("SamplingFrequency");
   constexpr double kMinRate_hz = 0.1, kMaxRate_hz = 10'000;
   BidsFacts facts{.rate_hz = rate != json.end() && rate->is_number() ? rate->get<double>() : 0};
@@ -178,10 +178,10 @@ Result<BidsFacts> ReadBidsFacts(const std::string& path, const std::string& file
 
 /// Returns the rule for the up axis of a Motion-BIDS recording. The optional file _channels.json states the axes of its
 /// reference frames. Fails if two of them differ. Only the frames named in `used` count, or all if `used` is empty.
-Result<UpRule> UpOfBids(const std::string& path, const std::string& file,
-                        const std::set<std::string, std::less<>>& used, CappedReader& reader) {
+Result<UpRule> UpOfBids(const std::string& path, const std::set<std::string, std::less<>>& used, CappedReader& reader) {
   UpRule rule = ArrayUp();
-  ASSIGN_OR_RETURN(const Json json, ReadBidsJson(path, "channels.json", reader));
+  const std::vector<std::string> files = FindBidsFiles(path, "channels.json");
+  ASSIGN_OR_RETURN(const Json json, ReadBidsJson(files, reader));
   const Json frames = json.value("reference_frame", Json());
   const Json levels = frames.is_object() ? frames.value("Levels", Json()) : Json();
   std::string stated;
@@ -191,7 +191,7 @@ Result<UpRule> UpOfBids(const std::string& path, const std::string& file,
     const auto up = axes.is_string() ? UpOfSpatialAxes(axes.get<std::string>()) : std::nullopt;
     if (!up) continue;
     if (!stated.empty() && stated != axes.get<std::string>()) {
-      return Fail({file}, "reference frames with the SpatialAxes {} and {}; allowed: the same for all", stated,
+      return Fail({files.back()}, "reference frames with the SpatialAxes {} and {}; allowed: the same for all", stated,
                   axes.get<std::string>());
     }
     stated = axes.get<std::string>();
@@ -276,11 +276,11 @@ Result<ClipFile> ReadClipFile(const std::string& path, const std::optional<std::
   constexpr std::string_view kBidsEnd = "_motion.tsv";
   if (path.ends_with(kBidsEnd)) {
     const std::string stem = path.substr(0, path.size() - kBidsEnd.size());
-    const std::string named = BidsChannelsOf(path, stem);
+    const std::string named = NearestOr(FindBidsFiles(path, "channels.tsv"), stem + "_channels.tsv");
     ASSIGN_OR_RETURN(const auto channels, reader.Read(named));
-    ASSIGN_OR_RETURN(const BidsFacts facts, ReadBidsFacts(path, stem + "_motion.json", reader));
+    ASSIGN_OR_RETURN(const BidsFacts facts, ReadBidsFacts(path, stem, reader));
     ASSIGN_OR_RETURN(auto joints, ReadMotionBids(bytes, channels, facts, {path, named}));
-    ASSIGN_OR_RETURN(auto up, UpOfBids(path, stem + "_channels.json", FramesOfBids(channels), reader));
+    ASSIGN_OR_RETURN(auto up, UpOfBids(path, FramesOfBids(channels), reader));
     return FileOfMarkers(ClipFormat::kBids, std::move(joints), path, options, std::move(up));
   }
   // Try markers, and recordings of runs.

@@ -178,8 +178,8 @@ struct PngBytes {
   std::size_t left;
 };
 
-/// Reads the samples of a grey PNG of 16 bits, without the conversion to another brightness that libpng's simplified
-/// interface makes. `rows` points to the rows of `values`. Returns false for a damaged file.
+/// Reads the samples of a PNG of 16 bits without transparency as grey, without the conversion to another brightness
+/// that libpng's simplified interface makes. `rows` points to the rows of `values`. Returns false for a damaged file.
 bool ReadGrey16(const std::string& bytes, std::vector<png_bytep>& rows) {
   PngBytes source{bytes.data(), bytes.size()};
   png_structp png = png_create_read_struct(
@@ -200,6 +200,7 @@ bool ReadGrey16(const std::string& bytes, std::vector<png_bytep>& rows) {
   });
   png_read_info(png, info);
   if constexpr (std::endian::native == std::endian::little) png_set_swap(png);  // PNG stores the high byte first
+  png_set_rgb_to_gray_fixed(png, PNG_ERROR_ACTION_NONE, -1, -1);                // equal channels keep their value
   png_set_interlace_handling(png);
   png_read_update_info(png, info);
   png_read_image(png, rows.data());
@@ -215,10 +216,10 @@ Result<MaskPicture> LoadMaskPng(const std::string& path) {
   png_image png{};
   RETURN_IF_ERROR(BeginPng(bytes, path, png));
   const auto width = static_cast<int>(png.width), height = static_cast<int>(png.height);
-  constexpr png_uint_32 kColour = PNG_FORMAT_FLAG_COLOR | PNG_FORMAT_FLAG_COLORMAP | PNG_FORMAT_FLAG_ALPHA;
+  constexpr png_uint_32 kMore = PNG_FORMAT_FLAG_COLORMAP | PNG_FORMAT_FLAG_ALPHA;
   MaskPicture mask{.values = {width, height}};
-  // Keep the samples of grey pictures of 16 bits, which may be small numbers.
-  mask.has_16_bits = (png.format & PNG_FORMAT_FLAG_LINEAR) != 0 && (png.format & kColour) == 0;
+  // Keep the samples of opaque pictures of 16 bits, which may be small numbers.
+  mask.has_16_bits = (png.format & PNG_FORMAT_FLAG_LINEAR) != 0 && (png.format & kMore) == 0;
   if (mask.has_16_bits) {
     png_image_free(&png);
     std::vector<png_bytep> rows;

@@ -33,13 +33,13 @@ Result<ColourImage> DecodeColourPng(std::string_view bytes, std::size_t max_pixe
 
 /// A picture of one number per pixel, as segmenters write it.
 struct MaskPicture {
-  /// Each pixel's grey value, 0 to 255, or 0 to 65535 in grey pictures of 16 bits; or its index into a palette.
-  Image<std::uint16_t> values;
+  /// Each pixel's grey value, 0 to 255, or 0 to 65535 in opaque pictures of 16 bits; or its index into a palette.
+  Image<std::uint16_t> values = {};
   bool is_indexed = false;    ///< true: the file has a palette, and `values` are indices into it
   bool has_16_bits = false;   ///< true: `values` go to 65535
-  Image<std::uint8_t> alpha;  ///< each pixel's opacity, 0 to 255; empty if every pixel is opaque
+  Image<std::uint8_t> alpha = {};  ///< each pixel's opacity, 0 to 255; empty if every pixel is opaque
 };
-/// Reads a PNG of masks. Colours become grey, and their 16 bits become 8; transparent pixels are blended with black.
+/// Reads a PNG of masks. Colours become grey; transparent pixels are blended with black.
 Result<MaskPicture> LoadMaskPng(const std::string& path);
 
 /// A depth image and the name of its channel.

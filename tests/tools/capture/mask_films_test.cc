@@ -86,6 +86,16 @@ TEST(LoadMaskPng, KeepsTheIndicesOfAPalette) {
   EXPECT_FALSE(LoadMaskPng((folder.path() / "b.png").string()));
 }
 
+TEST(LoadMaskPng, KeepsEqualChannelsOf16Bits) {
+  const TemporaryFolder folder = TemporaryFolder::Make("colour").value();
+  ASSERT_TRUE(WriteFileAtomically(
+      folder.path() / "a.png",
+      BytesOf("89504e470d0a1a0a0000000d49484452000000020000000110020000002bd0349e0000000e4944415478da6360"
+              "8000661004000028000a10fc72910000000049454e44ae426082")));
+  ASSERT_OK(mask, LoadMaskPng((folder.path() / "a.png").string()));
+  EXPECT_EQ(mask->values.pixels, (std::vector<std::uint16_t>{0, 3}));
+}
+
 class ReadMasksTest : public ::testing::Test {
  protected:
   void Add(const std::string& name, const Image<std::uint8_t>& values) { AddBytes(name, GreyPng(values)); }
