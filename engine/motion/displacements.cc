@@ -178,10 +178,16 @@ Displacement Measure(const BodyMotion& motion, const FrameRange& steps, std::opt
     if (glm::length(found.lasting) > glm::length(found.largest)) found.largest = found.lasting;
     places.push_back(found.lasting);
   }
+  // Measure from both ends, and take the larger displacement. If both nearly agree, take the smaller: they differ by
+  // the motion meanwhile.
+  glm::dvec3 from_after{0};
   for (const glm::dvec3& place : places) {
-    if (glm::distance(place, found.lasting) > glm::length(found.size)) found.size = found.lasting - place;
+    if (glm::distance(place, found.lasting) > glm::length(from_after)) from_after = found.lasting - place;
   }
-  if (glm::length(found.largest) < glm::length(found.size)) found.size = found.largest;
+  constexpr double kAlike = 0.9;
+  const auto [smaller, larger] = std::minmax({glm::length(found.largest), glm::length(from_after)});
+  const double wanted = smaller > kAlike * larger ? smaller : larger;
+  found.size = glm::length(found.largest) == wanted ? found.largest : from_after;
   return found;
 }
 

@@ -22,7 +22,8 @@ struct Displacement {
   int before = 0, after = 0;
   glm::dvec3 lasting{0};  ///< metres; displacement of all frames from `after` on
   glm::dvec3 largest{0};  ///< metres; largest displacement of a single frame in (`before`, `after`]
-  /// Metres; as `largest`, but seen from `after` in reversed time if that is shorter. The same in reversed time.
+  /// Metres; the larger of `largest` and of the largest displacement from frame `after`, or the smaller if both nearly
+  /// agree. The same length in reversed time.
   glm::dvec3 size{0};
 };
 
