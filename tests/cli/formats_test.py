@@ -548,14 +548,15 @@ class Formats(MotionFileCase):
         folder = self.folder / "bids"
         self.ends(0, "clip", "convert", "builtin:clap", f"{folder}/")
         (motion,), (facts,), (axes,) = (folder.rglob(f"*_{end}") for end in ("motion.tsv", "motion.json", "channels.json"))
-        wanted = self.facts("clip", "info", motion)
+        clip = lambda: json.loads(self.ends(0, "clip", "info", motion, "--json").stdout)["clips"][0]
+        wanted = clip()
         content, task = json.loads(facts.read_text()), next(part for part in motion.name.split("_") if part.startswith("task-"))
         # All in the data set's folder; then a lower file, which states another rate, goes before it.
         top = folder / f"{task}_motion.json"
         facts.rename(top), axes.rename(folder / f"{task}_channels.json")
-        self.assertEqual(self.facts("clip", "info", motion), wanted)
+        self.assertEqual(clip(), wanted)
         facts.write_text(json.dumps({"SamplingFrequency": 2 * content["SamplingFrequency"]}))
-        self.assertEqual(self.facts("clip", "info", motion)["rate_hz"], 2 * wanted["rate_hz"])
+        self.assertEqual(clip()["rate_hz"], 2 * wanted["rate_hz"])
         facts.unlink()
         # A file about another task does not apply, nor does one above the data set.
         top.rename(folder / "task-other_motion.json")
