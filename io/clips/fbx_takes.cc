@@ -188,12 +188,13 @@ std::vector<std::string> PrepareTakes(std::string_view bytes, std::string& chang
     if (part.name == "Connections") links = ReadLinks(bytes, part);
   }
   const std::set<std::int64_t> of_joints = LayersOfJoints(links, objects);
+  std::map<std::int64_t, std::vector<const Link*>> to_stacks;
+  for (const Link& link : links) {
+    const bool is_layer = link.property.empty() && objects.layers.contains(link.from);
+    if (is_layer && objects.stacks.contains(link.to)) to_stacks[link.to].push_back(&link);
+  }
   std::vector<std::string> remarks;
-  for (const std::int64_t stack : objects.stacks) {
-    std::vector<const Link*> to_stack;
-    for (const Link& link : links) {
-      if (link.to == stack && link.property.empty() && objects.layers.contains(link.from)) to_stack.push_back(&link);
-    }
+  for (const auto& [stack, to_stack] : to_stacks) {
     if (to_stack.size() < 2) continue;
     std::string remark = UseBaseLayer(objects.names[stack], to_stack, objects, of_joints, edits);
     if (!remark.empty()) remarks.push_back(std::move(remark));
