@@ -190,7 +190,7 @@ Result<RecordedFrame> ReadKinectRow(std::string_view row, const std::string& fil
                                     std::size_t index) {
   // Put a heading before the row, which tells the separator: otherwise ReadNumberRows would take a row that contains
   // words for the heading and drop it.
-  const std::string heading = recording.separator == 0 ? "row" : std::string("row") + recording.separator;
+  const std::string heading = recording.separator == 0 ? "row" : std::string("row") + recording.separator + "row";
   ASSIGN_OR_RETURN(const NumberRows table, ReadNumberRows(heading + "\n" + std::string(row), file, kMaxClock));
   const RowLayout* layout = FindLayout(recording.format, table.columns);
   if (layout == nullptr || (layout->first == 0 && recording.records_times)) {

@@ -157,7 +157,7 @@ TEST(OpenSimMotion, TheUnitOfAnglesIsReadOrSaid) {
     std::string note;
     const auto read = ReadOpenSimMotion(testing::Replaced(text, "inDegrees=yes\n", unit), "a.mot", &note);
     EXPECT_TRUE(read) << ToString(read.error());
-    EXPECT_LT(read ? WorstJointDistance(*read, move->motion) : 1, 1e-4) << unit;
+    EXPECT_LT(read ? WorstJointDistance(*read, move->motion) : 1.0, 1e-4) << unit;
     return note;
   };
   for (const char* unit : {"inDegrees=no\n", "inDegrees=No\n", "inDegrees = no\r\n", "INDEGREES=NO\n"}) {

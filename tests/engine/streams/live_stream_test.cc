@@ -140,7 +140,7 @@ TEST(LiveStream, ComplaintsCountTheLinesOfTheStream) {
   EXPECT_EQ(Listen(rows + "\n1 2 3\n").complaint.find("-:33: 3 numbers in a row"), 0u);
   EXPECT_EQ(Listen(rows + "x" + rows.substr(1)).complaint.find("-:32:1: value 1"), 0u);
   const std::string csv = WriteJointCsv(WavingMotion(5));
-  EXPECT_EQ(Listen(csv + "5,0.05" + csv.substr(csv.rfind("\n4,") + 20)).complaint.find("-:7"), 0u);
+  EXPECT_EQ(Listen(csv + "5,-1.05" + csv.substr(csv.rfind("\n4,") + 20)).complaint.find("-:7"), 0u);
   EXPECT_EQ(Listen("").complaint.find("-:1: the stream has no rows of joint positions"), 0u);
   EXPECT_EQ(Listen(AzureText(WavingMotion(2))).complaint.find("-:1: the stream has no rows of joint positions"), 0u);
 }
