@@ -152,7 +152,7 @@ Result<void> Bodies::Choose(const StreamReading& reading, const std::string& fil
   if (bodies_.size() > 1) {
     const std::size_t most = bodies_[chosen].frames.size();
     const auto ties = std::ranges::count_if(bodies_, [&](const Body& body) { return body.frames.size() == most; });
-    const std::string why = ties > 1 ? fmt::format(", which moves most of the {} bodies in the most frames", ties)
+    const std::string why = ties > 1 ? fmt::format(", which moves most; {} bodies are in equally many frames", ties)
                                      : ", which is in the most frames";
     recording.remarks.push_back(
         fmt::format("the file has {} bodies; body {} is read{}", bodies_.size(), chosen, reading.body ? "" : why));

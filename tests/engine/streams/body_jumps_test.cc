@@ -204,7 +204,7 @@ TEST(Streams, BodiesWithoutIdsAreToldApartByNearness) {
   }
   // Both are in all frames, so the one that moves most is read, and said to be that one.
   EXPECT_THAT(RemarksOn(text),
-              Contains("the file has 2 bodies; body 0 is read, which moves most of the 2 bodies in the most frames"));
+              Contains("the file has 2 bodies; body 0 is read, which moves most; 2 bodies are in equally many frames"));
 }
 
 TEST(Streams, OneIdOfTwoBodiesInAFrameIsTwoPeople) {
