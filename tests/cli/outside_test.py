@@ -195,7 +195,7 @@ class OutsideMethods(EtudeCase):
     @heavy
     def test_a_browser_runs_inside_the_fence(self):
         one = IK.replace("trials: 4\nsweep: {joint_noise_deg: [2, 5]}", "trials: 1")
-        rows = self.run_suite(self.write("suite.yaml", one + outside("browser", BROWSER, more=f", files: ['{BROWSER.parent}', '{EXAMPLES}']") +
+        rows = self.run_suite(self.write("suite.yaml", one + outside("browser", BROWSER, more=f", files: ['{BROWSER.parent}', '{EXAMPLES}', /etc/chromium.d]") +
                                          "limits: {time_s: 60, memory_mb: 4096}\n"))
         found = [row for row in rows if row["method"] == "browser"]
         self.assertEqual([row["status"] for row in found], ["unsolved"], found)
