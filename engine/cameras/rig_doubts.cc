@@ -17,7 +17,7 @@ bool IsInPicture(const Intrinsics& in, const glm::dvec2& pixel) {
 /// grid of pixels, at distances from a tenth to a hundred times the distance between the cameras.
 bool SharesAPlace(const Camera& one, const Camera& other) {
   constexpr int kSide = 9, kDepths = 301;
-  constexpr double kNearest = 0.1, kDecades = 3;
+  constexpr double kNearest = 0.1, kFactor = 1.023292992280754;  // 300 steps make a factor of 1000
   const double apart = glm::distance(one.p_WC, other.p_WC);
   if (apart == 0) return true;
   const Intrinsics& in = one.intrinsics;
@@ -29,8 +29,8 @@ bool SharesAPlace(const Camera& one, const Camera& other) {
       if (!pixel) continue;
       const double y = (pixel->y - in.cy) / in.fy;
       const glm::dvec3 ray_W = glm::transpose(one.R_CW) * glm::dvec3((pixel->x - in.cx - in.skew * y) / in.fx, y, 1);
-      for (int i = 0; i < kDepths; ++i) {
-        const double depth = apart * kNearest * std::pow(10, kDecades * i / (kDepths - 1));
+      double depth = apart * kNearest;
+      for (int i = 0; i < kDepths; ++i, depth *= kFactor) {
         const auto straight = Project(to_other, one.p_WC + depth * ray_W);
         const auto seen = straight ? DistortPixel(other, *straight) : std::nullopt;
         if (seen && IsInPicture(other.intrinsics, *seen)) return true;

@@ -210,7 +210,9 @@ double RateOf(double frame_seconds) {
 std::string DescribeRoughTime(const Token& printed, double seconds, double frames) {
   const std::size_t point = printed.text.find('.');
   if (point == std::string_view::npos || printed.text.find_first_of("eE") != std::string_view::npos) return "";
-  const double digit = std::pow(10, -static_cast<double>(printed.text.size() - point - 1)), rate = RateOf(seconds);
+  const double rate = RateOf(seconds);
+  double digit = 1;  // the value of 1 in the last place
+  for (std::size_t i = point + 1; i < printed.text.size(); ++i) digit /= 10;
   double likely = 0;
   for (const double whole : kUsualRates_hz) {
     for (const double usual : {whole, whole * kTelevision}) {

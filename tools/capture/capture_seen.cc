@@ -159,7 +159,7 @@ void WarnOfDelays(const std::vector<FilmedView>& views, const RecoverPersonOptio
   const SyncOptions clocks{.max_frames = max_frames, .max_px = recover.triangulate.robust.outlier_px};
   const auto guessed = EstimateOffsets(films.cameras, films.people, {clocks, recover.match.follow});
   WarnOfMisfits(views, guessed, max_frames, recover.rate_hz, films);
-  // A film is named if it differs from most films; of two films, the second one is.
+  // Name a film that differs from most of the others. If there are only two films, name the second one.
   std::vector<double> offsets;
   for (const ClockOffset& clock : guessed) {
     if (clock.is_told) offsets.push_back(clock.frames);

@@ -237,7 +237,7 @@ TEST_F(SummaryTest, AnExpectationIsHeldToItsConfidence) {
   EXPECT_THAT(result.detail, ::testing::HasSubstr("on 9 worlds, 1 more do not have both values"));
 }
 
-/// Method b equals a wherever it has a value. It has none in the last `lost` of the 30 worlds, in which a does worse.
+/// Method b has the values of method a, but no value in the last `lost` of the 30 worlds, where a is worse.
 TEST_F(SummaryTest, AnExpectationIsOpenIfOneOfTwoEqualMethodsLosesValues) {
   study.conditions.pop_back();
   study.trials = 30;
