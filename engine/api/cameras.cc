@@ -22,7 +22,7 @@ CalibratedCamera Calibrate(std::span<const PointPair> pairs, int width, int heig
 
 TriangulatedPoint Triangulate(std::span<const NamedCamera> cameras, std::span<const std::optional<glm::dvec2>> pixels) {
   if (pixels.size() != cameras.size()) {
-    throw BadInput(fmt::format("found {} pixels; allowed: one entry, which may be empty, for each of {} cameras",
+    throw BadInput(fmt::format("found {} entries for {} cameras; allowed: one for each camera, a pixel or empty",
                                pixels.size(), cameras.size()));
   }
   std::vector<Sighting> sightings;

@@ -21,14 +21,14 @@ void CheckPerson(const SeenPerson& person) {
 
 void CheckSizes(std::span<const NamedCamera> cameras, std::span<const SeenPeople> seen, const CaptureOptions& options) {
   if (cameras.size() < 2 || seen.size() != cameras.size()) {
-    throw BadInput(fmt::format("{} cameras, but keypoints of {}; allowed: at least two cameras, and keypoints of each",
+    throw BadInput(fmt::format("{} cameras, but keypoints of {}; allowed: two or more cameras, each with keypoints",
                                cameras.size(), seen.size()));
   }
   for (const SeenPeople& frames : seen) {
     if (frames.empty() || frames.size() != seen.front().size()) {
-      throw BadInput(fmt::format(
-          "found {} frames of one camera, but {} of the first; allowed: the same number for every camera, at least one",
-          frames.size(), seen.front().size()));
+      throw BadInput(
+          fmt::format("found {} frames of one camera, but {} of the first; allowed: equal numbers, 1 or more",
+                      frames.size(), seen.front().size()));
     }
     for (const auto& frame : frames) std::ranges::for_each(frame, CheckPerson);
   }

@@ -72,7 +72,7 @@ std::vector<std::optional<BodyPose>> TrackSilhouettes(std::span<const NamedCamer
                                                       const FollowOptions& options) {
   // Check the numbers of cameras and masks.
   if (cameras.size() < 2 || masks.size() != cameras.size()) {
-    throw BadInput(fmt::format("{} cameras, but masks of {}; allowed: at least two cameras, and masks of each",
+    throw BadInput(fmt::format("{} cameras, but masks of {}; allowed: two or more cameras, each with masks",
                                cameras.size(), masks.size()));
   }
   if (!(options.rate_hz >= 1 && options.rate_hz <= 1000)) {
@@ -84,9 +84,8 @@ std::vector<std::optional<BodyPose>> TrackSilhouettes(std::span<const NamedCamer
   std::vector<std::vector<Silhouette>> silhouettes;
   for (std::size_t i = 0; i < cameras.size(); ++i) {
     if (masks[i].empty() || masks[i].size() != masks.front().size()) {
-      throw BadInput(fmt::format(
-          "found {} masks of one camera, but {} of the first; allowed: the same number for every camera, at least one",
-          masks[i].size(), masks.front().size()));
+      throw BadInput(fmt::format("found {} masks of one camera, but {} of the first; allowed: equal numbers, 1 or more",
+                                 masks[i].size(), masks.front().size()));
     }
     const Intrinsics& picture = cameras[i].camera.intrinsics;
     const double scale = kFittedSide / std::max({1, picture.width, picture.height});

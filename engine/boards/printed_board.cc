@@ -59,7 +59,7 @@ std::optional<Result<PrintedBoard>> ReadPrintedBoard(std::string_view text) {
   if (!is_read || !is_side(numbers[0]) || !is_side(numbers[1]) || !(numbers[2] >= 0.001) || !(numbers[2] <= 10)) {
     return Result<PrintedBoard>(Fail({},
                                      "--board {}: not a board; allowed: {} to 64 squares along each side, and a "
-                                     "square's side in metres, as chess:9x6x0.025",
+                                     "square's side in metres, such as chess:9x6x0.025",
                                      text, min_squares));
   }
   board.columns = static_cast<int>(numbers[0]);

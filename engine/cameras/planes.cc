@@ -210,8 +210,8 @@ Result<RefinedRig> CalibrateFromPlanes(std::span<const PictureSize> sizes, std::
     const auto& pose_CW = places.cameras_[camera];
     if (!pose_CW) {
       return Fail({},
-                  "camera {} cannot be placed: no chain of boards, each seen by two cameras at once, leads from it to "
-                  "an earlier camera; show a board to it and to another camera at the same time",
+                  "camera {} cannot be placed: no board connects it with the earlier cameras; show a board to this "
+                  "camera and to another one at the same time",
                   camera + 1);
     }
     guess.cameras[camera].R_CW = pose_CW->R_WT;

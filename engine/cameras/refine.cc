@@ -102,7 +102,7 @@ class Bundle {
     ceres::Solver::Summary summary;
     ceres::Solve(o, &problem_, &summary);
     if (summary.termination_type == ceres::FAILURE) {
-      return Fail({}, "the first estimate of the cameras does not see every point; point pairs may be mixed up");
+      return Fail({}, "in the first estimate, a camera cannot see one of its points; point pairs may be mixed up");
     }
     return {};
   }

@@ -245,8 +245,8 @@ Result<RigFile> Read(std::string_view text, const std::string& file) {
     for (const char* key : {"names", "M1", "R1"}) {
       if (root.Find(key) == nullptr) continue;
       return Fail({},
-                  "this is only one of a calibration's two files; allowed: both, intri.yml and extri.yml of EasyMocap, "
-                  "or intrinsics.yml and extrinsics.yml of OpenCV");
+                  "this calibration needs a second file; allowed: intri.yml and extri.yml (EasyMocap), or "
+                  "intrinsics.yml and extrinsics.yml (OpenCV)");
     }
     ASSIGN_OR_RETURN(const Camera camera, ReadCamera(root, true));
     return RigFile{{{"camera", camera}}, "OpenCV's YAML"};

@@ -210,8 +210,8 @@ Result<void> NameCameras(std::span<const std::string> paths, std::vector<NamedCa
     return {};
   }
   return Fail(place,
-              "{} images, but neither their names nor their folders' names are all different; allowed: one image for "
-              "each camera, which has the camera's name or lies in a folder with this name",
+              "{} images, of which some share their name, and some their folder's name; allowed: one image for "
+              "each camera, in a file or folder with the camera's name",
               paths.size());
 }
 

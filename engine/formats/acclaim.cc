@@ -346,7 +346,9 @@ Result<AcclaimFrames> ReadFrames(std::string_view text, const AcclaimSkeleton& s
       }
       if (clip.frames.empty()) return Fail(lines.At(), "found a bone before the number of the first frame");
       if (++counts[joint->second] != clip.frames.size()) {
-        return Fail(lines.At(), "bone {} is twice in this frame, or missing in an earlier one; allowed: once in each",
+        return Fail(lines.At(),
+                    "bone {} is twice in this frame, or missing in an earlier frame; allowed: once in "
+                    "each frame",
                     Quote(joint->first));
       }
       ASSIGN_OR_RETURN(
@@ -378,15 +380,14 @@ Result<Clip> ReadAcclaimMotion(std::string_view text, const AcclaimSkeleton& ske
     ASSIGN_OR_RETURN(read, ReadFrames(text, skeleton, file, true));
   } else if (!read.in_degrees && read.of_root > kMaxRadians) {
     // A body that keeps turning in one direction can rotate its root by any angle, so the unit is not changed.
-    remark = fmt::format("its root turns by {:.4g} radians: if its angles are degrees, a line :DEGREES must say so",
-                         read.of_root);
-  } else if (read.in_degrees && largest > kMinDegrees && largest <= 2 * kPi) {
     remark =
-        fmt::format("its angles stay within {:.2g} degrees: if they are radians, a line :RADIANS must say so", largest);
+        fmt::format("its root turns by {:.4g} radians; if its angles are degrees, add a line :DEGREES", read.of_root);
+  } else if (read.in_degrees && largest > kMinDegrees && largest <= 2 * kPi) {
+    remark = fmt::format("its angles stay within {:.2g} degrees; if they are radians, add a line :RADIANS", largest);
   }
   if (remarks != nullptr && !read.still.empty()) {
-    remarks->push_back(
-        fmt::format("no frame has values of these bones, which keep their rest pose: {}", fmt::join(read.still, ", ")));
+    remarks->push_back(fmt::format("these bones have no values in any frame and keep their rest pose: {}",
+                                   fmt::join(read.still, ", ")));
   }
   if (remarks != nullptr && !skeleton.remark.empty()) remarks->push_back(skeleton.remark);
   if (remarks != nullptr && !remark.empty()) remarks->push_back(remark);

@@ -125,8 +125,9 @@ Result<Clip> ReadAmass(const Npz& npz, const std::string& file, std::optional<do
       const double angle = glm::length(glm::dvec3(turn[0], turn[1], turn[2]));
       if (angle <= kMaxAngle) continue;
       return Fail({file},
-                  "poses of frame {} rotates {} by {:.4g} radians; allowed: at most 12.57 (4π); are they degrees?", t,
-                  kSmpl[joint].name, angle);
+                  "poses of frame {} rotates {} by {:.4g} radians; allowed: at most 12.57 (4π); are the values "
+                  "degrees?",
+                  t, kSmpl[joint].name, angle);
     }
   }
   // Make the clip; rotations beyond the 22 body joints are left out.

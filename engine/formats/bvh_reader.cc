@@ -226,8 +226,8 @@ std::string DescribeRoughTime(const Token& printed, double seconds, double frame
   const double longer_s = likely == 0 ? 0 : frames * (1 / likely - seconds);
   if (std::abs(longer_s) * likely < 0.5) return "";
   return fmt::format(
-      "the Frame Time {} is taken as it is, {:.6g} Hz, but has few digits, and 1 / {:.6g} s has the same: at {:.6g} Hz "
-      "its {:g} frames last {:.2g} s {}; `--rate {:.6g}` (in convert `--file-rate`) states it",
+      "the Frame Time {} has few digits: it is read as {:.6g} Hz, but may be a rounded 1 / {:.6g} s; at {:.6g} Hz "
+      "the {:g} frames last {:.2g} s {}; `--rate {:.6g}` (in convert `--file-rate`) sets this rate",
       printed.text, rate, likely, likely, frames, std::abs(longer_s), longer_s > 0 ? "longer" : "shorter", likely);
 }
 
@@ -415,7 +415,8 @@ Result<Clip> ReadBvh(std::string_view bytes, const std::string& file, std::vecto
   // Exporters that announce the number of their last frame write one frame more; drop it, as other readers do.
   if (clip.frames.size() == announced + 1) {
     clip.frames.pop_back();
-    remark(fmt::format("{} rows, but {} frames are announced: the last row was dropped", announced + 1, announced));
+    remark(
+        fmt::format("{} rows, but the file announces {} frames: the last row was dropped", announced + 1, announced));
   }
   if (clip.frames.size() != announced) {
     return Fail(scanner.At(header.frames_place), "the file announces {} frames, but contains {}", announced,
@@ -429,15 +430,15 @@ Result<Clip> ReadBvh(std::string_view bytes, const std::string& file, std::vecto
   constexpr double kMaxRadians = 6.2832, kMoves = 1.2;
   if (const double largest = LargestRotation(clip.frames); largest > kMoves && largest < kMaxRadians) {
     remark(
-        fmt::format("no joint rotates by more than {:.2g} degrees: if the file's angles are radians, convert them to "
-                    "degrees, which BVH files have",
+        fmt::format("no joint rotates by more than {:.2g} degrees; BVH needs degrees: if the file's angles are "
+                    "radians, convert them",
                     largest));
   }
   // A joint with positions and an OFFSET of 0 rests at its position in the first frame. This is usual for our own
   // bodies, so they get no remark.
   const bool is_body = std::ranges::none_of(clip.skeleton.joints, [](const Joint& j) { return !FindRole(j.name); });
   if (TakeOffsetsFromFrame(clip.frames.front(), clip.skeleton) && !is_body)
-    remark("joints with positions and an OFFSET of 0: their rest positions are taken from the first frame");
+    remark("joints with positions and an OFFSET of 0 take their rest positions from the first frame");
   return clip;
 }
 

@@ -45,7 +45,7 @@ Result<void> CheckTimes(const NumberRows& table, std::size_t time_column, const 
 
 Result<void> CheckColumns(std::size_t headings, std::size_t columns, const std::string& file) {
   if (headings == columns) return {};
-  return Fail({file, 1}, "{} headings over {} columns{}", headings, columns,
+  return Fail({file, 1}, "{} headings, but {} columns{}", headings, columns,
               2 * columns >= 3 * headings && headings > 1
                   ? "; if numbers have decimal commas, columns must be separated by semicolons or tabs"
                   : "");
@@ -160,7 +160,7 @@ Result<JointCsv> ReadJointCsv(std::string_view text, const std::string& file) {
     constexpr std::size_t kListed = 8;
     const bool has_more = left_out.size() > kListed;
     left_out.resize(std::min(left_out.size(), kListed));
-    said.push_back("columns of texts are left out: " + Join(left_out) + (has_more ? ", …" : ""));
+    said.push_back("columns with text are left out: " + Join(left_out) + (has_more ? ", …" : ""));
   }
   csv.remark = Join(said, "; ");
   return csv;

@@ -197,7 +197,7 @@ Result<MarkerMotion> ReadMotionBids(std::string_view motion_tsv, std::string_vie
   }
   if (!table.heading.empty())
     return Fail({files[0], 1},
-                "found a line of headings; allowed: only rows of numbers, whose columns _channels.tsv names");
+                "found a line of headings; allowed: only rows of numbers; _channels.tsv names the columns");
   for (std::size_t t = 0; t < table.RowCount(); ++t) {
     const auto row = table.Row(t);
     std::vector<glm::dvec3> places(channels.points.size());

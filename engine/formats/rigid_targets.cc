@@ -26,7 +26,7 @@ double UnitOf(const NumberRows& table) {
 Result<std::vector<TargetFrame>> ReadRigidTargets(std::string_view text, const std::string& file) {
   ASSIGN_OR_RETURN(const NumberRows table, ReadNumberRows(text, file));
   if (table.columns != kPerTarget * kBodyTargetCount) {
-    return Fail({file}, "{} values in a row; a recording of {} targets has {}", table.columns, kBodyTargetCount,
+    return Fail({file}, "{} values in this row; a recording of {} targets has {}", table.columns, kBodyTargetCount,
                 kPerTarget * kBodyTargetCount);
   }
   const double unit = UnitOf(table);

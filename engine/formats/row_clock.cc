@@ -97,7 +97,7 @@ std::string DescribeGrid(const RowGrid& grid, std::size_t twice) {
   }
   std::vector<std::string> said;
   if (holes > 0) {
-    said.push_back(fmt::format("by their times, {} of {} frames are missing, in {} {} of at most {:.3g} s", holes,
+    said.push_back(fmt::format("the times show that {} of {} frames are missing, in {} {} of at most {:.3g} s", holes,
                                grid.frames.size(), places, places == 1 ? "gap" : "gaps",
                                static_cast<double>(longest + 1) / grid.rate_hz));
   }
@@ -105,7 +105,8 @@ std::string DescribeGrid(const RowGrid& grid, std::size_t twice) {
     said.push_back(
         fmt::format("uneven times: {} frames are interpolated at even steps of {:.4g} s", between, 1 / grid.rate_hz));
   }
-  if (twice > 0) said.push_back(fmt::format("{} rows have the same time as another; the last of these is used", twice));
+  if (twice > 0)
+    said.push_back(fmt::format("{} rows repeat another row's time; the last row of each time is used", twice));
   return Join(said, "; ");
 }
 
@@ -216,7 +217,7 @@ Result<std::optional<RowGrid>> GridOfRows(std::span<const double> times_s, std::
   if (times_s.size() > kMaxPerTime * rows.size()) {
     return Fail(
         {file},
-        "{} rows have only {} different times; allowed: times with more decimals, or no times, but frame numbers",
+        "{} rows have only {} different times; allowed: times with more decimals, or frame numbers instead of times",
         times_s.size(), rows.size());
   }
 
@@ -341,7 +342,7 @@ std::string DescribeOtherNumbers(const MarkerRows& rows) {
     if (!(std::abs(counted - timed) >= kMinFrames) || !(std::max(counted, timed) >= 2 * std::min(counted, timed)))
       continue;
     return fmt::format(
-        "the frame numbers go from {:.10g} to {:.10g} while {} goes on by {:.4g} s, the time of {:.3g} frames; the "
+        "the frame numbers go from {:.10g} to {:.10g}, but {} advances by {:.4g} s, the time of {:.3g} frames; the "
         "times are used",
         numbers[i - 1], numbers[i], rows.time_name, rows.times_s[i] - rows.times_s[i - 1], timed);
   }
@@ -422,8 +423,8 @@ Result<BodyMotion> LayOnClock(BodyMotion rows, std::span<const double> times_s, 
     begin = k + 1;
   }
   if (best_end - best_begin < grid->frames.size()) {
-    AddRemark(remark, fmt::format("frames {} to {} of {} are kept (gaps of over {:g} s)", best_begin + 1, best_end,
-                                  grid->frames.size(), kMaxBridged_s));
+    AddRemark(remark, fmt::format("only frames {} to {} of {} are kept: gaps are longer than {:g} s", best_begin + 1,
+                                  best_end, grid->frames.size(), kMaxBridged_s));
   }
   start_s += static_cast<double>(best_begin) / rows.rate_hz;
   // Interpolate every joint.

@@ -61,9 +61,11 @@ TimeUnit UnitByStep(double step, const std::string& times, std::string& remark) 
     if (!is_likely(other) || other.seconds == unit->seconds) continue;
     others.push_back(fmt::format("as {}, it would be {:.4g} Hz", other.name, rate_in(other)));
   }
-  remark = fmt::format("{} taken as {}: as seconds, rows would be more than a second apart; the rate is {:.4g} Hz{}",
-                       times, unit->name, rate_in(*unit),
-                       others.empty() ? "" : " (" + Join(others) + "; `--rate`, in convert `--file-rate`, states it)");
+  remark = fmt::format(
+      "{} taken as {}, because as seconds rows would be more than a second apart; the rate is "
+      "{:.4g} Hz{}",
+      times, unit->name, rate_in(*unit),
+      others.empty() ? "" : " (" + Join(others) + "; `--rate`, in convert `--file-rate`, sets it)");
   return *unit;
 }
 

@@ -243,7 +243,7 @@ Result<MarkerRows> ReadTrcRows(std::string_view text, const std::string& file) {
 Result<MarkerMotion> ReadTrc(std::string_view text, const std::string& file) {
   ASSIGN_OR_RETURN(auto rows, ReadTrcRows(text, file));
   ASSIGN_OR_RETURN(auto laid, LayOnClock(std::move(rows), file));
-  if (laid.rate_hz == 0) return Fail({file, 3, 0}, "DataRate is 0, and the rows have no two different times");
+  if (laid.rate_hz == 0) return Fail({file, 3, 0}, "DataRate is 0, and all rows have the same time");
   return laid;
 }
 

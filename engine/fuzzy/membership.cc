@@ -186,9 +186,8 @@ Result<Shape> ReadShape(const Node& node, const Universe& universe) {
   }
   const Cut top = CutOf(shape, 1);
   if (top.high < universe.low || top.low > universe.high) {
-    return Fail(entry.value.place,
-                "no input of the universe [{}, {}] has grade 1 in this term: the term's top is at {}{}", universe.low,
-                universe.high, top.low, top.high > top.low ? fmt::format(" to {}", top.high) : "");
+    return Fail(entry.value.place, "the universe [{}, {}] does not contain the term's top, {}{}: no input has grade 1",
+                universe.low, universe.high, top.low, top.high > top.low ? fmt::format(" to {}", top.high) : "");
   }
   return shape;
 }

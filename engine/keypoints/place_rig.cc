@@ -135,10 +135,10 @@ std::string LegsText(double stature) {
 Result<double> UnitOf(const RigFile& rig, double file_units, const PlacementOptions& options, std::string& told) {
   constexpr double kUsualStature = 1.7;
   const LengthUnit* likely = rig.has_unit ? LikelyUnit(file_units) : nullptr;
-  const std::string advice =
-      likely != nullptr
-          ? fmt::format("--rig-unit {} makes them {:.3g} m", likely->name, likely->metres * file_units / kStatureOfLeg)
-          : fmt::format("for a person of {:g} m: about --rig-unit {:.2g}", kUsualStature, kUsualStature / file_units);
+  const std::string advice = likely != nullptr ? fmt::format("--rig-unit {} gives legs of {:.3g} m", likely->name,
+                                                             likely->metres * file_units / kStatureOfLeg)
+                                               : fmt::format("for a person of {:g} m: about --rig-unit {:.2g}",
+                                                             kUsualStature, kUsualStature / file_units);
   // A requested unit must give a plausible stature.
   if (options.unit != "auto") {
     const double metres = *MetresOf(options.unit);

@@ -97,8 +97,7 @@ Result<CaptureBody> MedianBody(std::span<const LandmarkPositions> frames) {
   std::array<double, kRoleCount> lengths{};
   for (const Bone& bone : AllBones()) {
     const auto length = MedianBone(joints, bone);
-    if (!length)
-      return Fail({}, "no frame shows the distance of {} from {}", RoleName(bone.child), RoleName(bone.parent));
+    if (!length) return Fail({}, "no frame shows {} and {} together", RoleName(bone.child), RoleName(bone.parent));
     lengths[Index(bone.child)] = *length;
   }
   return BodyOfBones(lengths);

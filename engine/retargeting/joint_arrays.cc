@@ -82,8 +82,8 @@ Result<double> UnitOf(const Npz& arrays, const RawMotion& motion, const std::str
   if (!likely) {
     return Fail(
         {file},
-        "the joints extend {:.3g} m in the median frame, in a unit of {:g} m; allowed: at most {:g} m; `unit` in "
-        "the file or in a joint map states the unit",
+        "the joints extend {:.3g} m in the median frame if the unit is {:g} m; allowed: at most {:g} m; `unit` in "
+        "the file or in a joint map sets the unit",
         unit * spread, unit, kMaxExtent_m);
   }
   notes.push_back(fmt::format("1 unit = {:g} cm, because in units of {:g} m the joints would extend {:.3g} m",
@@ -105,7 +105,7 @@ Result<void> LeaveGapsOut(const std::optional<ArrayRate>& rate, FrameTimes times
                     .time_name = "the array " + times.name};
     ASSIGN_OR_RETURN(markers, LayOnClock(std::move(rows), file));
     if (!rate && !markers.start_s) {
-      return Fail({file}, "{} has no two different times; allowed: times in seconds, or rate_hz", times.name);
+      return Fail({file}, "all times in {} are equal; allowed: different times in seconds, or rate_hz", times.name);
     }
     motion.rate_hz = markers.rate_hz;
     motion.start_s = markers.start_s;

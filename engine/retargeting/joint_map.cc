@@ -217,8 +217,8 @@ class MapFinder {
 
   Result<void> CheckDescends(Role child, Role parent) const {
     if (tree_.DescendsFrom(draft_.JointOf(child), draft_.JointOf(parent))) return {};
-    return Fail({file_}, "the role {} has the joint {}, which does not descend from {}, the {}", RoleName(child),
-                Quote(draft_.NameOf(child)), Quote(draft_.NameOf(parent)), RoleName(parent));
+    return Fail({file_}, "the role {} has the joint {}, which does not descend from {}, the joint of {}",
+                RoleName(child), Quote(draft_.NameOf(child)), Quote(draft_.NameOf(parent)), RoleName(parent));
   }
 
   Result<void> CheckTree() const {

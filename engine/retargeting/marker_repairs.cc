@@ -153,12 +153,12 @@ std::vector<std::string> NamesOfSeveral(const MarkerMotion& markers) {
 void RepairMarkers(MarkerMotion& markers) {
   const auto remark = [&](const std::string& text) { markers.remark += (markers.remark.empty() ? "" : "; ") + text; };
   if (const int zeros = LeaveZerosOut(markers); zeros > 0)
-    remark(fmt::format("{} positions at 0, 0, 0 taken as gaps", zeros));
+    remark(fmt::format("{} positions at 0, 0, 0 are taken as gaps", zeros));
   if (const int far = LeaveFarOut(markers); far > 0) {
-    remark(fmt::format("{} positions that are a hundred times as far away as the others taken as gaps", far));
+    remark(fmt::format("{} positions a hundred times as far away as the others are taken as gaps", far));
   }
   if (const int equal = LeaveEqualNumbersOut(markers); equal > 0) {
-    remark(fmt::format("{} positions of three equal numbers, which recur, taken as gaps", equal));
+    remark(fmt::format("{} repeated positions of three equal numbers are taken as gaps", equal));
   }
   if (const auto several = NamesOfSeveral(markers); !several.empty()) {
     constexpr std::size_t kListed = 3;

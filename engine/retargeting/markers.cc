@@ -330,12 +330,10 @@ Result<std::optional<MarkerBody>> BodyOf(const MarkerMotion& markers, const Mark
     const double stature = MiddleStature(scaled->motion);
     if (stature < kMinPerson || stature > kMaxPerson) continue;
     scaled->changes.push_back(fmt::format(
-        "in the file's unit the body would be {:.3g} m tall: all lengths are taken to be {:g} times as long", told,
-        scale));
+        "in the file's unit the body would be {:.3g} m tall: all lengths are multiplied by {:g}", told, scale));
     return scaled;
   }
-  return Fail({file},
-              "its markers show a body {:.3g} m tall; allowed: {:g} to {:g} m; their unit may be a different one", told,
+  return Fail({file}, "its markers show a body {:.3g} m tall; allowed: {:g} to {:g} m; is their unit right?", told,
               kMinStature, kMaxStature);
 }
 

@@ -81,11 +81,12 @@ std::string DescribeRootTravel(const Clip& clip, const JointMap& map) {
   constexpr double kAsWell = 1.5, kImpossible = 3;  // a ratio of two speeds; a speed in statures per second
   if (best < 1 && as_it_is < kImpossible) return "";
   if (slide(0) > kAsWell * least) {
-    return fmt::format("its feet slide unless the root's positions are {:.4g} times as large: they seem to have "
-                       "another unit than the limbs",
-                       best);
+    return fmt::format(
+        "its feet slide, but stand if the root's positions are multiplied by {:.4g}: root and limbs "
+        "seem to have different units",
+        best);
   }
-  return "its root's positions seem to have a smaller unit than the limbs, because no foot ever stands";
+  return "no foot ever stands: the root's positions seem to have a smaller unit than the limbs";
 }
 
 }  // namespace etude

@@ -351,8 +351,8 @@ std::string DescribeImpossibleHeight(std::span<const BodyPose> poses) {
   }
   const double legs = LowerPercentile(OverFrames(all, LeftLegLength), 0.5);
   if (stature > kMaxInfant_m || legs < kMaxInfantLegs * stature) return "";
-  return fmt::format(
-      "the body is {:.3g} m tall, but its legs are as long for that height as an adult's; is its unit right?", stature);
+  return fmt::format("the body is {:.3g} m tall, but its legs are an adult's share of that height; is its unit right?",
+                     stature);
 }
 
 std::string DescribeLikelyUnit(double stature, double metres_per_unit) {

@@ -298,7 +298,7 @@ UpFinding FindUp(std::span<const BodyPose> all, double rate_hz, const UpRule& ru
   }
   const bool is_selectable = best == nullptr || !rule.is_y_or_z || best->y + best->z > 0;
   if (!found.doubt.empty()) {
-    found.doubt += is_selectable ? "; --up overrules that" : "; allowed: Y or Z, so the file must be rotated first";
+    found.doubt += is_selectable ? "; --up sets another axis" : "; allowed: Y or Z, so the file must be rotated first";
   }
   return found;
 }

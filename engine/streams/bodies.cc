@@ -133,7 +133,7 @@ Result<void> Bodies::Choose(const StreamReading& reading, const std::string& fil
   if (bodies_.empty()) return {};
   if (ambiguous_) {
     recording.remarks.push_back(fmt::format(
-        "several bodies of a frame have {} (first in frame {}); each is read as the nearest body of the frames before",
+        "several bodies of one frame have {} (first in frame {}); each continues the body that was nearest before",
         ambiguous_->id.empty() ? "no id" : "the id " + ambiguous_->id, ambiguous_->frame));
   }
   JoinContinued(recording);

@@ -124,7 +124,7 @@ Result<void> OrderTimes(StreamRecording& recording, const std::string& file) {
   }
   if (const std::size_t twice = recording.frames.size() - ordered.size(); twice > 0) {
     recording.remarks.push_back(
-        fmt::format("{} frames have the same time as another; the first of these is used", twice));
+        fmt::format("{} frames repeat another frame's time; the first frame of each time is used", twice));
   }
   recording.frames = std::move(ordered);
   return {};
@@ -149,8 +149,8 @@ Result<void> CheckRate(const StreamRecording& recording, const std::string& file
       !rate || (*rate >= kMinMotionRate_hz * (1 - kRounding) && *rate <= kMaxMotionRate_hz * (1 + kRounding));
   if (is_allowed) return {};
   return Fail({file},
-              "its times give {:.3g} Hz; allowed: {:g} to {:g} Hz, with times in the format's unit; `--rate 30` reads "
-              "frames at a rate, without their times",
+              "its times give {:.3g} Hz; allowed: {:g} to {:g} Hz, with times in the format's unit; `--rate 30` "
+              "replaces the times",
               *rate, kMinMotionRate_hz, kMaxMotionRate_hz);
 }
 
@@ -208,7 +208,7 @@ std::string RateDoubt(const StreamRecording& recording) {
   if (!rate || IsKinectRate(*rate) || recording.format == kEtudeCsv || recording.format == kTrc) return "";
   return fmt::format(
       "its times give {:.3g} Hz, which no Kinect has (5 to 130 Hz): the clock may be in another unit; `--rate 30` "
-      "reads frames at a rate, without their times",
+      "replaces the times",
       *rate);
 }
 
@@ -299,7 +299,7 @@ Result<StreamRecording> ReadTrcStream(std::string_view text, const std::string& 
   // Place rows of constant rate exactly one period apart, because their written times are rounded.
   ASSIGN_OR_RETURN(const auto grid, GridOfRows(rows.times_s, rows.lines, told, markers.names.size(), file));
   StreamRecording recording{.format = StreamFormat::kTrc, .records_times = true, .is_level = true};
-  if (!grid && !told) return Fail({file, 3}, "DataRate is 0, and the rows have no two different times");
+  if (!grid && !told) return Fail({file, 3}, "DataRate is 0, and all rows have the same time");
   recording.rate_hz = grid ? grid->rate_hz : markers.rate_hz;
   for (const std::string& remark : {markers.remark, scale.remark}) {
     if (!remark.empty()) recording.remarks.push_back(remark);

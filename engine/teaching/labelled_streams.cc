@@ -103,8 +103,7 @@ Result<std::vector<LabelledPart>> MatchLabels(const std::vector<Label>& labels, 
       part.end = std::max(part.begin + 1, frames.end);
     }
   }
-  if (parts.empty())
-    return Fail({file}, "none of the labels belongs to a recording that was given, such as {}", streams.front().name);
+  if (parts.empty()) return Fail({file}, "no label belongs to a given recording, such as {}", streams.front().name);
   std::ranges::stable_sort(parts, [](const LabelledPart& a, const LabelledPart& b) {
     return a.stream != b.stream ? a.stream < b.stream : a.begin < b.begin;
   });

@@ -88,7 +88,7 @@ Result<PoseTarget> ReadTarget(const Node::Entry& entry, double tolerance_deg) {
     ASSIGN_OR_RETURN(target.degrees, AsNumber(entry.value));
   }
   if (target.tolerance_deg > 0) return target;
-  return Fail(entry.place, "no tolerance_deg, neither for this angle nor for its pose");
+  return Fail(entry.place, "no tolerance_deg for this angle or its pose");
 }
 
 Result<TaughtPose> ReadPose(const Node& node) {

@@ -696,7 +696,8 @@ class Mistakes(EtudeCase):
     def test_what_is_no_person_is_refused_with_the_factor(self):
         told, errors, _ = self.capture("Pose2Sim", more=("--rig-unit", "cm"))
         self.assertIsNone(errors)
-        self.assertRegex(told, r"in cm the person would have legs of 0\.008\d* m from hip to ankle; .*; --rig-unit m makes them 0\.8\d* m")
+        self.assertRegex(told, r"in cm the person would have legs of 0\.008\d* m from hip to ankle; .*; "
+                               r"--rig-unit m gives legs of 0\.8\d* m")
         told, errors, _ = self.capture("Pose2Sim", more=("--rig-up", "-z"))
         self.assertIsNone(errors)
         self.assertIn("with -z up, everything would be upside down", told)

@@ -261,7 +261,8 @@ class Formats(MotionFileCase):
         for name in ("time.csv", "frame.csv", "a.trc"):
             told = self.info(self.folder / name)["clips"][0]
             self.assertEqual((told["frames"], told["rate_hz"]), (60, 30), name)
-            self.assertIn("by their times, 15 of 60 frames are missing, in 1 gap of at most 0.533 s", told["body"]["note"])
+            self.assertIn("the times show that 15 of 60 frames are missing, in 1 gap of at most 0.533 s",
+                          told["body"]["note"])
             read = self.joints(self.folder / name)
             self.assertEqual(len(read), 60)
             floor = read[0]["head"][1] - whole[0]["head"][1]

@@ -318,7 +318,7 @@ Result<OpenCvCalibration> CalibrateCamera(std::span<const TargetView> views, con
     case LensModel::kRadial3:
       break;
     case LensModel::kAsInCamera:
-      return Fail({}, "OpenCV's calibrateCamera cannot keep the lens distortion as it is in the given camera");
+      return Fail({}, "OpenCV's calibrateCamera cannot keep the given camera's lens distortion");
   }
   // Convert the views; OpenCV's pixel centres are at integers, ours at half-integers.
   std::vector<std::vector<cv::Point3f>> object_points;

@@ -88,7 +88,7 @@ void CompareClips(const ClipTags& file, const ClipTags& now, TagsComparison& com
   for (const TaggedFrame& frame : file.bridge_frames) {
     const auto found = frames_now.find(frame.frame);
     if (found == frames_now.end()) {
-      comparison.differences.push_back(fmt::format("clip {}: frame {} is not a bridge frame now", name, frame.frame));
+      comparison.differences.push_back(fmt::format("clip {}: frame {} is no longer a bridge frame", name, frame.frame));
       continue;
     }
     ++comparison.bridge_frames;
@@ -99,7 +99,7 @@ void CompareClips(const ClipTags& file, const ClipTags& now, TagsComparison& com
     frames_now.erase(found);
   }
   for (const auto& [frame, tagged] : frames_now) {
-    comparison.differences.push_back(fmt::format("clip {}: frame {} is a bridge frame only now", name, frame));
+    comparison.differences.push_back(fmt::format("clip {}: frame {} is now a bridge frame, too", name, frame));
   }
 }
 
@@ -109,7 +109,7 @@ TagsComparison CompareTags(const BridgeTags& file, const BridgeTags& now) {
   TagsComparison comparison;
   // Compare the rules.
   const auto compare = [&](const char* what, const auto& in_file, const auto& found) {
-    if (in_file != found) comparison.differences.push_back(fmt::format("{} is a different one now", what));
+    if (in_file != found) comparison.differences.push_back(fmt::format("{} is now different", what));
   };
   compare("the fuzzy system's name", file.system, now.system);
   compare("the set of membership functions", file.memberships_digest, now.memberships_digest);

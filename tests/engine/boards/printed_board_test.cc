@@ -216,7 +216,7 @@ TEST(CalibrateByOpenCv, FindsEveryNumberOfALens) {
   EXPECT_EQ(pinhole.distortion, Distortion{});
   EXPECT_GT(pinhole.rms_px, 0.3) << "the control";
   EXPECT_EQ(CalibrateByOpenCv(views, {640, 480}, LensModel::kAsInCamera).error().message,
-            "OpenCV's calibrateCamera cannot keep the lens distortion as it is in the given camera");
+            "OpenCV's calibrateCamera cannot keep the given camera's lens distortion");
 }
 
 }  // namespace

@@ -169,7 +169,7 @@ TEST(RefineRig, SaysWhatIsWrongWithViews) {
   EXPECT_EQ(reason({{0, 0, pairs}, {1, 1, broken}}), "camera 2: a point pair is not finite");
   broken[3].world = TrueCamera().p_WC + glm::dvec3(5, 0, 5);
   EXPECT_EQ(reason({{0, 0, broken}, {1, 0, pairs}, {1, 1, pairs}}),
-            "the first estimate of the cameras does not see every point; point pairs may be mixed up");
+            "in the first estimate, a camera cannot see one of its points; point pairs may be mixed up");
 }
 
 }  // namespace

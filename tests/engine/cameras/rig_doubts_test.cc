@@ -53,7 +53,7 @@ TEST(RigDoubts, NamesCamerasThatLookAway) {
   std::vector<NamedCamera> cameras = Around(std::vector{0.0, 20.0, -20.0});
   LookAway(cameras[2].camera);
   EXPECT_THAT(RigDoubts(cameras),
-              ElementsAre(StartsWith("cam3: no place in its picture is in the picture of another")));
+              ElementsAre(StartsWith("cam3: no other camera sees any place that this camera sees")));
   for (const std::vector<double>& angles : {std::vector{0.0, 180.0}, {0.0, 120.0, 240.0}, {0.0, 90.0, 180.0, 270.0}}) {
     cameras = Around(angles);
     for (NamedCamera& named : cameras) LookAway(named.camera);
@@ -67,9 +67,8 @@ TEST(RigDoubts, NamesCamerasThatLookAway) {
 TEST(RigDoubts, NamesAPrincipalPointOutsideOfThePicture) {
   std::vector<NamedCamera> cameras = Around(std::vector{0.0, 30.0});
   cameras[1].camera.intrinsics.cx = 1400;
-  EXPECT_THAT(
-      RigDoubts(cameras),
-      ElementsAre(StartsWith("cam2: its principal point (1400, 360) lies outside of its picture of 1280 x 720")));
+  EXPECT_THAT(RigDoubts(cameras),
+              ElementsAre(StartsWith("cam2: the principal point (1400, 360) is outside the picture of 1280 x 720")));
   cameras[1].camera.intrinsics.cx = -1;
   EXPECT_EQ(RigDoubts(cameras).size(), 1u);
   cameras[1].camera.intrinsics.cx = 1;

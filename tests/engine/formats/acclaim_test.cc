@@ -90,7 +90,7 @@ TEST(Acclaim, AnglesThatAreImpossibleInTheStatedUnitAreTakenInTheOtherOrSaid) {
     return remarks.empty() ? "" : remarks[0];
   };
   EXPECT_EQ(said("1\nroot 5 0 0 0 0 0\nupper 1.6 0 0\n"),
-            "its angles stay within 1.6 degrees: if they are radians, a line :RADIANS must say so");
+            "its angles stay within 1.6 degrees; if they are radians, add a line :RADIANS");
   EXPECT_EQ(said(frames), "");
   EXPECT_EQ(said("1\nroot 5 0 0 0 0 0\nupper 0 0 0\n"), "");
 }
@@ -105,7 +105,7 @@ TEST(Acclaim, ARootThatTurnsOnAndOnMayBeInRadians) {
   const int end = clip->skeleton.Find("lower_end");
   ExpectAcclaimNear(AcclaimGlobals(*clip, 0)[end].position, AcclaimGlobals(*wanted, 0)[end].position);
   ASSERT_EQ(remarks.size(), 1u);
-  EXPECT_EQ(remarks[0], "its root turns by 18.85 radians: if its angles are degrees, a line :DEGREES must say so");
+  EXPECT_EQ(remarks[0], "its root turns by 18.85 radians; if its angles are degrees, add a line :DEGREES");
 }
 
 TEST(Acclaim, ABoneWithoutValuesIsRefusedOrSaid) {
@@ -115,12 +115,14 @@ TEST(Acclaim, ABoneWithoutValuesIsRefusedOrSaid) {
     return testing::Refusal(ReadAcclaimMotion(text, *skeleton, "a.amc"));
   };
   EXPECT_EQ(refusal(head + arm + second), "a.amc: bone 'upper' is missing in the last frames");
-  const char* const once = "bone 'upper' is twice in this frame, or missing in an earlier one; allowed: once in each";
+  const char* const once =
+      "bone 'upper' is twice in this frame, or missing in an earlier frame; allowed: once in each frame";
   EXPECT_EQ(refusal(head + second + arm), std::string("a.amc:6:1: ") + once);
   EXPECT_EQ(refusal(head + arm + arm), std::string("a.amc:5:1: ") + once);
   std::vector<std::string> remarks;
   EXPECT_TRUE(ReadAcclaimMotion(head + second, *skeleton, "a.amc", &remarks));
-  EXPECT_EQ(remarks, std::vector<std::string>{"no frame has values of these bones, which keep their rest pose: upper"});
+  EXPECT_EQ(remarks,
+            std::vector<std::string>{"these bones have no values in any frame and keep their rest pose: upper"});
 }
 
 TEST(Acclaim, RefusesWhatHasNoBones) {

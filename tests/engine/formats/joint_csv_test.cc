@@ -96,7 +96,7 @@ TEST(JointCsv, TakesTabsDecimalCommasQuotesAndTimesSince1970AndLeavesTextsOut) {
     EXPECT_EQ(read->times_s, (std::vector<double>{0, 0.25}));
     EXPECT_EQ(read->remark, std::string("its times begin at 1600000000 s: they are counted from its first row; ") +
                                 (point == ',' ? "its numbers have decimal commas; " : "") +
-                                "columns of texts are left out: label, head_note");
+                                "columns with text are left out: label, head_note");
   }
   const auto read = [](const std::string& text) { return testing::Refusal(ReadJointCsv(text, "m.csv")); };
   // Commas that separate thousands.
@@ -117,7 +117,7 @@ TEST(JointCsv, TakesTabsDecimalCommasQuotesAndTimesSince1970AndLeavesTextsOut) {
   EXPECT_TRUE(ReadJointCsv(few + "1;865,636;2\n0;1,234;2\n", "m.csv")) << "the control: each column is alike";
   EXPECT_TRUE(ReadJointCsv(few + "0,5;1,234;2\n1.5;1;2\n", "m.csv")) << "0,5 is a decimal comma";
   EXPECT_EQ(read("head_x_m,head_y_m,head_z_m\n0,1,0,2,0,3\n"),
-            "m.csv:1: 3 headings over 6 columns; if numbers have decimal commas, columns must be separated by "
+            "m.csv:1: 3 headings, but 6 columns; if numbers have decimal commas, columns must be separated by "
             "semicolons or tabs");
   EXPECT_EQ(read("head_x_m,head_y_m,head_z_m\n1,far,2\n"),
             "m.csv:2: head_y_m: 'far'; allowed: a number, or nan for a missing one");

@@ -189,8 +189,10 @@ TEST(Amass, RefusesArraysThatAreNoMotion) {
               HasSubstr("allowed: 1 to 10000"));
   EXPECT_THAT(reason([](Npz& npz) { npz.arrays["trans"].values[4] = 2e6; }), HasSubstr("trans of frame 1 is 2000000"));
   EXPECT_THAT(reason([](Npz& npz) { npz.arrays["poses"].values[3] = NAN; }), HasSubstr("poses of frame 0 is nan"));
-  EXPECT_THAT(reason([](Npz& npz) { npz.arrays["poses"].values[156 + 4] = -90; }),
-              HasSubstr("poses of frame 1 rotates left_hip by 90 radians; allowed: at most 12.57 (4π); are they degrees?"));
+  EXPECT_THAT(
+      reason([](Npz& npz) { npz.arrays["poses"].values[156 + 4] = -90; }),
+      HasSubstr(
+          "poses of frame 1 rotates left_hip by 90 radians; allowed: at most 12.57 (4π); are the values degrees?"));
 }
 
 std::string MotiveTake(const std::string& unit = "Centimeters", const std::string& type = "Bone") {

@@ -80,9 +80,9 @@ TEST(RowClock, RowsMoreThanASecondApartAreMilliseconds) {
   ASSERT_OK(laid, LayOnClock(RowsAt(times), "a.csv"));
   EXPECT_NEAR(laid->rate_hz, 30, 1e-9);
   EXPECT_EQ(laid->frames.size(), 60u);
-  EXPECT_EQ(
-      laid->remark,
-      "its times are taken as milliseconds: as seconds, rows would be more than a second apart; the rate is 30 Hz");
+  EXPECT_EQ(laid->remark,
+            "its times are taken as milliseconds, because as seconds rows would be more than a second apart; the rate "
+            "is 30 Hz");
 }
 
 /// Returns `count` rows whose times are counted in units of `unit_s` seconds, rounded if the unit is small.
@@ -115,7 +115,8 @@ TEST(RowClock, TimesInOtherUnitsGetTheirRate) {
   }
   ASSERT_OK(wrong, LayOnClock(RowsCounted(30, 1e-3, 25), "a"));
   EXPECT_EQ(wrong->rate_hz, 30);
-  EXPECT_THAT(wrong->remark, HasSubstr("the column Time is taken as milliseconds: as seconds, rows would be more"));
+  EXPECT_THAT(wrong->remark,
+              HasSubstr("the column Time is taken as milliseconds, because as seconds rows would be more"));
   EXPECT_THAT(wrong->remark, HasSubstr("DataRate states 25 Hz, but the column Time runs at 30 Hz, which is used"));
 }
 
@@ -123,7 +124,7 @@ TEST(RowClock, HundredthsThatMayBeMillisecondsAreSaid) {
   ASSERT_OK(laid, LayOnClock(RowsCounted(30, 1e-2), "a"));
   EXPECT_NEAR(laid->rate_hz, 300, 1e-6);
   EXPECT_THAT(laid->remark, HasSubstr("the rate is 300 Hz (as hundredths of a second, it would be 30 Hz; `--rate`, in "
-                                      "convert `--file-rate`, states it)"));
+                                      "convert `--file-rate`, sets it)"));
 }
 
 TEST(RowClock, RatesAboveTenKilohertzAreRefused) {
@@ -172,7 +173,7 @@ TEST(RowClock, TimesThatSeveralRowsShareByRoundingKeepTheirRate) {
   times.insert(times.begin() + 30, times[30]);
   ASSERT_OK(twice, LayOnClock(RowsAt(times, 0, 0.01), "a"));
   EXPECT_EQ(twice->rate_hz, 100);
-  EXPECT_EQ(twice->remark, "1 rows have the same time as another; the last of these is used");
+  EXPECT_EQ(twice->remark, "1 rows repeat another row's time; the last row of each time is used");
 }
 
 TEST(RowClock, CoarseTimesKeepTheirRateBesideHoles) {
@@ -203,7 +204,7 @@ TEST(RowClock, CoarseTimesKeepTheirRateBesideHoles) {
   ASSERT_OK(twice, LayOnClock(RowsAt(times, 0, 0.01), "a"));
   EXPECT_EQ(twice->rate_hz, 100);
   EXPECT_EQ(twice->frames.size(), 200u);
-  EXPECT_THAT(twice->remark, HasSubstr("1 rows have the same time as another; the last of these is used"));
+  EXPECT_THAT(twice->remark, HasSubstr("1 rows repeat another row's time; the last row of each time is used"));
 }
 
 TEST(RowClock, TimesSince1970AndInSmallerUnitsCountFromTheFirstRow) {
@@ -260,7 +261,7 @@ TEST(RowClock, OfEqualTimesTheLastCounts) {
   ASSERT_OK(laid, LayOnClock(std::move(rows), "a"));
   EXPECT_EQ(laid->frames.size(), 40u);
   EXPECT_LT(FarthestFromCurve(*laid), 1e-9);
-  EXPECT_EQ(laid->remark, "1 rows have the same time as another; the last of these is used");
+  EXPECT_EQ(laid->remark, "1 rows repeat another row's time; the last row of each time is used");
 }
 
 TEST(RowClock, RefusesWhatIsNoClock) {
@@ -280,7 +281,7 @@ TEST(RowClock, RefusesWhatIsNoClock) {
               HasSubstr("allowed: 1e+07 missing values in total, with 3 values per frame"));
   EXPECT_EQ(
       reason({0, 0, 0, 0, 0, 0, 1, 2, 2, 2, 2, 2, 2}),
-      "a: 13 rows have only 3 different times; allowed: times with more decimals, or no times, but frame numbers");
+      "a: 13 rows have only 3 different times; allowed: times with more decimals, or frame numbers instead of times");
   EXPECT_EQ(reason({nan, nan, nan}), "no complaint");
   EXPECT_EQ(reason({4, 4, 4}), "no complaint") << "a column that tells nothing";
 }
@@ -322,7 +323,7 @@ TEST(RowClock, OfMotiveIsItsColumnTimeElseItsFrameNumbers) {
     EXPECT_FALSE(take->frames[110][0]);
     EXPECT_LT(FarthestFromCurve(*take), 2e-6);
     EXPECT_THAT(take->remark,
-                HasSubstr("210 rows, but Total Exported Frames is 240; by their times, 30 of 240 frames"));
+                HasSubstr("210 rows, but Total Exported Frames is 240; the times show that 30 of 240 frames"));
   }
 }
 

@@ -100,7 +100,7 @@ TEST(ReadTrc, SaysWhereFrameNumbersJumpAndTimesDoNot) {
     text.replace(text.rfind(old), old.size(), fmt::format("\n{}\t", t + 20));
   }
   EXPECT_EQ(ReadTrc(text, "a.trc")->remark,
-            "the frame numbers go from 30 to 51 while the column Time goes on by 0.02 s, the time of 1 frames; the "
+            "the frame numbers go from 30 to 51, but the column Time advances by 0.02 s, the time of 1 frames; the "
             "times are used");
 }
 
@@ -116,7 +116,7 @@ TEST(ReadTrc, TakesTheRateOfItsTimesWhereDataRateIsZero) {
   EXPECT_EQ(read->rate_hz, 50);
   EXPECT_EQ(read->remark, "");
   EXPECT_EQ(testing::Refusal(ReadTrc(AtFiftyHertz(0, 1), "a.trc")),
-            "a.trc:3: DataRate is 0, and the rows have no two different times");
+            "a.trc:3: DataRate is 0, and all rows have the same time");
   std::string timeless = AtFiftyHertz(0, 2);
   for (const char* time : {"7.00", "7.02"}) timeless.erase(timeless.find(time), 4);
   EXPECT_EQ(testing::Refusal(ReadTrc(timeless, "a.trc")), "a.trc:3: DataRate is 0, and the rows have no times");

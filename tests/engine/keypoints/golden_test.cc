@@ -63,7 +63,7 @@ TEST(KeypointsGolden, PeopleRecoveredAndAdjusted) {
 
 TEST(MedianBody, SaysWhatNoFrameShows) {
   const auto none = MedianBody(std::vector<LandmarkPositions>(3));
-  EXPECT_EQ(none.error().message, "no frame shows the distance of spine from hip_centre");
+  EXPECT_EQ(none.error().message, "no frame shows spine and hip_centre together");
 }
 
 }  // namespace

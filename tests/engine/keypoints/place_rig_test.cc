@@ -102,10 +102,9 @@ TEST(PlaceRig, TakesTheUnitThatIsToldAndNoOtherPersonThanOne) {
   }
   // If a person's legs are 12 % short, the message suggests the correct unit, and not a scale that lengthens the legs.
   const auto shorter = Stander([](glm::dvec3 p) { return 0.88 * p; });
-  EXPECT_EQ(
-      testing::Message(PlaceRig(SomeRig(), shorter, kPlaceRate, {.unit = "mm"})),
-      "in mm the person would have legs of 0.000748 m from hip to ankle; allowed: 0.25 to 1.1 m; --rig-unit m makes "
-      "them 0.748 m");
+  EXPECT_EQ(testing::Message(PlaceRig(SomeRig(), shorter, kPlaceRate, {.unit = "mm"})),
+            "in mm the person would have legs of 0.000748 m from hip to ankle; allowed: 0.25 to 1.1 m; --rig-unit m "
+            "gives legs of 0.748 m");
 }
 
 TEST(PlaceRig, FindsTheAxisThatIsUpAndTheFloorUnderTheFeet) {

@@ -72,7 +72,7 @@ TEST(ArrayTimes, PlaceTheFramesWithOrWithoutARate) {
       EXPECT_LT(FarthestFromCurve(*motion), 1e-9);
       for (std::size_t f = 0; f < 120; ++f) EXPECT_EQ(std::isnan(motion->At(f, 3).y), f >= 40 && f < 60) << f;
       EXPECT_THAT(motion->notes,
-                  ElementsAre("by their times, 20 of 120 frames are missing, in 1 gap of at most 0.7 s"));
+                  ElementsAre("the times show that 20 of 120 frames are missing, in 1 gap of at most 0.7 s"));
     }
   }
   // Times in milliseconds that begin late.
@@ -124,7 +124,7 @@ TEST(ArrayTimes, ThatAreNoClockAreRefused) {
   };
   EXPECT_THAT(refusal("times", std::vector<double>(119, 0)),
               HasSubstr("times has 119 values, and positions have 120 frames; allowed: one time for each frame"));
-  EXPECT_THAT(refusal("times", std::vector<double>(120, 3)), HasSubstr("times has no two different times"));
+  EXPECT_THAT(refusal("times", std::vector<double>(120, 3)), HasSubstr("all times in times are equal"));
   std::vector<double> backwards = Times(false);
   backwards[9] = 0;
   EXPECT_THAT(refusal("times", backwards), HasSubstr("allowed: a clock that does not run backwards"));

@@ -106,8 +106,9 @@ TEST(JointMap, RefusesTwoHalvesWithoutACommonJoint) {
 TEST(JointMap, RefusesAKneeThatDoesNotHangFromItsHip) {
   Skeleton crossed = testing::PersonSkeleton();
   crossed.joints[crossed.Find("RightLeg")].parent = crossed.Find("LeftUpLeg");
-  EXPECT_EQ(testing::Message(FindJointMap(crossed, "crossed.bvh")),
-            "the role right_knee has the joint 'RightLeg', which does not descend from 'RightUpLeg', the right_hip");
+  EXPECT_EQ(
+      testing::Message(FindJointMap(crossed, "crossed.bvh")),
+      "the role right_knee has the joint 'RightLeg', which does not descend from 'RightUpLeg', the joint of right_hip");
 }
 
 TEST(JointMap, RefusesTwoHipsOnOneSide) {
@@ -431,7 +432,8 @@ TEST(JointMap, TakesFeetThatHangFromControlsInsteadOfTheLegs) {
   Skeleton crossed = testing::PersonSkeleton();
   crossed.joints[crossed.Find("RightFoot")].parent = crossed.Find("LeftLeg");
   EXPECT_EQ(testing::Message(FindJointMap(crossed, "crossed.glb")),
-            "the role right_ankle has the joint 'RightFoot', which does not descend from 'RightLeg', the right_knee");
+            "the role right_ankle has the joint 'RightFoot', which does not descend from 'RightLeg', the joint of "
+            "right_knee");
 }
 
 TEST(JointMap, TakesTaughtJointsBeforeAnyName) {
@@ -440,8 +442,9 @@ TEST(JointMap, TakesTaughtJointsBeforeAnyName) {
   horse.joints[horse.Find("RightFoot")].name = "Wheel";
   EXPECT_THAT(FindJointMap(horse, "horse.bvh")->by_anatomy, ElementsAre(kLeftElbow, kRightAnkle));
   const JointMapOverrides taught{{{kLeftElbow, {"Hoof", {}}}, {kRightAnkle, {"Wheel", {}}}, {kLeftHand, {"LeftHand", {}}}}};
-  EXPECT_EQ(testing::Message(FindJointMap(horse, "horse.bvh", &taught)),
-            "the role left_hand has the joint 'LeftHand', which does not descend from 'LeftHand', the left_wrist")
+  EXPECT_EQ(
+      testing::Message(FindJointMap(horse, "horse.bvh", &taught)),
+      "the role left_hand has the joint 'LeftHand', which does not descend from 'LeftHand', the joint of left_wrist")
       << "taught joints are checked as well";
 
   const JointMapOverrides better{{{kLeftElbow, {"Hoof", {}}}, {kRightAnkle, {"Wheel", {}}}, {kHead, {"Head", {}}}}};

@@ -126,10 +126,9 @@ TEST(MarkerPeople, WhoLackMarkersAreSaid) {
       Add(take, 2, second, 12);
       ASSERT_OK(bodies, FindMarkerBodies(take, "a.trc"));
       ASSERT_EQ(bodies->size(), 1u);
-      EXPECT_THAT(bodies->front().Note(),
-                  HasSubstr("markers of the same names that may be another person's (" + second("Head") +
-                            ", …): they "
-                            "are not used"));
+      EXPECT_THAT(bodies->front().Note(), HasSubstr("more markers with the same names (" + second("Head") +
+                                                    ", …): they "
+                                                    "are not used"));
       EXPECT_NEAR(bodies->front().motion.poses[0][Role::kRightAnkle].x, -.09, 1e-9) << "not mixed";
     }
   }

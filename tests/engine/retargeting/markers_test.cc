@@ -247,7 +247,7 @@ TEST(MarkersUp, OfPeopleWhoLieCrawlOrStandOnTheirHandsIsTheFormatsAxis) {
       EXPECT_LT(OffUp(trc->front(), poses), 1e-9) << trc->front().Note();
       EXPECT_LT(OffUp(c3d->front(), poses), 1e-9) << c3d->front().Note();
       EXPECT_THAT(trc->front().up.doubt,
-                  HasSubstr("Y is the usual axis of TRC files, so it is assumed; --up overrules"));
+                  HasSubstr("Y is the usual axis of TRC files, so it is assumed; --up sets another axis"));
     }
   }
 }
@@ -283,7 +283,7 @@ TEST(Markers, WithNumbersForGapsTwiceTheSameNameOrExchangedSidesAreSaid) {
   // A gap marked by a number such as -9999 must not move the floor.
   MarkerMotion far = markers;
   for (std::size_t t = 10; t < 14; ++t) far.frames[t].front() = glm::dvec3(-9999);
-  EXPECT_THAT(changes(far), HasSubstr("4 positions that are a hundred times as far away as the others taken as gaps"));
+  EXPECT_THAT(changes(far), HasSubstr("4 positions a hundred times as far away as the others are taken as gaps"));
   EXPECT_THAT(changes(far), Not(HasSubstr("floor was at -")));
   MarkerMotion twice = markers;
   twice.names.push_back(twice.names.front());
@@ -333,7 +333,7 @@ TEST(Markers, OfThreeEqualNumbersThatRecurAreGaps) {
     for (std::size_t t = 10; t < 14; ++t) take.frames[t][Index(Role::kLeftHand)] = gap;
     ASSERT_OK(bridged, FindMarkerBodies(take, "a.trc"));
     EXPECT_LT(FurthestJoint(bridged->front().motion), 0.1);
-    EXPECT_THAT(bridged->front().Note(), HasSubstr("4 positions of three equal numbers, which recur, taken as gaps"));
+    EXPECT_THAT(bridged->front().Note(), HasSubstr("4 repeated positions of three equal numbers are taken as gaps"));
   }
   // A marker may pass such a point once.
   MarkerMotion once = OwnJoints();
@@ -350,9 +350,9 @@ TEST(Markers, OfALimbThatAreAlwaysAtZeroAreGaps) {
     const auto bodies = FindMarkerBodies(changed, "a.trc", {.up = TrcUp()});
     return bodies ? bodies->front().Note() : ToString(bodies.error());
   };
-  EXPECT_THAT(at_zero("LBigToe"), HasSubstr("left_foot; 60 positions at 0, 0, 0 taken as gaps"));
+  EXPECT_THAT(at_zero("LBigToe"), HasSubstr("left_foot; 60 positions at 0, 0, 0 are taken as gaps"));
   EXPECT_THAT(at_zero("LKnee"), HasSubstr("lacks left_knee"));
-  EXPECT_THAT(at_zero("LKnee"), HasSubstr("; 60 positions at 0, 0, 0 taken as gaps"));
+  EXPECT_THAT(at_zero("LKnee"), HasSubstr("; 60 positions at 0, 0, 0 are taken as gaps"));
 }
 
 TEST(Markers, ThatNoFrameShowsAreAbsent) {
@@ -374,7 +374,7 @@ TEST(MarkersUp, OfPeopleWhoStandOnTheirHeadsIsSaidToBeTheOther) {
   const auto down = [](glm::dvec3 p) { return glm::dvec3(p.x, -p.y, -p.z); };
   ASSERT_OK(motive, FindMarkerBodies(Keypoints(poses, down), "a.csv", {.up = MotiveUp()}));
   EXPECT_EQ(motive->front().up.doubt,
-            "the body stands along −Y, but Y is the convention of Motive's exports; --up overrules that");
+            "the body stands along −Y, but Y is the convention of Motive's exports; --up sets another axis");
 }
 
 TEST(MarkersUp, OfPeopleWhoLieAndThenStandIsTheAxisThatKeepsTheFloor) {
@@ -404,7 +404,7 @@ TEST(MarkersUp, OfPeopleWhoStandOrWalkIsTheirAxisAndItsDoubtIsSaid) {
     EXPECT_EQ(zup->front().up.evidence, UpEvidence::kPosture);
     EXPECT_EQ(
         zup->front().up.doubt,
-        "Z is assumed to be up only because of the posture: Y is the usual axis of TRC files; --up overrules that");
+        "Z is assumed to be up only because of the posture: Y is the usual axis of TRC files; --up sets another axis");
     EXPECT_THAT(zup->front().Note(), HasSubstr("turned upright from Z up (its posture)"));
   }
 }
@@ -477,7 +477,7 @@ TEST(Markers, AtZeroAreGapsUnlessTheyAreAlwaysThere) {
   ASSERT_OK(bridged, FindMarkerBodies(take, "a.trc"));
   EXPECT_LT(FurthestJoint(bridged->front().motion), 1e-12);
   EXPECT_EQ(bridged->front().Note(),
-            "Etude's joints; 4 positions interpolated in gaps; 4 positions at 0, 0, 0 taken as gaps");
+            "Etude's joints; 4 positions interpolated in gaps; 4 positions at 0, 0, 0 are taken as gaps");
   MarkerMotion rooted = OwnJoints();
   for (auto& frame : rooted.frames) {
     const glm::dvec3 root = *frame[Index(Role::kHipCentre)];
@@ -495,7 +495,7 @@ TEST(Markers, InAWrongUnitAreTakenForAPersonOrRefused) {
     ASSERT_OK(bodies, FindMarkerBodies(take, "a.trc"));
     EXPECT_LT(FurthestJoint(bodies->front().motion), 1e-12);
     EXPECT_THAT(bodies->front().Note(),
-                HasSubstr(fmt::format("m tall: all lengths are taken to be {:g} times as long", 1 / factor)));
+                HasSubstr(fmt::format("m tall: all lengths are multiplied by {:g}", 1 / factor)));
   }
   MarkerMotion take = OwnJoints();
   for (auto& frame : take.frames) {

@@ -432,7 +432,7 @@ TEST(ToBodyMotion, TakesTheFormatsAxisBeforePostureAndTheUsersBeforeBoth) {
   EXPECT_EQ(of_format->found_up.evidence, UpEvidence::kFormat);
   EXPECT_LT(of_format->motion.poses[0][kHead].y, 0.3);
   EXPECT_THAT(of_format->Note(),
-              HasSubstr("the body stands along Y, but Z is the convention of AMASS; --up overrules that"));
+              HasSubstr("the body stands along Y, but Z is the convention of AMASS; --up sets another axis"));
   ASSERT_OK(told, Convert(lying, {.up = UpAxis::kY, .up_rule = AmassUp()}));
   EXPECT_EQ(told->found_up.evidence, UpEvidence::kTold);
   EXPECT_GT(told->motion.poses[0][kHead].y, 1.6);
@@ -484,7 +484,7 @@ TEST(ToBodyMotion, SaysAnImpossibleHeightAndNoChangeOfRateThatReadsAlike) {
   // A child of a year is as small as an adult in a wrong unit may seem, but its legs are shorter.
   BodyPose adult = testing::BodyAtRest(testing::PersonSkeleton(), *FindJointMap(testing::PersonSkeleton(), "a.bvh"));
   for (glm::dvec3& joint : adult.joints) joint *= .004;
-  EXPECT_THAT(DescribeImpossibleHeight({&adult, 1}), HasSubstr("its legs are as long for that height as an adult's"));
+  EXPECT_THAT(DescribeImpossibleHeight({&adult, 1}), HasSubstr("its legs are an adult's share of that height"));
   BodyPose child = adult;
   for (const Role role : {Role::kLeftKnee, Role::kLeftAnkle, Role::kRightKnee, Role::kRightAnkle}) {
     const bool is_left = role == Role::kLeftKnee || role == Role::kLeftAnkle;

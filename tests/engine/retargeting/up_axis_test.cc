@@ -64,7 +64,7 @@ TEST(UpAxis, OfSeveralPosesIsTheirMean) {
 TEST(UpAxis, OfAmassInACamerasFrameIsDoubted) {
   const auto doubt = [](const BodyPose& pose) { return FindUp(std::vector(3, pose), 30, AmassUp()).doubt; };
   EXPECT_EQ(doubt(StandingAlongZ()), "");
-  EXPECT_EQ(doubt(Standing()), "the body stands along Y, but Z is the convention of AMASS; --up overrules that");
+  EXPECT_EQ(doubt(Standing()), "the body stands along Y, but Z is the convention of AMASS; --up sets another axis");
   EXPECT_EQ(doubt(Turned(Standing(), kPi, {1, 0, 0})),
             "the body stands along −Y, but Z is the convention of AMASS; allowed: Y or Z, so the file must be rotated "
             "first");

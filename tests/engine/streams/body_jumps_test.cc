@@ -194,8 +194,8 @@ TEST(Streams, BodiesWithoutIdsAreToldApartByNearness) {
   const std::string text = TwoWithoutIds(one, other);
   for (const int body : {0, 1}) {
     ASSERT_OK(read, ReadStreamRecording(text, "s", {.body = body}));
-    EXPECT_THAT(read->remarks, Contains("several bodies of a frame have no id (first in frame 0); each is read as the "
-                                        "nearest body of the frames before"));
+    EXPECT_THAT(read->remarks, Contains("several bodies of one frame have no id (first in frame 0); each continues the "
+                                        "body that was nearest before"));
     EXPECT_THAT(read->remarks, Contains(fmt::format("the file has 2 bodies; body {} is read", body)));
     const BodyMotion& wanted = body == 0 ? one : other;
     for (std::size_t t = 0; t < 60; ++t) {
@@ -222,8 +222,8 @@ TEST(Streams, OneIdOfTwoBodiesInAFrameIsTwoPeople) {
   ASSERT_EQ(a.size(), 4u);
   const std::string both = "4\n1\n" + a[0] + "2\n" + b[1] + a[1] + "2\n" + a[2] + b[2] + "1\n" + a[3];
   ASSERT_OK(read, ReadStreamRecording(both, "s"));
-  EXPECT_THAT(read->remarks, ElementsAre("several bodies of a frame have the id 72057594037931101 (first in frame 1); "
-                                         "each is read as the nearest body of the frames before",
+  EXPECT_THAT(read->remarks, ElementsAre("several bodies of one frame have the id 72057594037931101 (first in frame "
+                                         "1); each continues the body that was nearest before",
                                          "the file has 2 bodies; body 0 is read, which is in the most frames"));
   for (const RecordedFrame& frame : read->frames) EXPECT_NEAR(frame.places[0]->x, 0, 1e-9);
 }

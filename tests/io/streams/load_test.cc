@@ -72,7 +72,7 @@ TEST(MatchLabels, RefusesTimesOutsideAndLabelsOfNothing) {
   }
   const auto other = ReadLabels("clip,from_s,to_s,move,truth\nz,1,2,m,right\n", "l");
   EXPECT_EQ(ToString(MatchLabels(*other, "l", TwoStreams()).error()),
-            "l: none of the labels belongs to a recording that was given, such as a");
+            "l: no label belongs to a given recording, such as a");
 }
 
 TEST(MatchLabels, RefusesTwoLabelsOfOnePerformance) {
