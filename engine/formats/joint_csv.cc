@@ -35,8 +35,8 @@ Result<void> CheckTimes(const NumberRows& table, std::size_t time_column, const 
   for (std::size_t t = 0; t < table.RowCount(); ++t) {
     const double time = table.Row(t)[time_column];
     if (time < last) {
-      return Fail({file, table.lines[t]},
-                  "the time {:.13g} s follows {:.13g} s; allowed: a clock that does not run backwards", time, last);
+      return Fail({file, table.lines[t]}, "the time {:.13g} s follows {:.13g} s; allowed: times that do not decrease",
+                  time, last);
     }
     if (!std::isnan(time)) last = time;
   }

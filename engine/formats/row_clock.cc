@@ -65,15 +65,14 @@ Result<std::vector<std::size_t>> CountingRows(std::span<const double> times, std
   std::vector<std::size_t> rows;
   for (std::size_t i = 0; i < times.size(); ++i) {
     const Place place{file, lines.empty() ? 0 : lines[i]};
-    if (std::isnan(times[i])) return Fail(place, "no time, although other rows have one");
+    if (std::isnan(times[i])) return Fail(place, "this row has no time, but other rows have one");
     if (rows.empty()) {
       rows.push_back(i);
       continue;
     }
     const double before = times[rows.back()];
     if (times[i] < before) {
-      return Fail(place, "the time {:.6g} s follows {:.6g} s; allowed: a clock that does not run backwards", times[i],
-                  before);
+      return Fail(place, "the time {:.6g} s follows {:.6g} s; allowed: times that do not decrease", times[i], before);
     }
     if (times[i] - before > kMaxStep_s) {
       return Fail(place, "the time {:.6g} s follows {:.6g} s; allowed: a clock that advances by at most {} s per row",

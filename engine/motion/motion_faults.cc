@@ -150,22 +150,20 @@ std::vector<FaultRule> MakeFaultRules() {
   return {
       {"floats", "m",
        fmt::format(
-           "The feet rest more than {} above the floor in the whole clip; or all joints stay higher than a limit "
-           "({}; above {} only if no foot rests); or {} are displaced upwards by more than {} from one frame to "
+           "The feet rest more than {} above the floor in the whole clip. Or all joints stay higher than a limit "
+           "({}; above {} only if no foot rests). Or {} are displaced upwards by more than {} from one frame to "
            "the next, until they come back.",
            cm(kFloatInAll_m), hovers, cm(kStand_m), whole_body, cm(kLevel_m))},
       {"sinks", "m",
-       fmt::format("The feet are more than {} below the floor for {:g} s or in the whole clip; or {} are displaced "
+       fmt::format("The feet are more than {} below the floor for {:g} s or in the whole clip. Or {} are displaced "
                    "downwards by more than {}, until they come back.",
                    cm(kSink_m), kSink_s, whole_body, cm(kLevel_m))},
       {"skates", "m/s",
        fmt::format(
            "Feet that should stand share a velocity along the floor of {}/s or more for {:g} s, and few of them "
-           "rest; or {} change their velocity by {}/s (below {:g} Hz, more) from one frame to the next and back after "
-           "{:g} to {:g} "
-           "s, while low feet move with them; or ankle and toes of one low foot move alike along the floor, faster "
-           "than "
-           "{}/s, for {:g} s ({:g} s at one velocity).",
+           "rest. Or {} change their velocity by {}/s (below {:g} Hz, more) from one frame to the next and back "
+           "after {:g} to {:g} s, and low feet move with them. Or ankle and toes of one low foot move alike along "
+           "the floor, faster than {}/s, for {:g} s ({:g} s at one velocity).",
            cm(kGlide_m_s), kGlide_s, whole_body, cm(kStep_m_s), kSlow_hz, kMinCarried_s, kMaxCarried_s,
            cm(kFootSkate_m_s), kFootSkate_s, kEvenFootSkate_s)},
       {"jumps", "m",
@@ -206,8 +204,8 @@ std::vector<FaultRule> MakeFaultRules() {
            "the trunk, toes point backwards, shoulders or hips are exchanged or coincide.",
            kTorn_s)},
       {"gaps", "s",
-       fmt::format("For {:g} s, every frame lacks a joint that other frames show; or the frames at the beginning or "
-                   "end of the file that lack needed joints last as long.",
+       fmt::format("For {:g} s, every frame lacks a joint that other frames show. Or frames at the beginning or "
+                   "end of the file lack needed joints for as long.",
                    kGap_s)},
       {"passes", "m",
        fmt::format("For {:g} s, a forearm or a hand is within {} of the line of the spine, or a forearm is as close to "

@@ -144,7 +144,7 @@ Result<RecordedFrame> TimedFrame(std::span<const double> row, Place place, const
   RecordedFrame frame = FrameOf(row, layout, recording.records_states);
   frame.line = place.line;
   const double count = recording.records_times ? row[0] : static_cast<double>(index);
-  if (std::isnan(count)) return Fail(std::move(place), "no time, although other rows have one");
+  if (std::isnan(count)) return Fail(std::move(place), "this row has no time, but other rows have one");
   frame.time_s = count * recording.seconds_per_count;
   return frame;
 }

@@ -154,7 +154,7 @@ Result<RecordedFrame> LiveStream::Read(std::string_view line) {
   const TimeScale scale{.first = meaning_->first_count, .seconds = meaning_->seconds_per_count};
   frame.time_s =
       meaning_->records_times ? scale.SecondsOf(row.time_s) : static_cast<double>(frames_) / meaning_->rate_hz;
-  if (std::isnan(frame.time_s)) return Fail({name_}, "no time, although other rows have one");
+  if (std::isnan(frame.time_s)) return Fail({name_}, "this row has no time, but other rows have one");
   return frame;
 }
 

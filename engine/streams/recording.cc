@@ -116,9 +116,8 @@ Result<void> OrderTimes(StreamRecording& recording, const std::string& file) {
   std::vector<RecordedFrame> ordered;
   for (const RecordedFrame& frame : recording.frames) {
     if (!ordered.empty() && frame.time_s < ordered.back().time_s) {
-      return Fail({file, frame.line},
-                  "the time {:.6g} s follows {:.6g} s; allowed: a clock that does not run backwards", frame.time_s,
-                  ordered.back().time_s);
+      return Fail({file, frame.line}, "the time {:.6g} s follows {:.6g} s; allowed: times that do not decrease",
+                  frame.time_s, ordered.back().time_s);
     }
     if (ordered.empty() || frame.time_s > ordered.back().time_s) ordered.push_back(frame);
   }
@@ -284,7 +283,7 @@ Result<StreamRecording> ReadEtudeCsv(std::string_view text, const std::string& f
     if (!recording.records_times && !counted.empty()) frame.time_s = counted[t];
     frame.line = csv.lines[t];
     frame.places = csv.frames[t];
-    if (std::isnan(frame.time_s)) return Fail({file, frame.line}, "no time, although other rows have one");
+    if (std::isnan(frame.time_s)) return Fail({file, frame.line}, "this row has no time, but other rows have one");
   }
   return recording;
 }

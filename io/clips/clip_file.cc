@@ -110,8 +110,8 @@ Result<std::string> AcclaimSkeletonBeside(const std::string& path) {
   }
   if (found.size() == 1) return found.front();
   return Fail({path},
-              "an Acclaim motion, whose skeleton is another file: {} .asf files are in its folder; allowed: exactly "
-              "one, or one with whose name the motion's name begins ('01.asf' for '01_01.amc')",
+              "an Acclaim motion needs a skeleton file: found {} .asf files in its folder; allowed: exactly one, "
+              "or one whose name begins the motion's name ('01.asf' for '01_01.amc')",
               found.empty() ? "no" : std::to_string(found.size()));
 }
 

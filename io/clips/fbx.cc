@@ -140,7 +140,8 @@ PreparedFbx Prepare(std::string_view bytes) {
   PreparedFbx prepared;
   if (const std::size_t inactive = LeaveOutInactiveRotations(bytes, prepared.bytes); inactive > 0) {
     prepared.remarks.push_back(fmt::format(
-        "joints whose pre-rotations, post-rotations and orders are left out, because RotationActive is not set: {}",
+        "RotationActive is not set: pre-rotations, post-rotations and rotation orders are left out for this many "
+        "joints: {}",
         inactive));
     bytes = prepared.bytes;
   }
@@ -156,8 +157,8 @@ void Describe(const FbxKeyFacts& facts, std::vector<std::string>& remarks) {
   constexpr double kLong = 0.1;  // seconds; between keys that are closer in time, every curve is nearly straight
   if (facts.longest_s > kLong) {
     remarks.push_back(
-        fmt::format("its keys are up to {:.2f} s apart: between them joints turn along the shortest "
-                    "arc at a constant speed, whatever curves the file has",
+        fmt::format("its keys are up to {:.2f} s apart: between keys, the file's curves are replaced by shortest "
+                    "arcs at constant speed",
                     facts.longest_s));
   }
   if (facts.cut_s > 0) {
@@ -166,8 +167,7 @@ void Describe(const FbxKeyFacts& facts, std::vector<std::string>& remarks) {
   }
   if (facts.empty_spans > 0) {
     remarks.push_back(fmt::format(
-        "clips whose time span (LocalStart to LocalStop) lies beside their keys, so that all keys are used: {}",
-        facts.empty_spans));
+        "all keys are used in clips whose time span (LocalStart to LocalStop) contains no key: {}", facts.empty_spans));
   }
 }
 

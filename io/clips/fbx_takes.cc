@@ -136,7 +136,7 @@ std::string UseBaseLayer(std::string_view clip, const std::vector<const Link*>& 
   if (left_out.empty()) {
     return fmt::format("clip {}: its motion is that of the animation layer {} alone", Quote(clip), Quote(*used));
   }
-  return fmt::format("clip {}: of its animation layers, {} is used, and left out are: {}; bake the layers into one",
+  return fmt::format("clip {}: its animation layer {} is used; other layers are left out: {}; bake the layers into one",
                      Quote(clip), Quote(*used), Join(left_out));
 }
 
@@ -233,8 +233,8 @@ std::string DoubtOfScales(std::string_view bytes) {
   for (const Link& link : links) {
     if (!link.property.empty() || !without.contains(link.from) || !scaled.contains(link.to)) continue;
     return fmt::format(
-        "joint {} does not inherit the scale of its parent {} in the file (InheritType 2), but it does here: the limbs "
-        "below it may have wrong lengths; freeze the scales, then export again",
+        "joint {} should not inherit the scale of its parent {} (InheritType 2), but Etude cannot prevent it: "
+        "limbs below the joint may have wrong lengths; freeze the scales, then export again",
         Quote(names[link.from]), Quote(names[link.to]));
   }
   return "";

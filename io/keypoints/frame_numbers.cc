@@ -92,8 +92,8 @@ Result<PeopleOfFilm> FilmOfNumbers(std::map<long, std::vector<SeenPerson>> numbe
     if (highest - lowest + 1 == frames) step = 1;
     if (step == 0 || (highest - lowest) / step + 1 != frames) {
       return Fail(place,
-                  "frames are numbered {} to {}, but the film has {}; allowed: numbers from 0 or 1 up to the film's "
-                  "number of frames, or the film's first and last frames among them",
+                  "frames are numbered {} to {}, but the film has {}; allowed: numbers from 0 or 1 up to the "
+                  "film's number of frames, or evenly spaced numbers from the first frame to the last",
                   lowest, highest, frames);
     }
     film.Tell(fmt::format("frames are numbered {} to {}, and the film has {}; number {} is assumed to be its first",
@@ -120,8 +120,7 @@ void MoveFrames(std::span<const std::size_t> indices, std::size_t count, PeopleO
   for (std::size_t i = 0; i < indices.size(); ++i) frames[indices[i]] = std::move(film.frames[i]);
   if (count > indices.size()) {
     film.Tell(
-        fmt::format("{} of {} frames are missing, as the numbers or times of the others show; they are taken to show "
-                    "nobody",
+        fmt::format("numbers or times show that {} of {} frames are missing; these frames are taken to show nobody",
                     count - indices.size(), count));
   }
   film.frames = std::move(frames);

@@ -90,8 +90,9 @@ Result<PeopleOfFilm> ReadKeypointList(const Json& json, const std::string& layou
     if (id != nullptr && !number) return Fail(place, "frame {} is not a number", ShowJson(*id));
     if (number.has_value() != has_numbers) {
       return Fail(place,
-                  "entry {} has {} frame number, but the first has {}; allowed: a frame number in all or in none", i,
-                  number ? "a" : "no", has_numbers ? "one" : "none");
+                  "entry {} has {} frame number, but the first has {}; allowed: a frame number in all entries or "
+                  "in none",
+                  i, number ? "a" : "no", has_numbers ? "one" : "none");
     }
     const Json* people = frame.is_object()
                              ? FirstMember(frame, {"instances", "people", "pose_landmarks", "landmarks", "keypoints"})

@@ -164,7 +164,7 @@ void Denormalise(const FilmOfKeypoints& of, PeopleOfFilm& film) {
   }
   if (is_signed) {
     film.Tell(
-        fmt::format("keypoints lie between -1 and 1, so these are taken as the edges of the picture's {} x {} "
+        fmt::format("keypoints lie between -1 and 1, so -1 and 1 are taken as the edges of the picture of {} x {} "
                     "pixels (OpenPose's --keypoint_scale 4)",
                     of.width, of.height));
     return;

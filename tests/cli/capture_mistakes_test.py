@@ -595,7 +595,7 @@ class Mistakes(EtudeCase):
         write_trc(reference, 29.97, FRAMES - 10, figure)
         told, errors, _ = self.capture(mistake=NTSC, cameras=2, more=("--reference", reference))
         self.check(told, errors, words="cam2: the film has 29.97 frames per second, but the others have 30; they are assumed to have the same rate")
-        film = re.search(r"cam2: drift measured: ([+-][\d.]+) frames over the film, while both stated rates would give \+0\.06|"
+        film = re.search(r"cam2: the measured drift is ([+-][\d.]+) frames over the film, but the stated rates give \+0\.06;|"
                          r"cam2: its frames are .*, which adds ([\d.]+) frames over the film; corrected", told)
         self.assertIsNotNone(film, told)
         self.assertAlmostEqual(float(film[1] or film[2]), 0.06, delta=0.02)

@@ -139,7 +139,7 @@ class Fbx(MotionFileCase):
         path, places = self.fbx("inactive.fbx", 1, "y", inactive=("LeftArm", "RightForeArm"))
         self.assertLess(self.apart_from_truth(path, places), 1e-4)
         note = json.loads(self.etude("clip", "info", path, "--json").stdout)["clips"][0]["body"]["note"]
-        self.assertIn("post-rotations and orders are left out, because RotationActive is not set: 2", note)
+        self.assertIn("post-rotations and rotation orders are left out for this many joints: 2", note)
         path, _ = self.fbx("active.fbx", 1, "y")
         self.assertNotIn("RotationActive", self.etude("clip", "info", path, "--json").stdout)
 
@@ -153,7 +153,8 @@ class Fbx(MotionFileCase):
         for rate, told in ((30, False), (2, True)):
             path, _ = self.fbx("far.fbx", 1, "y", frames=4, rate=rate)
             note = json.loads(self.etude("clip", "info", path, "--json").stdout)["clips"][0]["body"]["note"]
-            self.assertEqual("its keys are up to 0.50 s apart: between them joints turn along the shortest arc" in note, told, note)
+            self.assertEqual("its keys are up to 0.50 s apart: between keys, the file's curves are replaced by shortest"
+                             in note, told, note)
 
     def test_fbx_without_an_animation_is_told_so(self):
         path, _ = self.fbx("rest.fbx", 1, "y")

@@ -86,8 +86,8 @@ Result<std::vector<TargetView>> SynchroniseFilms(const CalibrateOptions& options
     if (delay_s == 0) continue;
     constexpr double kMs = 1000;
     options.listener.print(
-        fmt::format("{}: shows a moment {:.0f} ms ({:.2f} frames) {} than {}; corrected: its corners are interpolated "
-                    "between frames\n",
+        fmt::format("{}: its frames are {:.0f} ms ({:.2f} frames) {} than those of {}; corrected: corners are "
+                    "interpolated between frames\n",
                     seen[i].name, kMs * std::abs(delay_s), std::abs(delay_s) / seen[i].period_s * seen[i].every,
                     delay_s > 0 ? "later" : "earlier", seen.front().name));
     if (std::abs(delay_s) > max_delay_s - 0.5 * period_s.front()) {

@@ -50,8 +50,8 @@ Result<Board> ReadCodedBoard(const std::string& text) {
                         IsWholeWithin(first->front(), 0, kCodeCount);
   if (!is_board) {
     return Fail({},
-                "--board {}: not a board; allowed: 3 to {} squares along each side, and a square's side in metres, as "
-                "8x8x0.2 or 8x8x0.2@32",
+                "--board {}: not a board; allowed: 3 to {} squares along each side, and a square's side in metres, "
+                "such as 8x8x0.2 or 8x8x0.2@32",
                 text, kMaxSquares);
   }
   const Board board{.columns = static_cast<int>((*numbers)[0]),
@@ -80,7 +80,9 @@ Result<void> SetSize(const std::string& text, std::vector<CameraPairs>& cameras)
     if (camera.width > 0) continue;
     const auto size = NumbersByX(text);
     if (!size || size->size() != 2 || !IsWholeWithin((*size)[0], 1, 65536) || !IsWholeWithin((*size)[1], 1, 65536)) {
-      return Fail({}, "--size '{}': not a size; point pairs as CSV need the pictures' width and height, as 1920x1080",
+      return Fail({},
+                  "--size '{}': not a size; point pairs as CSV need the pictures' width and height, such as "
+                  "1920x1080",
                   text);
     }
     camera.width = static_cast<int>((*size)[0]);

@@ -30,8 +30,8 @@ Result<SeenPeople> ReadPeople(const CaptureFilmsOptions& options, FilmedView& vi
   if (film.frames.size() != static_cast<std::size_t>(view.facts.frames)) {
     return Fail(
         {entry.string()},
-        "keypoints of {} frames, but the film {} has {}; allowed: an entry or a file for each frame, also if it "
-        "shows nobody, or frame numbers: frame_id, image_id, or at the end of the files' names",
+        "keypoints of {} frames, but the film {} has {}; allowed: an entry or a file for each frame, even if it "
+        "shows nobody, or frame numbers (frame_id, image_id, or at the end of file names)",
         film.frames.size(), view.path.string(), view.facts.frames);
   }
   const bool is_turned = film.width == view.facts.height && film.height == view.facts.width;
@@ -147,8 +147,8 @@ void WarnOfMisfits(const std::vector<FilmedView>& views, const std::vector<Clock
   for (std::size_t i = 0; most > 0 && i < views.size(); ++i) {
     if (found[i].is_told || found[i].misfit < kMuchMore * std::max(kMinPx, most)) continue;
     films.told.Tell(fmt::format(
-        "doubtful: {}: its keypoints fit {} at no delay up to {} frames; --sync {:.1f} searches further, or the camera "
-        "is not where the rig says",
+        "doubtful: {}: its keypoints do not fit {} with any delay up to {} frames; --sync {:.1f} searches further, "
+        "or the camera is not where the rig says",
         views[i].camera.name, OthersOf(views), max_frames, std::ceil(4 * max_frames / rate_hz)));
   }
 }
@@ -183,10 +183,9 @@ void WarnOfDrifts(const std::vector<FilmedView>& views, const RecoverPersonOptio
   const double half = 0.5 * static_cast<double>(films.people.front().size());
   for (const ClockDrift& drift : FindDrifts(films.cameras, films.people, {clocks, recover.match.follow})) {
     films.told.Tell(fmt::format(
-        "doubtful: {}: its clock drifts: against {}, its frames are {:.1f} frames {} in the second half of the film "
-        "than in the first, as if its rate were {:.2f} Hz and not {:g}; not corrected (residual {:.2f} px with one "
-        "delay, "
-        "{:.2f} px with one for each quarter)",
+        "doubtful: {}: its clock drifts: compared with {}, its frames are {:.1f} frames {} in the film's second "
+        "half than in the first, as if its rate were {:.2f} Hz instead of {:g} Hz; not corrected (residual {:.2f} "
+        "px with one delay, {:.2f} px with one for each quarter)",
         views[drift.film].camera.name, OthersOf(views), std::abs(drift.frames), drift.frames > 0 ? "later" : "earlier",
         recover.rate_hz / (1 + drift.frames / half), recover.rate_hz, drift.constant_px, drift.changing_px));
   }
@@ -200,8 +199,8 @@ void TellDrift(const std::vector<FilmedView>& views, std::size_t film, const Fil
   if (own == rate || std::abs(own - rate) > kSameRateTolerance * rate) return;
   const auto over_film = [&](double drift) { return drift * static_cast<double>(frames); };
   films.told.Tell(
-      fmt::format("{}: drift measured: {:+.2f} frames over the film, while both stated rates would give {:+.2f}; this "
-                  "is not enough evidence to correct it",
+      fmt::format("{}: the measured drift is {:+.2f} frames over the film, but the stated rates give {:+.2f}; the "
+                  "evidence is too weak for a correction",
                   views[film].camera.name, over_film(nearest.drift - taken.drift), over_film(rate / own - 1)));
 }
 
@@ -229,7 +228,7 @@ void CorrectClocks(const std::vector<FilmedView>& views, const RecoverPersonOpti
     const double late = now.offset - before.offset + (now.drift - before.drift) * half;
     const double drift = (now.drift - before.drift) * static_cast<double>(frames);
     std::string told =
-        fmt::format("its frames are {:.2f} frames ({:.0f} ms) {} than {}'s", std::abs(late),
+        fmt::format("its frames are {:.2f} frames ({:.0f} ms) {} than those of {}", std::abs(late),
                     kMsPerSecond * std::abs(late) / rate, late > 0 ? "later" : "earlier", views.front().camera.name);
     constexpr double kHardly = 0.02;
     if (std::abs(drift) > kHardly) {

@@ -102,8 +102,8 @@ void FindSize(FilmedView& view, std::vector<std::string>& told) {
   // Report a size that differs from the film's size.
   if (best != film) {
     told.push_back(
-        fmt::format("{}: the rig states no picture size; because of its principal point ({:.0f}, {:.0f}), pictures of "
-                    "{:.0f} x {:.0f} pixels are assumed, while the film's have {:.0f} x {:.0f}",
+        fmt::format("{}: the rig states no picture size; its principal point ({:.0f}, {:.0f}) suggests {:.0f} x "
+                    "{:.0f} pixels, which are assumed, but the film has {:.0f} x {:.0f}",
                     view.camera.name, in.cx, in.cy, best.x, best.y, film.x, film.y));
   }
   for (double* length : {&in.fx, &in.fy, &in.cx, &in.cy, &in.skew}) *length /= scale;
@@ -255,7 +255,7 @@ MarkerMotion SynchroniseWith(const MarkerMotion& motion, MarkerMotion reference,
   if (std::abs(own_rate - motion.rate_hz) > kWritten * own_rate) {
     const auto clock = MeasureClock(motion, reference);
     const bool is_mended = clock && clock->after < 0.5 * clock->before;
-    std::string said = "; no marker that both motions have shows how the clocks drift apart";
+    std::string said = "; no common marker shows how the clocks drift apart";
     if (clock) {
       said =
           fmt::format("; measured: a drift of {:+.2f} frames over the films, and a shift of {:+.2f} in their middle{}",

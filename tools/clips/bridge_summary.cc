@@ -150,7 +150,7 @@ std::string WaysAsText(const BridgeLibrary& loaded, const Coverage& coverage) {
     }
   }
   if (loaded.corrective.empty())
-    text += "No corrective clip was named (--to), so no bridge frames into one were searched for.\n";
+    text += "No corrective clip was named (--to), so bridge frames into such clips were not searched for.\n";
   return text;
 }
 

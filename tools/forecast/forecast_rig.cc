@@ -71,8 +71,8 @@ Result<glm::dvec2> MiddleOf(const std::vector<NamedCamera>& cameras, const std::
   constexpr double kParallel = 1e-3;
   if (!(glm::determinant(normal) > kParallel * std::pow(static_cast<double>(cameras.size()), 3))) {
     return Fail({file},
-                "the cameras look along parallel lines, so no point is nearest to all these lines; state the middle of "
-                "the volume by --middle X,Z in m");
+                "the cameras look in parallel directions, which do not determine the middle of the volume; give it "
+                "by --middle X,Z in m");
   }
   const glm::dvec3 middle = glm::inverse(normal) * right;
   return glm::round(kMmPerM * glm::dvec2(middle.x, middle.z)) / kMmPerM;

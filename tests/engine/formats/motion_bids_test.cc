@@ -92,7 +92,7 @@ TEST(MotionBids, LatencyIsTheClockAndMissingValuesAreGaps) {
   // A missing time is refused.
   rows.replace(rows.rfind('\t') + 1, 6, "-9999");
   EXPECT_THAT(testing::Refusal(ReadMotionBids(rows, channels, {.rate_hz = 60, .missing = "-9999"}, kFiles)),
-              HasSubstr("m.tsv:54: no time, although other rows have one"));
+              HasSubstr("m.tsv:54: this row has no time, but other rows have one"));
   // If 0 marks missing values, a position is missing only if all three coordinates are 0. A word may also mark gaps.
   const auto zero = ReadMotionBids("0\t0\t0\t1\n0\t100\t0\t1\n", kChannels, {50, "0"}, kFiles);
   EXPECT_FALSE(zero->frames[0][0]);

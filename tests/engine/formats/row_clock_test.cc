@@ -273,8 +273,8 @@ TEST(RowClock, RefusesWhatIsNoClock) {
     return laid ? std::string("no complaint") : ToString(laid.error());
   };
   const double nan = std::nan("");
-  EXPECT_EQ(reason({0, 0.1, 0.05}), "a:4: the time 0.05 s follows 0.1 s; allowed: a clock that does not run backwards");
-  EXPECT_EQ(reason({0, nan, 0.1}), "a:3: no time, although other rows have one");
+  EXPECT_EQ(reason({0, 0.1, 0.05}), "a:4: the time 0.05 s follows 0.1 s; allowed: times that do not decrease");
+  EXPECT_EQ(reason({0, nan, 0.1}), "a:3: this row has no time, but other rows have one");
   EXPECT_EQ(reason({0, 0.1, 700}),
             "a:4: the time 700 s follows 0.1 s; allowed: a clock that advances by at most 600 s per row");
   EXPECT_THAT(reason({0, 1e-4, 2e-4, 500}, 3),

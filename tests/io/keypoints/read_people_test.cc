@@ -41,7 +41,7 @@ TEST_F(ReadPeople, FramesWithoutAFileAreFramesWithoutPeople) {
       }
     }
     EXPECT_EQ(film->told,
-              "15 of 60 frames are missing, as the numbers or times of the others show; they are taken to show nobody");
+              numbers or times show that "15 of 60 frames are missing; these frames are taken to show nobody");
   }
   // If a film has as many frames as there are files, each file is a frame; else the files' numbers are frames.
   EXPECT_EQ(ReadKeypoints(folder_.path() / "a", "", {.frames = 45})->frames.size(), 45u);
@@ -65,7 +65,7 @@ TEST_F(ReadPeople, FramesAreLaidOnTheirTimes) {
     EXPECT_TRUE(film->frames[27].empty());
     EXPECT_EQ(film->frames[35][0][Landmark::kNose].pixel.x, 35.5);
     EXPECT_EQ(film->told,
-              "15 of 60 frames are missing, as the numbers or times of the others show; they are taken to show nobody");
+              numbers or times show that "15 of 60 frames are missing; these frames are taken to show nobody");
     EXPECT_EQ(ReadKeypoints(list(key, unit), "", {.frames = 45})->frames.size(), 45u);
   }
 }
@@ -282,7 +282,7 @@ TEST_F(ReadPeople, TakesTheRangeOfOpenPosesScaleFour) {
   EXPECT_EQ(film->frames[0][0][Landmark::kNose].pixel, glm::dvec2(480, 120));
   EXPECT_EQ(film->frames[0][0][Landmark::kLeftAnkle].pixel, glm::dvec2(480, 360));
   EXPECT_EQ(film->told,
-            "keypoints lie between -1 and 1, so these are taken as the edges of the picture's 640 x 480 pixels "
+            "keypoints lie between -1 and 1, so -1 and 1 are taken as the edges of the picture of 640 x 480 pixels "
             "(OpenPose's --keypoint_scale 4)");
 }
 
