@@ -102,8 +102,8 @@ void Print(const Preferences& found) {
       found.metrics.size());
   for (const OneSidedRater& rater : found.one_sided) {
     fmt::print(stderr,
-               "etude: {} chose left in {} of {} decided pairs, although sides were random (p < 0.01); leave the file "
-               "out if these answers are not about the films\n",
+               "etude: {} chose left in {} of {} decided pairs, although sides were random (p < 0.01); leave the "
+               "file out if this rater did not judge the films\n",
                Visible(rater.rater), rater.left, rater.decided);
   }
 }

@@ -58,12 +58,12 @@ bool Print(const ScenarioForecast& one) {
   const std::string_view shows = one.comparisons == 1 ? "shows" : "show";
   const int for_values = PairsNeeded(one.comparisons, kAlpha);
   if (worlds < one.needed) {
-    fmt::print("  on these worlds: no method can be judged better or worse with fewer than {}; there are {}\n",
+    fmt::print("  on these worlds: to judge a method better or worse, at least {} are needed; there are {}\n",
                CountUnits(one.needed, world), worlds);
   } else if (worlds < for_values) {
     fmt::print(
-        "  on these worlds: with fewer than {}, the values of metrics cannot show which method is better in {}; "
-        "successes or the worst worlds can\n",
+        "  on these worlds: at least {} are needed to judge by metric values in {}; with fewer, only successes or "
+        "the worst worlds can decide\n",
         CountUnits(for_values, world), among);
   } else {
     const double least = MinDetectableDifference(worlds, one.comparisons);

@@ -252,8 +252,8 @@ void DefineEvaluate(CLI::App& app, const std::string& command_line, Action& acti
   options->command_line = command_line;
   CLI::App* command = app.add_subcommand(
       "evaluate",
-      "Compare motion files with their truths, or find faults in motions without a truth; exit code 1: a pair could "
-      "not be judged, or a method has no result that could be judged");
+      "Compare motion files with their truths, or find faults in motions without a truth; exit code 1: a pair, or "
+      "all results of a method, could not be judged");
   command->add_option("files", options->files,
                       "The truth, then results: each a file, a folder or a pattern in quotes; several results need "
                       "names: NAME=PATTERN");
@@ -273,7 +273,7 @@ void DefineEvaluate(CLI::App& app, const std::string& command_line, Action& acti
                       "Which joints are compared: roles (those with the same role; the default), same (the same name), "
                       "or a set (etude list keys)");
   command->add_option("--people", options->people,
-                      "A pattern of file names that shows which part of a name names the person, such as '{person}_*'");
+                      "A pattern of file names in which {person} stands for the person's name, such as '{person}_*'");
   command
       ->add_option("--lag", options->lag,
                    "find: judge a second time, after the time shift between truth and result was found and removed")

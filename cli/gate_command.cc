@@ -146,9 +146,7 @@ Result<int> Update(const GateOptions& options, const FinishedRun& run) {
     return kIncompleteRun;
   }
   if (const auto silent = DescribeSilentMethods(run); !silent.empty()) {
-    PrintList(
-        "No baseline is made from a run in which a method has no answer, because nothing could be worse than that:",
-        silent);
+    PrintList("No baseline is made, because a method has no answer, so that no later run could be worse:", silent);
     return kRegression;
   }
   // Check that the new baseline can be read back, before the old baseline is replaced.
@@ -176,7 +174,7 @@ std::string RateText(const Rate& rate) {
 const char* PromiseSentence(const SelfTestReport& report) {
   if (!report.Holds()) return "The gate exceeds its error limits.";
   if (report.false_alarms.high > kFalseAlarmLimit) {
-    return "Nothing contradicts the gate's error limits; more repetitions are needed to confirm them.";
+    return "The gate may keep its error limits; more repetitions are needed to confirm this.";
   }
   return "The gate keeps its error limits.";
 }

@@ -164,8 +164,8 @@ Result<void> Print(const LabelScores& scores, bool as_json) {
   const auto called = std::ranges::count_if(performances, &JudgedEvent::called_right);
   if (right == 0 || right == std::ssize(performances)) {
     // Without right or without wrong performances, F1, precision and AUC say nothing.
-    fmt::print(stderr, "{} performances, {} right by the labels; the recogniser called {} right\n", performances.size(),
-               right == 0 ? "none" : "all", called);
+    fmt::print(stderr, "{} performances; by the labels, {} are right; the recogniser called {} right\n",
+               performances.size(), right == 0 ? "none" : "all", called);
   } else {
     fmt::print(stderr, "{} performances: F1 {}, precision {}, recall {}, AUC {}\n", performances.size(),
                Percent(F1(confusion)), Percent(PrecisionOf(confusion)), Percent(RecallOf(confusion)),
@@ -293,8 +293,8 @@ void DefineRecognise(CLI::App& app, Action& action) {
   command
       ->add_option(
           "--recogniser", options->recogniser,
-          "The recogniser (default: whole-body if each move has three examples, and with --leave-one-person-out; "
-          "else learnt; key-pose if a move has no example)")
+          "The recogniser (default: key-pose if a move has no example; whole-body if each move has three, or with "
+          "--leave-one-person-out; otherwise learnt)")
       ->check(OneOf(RecogniserNames()));
   command->add_option("--filter", options->filter, "Filter that smooths the joints before recognition")
       ->check(OneOf(FilterNames()))

@@ -114,9 +114,11 @@ Json FactsOf(const Agreement& agreement) { return {{"within", agreement.within},
 
 std::string DescribeMatch(const RealRecording& real) {
   const TwinAlignment& alignment = real.match.alignment;
-  return fmt::format("{} frames at {:g} Hz, {:.1f} s; begins {:+.3f} s after the recording; {:.1f} mm RMS remain",
-                     real.twin.frames.size(), real.twin.rate_hz, real.twin.DurationSeconds(), -alignment.shift_s,
-                     1000 * alignment.rms_m);
+  return fmt::format(
+      "{} frames at {:g} Hz, {:.1f} s; begins {:+.3f} s after the recording; {:.1f} mm RMS apart "
+      "after alignment",
+      real.twin.frames.size(), real.twin.rate_hz, real.twin.DurationSeconds(), -alignment.shift_s,
+      1000 * alignment.rms_m);
 }
 
 struct SensorStatsOptions {

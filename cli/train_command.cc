@@ -218,7 +218,7 @@ Result<void> CheckOptions(const TrainOptions& options) {
 std::string WhyNothing(WeightFitStatus status) {
   switch (status) {
     case WeightFitStatus::kOneClassOnly:
-      return "no pair of frames of two different clips is close, or all pairs are: there is nothing to distinguish";
+      return "the pairs of frames of two clips are all close, or none is: there is nothing to distinguish";
     case WeightFitStatus::kNothingCounts:
       return "no feature distinguishes the close pairs";
     default:

@@ -202,7 +202,7 @@ void DefineVerify(CLI::App& app, Action& action) {
   command->add_option("folder", options->replay.folder, "A result folder")->required();
   command
       ->add_option("--sample", options->sample,
-                   "Number of cells to run again, besides all with a recording; 0: none, all: every cell")
+                   "Number of cells to run again, in addition to all with a recording; 0: none, all: every cell")
       ->check(CheckSample)
       ->capture_default_str();
   command->add_option("--sample-seed", options->replay.dice,

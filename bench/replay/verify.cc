@@ -284,9 +284,9 @@ Verified VerifyCells(const ReplayOutcome& replayed) {
   for (const CellCheck& check : replayed.checks) {
     if (check.same) continue;
     const bool is_of_machine = check.stage == "status" && (IsOfMachine(check.then) || IsOfMachine(check.now));
-    verified.differences.push_back(fmt::format(
-        "{}: {} was {} and is {}{}", check.cell, check.stage, check.then, check.now,
-        is_of_machine ? "; either the machines differ or the run was forged: these cannot be distinguished" : ""));
+    verified.differences.push_back(
+        fmt::format("{}: {} was {} and is {}{}", check.cell, check.stage, check.then, check.now,
+                    is_of_machine ? "; the machines differ, or the run was forged: this check cannot show which" : ""));
   }
   return verified;
 }

@@ -79,7 +79,7 @@ Result<ColumnIndex> Decode(const Json& json, const Place& place) {
         }
       }
       if (kind.why.size() != kind.metrics.size())
-        return Fail(place, "does not state for every metric why it is missing");
+        return Fail(place, "must state for every metric why its value is missing");
       kind.stages = entry.at("stages").get<std::vector<std::string>>();
       for (const Json& curve : entry.at("series")) {
         kind.series.push_back({curve.at("name").get<std::string>(), curve.at("axis").get<std::string>(), {}, {}});

@@ -64,7 +64,7 @@ Result<void> AddShard(const fs::path& folder, const std::string& build, bool oth
                 shards.count);
   }
   const auto [other, is_new] = shards.folders.emplace(head.shard.index, folder);
-  if (!is_new) return Fail(place, "is shard {}, but so is {}", ToString(head.shard), other->second.string());
+  if (!is_new) return Fail(place, "is shard {}, which {} already is", ToString(head.shard), other->second.string());
   ASSIGN_OR_RETURN(const auto recorded, OtherLibrariesOf(folder));
   shards.other_libraries.insert(shards.other_libraries.end(), recorded.begin(), recorded.end());
   return {};

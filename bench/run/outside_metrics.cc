@@ -41,7 +41,7 @@ Measured ReadValue(const std::string& id, const OutsideReply& reply) {
   const Json* value = fields.Raw("value");
   std::string why = fields.Has("reason") ? fields.Text("reason", kMaxReasonLength) : "";
   if (value == nullptr || !(value->is_number() || value->is_null())) {
-    fields.Note({{}, "value: " + (value == nullptr ? "missing" : ShowJson(*value) + " is not a number and not null")});
+    fields.Note({{}, "value: " + (value == nullptr ? "missing" : ShowJson(*value) + " is neither a number nor null")});
   } else if (value->is_null() && why.empty()) {
     fields.Note({{}, "value: null without a 'reason'"});
   }

@@ -239,8 +239,8 @@ Result<Fence> FenceFor(std::span<const PreparedScenario> scenarios, const Outsid
       if (!fence.IsUp()) {
         return Fail(
             {scenario.setup().file},
-            "its worlds are secret, but its outside programs cannot be fenced: {}; --no-fence runs them without "
-            "one, and the run's page then says so",
+            "its worlds are secret, but its outside programs cannot be fenced: {}; --no-fence runs them without a "
+            "fence, and the run's page then says so",
             fence.description());
       }
       RETURN_IF_ERROR(CheckShown(scenario, program, ViewOf(command, program.entry->files), folder, key));

@@ -306,8 +306,8 @@ Result<SuiteSetup> ReadSuite(const RunOptions& options) {
   // Refuse options that no scenario of the suite can use.
   if (!options.clips.empty() || !options.libraries.empty()) {
     RETURN_IF_ERROR(CheckThatUsed(options.scenarios, users.clips,
-                                  "--clips or --library: no scenario's task takes clips; if the task judges files, "
-                                  "the scenario names them (key 'truth')"));
+                                  "--clips or --library: no task of its scenarios takes clips; a task that judges "
+                                  "files takes them from the scenario's key 'truth'"));
   }
   if (!options.streams.empty() || !options.labels.empty()) {
     RETURN_IF_ERROR(CheckThatUsed(options.scenarios, users.recordings,

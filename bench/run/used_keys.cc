@@ -182,8 +182,8 @@ Result<void> NoteRepeat(const SecretKey& key, const KeyUse& use) {
   auto keys = UsedKeys::Open(list);
   if (!keys) {
     return Fail({list.string()},
-                "cannot be written, so no file would record that this run's programs saw worlds of the key; allowed: "
-                "a key in a folder that you may write to");
+                "cannot be written, so the use of the key could not be recorded; allowed: a key in a folder that "
+                "you may write to");
   }
   return keys->HasKeyOf(line) ? Result<void>() : keys->Add(line);
 }

@@ -185,8 +185,7 @@ std::string WhyOpenBeyond(const Beyond& beyond, const MetricInfo& metric, Sampli
   }
   if (within) return "the pseudo-median is too small to matter, but the mean may be large enough";
   if (!IsOnOneSide(beyond)) return "the interval contains zero and differences that matter";
-  if (!MeanAgrees(beyond))
-    return "the pseudo-median is not zero, but the mean does not have the same sign: a few units outweigh the others";
+  if (!MeanAgrees(beyond)) return "the pseudo-median and the mean differ in sign: a few units outweigh the others";
   if (*beyond.p_holm > kAlpha) {
     return *beyond.test.p > kAlpha ? "the interval excludes zero, but the test does not confirm it"
                                    : fmt::format("p = {:.2g} is significant alone, but not among {} comparisons (Holm)",

@@ -107,13 +107,13 @@ class DryRun(EtudeCase):
     def test_promises_nothing_where_no_p_can_reach_the_level(self):
         # Success decides ten answers. With n worlds the smallest mid-p is 1 / 2ⁿ, so 1 / 2ⁿ ≤ 0.05 / 10 needs 8 worlds.
         told = self.etude("run", "quick/ik", "--trials", 7, "--dry-run").stdout
-        self.assertIn("no method can be judged better or worse with fewer than 8 worlds; there are 7", told)
+        self.assertIn("to judge a method better or worse, at least 8 worlds are needed; there are 7", told)
         self.assertNotIn("standard deviations", told)
         self.assertNotIn("80 %", told)
         self.assertEqual(self.facts("quick/ik", "--trials", 7)["scenarios"][0]["worlds_needed"], 8)
         # The control: 14 worlds are enough for each of 50 comparisons, because 2 / 2ⁿ ≤ 0.05 / 50 needs 11 worlds.
-        self.assertNotIn("no method can be judged", self.etude("run", "quick/ik", "--trials", 14, "--dry-run").stdout)
-        self.assertIn("with fewer than 11 worlds, the values of metrics cannot show which method is better in 50 ",
+        self.assertNotIn("to judge a method better or worse", self.etude("run", "quick/ik", "--trials", 14, "--dry-run").stdout)
+        self.assertIn("at least 11 worlds are needed to judge by metric values in 50 ",
                       self.etude("run", "quick/ik", "--trials", 9, "--dry-run").stdout)
 
 

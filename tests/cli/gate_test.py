@@ -188,7 +188,7 @@ class Gate(EtudeCase):
         self.assertIn("none of the 24", (self.now / "report" / "gate.md").read_text())
         self.assertIn("none of the 24", (self.now / "report" / "gate.xml").read_text())
         text = self.gate(self.now, "--baseline", self.baseline, "--update", expect=1)
-        self.assertIn("No baseline is made from a run in which a method has no answer", text)
+        self.assertIn("No baseline is made, because a method has no answer", text)
         self.assertFalse(self.baseline.exists())
 
     def test_a_reversed_answer_is_said_first_and_last(self):

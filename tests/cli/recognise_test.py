@@ -136,7 +136,7 @@ class Recognise(EtudeCase):
             path = self.write("some.csv", "clip,from_s,to_s,move,truth\n" + rows)
             return self.ends(0, "recognise", take, "--moves", moves, "--labels", path, "--recogniser", "key-pose").stderr
         right = "take,0,3,raise,right\ntake,3,6,left,right\n"
-        self.assertIn("\n2 performances, all right by the labels; the recogniser called 2 right\n", told(right))
+        self.assertIn("\n2 performances; by the labels, all are right; the recogniser called 2 right\n", told(right))
         self.assertNotIn("F1", told(right), "without a wrong performance it would say nothing")
         mixed = told(right + "take,9,12,raise,rihgt\ntaek,0,1,left,right\n")
         self.assertIn("F1 100.0 %, precision 100.0 %, recall 100.0 %, AUC 100.0 %", mixed)

@@ -219,7 +219,7 @@ class Survival(EtudeCase):
         other = self.folder / "other"
         self.etude("run", self.scenario, "-o", other, "--shard", "3/3", "--seed", "2")
         for shards, complaint in ((folders[:2], "not all 3 shards exist and are finished (etude run --shard i/3 --resume continues one): shard 3/3 is missing"),
-                                  ([*folders[:2], folders[1]], "is shard 2/3, but so is"),
+                                  ([*folders[:2], folders[1]], "is shard 2/3, which"),
                                   ([*folders[:2], other], "is a shard of a different run than"),
                                   ([*folders, self.whole], "is already a whole run, not a shard"),
                                   ([*folders[:2], self.folder / "none"], "none holds no shard; shard 3/3 is missing")):
