@@ -41,7 +41,7 @@ def run(scenario, *, methods=(), metrics=(), trials=None, output=None, seed=None
     next_ = re.search(r"^Next: etude report (.*)$", printed, re.MULTILINE)
     folder = output if output is not None else next_ and next_[1].strip("'\"")
     if folder is None:
-        raise EtudeError("the run does not name its folder; name it by output=", code, printed + said)
+        raise EtudeError("the run printed no result folder; give one by output=", code, printed + said)
     found = load(folder, program=program)
     return _judged(found, code, printed, said)
 
@@ -111,14 +111,14 @@ def _with_methods(name, text, entries):
     """Returns `text`, the text of a scenario, with `entries` added at the end of its list of methods. The rest of the
     text stays unchanged."""
     if re.search(r"^include:", text, re.MULTILINE):
-        raise EtudeError(f"{name}: includes another file, which a copy would not find: write the methods into the "
+        raise EtudeError(f"{name}: includes another file, which its copy would not find; write the methods into the "
                          "scenario")
     if not entries:
         return text
     lines = text.splitlines(keepends=True)
     heads = [i for i, line in enumerate(lines) if re.match(r"methods:\s*(#.*)?$", line.rstrip("\n"))]
     if len(heads) != 1:
-        raise EtudeError(f"{name}: has no list `methods` with one line per entry, to which methods could be added")
+        raise EtudeError(f"{name}: methods can only be added to a list `methods` with one line per entry")
     # The list ends before the first line that is neither indented nor an entry.
     end = heads[0] + 1
     indent = None
@@ -154,7 +154,7 @@ def _with_metrics(name, text, entries):
         return text.rstrip("\n") + f"\nmetrics: [{added}]\n"
     listed = re.compile(r"^metrics:[ \t]*\[([^\[\]{}#]*)\]", re.MULTILINE).match(text, heads[0].start())
     if len(heads) > 1 or not listed:
-        raise EtudeError(f"{name}: its `metrics` is not one list in brackets, to which metrics could be added")
+        raise EtudeError(f"{name}: metrics can only be added to one list `metrics` in brackets")
     names = listed[1].strip().rstrip(",")
     return text[:listed.start()] + f"metrics: [{names}{', ' if names else ''}{added}]" + text[listed.end():]
 

@@ -45,7 +45,7 @@ def method(task, seat="", *, name=None, version="1", options=None, time_s=None, 
     if seat not in TASKS[task]:
         raise ValueError(f"task {task!r} has no seat {seat!r}; it has {', '.join(repr(s) for s in TASKS[task])}")
     if batch and seat:
-        raise ValueError("a seat is asked step by step: there are no batches")
+        raise ValueError("a seat is asked step by step, so batch= has no use")
 
     def mark(what):
         if not seat and inspect.isclass(what) and not hasattr(what, "answer"):

@@ -35,7 +35,7 @@ def evaluate(truth=None, *, names=None, rate_hz=None, pairs=None, joints=None, p
     if alone and (truth is not None or pairs is not None or not answers):
         raise TypeError("evaluate(alone=True) needs motions by name, and no truth")
     if not alone and ((truth is None) != (pairs is not None) or (pairs is None) != bool(answers)):
-        raise TypeError("evaluate needs a truth and answers by name, or pairs, one of the two")
+        raise TypeError("evaluate needs either a truth and answers by name, or pairs")
 
     def reference(motion, name):
         if isinstance(motion, (str, os.PathLike)):
