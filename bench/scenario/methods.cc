@@ -165,7 +165,8 @@ std::vector<MethodEntry> ReadMethods(Fields& fields, const TaskKind& kind) {
                      "a scenario needs 'methods', a list of at least one {name: …}"});
   }
   if (list->items.size() > kMaxMethods) {
-    return complain({list->place, fmt::format("{} methods; allowed: at most {}", list->items.size(), kMaxMethods)});
+    return complain(
+        {list->place, fmt::format("found {} methods; allowed: at most {}", list->items.size(), kMaxMethods)});
   }
   // Read every method, and check that names are unique.
   std::vector<std::string> names;

@@ -65,10 +65,10 @@ class Collector {
       return Fail(list->place, "'scenarios' must be a list of at least one scenario, found {}", Describe(*list));
     }
     if (list->items.size() > kMaxScenarios) {
-      return Fail(list->place, "{} scenarios; allowed: at most {} in a file", list->items.size(), kMaxScenarios);
+      return Fail(list->place, "found {} scenarios; allowed: at most {} in a file", list->items.size(), kMaxScenarios);
     }
     if (list->items.size() * CountAll(defaults) > kMaxFileValues) {
-      return Fail(list->place, "{} scenarios with defaults of {} values; allowed: at most {} values in all",
+      return Fail(list->place, "found {} scenarios with defaults of {} values; allowed: at most {} values in all",
                   list->items.size(), CountAll(defaults), kMaxFileValues);
     }
     // Insert the defaults into each scenario.

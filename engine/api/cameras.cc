@@ -14,7 +14,7 @@ std::vector<NamedCamera> ReadRig(std::string_view text, const std::string& file)
 CalibratedCamera Calibrate(std::span<const PointPair> pairs, int width, int height) {
   constexpr int kMaxSide = 100'000;
   if (width < 1 || height < 1 || width > kMaxSide || height > kMaxSide) {
-    throw BadInput(fmt::format("a picture of {} x {} pixels; allowed: 1 to {} each", width, height, kMaxSide));
+    throw BadInput(fmt::format("the picture has {} x {} pixels; allowed: 1 to {} each", width, height, kMaxSide));
   }
   const RefinedRig rig = OrThrow(RefineCamera(pairs, width, height));
   return {rig.cameras.front(), rig.rms_px};

@@ -33,10 +33,10 @@ void CheckSizes(std::span<const NamedCamera> cameras, std::span<const SeenPeople
     for (const auto& frame : frames) std::ranges::for_each(frame, CheckPerson);
   }
   if (!(options.rate_hz >= 1 && options.rate_hz <= 1000)) {
-    throw BadInput(fmt::format("a rate of {} Hz; allowed: 1 to 1000", options.rate_hz));
+    throw BadInput(fmt::format("the rate is {} Hz; allowed: 1 to 1000 Hz", options.rate_hz));
   }
-  if (options.person < 0) throw BadInput(fmt::format("person {}; allowed: 0 or more", options.person));
-  if (!(options.smooth_hz >= 0)) throw BadInput(fmt::format("smooth_hz {}; allowed: 0 or more", options.smooth_hz));
+  if (options.person < 0) throw BadInput(fmt::format("person is {}; allowed: 0 or more", options.person));
+  if (!(options.smooth_hz >= 0)) throw BadInput(fmt::format("smooth_hz is {}; allowed: 0 or more", options.smooth_hz));
 }
 
 }  // namespace

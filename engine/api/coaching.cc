@@ -44,7 +44,7 @@ etude::CoachOptions ToEngineOptions(const CoachOptions& options, const Recognise
   told.player_mirrors = options.mirrors;
   told.sensor = options.sensor_m;
   if (!(told.right_from > 0 && told.right_from <= 1)) {
-    throw BadInput(fmt::format("right_from {}; allowed: above 0, up to 1", told.right_from));
+    throw BadInput(fmt::format("right_from is {}; allowed: above 0, up to 1", told.right_from));
   }
   if (!std::isfinite(told.sensor.x + told.sensor.y + told.sensor.z)) throw BadInput("sensor_m is not finite");
   return told;
@@ -88,7 +88,7 @@ Coach::~Coach() = default;
 
 CoachOutput Coach::Step(const SensedFrame& frame, std::optional<double> music_s) {
   if (music_s && !(*music_s >= 0 && *music_s <= 1e6)) {
-    throw BadInput(fmt::format("music_s {}; allowed: 0 to 1e6, or none", *music_s));
+    throw BadInput(fmt::format("music_s is {}; allowed: 0 to 1e6, or none", *music_s));
   }
   CheckFrame(frame);
   return session_->session.Next(frame, {.music_s = music_s});

@@ -45,9 +45,9 @@ struct Bridges::Library {
 
 Bridges::Bridges(std::span<const BodyMotion> clips, const BridgeOptions& options)
     : library_(std::make_unique<Library>()) {
-  if (options.min_clips < 1) throw BadInput(fmt::format("min_clips {}; allowed: 1 or more", options.min_clips));
+  if (options.min_clips < 1) throw BadInput(fmt::format("min_clips is {}; allowed: 1 or more", options.min_clips));
   if (!(options.threshold > 0 && options.threshold <= kFarthestFuzzy)) {
-    throw BadInput(fmt::format("threshold {}; allowed: above 0, up to {}", options.threshold, kFarthestFuzzy));
+    throw BadInput(fmt::format("threshold is {}; allowed: above 0, up to {}", options.threshold, kFarthestFuzzy));
   }
   CheckClips(clips);
   const BodyPose& first = clips.front().poses.front();

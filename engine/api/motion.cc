@@ -34,7 +34,7 @@ constexpr double kMinRateHz = 1, kMaxRateHz = 1000;
 
 void CheckRate(double rate_hz) {
   if (rate_hz >= kMinRateHz && rate_hz <= kMaxRateHz) return;
-  throw BadInput(fmt::format("a rate of {} Hz; allowed: {} to {}", rate_hz, kMinRateHz, kMaxRateHz));
+  throw BadInput(fmt::format("the rate is {} Hz; allowed: {} to {} Hz", rate_hz, kMinRateHz, kMaxRateHz));
 }
 
 /// Returns true if two rates differ by rounding only: a rate that was computed from a column of times is rounded.
@@ -186,7 +186,7 @@ double StandingHipsOf(const BodyPose& first) {
 void CheckBudget(double budget_s) {
   constexpr double kMaxWait_s = 3600;
   if (budget_s >= 0 && budget_s <= kMaxWait_s) return;
-  throw BadInput(fmt::format("a budget of {} s; allowed: 0 to {}", budget_s, kMaxWait_s));
+  throw BadInput(fmt::format("the budget is {} s; allowed: 0 to {} s", budget_s, kMaxWait_s));
 }
 
 BodyMotion ReadMotion(std::string_view bytes, const std::string& file, double rate_hz, const ReadingOptions& options,

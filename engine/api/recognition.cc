@@ -60,7 +60,8 @@ Recogniser& Recogniser::operator=(Recogniser&&) noexcept = default;
 Recogniser::~Recogniser() = default;
 
 RecogniserStream Recogniser::Follow(double rate_hz) const {
-  if (!(rate_hz > 0 && rate_hz <= 1000)) throw BadInput(fmt::format("{} Hz; allowed: above 0, up to 1000", rate_hz));
+  if (!(rate_hz > 0 && rate_hz <= 1000))
+    throw BadInput(fmt::format("the rate is {} Hz; allowed: above 0, up to 1000 Hz", rate_hz));
   return RecogniserStream(std::unique_ptr<RecogniserStream::Following>(new RecogniserStream::Following{
       taught_, LiveSight(taught_->filter, rate_hz), taught_->recogniser->Follow(rate_hz)}));
 }

@@ -18,11 +18,12 @@ constexpr double kFittedSide = 640;  ///< longer side, pixels, of the pictures f
 Mask OnesOf(const Mask& mask) {
   if (std::min(mask.width, mask.height) < 1 || std::max(mask.width, mask.height) > kMaxMaskSide) {
     throw BadInput(
-        fmt::format("a mask of {} x {} pixels; allowed: 1 to {} each", mask.width, mask.height, kMaxMaskSide));
+        fmt::format("the mask has {} x {} pixels; allowed: 1 to {} each", mask.width, mask.height, kMaxMaskSide));
   }
   Mask made(mask.width, mask.height);
   if (mask.pixels.size() != made.pixels.size()) {
-    throw BadInput(fmt::format("a mask of {} pixels; allowed: {} x {}", mask.pixels.size(), mask.width, mask.height));
+    throw BadInput(
+        fmt::format("the mask has {} pixels; allowed: {} x {}", mask.pixels.size(), mask.width, mask.height));
   }
   std::ranges::transform(mask.pixels, made.pixels.begin(), [](std::uint8_t pixel) { return pixel != 0 ? 1 : 0; });
   return made;
@@ -33,9 +34,10 @@ int PixelOf(const NamedCamera& camera, const Mask& mask) {
   const Intrinsics& picture = camera.camera.intrinsics;
   const int pixel = mask.width > 0 ? picture.width / mask.width : 0;
   if (pixel >= 1 && picture.width == pixel * mask.width && picture.height == pixel * mask.height) return pixel;
-  throw BadInput(fmt::format(
-      "a mask of {} x {} pixels for camera '{}'; allowed: {} x {}, or both sides divided by the same whole number",
-      mask.width, mask.height, camera.name, picture.width, picture.height));
+  throw BadInput(
+      fmt::format("the mask for camera '{2}' has {0} x {1} pixels; allowed: {3} x {4}, or both sides divided by the "
+                  "same whole number",
+                  mask.width, mask.height, camera.name, picture.width, picture.height));
 }
 
 std::vector<ProjectionMatrix> PinholesOf(std::span<const NamedCamera> cameras) {
@@ -57,7 +59,7 @@ std::vector<ProjectionMatrix> PinholesOf(std::span<const NamedCamera> cameras) {
 LimbLengths LengthsOf(const FollowOptions& options) {
   if (options.measured.empty()) {
     if (options.stature_m >= 0.5 && options.stature_m <= 2.5) return AdultLengths(options.stature_m);
-    throw BadInput(fmt::format("a stature of {} m; allowed: 0.5 to 2.5", options.stature_m));
+    throw BadInput(fmt::format("the stature is {} m; allowed: 0.5 to 2.5 m", options.stature_m));
   }
   Checked({.rate_hz = options.rate_hz, .poses = options.measured});
   const LimbLengths lengths = MeasureLimbLengths(options.measured);
@@ -76,7 +78,7 @@ std::vector<std::optional<BodyPose>> TrackSilhouettes(std::span<const NamedCamer
                                cameras.size(), masks.size()));
   }
   if (!(options.rate_hz >= 1 && options.rate_hz <= 1000)) {
-    throw BadInput(fmt::format("a rate of {} Hz; allowed: 1 to 1000", options.rate_hz));
+    throw BadInput(fmt::format("the rate is {} Hz; allowed: 1 to 1000 Hz", options.rate_hz));
   }
   // Make silhouettes, and scale the cameras to pictures of kFittedSide.
   std::vector<ProjectionMatrix> matrices = PinholesOf(cameras);

@@ -53,7 +53,7 @@ TransitionWay WayOf(const TransitionOptions& options) {
   way.choice_settings = ValuesOf(options.choice_settings, way.choice->settings, options.choice);
   way.join_settings = ValuesOf(options.join_settings, way.join->settings, options.join);
   if (!(options.threshold > 0 && options.threshold <= kFarthestFuzzy)) {
-    throw BadInput(fmt::format("threshold {}; allowed: above 0, up to {}", options.threshold, kFarthestFuzzy));
+    throw BadInput(fmt::format("threshold is {}; allowed: above 0, up to {}", options.threshold, kFarthestFuzzy));
   }
   way.rules.threshold = options.threshold;
   return way;
@@ -76,7 +76,7 @@ namespace {
 etude::BodyProportions ToEngineProportions(const BodyProportions& told) {
   constexpr double kLowest = 0.1, kHighest = 10;  // range of the hips' height, metres
   if (!(told.hip_height >= kLowest && told.hip_height <= kHighest)) {
-    throw BadInput(fmt::format("hips {} m high; allowed: {} to {}", told.hip_height, kLowest, kHighest));
+    throw BadInput(fmt::format("the hips are {} m high; allowed: {} to {} m", told.hip_height, kLowest, kHighest));
   }
   Checked({.poses = {told.pose}});
   StandingHipsOf(told.pose);

@@ -52,12 +52,12 @@ Result<Distortion> DistortionOf(const OpenCvParameters& p) {
   const std::size_t count = c.size();
   if (p.is_fisheye) {
     if (count != 0 && count != 4)
-      return Fail({}, "{} distortion coefficients of a fisheye lens; allowed: 0 or 4", count);
+      return Fail({}, "found {} distortion coefficients of a fisheye lens; allowed: 0 or 4", count);
     c.resize(4);
     return Distortion{.k1 = c[0], .k2 = c[1], .k3 = c[2], .k4 = c[3], .is_fisheye = true};
   }
   if (count != 0 && count != 4 && count != 5 && count != 8 && count != 12 && count != 14) {
-    return Fail({}, "{} distortion coefficients; allowed: 0, 4 (k1, k2, p1, p2), 5 (and k3), 8, 12 or 14", count);
+    return Fail({}, "found {} distortion coefficients; allowed: 0, 4 (k1, k2, p1, p2), 5 (and k3), 8, 12 or 14", count);
   }
   // Coefficients that are not given are 0.
   c.resize(14);
@@ -93,7 +93,7 @@ OpenCvParameters ParametersOf(const Camera& camera) {
 
 Result<Camera> CameraOf(const OpenCvParameters& p) {
   if (!IsSide(p.width) || !IsSide(p.height)) {
-    return Fail({}, "a picture of {:g} x {:g} pixels; allowed: whole numbers of 1 to 65536", p.width, p.height);
+    return Fail({}, "the picture has {:g} x {:g} pixels; allowed: whole numbers of 1 to 65536", p.width, p.height);
   }
   const std::vector<double>& K = p.camera_matrix;
   if (K.size() != 9) return Fail({}, "the camera matrix has {} numbers; allowed: 9", K.size());

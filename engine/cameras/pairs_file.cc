@@ -105,7 +105,7 @@ Result<std::vector<CameraPairs>> ReadYaml(std::string_view text, const std::stri
 }  // namespace
 
 Result<std::vector<CameraPairs>> ReadPointPairs(std::string_view text, const std::string& file) {
-  if (text.size() > kMaxBytes) return Fail({file}, "{} bytes; allowed: at most {}", text.size(), kMaxBytes);
+  if (text.size() > kMaxBytes) return Fail({file}, "found {} bytes; allowed: at most {}", text.size(), kMaxBytes);
   std::string heading(text.substr(0, text.find('\n')));
   std::erase_if(heading, [](char c) { return c == ' ' || c == '\r' || c == '\t'; });
   ASSIGN_OR_RETURN(auto cameras, heading == kHeading ? ReadCsv(text, file) : ReadYaml(text, file));

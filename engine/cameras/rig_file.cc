@@ -204,7 +204,7 @@ Result<std::vector<NamedCamera>> ReadOwnRig(const Node& root) {
   const Node* names = root.Find("cameras");
   ASSIGN_OR_RETURN(const auto cameras, AsTexts(*names));
   if (cameras.empty() || cameras.size() > kMaxRigCameras) {
-    return Fail(names->place, "{} cameras; allowed: 1 to {}", cameras.size(), kMaxRigCameras);
+    return Fail(names->place, "found {} cameras; allowed: 1 to {}", cameras.size(), kMaxRigCameras);
   }
   std::vector<NamedCamera> rig;
   for (const std::string& name : cameras) {
@@ -273,7 +273,7 @@ Result<RigFile> Checked(Result<RigFile> rig, const std::string& file) {
   }
   const std::vector<NamedCamera>& cameras = rig->cameras;
   if (cameras.size() > kMaxRigCameras)
-    return Fail({file}, "{} cameras; allowed: at most {}", cameras.size(), kMaxRigCameras);
+    return Fail({file}, "found {} cameras; allowed: at most {}", cameras.size(), kMaxRigCameras);
   for (std::size_t i = 0; i < cameras.size(); ++i) {
     for (std::size_t j = 0; j < i; ++j) {
       if (cameras[i].name == cameras[j].name) return Fail({file}, "two cameras are named {}", cameras[i].name);
@@ -295,7 +295,7 @@ std::string WriteRig(std::span<const NamedCamera> cameras) {
 }
 
 Result<RigFile> ReadRigFile(std::string_view text, const std::string& file) {
-  if (text.size() > kMaxRigBytes) return Fail({file}, "{} bytes; allowed: at most {}", text.size(), kMaxRigBytes);
+  if (text.size() > kMaxRigBytes) return Fail({file}, "found {} bytes; allowed: at most {}", text.size(), kMaxRigBytes);
   return Checked(Read(text, file), file);
 }
 
@@ -304,7 +304,7 @@ Result<RigFile> ReadRigPair(std::string_view inside, std::string_view outside, c
   // The maximum size of a pair of files, larger than the limit for one file, because COLMAP's files also list points.
   constexpr std::size_t kMaxPairBytes = 64 * kMaxRigBytes;
   if (inside.size() + outside.size() > kMaxPairBytes) {
-    return Fail({file}, "{} bytes; allowed: at most {}", inside.size() + outside.size(), kMaxPairBytes);
+    return Fail({file}, "found {} bytes; allowed: at most {}", inside.size() + outside.size(), kMaxPairBytes);
   }
   if (inside.find("opencv-matrix") == std::string_view::npos) {
     return Checked(ReadColmap(inside, outside, outside_file), file);

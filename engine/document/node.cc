@@ -163,7 +163,7 @@ const Node* Node::Find(std::string_view key) const {
 Result<Node> ParseYaml(std::string_view text, const std::string& file, std::size_t max_bytes) {
   const Place whole{file, 0, 0};
   if (text.size() > max_bytes) {
-    return Fail(whole, "{} bytes of YAML; allowed: at most {}", text.size(), max_bytes);
+    return Fail(whole, "found {} bytes of YAML; allowed: at most {}", text.size(), max_bytes);
   }
   if (auto utf8 = CheckUtf8(text, file); !utf8) return tl::unexpected(utf8.error());
   RETURN_IF_ERROR(CheckLineEnds(text, file));
@@ -177,7 +177,8 @@ Result<Node> ParseYaml(std::string_view text, const std::string& file, std::size
     parser.HandleNextDocument(survey);
     if (!survey.alias.is_null())
       return Fail(builder.At(survey.alias), "aliases (*name) are not supported; write the value out");
-    if (survey.values > kMaxValues) return Fail(whole, "{} values; allowed: at most {}", survey.values, kMaxValues);
+    if (survey.values > kMaxValues)
+      return Fail(whole, "found {} values; allowed: at most {}", survey.values, kMaxValues);
     if (parser.HandleNextDocument(survey)) return Fail(whole, "more than one document (---); allowed: one");
     return builder.Build(YAML::Load(std::string(text)), 0);
   } catch (const YAML::Exception& error) {

@@ -35,7 +35,7 @@ Result<glm::dquat> TurnInOrder(const glm::dvec3& angles, std::string_view order,
     is_order = axis >= 0 && axis < 3;
     if (is_order) turn = TurnAbout(axis, angles[static_cast<int>(i)]) * turn;
   }
-  if (!is_order) return Fail(place, "axes {}; allowed: an order such as XYZ", Quote(order));
+  if (!is_order) return Fail(place, "found axes {}; allowed: an order such as XYZ", Quote(order));
   return turn;
 }
 
@@ -94,7 +94,8 @@ class SkeletonReader {
       if (lines_.IsSection()) return true;
       if (!lines_.Is("angle")) continue;
       const std::string_view unit = lines_.words.size() > 1 ? lines_.words[1].text : "";
-      if (unit != "deg" && unit != "rad") return Fail(lines_.At(1), "angles in {}; allowed: deg, rad", Quote(unit));
+      if (unit != "deg" && unit != "rad")
+        return Fail(lines_.At(1), "found angles in {}; allowed: deg, rad", Quote(unit));
       in_degrees_ = is_told_degrees_ || unit == "deg";
     }
     return false;
@@ -110,7 +111,7 @@ class SkeletonReader {
     for (std::size_t i = 1; i < lines_.words.size(); ++i) {
       const auto channel = ChannelNamed(lines_.words[i].text);
       if (!channel)
-        return Fail(lines_.At(i), "channel {}; allowed: rx, ry, rz, tx, ty, tz", Quote(lines_.words[i].text));
+        return Fail(lines_.At(i), "found channel {}; allowed: rx, ry, rz, tx, ty, tz", Quote(lines_.words[i].text));
       bone.channels.push_back(*channel);
     }
     return {};
@@ -327,7 +328,7 @@ Result<AcclaimFrames> ReadFrames(std::string_view text, const AcclaimSkeleton& s
     } else if (lines.words.size() == 1 && !joint_of.contains(lines.words.front().text)) {
       ASSIGN_OR_RETURN(const double number, lines.Number(0));
       if (!clip.frames.empty() && number != last + 1) {
-        return Fail(lines.At(), "frame {} after frame {}; allowed: numbers that increase by 1", number, last);
+        return Fail(lines.At(), "found frame {} after frame {}; allowed: numbers that increase by 1", number, last);
       }
       last = number;
       // A frame takes the memory of all bones even if the file leaves some out, so limit the memory.

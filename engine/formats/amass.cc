@@ -108,7 +108,7 @@ Result<Clip> ReadAmass(const Npz& npz, const std::string& file, std::optional<do
   constexpr double kMinRate_hz = 1, kMaxRate_hz = 10'000, kMaxValue = 1e6;
   const double rate_hz = told_hz ? *told_hz : stated->rate_hz;
   if (!(rate_hz >= kMinRate_hz && rate_hz <= kMaxRate_hz)) {
-    return Fail({file}, "a rate of {} Hz; allowed: {} to {}", rate_hz, kMinRate_hz, kMaxRate_hz);
+    return Fail({file}, "the rate is {} Hz; allowed: {} to {} Hz", rate_hz, kMinRate_hz, kMaxRate_hz);
   }
   for (const NumberArray* array : {poses, places}) {
     for (std::size_t i = 0; i < array->values.size(); ++i) {

@@ -88,7 +88,7 @@ class HierarchyReader {
     const Token name = scanner_.NameInLine();
     if (name.text.empty()) return Unexpected(name, "a joint's name");
     if (name.text.size() > kMaxNameBytes) {
-      return Fail(scanner_.At(name), "a joint's name of {} bytes; allowed: at most {}", name.text.size(),
+      return Fail(scanner_.At(name), "a joint's name has {} bytes; allowed: at most {}", name.text.size(),
                   kMaxNameBytes);
     }
     ASSIGN_OR_RETURN(auto index, AddJoint(std::string(name.text), parent, name, depth));

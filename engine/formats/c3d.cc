@@ -111,14 +111,15 @@ Result<C3d> ReadC3d(std::string_view bytes, const std::string& file) {
   const double scale = parameters.Number("POINT:SCALE").value_or(all.Float(12));
   const double rate = parameters.Number("POINT:RATE").value_or(all.Float(20));
   if (layout.points == 0) return Fail({file}, "contains no points (rotations and analogue channels are not read)");
-  if (layout.points > kMaxPoints) return Fail({file}, "{} points; allowed: at most {}", layout.points, kMaxPoints);
-  if (!(rate > 0 && rate < kMaxValue)) return Fail({file}, "a rate of {} Hz; allowed: above 0", rate);
+  if (layout.points > kMaxPoints)
+    return Fail({file}, "found {} points; allowed: at most {}", layout.points, kMaxPoints);
+  if (!(rate > 0 && rate < kMaxValue)) return Fail({file}, "the rate is {} Hz; allowed: above 0", rate);
   if (!(std::abs(scale) < kMaxValue) || scale == 0) return Fail({file}, "POINT:SCALE is {}; allowed: not 0", scale);
   const auto units = parameters.Texts("POINT:UNITS");
   C3d read{.markers = {.rate_hz = rate, .names = PointNames(parameters, layout.points), .frames = {}},
            .unit = units.empty() ? "" : units.front()};
   const auto metres = MetresOfUnit(read.unit.empty() ? "mm" : read.unit);
-  if (!metres) return Fail({file}, "units {}; allowed: m, cm, mm, in, ft", Quote(read.unit));
+  if (!metres) return Fail({file}, "units are {}; allowed: m, cm, mm, in, ft", Quote(read.unit));
   // A negative scale means that points are stored as floats.
   layout.has_floats = scale < 0;
   layout.metres = layout.has_floats ? *metres : *metres * scale;

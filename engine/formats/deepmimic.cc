@@ -140,7 +140,7 @@ bool IsDeepMimicMotion(std::string_view text) {
 
 Result<Clip> ReadDeepMimicMotion(std::string_view text, const std::string& file) {
   if (text.size() > kMaxTextBytes) {
-    return Fail({file, 0, 0}, "{} MiB; allowed: at most {} MiB", text.size() >> 20, kMaxTextBytes >> 20);
+    return Fail({file, 0, 0}, "found {} MiB; allowed: at most {} MiB", text.size() >> 20, kMaxTextBytes >> 20);
   }
   ASSIGN_OR_RETURN(const Json motion, ParseJsonText(text, file));
   const auto frames = motion.find("Frames");

@@ -136,7 +136,8 @@ std::string WriteJointCsv(const BodyMotion& motion) {
 Result<JointCsv> ReadJointCsv(std::string_view text, const std::string& file) {
   // Find the columns, then read the rows.
   ASSIGN_OR_RETURN(const NumberRows table, ReadNumberRows(text, file, kMaxTime, true));
-  if (table.RowCount() > kMaxRows) return Fail({file}, "{} rows; allowed: at most {}", table.RowCount(), kMaxRows);
+  if (table.RowCount() > kMaxRows)
+    return Fail({file}, "found {} rows; allowed: at most {}", table.RowCount(), kMaxRows);
   JointCsv csv;
   std::vector<std::string> left_out;
   ASSIGN_OR_RETURN(csv.columns, FindColumns(table, file, left_out));

@@ -76,10 +76,10 @@ Result<BidsChannels> ReadChannels(std::string_view text, const std::string& file
     const std::string_view component = cells[at[0]], units = cells[at[3]];
     constexpr std::string_view kAxes = "xyz";
     if (component.size() != 1 || kAxes.find(component) == std::string_view::npos)
-      return Fail({file, line}, "component {}; allowed for POS: x, y, z", Quote(component));
+      return Fail({file, line}, "found component {}; allowed for POS: x, y, z", Quote(component));
     column.axis = static_cast<int>(kAxes.find(component));
     const auto metres = MetresOfUnit(units);
-    if (!metres) return Fail({file, line}, "units {}; allowed for POS: m, cm, mm, in, ft", Quote(units));
+    if (!metres) return Fail({file, line}, "units are {}; allowed for POS: m, cm, mm, in, ft", Quote(units));
     column.metres = *metres;
     const auto [point, is_new] =
         points.try_emplace(std::string(cells[at[2]]), static_cast<int>(channels.points.size()));

@@ -62,7 +62,8 @@ std::vector<PlaceColumns> PlaceColumnsOf(std::string_view type, const std::vecto
 bool IsMotiveCsv(std::string_view text) { return WithoutByteOrderMark(text).starts_with("Format Version,"); }
 
 Result<MarkerMotion> ReadMotiveCsv(std::string_view text, const std::string& file) {
-  if (text.size() > kMaxFileBytes) return Fail({file}, "{} bytes; allowed: at most {}", text.size(), kMaxFileBytes);
+  if (text.size() > kMaxFileBytes)
+    return Fail({file}, "found {} bytes; allowed: at most {}", text.size(), kMaxFileBytes);
   // Read the properties in the first line.
   int line = 0;
   const auto facts = CommaCells(TakeLine(text, line));
@@ -70,8 +71,8 @@ Result<MarkerMotion> ReadMotiveCsv(std::string_view text, const std::string& fil
   const std::string_view unit = ValueBehind(facts, "Length Units"), space = ValueBehind(facts, "Coordinate Space");
   const auto metres = MetresOfUnit(unit);
   if (!metres)
-    return Fail(first, "Length Units {}; allowed: Meters, Centimeters, Millimeters, Inches, Feet", Quote(unit));
-  if (!space.empty() && space != "Global") return Fail(first, "Coordinate Space {}; allowed: Global", Quote(space));
+    return Fail(first, "Length Units is {}; allowed: Meters, Centimeters, Millimeters, Inches, Feet", Quote(unit));
+  if (!space.empty() && space != "Global") return Fail(first, "Coordinate Space is {}; allowed: Global", Quote(space));
   auto rate = ParseFinite(ValueBehind(facts, "Export Frame Rate"));
   if (!rate) rate = ParseFinite(ValueBehind(facts, "Capture Frame Rate"));
   constexpr double kMaxRateHz = 10'000;
@@ -91,7 +92,7 @@ Result<MarkerMotion> ReadMotiveCsv(std::string_view text, const std::string& fil
   std::vector<PlaceColumns> places = PlaceColumnsOf("Bone", types, names, kinds, axes);
   if (places.empty()) places = PlaceColumnsOf("Marker", types, names, kinds, axes);
   if (places.empty() || places.size() > 1000) {
-    return Fail({file, line, 0}, "{} bones or markers with a Position; allowed: 1 to 1000", places.size());
+    return Fail({file, line, 0}, "found {} bones or markers with a Position; allowed: 1 to 1000", places.size());
   }
 
   // Read the frames; a position with an empty cell was not seen.

@@ -245,7 +245,7 @@ Result<Npz> ReadNpz(std::string_view bytes, const std::string& file) {
   }
   const zip_int64_t members = zip_get_num_entries(archive.get(), 0);
   if (members < 0 || static_cast<std::size_t>(members) > kMaxMembers) {
-    return Fail({file}, "{} members; allowed: at most {}", members, kMaxMembers);
+    return Fail({file}, "found {} members; allowed: at most {}", members, kMaxMembers);
   }
   // Read every .npy member, and remember the first member of another kind for the complaint.
   Npz read;

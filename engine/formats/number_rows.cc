@@ -96,7 +96,7 @@ bool IsRemark(std::string_view line) { return line.empty() || line.starts_with('
 
 Result<NumberRows> ReadNumberRows(std::string_view text, const std::string& file, double largest, bool allows_texts) {
   if (text.size() > kMaxNumberTextBytes) {
-    return Fail({file}, "{} bytes; allowed: at most {}", text.size(), kMaxNumberTextBytes);
+    return Fail({file}, "found {} bytes; allowed: at most {}", text.size(), kMaxNumberTextBytes);
   }
   // Skip a byte order mark, then read line by line.
   text = WithoutByteOrderMark(text);

@@ -92,7 +92,7 @@ Result<TrcHeader> ReadHeader(std::string_view names, std::string_view values, co
   }
   const std::string_view unit = of("Units");
   const auto metres = MetresOfUnit(unit);
-  if (!metres) return Fail(place, "units '{}'; allowed: m, cm, mm, in, ft", unit);
+  if (!metres) return Fail(place, "units are '{}'; allowed: m, cm, mm, in, ft", unit);
   return TrcHeader{*rate, static_cast<std::size_t>(*frames), static_cast<std::size_t>(*markers), *metres};
 }
 
@@ -109,7 +109,7 @@ Result<void> CheckAxes(std::span<const std::string_view> cells, Place place) {
       number = cell.substr(1);
       order += "XYZXYZ"[axis];
       if (order != "XYZ" && std::ranges::is_permutation(order, std::string_view("XYZ"))) {
-        return Fail(place, "axes in the order {}; allowed: X, Y, Z of each marker", order);
+        return Fail(place, "found axes in the order {}; allowed: X, Y, Z of each marker", order);
       }
     }
     column += static_cast<int>(cell.size()) + 1;
@@ -121,13 +121,14 @@ Result<std::vector<std::optional<glm::dvec3>>> ReadFrame(std::string_view line, 
                                                          const Place& place) {
   const auto cells = Cells(line);
   if (cells.size() < 2 || cells.size() > 2 + 3 * header.markers + 1) {
-    return Fail(place, "{} columns; allowed: {} for {} markers", cells.size(), 2 + 3 * header.markers, header.markers);
+    return Fail(place, "found {} columns; allowed: {} for {} markers", cells.size(), 2 + 3 * header.markers,
+                header.markers);
   }
   // A row may end after any marker, but a missing cell would shift the coordinates of all later markers.
   std::size_t filled = cells.size();
   while (filled > 2 && cells[filled - 1].empty()) --filled;
   if ((filled - 2) % 3 != 0) {
-    return Fail(place, "{} coordinates; allowed: a multiple of 3 (X, Y and Z of each marker)", filled - 2);
+    return Fail(place, "found {} coordinates; allowed: a multiple of 3 (X, Y and Z of each marker)", filled - 2);
   }
   std::vector<std::optional<glm::dvec3>> frame(header.markers);
   for (std::size_t marker = 0; marker < header.markers; ++marker) {
@@ -174,7 +175,8 @@ std::string WriteTrc(const MarkerMotion& motion, std::string name) {
 
 Result<MarkerRows> ReadTrcRows(std::string_view text, const std::string& file) {
   constexpr std::size_t kMaxFileBytes = std::size_t{64} << 20;
-  if (text.size() > kMaxFileBytes) return Fail({file}, "{} bytes; allowed: at most {}", text.size(), kMaxFileBytes);
+  if (text.size() > kMaxFileBytes)
+    return Fail({file}, "found {} bytes; allowed: at most {}", text.size(), kMaxFileBytes);
   // Read the header and the markers' names.
   int line = 0;
   TakeLine(text, line);  // skip the line PathFileType

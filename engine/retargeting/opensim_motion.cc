@@ -204,7 +204,7 @@ Result<ReadPart> ReadPartLine(TextScanner& scanner, const std::vector<ReadPart>&
   const auto end = FindRole(name.text);
   const auto ends_at = [&](Role role) { return std::ranges::find(read, role, &ReadPart::end) != read.end(); };
   if (!end || ends_at(*end)) {
-    return Fail(scanner.At(name), "part {}; allowed: each of the twenty roles once", Quote(name.text));
+    return Fail(scanner.At(name), "found part {}; allowed: each of the twenty roles once", Quote(name.text));
   }
   part.end = *end;
   part.after = FindRole(after.text);
@@ -329,7 +329,7 @@ Result<AngleTable> ReadAngleTable(std::string_view bytes, const std::string& fil
     RETURN_IF_ERROR(ReadUnit(std::move(line), scanner.At(first), table));
   }
   if (table.parts.size() != kRoleCount) {
-    return Fail({file}, "a model of {} parts; allowed: {}, one for each role", table.parts.size(), kRoleCount);
+    return Fail({file}, "the model has {} parts; allowed: {}, one for each role", table.parts.size(), kRoleCount);
   }
   std::size_t columns = 0;
   RETURN_IF_ERROR(FindColumns(scanner, table, columns));
@@ -354,7 +354,7 @@ Result<void> CheckTimes(const std::vector<double>& times, const std::string& fil
   const double span = times.back() - times.front();
   const double rate = span > 0 ? static_cast<double>(times.size() - 1) / span : 0;
   if (rate >= kMinRate_hz && rate <= kMaxRate_hz) return {};
-  return Fail({file}, "{} rows in {:g} s; allowed: {:g} to {:g} rows a second", times.size(), span, kMinRate_hz,
+  return Fail({file}, "found {} rows in {:g} s; allowed: {:g} to {:g} rows a second", times.size(), span, kMinRate_hz,
               kMaxRate_hz);
 }
 
@@ -371,7 +371,7 @@ bool HasModelOfAngles(std::string_view bytes) {
 Result<BodyMotion> ReadOpenSimMotion(std::string_view bytes, const std::string& file, std::string* note,
                                      double* start_s) {
   constexpr std::size_t kMaxBytes = std::size_t{64} << 20;
-  if (bytes.size() > kMaxBytes) return Fail({file}, "{} bytes; allowed: at most {}", bytes.size(), kMaxBytes);
+  if (bytes.size() > kMaxBytes) return Fail({file}, "found {} bytes; allowed: at most {}", bytes.size(), kMaxBytes);
   ASSIGN_OR_RETURN(AngleTable table, ReadAngleTable(bytes, file));
   std::string unit;
   RETURN_IF_ERROR(CheckUnit(table, file, unit));

@@ -166,7 +166,7 @@ Result<StreamRecording> ReadKinectRows(std::string_view text, const std::string&
   // each joint means.
   const RowLayout* layout = FindLayout(format, table.columns);
   if (layout == nullptr) {
-    return Fail({file, table.lines.front()}, "{} numbers in this row; allowed for {}: {}", table.columns,
+    return Fail({file, table.lines.front()}, "found {} numbers in this row; allowed for {}: {}", table.columns,
                 StreamFormatName(format), ColumnsAllowed(format));
   }
   StreamRecording recording{.format = format, .separator = table.separator};
@@ -194,7 +194,7 @@ Result<RecordedFrame> ReadKinectRow(std::string_view row, const std::string& fil
   ASSIGN_OR_RETURN(const NumberRows table, ReadNumberRows(heading + "\n" + std::string(row), file, kMaxClock));
   const RowLayout* layout = FindLayout(recording.format, table.columns);
   if (layout == nullptr || (layout->first == 0 && recording.records_times)) {
-    return Fail({file, 1}, "{} numbers in this row; earlier rows have another number", table.columns);
+    return Fail({file, 1}, "found {} numbers in this row; earlier rows have another number", table.columns);
   }
   return TimedFrame(table.Row(0), {file, 1, 1}, *layout, recording, index);
 }

@@ -137,7 +137,7 @@ Result<std::vector<Label>> ReadTags(Lines lines, const std::string& file, std::s
   while (const auto line = lines.Next()) {
     const int number = lines.number();
     const std::vector<Cell> cells = CellsOf(*line, ';');
-    if (cells.size() != 2) return Fail({file, number}, "{} words; allowed: a tick and a tag", cells.size());
+    if (cells.size() != 2) return Fail({file, number}, "found {} words; allowed: a tick and a tag", cells.size());
     ASSIGN_OR_RETURN(const double tick, NumberIn(cells[0], file, number, 1e19));
     Label label;
     label.clip = clip;
@@ -174,7 +174,8 @@ Result<std::vector<Label>> ReadActionLabels(Lines lines, const std::string& file
       cell.column += static_cast<int>(colon) + 1;
       if (!cell.text.empty()) cells.push_back(cell);
     }
-    if (cells.size() != 2) return Fail({file, number}, "{} numbers; allowed: a first and a last frame", cells.size());
+    if (cells.size() != 2)
+      return Fail({file, number}, "found {} numbers; allowed: a first and a last frame", cells.size());
     if (cells[0].text == "NaN" || cells[1].text == "NaN") continue;
     Label label;
     label.clip = take;
@@ -195,7 +196,7 @@ Result<std::vector<Label>> ReadActionLabels(Lines lines, const std::string& file
 }  // namespace
 
 Result<std::vector<Label>> ReadLabels(std::string_view text, const std::string& file, std::string_view clip) {
-  if (text.size() > kMaxBytes) return Fail({file}, "{} bytes; allowed: at most {}", text.size(), kMaxBytes);
+  if (text.size() > kMaxBytes) return Fail({file}, "found {} bytes; allowed: at most {}", text.size(), kMaxBytes);
   Lines lines(text);
   const std::string_view first = Trimmed(Lines(text).Next().value_or(""));
   auto labels = first.starts_with("XQPCTick") ? ReadTags(lines, file, clip)

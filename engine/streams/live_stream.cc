@@ -46,7 +46,7 @@ LiveStream::LiveStream(std::string name, const StreamReading& reading, const Str
 Result<void> LiveStream::Take(std::string_view line, std::vector<SensedFrame>& stream) {
   ++line_;
   if (line.size() > kMaxLineBytes)
-    return Fail({name_, line_}, "{} bytes in a line; allowed: at most {}", line.size(), kMaxLineBytes);
+    return Fail({name_, line_}, "found {} bytes in a line; allowed: at most {}", line.size(), kMaxLineBytes);
   if (IsEmptyOrComment(line)) {
     if (!maker_) first_lines_ += '\n';
     return {};

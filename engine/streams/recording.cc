@@ -239,7 +239,7 @@ Result<void> ToMetres(StreamRecording& recording, const std::string& file) {
 Result<StreamRecording> ReadStreamRecording(std::string_view text, const std::string& file,
                                             const StreamReading& reading) {
   if (text.size() > kMaxNumberTextBytes) {
-    return Fail({file}, "{} bytes; allowed: at most {}", text.size(), kMaxNumberTextBytes);
+    return Fail({file}, "found {} bytes; allowed: at most {}", text.size(), kMaxNumberTextBytes);
   }
   // Detect the format and read the file.
   const auto format = reading.format ? reading.format : DetectStreamFormat(text);

@@ -97,7 +97,7 @@ Result<TaughtPose> ReadPose(const Node& node) {
   if (const Node* shared = node.Find("tolerance_deg")) {
     ASSIGN_OR_RETURN(tolerance_deg, AsNumber(*shared));
     if (!(tolerance_deg >= kTolerances.lowest && tolerance_deg <= kTolerances.highest)) {
-      return Fail(shared->place, "tolerance_deg {}; allowed: {} to {}", tolerance_deg, kTolerances.lowest,
+      return Fail(shared->place, "tolerance_deg is {}; allowed: {} to {}", tolerance_deg, kTolerances.lowest,
                   kTolerances.highest);
     }
   }
@@ -177,7 +177,7 @@ Result<TaughtMove> ReadMove(const Node& node) {
   const Node *poses = fields.Raw("key_poses"), *right = fields.Raw("right"), *wrong = fields.Raw("wrong");
   RETURN_IF_ERROR(fields.Finish());
   if (move.name.empty() || move.name.size() > kMaxNameBytes) {
-    return Fail(node.place, "a name of {} bytes; allowed: 1 to {}", move.name.size(), kMaxNameBytes);
+    return Fail(node.place, "the name has {} bytes; allowed: 1 to {}", move.name.size(), kMaxNameBytes);
   }
   if (std::ranges::any_of(move.name, [](unsigned char c) { return c < ' ' || c == 0x7f; })) {
     return Fail(node.place, "a name with a line break or another control character");
@@ -211,7 +211,7 @@ Result<std::vector<TaughtMove>> ReadMoves(std::string_view text, const std::stri
     return Fail(list == nullptr ? root.place : list->place, "no list 'moves' with at least one move");
   }
   if (list->items.size() > kMaxMoves)
-    return Fail(list->place, "{} moves; allowed: at most {}", list->items.size(), kMaxMoves);
+    return Fail(list->place, "found {} moves; allowed: at most {}", list->items.size(), kMaxMoves);
   std::vector<TaughtMove> moves;
   for (const Node& item : list->items) {
     ASSIGN_OR_RETURN(TaughtMove move, ReadMove(item));

@@ -44,7 +44,7 @@ class CappedReader {
     std::error_code not_there;  // the error is ignored, because ReadWholeFile describes a missing file better
     const std::uintmax_t size = fs::file_size(path, not_there);
     if (!not_there && size > left_) {
-      return Fail({path.string(), 0, 0}, "{} MB; allowed: clips of at most {} MB", (size + 999'999) / 1'000'000,
+      return Fail({path.string(), 0, 0}, "found {} MB; allowed: clips of at most {} MB", (size + 999'999) / 1'000'000,
                   kMaxClipFileBytes / 1'000'000);
     }
     auto bytes = ReadWholeFile(path);

@@ -235,7 +235,7 @@ Result<std::string> ReadWholeFile(const FilePath& path, std::uintmax_t limit) {
   struct stat status {};
   const std::uintmax_t size =
       ::fstat(file.number(), &status) == 0 ? static_cast<std::uintmax_t>(status.st_size) : std::uintmax_t{0};
-  if (size > limit) return Fail(InFile(path), "{} MiB; allowed: at most {} MiB", size >> 20, limit >> 20);
+  if (size > limit) return Fail(InFile(path), "found {} MiB; allowed: at most {} MiB", size >> 20, limit >> 20);
   std::string bytes;
   bytes.reserve(size);
   std::array<char, 1 << 16> chunk{};

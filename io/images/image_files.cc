@@ -163,7 +163,7 @@ Result<void> BeginPng(const std::string& bytes, const std::string& path, png_ima
   }
   if (png.width > kMaxPictureSide || png.height > kMaxPictureSide) {
     png_image_free(&png);
-    return Fail({path}, "{} x {} pixels; allowed: at most {} a side", png.width, png.height, kMaxPictureSide);
+    return Fail({path}, "found {} x {} pixels; allowed: at most {} a side", png.width, png.height, kMaxPictureSide);
   }
   return {};
 }
@@ -275,7 +275,7 @@ Result<ColourImage> DecodeColourPng(std::string_view bytes, std::size_t max_pixe
   const std::size_t pixels = std::size_t{png.width} * png.height;
   if (png.width > kMaxSide || png.height > kMaxSide || pixels > max_pixels) {
     png_image_free(&png);
-    return Fail({}, "a PNG picture of {} x {} pixels; allowed: at most {} in all, {} a side", png.width, png.height,
+    return Fail({}, "the PNG picture has {} x {} pixels; allowed: at most {} in all, {} a side", png.width, png.height,
                 max_pixels, kMaxSide);
   }
   png.format = PNG_FORMAT_RGBA;

@@ -38,7 +38,7 @@ Picture PictureOf(View view) {
 
 std::vector<NamedCamera> StereoCameras(const BodyMotion& motion, double baseline_m, std::uint64_t seed) {
   if (!(baseline_m >= 0.05 && baseline_m <= 2)) {
-    throw engine::BadInput(fmt::format("a baseline of {} m; allowed: 0.05 to 2", baseline_m));
+    throw engine::BadInput(fmt::format("the baseline is {} m; allowed: 0.05 to 2 m", baseline_m));
   }
   const WorldKey dice{.suite_seed = seed, .scenario = "library"};
   RigOptions rig;
@@ -75,7 +75,7 @@ struct Studio::Room {
 
 Studio::Studio(const BodyMotion& motion, std::span<const NamedCamera> cameras, const StudioOptions& options) {
   if (!(options.scene >= 0 && options.scene <= 1)) {
-    throw engine::BadInput(fmt::format("a scene of {}; allowed: 0 to 1", options.scene));
+    throw engine::BadInput(fmt::format("scene is {}; allowed: 0 to 1", options.scene));
   }
   if (cameras.empty()) throw engine::BadInput("no camera");
   room_ = std::make_unique<Room>(

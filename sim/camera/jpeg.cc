@@ -72,8 +72,8 @@ Result<ColourImage> ReadJpeg(std::string_view jpeg, std::size_t max_pixels) {
   jpeg_destroy_decompress(&job);
   constexpr std::size_t kMaxSide = 16'384;  // the largest side of a picture in GL
   if (is_read && (width * height > max_pixels || std::max(width, height) > kMaxSide)) {
-    return Fail({}, "a JPEG picture of {} x {} pixels; allowed: at most {} pixels in all, and {} a side", width, height,
-                max_pixels, kMaxSide);
+    return Fail({}, "the JPEG picture has {} x {} pixels; allowed: at most {} pixels in all, and {} a side", width,
+                height, max_pixels, kMaxSide);
   }
   // Read the pixels.
   ColourImage picture;

@@ -195,7 +195,7 @@ Result<std::vector<double>> ReadBeats(std::string_view text, const std::string& 
     // Read the line's time, and compare it with the time of the previous beat.
     const auto moment = NumberAtFront(line);
     if (!moment) return Fail({file, number, 1}, "a beat is a number of seconds, found {}", Quote(line.substr(0, 40)));
-    if (*moment < 0) return Fail({file, number, 1}, "a beat at {} s; allowed: 0 or later", *moment);
+    if (*moment < 0) return Fail({file, number, 1}, "found a beat at {} s; allowed: 0 or later", *moment);
     const double step = beats.empty() ? kMinBeatSeconds : *moment - beats.back();
     if (step < kMinBeatSeconds - 1e-9 || step > kMaxBeatSeconds) {
       return Fail({file, number, 1}, "a beat at {} s, {:.3f} s after the one before; allowed: {} to {}", *moment, step,
@@ -204,7 +204,7 @@ Result<std::vector<double>> ReadBeats(std::string_view text, const std::string& 
     beats.push_back(*moment);
     if (beats.size() > kMaxBeats) return Fail({file, number, 1}, "more than {} beats", kMaxBeats);
   }
-  if (beats.size() < kMinBeats) return Fail({file}, "{} beats; allowed: at least {}", beats.size(), kMinBeats);
+  if (beats.size() < kMinBeats) return Fail({file}, "found {} beats; allowed: at least {}", beats.size(), kMinBeats);
   return beats;
 }
 

@@ -105,7 +105,7 @@ Result<std::vector<SongPart>> ReadParts(const Node& parts, double tempo_bpm, std
   }
   // Check the number of different moves.
   if (names.size() < kMinMoves || names.size() > kMaxMoves) {
-    return Fail(parts.place, "{} different moves; allowed: {} to {}", names.size(), kMinMoves, kMaxMoves);
+    return Fail(parts.place, "found {} different moves; allowed: {} to {}", names.size(), kMinMoves, kMaxMoves);
   }
   return read;
 }

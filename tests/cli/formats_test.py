@@ -449,7 +449,7 @@ class Formats(MotionFileCase):
         for a, b in zip(read, self.joints(path)):
             for role in a:
                 numpy.testing.assert_array_equal(b[role], a[role])
-        self.refused(self.motive(places, names, unit="Furlongs"), "Length Units 'Furlongs'; allowed: Meters")
+        self.refused(self.motive(places, names, unit="Furlongs"), "Length Units is 'Furlongs'; allowed: Meters")
         self.refused(self.motive(places, names, space="Local"), "allowed: Global")
 
     def test_the_bones_of_a_vrm_file_are_those_of_its_table(self):

@@ -225,7 +225,7 @@ class Transitions(unittest.TestCase):
                    for high in (height, 2 * height)]
         self.assertAlmostEqual(lengths[1] / lengths[0], 2)
         self.assertEqual(height, 0.9)
-        with self.assertRaisesRegex(engine.BadInput, "hips 0.01 m high; allowed: 0.1 to 10"):
+        with self.assertRaisesRegex(engine.BadInput, "the hips are 0.01 m high; allowed: 0.1 to 10 m"):
             engine.TransitionLibrary(clips, (pose, 0.01))
         with self.assertRaisesRegex(engine.BadInput, "a body without legs"):
             engine.TransitionLibrary(clips, (0 * pose, 0.9))
@@ -257,7 +257,7 @@ class Silhouettes(unittest.TestCase):
                   for pose in (DANCED[:1], measured)]
         self.assertAlmostEqual(thighs[1], thighs[0], places=6)
         self.assertTrue(np.isnan(engine.track_silhouettes(cameras, [np.zeros((2, 60, 80), bool)] * 2)).all())
-        with self.assertRaisesRegex(engine.BadInput, "a mask of 70 x 60 pixels for camera ''; allowed: 80 x 60"):
+        with self.assertRaisesRegex(engine.BadInput, "the mask for camera '' has 70 x 60 pixels; allowed: 80 x 60"):
             engine.track_silhouettes(cameras, [mask[:, :, :70] for mask in masks])
 
 

@@ -95,7 +95,7 @@ std::string AnswerFields::Text(std::string_view key, std::size_t longest) {
     return "";
   }
   const std::string& text = value->get_ref<const std::string&>();
-  if (text.size() > longest) Complain(key, fmt::format("{} bytes; allowed: at most {}", text.size(), longest));
+  if (text.size() > longest) Complain(key, fmt::format("found {} bytes; allowed: at most {}", text.size(), longest));
   return text;
 }
 
@@ -127,7 +127,7 @@ const Json& AnswerFields::List(std::string_view key, std::size_t fewest, std::si
   }
   if (value->size() < fewest || value->size() > most) {
     Complain(key, fewest == most ? fmt::format("{} entries, not {}", value->size(), most)
-                                 : fmt::format("{} entries; allowed: {}…{}", value->size(), fewest, most));
+                                 : fmt::format("found {} entries; allowed: {}…{}", value->size(), fewest, most));
     return EmptyList();
   }
   return *value;

@@ -45,11 +45,12 @@ Result<StatisticsByJoint> ReadJointStatistics(std::string_view text, const std::
 
 Result<std::vector<double>> ReadMusicBeats(std::string_view text, const std::string& file) {
   ASSIGN_OR_RETURN(const NumberRows rows, ReadNumberRows(text, file));
-  if (rows.columns != 1) return Fail({file}, "{} numbers in a line; allowed: one, a time in seconds", rows.columns);
+  if (rows.columns != 1)
+    return Fail({file}, "found {} numbers in a line; allowed: one, a time in seconds", rows.columns);
   for (std::size_t i = 0; i < rows.values.size(); ++i) {
     const double before = i == 0 ? -1e9 : rows.values[i - 1];
     if (rows.values[i] > before) continue;
-    return Fail({file, rows.lines[i], 0}, "a beat at {} s; allowed: times that increase from line to line",
+    return Fail({file, rows.lines[i], 0}, "found a beat at {} s; allowed: times that increase from line to line",
                 rows.values[i]);
   }
   return rows.values;

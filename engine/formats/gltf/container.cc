@@ -111,7 +111,7 @@ class JsonShape {
 Result<GltfContainer> OpenGltfContainer(std::string_view bytes, const std::string& file) {
   const Place place{file};
   if (static_cast<double>(bytes.size()) > kMaxGltfBytes) {
-    return Fail(place, "a glTF file of {} bytes; allowed: at most {:.0f} MB", bytes.size(), kMaxGltfBytes / 1e6);
+    return Fail(place, "the glTF file has {} bytes; allowed: at most {:.0f} MB", bytes.size(), kMaxGltfBytes / 1e6);
   }
   GltfContainer container{.is_binary = false, .json = bytes, .binary = {}};
   if (bytes.starts_with("glTF")) {

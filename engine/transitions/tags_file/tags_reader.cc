@@ -77,7 +77,7 @@ Result<void> CheckBeforeParsing(std::string_view text, const std::string& file) 
   for (std::size_t start = 0; start < text.size();) {
     const std::size_t next = std::min(text.find('<', start + 1), text.size());
     if (next - start > kMaxTagBytes) {
-      return Fail({file, LineOf(text, start), 0}, "{} bytes without a new tag; allowed: at most {}", next - start,
+      return Fail({file, LineOf(text, start), 0}, "found {} bytes without a new tag; allowed: at most {}", next - start,
                   kMaxTagBytes);
     }
     start = next;
@@ -319,7 +319,7 @@ class TagsReader {
 
 Result<BridgeTags> ReadTagsFile(std::string_view text, const std::string& file) {
   if (text.size() > kMaxTagsFileBytes) {
-    return Fail({file, 0, 0}, "{} bytes; allowed: at most {}", text.size(), kMaxTagsFileBytes);
+    return Fail({file, 0, 0}, "found {} bytes; allowed: at most {}", text.size(), kMaxTagsFileBytes);
   }
   ASSIGN_OR_RETURN(auto xml, XmlReader::Open(text, TagsFileSchemas().front().text, file));
   TagsReader reader(xml);

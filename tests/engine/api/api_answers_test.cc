@@ -111,7 +111,7 @@ TEST(ApiCapture, RecoversThePersonThatTheEngineRecovers) {
     EXPECT_LT(glm::distance(globals.at(ankle).position, captured.motion.poses[20][Role::kLeftAnkle]), 1e-4);
   }
   EXPECT_THAT(Complaint([&] { Capture(cameras, seen, {.rate_hz = 0.9}); }), HasSubstr("1 to 1000"));
-  EXPECT_THAT(Complaint([&] { Capture(cameras, seen, {.person = -1}); }), HasSubstr("person -1"));
+  EXPECT_THAT(Complaint([&] { Capture(cameras, seen, {.person = -1}); }), HasSubstr("person is -1"));
   EXPECT_THAT(Complaint([&] { Capture(cameras, seen, {.person = 1}); }), HasSubstr("person 2"));
   EXPECT_THAT(Complaint([&] { Capture(cameras, seen, {.smooth_hz = -1}); }), HasSubstr("0 or more"));
   seen[1][3][0][Landmark::kLeftShoulder].confidence = 1.5;
@@ -129,7 +129,7 @@ TEST(ApiMotion, ReadsWhatTheEngineWrote) {
     }
   }
   EXPECT_EQ(ReadMotion(WriteTrc(flap, "flap"), "flap.trc", 60).poses.size(), 59u);
-  EXPECT_THAT(Complaint([&] { ReadMotion(WriteTrc(flap, "flap"), "flap.trc", 0.5); }), HasSubstr("a rate of 0.5 Hz"));
+  EXPECT_THAT(Complaint([&] { ReadMotion(WriteTrc(flap, "flap"), "flap.trc", 0.5); }), HasSubstr("the rate is 0.5 Hz"));
 }
 
 TEST(ApiMotion, LaysTheRowsOfACsvOnItsClock) {
@@ -292,7 +292,7 @@ TEST(ApiCoach, RefusesWhatIsNotOfTheDance) {
   EXPECT_THAT(RequiredActs(), ::testing::Contains("head_shake"));
   EXPECT_THAT(CoachPolicies(), ::testing::Contains("at-first-mistake"));
   Coach coach(SmallDance(), moves);
-  EXPECT_THAT(Complaint([&] { coach.Step({}, -1.0); }), HasSubstr("music_s -1; allowed: 0 to 1e6, or none"));
+  EXPECT_THAT(Complaint([&] { coach.Step({}, -1.0); }), HasSubstr("music_s is -1; allowed: 0 to 1e6, or none"));
 }
 
 }  // namespace

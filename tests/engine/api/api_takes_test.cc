@@ -67,7 +67,7 @@ TEST(ApiSilhouettes, RefusesWhatDoesNotGoTogether) {
   };
   EXPECT_THAT(refused({.measured = {Pose{}}}), HasSubstr("a limb has no length"));
   masks[0][0].pixels.pop_back();
-  EXPECT_THAT(refused(), HasSubstr("a mask of 307199 pixels; allowed: 640 x 480"));
+  EXPECT_THAT(refused(), HasSubstr("the mask has 307199 pixels; allowed: 640 x 480"));
   masks[0] = masks[1];
   cameras.pop_back();
   EXPECT_THAT(refused(), HasSubstr("1 cameras, but masks of 2"));

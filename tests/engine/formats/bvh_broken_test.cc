@@ -63,7 +63,7 @@ TEST(BrokenBvh, IsRefusedForNamesThatAreNone) {
   };
   EXPECT_TRUE(ReadBvh(named(500), "long.bvh"));
   EXPECT_EQ(testing::Refusal(ReadBvh(named(501), "long.bvh")),
-            "long.bvh:2:6: a joint's name of 501 bytes; allowed: at most 500");
+            "long.bvh:2:6: a joint's name has 501 bytes; allowed: at most 500");
 }
 
 TEST(BrokenBvh, ShowsOnlyPrintableAndShortWordsInComplaints) {

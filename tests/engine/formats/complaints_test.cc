@@ -203,7 +203,7 @@ TEST(Formats, RefuseTextsOfMoreThan64MiB) {
     EXPECT_TRUE(tells(ReadMotiveCsv(some, "a.csv"), "67108864"));
     EXPECT_TRUE(tells(ReadNumberRows(some, "a.txt"), "67108864"));
   }
-  EXPECT_EQ(ToString(ReadDeepMimicMotion(text, "a.txt").error()), "a.txt: 64 MiB; allowed: at most 64 MiB");
+  EXPECT_EQ(ToString(ReadDeepMimicMotion(text, "a.txt").error()), "a.txt: found 64 MiB; allowed: at most 64 MiB");
 }
 
 TEST(Formats, ComplaintsAboutArraysAndRowsAreAsTheyWere) {

@@ -148,7 +148,7 @@ TEST(JointCsv, RefusesUnknownHeadingsHalfJointsAndRaggedRows) {
   EXPECT_EQ(complaint("head_x_m,head_y_m,head_z_m,head_x_m\n1,2,3,4\n"), "m.csv:1: heading 'head_x_m' twice");
   std::string blank = "head_x_m,head_y_m,head_z_m\n";
   for (int i = 0; i <= 1'000'000; ++i) blank += ",,\n";
-  EXPECT_EQ(complaint(blank.c_str()), "m.csv: 1000001 rows; allowed: at most 1000000");
+  EXPECT_EQ(complaint(blank.c_str()), "m.csv: found 1000001 rows; allowed: at most 1000000");
   const std::string timed = "time_s,head_x_m,head_y_m,head_z_m\n";
   EXPECT_EQ(complaint((timed + "0.2,1,2,3\n0.1,1,2,3\n0,1,2,3\n").c_str()),
             "m.csv:3: the time 0.1 s follows 0.2 s; allowed: times that do not decrease");

@@ -111,8 +111,9 @@ TEST(MotionBids, SaysWhatIsWrong) {
   EXPECT_EQ(reason(row, kChannels), "read") << "the control";
   EXPECT_THAT(reason("1\t2\n", kChannels), HasSubstr("m.tsv:1: 2 columns, but 4 channels in c.tsv"));
   EXPECT_THAT(reason(row, with("units", "unit")), HasSubstr("c.tsv:1: no column units"));
-  EXPECT_THAT(reason(row, with("mm", "furlong")), HasSubstr("c.tsv:2: units 'furlong'; allowed for POS: m, cm, mm, in, ft"));
-  EXPECT_THAT(reason(row, with("\tx\t", "\tw\t")), HasSubstr("component 'w'; allowed for POS: x, y, z"));
+  EXPECT_THAT(reason(row, with("mm", "furlong")),
+              HasSubstr("c.tsv:2: units are 'furlong'; allowed for POS: m, cm, mm, in, ft"));
+  EXPECT_THAT(reason(row, with("\tx\t", "\tw\t")), HasSubstr("found component 'w'; allowed for POS: x, y, z"));
   EXPECT_THAT(reason(row, with("\ty\t", "\tz\t")), HasSubstr("c.tsv:4: the point 'a' has two channels for z"));
   EXPECT_THAT(reason("1\t2\t3\n", with("a_y\tPOS\ty\ta\tm\n", "")),
               HasSubstr("'a' needs channels for x, y and z, but some are missing"));

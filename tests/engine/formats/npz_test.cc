@@ -183,7 +183,7 @@ TEST(Amass, RefusesArraysThatAreNoMotion) {
               }),
               HasSubstr("trans has 1 frames; poses has 2"));
   EXPECT_THAT(reason([](Npz& npz) { npz.arrays["poses"] = {{0, 156}, {}}; }), HasSubstr("no frames"));
-  EXPECT_THAT(reason([](Npz& npz) { npz.arrays["mocap_framerate"].values = {0.5}; }), HasSubstr("a rate of 0.5 Hz"));
+  EXPECT_THAT(reason([](Npz& npz) { npz.arrays["mocap_framerate"].values = {0.5}; }), HasSubstr("the rate is 0.5 Hz"));
   EXPECT_EQ(reason([](Npz& npz) { npz.arrays["mocap_framerate"].values = {10000}; }), "(read)");
   EXPECT_THAT(reason([](Npz& npz) { npz.arrays["mocap_framerate"].values = {10001}; }),
               HasSubstr("allowed: 1 to 10000"));

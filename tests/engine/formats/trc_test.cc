@@ -108,7 +108,7 @@ TEST(ReadTrc, RefusesARowThatLacksACoordinate) {
   std::string text = AtFiftyHertz(50, 60);
   text.replace(text.find("\t1\t2\t3\n"), 7, "\t1\t2\n");
   EXPECT_EQ(testing::Refusal(ReadTrc(text, "a.trc")),
-            "a.trc:6: 2 coordinates; allowed: a multiple of 3 (X, Y and Z of each marker)");
+            "a.trc:6: found 2 coordinates; allowed: a multiple of 3 (X, Y and Z of each marker)");
 }
 
 TEST(ReadTrc, TakesTheRateOfItsTimesWhereDataRateIsZero) {
@@ -131,7 +131,7 @@ TEST(ReadTrc, TakesTheFirstFrameAndTheAxesFromTheLineThatHasThem) {
   EXPECT_EQ(none->frames, wanted->frames) << "a file without that line";
   EXPECT_EQ(ReadTrc(with("\tx1\ty1\tz1\t\n"), "a.trc")->frames, wanted->frames);
   EXPECT_EQ(testing::Refusal(ReadTrc(with("\t\tX1\tZ1\tY1\n"), "a.trc")),
-            "a.trc:5:3: axes in the order XZY; allowed: X, Y, Z of each marker");
+            "a.trc:5:3: found axes in the order XZY; allowed: X, Y, Z of each marker");
 }
 
 TEST(ReadTrc, RefusesAnyMarkersAxesInAnotherOrder) {
@@ -143,9 +143,9 @@ TEST(ReadTrc, RefusesAnyMarkersAxesInAnotherOrder) {
         "a.trc");
   };
   EXPECT_EQ(testing::Refusal(read("\t\tX1\tY1\tZ1\tX2\tZ2\tY2")),
-            "a.trc:5:12: axes in the order XZY; allowed: X, Y, Z of each marker");
+            "a.trc:5:12: found axes in the order XZY; allowed: X, Y, Z of each marker");
   EXPECT_EQ(testing::Refusal(read("\t\tX\tY\tZ\tY\tX\tZ")),
-            "a.trc:5:9: axes in the order YXZ; allowed: X, Y, Z of each marker");
+            "a.trc:5:9: found axes in the order YXZ; allowed: X, Y, Z of each marker");
   // The controls: labels that are complete, missing, or of some markers only.
   for (const char* axes : {"\t\tX1\tY1\tZ1\tX2\tY2\tZ2", "\t\tx\ty\tz\tx\ty\tz", "\t\tX1\tY1\tZ1",
                            "\t\tX1\tY1\t\tX2\tY2\tZ2", "\t\tX1\tY1\tZ1\t\tX2\tY2\tZ2", ""}) {

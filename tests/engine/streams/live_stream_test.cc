@@ -137,7 +137,7 @@ TEST(LiveStream, AShortStreamIsGivenOutAtItsEnd) { EXPECT_EQ(Listen(KinectV1Text
 
 TEST(LiveStream, ComplaintsCountTheLinesOfTheStream) {
   const std::string rows = KinectV1Text(WavingMotion(31));
-  EXPECT_EQ(Listen(rows + "\n1 2 3\n").complaint.find("-:33: 3 numbers in this row"), 0u);
+  EXPECT_EQ(Listen(rows + "\n1 2 3\n").complaint.find("-:33: found 3 numbers in this row"), 0u);
   EXPECT_EQ(Listen(rows + "x" + rows.substr(1)).complaint.find("-:32:1: value 1"), 0u);
   const std::string csv = WriteJointCsv(WavingMotion(5));
   EXPECT_EQ(Listen(csv + "5,-1.05" + csv.substr(csv.rfind("\n4,") + 20)).complaint.find("-:7"), 0u);

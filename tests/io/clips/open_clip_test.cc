@@ -225,7 +225,7 @@ TEST_F(ClipFileTest, WhatIsNeitherIsToldWithWhatIsAllowed) {
 TEST_F(ClipFileTest, AFileThatIsTooLargeIsRefusedBeforeItIsRead) {
   const std::string path = Write("huge.bvh", "HIERARCHY");
   std::filesystem::resize_file(path, kMaxClipFileBytes + 1);  // a sparse file, which takes no space
-  EXPECT_NE(Complaint(path).find("501 MB; allowed: clips of at most 500 MB"), std::string::npos);
+  EXPECT_NE(Complaint(path).find("found 501 MB; allowed: clips of at most 500 MB"), std::string::npos);
 }
 
 TEST_F(ClipFileTest, BuffersAreReadFromTheFilesOwnFolder) {

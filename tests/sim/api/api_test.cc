@@ -93,7 +93,7 @@ TEST(SimulatedStudio, RefusesWhatItCannotDraw) {
   lens.camera.distortion.k1 = -0.1;
   EXPECT_THAT(RefusalOf([&] { Studio(motion, std::array{lens}); }), HasSubstr("a lens with distortion"));
   EXPECT_THAT(RefusalOf([&] { Studio(motion, {}); }), HasSubstr("no camera"));
-  EXPECT_THAT(RefusalOf([&] { StereoCameras(motion, 0); }), HasSubstr("baseline of 0 m"));
+  EXPECT_THAT(RefusalOf([&] { StereoCameras(motion, 0); }), HasSubstr("baseline is 0 m"));
   const Studio studio(motion, StereoCameras(motion));
   EXPECT_THAT(RefusalOf([&] { studio.Shoot(2, 0); }), HasSubstr("camera 2; allowed: 0 to 1"));
   EXPECT_THAT(RefusalOf([&] { studio.Shoot(0, 40); }), HasSubstr("frame 40; allowed: 0 to 39"));

@@ -69,7 +69,7 @@ TEST(BuiltinDance, ACoachRefusesADanceThatIsNone) {
   EXPECT_THAT(RefusalOf([&] { engine::Coach(builtin.dance, builtin.moves, {.recogniser = "key-pose"}); }),
               HasSubstr("allowed: whole-body, dtw, nearest"));
   EXPECT_THAT(RefusalOf([&] { engine::Coach(builtin.dance, builtin.moves, {.right_from = 0.0}); }),
-              HasSubstr("right_from 0; allowed: above 0"));
+              HasSubstr("right_from is 0; allowed: above 0"));
   auto renamed = builtin.moves;
   renamed.front().name = "jig";
   EXPECT_THAT(RefusalOf([&] { engine::Coach(builtin.dance, renamed); }), HasSubstr("move 0 is 'jig'; allowed: 'clap'"));

@@ -229,7 +229,7 @@ TEST_F(TransitionExchange, RefusesAWrongAnswerAndNamesThePlace) {
             "between_start: only together with 'between'");
   EXPECT_EQ(complaint("/between/0/59", std::nan("")), "between[0][59]: nan is not a finite number");
   EXPECT_THAT(complaint("/between/1/9", clip[request][9].get<double>() + 0.3), HasSubstr("between[1]: head is 0."));
-  EXPECT_EQ(complaint("/between", Json(std::vector<Json>(301, clip[0]))), "between: 301 entries; allowed: 0…300");
+  EXPECT_EQ(complaint("/between", Json(std::vector<Json>(301, clip[0]))), "between: found 301 entries; allowed: 0…300");
   EXPECT_EQ(complaint("/through", {{{"clip", 99}, {"enter_frame", 0}, {"leave_frame", 9}}}),
             "through[0].clip: 99; allowed: 0…" + std::to_string(library_.clips.size() - 1));
 }

@@ -276,7 +276,7 @@ TEST(TagsFile, IsReadWithTagsOfUpTo65536Bytes) {
   };
   const std::size_t from = text.find("<fuzzy-system"), others = text.find('<', from + 1) - from;
   EXPECT_THAT(complaint(65536 - others), ::testing::Not(HasSubstr("without a new tag")));
-  EXPECT_THAT(complaint(65537 - others), HasSubstr("65537 bytes without a new tag; allowed: at most 65536"));
+  EXPECT_THAT(complaint(65537 - others), HasSubstr("found 65537 bytes without a new tag; allowed: at most 65536"));
 }
 
 TEST(TagsComparison, SaysEveryDifferenceByItsName) {
