@@ -41,7 +41,7 @@ TEST_F(ReadPeople, FramesWithoutAFileAreFramesWithoutPeople) {
       }
     }
     EXPECT_EQ(film->told,
-              numbers or times show that "15 of 60 frames are missing; these frames are taken to show nobody");
+              "numbers or times show that 15 of 60 frames are missing; these frames are taken to show nobody");
   }
   // If a film has as many frames as there are files, each file is a frame; else the files' numbers are frames.
   EXPECT_EQ(ReadKeypoints(folder_.path() / "a", "", {.frames = 45})->frames.size(), 45u);
@@ -65,7 +65,7 @@ TEST_F(ReadPeople, FramesAreLaidOnTheirTimes) {
     EXPECT_TRUE(film->frames[27].empty());
     EXPECT_EQ(film->frames[35][0][Landmark::kNose].pixel.x, 35.5);
     EXPECT_EQ(film->told,
-              numbers or times show that "15 of 60 frames are missing; these frames are taken to show nobody");
+              "numbers or times show that 15 of 60 frames are missing; these frames are taken to show nobody");
     EXPECT_EQ(ReadKeypoints(list(key, unit), "", {.frames = 45})->frames.size(), 45u);
   }
 }
