@@ -40,7 +40,8 @@ bool LosesValues(const Comparison& c, double alpha = kAlpha) {
 
 std::string WhyValuesLost(const Comparison& c) {
   return fmt::format(
-      "worlds with both values show no difference, but only “{}” has a value in {} worlds, and only “{}” in {}",
+      "worlds with values of both methods show no difference, but only “{}” has a value in {} worlds, and only "
+      "“{}” in {}",
       c.baseline, c.only_baseline, c.method, c.only_method);
 }
 
@@ -228,9 +229,10 @@ Finding JudgeComparison(const Expectation& expectation, const ConditionTable& ta
   const bool is_open = found.verdict == Verdict::kNoDifference && LosesValues(found, alpha);
   // Decide from the verdict whether the expectation is met, unmet or undecided.
   const int without = worlds.only_baseline + worlds.only_method + worlds.neither;
-  const std::string missing = without == 0 ? "" : fmt::format(", {} more do not have both values", without);
+  const std::string missing = without == 0 ? "" : fmt::format(", in {} more a method has no value", without);
   if (!found.ci_low)
-    return {ClaimOutcome::kUndecided, fmt::format("only {} worlds have both values{}", found.pairs, missing)};
+    return {ClaimOutcome::kUndecided,
+            fmt::format("only {} worlds have values of both methods{}", found.pairs, missing)};
   const ClaimOutcome outcome = found.verdict == Verdict::kBetter                 ? ClaimOutcome::kMet
                                : is_open || found.verdict == Verdict::kUndecided ? ClaimOutcome::kUndecided
                                                                                  : ClaimOutcome::kUnmet;
@@ -282,7 +284,7 @@ Finding JudgeBound(const Expectation& expectation, const ConditionTable& table) 
 std::string WhyOpen(const Comparison& c, const MetricInfo& metric, int comparisons, SamplingUnit unit) {
   if (c.verdict != Verdict::kUndecided) return "";
   const std::string_view worlds = unit == SamplingUnit::kPerson ? "people" : "worlds";
-  if (c.pairs == 0) return "no world has both values";
+  if (c.pairs == 0) return "no world has values of both methods";
   // McNemar's mid-p of n differing pairs is at least 1 / 2ⁿ, half of the smallest p of the other tests.
   const double sharper = c.sign_flip.how == kMidP ? 2 : 1;
   const int needed = PairsNeeded(comparisons, sharper * kAlpha);

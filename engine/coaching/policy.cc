@@ -60,9 +60,8 @@ PolicyDecision AfterN(const PolicyInput& input, Values values) {
 PolicyDecision Confident(const PolicyInput& input, Values values) {
   if (input.verdict != WindowVerdict::kWrong) return {false, "no mistake"};
   const double sure = ConfidenceSettings().Apply(values).sure_below * input.right_from;
-  return {
-      input.evidence < sure || input.evidence == 0,
-      fmt::format("evidence {:.2f} of a right performance; below {:.2f}, a mistake is certain", input.evidence, sure)};
+  return {input.evidence < sure || input.evidence == 0,
+          fmt::format("evidence {:.2f} that it was right; below {:.2f} a mistake is certain", input.evidence, sure)};
 }
 
 PolicyDecision Fading(const PolicyInput& input, Values values) {

@@ -283,7 +283,7 @@ UpFinding FindUp(std::span<const BodyPose> all, double rate_hz, const UpRule& ru
   if (best != nullptr && rule.evidence == UpEvidence::kPosture) {
     found.axis = *best;
     found.source = "its posture";
-    found.doubt = fmt::format("{} is assumed to be up only because of the posture: {}", AxisName(*best), usually);
+    found.doubt = fmt::format("{} is assumed to be up because of the posture, although {}", AxisName(*best), usually);
   } else if (best != nullptr) {
     found.doubt = fmt::format("the body stands along {}, but {}", AxisName(*best), usually);
   } else if (rule.evidence == UpEvidence::kPosture && usual.upright < kHardlyEver) {

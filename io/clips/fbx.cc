@@ -140,8 +140,8 @@ PreparedFbx Prepare(std::string_view bytes) {
   PreparedFbx prepared;
   if (const std::size_t inactive = LeaveOutInactiveRotations(bytes, prepared.bytes); inactive > 0) {
     prepared.remarks.push_back(fmt::format(
-        "RotationActive is not set: pre-rotations, post-rotations and rotation orders are left out for this many "
-        "joints: {}",
+        "RotationActive is not set in {} joints: their pre-rotations, post-rotations and rotation orders are left "
+        "out",
         inactive));
     bytes = prepared.bytes;
   }
@@ -166,8 +166,9 @@ void Describe(const FbxKeyFacts& facts, std::vector<std::string>& remarks) {
         "keys outside of the clip's time span (LocalStart to LocalStop) are left out: up to {:.2f} s", facts.cut_s));
   }
   if (facts.empty_spans > 0) {
-    remarks.push_back(fmt::format(
-        "all keys are used in clips whose time span (LocalStart to LocalStop) contains no key: {}", facts.empty_spans));
+    remarks.push_back(
+        fmt::format("in {} clips, the time span (LocalStart to LocalStop) contains no key, so all keys are used",
+                    facts.empty_spans));
   }
 }
 

@@ -36,7 +36,7 @@ std::string SentenceFor(const Judged& judged, const std::string& other, const Me
   const Comparison& c = *judged.comparison;
   const Verdict verdict = judged.Here();
   if (c.pairs == 0 || !c.difference) {
-    return fmt::format("“{}” could not be compared with {} by {}: no world has both values", c.method, other,
+    return fmt::format("“{}” could not be compared with {} by {}: no world has values of both methods", c.method, other,
                        words.label);
   }
   if (!c.ci_low) {

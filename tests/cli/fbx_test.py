@@ -139,7 +139,7 @@ class Fbx(MotionFileCase):
         path, places = self.fbx("inactive.fbx", 1, "y", inactive=("LeftArm", "RightForeArm"))
         self.assertLess(self.apart_from_truth(path, places), 1e-4)
         note = json.loads(self.etude("clip", "info", path, "--json").stdout)["clips"][0]["body"]["note"]
-        self.assertIn("post-rotations and rotation orders are left out for this many joints: 2", note)
+        self.assertIn("RotationActive is not set in 2 joints: their pre-rotations, post-rotations", note)
         path, _ = self.fbx("active.fbx", 1, "y")
         self.assertNotIn("RotationActive", self.etude("clip", "info", path, "--json").stdout)
 

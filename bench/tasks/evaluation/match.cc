@@ -242,7 +242,7 @@ std::string NoteOnUnseen(std::string_view who, const PointTracks& tracks, const 
   }
   const double percent = 100 * static_cast<double>(unseen) / static_cast<double>(asked);
   std::string note =
-      fmt::format(", {} has no value for {:.3g} % of the joints and frames, which every mean leaves out", who, percent);
+      fmt::format(", {} has no value for {:.3g} % of the joints and frames, which no mean includes", who, percent);
   if (empty_frames > 0) note += fmt::format(", and no joint in {} of {} frames", empty_frames, frames);
   if (!never.empty()) note += fmt::format(", and never shows {}", Join(never));
   return note;

@@ -234,7 +234,7 @@ TEST_F(SummaryTest, AnExpectationIsHeldToItsConfidence) {
   EXPECT_EQ(result.outcome, ClaimOutcome::kUndecided);
   EXPECT_THAT(result.detail, ::testing::HasSubstr("9 of these worlds differ, and a confidence of 99.9 % needs at "
                                                           "least 11 that differ"));
-  EXPECT_THAT(result.detail, ::testing::HasSubstr("on 9 worlds, 1 more do not have both values"));
+  EXPECT_THAT(result.detail, ::testing::HasSubstr("on 9 worlds, in 1 more a method has no value"));
 }
 
 /// Method b has the values of method a, but no value in the last `lost` of the 30 worlds, where a is worse.

@@ -402,9 +402,9 @@ TEST(MarkersUp, OfPeopleWhoStandOrWalkIsTheirAxisAndItsDoubtIsSaid) {
     EXPECT_LT(OffUp(zup->front(), poses), 1e-9) << zup->front().Note();
     EXPECT_LT(OffUp(yup->front(), poses), 1e-9) << yup->front().Note();
     EXPECT_EQ(zup->front().up.evidence, UpEvidence::kPosture);
-    EXPECT_EQ(
-        zup->front().up.doubt,
-        "Z is assumed to be up only because of the posture: Y is the usual axis of TRC files; --up sets another axis");
+    EXPECT_EQ(zup->front().up.doubt,
+              "Z is assumed to be up because of the posture, although Y is the usual axis of TRC files; --up sets "
+              "another axis");
     EXPECT_THAT(zup->front().Note(), HasSubstr("turned upright from Z up (its posture)"));
   }
 }

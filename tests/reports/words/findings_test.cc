@@ -88,7 +88,7 @@ TEST(Answer, TellsOfTheWorldsThatOnlyOneSurvived) {
 
 TEST(Answer, AdmitsThatNothingCouldBeCompared) {
   EXPECT_THAT(AnswerTo(Figures(0, std::nullopt, std::nullopt, std::nullopt, 0, Verdict::kUndecided)),
-              HasSubstr("no world has both values"));
+              HasSubstr("no world has values of both methods"));
 }
 
 TEST(Answer, SaysThatItDependsWhenConditionsDisagree) {

@@ -79,9 +79,9 @@ TEST(Match, SaysWhatTheMeansLeaveOut) {
   const CellResult result = Judged(truth, answer);
   // The truth shows 1200 − 30 positions; of these, the answer lacks 54 of the head and 6 × 20.
   EXPECT_NEAR(ValueIn(result, "seen_share"), 1 - 174.0 / 1170, 1e-12);
-  EXPECT_THAT(result.reason, HasSubstr("the truth has no value for 2.5 % of the joints and frames, which every mean "
-                                       "leaves out, the answer has no value for 14.9 % of the joints and frames, which "
-                                       "every mean leaves out, and no joint in 6 of 60 frames, and never shows head"));
+  EXPECT_THAT(result.reason, HasSubstr("the truth has no value for 2.5 % of the joints and frames, which no mean "
+                                       "includes, the answer has no value for 14.9 % of the joints and frames, which "
+                                       "no mean includes, and no joint in 6 of 60 frames, and never shows head"));
   EXPECT_THAT(Judged(Gliding(30, 60), Gliding(30, 60)).reason, ::testing::Not(HasSubstr("no value")));
   EXPECT_THAT(Judged(Gliding(30, 60), Gliding(30, 45)).reason, ::testing::Not(HasSubstr("no value")))
       << "frames outside the answer have a note of their own";
