@@ -265,8 +265,8 @@ class BaselineReader {
     const bool skipped = statuses.find_first_not_of('s') == std::string::npos;
     if (skipped || statuses.find_first_of(kAnswers) != std::string::npos) return {};
     return Fail(place,
-                "all {} cells of {} failed, so no run could be worse; allowed: a baseline in which each method has "
-                "a cell that is ok or unsolved, or has only skipped cells",
+                "all {} cells of {} failed, so no run could be worse; allowed: for each method, a cell that is ok "
+                "or unsolved, or only skipped cells",
                 cells.trials, name);
   }
 

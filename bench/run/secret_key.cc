@@ -52,8 +52,8 @@ Result<std::optional<SecretKey>> FindSecretKey(const std::string& file) {
 Result<void> CheckSecretWorlds(int version, const Place& place) {
   if (version == kSecretWorldsVersion) return {};
   return Fail(place,
-              "its secret worlds are of version {}, but this program makes version {}, in which every condition has "
-              "its own random numbers; use the program that made them",
+              "its secret worlds are of version {}, but this program makes version {} (separate random numbers for "
+              "each condition); use the program that made the worlds",
               version, kSecretWorldsVersion);
 }
 

@@ -82,12 +82,11 @@ Result<Clip> ReadAmass(const Npz& npz, const std::string& file, std::optional<do
   for (const auto& [name, array] : npz.arrays) names.push_back(name);
   for (const std::string& name : npz.skipped) names.push_back(name + " (no plain numbers)");
   if ((width != 72 && width != 156 && width != 165) || WidthOf(places) != 3) {
-    return Fail(
-        {file},
-        "found the arrays {}; allowed: a motion of AMASS with poses (frames × 72, 156 or 165), trans (frames × 3) and "
-        "mocap_framerate or mocap_frame_rate, or of Kimodo with posed_joints and global_rot_mats; use a .npy file "
-        "for positions of joints",
-        names.empty() ? "none" : Join(names));
+    return Fail({file},
+                "found the arrays {}; allowed: AMASS's poses (frames × 72, 156 or 165), trans (frames × 3) and "
+                "mocap_framerate or mocap_frame_rate, or Kimodo's posed_joints and global_rot_mats; write positions of "
+                "joints into a .npy file",
+                names.empty() ? "none" : Join(names));
   }
   // Check frames, rate and values.
   const std::size_t frames = poses->shape[0];

@@ -260,9 +260,8 @@ class RigChecker {
       if (share == 0 || !(strange(share) < strange(said)) || !(miss_read < least)) continue;
       least = miss_read;
       told = fmt::format(
-          "the shoulders' width is {:.2f} of a leg's length ({:.2f} is usual); if keypoints are relative to {}, it is "
-          "{:.2f}, "
-          "and the residual of the rays is {:.2f} px instead of {:.2f}",
+          "the shoulders' width is {:.2f} of a leg's length (usual: {:.2f}); if keypoints are relative to {}, it "
+          "is {:.2f}, and the rays' residual is {:.2f} px instead of {:.2f}",
           said, kUsual, square.told, share, miss_read, miss);
     }
     return told;

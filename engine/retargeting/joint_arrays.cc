@@ -256,10 +256,9 @@ Result<RawMotion> ReadRawNpz(const Npz& arrays, const std::string& file, const A
     }
     ASSIGN_OR_RETURN(times, TimesOf(arrays, shape[0], file));
     if (!rate && times.name.empty()) {
-      return Fail(
-          {file},
-          "positions without rate_hz, the frames per second; allowed: one number from 0.1 to 10000, as "
-          "numpy.savez(…, positions=p, rate_hz=30) writes it, `times` in seconds, or `rate: 30` in a joint map");
+      return Fail({file},
+                  "found no rate_hz (frames per second); allowed: one number from 0.1 to 10000, as numpy.savez(…, "
+                  "positions=p, rate_hz=30) writes it, `times` in seconds, or `rate: 30` in a joint map");
     }
   }
   motion.rate_hz = rate ? rate->rate_hz : told.rate_hz.value_or(kJudgedRateHz);

@@ -56,8 +56,8 @@ std::string DoubtClock(const std::vector<Label>& labels, const std::string& file
   const double end = static_cast<double>(stream.stream.frames.size()) / stream.stream.rate_hz;
   if (stream.start_s < kNoticeable || first < stream.start_s || first >= end) return "";
   return fmt::format(
-      "{}: doubtful: the clock of {} begins at {:.3f} s, and no label begins earlier; from_s and to_s count from the "
-      "first frame, so subtract {:.3f} s if they are times of that clock",
+      "{}: doubtful: the clock of {} begins at {:.3f} s, and no label begins earlier; from_s and to_s count from "
+      "the first frame: if yours count by that clock, subtract {:.3f} s",
       file, stream.name, stream.start_s, stream.start_s);
 }
 

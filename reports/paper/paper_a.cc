@@ -135,8 +135,8 @@ std::string FigureHtml(const PaperAFigure& figure, const FuzzySystem& system, bo
 
 std::string RoundTripHtml(const FuzzySystem& system) {
   const std::string_view legend =
-      "Back from the grades: each method of defuzzification computes a value from the grades of a value. The table "
-      "shows the mean difference of the two, over the whole axis.";
+      "Each method of defuzzification computes a value back from its grades. The table shows the mean difference "
+      "between the two values over the whole axis.";
   Table table{.label = fmt::format("Back from the grades of {}", system.name),
               .style = "printed",
               .columns = {{.head = "feature", .is_row_head = true}}};

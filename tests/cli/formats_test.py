@@ -63,7 +63,7 @@ class Formats(MotionFileCase):
             numpy.testing.assert_array_equal(seen[0], other)
 
     def test_amass_that_is_none_is_told_what_lacks(self):
-        self.refused(self.amass("no.npz", 150, "mocap_framerate", True), "allowed: a motion of AMASS with poses")
+        self.refused(self.amass("no.npz", 150, "mocap_framerate", True), "allowed: AMASS's poses")
         self.refused(self.amass("slow.npz", 156, "speed", True),
                      "states no frame rate (its arrays: poses, speed, trans, gender (no plain numbers)); allowed:")
         bad = self.amass("nan.npz", 156, "mocap_framerate", True, trans=numpy.full((60, 3), numpy.nan))
@@ -83,7 +83,7 @@ class Formats(MotionFileCase):
         body = numpy.load(self.shared_body())
         path = self.folder / "t.npz"
         numpy.savez(path, positions=body["positions"], names=body["names"])
-        self.refused(path, "positions without rate_hz, the frames per second; allowed: one number from 0.1 to 10000, as numpy.savez(")
+        self.refused(path, "found no rate_hz (frames per second); allowed: one number from 0.1 to 10000, as numpy.savez(")
         told = self.write("map.yaml", "rate: 50\n")
         self.assertIn("at 50 Hz", self.ends(0, "clip", "info", path, "--map", told).stdout)
         numpy.savez(path, positions=body["positions"], names=body["names"], rate_hz="30")

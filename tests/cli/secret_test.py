@@ -135,8 +135,8 @@ class SecretWorlds(EtudeCase):
         self.assertIn('"secret_worlds":3', text.replace(" ", ""))
         for version, older in ((1, re.sub(r'"secret_worlds":\s*3,\s*', "", text)),
                                (2, re.sub(r'"secret_worlds":\s*3', '"secret_worlds":2', text))):
-            says = (f"its secret worlds are of version {version}, but this program makes version 3, in which every condition has "
-                    "its own random numbers")
+            says = (f"its secret worlds are of version {version}, but this program makes version 3 "
+                    "(separate random numbers for each condition)")
             self.assertIn(says, self.refuse("run", "--from", self.write("older.json", older), "-o", self.folder / "from",
                                             "--seed-file", self.key))
         shard = ["run", self.scenario, "--shard", "1/2", "-o", self.out, "--seed-file", self.key]

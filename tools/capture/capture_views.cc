@@ -71,8 +71,8 @@ Result<RigPaths> RigPathsOf(const fs::path& path) {
   }
   if (is_folder) {
     return Fail({path.string()},
-                "the folder contains no rig; allowed: a folder with intri.yml and extri.yml, with intrinsics.yml and "
-                "extrinsics.yml, or with cameras.txt and images.txt, or the rig's file");
+                "the folder contains no rig; allowed: the rig's file, or a folder with intri.yml and extri.yml, "
+                "intrinsics.yml and extrinsics.yml, or cameras.txt and images.txt");
   }
   return RigPaths{path, {}};
 }

@@ -176,7 +176,7 @@ TEST(Amass, RefusesArraysThatAreNoMotion) {
   };
   EXPECT_EQ(reason([](Npz&) {}), "(read)");
   EXPECT_THAT(reason([](Npz& npz) { npz.arrays.erase("trans"); }),
-              HasSubstr("found the arrays mocap_framerate, poses; allowed: a motion of AMASS"));
+              HasSubstr("found the arrays mocap_framerate, poses; allowed: AMASS's poses"));
   EXPECT_THAT(reason([](Npz& npz) { npz.arrays["poses"].shape = {4, 78}; }), HasSubstr("(frames × 72, 156 or 165)"));
   EXPECT_THAT(reason([](Npz& npz) {
                 npz.arrays["trans"] = {{1, 3}, {1, 2, 3}};

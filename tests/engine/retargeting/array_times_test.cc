@@ -132,7 +132,7 @@ TEST(ArrayTimes, ThatAreNoClockAreRefused) {
   Npz npz = ArraysAt(Times(false));
   npz.arrays["t"] = {.shape = {120, 3}, .values = std::vector<double>(360, 1)};
   npz.arrays["time"] = {.shape = {}, .values = {12.5}};
-  EXPECT_THAT(testing::Refusal(ReadRawNpz(npz, "a.npz")), HasSubstr("positions without rate_hz"));
+  EXPECT_THAT(testing::Refusal(ReadRawNpz(npz, "a.npz")), HasSubstr("found no rate_hz"));
 }
 
 }  // namespace

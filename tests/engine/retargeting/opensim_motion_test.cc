@@ -390,7 +390,7 @@ TEST(BodyNpz, IsInTheUnitAndOnTheAxisThatTheFileOrTheUserTells) {
   // The rate is missing.
   Npz timeless = metres;
   timeless.arrays.erase("rate_hz");
-  EXPECT_THAT(testing::Refusal(ReadRawNpz(timeless, "a.npz")), HasSubstr("without rate_hz, the frames per second"));
+  EXPECT_THAT(testing::Refusal(ReadRawNpz(timeless, "a.npz")), HasSubstr("found no rate_hz (frames per second)"));
   EXPECT_EQ(ReadRawNpz(timeless, "a.npz", {.rate_hz = 50})->rate_hz, 50);
   // A camera's axes: Y down, Z forward.
   Npz seen = metres;

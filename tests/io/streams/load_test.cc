@@ -110,9 +110,8 @@ TEST(DescribeLabels, DoubtsLabelsThatMayBeTimesOfTheRecordingsClock) {
   };
   EXPECT_EQ(
       lines("a,1.5,2,m,right\na,2.2,3,m,right\n"),
-      std::vector<std::string>{
-          "l: doubtful: the clock of a begins at 1.000 s, and no label begins earlier; from_s and to_s count from "
-          "the first frame, so subtract 1.000 s if they are times of that clock"});
+      std::vector<std::string>{"l: doubtful: the clock of a begins at 1.000 s, and no label begins earlier; from_s and "
+                               "to_s count from the first frame: if yours count by that clock, subtract 1.000 s"});
   EXPECT_TRUE(lines("a,0.5,1,m,right\na,2.2,3,m,right\n").empty()) << "the first label begins before the clock does";
 }
 
