@@ -30,14 +30,14 @@ constexpr const char* kForecastNotes =
     "one, at the\n"
     "places that this one sees. --table has a row for each place: x_m, height_m, z_m; cameras: how many have it in "
     "their\n"
-    "pictures; lost_share: how likely it is that fewer than two of them give a keypoint; error_mm: empty if two "
-    "cameras\n"
-    "never see the place.\n\n"
+    "pictures; lost_share: the probability that fewer than two of them give a keypoint; error_mm: empty if fewer "
+    "than two\n"
+    "cameras see the place.\n\n"
     "The volume is a box on the floor around the point that the cameras look at (--middle, --size); errors are "
     "computed at\n"
-    "20 x 20 places at each of ten heights. `etude calibrate --json` has the deviation of focal lengths. The camera "
-    "that is\n"
-    "added has the lens of the rig's first one, and the best of 324 positions within --room.";
+    "20 x 20 places at each of ten heights. `etude calibrate --json` prints the deviation of focal lengths. The added "
+    "camera\n"
+    "has the first camera's lens, and stands at the best of 324 positions within --room.";
 
 struct ForecastCommandOptions {
   ForecastOptions forecast;
