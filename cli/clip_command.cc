@@ -12,6 +12,7 @@
 #include "cli/facts.h"
 #include "cli/output_file.h"
 #include "engine/base/names.h"
+#include "engine/retargeting/body_choice.h"
 #include "io/clips/clip_library.h"
 #include "io/clips/convert.h"
 #include "io/clips/references.h"
@@ -311,9 +312,10 @@ Result<int> ClipMapCommand(const ClipMapOptions& options) {
   as_file.recorded = reading.recorded;
   ASSIGN_OR_RETURN(const auto clips, ReadClips(options.clip, as_file));
   const Skeleton& skeleton = clips.front().clip.skeleton;
-  const auto map = FindJointMap(skeleton, options.clip, reading.roles ? &*reading.roles : nullptr,
-                                clips.front().clip.frames);
-  RETURN_IF_ERROR(WritePreview(options, clips.front().clip, map ? &*map : nullptr));
+  const auto chosen =
+      ChooseBody(clips.front().clip, options.clip, reading.roles ? &*reading.roles : nullptr, clips.front().skinned);
+  const JointMap* const map = chosen ? &chosen->map : nullptr;
+  RETURN_IF_ERROR(WritePreview(options, clips.front().clip, map));
   // If roles are missing, write a file to fill in, and complain.
   if (!map) {
     // Never overwrite the joint map that the user gave: the user may still edit this file, and it may be the output
@@ -323,7 +325,7 @@ Result<int> ClipMapCommand(const ClipMapOptions& options) {
       TellWritten(options.output);
       fmt::print("Next: fill in this file, then use it with --joint-map {}\n", options.output);
     }
-    return tl::unexpected(map.error());
+    return tl::unexpected(chosen.error());
   }
   // If all roles are known, print and write the map.
   if (options.as_json) {

@@ -17,6 +17,7 @@ find_package(TinyGLTF REQUIRED)
 find_package(OpenEXR REQUIRED)
 find_package(PNG REQUIRED)
 find_package(JPEG REQUIRED)
+find_package(ZLIB REQUIRED)
 # The renderer uses OSMesa or EGL. Neither is linked: sim/render opens one of them when the first picture is drawn.
 # Debian after 13 has no OSMesa.
 pkg_check_modules(OSMESA osmesa)

@@ -18,6 +18,7 @@
 #include "engine/fuzzy/features.h"
 #include "engine/motion/clip.h"
 #include "engine/motion/edit.h"
+#include "engine/retargeting/body_choice.h"
 #include "engine/retargeting/exchanged_sides.h"
 #include "engine/retargeting/joint_arrays.h"
 #include "engine/retargeting/joint_map.h"
@@ -98,14 +99,15 @@ ReadBody BodyOfMarkers(const MarkerMotion& markers, const std::string& file, dou
 
 ReadBody BodyOfClip(const Clip& clip, const std::string& file, double rate_hz, std::optional<UpRule> rule,
                     const ReadingOptions& options, const std::vector<std::string>& remarks = {}) {
-  const JointMap map = OrThrow(FindJointMap(clip.skeleton, file, nullptr, clip.frames));
-  BodyConversion body = OrThrow(ToBodyMotion(clip, map, file,
+  const BodyChoice chosen = OrThrow(ChooseBody(clip, file));
+  BodyConversion body = OrThrow(ToBodyMotion(clip, chosen.map, file,
                                              {.rate_hz = rate_hz,
                                               .metres_per_unit = UnitOf(options),
                                               .up = UpOf(options),
                                               .up_rule = std::move(rule),
                                               .keep_floor = options.keep_floor}));
   body.changes.insert(body.changes.end(), remarks.begin(), remarks.end());
+  body.Doubt(chosen.doubt);
   return {std::move(body.motion), std::move(body.changes)};
 }
 

@@ -153,6 +153,22 @@ const Unit* UnitOf(double stature) {
 constexpr double kMaxRatio = 1.25;
 bool AreAlike(double ratio) { return ratio > 1 / kMaxRatio && ratio < kMaxRatio; }
 
+/// Uses metres, the stated unit of a file, if no unit fits the stature, but a child or a giant is possible. Adds a
+/// remark if the stature contradicts the stated unit.
+void UseMetres(double stature, BodyConversion& done, std::vector<std::string>& remarks) {
+  constexpr double kMinStated = 0.4, kMaxStated = 3;
+  if (done.metres_per_unit == 1) return;
+  if (done.unit == "unknown" && stature >= kMinStated && stature <= kMaxStated) {
+    done.unit = "metre";
+    done.metres_per_unit = 1;
+    return;
+  }
+  remarks.push_back(
+      fmt::format("by the unit that the file or its format states, the body is {:.3g} m tall; this unit is "
+                  "not used",
+                  stature));
+}
+
 /// Finds the unit by the stature of the rest pose, which all clips of a file share. If the stature in the frames
 /// differs from it by a factor of more than kMaxRatio, uses the stature in the frames, because some files store the
 /// offsets of the joints, and others the scale of the hips, only in the frames. `remarks` gets texts about doubtful
@@ -198,12 +214,14 @@ Result<void> FindUnit(const BodyPose& rest, const std::vector<BodyPose>& poses, 
   // Otherwise take the unit that gives a human stature, or scale to the default.
   done.unit = unit == nullptr ? "unknown" : unit->name;
   done.metres_per_unit = unit == nullptr ? kDefaultStature / stature : unit->metres;
+  const bool is_scaled = at_rest >= kMinBody && !is_alike && unit == nullptr && UnitOf(at_rest) != nullptr;
+  if (options.states_metres && !is_scaled) UseMetres(stature, done, remarks);
   constexpr double kSame = 0.05;
   // Only a rest pose with a size can be compared with the frames.
   if (at_rest < kMinBody || std::abs(ratio - 1) <= kSame) return {};
-  const Unit* const of_rest = UnitOf(at_rest);
   remarks.push_back(fmt::format("the frames show a body {:.3g} times as tall as the rest pose", ratio));
-  if (is_alike || unit != nullptr || of_rest == nullptr) return {};
+  if (!is_scaled) return {};
+  const Unit* const of_rest = UnitOf(at_rest);
   done.unit = "scaled";
   done.metres_per_unit = of_rest->metres / ratio;
   remarks.back() +=

@@ -19,6 +19,7 @@ namespace etude {
 struct BodyOptions {
   double rate_hz = kJudgedRateHz;
   std::optional<double> metres_per_unit = std::nullopt;
+  bool states_metres = false;                        ///< true: the file or its format states that its unit is the metre
   std::optional<UpAxis> up = std::nullopt;           ///< given by the user; overrules everything else
   std::optional<UpRule> up_rule = std::nullopt;      ///< rule of the file or its format
   std::optional<UpFinding> found_up = std::nullopt;  ///< the result of FindGround, if the file has several clips
@@ -60,8 +61,9 @@ struct BodyConversion {
 /// - A leading T-pose is dropped if the body jumps away from it; CMU's converted files begin with one.
 /// - The motion is resampled to `rate_hz` by interpolating rotations (SampleFrame); the first frame is unchanged.
 /// - Unit: metre, foot, CMU (1/0.45 inch), inch, cm or mm, whichever gives a stature of 1.45 m to 2.1 m (for
-///   millimetres, which depth sensors write, from 1.2 m). If none does (children, toys), the body is scaled to a
-///   stature of 1.70 m. The stature is the length from ankle over knee, hip, spine and neck to the head at rest,
+///   millimetres, which depth sensors write, from 1.2 m). If none does (children, toys), a unit that the file
+///   states is used from 0.4 to 3 m; otherwise the body is scaled to a stature of 1.70 m. The note states if the stated
+///   unit is not used. The stature is the length from ankle over knee, hip, spine and neck to the head at rest,
 ///   divided by 0.92. If the median stature over the frames differs from that at rest by a factor of more than 1.25,
 ///   the median is used and the note states it. If no unit fits the median, the rest pose's unit is used, and the
 ///   frames are scaled to the stature at rest, positions included (if the joints themselves are scaled, use

@@ -328,6 +328,7 @@ Result<ClipFile> ReadClipFile(const std::string& path, const std::optional<std::
     file.figure = std::move(content.character);
     file.clips = std::move(content.clips);
     file.roles = RolesOfBones(content.bones, file.figure.skeleton);
+    file.skinned = std::move(content.skinned);
     return file;
   }
   // Try Acclaim and BVH; the complaint of the BVH reader describes any other file.

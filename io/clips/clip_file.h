@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <optional>
+#include <set>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -61,6 +62,7 @@ struct ClipFile {
   std::vector<MadeBody> bodies = {};      ///< one entry per clip if the clips are bodies already; else empty
   std::vector<std::string> remarks = {};  ///< repairs that were made while reading
   std::optional<JointMapOverrides> roles = {};  ///< roles that the bone table of a VRM file assigns
+  std::set<std::string> skinned = {};           ///< the names of joints that the file declares as parts of a skeleton
   /// For each clip that was made from markers, the joints and markers in the file (MarkerBody::shown); empty unless
   /// OpenOptions::keeps_shown is set.
   std::vector<RawMotion> shown = {};

@@ -95,7 +95,7 @@ std::optional<std::string> ReceiveBlock(int socket, std::size_t maximum, bool& i
   return ReceiveAll(socket, bytes.data(), size) ? std::optional(std::move(bytes)) : std::nullopt;
 }
 
-/// Runs in the child process. Answers each file with kSaidGlb, four lines (the reader's name, and the numbers of
+/// Runs in the child process. Answers each file with kSaidGlb, six lines (the reader's name, and the numbers of
 /// FbxKeyFacts) and the GLB file; or with kSaidComplaint and a complaint.
 int ReadFilesInChild(int socket) {
   Limit(RLIMIT_AS, MappedBytes() + kMemoryBytes);
@@ -121,9 +121,9 @@ int ReadFilesInChild(int socket) {
     std::string said = missing;
     FbxKeyFacts facts;
     const bool went_well = read != nullptr && read(*bytes, said, facts);
-    const std::string head =
-        went_well ? fmt::format("{}{}\n{}\n{}\n{}\n", kSaidGlb, name, facts.longest_s, facts.cut_s, facts.empty_spans)
-                  : std::string(1, kSaidComplaint);
+    const std::string head = went_well ? fmt::format("{}{}\n{}\n{}\n{}\n{}\n{}\n", kSaidGlb, name, facts.longest_s,
+                                                     facts.step_s, facts.turn_deg, facts.cut_s, facts.empty_spans)
+                                       : std::string(1, kSaidComplaint);
     if (!SendBlock(socket, head + said)) break;
   }
   return 0;
@@ -154,12 +154,21 @@ PreparedFbx Prepare(std::string_view bytes) {
 
 /// Adds remarks about the keys.
 void Describe(const FbxKeyFacts& facts, std::vector<std::string>& remarks) {
-  constexpr double kLong = 0.1;  // seconds; between keys that are closer in time, every curve is nearly straight
-  if (facts.longest_s > kLong) {
+  if (facts.longest_s > kFbxNearKeys_s) {
     remarks.push_back(
         fmt::format("its keys are up to {:.2f} s apart: between keys, the file's curves are replaced by shortest "
                     "arcs at constant speed",
                     facts.longest_s));
+  }
+  constexpr double kHeld_s = 0.05;  // longer than a frame at the usual rates
+  if (facts.step_s > kHeld_s) {
+    remarks.push_back(fmt::format(
+        "it has stepped keys, up to {:.2f} s apart: here the joints move from one to the next and do not jump",
+        facts.step_s));
+  }
+  if (facts.turn_deg > 0) {
+    remarks.push_back(
+        fmt::format("an angle changes by {:.0f}° from one key to the next: the joint makes this turn", facts.turn_deg));
   }
   if (facts.cut_s > 0) {
     remarks.push_back(fmt::format(
@@ -199,6 +208,8 @@ Result<FbxMotion> FbxReader::Read(std::string_view bytes, const std::string& pat
     const auto number = [&] { return ParseNumber<double>(TakeLine(rest)).value_or(0); };
     FbxKeyFacts facts;
     facts.longest_s = number();
+    facts.step_s = number();
+    facts.turn_deg = number();
     facts.cut_s = number();
     facts.empty_spans = static_cast<int>(number());
     motion.glb = rest;

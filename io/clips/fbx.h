@@ -9,9 +9,16 @@
 
 namespace etude {
 
+/// Two keys are near if they are at most this many seconds apart; between them, every curve is nearly straight.
+inline constexpr double kFbxNearKeys_s = 0.1;
+
 /// What the module found in the keys of a file.
 struct FbxKeyFacts {
-  double longest_s = 0;  ///< the longest time, seconds, between two consecutive keys of one channel that differ
+  /// The longest time, seconds, between two consecutive keys that differ: keys of one property, or of one axis whose
+  /// curve is not straight.
+  double longest_s = 0;
+  double step_s = 0;     ///< the longest time, seconds, for which a stepped key holds the value of one axis
+  double turn_deg = 0;   ///< the largest change, 180° or more, of an angle between two keys that are not near; 0: none
   double cut_s = 0;      ///< the longest time, seconds, of keys that lie outside the time span of their animation
   int empty_spans = 0;   ///< animations whose time span lies beside their keys; all of their keys are used
 };

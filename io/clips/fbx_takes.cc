@@ -18,22 +18,8 @@
 namespace etude {
 namespace {
 
-constexpr double kTicksPerSecond = 46'186'158'000;
-constexpr auto kMarginTicks = static_cast<std::int64_t>(kFbxMarginS * kTicksPerSecond);
+constexpr auto kMarginTicks = static_cast<std::int64_t>(kFbxMarginS * kFbxTicksPerSecond);
 constexpr std::string_view kStart = "LocalStart", kStop = "LocalStop";
-
-double NumberOf(std::string_view bytes, const std::vector<FbxProperty>& properties, std::string_view name,
-                double otherwise) {
-  const auto found = std::ranges::find(properties, name, &FbxProperty::name);
-  return found == properties.end() || found->numbers.empty() ? otherwise : FbxNumber(bytes, found->numbers.front());
-}
-
-/// A connection from one object to another object, or to a property of this object.
-struct Link {
-  std::int64_t from = 0, to = 0;
-  std::string_view property;  ///< "" for the object itself
-  FbxValue to_value;
-};
 
 struct Layer {
   std::string_view name;
@@ -52,12 +38,12 @@ struct Objects {
 Layer ReadLayer(std::string_view bytes, const FbxNode& node, std::string_view name) {
   constexpr double kOverride = 1, kOverridePassThrough = 2;
   const std::vector<FbxProperty> properties = FbxProperties(bytes, node);
-  const double mode = NumberOf(bytes, properties, "BlendMode", 0);
+  const double mode = FbxNumberOf(bytes, properties, "BlendMode", 0);
   return {.name = name,
-          .is_muted = NumberOf(bytes, properties, "Mute", 0) != 0,
-          .is_solo = NumberOf(bytes, properties, "Solo", 0) != 0,
+          .is_muted = FbxNumberOf(bytes, properties, "Mute", 0) != 0,
+          .is_solo = FbxNumberOf(bytes, properties, "Solo", 0) != 0,
           .overrides = mode == kOverride || mode == kOverridePassThrough,
-          .weight = NumberOf(bytes, properties, "Weight", 100)};
+          .weight = FbxNumberOf(bytes, properties, "Weight", 100)};
 }
 
 Objects ReadObjects(std::string_view bytes, const FbxNode& part) {
@@ -77,24 +63,13 @@ Objects ReadObjects(std::string_view bytes, const FbxNode& part) {
   return objects;
 }
 
-std::vector<Link> ReadLinks(std::string_view bytes, const FbxNode& part) {
-  std::vector<Link> links;
-  for (const FbxNode& node : FbxChildren(bytes, part)) {
-    const std::vector<FbxValue> values = FbxValues(bytes, node);
-    if (values.size() < 3 || (values[0].text != "OO" && values[0].text != "OP")) continue;
-    links.push_back({FbxInteger(bytes, values[1]), FbxInteger(bytes, values[2]),
-                     values[0].text == "OP" && values.size() > 3 ? values[3].text : "", values[2]});
-  }
-  return links;
-}
-
 /// Finds the layers whose curves move joints, and removes the constant weight of layers whose weight has a curve.
-std::set<std::int64_t> LayersOfJoints(const std::vector<Link>& links, Objects& objects) {
+std::set<std::int64_t> LayersOfJoints(const std::vector<FbxLink>& links, Objects& objects) {
   std::set<std::int64_t> with_curves, of_joints, layers;
-  for (const Link& link : links) {
+  for (const FbxLink& link : links) {
     if (objects.curves.contains(link.from)) with_curves.insert(link.to);
   }
-  for (const Link& link : links) {
+  for (const FbxLink& link : links) {
     const bool is_curve = with_curves.contains(link.from) || objects.curves.contains(link.from);
     if (!is_curve) continue;
     if (objects.joints.contains(link.to) && link.property.starts_with("Lcl ")) of_joints.insert(link.from);
@@ -102,7 +77,7 @@ std::set<std::int64_t> LayersOfJoints(const std::vector<Link>& links, Objects& o
     const auto layer = objects.layers.find(link.to);
     if (layer != objects.layers.end() && link.property == "Weight") layer->second.weight = 50;
   }
-  for (const Link& link : links) {
+  for (const FbxLink& link : links) {
     if (of_joints.contains(link.from) && objects.layers.contains(link.to)) layers.insert(link.to);
   }
   return layers;
@@ -110,15 +85,15 @@ std::set<std::int64_t> LayersOfJoints(const std::vector<Link>& links, Objects& o
 
 /// Takes the layers of one animation that assimp must not merge out of the animation; returns a remark about layers
 /// that would change the motion, or "".
-std::string UseBaseLayer(std::string_view clip, const std::vector<const Link*>& to_stack, const Objects& objects,
+std::string UseBaseLayer(std::string_view clip, const std::vector<const FbxLink*>& to_stack, const Objects& objects,
                          const std::set<std::int64_t>& of_joints, FbxEdits& edits) {
   constexpr std::int64_t kRoot = 0;  // the scene's root, where an animation layer has no meaning
-  const auto layer_of = [&](const Link* link) -> const Layer& { return objects.layers.at(link->from); };
-  const bool has_solo = std::ranges::any_of(to_stack, [&](const Link* link) { return layer_of(link).is_solo; });
+  const auto layer_of = [&](const FbxLink* link) -> const Layer& { return objects.layers.at(link->from); };
+  const bool has_solo = std::ranges::any_of(to_stack, [&](const FbxLink* link) { return layer_of(link).is_solo; });
   std::optional<std::string_view> used;
   std::vector<std::string> left_out;
   bool is_alone = false;
-  for (const Link* link : to_stack) {
+  for (const FbxLink* link : to_stack) {
     const Layer& layer = layer_of(link);
     const bool is_base = link == to_stack.front();
     const bool is_full = layer.overrides && layer.weight >= 100;
@@ -168,7 +143,7 @@ bool HasSpan(const std::vector<FbxProperty>& properties) {
 std::vector<std::string> PrepareTakes(std::string_view bytes, std::string& changed) {
   FbxEdits edits(bytes);
   Objects objects;
-  std::vector<Link> links;
+  std::vector<FbxLink> links;
   bool has_template = false;
   for (const FbxNode& part : FbxTopNodes(bytes)) {
     if (part.name == "Definitions") {
@@ -185,11 +160,11 @@ std::vector<std::string> PrepareTakes(std::string_view bytes, std::string& chang
         if (has_template || HasSpan(properties)) Widen(bytes, properties, edits);
       }
     }
-    if (part.name == "Connections") links = ReadLinks(bytes, part);
+    if (part.name == "Connections") links = FbxLinks(bytes, part);
   }
   const std::set<std::int64_t> of_joints = LayersOfJoints(links, objects);
-  std::map<std::int64_t, std::vector<const Link*>> to_stacks;
-  for (const Link& link : links) {
+  std::map<std::int64_t, std::vector<const FbxLink*>> to_stacks;
+  for (const FbxLink& link : links) {
     const bool is_layer = link.property.empty() && objects.layers.contains(link.from);
     if (is_layer && objects.stacks.contains(link.to)) to_stacks[link.to].push_back(&link);
   }
@@ -207,13 +182,13 @@ std::string DoubtOfScales(std::string_view bytes) {
   constexpr double kNoInheritance = 2, kSame = 1e-3;
   std::set<std::int64_t> scaled, without;
   std::map<std::int64_t, std::string_view> names;
-  std::vector<Link> links;
+  std::vector<FbxLink> links;
   double by_template = 0;
   for (const FbxNode& part : FbxTopNodes(bytes)) {
     if (part.name == "Definitions") {
-      by_template = NumberOf(bytes, FbxTemplate(bytes, part, "FbxNode"), "InheritType", 0);
+      by_template = FbxNumberOf(bytes, FbxTemplate(bytes, part, "FbxNode"), "InheritType", 0);
     }
-    if (part.name == "Connections") links = ReadLinks(bytes, part);
+    if (part.name == "Connections") links = FbxLinks(bytes, part);
     if (part.name != "Objects") continue;
     const Objects objects = ReadObjects(bytes, part);
     names = objects.names;
@@ -222,7 +197,7 @@ std::string DoubtOfScales(std::string_view bytes) {
       const std::int64_t id = values.empty() ? 0 : FbxInteger(bytes, values.front());
       if (node.name != "Model" || !objects.joints.contains(id)) continue;
       const std::vector<FbxProperty> properties = FbxProperties(bytes, node);
-      if (NumberOf(bytes, properties, "InheritType", by_template) == kNoInheritance) without.insert(id);
+      if (FbxNumberOf(bytes, properties, "InheritType", by_template) == kNoInheritance) without.insert(id);
       const auto scale = std::ranges::find(properties, "Lcl Scaling", &FbxProperty::name);
       if (scale == properties.end()) continue;
       for (const FbxValue& factor : scale->numbers) {
@@ -230,7 +205,7 @@ std::string DoubtOfScales(std::string_view bytes) {
       }
     }
   }
-  for (const Link& link : links) {
+  for (const FbxLink& link : links) {
     if (!link.property.empty() || !without.contains(link.from) || !scaled.contains(link.to)) continue;
     return fmt::format(
         "joint {} should not inherit the scale of its parent {} (InheritType 2), but Etude cannot prevent it: "

@@ -221,6 +221,36 @@ std::vector<FbxProperty> FbxTemplate(std::string_view bytes, const FbxNode& defi
   return {};
 }
 
+double FbxNumberOf(std::string_view bytes, const std::vector<FbxProperty>& properties, std::string_view name,
+                   double otherwise) {
+  const auto found = std::ranges::find(properties, name, &FbxProperty::name);
+  return found == properties.end() || found->numbers.empty() ? otherwise : FbxNumber(bytes, found->numbers.front());
+}
+
+std::vector<FbxLink> FbxLinks(std::string_view bytes, const FbxNode& connections) {
+  std::vector<FbxLink> links;
+  for (const FbxNode& node : FbxChildren(bytes, connections)) {
+    const std::vector<FbxValue> values = FbxValues(bytes, node);
+    if (values.size() < 3 || (values[0].text != "OO" && values[0].text != "OP")) continue;
+    links.push_back({FbxInteger(bytes, values[1]), FbxInteger(bytes, values[2]),
+                     values[0].text == "OP" && values.size() > 3 ? values[3].text : "", values[2]});
+  }
+  return links;
+}
+
+std::optional<FbxArray> FbxArrayOf(std::string_view bytes, const FbxNode& node) {
+  constexpr std::size_t kHead = 1 + 3 * sizeof(std::uint32_t);
+  const auto [begin, end] = node.values;
+  if (IsText(bytes) || end - begin < kHead) return std::nullopt;
+  const auto word = [&](std::size_t i) {
+    return NumberAt<std::uint32_t>(bytes, begin + 1 + i * sizeof(std::uint32_t));
+  };
+  FbxArray array{bytes[begin], word(0), word(1) != 0, bytes.substr(begin + kHead, word(2))};
+  const bool is_whole = word(2) <= end - begin - kHead;
+  return is_whole && std::string_view("bilfd").find(array.type) != std::string_view::npos ? std::optional(array)
+                                                                                          : std::nullopt;
+}
+
 std::string_view FbxNameOf(const std::vector<FbxValue>& values) {
   if (values.size() < 2 || !values[1].is_text) return "";
   const std::string_view text = values[1].text;

@@ -2,12 +2,16 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <utility>
 #include <vector>
 
 namespace etude {
+
+/// The unit of times in FBX files.
+inline constexpr double kFbxTicksPerSecond = 46'186'158'000;
 
 /// A range of the file's bytes.
 struct FbxRange {
@@ -53,6 +57,32 @@ std::vector<FbxProperty> FbxProperties(std::string_view bytes, const FbxNode& no
 /// Reads the properties of a template ("FbxNode", "FbxAnimStack"), whose values hold where an object states none.
 /// `definitions` is the node Definitions.
 std::vector<FbxProperty> FbxTemplate(std::string_view bytes, const FbxNode& definitions, std::string_view name);
+
+/// Returns the first number of a property, or `otherwise`.
+double FbxNumberOf(std::string_view bytes, const std::vector<FbxProperty>& properties, std::string_view name,
+                   double otherwise);
+
+/// A connection from one object to another object, or to a property of this object.
+struct FbxLink {
+  std::int64_t from = 0, to = 0;
+  std::string_view property;  ///< "" for the object itself
+  FbxValue to_value;
+};
+
+/// Reads the connections of the node Connections.
+std::vector<FbxLink> FbxLinks(std::string_view bytes, const FbxNode& connections);
+
+/// The array of a node in a binary file, as it is stored.
+struct FbxArray {
+  char type = 0;  ///< 'b', 'i', 'l', 'f' or 'd'
+  std::uint32_t count = 0;
+  bool is_deflated = false;
+  std::string_view bytes;
+};
+
+/// Finds the array that a node of a binary file begins with; nullopt if it begins with another value. The array of a
+/// text file is the values of its child "a".
+std::optional<FbxArray> FbxArrayOf(std::string_view bytes, const FbxNode& node);
 
 /// Returns the name of an object, whose values are `values`: "Hips" for "Model::Hips"; "" if it has none.
 std::string_view FbxNameOf(const std::vector<FbxValue>& values);

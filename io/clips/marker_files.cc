@@ -120,6 +120,10 @@ std::optional<UpRule> UpRuleOf(ClipFormat format) {
   }
 }
 
+bool IsOfAnimations(ClipFormat format) {
+  return format == ClipFormat::kGltf || format == ClipFormat::kGlb || format == ClipFormat::kFbx;
+}
+
 bool IsOfMarkers(ClipFormat format) {
   constexpr std::array kFormats = {ClipFormat::kC3d, ClipFormat::kTrc,    ClipFormat::kCsv, ClipFormat::kNpz,
                                    ClipFormat::kNpy, ClipFormat::kMotive, ClipFormat::kBids};

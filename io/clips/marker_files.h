@@ -24,6 +24,9 @@ ArrayOptions ToldOfArrays(const OpenOptions& options);
 /// Returns the rule for the up axis that the format of a clip with a skeleton defines; nullopt for BVH and Acclaim.
 std::optional<UpRule> UpRuleOf(ClipFormat format);
 
+/// Returns true for the formats of animations: glTF, GLB and FBX. They define a unit, and their clips have names.
+bool IsOfAnimations(ClipFormat format);
+
 /// Returns true for the formats of markers, and for files of joint positions that are read like markers.
 bool IsOfMarkers(ClipFormat format);
 

@@ -4,10 +4,10 @@
 #include <cmath>
 #include <filesystem>
 #include <map>
-#include <ranges>
 
 #include "engine/base/names.h"
 #include "engine/motion/edit.h"
+#include "engine/retargeting/body_choice.h"
 #include "engine/retargeting/rig.h"
 #include "io/clips/marker_files.h"
 #include "io/clips/references.h"
@@ -72,15 +72,23 @@ void RootAtHips(Clip& clip, bool has_meshes, std::vector<std::string>& remarks) 
 }
 
 /// Finds the up axis, the floor and the stature that all clips of a file with several clips share. Returns nullopt if
-/// the skeleton has no roles; UnderstandClip then reports which roles are missing.
+/// the skeleton has no roles (UnderstandClip then reports which roles are missing), or if different bodies move.
 std::optional<Ground> GroundOf(const ClipFile& file, const std::string& path, const OpenOptions& options) {
   if (file.clips.size() < 2) return std::nullopt;
-  const auto map =
-      FindJointMap(file.clips.front().skeleton, path, TaughtBy(options, file.roles), file.clips.front().frames);
+  const auto body_in = [&](const Clip& clip) {
+    return ChooseBody(clip, path, TaughtBy(options, file.roles), file.skinned);
+  };
+  const auto body = body_in(file.clips.front());
+  if (!body) return std::nullopt;
+  const auto is_same = [&](const Clip& clip) {
+    const auto other = body_in(clip);
+    return other && other->map[Role::kLeftHip].joint == body->map[Role::kLeftHip].joint;
+  };
+  if (!body->doubt.empty() && !std::ranges::all_of(file.clips, is_same)) return std::nullopt;
   BodyOptions told = options.body;
   told.up = ToldUp(options);
   told.up_rule = UpRuleOf(file.format);
-  return map ? FindGround(file.clips, *map, told) : std::nullopt;
+  return FindGround(file.clips, body->map, told);
 }
 
 /// Removes scales that exist in the frames but not in the rest pose, and adds a remark about these scales. A skeleton
@@ -95,49 +103,13 @@ void TakeScalesOut(ClipFile& file, const std::string& path, const OpenOptions& o
     });
   };
   if (std::ranges::none_of(file.clips, has_scales)) return;
-  const auto map =
-      FindJointMap(file.clips.front().skeleton, path, TaughtBy(options, file.roles), file.clips.front().frames);
-  if (!map) return;
-  if (const auto ratio = UndoScales(file.clips, *map)) {
+  const auto body = ChooseBody(file.clips.front(), path, TaughtBy(options, file.roles), file.skinned);
+  if (!body) return;
+  if (const auto ratio = UndoScales(file.clips, body->map)) {
     file.remarks.push_back(fmt::format(
         "removed the frames' scales, which the rest pose does not have; they made the body {:.3g} times as tall",
         *ratio));
   }
-}
-
-/// States which body is used, if the skeleton contains two bodies; returns "" if it contains only one body.
-std::string DescribeSecondBody(const Skeleton& skeleton, const JointMap& map) {
-  // Find the deepest joint that is an ancestor of all joints with a role.
-  std::vector<int> below(skeleton.joints.size());
-  int wanted = 0;
-  for (const Role role : AllRoles()) {
-    if (map[role].joint < 0) continue;
-    ++wanted;
-    for (int joint = map[role].joint; joint >= 0; joint = skeleton.joints[joint].parent) ++below[joint];
-  }
-  const int top = static_cast<int>(std::ranges::find(below | std::views::reverse, wanted).base() - below.begin()) - 1;
-  if (top < 0) return "";
-  // Collect the joints outside the subtree of `top`. Readers add numbers to equal names ("Hips#2"), so restore the
-  // file's own names.
-  constexpr std::size_t kMinJoints = 12;
-  Skeleton others;
-  std::vector<int> place(skeleton.joints.size(), -1);
-  for (int i = 0; i < static_cast<int>(skeleton.joints.size()); ++i) {
-    const int parent = skeleton.joints[i].parent;
-    if (i == top || (parent >= 0 && place[parent] < 0)) continue;
-    place[i] = static_cast<int>(others.joints.size());
-    Joint& joint = others.joints.emplace_back(skeleton.joints[i]);
-    joint.parent = parent < 0 ? -1 : place[parent];
-    joint.name = joint.name.substr(0, joint.name.rfind('#'));
-  }
-  if (others.joints.size() < kMinJoints) return "";
-  const auto second = FindJointMap(others, "");
-  if (!second) return "";
-  const auto at = std::ranges::find(place, (*second)[Role::kLeftHip].joint) - place.begin();
-  return fmt::format(
-      "the file contains a second body, with the left hip {}; the body with {} is used (--joint-map chooses another)",
-      Quote(skeleton.joints[static_cast<std::size_t>(at)].name),
-      Quote(skeleton.joints[static_cast<std::size_t>(map[Role::kLeftHip].joint)].name));
 }
 
 /// Opens a clip of our own skeleton. This skeleton has one joint for every role, and the joint has the role's name.
@@ -215,9 +187,8 @@ Result<std::vector<SourceClip>> ReadClips(const std::string& reference, const Op
     say(fmt::format("the file states no rate; {:g} Hz is assumed", file.clips.front().rate_hz));
   }
   // The frames of an animation are its keys, which may be 1 s apart.
-  const bool has_keys =
-      file.format == ClipFormat::kGltf || file.format == ClipFormat::kGlb || file.format == ClipFormat::kFbx;
-  const auto is_slow = [&](const Clip& clip) { return has_keys ? clip.rate_hz < 1 : clip.rate_hz <= 1; };
+  const bool has_animations = IsOfAnimations(file.format);
+  const auto is_slow = [&](const Clip& clip) { return has_animations ? clip.rate_hz < 1 : clip.rate_hz <= 1; };
   if (const auto slow = std::ranges::find_if(file.clips, is_slow); slow != file.clips.end() && !is_recording) {
     say(fmt::format(
         "its frames are {:.3g} s apart: does the file count in milliseconds or in frames? `--rate` (in convert "
@@ -230,8 +201,6 @@ Result<std::vector<SourceClip>> ReadClips(const std::string& reference, const Op
   };
   // If the file holds one motion and its format has no named animations, refuse '#' in the reference, except for the
   // layout of an .npy array.
-  const bool has_animations =
-      file.format == ClipFormat::kGltf || file.format == ClipFormat::kGlb || file.format == ClipFormat::kFbx;
   const bool is_one = !has_animations && !is_recording && file.clips.size() == 1;
   if (is_one) {
     if (wanted.animation && file.format != ClipFormat::kNpy) {
@@ -242,7 +211,7 @@ Result<std::vector<SourceClip>> ReadClips(const std::string& reference, const Op
     std::vector<SourceClip> only;  // not an initializer list, which would copy the frames of the clip
     only.push_back({stem, source, file.format, std::move(file.clips.front()), nullptr, std::nullopt,
                     file.bodies.empty() ? std::nullopt : std::optional(file.bodies.front()), file.remarks, file.roles,
-                    shown_of(0)});
+                    file.skinned, shown_of(0)});
     return only;
   }
   // If the file holds several clips, undo scales and find the ground that all clips share, before one clip is chosen.
@@ -263,7 +232,7 @@ Result<std::vector<SourceClip>> ReadClips(const std::string& reference, const Op
     const auto made = bodies.find(clip_name);
     clips.push_back({stem + animation, wanted.path + animation, file.format, std::move(clip), figure, ground,
                      made == bodies.end() ? std::nullopt : std::optional(made->second), file.remarks, file.roles,
-                     shown[clip_name]});
+                     file.skinned, shown[clip_name]});
   }
   return clips;
 }
@@ -283,20 +252,21 @@ Result<OpenedClip> UnderstandClip(SourceClip source, const OpenOptions& options)
   told.metres_per_unit = ToldUnit(options);
   told.keep_floor = KeepsFloor(options);
   told.up_rule = UpRuleOf(source.format);
+  told.states_metres = IsOfAnimations(source.format);
   if (is_body) return UnderstandBuiltin(std::move(source), told);
   RootAtHips(source.clip, source.character != nullptr, source.remarks);
-  ASSIGN_OR_RETURN(
-      auto map, FindJointMap(source.clip.skeleton, source.source, TaughtBy(options, source.roles), source.clip.frames));
+  ASSIGN_OR_RETURN(auto chosen,
+                   ChooseBody(source.clip, source.source, TaughtBy(options, source.roles), source.skinned));
   // The ground that all clips of the file share has priority over the ground of this one clip.
   if (source.ground) {
     if (!told.up) told.found_up = source.ground->found_up;
     told.floor = source.ground->floor;
     told.stature = source.ground->stature;
   }
-  ASSIGN_OR_RETURN(auto body, ToBodyMotion(source.clip, map, source.source, told));
+  ASSIGN_OR_RETURN(auto body, ToBodyMotion(source.clip, chosen.map, source.source, told));
   body.changes.insert(body.changes.end(), source.remarks.begin(), source.remarks.end());
-  body.Doubt(DescribeSecondBody(source.clip.skeleton, map));
-  return OpenedClip{std::move(source), std::move(map), std::move(body)};
+  body.Doubt(chosen.doubt);
+  return OpenedClip{std::move(source), std::move(chosen.map), std::move(body)};
 }
 
 }  // namespace etude

@@ -2,6 +2,7 @@
 
 #include <memory>
 #include <optional>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -29,6 +30,7 @@ struct SourceClip {
   /// Repairs made while reading the file; UnderstandClip appends them to BodyConversion::changes.
   std::vector<std::string> remarks = {};
   std::optional<JointMapOverrides> roles = {};     ///< roles that the file assigns; OpenOptions::roles has priority
+  std::set<std::string> skinned = {};              ///< ClipFile::skinned
   std::shared_ptr<const RawMotion> shown = {};     ///< this clip's entry of ClipFile::shown; null if there is none
 };
 

@@ -11,6 +11,7 @@ import re
 import struct
 import subprocess
 import unittest
+import zlib
 
 import numpy
 import second_readers
@@ -29,6 +30,45 @@ def turn(axis_times_angle):
     return numpy.eye(3) + math.sin(angle) * k + (1 - math.cos(angle)) * (k @ k)
 
 
+def in_binary(text, version=7400):
+    """Returns the binary file with the nodes of a text file; its arrays are deflated."""
+    lines = [line.strip() for line in text.splitlines() if line.strip() and not line.startswith(";")]
+    kinds = {"KeyTime": ("l", "<i8"), "KeyValueFloat": ("f", "<f4"), "KeyAttrDataFloat": ("f", "<f4")}
+
+    def value(word, node):
+        if not word.startswith('"'):
+            if not re.fullmatch(r"-?\d+", word):
+                return b"D" + struct.pack("<d", float(word))
+            is_id = node == "C" or node.startswith(("Model", "Animation"))
+            return b"L" + struct.pack("<q", int(word)) if is_id else b"I" + struct.pack("<i", int(word))
+        kind, _, name = word.strip('"').rpartition("::") if node != "P" else ("", "", word.strip('"'))
+        data = f"{name}\0\1{kind}".encode() if kind else name.encode()
+        return b"S" + struct.pack("<I", len(data)) + data
+
+    def nodes(at):
+        out = b""
+        while lines and lines[0] != "}":
+            name, rest = lines.pop(0).split(":", 1)
+            opens = rest.endswith("{")
+            words = [word for word in re.split(r",\s*", rest.strip(" {")) if word]
+            head = at + len(out) + 13 + len(name)
+            if opens and words and words[0].startswith("*"):
+                letter, kind = kinds.get(name, ("i", "<i4"))
+                packed = zlib.compress(numpy.array(lines.pop(0)[2:].split(","), float).astype(kind).tobytes())
+                body = values = letter.encode() + struct.pack("<III", int(words[0][1:]), 1, len(packed)) + packed
+                lines.pop(0)
+            else:
+                body = values = b"".join(value(word.strip(), name) for word in words)
+                if opens:
+                    body += nodes(head + len(values)) + bytes(13)
+                    lines.pop(0)
+            out += struct.pack("<IIIB", head + len(body), len(words), len(values), len(name)) + name.encode() + body
+        return out
+
+    start = b"Kaydara FBX Binary  \0\x1a\0" + struct.pack("<I", version)
+    return start + nodes(len(start)) + bytes(13)
+
+
 class Fbx(MotionFileCase):
     # Joint: parent, offset from the parent (cm), Euler angles about x, y, z (degrees) over time (s). Each joint also has a
     # constant rotation of its own.
@@ -45,12 +85,13 @@ class Fbx(MotionFileCase):
                ("Leg", "UpLeg", 1, (0, -43, 0), lambda t: (20 * t, 0, 0), (0, 0, 0)),
                ("Foot", "Leg", 1, (0, -42, 0), None, (0, 0, 0)), ("ToeBase", "Foot", 1, (0, -5, 14), None, (0, 0, 0)))}}
 
-    def fbx(self, name, unit_cm, up, frames=31, rate=30, late_ticks=0, inactive=(), pivots=None):
+    def fbx(self, name, unit_cm, up, frames=31, rate=30, late_ticks=0, inactive=(), pivots=None, branch=lambda t, turns: turns):
         """Writes an FBX text file; returns it and the joints' positions by frame (metres, Y up) by forward
         kinematics of our own.
 
         Keys about Y come late_ticks later. Joints of `inactive` have RotationActive 0 beside a PreRotation and an
-        order. Joints of `pivots` turn about a point, given in centimetres from the joint."""
+        order. Joints of `pivots` turn about a point, given in centimetres from the joint. `branch` changes the angles
+        of a key in the file."""
         pivots = pivots or {}
         def euler(degrees):  # x first, then y, then z
             x, y, z = (turn(numpy.radians(a) * axis) for a, axis in zip(degrees, numpy.eye(3)))
@@ -77,7 +118,7 @@ class Fbx(MotionFileCase):
             links += [f'C: "OO",{node},2\n', f'C: "OP",{node},{ids[joint]}, "Lcl Rotation"\n']
             for k, axis in enumerate("XYZ"):
                 curve = 10 * node + k
-                values = ",".join(repr(float(turns(t / rate)[k])) for t in range(frames))
+                values = ",".join(repr(float(branch(t, turns(t / rate))[k])) for t in range(frames))
                 objects.append(f'AnimationCurve: {curve}, "AnimCurve::", "" {{\nDefault: 0\nKeyVer: 4008\n'
                                f"KeyTime: *{frames} {{\na: {times(k)}\n}}\nKeyValueFloat: *{frames} {{\na: {values}\n}}\n"
                                f"KeyAttrFlags: *1 {{\na: 24836\n}}\nKeyAttrDataFloat: *4 {{\na: 0,0,0,0\n}}\n"
@@ -134,6 +175,15 @@ class Fbx(MotionFileCase):
             path, places = self.fbx("late.fbx", 1, "y", late_ticks=late_ticks)
             self.assertIn("FBX, 31 frames at 30 Hz", self.etude("clip", "info", path).stdout, late_ticks)
             self.assertLess(self.apart_from_truth(path, places), 1e-4, late_ticks)
+
+    def test_fbx_euler_angles_on_any_branch_in_text_and_binary(self):
+        twin = lambda t, turns: (turns[0] + 180, 180 - turns[1], turns[2] - 180) if t % 10 < 5 else turns
+        for branch in (lambda t, turns: turns, twin, lambda t, turns: (turns[0] - 360 * (t % 3), turns[1], turns[2] + 720 * (t % 2))):
+            path, places = self.fbx("branch.fbx", 1, "y", branch=branch)
+            for data in (path.read_bytes(), in_binary(path.read_text())):
+                path.write_bytes(data)
+                self.assertIn("FBX, 31 frames at 30 Hz", self.etude("clip", "info", path).stdout)
+                self.assertLess(self.apart_from_truth(path, places), 1e-4)
 
     def test_fbx_pre_rotations_and_orders_count_where_rotation_is_active(self):
         path, places = self.fbx("inactive.fbx", 1, "y", inactive=("LeftArm", "RightForeArm"))

@@ -46,6 +46,7 @@ DOORS = {
     "CLI/": ["cli"],
     "Random123/": ["sim/random"],
     "xxhash.h": ["engine/base"],
+    "zlib.h": ["io/clips/assimp"],
     "zip.h": ["engine/formats/npz.cc"],
     "sodium.h": ["bench/results"],
     "nlohmann/": ["bench", "cli", "io", "tools", "engine/formats/deepmimic.cc", "engine/formats/gltf", "engine/formats/json_text.cc",

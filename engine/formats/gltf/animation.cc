@@ -234,23 +234,26 @@ bool LiesOnGrid(const std::vector<double>& times, double start, double rate_hz) 
 }
 
 /// Returns the rate of the keys if all moving properties are linear with evenly spaced keys, because sampling at this
-/// rate loses no information; otherwise returns the default rate.
+/// rate loses no information; otherwise returns the default rate. Steps count as linear if they last one usual frame.
 double RateOf(const std::vector<Channel>& channels, double start) {
   // Exporters give resting joints only two keys, at the beginning and at the end. These keys say nothing about the
   // rate.
   const bool any_moves = std::ranges::any_of(channels, [](const Channel& channel) { return channel.curve.Moves(); });
   const auto counts = [&](const Channel& channel) { return !any_moves || channel.curve.Moves(); };
+  constexpr double kMinStepRateHz = 24;
+  double min_rate_hz = kMinRateHz;
   const GltfCurve* densest = nullptr;
   for (const Channel& channel : channels) {
     if (!counts(channel)) continue;
-    if (any_moves && channel.curve.interpolation() != GltfInterpolation::kLinear) return kDefaultRateHz;
+    if (any_moves && channel.curve.interpolation() == GltfInterpolation::kCubicSpline) return kDefaultRateHz;
+    if (any_moves && channel.curve.interpolation() == GltfInterpolation::kStep) min_rate_hz = kMinStepRateHz;
     if (!densest || channel.curve.CountTimes() > densest->CountTimes()) densest = &channel.curve;
   }
   const std::vector<double>& times = densest->times();
   const std::size_t count = densest->CountTimes();
   if (count < 2) return kDefaultRateHz;
   const double rate = RoundedRate(static_cast<double>(count - 1) / (times.back() - times.front()));
-  if (rate < kMinRateHz || rate > kMaxRateHz) return kDefaultRateHz;
+  if (rate < min_rate_hz || rate > kMaxRateHz) return kDefaultRateHz;
   for (const Channel& channel : channels) {
     if (counts(channel) && !LiesOnGrid(channel.curve.times(), start, rate)) return kDefaultRateHz;
   }

@@ -2,6 +2,7 @@
 
 #include <functional>
 #include <map>
+#include <set>
 #include <span>
 #include <string>
 #include <string_view>
@@ -23,6 +24,7 @@ struct GltfContent {
   /// The joints that a VRM file (0.x, 1.0) or VRM animation declares as bones, by VRM's bone names, for example
   /// "leftUpperArm".
   std::map<std::string, int> bones = {};
+  std::set<std::string> skinned = {};     ///< the names of the joints of skins
   std::vector<std::string> remarks = {};  ///< messages for the user about what was left out
 };
 
@@ -41,11 +43,11 @@ using DecodePicture = std::function<Result<ColourImage>(std::string_view bytes, 
 /// Nodes become joints in the file's order, with parents first: all nodes of the default scene, and others if they are
 /// animated or bones of a skin. Matrices are decomposed into translation, rotation and scale.
 ///
-/// Animations are sampled at a fixed rate from their first key to their last. If all moving properties are LINEAR with
-/// evenly spaced keys, the rate is that of the keys (rounded to a whole number within 0.01 %, else to thousandths),
-/// because sampling then loses nothing; else it is 60 Hz. LINEAR (slerp for rotations), STEP and CUBICSPLINE are
-/// evaluated as specified; joints without channels stay at rest; sparse accessors and normalised integers are
-/// supported. Morph targets, and animations that only move them, are left out.
+/// Animations are sampled at a fixed rate from their first key to their last. If all moving properties are LINEAR, or
+/// STEP at 24 Hz or more, with evenly spaced keys, the rate is that of the keys (rounded to a whole number within 0.01
+/// %, else to thousandths), because sampling then loses nothing; else it is 60 Hz. LINEAR (slerp for rotations), STEP
+/// and CUBICSPLINE are evaluated as specified; joints without channels stay at rest; sparse accessors and normalised
+/// integers are supported. Morph targets, and animations that only move them, are left out.
 ///
 /// Surfaces are triangle lists, strips and fans; lines and points are ignored. If a vertex has several sets of joints,
 /// the four largest weights are used. Surfaces without normals get flat normals. Colours are base colour factors,

@@ -396,6 +396,9 @@ Result<GltfContent> ReadGltf(std::string_view bytes, const std::string& file, co
   if (has_pointers) content.remarks.emplace_back("animations by KHR_animation_pointer are not read");
   ASSIGN_OR_RETURN(auto clips, ReadGltfClips(parsed, nodes, content.remarks));
   content.clips = std::move(clips);
+  for (const tinygltf::Skin& skin : model->skins) {
+    for (const int node : skin.joints) content.skinned.insert(nodes.skeleton.joints[nodes.joint_of[node]].name);
+  }
   for (const auto& [bone, node] : BoneTable(*model)) {
     const bool is_node = node >= 0 && node < static_cast<int>(nodes.joint_of.size());
     if (is_node && nodes.joint_of[node] >= 0) content.bones[bone] = nodes.joint_of[node];

@@ -15,6 +15,7 @@
 #include <set>
 #include <vector>
 
+#include "io/clips/assimp/own_keys.h"
 #include "io/clips/assimp/span.h"
 #include "io/clips/fbx.h"
 
@@ -44,18 +45,18 @@ void Append(std::string& bytes, std::uint32_t number) {
 /// parent.
 class MotionGlb {
  public:
-  explicit MotionGlb(const aiScene& scene) {
+  MotionGlb(const aiScene& scene, const FbxOwnKeys& own, FbxKeyFacts& facts) : own_(own), facts_(facts) {
     AddNode(*scene.mRootNode);
     for (unsigned i = 0; i < scene.mNumAnimations; ++i) {
+      TakeOutInserted(*scene.mAnimations[i], own);
       CutToSpan(*scene.mAnimations[i], facts_);
       AddAnimation(*scene.mAnimations[i]);
     }
   }
 
-  const FbxKeyFacts& facts() const { return facts_; }
-
   std::string Bytes() {
     Json document = {{"asset", {{"version", "2.0"}}}, {"scene", 0}, {"scenes", {{{"nodes", {0}}}}}, {"nodes", nodes_}};
+    if (!limbs_.empty()) document["skins"] = {{{"joints", limbs_}}};
     if (!animations_.empty()) {
       document["animations"] = animations_;
       document["accessors"] = accessors_;
@@ -110,6 +111,7 @@ class MotionGlb {
                       {"translation", {place.x, place.y, place.z}},
                       {"rotation", {turn.x, turn.y, turn.z, turn.w}},
                       {"scale", {scale.x, scale.y, scale.z}}});
+    if (own_.limbs.contains(node.mName.C_Str())) limbs_.push_back(index);
     std::vector<std::size_t> children;
     for (unsigned i = 0; i < last->mNumChildren; ++i) children.push_back(AddNode(*last->mChildren[i]));
     if (!children.empty()) nodes_[index]["children"] = children;
@@ -237,8 +239,10 @@ class MotionGlb {
   Json nodes_ = Json::array(), animations_ = Json::array(), accessors_ = Json::array(), views_ = Json::array();
   std::map<std::string, std::size_t> by_name_;  ///< for each name, the first node with this name
   std::map<std::size_t, std::vector<const aiNode*>> parts_;  ///< for each joined node, its chain in the file
+  std::vector<std::size_t> limbs_;                           ///< the joints of a skeleton (LimbNode)
   std::string numbers_;
-  FbxKeyFacts facts_;
+  const FbxOwnKeys& own_;
+  FbxKeyFacts& facts_;
 };
 
 bool GlbOfFbxByAssimp(std::string_view bytes, std::string& said, FbxKeyFacts& facts) {
@@ -251,15 +255,15 @@ bool GlbOfFbxByAssimp(std::string_view bytes, std::string& said, FbxKeyFacts& fa
       said = std::string("a damaged FBX file: ") + importer.GetErrorString();
       return false;
     }
-    // Turn a scene with Z up to Y up.
-    if (const auto [axis, sign] = UpOf(*scene); axis == 2) {
+    // Turn a scene with X or Z up to Y up.
+    if (const auto [axis, sign] = UpOf(*scene); axis == 0 || axis == 2) {
+      const auto angle = static_cast<ai_real>(sign * std::numbers::pi / 2);
       aiMatrix4x4 turn;
-      aiMatrix4x4::RotationX(static_cast<ai_real>(-sign * std::numbers::pi / 2), turn);
+      axis == 0 ? aiMatrix4x4::RotationZ(angle, turn) : aiMatrix4x4::RotationX(-angle, turn);
       scene->mRootNode->mTransformation = turn * scene->mRootNode->mTransformation;
     }
-    MotionGlb motion(*scene);
-    said = motion.Bytes();
-    facts = motion.facts();
+    const FbxOwnKeys own = ReadOwnKeys(bytes, facts);
+    said = MotionGlb(*scene, own, facts).Bytes();
     return true;
   } catch (const std::exception& error) {
     said = std::string("an FBX file that cannot be read: ") + error.what();

@@ -62,6 +62,36 @@ TEST(ToBodyMotion, TakesSmallBodiesInMillimetresForWhatASensorSaw) {
   EXPECT_EQ(Convert(AtRest(Scaled(10 * 0.65)))->unit, "unknown") << "1.13 m";
 }
 
+TEST(ToBodyMotion, ChildrenKeepTheirStatureIfTheFileStatesMetres) {
+  const double adult_m = 1.60 / 0.92;
+  const auto convert = [&](double stature_m, bool states_metres) {
+    return Convert(AtRest(Scaled(0.01 * stature_m / adult_m)), {.states_metres = states_metres});
+  };
+  for (const double stature_m : {0.6, 0.9, 1.2, 1.4, 1.74, 2.4, 2.9}) {
+    ASSERT_OK(body, convert(stature_m, true));
+    EXPECT_EQ(body->unit, "metre") << stature_m;
+    EXPECT_NEAR(Stature(body->motion.poses[0]), stature_m, 1e-9);
+    EXPECT_THAT(body->Note(), Not(HasSubstr("states")));
+    // The control: without a statement, only an adult's stature tells the unit.
+    ASSERT_OK(guessed, convert(stature_m, false));
+    EXPECT_NEAR(Stature(guessed->motion.poses[0]), stature_m == 1.74 ? stature_m : 1.70, 1e-9);
+  }
+  // Files that state metres, but hold hundreds of metres, centimetres, inches, or feet.
+  for (const auto& [units, unit] :
+       {std::pair(0.01, "unknown"), {100.0, "centimetre"}, {1 / 0.0254, "inch"}, {1 / 0.3048, "foot"}}) {
+    ASSERT_OK(body, convert(units * adult_m, true));
+    EXPECT_EQ(body->unit, unit);
+    EXPECT_NEAR(Stature(body->motion.poses[0]), *unit == 'u' ? 1.70 : adult_m, 1e-9);
+    EXPECT_THAT(
+        body->doubts,
+        ::testing::ElementsAre(HasSubstr(fmt::format(
+            "by the unit that the file or its format states, the body is {:.3g} m tall; this unit", units * adult_m))));
+  }
+  // Inches in a file that states centimetres: 0.69 m, with an adult's long legs.
+  ASSERT_OK(body, convert(adult_m / 2.54, true));
+  EXPECT_THAT(body->doubts, ::testing::ElementsAre(HasSubstr("legs are as long for that height as an adult's")));
+}
+
 TEST(ToBodyMotion, DropsATPoseThatTheMotionJumpsAwayFrom) {
   Clip clip = AtRest(testing::PersonSkeleton(), 9, 120);
   for (std::size_t i = 1; i < 9; ++i) LowerArms(clip, i);

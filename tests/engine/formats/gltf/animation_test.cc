@@ -105,6 +105,24 @@ TEST(GltfAnimation, KeysThatCoincideAreOneFrame) {
   }
 }
 
+TEST(GltfAnimation, StepsOfOneFrameAreFramesAndLongerStepsAreHeld) {
+  for (const double keys_hz : {24.0, 30.0, 60.0, 12.0}) {
+    Curve curve{"translation", "STEP", {}, {}};
+    for (int k = 0; k < 12; ++k) {
+      curve.times.push_back(static_cast<float>(k / keys_hz));
+      curve.values.insert(curve.values.end(), {static_cast<float>(k * k), 0, 1});
+    }
+    const Clip clip = OnlyClip(Animated({curve}));
+    EXPECT_EQ(clip.rate_hz, keys_hz < 24 ? 60 : keys_hz);
+    const std::size_t each = keys_hz < 24 ? 5 : 1;
+    ASSERT_EQ(clip.frames.size(), 11 * each + 1) << keys_hz;
+    for (std::size_t k = 0; k < clip.frames.size(); ++k) {
+      const auto key = static_cast<double>(k / each);
+      EXPECT_EQ(Frames(clip)[k].translation, glm::dvec3(key * key, 0, 1)) << keys_hz << " Hz, frame " << k;
+    }
+  }
+}
+
 TEST(GltfAnimation, JumpsWhereTwoKeysHaveOneTime) {
   const auto frames =
       Frames(OnlyClip(Animated({{"translation", "LINEAR", {0, 0.5f, 0.5f, 1}, {0, 0, 0, 1, 0, 0, 5, 0, 0, 6, 0, 0}}})));
