@@ -40,6 +40,7 @@ def evaluate(truth=None, *, names=None, rate_hz=None, pairs=None, joints=None, p
         raise TypeError("evaluate needs a truth and answers by name, or pairs, one of the two")
 
     arrays = {}
+    names = names if names is None or isinstance(names, str) else list(names)
 
     def reference(motion, name):
         if motion is None:
@@ -53,7 +54,7 @@ def evaluate(truth=None, *, names=None, rate_hz=None, pairs=None, joints=None, p
         if isinstance(names, str) or not all(isinstance(joint, str) for joint in names):
             raise TypeError("names must be a list of the joints' names")
         path = pathlib.Path(f"{output}.motions") / f"{name}.npz"
-        arrays[path] = _npz(motion, list(names), rate_hz, {"unit": unit, "up": up}, name)
+        arrays[path] = _npz(motion, names, rate_hz, {"unit": unit, "up": up}, name)
         return str(path)
 
     arguments = ["evaluate", "--alone"] if alone else ["evaluate"]
@@ -70,7 +71,7 @@ def evaluate(truth=None, *, names=None, rate_hz=None, pairs=None, joints=None, p
     for metric in [metrics] if isinstance(metrics, str) else metrics:
         arguments += ["--metric", metric]
     arguments += ["-o", str(output)] + ["--overwrite"] * overwrite
-    if arrays and not overwrite and output.exists():  # do not replace the arrays of an earlier run
+    if arrays and not overwrite and (output / "manifest.json").exists():  # do not replace the arrays of an earlier run
         raise EtudeError(f"{output} exists already; overwrite=True replaces it", 2)
     for path, content in arrays.items():
         path.parent.mkdir(parents=True, exist_ok=True)
