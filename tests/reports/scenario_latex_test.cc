@@ -4,6 +4,7 @@
 #include <sstream>
 
 #include "io/drawing/escape.h"
+#include "reports/comparison_table.h"
 #include "reports/overview_table.h"
 #include "reports/page.h"
 #include "reports/words/figures.h"
@@ -82,7 +83,7 @@ TEST(ScenarioLatex, SaysWhatAMethodLeftOut) {
   methods.back().metrics.back().mean = 0.7;
   const std::string latex = ScenarioLatex(run, scenario);
   EXPECT_THAT(latex, HasSubstr(heading));
-  EXPECT_THAT(latex, HasSubstr(methods.back().method + " & 12 & 70 \\% ["));
+  EXPECT_THAT(latex, HasSubstr(methods.back().method + " & 12 & 70.0 \\% ["));
   EXPECT_THAT(OverviewTableMarkdown(scenario), HasSubstr(WordsFor(success->id).label));
 }
 
