@@ -21,6 +21,7 @@
 #include "cli/facts.h"
 #include "cli/named_results.h"
 #include "cli/pair_notes.h"
+#include "engine/base/csv.h"
 #include "engine/base/names.h"
 #include "engine/retargeting/map_file.h"
 #include "io/files/files.h"
@@ -48,9 +49,12 @@ struct EvaluateOptions {
 Result<std::vector<NamedResult>> ReadColumns(const std::string& file) {
   ASSIGN_OR_RETURN(const auto text, ReadWholeFile(file));
   std::vector<NamedResult> results;
-  for (const std::string& column : SplitAtCommas(text.substr(0, text.find('\n')))) {
+  ASSIGN_OR_RETURN(const auto rows, ReadCsv(text, file));
+  for (const std::string& column : rows.empty() ? std::vector<std::string>{} : rows.front().cells) {
     if (column == "truth" || column == "name") continue;
-    if (!IsPlainName(column)) return Fail({file, 1, 0}, "{} is not a valid method name", Quote(column));
+    if (!IsPlainName(column)) {
+      return Fail({file, rows.front().line, 0}, "column {} is not a valid method name", Quote(column));
+    }
     results.push_back({column, {}});
   }
   if (results.empty()) return Fail({file, 1, 0}, "has no column of a method; allowed: a heading such as truth,mine");

@@ -61,9 +61,9 @@ OverviewCell CellOf(const ConditionSummary& condition, const MethodSummary& meth
   return cell;
 }
 
-/// Returns the headline metrics, then all further metrics that any method has.
+/// Returns the metrics of every table, then all further metrics that any method has.
 std::vector<std::string> AllMetricsOf(const ScenarioSummary& scenario) {
-  std::vector<std::string> metrics = scenario.headline_metrics;
+  std::vector<std::string> metrics = TableMetrics(scenario);
   for (const ConditionSummary& condition : scenario.conditions) {
     for (const MethodSummary& method : condition.methods) {
       for (const MetricSummary& metric : method.metrics) {
@@ -137,11 +137,12 @@ TableCell TableCellOf(const OverviewCell& cell, bool has_rivals, SamplingUnit un
   return {text, cell.sorted_by, html};
 }
 
-/// Returns a table with one row per method and condition and one column for each metric in `metrics`. The headline
-/// metrics come first; the other columns are marked as details.
+/// Returns a table with one row per method and condition and one column for each metric in `metrics`. Those of
+/// TableMetrics come first; the other columns are marked as details.
 Table OverviewTable(const ScenarioSummary& scenario, std::span<const std::string> metrics,
                     std::span<const OverviewRow> rows, std::string_view method_head, std::string_view condition_head) {
   const bool swept = scenario.conditions.size() > 1;
+  const std::size_t shown = TableMetrics(scenario).size();
   const bool has_rivals =
       std::ranges::any_of(scenario.conditions, [](const ConditionSummary& c) { return !c.rivals.empty(); });
   Table table{.label = "Every method by every metric",
@@ -152,18 +153,18 @@ Table OverviewTable(const ScenarioSummary& scenario, std::span<const std::string
     const MetricWords words = WordsFor(metrics[i]);
     table.columns.push_back({.head = words.label,
                              .is_number = true,
-                             .is_detail = i >= scenario.headline_metrics.size(),
+                             .is_detail = i >= shown,
                              .is_sortable = true,
                              .title = metrics[i],
                              .sign = std::string(ArrowOf(words.direction))});
   }
   for (const OverviewRow& row : rows.first(std::min(rows.size(), kMaxTableRows))) {
-    TableRow shown{.cells = {row.method},
-                   .attributes = fmt::format("{} data-ids=\"{}\"{}", row.is_yardstick ? " class=\"yardstick\"" : "",
-                                             EscapeMarkup(row.cell), row.kept)};
-    if (swept) shown.cells.emplace_back(row.condition);
-    for (const OverviewCell& cell : row.cells) shown.cells.push_back(TableCellOf(cell, has_rivals, scenario.unit));
-    table.rows.push_back(std::move(shown));
+    TableRow made{.cells = {row.method},
+                  .attributes = fmt::format("{} data-ids=\"{}\"{}", row.is_yardstick ? " class=\"yardstick\"" : "",
+                                            EscapeMarkup(row.cell), row.kept)};
+    if (swept) made.cells.emplace_back(row.condition);
+    for (const OverviewCell& cell : row.cells) made.cells.push_back(TableCellOf(cell, has_rivals, scenario.unit));
+    table.rows.push_back(std::move(made));
   }
   return table;
 }
@@ -260,10 +261,10 @@ std::string OverviewTableHtml(const RunData& run, const ScenarioSummary& scenari
 
 std::string OverviewTableMarkdown(const ScenarioSummary& scenario) {
   if (scenario.headline_metrics.size() < 2) return "";
-  const std::vector<OverviewRow> rows = RowsOf({}, scenario, scenario.headline_metrics);
+  const std::vector<std::string> metrics = TableMetrics(scenario);
+  const std::vector<OverviewRow> rows = RowsOf({}, scenario, metrics);
   if (rows.empty()) return "";
-  const std::string text =
-      TableMarkdown(OverviewTable(scenario, scenario.headline_metrics, rows, "method", "condition"));
+  const std::string text = TableMarkdown(OverviewTable(scenario, metrics, rows, "method", "condition"));
   const std::string rest = LeftOutWords(rows.size(), kMaxTableRows, "rows", kAllNumbers);
   return rest.empty() ? text : fmt::format("{}\n{}\n", text, rest);
 }

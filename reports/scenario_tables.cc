@@ -131,7 +131,7 @@ std::string Float(const std::string& caption, const Table& table) {
 /// Returns the LaTeX floats of one condition: as many floats as the condition's rows need.
 std::string ConditionFloats(const ScenarioSummary& scenario, const ConditionSummary& condition) {
   std::vector<Group> groups{EndedOk(scenario, condition)};
-  for (const std::string& metric : scenario.headline_metrics) groups.push_back(OfMetric(scenario, condition, metric));
+  for (const std::string& metric : TableMetrics(scenario)) groups.push_back(OfMetric(scenario, condition, metric));
 
   std::string text;
   std::string caption = EscapeLatex(Caption(scenario, condition)) + std::string(kStarsCaption);

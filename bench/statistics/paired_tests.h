@@ -24,14 +24,15 @@ PairedTest SignedRankTest(std::span<const double> differences);
 /// signed-rank test. The correlation is 0 if all differences are zero.
 double RankBiserial(std::span<const double> differences);
 
-/// Computes the sign-flip permutation test (Fisher 1935) of the differences' median or mean. Up to 16 non-zero
-/// differences, all sign vectors are enumerated, and p is exact. For a mean, p has a closed form in two more cases.
-/// If all n differences have the same sign, p = 2 / 2ⁿ; differences within rounding are not counted, and n above 1000
-/// is taken as 1000. If all differences have the same size, p comes from the binomial distribution (for shares this
-/// is McNemar's exact test). Otherwise m = 9,999 sign vectors are drawn from a stream keyed by `seed` and `purpose`.
-/// b of them have an aggregate at least as far from zero as the observed one, and p = (b + 1) / (m + 1) (Phipson &
-/// Smyth 2010). Above kMaxResampled differences, p comes from a normal approximation; for a median, from the normal
-/// approximation of the sign test.
+/// Computes the sign-flip permutation test (Fisher 1935) of the differences' median or mean. Of a median, p is not
+/// small even if all differences are equal, because most sign vectors then give a median of the same size. Up to 16
+/// non-zero differences, all sign vectors are enumerated, and p is exact. For a mean, p has a closed form in two more
+/// cases. If all n differences have the same sign, p = 2 / 2ⁿ; differences within rounding are not counted, and n above
+/// 1000 is taken as 1000. If all differences have the same size, p comes from the binomial distribution (for shares
+/// this is McNemar's exact test). Otherwise m = 9,999 sign vectors are drawn from a stream keyed by `seed` and
+/// `purpose`. b of them have an aggregate at least as far from zero as the observed one, and p = (b + 1) / (m + 1)
+/// (Phipson & Smyth 2010). Above kMaxResampled differences, p comes from a normal approximation; for a median, from the
+/// normal approximation of the sign test.
 PairedTest SignFlipTest(std::span<const double> differences, Aggregate aggregate, std::uint64_t seed,
                         const std::string& purpose);
 

@@ -7,6 +7,7 @@
 
 #include "engine/base/order_statistics.h"
 #include "engine/motion/raw_motion.h"
+#include "engine/retargeting/data_set_names.h"
 
 namespace etude {
 namespace {
@@ -75,7 +76,7 @@ std::optional<double> UnitOfSpread(double spread) {
 
 Standing HowItStands(std::span<const glm::dvec3> positions, const std::vector<std::string>& names) {
   const auto column_of = [&](Role role) {
-    return static_cast<std::size_t>(std::ranges::find(names, RoleName(role)) - names.begin());
+    return static_cast<std::size_t>(std::ranges::find(names, RoleName(role), PlainJointName) - names.begin());
   };
   const std::array<std::size_t, 4> columns = {column_of(Role::kLeftShoulder), column_of(Role::kRightShoulder),
                                               column_of(Role::kLeftKnee), column_of(Role::kRightKnee)};

@@ -11,6 +11,7 @@
 #include "engine/base/names.h"
 #include "engine/formats/row_clock.h"
 #include "engine/retargeting/array_evidence.h"
+#include "engine/retargeting/data_set_names.h"
 #include "engine/retargeting/joint_layouts.h"
 #include "engine/retargeting/map_file.h"
 #include "engine/retargeting/marker_repairs.h"
@@ -117,6 +118,20 @@ Result<void> LeaveGapsOut(const std::optional<ArrayRate>& rate, FrameTimes times
     for (const auto& shown : frame) motion.positions.push_back(shown.value_or(NotSeen()));
   }
   return {};
+}
+
+/// Assigns the roles that the joints play by the names of their data set, if there is one, and notes a change.
+void TakeRolesOfDataSet(RawMotion& motion) {
+  const auto known = FindDataSet(motion.joints);
+  if (!known) return;
+  const auto before = motion.roles;
+  for (const KnownJoint& one : known->joints) {
+    const auto role = FindRole(one.joint);
+    if (!role || one.points.size() > 1) continue;
+    std::ranges::replace(motion.roles, static_cast<int>(one.points.front()), -1);
+    motion.roles[Index(*role)] = static_cast<int>(one.points.front());
+  }
+  if (motion.roles != before) motion.notes.push_back(fmt::format("joints of {} by their names", known->data_set));
 }
 
 NumberArray ArrayOf(std::vector<std::size_t> shape, std::vector<double> values = {}) {
@@ -279,6 +294,7 @@ Result<RawMotion> ReadRawNpz(const Npz& arrays, const std::string& file, const A
     }
     if (const auto role = FindRole(motion.joints[j])) motion.roles[Index(*role)] = static_cast<int>(j);
   }
+  TakeRolesOfDataSet(motion);
   if (int& root = motion.roles[Index(Role::kHipCentre)]; root < 0) {
     const int pelvis = motion.Find("pelvis"), hips = motion.Find("hips");
     root = pelvis >= 0 && (hips < 0 || pelvis < hips) ? pelvis : hips;

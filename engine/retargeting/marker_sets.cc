@@ -1,10 +1,13 @@
 #include "engine/retargeting/marker_sets.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <string_view>
 #include <utility>
 
 #include "engine/base/names.h"
+#include "engine/retargeting/data_set_names.h"
 #include "engine/retargeting/limb_finder.h"
 
 namespace etude {
@@ -37,7 +40,7 @@ MarkerSet MakeSet(std::string name, std::string key, std::vector<MarkerRule> mid
 std::vector<MarkerSet> MakeSets() {
   std::vector<MarkerSet> sets;
   // Joints and keypoints.
-  MarkerSet own{.name = "Etude's joints", .key = "etude", .rules = {}, .rank = 3};
+  MarkerSet own{.name = "Etude's joints", .key = "etude", .rules = {}, .is_own = true, .rank = 3};
   for (const Role role : AllRoles()) own.rules.push_back({role, {std::string(RoleName(role))}});
   sets.push_back(std::move(own));
   const LimbMarkers pose_limbs = {{Role::kLeftShoulder, {"?shoulder"}}, {Role::kLeftElbow, {"?elbow"}},
@@ -203,6 +206,38 @@ bool AreOwnJoints(const MarkerColumns& columns) {
   return (has(Role::kHipCentre) || has(Role::kShoulderCentre)) && std::ranges::count_if(AllRoles(), has) >= kMinNames;
 }
 
+void ReplaceRule(const MarkerRule& rule, MarkerSet& set) {
+  std::erase_if(set.rules, [&](const MarkerRule& old) { return old.role == rule.role; });
+  set.rules.push_back(rule);
+}
+
+/// If the names are those of a data set, replaces the chosen set's rules for the joints that the data set has.
+void TakeJointsOfDataSet(const MarkerColumns& columns, std::span<const std::string> names, ChosenSet& chosen) {
+  if (chosen.set() == nullptr || !chosen.set()->pelvis.front().empty()) return;
+  std::vector<std::string> keys, points;
+  for (const auto& [key, column] : columns) {
+    keys.push_back(key);
+    points.push_back(names[column]);
+  }
+  const auto known = FindDataSet(points);
+  if (!known) return;
+  MarkerSet set = *chosen.set();
+  bool is_changed = false;
+  for (const KnownJoint& one : known->joints) {
+    const auto role = FindRole(one.joint);
+    if (!role) continue;
+    MarkerRule rule{*role, {}};
+    for (const std::size_t point : one.points) rule.markers.push_back(keys[point]);
+    const auto is_it = [&](const MarkerRule& old) { return old.role == rule.role && old.markers == rule.markers; };
+    if (std::ranges::any_of(set.rules, is_it)) continue;
+    ReplaceRule(rule, set);
+    is_changed = true;
+  }
+  if (!is_changed) return;
+  set.name = fmt::format("joints of {} by their names", known->data_set);
+  chosen.made = std::move(set);
+}
+
 }  // namespace
 
 ChosenSet ChooseSet(const MarkerColumns& columns, std::span<const std::string> names, const std::string& wanted,
@@ -216,6 +251,7 @@ ChosenSet ChooseSet(const MarkerColumns& columns, std::span<const std::string> n
       chosen.made = SetOfSkeletonNames(columns, names);
     }
   }
+  if (wanted.empty()) TakeJointsOfDataSet(columns, names, chosen);
   std::vector<MarkerRule> told;
   for (const auto& [role, marker] : roles) {
     if (const auto found = columns.find(MarkerKey(marker)); found != columns.end())
@@ -225,10 +261,8 @@ ChosenSet ChooseSet(const MarkerColumns& columns, std::span<const std::string> n
   const MarkerSet* base = chosen.set();
   MarkerSet set = base == nullptr ? MarkerSet{.name = "the joint map", .key = "", .rules = {}} : *base;
   if (base != nullptr) set.name = "the joint map, and " + base->name;
-  for (const MarkerRule& rule : told) {
-    std::erase_if(set.rules, [&](const MarkerRule& old) { return old.role == rule.role; });
-    set.rules.push_back(rule);
-  }
+  set.is_own = false;
+  for (const MarkerRule& rule : told) ReplaceRule(rule, set);
   chosen.made = std::move(set);
   return chosen;
 }

@@ -31,6 +31,7 @@ struct MarkerSet {
   /// then show the planes in which the limbs bend.
   bool has_skin_limbs = false;
   bool has_skin_shoulders = false;  ///< true if shoulders have one marker each, on top
+  bool is_own = false;              ///< true for Etude's joints: Y is up, and the floor may be kept
   int rank = 0;                     ///< if a person has several sets, the set with the highest rank is used
 };
 
@@ -75,9 +76,10 @@ struct ChosenSet {
 /// chosen. If `wanted` is "", chooses the set with the highest rank; of equal ranks, the set that determines the most
 /// joints. If no set is complete, makes a set if a naming scheme of skeletons (joint_names.h) names all needed joints.
 /// Markers with the names of Etude's own joints keep their meaning: their set is then chosen, although it is
-/// incomplete. `roles` states which markers the user takes as joints. They replace the set's rules for the same joints;
-/// if there is no set, they form a set of their own, which may be incomplete. `names` are the file's names of all
-/// columns.
+/// incomplete. If the names are those of a data set (FindDataSet), its joints replace the rules of the chosen set,
+/// unless the user wants a set or the set is of markers on the skin. `roles` states which markers the user takes as
+/// joints. They replace the set's rules for the same joints; if there is no set, they form a set of their own, which
+/// may be incomplete. `names` are the file's names of all columns.
 ChosenSet ChooseSet(const MarkerColumns& columns, std::span<const std::string> names, const std::string& wanted,
                     const std::map<Role, std::string>& roles);
 

@@ -225,8 +225,6 @@ void StandOnFloor(bool keeps_floor, bool is_own, MarkerBody& body) {
   }
 }
 
-bool IsOwn(const MarkerSet& set) { return &set == &MarkerSets().front(); }
-
 /// Makes the body from the markers' positions times `scale`; nullopt if no frame has all needed joints.
 std::optional<MarkerBody> BodyAt(double scale, const MarkerMotion& markers, const MarkerSet& set,
                                  const MarkerColumns& columns, const MarkerOptions& options) {
@@ -247,7 +245,7 @@ std::optional<MarkerBody> BodyAt(double scale, const MarkerMotion& markers, cons
   for (std::size_t joint = 0; joint < kRoleCount; ++joint) filled += BridgeGaps(frames, joint, max_gap);
   // Rotate upright. Files that Etude wrote have Y up.
   UpRule rule = options.up;
-  if (IsOwn(set) && rule.evidence == UpEvidence::kPosture) {
+  if (set.is_own && rule.evidence == UpEvidence::kPosture) {
     rule = {.axis = {0, 1, 0}, .evidence = UpEvidence::kFile, .source = "the convention of Etude's own joints"};
   }
   MarkerBody body{.name = "", .motion = {.rate_hz = markers.rate_hz, .poses = {}}, .up = {}, .changes = {set.name}};
@@ -285,7 +283,7 @@ std::optional<MarkerBody> BodyAt(double scale, const MarkerMotion& markers, cons
     body.changes.push_back("the feet point backwards: left and right are exchanged, or an axis is mirrored");
   }
   if (!crossing.empty()) body.changes.push_back(crossing);
-  StandOnFloor(options.keep_floor, IsOwn(set), body);
+  StandOnFloor(options.keep_floor, set.is_own, body);
   if (!options.keeps_shown) return body;
   body.shown = AsShown(scale, markers, set, columns, seen, body.up.axis);
   for (const std::string& said : {centres, DescribeTurn(body.up), body.up.doubt}) {

@@ -9,6 +9,7 @@
 #include "engine/base/utf8.h"
 #include "engine/formats/kimodo.h"
 #include "engine/formats/npz.h"
+#include "engine/retargeting/data_set_names.h"
 #include "engine/retargeting/joint_arrays.h"
 #include "engine/retargeting/marker_repairs.h"
 #include "engine/retargeting/marker_sets.h"
@@ -153,13 +154,16 @@ bool BeginsAsZip(const std::string& reference) {
   return file.read(head.data(), static_cast<std::streamsize>(head.size())) && IsZip(head);
 }
 
-/// Returns true if the joints' names state a joint for every needed role, and the user's joint map names none of these
-/// joints.
+/// Returns true if the joints' names state a joint for every needed role, no role is played by the mean of several
+/// joints, and the user's joint map names none of these joints.
 bool HasTheRoles(const RawMotion& raw, const OpenOptions& options) {
   const auto is_told = [&](const std::string& joint) {
     const auto names = [&](const auto& told) { return MarkerKey(told.second.name) == MarkerKey(joint); };
     return options.roles && std::ranges::any_of(options.roles->joints, names);
   };
+  const auto known = FindDataSet(raw.joints);
+  const auto is_mean = [](const KnownJoint& one) { return one.points.size() > 1; };
+  if (known && std::ranges::any_of(known->joints, is_mean)) return false;
   return std::ranges::none_of(kNeededJoints, [&](Role role) { return raw.roles[Index(role)] < 0; }) &&
          std::ranges::none_of(raw.joints, is_told);
 }

@@ -25,7 +25,7 @@ Utf8Character AllowedCharacter(std::string_view text) {
 }
 
 using LatexRow = std::pair<std::string_view, std::string_view>;
-constexpr std::array<LatexRow, 31> kLatex{{
+constexpr std::array<LatexRow, 45> kLatex{{
     {"\\", "\\textbackslash{}"},
     {"{", "\\{"},
     {"}", "\\}"},
@@ -52,6 +52,20 @@ constexpr std::array<LatexRow, 31> kLatex{{
     {"≤", "$\\le$"},
     {"≥", "$\\ge$"},
     {"°", "$^\\circ$"},
+    {"⁰", "$^0$"},
+    {"¹", "$^1$"},
+    {"²", "$^2$"},
+    {"³", "$^3$"},
+    {"⁴", "$^4$"},
+    {"⁵", "$^5$"},
+    {"⁶", "$^6$"},
+    {"⁷", "$^7$"},
+    {"⁸", "$^8$"},
+    {"⁹", "$^9$"},
+    {"⁻", "$^-$"},
+    {"·", "$\\cdot$"},
+    {"…", "\\dots{}"},
+    {"µ", "$\\mu$"},
     {"“", "``"},
     {"”", "''"},
     {"‘", "`"},

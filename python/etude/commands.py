@@ -228,7 +228,7 @@ def _answer_all(target, method, answers, progress):
     """Asks a method all those problems of a data set that belong to the method's task. Problems without an answer stay
     missing."""
     from etude.conversation import NoAnswer
-    from etude.messages import plain
+    from etude.messages import to_json_text
     player, spec, inputs = Player(method), spec_of(method), target / "inputs"
     if not inputs.is_dir():
         raise EtudeError(f"{target}: is not a data set that `etude export` wrote: it has no folder 'inputs'")
@@ -244,7 +244,7 @@ def _answer_all(target, method, answers, progress):
             if not isinstance(answer, NoAnswer):
                 kept = answers / file.parent.parent.relative_to(inputs) / f"{file.parent.name}.json"
                 kept.parent.mkdir(parents=True, exist_ok=True)
-                kept.write_text(json.dumps(answer, allow_nan=False, default=plain))
+                kept.write_text(to_json_text(answer))
         if callable(progress):
             progress(done + 1, len(settings))
 

@@ -201,14 +201,14 @@ def serve(what, lines=None, output=None):
 
     Standard output belongs to the protocol: what methods print goes to standard error, which Etude keeps.
     """
-    from etude.messages import plain
+    from etude.messages import to_json_text
     spec, player, options = spec_of(what), Player(what), {}
     lines = sys.stdin if lines is None else lines
     if output is None:
         output, sys.stdout = sys.stdout, sys.stderr
 
     def say(**message):
-        output.write(json.dumps(message, allow_nan=False, default=plain) + "\n")
+        output.write(to_json_text(message) + "\n")
         output.flush()
 
     for line in lines:

@@ -3,6 +3,7 @@ import array
 import io
 import itertools
 import json
+import math
 import os
 import pathlib
 import re
@@ -28,8 +29,9 @@ def evaluate(truth=None, *, names=None, rate_hz=None, pairs=None, joints=None, p
     floor and limits are then the options of `etude evaluate --alone`, and the metric within_limits says which clips
     keep the limits. output: the result folder; by default the first free folder of out/evaluate-1, out/evaluate-2, …
 
-    Raises EtudeError, also if a method has no answer that can be judged; the error's `run` is then set. Warns of pairs
-    that are not judged.
+    Raises EtudeError, also if a method has no answer that can be judged; the error's `run` is then set. Raises
+    TypeError or ValueError for arguments that cannot be used, before anything is written. Warns of pairs that are not
+    judged.
     """
     output = _free_folder(overwrite) if output is None else pathlib.Path(output)
     if alone and (truth is not None or pairs is not None or not answers):
@@ -37,18 +39,22 @@ def evaluate(truth=None, *, names=None, rate_hz=None, pairs=None, joints=None, p
     if not alone and ((truth is None) != (pairs is not None) or (pairs is None) != bool(answers)):
         raise TypeError("evaluate needs either a truth and answers by name, or pairs")
 
+    arrays = {}
+    names = names if names is None or isinstance(names, str) else list(names)
+
     def reference(motion, name):
+        if motion is None:
+            raise TypeError(f"the motion of {name} is None; allowed: a file, a folder, a pattern or an array")
         if isinstance(motion, (str, os.PathLike)):
             return os.fspath(motion)
         if names is None or rate_hz is None:
             raise TypeError(f"the array of {name} needs names and rate_hz")
         if not re.fullmatch(r"[A-Za-z0-9_][A-Za-z0-9_.-]*", name):
             raise ValueError(f"{name!r} is not the name of a method; allowed: letters, digits, '_', '.', '-'")
-        content = _npz(motion, list(names), rate_hz, {"unit": unit, "up": up}, name)
+        if isinstance(names, str) or not all(isinstance(joint, str) for joint in names):
+            raise TypeError("names must be a list of the joints' names")
         path = pathlib.Path(f"{output}.motions") / f"{name}.npz"
-        path.parent.mkdir(parents=True, exist_ok=True)
-        with path.open("wb" if overwrite else "xb") as file:  # do not replace the arrays of an earlier run
-            file.write(content)
+        arrays[path] = _npz(motion, names, rate_hz, {"unit": unit, "up": up}, name)
         return str(path)
 
     arguments = ["evaluate", "--alone"] if alone else ["evaluate"]
@@ -59,12 +65,17 @@ def evaluate(truth=None, *, names=None, rate_hz=None, pairs=None, joints=None, p
                         ("--people", people), ("--lag", lag), ("--statistics", statistics),
                         ("--music-beats", music_beats), ("--jobs", jobs)):
         arguments += [flag, os.fspath(value) if isinstance(value, os.PathLike) else str(value)] if value is not None else []
-    if not any(motion is not None and not isinstance(motion, (str, os.PathLike)) for motion in (truth, *answers.values())):
+    if not arrays:
         for flag, value in (("--unit", unit), ("--up", up)):
             arguments += [flag, str(value)] if value is not None else []
-    for metric in metrics:
+    for metric in [metrics] if isinstance(metrics, str) else metrics:
         arguments += ["--metric", metric]
     arguments += ["-o", str(output)] + ["--overwrite"] * overwrite
+    if arrays and not overwrite and (output / "manifest.json").exists():  # do not replace the arrays of an earlier run
+        raise EtudeError(f"{output} exists already; overwrite=True replaces it", 2)
+    for path, content in arrays.items():
+        path.parent.mkdir(parents=True, exist_ok=True)
+        path.write_bytes(content)
     code, printed, said = call(*arguments, program=program, progress=progress, allowed=(0, 1))
     found = load(output, program=program)
     if code != 0:
@@ -96,13 +107,23 @@ def _shape(nested):
 
 
 def _npz(positions, names, rate_hz, said, title):
-    """Returns positions, names and rate as the bytes of an .npz file, with every digit."""
+    """Returns positions, names and rate as the bytes of an .npz file, with every digit. Masked values are not seen."""
+    try:
+        rate_hz = array.array("d", [rate_hz])
+    except TypeError:
+        raise TypeError(f"rate_hz is {rate_hz!r}; allowed: a number") from None
+    if hasattr(positions, "filled"):  # numpy.ma
+        positions = positions.astype(float).filled(math.nan)
     if not len(positions) or any(len(frame) != len(names) or any(len(point) != 3 for point in frame) for frame in positions):
         shape = getattr(positions, "shape", None) or _shape(positions)
         raise ValueError(f"the array of {title} must be frames × {len(names)} joints (the number of names) × 3, not "
                          + " × ".join(map(str, shape)))
     frames = len(positions)
-    numbers = array.array("d", (x for frame in positions for point in frame for x in point))
+    try:
+        numbers = array.array("d", (x for frame in positions for point in frame for x in point))
+    except TypeError as error:
+        raise TypeError(f"the array of {title} has values that are no numbers ({error}); NaN stands for a joint that was "
+                        "not seen") from None
     texts = []
     for key, words in [("names", names), *((key, [str(word)]) for key, word in said.items() if word is not None)]:
         width = max(map(len, words))
@@ -111,7 +132,7 @@ def _npz(positions, names, rate_hz, said, title):
     content = io.BytesIO()
     with zipfile.ZipFile(content, "w") as archive:
         for name, kind, shape, data in [("positions", "<f8", (frames, len(names), 3), numbers.tobytes()),
-                                        ("rate_hz", "<f8", (), array.array("d", [rate_hz]).tobytes()), *texts]:
+                                        ("rate_hz", "<f8", (), rate_hz.tobytes()), *texts]:
             head = f"{{'descr': '{kind}', 'fortran_order': False, 'shape': {shape}, }}\n".encode()
             archive.writestr(f"{name}.npy", b"\x93NUMPY\1\0" + len(head).to_bytes(2, "little") + head + data)
     return content.getvalue()

@@ -1,5 +1,7 @@
 """The base of problems, steps and answers: dataclasses that are read from JSON and written to it."""
 import dataclasses
+import json
+import math
 
 
 class Message:
@@ -88,3 +90,22 @@ def plain(value):
     if hasattr(value, "tolist"):
         return value.tolist()
     raise TypeError(f"{type(value).__name__} is not a type of JSON")
+
+
+def to_json_text(value):
+    """Writes a value as JSON. A number that is not finite becomes a text, such as "nan", so that the program refuses this
+    answer, names the number, and asks the next problem."""
+    try:
+        return json.dumps(value, allow_nan=False, default=plain)
+    except ValueError:
+        return json.dumps(_with_words(value), allow_nan=False)
+
+
+def _with_words(value):
+    if isinstance(value, dict):
+        return {key: _with_words(each) for key, each in value.items()}
+    if isinstance(value, (list, tuple)):
+        return [_with_words(each) for each in value]
+    if isinstance(value, float) and not math.isfinite(value):
+        return str(float(value))
+    return value if value is None or isinstance(value, (str, bool, int, float)) else _with_words(plain(value))

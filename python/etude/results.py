@@ -77,7 +77,8 @@ class Answer:
 
 class Pairs:
     """The worlds in which two methods have a value, in order. Lists or arrays, one value per world: condition, trial,
-    clip, units (what the world was drawn from), baseline, method, and difference (method − baseline).
+    clip, units (what the world was drawn from; "a, b" if it was drawn from two clips), baseline, method, and difference
+    (method − baseline).
 
     only_baseline, only_method, neither: the numbers of worlds in which only the baseline, only the method or neither of
     them has a value. verdict: the summary's Verdict on the two methods; None if the summary has none, or if there are
@@ -244,7 +245,8 @@ class Run:
         for i, (of, trial) in enumerate(zip(table["condition"], table["trial"])):
             name = methods[i]
             if name in (method, baseline) and condition in (None, of):
-                world = worlds.setdefault((of, trial), [clips[i], None, None, (units[i] or [None])[0]])
+                unit = ", ".join(units[i]) if units[i] else None
+                world = worlds.setdefault((of, trial), [clips[i], None, None, unit])
                 if name == baseline:
                     world[1] = values[i]
                 if name == method:
@@ -309,7 +311,7 @@ class Run:
                 if (name in (None, told["name"]) and method in (None, by) and condition in (None, of)
                         and trial in (None, trial_of)):
                     metric = self.metrics.get(told["name"])
-                    unit = metric.unit if metric else _unit_of(told["name"])
+                    unit = metric.unit if metric else _unit_of(told)
                     yield Series(cell, of, trial_of, by, told["name"], told["axis"], unit, values, told.get("names"))
         if name is not None and name not in known:
             raise EtudeError(f"no curve '{name}'{nearest(name, known)}; there are {', '.join(sorted(known)) or 'none'}")
@@ -352,9 +354,12 @@ def _motion(cell, track, joints):
     return Motion(cell, track["name"], track["rate_hz"], names, above, positions)
 
 
-def _unit_of(name):
-    """Returns the unit at the end of a curve's name, or ""."""
-    found = re.search(r"_(cm|deg|mm|s|mps3|cmps)$", name)
+def _unit_of(curve):
+    """Returns the unit at the end of a curve's name, or ""; mean errors of a joint, which has a name of its own, are in
+    millimetres."""
+    if curve["axis"] == "mean joint errors":
+        return "mm"
+    found = re.search(r"_(cm|deg|mm|s|mps3|cmps)$", curve["name"])
     return found[1] if found else ""
 
 

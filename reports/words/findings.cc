@@ -208,6 +208,22 @@ const MetricSummary* FindSummary(const MethodSummary& method, const std::string&
   return FindByName(method.metrics, metric, &MetricSummary::id);
 }
 
+std::vector<std::string> TableMetrics(const ScenarioSummary& scenario) {
+  std::vector<std::string> metrics = scenario.headline_metrics;
+  const auto falls_short = [](const ConditionSummary& condition, const std::string& metric) {
+    return std::ranges::any_of(condition.methods, [&](const MethodSummary& method) {
+      const MetricSummary* summary = FindSummary(method, metric);
+      return summary != nullptr && summary->mean && *summary->mean < 1;
+    });
+  };
+  for (const MetricInfo& metric : AllMetrics()) {
+    if (!metric.is_success || std::ranges::find(metrics, metric.id) != metrics.end()) continue;
+    const auto is_short = [&](const ConditionSummary& condition) { return falls_short(condition, metric.id); };
+    if (std::ranges::any_of(scenario.conditions, is_short)) metrics.push_back(metric.id);
+  }
+  return metrics;
+}
+
 ScenarioFindings FindingsOf(const RunData& run, const ScenarioSummary& scenario) {
   ScenarioFindings findings;
   if (!scenario.headline_metrics.empty()) findings.metric = scenario.headline_metrics.front();

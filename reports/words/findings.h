@@ -122,4 +122,8 @@ std::string MissingReasons(const RunData& run, const std::string& scenario, cons
 /// Returns the summary of a metric; null if the method has none.
 const MetricSummary* FindSummary(const MethodSummary& method, const std::string& metric);
 
+/// Returns the headline metrics, and after them the success metrics in which a method's mean is below 100 %, such as
+/// the share judged. A table without them would hide what a method left out.
+std::vector<std::string> TableMetrics(const ScenarioSummary& scenario);
+
 }  // namespace etude

@@ -318,6 +318,23 @@ class Evaluate(EtudeCase):
                          "the two truths have different notes")
         self.assertEqual(facts["not_judged"], ["none, first: the method has no answer of this name"])
 
+    def test_a_table_of_pairs_may_come_from_a_spreadsheet(self):
+        truth, mine = self.shared / "clap.csv", self.shared / "clap.npz"
+        table = self.folder / "pairs.csv"
+        for i, text in enumerate(["\ufefftruth,mine\r\n{},{}\r\n", "truth;mine\n{};{}\n", '"truth","mine"\n"{}","{}"\n',
+                                  "truth, mine\n{}, {}\n"]):
+            table.write_text(text.format(truth, mine), encoding="utf-8")
+            self.evaluate("--pairs", table, out=self.folder / f"out{i}")
+            self.assertEqual([row["method"] for row in self.rows(self.folder / f"out{i}")], ["mine"])
+
+    def test_a_copy_of_the_truth_is_told(self):
+        copy = self.folder / "mine.npz"
+        shutil.copy(self.shared / "clap.npz", copy)
+        self.evaluate(self.shared / "clap.npz", copy, f"moved={self.trc_file('m.trc', self.frames)}")
+        said = {row["method"]: row["reason"] for row in self.rows()}
+        self.assertIn("is the answer a copy of the truth?", said["mine"])
+        self.assertNotIn("copy", said["moved"])
+
     def test_each_kind_of_note_is_said_once(self):
         bent = [frame[:] for frame in self.frames]
         head = self.names.index("head")

@@ -39,9 +39,23 @@ class Evaluate(PythonCase):
         self.assertEqual(list(self.folder.rglob("mine*")), [])
         etude.evaluate(**given, mine=standing(3), overwrite=True)  # replaces the truth that the failed call left
         kept = (self.folder / "run.motions" / "mine.npz").read_bytes()
-        with self.assertRaises(FileExistsError):
+        with self.assertRaisesRegex(etude.EtudeError, "run exists already; overwrite=True replaces it"):
             etude.evaluate(**given, mine=standing(3, across=1))
         self.assertEqual((self.folder / "run.motions" / "mine.npz").read_bytes(), kept)
+
+    def test_a_refused_array_leaves_nothing_behind(self):
+        given = {"names": NAMES, "rate_hz": 30, "output": self.folder / "run", "progress": False}
+        wrong = [(ValueError, "mine must be frames", {"mine": [frame[1:] for frame in standing(3)]}),
+                 (TypeError, "mine is None", {"mine": None}),
+                 (TypeError, "mine has values that are no numbers", {"mine": [[[None] * 3] * len(NAMES)]}),
+                 (TypeError, "rate_hz is '30'", {"mine": standing(3), "rate_hz": "30"}),
+                 (TypeError, "names must be a list", {"mine": standing(3), "names": "abc"})]
+        for kind, text, arguments in wrong:
+            with self.subTest(text), self.assertRaisesRegex(kind, text):
+                etude.evaluate(standing(3), **{**given, **arguments})
+        self.assertEqual(list(self.folder.iterdir()), [])
+        run = etude.evaluate(standing(3), mine=standing(3, across=0.01), metrics="mpjpe_root_mm", **given)
+        self.assertEqual({each.unit for each in run.series() if each.name in NAMES}, {"mm"})
 
     def test_calls_in_a_row_have_folders_of_their_own(self):
         here = os.getcwd()

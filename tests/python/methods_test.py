@@ -2,6 +2,7 @@
 import importlib.util
 import io
 import json
+import math
 import os
 import signal
 import subprocess
@@ -11,7 +12,7 @@ import time
 from python_case import ETUDE, ROOT, SCENARIO, PythonCase, rows_of
 
 import etude
-from etude import commands, conversation, problems, shipping
+from etude import commands, conversation, messages, problems, shipping
 
 sys.path.insert(0, str(ROOT / "examples/outside-methods"))
 OFFSET = 0.0
@@ -100,6 +101,11 @@ class Shapes(PythonCase):
 
 
 class Shipped(PythonCase):
+    def test_a_number_that_is_not_finite_is_a_text_in_the_reply(self):
+        written = messages.to_json_text({"answer": {"angles_deg": [1.5, math.nan, (-math.inf, 2)], "ok": True, "none": None}})
+        self.assertEqual(json.loads(written),
+                         {"answer": {"angles_deg": [1.5, "nan", ["-inf", 2]], "ok": True, "none": None}})
+
     def test_what_cannot_be_sent_is_refused_with_the_reason(self):
         opened = open(os.devnull)
         self.addCleanup(opened.close)

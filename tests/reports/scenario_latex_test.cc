@@ -4,6 +4,8 @@
 #include <sstream>
 
 #include "io/drawing/escape.h"
+#include "reports/comparison_table.h"
+#include "reports/overview_table.h"
 #include "reports/page.h"
 #include "reports/words/figures.h"
 #include "tests/reports/support/count_of.h"
@@ -54,6 +56,35 @@ TEST(ScenarioLatex, HoldsTheFiguresOfTheCsv) {
     }
   }
   EXPECT_EQ(checked, 2 * (5 + 2 + 3 * 4 + 3));
+}
+
+TEST(ScenarioLatex, WritesEveryUnitAndLabelOfTheCatalogue) {
+  EXPECT_EQ(EscapeLatex("m/s²"), "m/s$^2$");
+  EXPECT_EQ(EscapeLatex("10⁻³ cm·s, …"), "10$^-$$^3$ cm$\\cdot$s, \\dots{}");
+  for (const MetricInfo& metric : AllMetrics()) {
+    for (const std::string& text : {metric.unit, WordsFor(metric.id).suffix, MetricHeading(metric.id)}) {
+      EXPECT_THAT(EscapeLatex(text), Not(HasSubstr("[U+"))) << metric.id;
+    }
+  }
+}
+
+TEST(ScenarioLatex, SaysWhatAMethodLeftOut) {
+  RunData run = ExampleRun();
+  ScenarioSummary& scenario = run.scenarios[1];
+  const auto success = std::ranges::find_if(AllMetrics(), &MetricInfo::is_success);
+  std::vector<MethodSummary>& methods = scenario.conditions[0].methods;
+  for (MethodSummary& method : methods) {
+    std::erase_if(method.metrics, [&](const MetricSummary& metric) { return metric.id == success->id; });
+    method.metrics.push_back({success->id, 12, 0, 1.0, 1.0, 1.0, 1.0});
+  }
+  std::erase(scenario.headline_metrics, success->id);
+  const std::string heading = EscapeLatex(MetricHeading(success->id));
+  EXPECT_THAT(ScenarioLatex(run, scenario), Not(HasSubstr(heading))) << "nothing is left out";
+  methods.back().metrics.back().mean = 0.7;
+  const std::string latex = ScenarioLatex(run, scenario);
+  EXPECT_THAT(latex, HasSubstr(heading));
+  EXPECT_THAT(latex, HasSubstr(methods.back().method + " & 12 & 70.0 \\% ["));
+  EXPECT_THAT(OverviewTableMarkdown(scenario), HasSubstr(WordsFor(success->id).label));
 }
 
 TEST(ScenarioLatex, HasAFloatPerConditionThatEndsAsItBegan) {

@@ -7,6 +7,7 @@
 
 #include "bench/tasks/evaluation/options.h"
 #include "engine/base/names.h"
+#include "engine/retargeting/data_set_names.h"
 #include "engine/retargeting/marker_sets.h"
 
 namespace etude {
@@ -26,7 +27,7 @@ std::vector<CommonJoint> FindCommon(const RawMotion& truth, const RawMotion& ans
   std::vector<CommonJoint> common;
   for (const std::string& name : names) {
     const auto index_in = [&](const RawMotion& motion) {
-      if (set != "same") return motion.Find(name);
+      if (set != "same") return FindJoint(motion, name);
       const auto found = std::ranges::find(motion.joints, name);
       return found == motion.joints.end() ? -1 : static_cast<int>(found - motion.joints.begin());
     };
@@ -40,6 +41,15 @@ std::string SomeOf(const std::vector<std::string>& names) {
   constexpr std::size_t kMost = 8;
   const std::size_t count = std::min(names.size(), kMost);
   return Join(std::span(names).first(count)) + (count < names.size() ? ", …" : "");
+}
+
+std::vector<std::string> FindAlsoHeld(const RawMotion& truth, const RawMotion& answer,
+                                      std::span<const CommonJoint> judged) {
+  std::vector<std::string> held, lacking;
+  for (const CommonJoint& same : FindCommon(truth, answer, "same", lacking)) {
+    if (std::ranges::find(judged, same.truth, &CommonJoint::truth) == judged.end()) held.push_back(same.name);
+  }
+  return held;
 }
 
 Result<void> CheckCommon(const RawMotion& truth, const RawMotion& answer, std::size_t common, std::string_view set) {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <span>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -19,6 +20,10 @@ struct CommonJoint {
 /// Returns the joints of `set` that both motions have. Adds the set's other joints to `lacking`.
 std::vector<CommonJoint> FindCommon(const RawMotion& truth, const RawMotion& answer, std::string_view set,
                                     std::vector<std::string>& lacking);
+
+/// Returns the joints of equal names in both motions that are not among the `judged` joints.
+std::vector<std::string> FindAlsoHeld(const RawMotion& truth, const RawMotion& answer,
+                                      std::span<const CommonJoint> judged);
 
 /// Fails if the motions have no common joint, or so few that the roles of their joints are probably unknown: fewer than
 /// the number of kNeededJoints, and fewer than half of the joints of the motion with fewer joints. For the set "same",

@@ -67,7 +67,11 @@ class EvaluationWorld final : public FileWorld {
     auto answer = OpenRawMotion(reference, study_.opening);
     if (!answer) return CellResult::Ended(Status::kFailed, ToString(answer.error()));
     AddDoubts(*answer);
-    return Judged(*answer);
+    CellResult result = Judged(*answer);
+    if (result.status == Status::kOk && result.digests[0].second == result.digests[1].second) {
+      result.reason += ", every position equals the truth's: is the answer a copy of the truth?";
+    }
+    return result;
   }
 
  private:

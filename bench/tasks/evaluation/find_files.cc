@@ -4,6 +4,7 @@
 #include <filesystem>
 
 #include "bench/tasks/evaluation/options.h"
+#include "engine/base/csv.h"
 #include "engine/base/names.h"
 #include "engine/base/utf8.h"
 #include "io/clips/references.h"
@@ -65,17 +66,6 @@ Result<void> RefuseLinks(const std::string& reference, std::span<const std::stri
 }
 
 }  // namespace
-
-std::vector<std::string> SplitAtCommas(std::string_view line) {
-  if (line.ends_with('\r')) line.remove_suffix(1);
-  std::vector<std::string> cells;
-  while (true) {
-    const std::size_t comma = line.find(',');
-    cells.emplace_back(line.substr(0, comma));
-    if (comma == std::string_view::npos) return cells;
-    line.remove_prefix(comma + 1);
-  }
-}
 
 std::string NameOfReference(const std::string& reference) {
   if (reference.starts_with(kBuiltinPrefix)) return reference.substr(kBuiltinPrefix.size());
@@ -157,25 +147,20 @@ Result<PairColumns> ReadHeading(const std::vector<std::string>& heading, std::sp
   return columns;
 }
 
-/// Reads the pairs of a CSV file. Its cells must not contain quotes or commas.
+/// Reads the pairs of a CSV file.
 Result<std::vector<JudgedFiles>> ReadPairs(const std::string& text, const std::string& file,
                                            std::span<const EvaluationMethod> methods) {
   RETURN_IF_ERROR(CheckUtf8(text, file));
+  ASSIGN_OR_RETURN(const auto rows, ReadCsv(text, file));
   std::vector<JudgedFiles> pairs;
   std::optional<PairColumns> columns;
-  std::size_t width = 0;
-  int line_number = 0;
-  for (std::size_t at = 0; at < text.size();) {
-    const std::size_t end = std::min(text.find('\n', at), text.size());
-    const std::vector<std::string> cells = SplitAtCommas(std::string_view(text).substr(at, end - at));
-    const Place place{file, ++line_number, 0};
-    at = end + 1;
-    if (cells.size() == 1 && cells.front().empty()) continue;
+  for (const auto& [cells, line] : rows) {
+    const Place place{file, line, 0};
     if (!columns) {
       ASSIGN_OR_RETURN(columns, ReadHeading(cells, methods, place));
-      width = cells.size();
       continue;
     }
+    const std::size_t width = rows.front().cells.size();
     if (cells.size() != width) return Fail(place, "{} cells; the heading has {}", cells.size(), width);
     JudgedFiles pair{.name = "", .unit = "", .truth = cells[columns->truth], .answers = {}};
     if (pair.truth.empty()) return Fail(place, "no truth");

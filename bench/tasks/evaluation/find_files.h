@@ -33,9 +33,6 @@ enum class Links { kAllowed, kRefused };
 Result<std::vector<std::string>> ExpandFiles(const std::vector<std::string>& references, Links links,
                                              const Place& place);
 
-/// Splits a line at its commas. A carriage return at the end is dropped.
-std::vector<std::string> SplitAtCommas(std::string_view line);
-
 /// Returns the name of a reference: its file name without folder and extension, with the clip after '#'. The name of a
 /// Motion-BIDS recording leaves out the tracking system, so that truth and answers have the same name.
 std::string NameOfReference(const std::string& reference);

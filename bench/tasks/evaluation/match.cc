@@ -263,7 +263,11 @@ std::string NoteOn(const RawMotion& truth, const RawMotion& answer, const std::s
     return fmt::format("{} {}{}", number, thing, number == 1 ? "" : "s");
   };
   std::string note = count(matched.joints.size(), "joint");
-  if (!matched.lacking.empty()) note += fmt::format(" (the truth or the answer lacks {})", SomeOf(matched.lacking));
+  if (!matched.lacking.empty()) note += fmt::format(" (not found in both files: {})", SomeOf(matched.lacking));
+  if (!matched.lacking.empty() && !matched.also_held.empty()) {
+    note += fmt::format(", both files also contain {}, which are not judged (--joints same judges them)",
+                        SomeOf(matched.also_held));
+  }
   note += NoteOnRoots(truth, answer) + NoteOnStrangers(matched);
   const bool is_resampled = !HaveSameRate(truth, answer) || matched.lag;
   note += fmt::format(", {} at {:g} Hz", count(matched.pair.truth.FrameCount(), "frame"), truth.rate_hz);
@@ -293,6 +297,7 @@ Result<MatchedMotions> Match(const RawMotion& given_truth, const RawMotion& give
   MatchedMotions matched;
   const std::vector<CommonJoint> common = FindCommon(truth, answer, set, matched.lacking);
   RETURN_IF_ERROR(CheckCommon(truth, answer, common.size(), set));
+  matched.also_held = FindAlsoHeld(truth, answer, common);
   std::vector<int> of_truth, of_answer;
   for (const CommonJoint& joint : common) {
     matched.joints.push_back(joint.name);

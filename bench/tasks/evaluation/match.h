@@ -18,7 +18,8 @@ struct MatchedMotions {
   EvaluatedPair pair;
   std::vector<std::string> joints;   ///< the judged joints
   std::vector<int> parents;          ///< for each joint, the next judged joint towards the root; −1: none
-  std::vector<std::string> lacking;  ///< joints of the set that the truth or the answer lacks
+  std::vector<std::string> lacking;  ///< joints of the set that are not found in both motions
+  std::vector<std::string> also_held;  ///< joints of equal names in both motions that are not judged
   /// Knees and elbows: the joint above, the joint itself, the joint below.
   std::vector<std::array<std::size_t, 3>> bends;
   AngleTracks true_angles, found_angles;  ///< the angles that both motions have; empty if a motion has no rotations

@@ -246,6 +246,10 @@ std::vector<std::string> EvaluationMetrics() {
 
 CellResult JudgeMotion(const MatchedMotions& matched, const EvaluationSideData& side) {
   CellResult result = CellResult::Ended(Status::kOk, matched.note);
+  if (side.music_beats_s) {
+    const double end_s = static_cast<double>(matched.pair.found.FrameCount()) / matched.pair.rate_hz;
+    result.reason += DoubtOnBeats(*side.music_beats_s, end_s, matched.pair.rate_hz);
+  }
   result.digests = {{"truth", DigestOf(matched.pair.truth)}, {"answer", DigestOf(matched.pair.found)}};
   const PairFits fits(matched.pair);
   MeasureErrors(matched, fits, result);

@@ -1,15 +1,20 @@
 #include "bench/tasks/evaluation/side_files.h"
 
-#include <algorithm>
+#include <fmt/format.h>
 
-#include "bench/tasks/evaluation/find_files.h"
+#include <algorithm>
+#include <cmath>
+
+#include "engine/base/csv.h"
 #include "engine/base/names.h"
+#include "engine/base/order_statistics.h"
 #include "engine/formats/number_rows.h"
 
 namespace etude {
 Result<StatisticsByJoint> ReadJointStatistics(std::string_view text, const std::string& file) {
   ASSIGN_OR_RETURN(const NumberRows rows, ReadNumberRows(text, file));
-  const std::vector<std::string> names = SplitAtCommas(rows.heading);
+  ASSIGN_OR_RETURN(const auto heading_rows, ReadCsv(rows.heading, file));
+  const std::vector<std::string> names = heading_rows.empty() ? std::vector<std::string>{} : heading_rows[0].cells;
   if (rows.heading.empty() || names.size() != rows.columns || rows.RowCount() != 2) {
     return Fail({file},
                 "{} names in the heading, {} rows of {} numbers; allowed: a heading JOINT_x_m,JOINT_y_m,…, a "
@@ -54,6 +59,31 @@ Result<std::vector<double>> ReadMusicBeats(std::string_view text, const std::str
                 rows.values[i]);
   }
   return rows.values;
+}
+
+std::string DoubtOnBeats(std::span<const double> beats_s, double motion_s, double rate_hz) {
+  constexpr double kMaxSeconds = 3, kMinBeat_s = 0.25, kMaxBeat_s = 1.5;
+  std::vector<double> steps;
+  for (std::size_t i = 1; i < beats_s.size(); ++i) steps.push_back(beats_s[i] - beats_s[i - 1]);
+  if (steps.empty() || beats_s.back() <= motion_s) return "";
+  const double step = Median(steps);
+  if (step <= kMaxSeconds) return "";
+  // Frames of librosa: 512 samples at 22,050 Hz.
+  const std::pair<double, std::string> units[] = {{512 / 22050.0, "frames of librosa (512 samples at 22050 Hz)"},
+                                                  {1 / rate_hz, fmt::format("frames of the motion ({:g} Hz)", rate_hz)},
+                                                  {1e-3, "milliseconds"}};
+  const auto distance = [&](double unit) { return std::abs(std::log(beats_s.back() * unit / motion_s)); };
+  const std::pair<double, std::string>* likely = nullptr;
+  for (const auto& unit : units) {
+    if (step * unit.first < kMinBeat_s || step * unit.first > kMaxBeat_s) continue;
+    if (likely == nullptr || distance(unit.first) < distance(likely->first)) likely = &unit;
+  }
+  if (likely == nullptr) return "";
+  return fmt::format(
+      ", the music's beats are {:.3g} s apart and end at {:.4g} s, after the motion's end ({:.3g} s): are they {} "
+      "instead "
+      "of seconds?",
+      step, beats_s.back(), motion_s, likely->second);
 }
 
 }  // namespace etude

@@ -150,6 +150,13 @@ TEST(SignFlip, IsExactForAMeanOfDifferencesOfOneSign) {
   }
 }
 
+/// Under random signs, the median of 12 equal sizes is 0 if six are negative, otherwise as far from 0 as observed.
+TEST(SignFlip, OfTheMedianIsNoTestOfTheMean) {
+  const std::vector<double> same(12, -3);
+  EXPECT_DOUBLE_EQ(*SignFlipTest(same, Aggregate::kMedian, 1, "x").p, 1 - 924 / 4096.0);
+  EXPECT_DOUBLE_EQ(*SignFlipTest(same, Aggregate::kMean, 1, "x").p, 2 / 4096.0);
+}
+
 TEST(SignFlip, CountsNoSignsOfRounding) {
   for (const int roundings : {5, 30}) {  // 5: the test enumerates all signs; 30: it draws signs at random
     std::vector<double> differences(static_cast<std::size_t>(roundings), 1e-16);

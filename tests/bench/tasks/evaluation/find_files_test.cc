@@ -102,6 +102,16 @@ TEST_F(FindFilesTest, ATableTellsWhichBelongTogether) {
   EXPECT_EQ(found->worlds, expected);
 }
 
+TEST_F(FindFilesTest, ATableMayComeFromASpreadsheet) {
+  Make({"t.bvh", "y.bvh"});
+  for (const char* csv : {"\xEF\xBB\xBFtruth,m\n@/t.bvh,@/y.bvh\n", "truth;m\r\n@/t.bvh;@/y.bvh\r\n",
+                          "\"truth\",\"m\"\n\"@/t.bvh\",\"@/y.bvh\"\n", "truth, m\n@/t.bvh, @/y.bvh\n"}) {
+    const auto found = Find("pairs: p.csv", {"{name: m}"}, csv);
+    ASSERT_TRUE(found) << ToString(found.error());
+    EXPECT_EQ(found->worlds, (std::vector<JudgedFiles>{{"t", "", In("t.bvh"), {In("y.bvh")}}})) << csv;
+  }
+}
+
 TEST_F(FindFilesTest, TheUnitIsThePersonInTheName) {
   Make({"t/01_02.bvh", "t/01_03.bvh", "t/02_01.bvh"});
   const auto found = Find("{truth: ['@/t'], people: '{person}_*'}", {"{name: m, answers: ['@/t']}"});

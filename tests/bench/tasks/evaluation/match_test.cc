@@ -7,6 +7,7 @@
 #include "bench/metrics/catalogue.h"
 #include "bench/tasks/evaluation/options.h"
 #include "bench/tasks/evaluation/run.h"
+#include "bench/tasks/evaluation/side_files.h"
 #include "sim/choreography/canonical_body.h"
 #include "tests/support/results.h"
 
@@ -198,13 +199,41 @@ TEST(Match, MarkersNamedAsASkeletonsJointsHaveTheirRoles) {
     const CellResult result = Judged(a, b);
     EXPECT_NEAR(ValueIn(result, "mpjpe_unaligned_mm"), 12, 1e-9);
     EXPECT_NEAR(ValueIn(result, "mpjpe_root_mm"), 0, 1e-9);
-    EXPECT_THAT(result.reason, HasSubstr("19 joints (the truth or the answer lacks head), root bone 0"));
+    EXPECT_THAT(result.reason, HasSubstr("19 joints (not found in both files: head), root bone 0"));
   }
   // If one joint has no namesake, the answer's names are not the skeleton's names. Only the role spine is then common,
   // and one joint is too few.
   answer.joints[Index(Role::kLeftKnee)] = "knee";
   EXPECT_THAT(testing::Refusal(Match(truth, answer, "roles", Lag::kNone)),
               HasSubstr("has 1 joint in common with the truth (joints: roles); its joints are bone 0, Chest, "));
+}
+
+TEST(Match, NamesJointsThatBothFilesContainButThatAreNotJudged) {
+  RawMotion truth = Gliding(30, 5);
+  truth.joints[Index(Role::kSpine)] = "Torso";
+  truth.roles[Index(Role::kSpine)] = -1;
+  EXPECT_THAT(Judged(truth, truth).reason,
+              HasSubstr("19 joints (not found in both files: spine), both files also contain "
+                        "Torso, which are not judged (--joints same judges them), root"));
+  EXPECT_THAT(Judged(truth, truth, "same").reason, ::testing::StartsWith("20 joints, root"));
+  EXPECT_THAT(Judged(truth, Gliding(30, 5)).reason, HasSubstr("(not found in both files: spine), root"));
+}
+
+/// 120 beats a minute during a motion of 60 s: every 21.5 frames of librosa, or 15 frames of the motion.
+TEST(MusicBeats, InAnotherUnitThanSecondsAreDoubted) {
+  const auto doubt = [](double step, double count) {
+    std::vector<double> beats;
+    for (int i = 0; i < count; ++i) beats.push_back(step * (0.3 + i));
+    return DoubtOnBeats(beats, 60, 30);
+  };
+  EXPECT_THAT(doubt(22050.0 / 512 / 2, 119), HasSubstr("are they frames of librosa (512 samples at 22050 Hz) instead"));
+  EXPECT_THAT(doubt(15, 119),
+              HasSubstr("15 s apart and end at 1774 s, after the motion's end (60 s): are they frames of "
+                        "the motion (30 Hz) instead of seconds?"));
+  EXPECT_THAT(doubt(500, 119), HasSubstr("are they milliseconds instead"));
+  for (const auto& [step, count] : {std::pair(0.5, 119), {0.5, 400}, {2.0, 60}, {4.0, 14}, {4.0, 60}, {70.0, 1}}) {
+    EXPECT_EQ(doubt(step, count), "") << step << " s, " << count;
+  }
 }
 
 TEST(Match, FewJointsAreRefusedIfTheFilesNameManyMore) {

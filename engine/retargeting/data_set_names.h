@@ -1,0 +1,40 @@
+#pragma once
+
+#include <cstddef>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "engine/motion/raw_motion.h"
+
+namespace etude {
+
+/// A joint of a set, by its name in JointLayouts (a joint that plays a role has the role's name), and the points of a
+/// file whose mean it is; mostly one.
+struct KnownJoint {
+  std::string joint;
+  std::vector<std::size_t> points;  ///< indices of the points' names
+};
+
+/// The joints of a data set that the points of a file are by their names.
+struct DataSetJoints {
+  std::string_view data_set;
+  std::vector<KnownJoint> joints;
+};
+
+/// Finds the data set whose published code names its joints like these points. One word can mean different joints in
+/// different data sets: "neck" is the base of the neck in SMPL, but not in Human3.6M, which calls that joint "thorax".
+/// Returns nullopt if the names are of no known data set. Case and separators are ignored, and sides may be written as
+/// in "left_hip", "LHip", "L_Hip" or "HipLeft".
+std::optional<DataSetJoints> FindDataSet(std::span<const std::string> names);
+
+/// Returns a name in lower case without separators; with a side, as in "left_hip". Text before a colon is left out.
+std::string PlainJointName(std::string_view name);
+
+/// Returns the index of a joint of a set (JointLayouts) in a motion; −1 if the motion lacks it. In a motion of points,
+/// the joint may have the name that its data set's code gives it.
+int FindJoint(const RawMotion& motion, std::string_view joint);
+
+}  // namespace etude
