@@ -189,7 +189,7 @@ const CLI::Range& SeedRange() {
 }  // namespace
 
 CLI::Option* AddSeed(CLI::App& command, std::uint64_t& seed, const std::string& help) {
-  return command.add_option("--seed", seed, help)->check(SeedRange())->capture_default_str();
+  return command.add_option("--seed", seed, help)->check(SeedRange());
 }
 
 CLI::Option* AddSeed(CLI::App& command, std::optional<std::uint64_t>& seed, const std::string& help) {
@@ -334,6 +334,7 @@ void GroupCommands(CLI::App& app) {
 
 void DefineCommands(CLI::App& app, const std::string& command_line, Action& action) {
   app.require_subcommand(1);
+  app.option_defaults()->always_capture_default();  // the help shows every default
   // Define the commands that run scenarios and judge results.
   DefineRun(app, command_line, action);
   DefineEvaluate(app, command_line, action);

@@ -135,24 +135,20 @@ void DefineBridge(CLI::App& app, Action& action) {
       "wave, puzzled and slow demonstrations, if they are among the clips)"));
   // Define the rules of matching and tagging.
   add(command->add_option("--threshold", options->threshold, "Fuzzy distance below which two frames match")
-          ->check(NumberWithin(1e-6, 6, "threshold"))
-          ->capture_default_str());
+          ->check(NumberWithin(1e-6, 6, "threshold")));
   add(command->add_flag("--within-class", options->within_class, "Compare only frames with the same ten tags"));
   add(command
           ->add_option("--min-clips", options->min_clips,
                        "Minimum number of clips in which a bridge frame's tags must occur")
-          ->check(CLI::Range(1, 1000))
-          ->capture_default_str());
+          ->check(CLI::Range(1, 1000)));
   add(command
           ->add_option(
               "--most-per-class", options->most_per_class,
               "Maximum number of bridge frames per clip and pose; those most like other clips' frames are kept "
               "(0: all)")
-          ->check(CLI::Range(0, 1000000))
-          ->capture_default_str());
+          ->check(CLI::Range(0, 1000000)));
   add(command->add_option("--wait", options->wait_s, "Longest wait for a transition, seconds")
-          ->check(NumberWithin(0, 3600, "time in seconds"))
-          ->capture_default_str());
+          ->check(NumberWithin(0, 3600, "time in seconds")));
   command->add_option("--fuzzy", options->fuzzy, "Fuzzy system: builtin:NAME or a file (default: builtin:paper)");
   add(command->add_flag(
       "--pairs", options->with_pairs,

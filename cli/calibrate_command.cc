@@ -112,39 +112,32 @@ void DefineCalibrate(CLI::App& app, Action& action) {
   command->add_option("inputs", options->inputs,
                       "A file of point pairs; or for each camera a folder of pictures or a film");
   command->add_option("-o,--output", options->output, "The rig to write (YAML)");
-  command
-      ->add_option(
-          "--board", options->boards,
-          "COLUMNSxROWSxSQUARE: the numbers of squares, and a square's side in metres; @FIRST_CODE gives a second "
-          "board other codes. Or a board of OpenCV: chess:9x6x0.025, charuco:5x7x0.04 (dictionary, colours and layout "
-          "are found)")
-      ->capture_default_str();
+  command->add_option(
+      "--board", options->boards,
+      "COLUMNSxROWSxSQUARE: the numbers of squares, and a square's side in metres; @FIRST_CODE gives a second "
+      "board other codes. Or a board of OpenCV: chess:9x6x0.025, charuco:5x7x0.04 (dictionary, colours and layout "
+      "are found)");
   // Define what is estimated, and in which world frame.
   command->add_option("--method", options->method, "How cameras are computed from point pairs")
-      ->check(OneOf(CalibrationNames()))
-      ->capture_default_str();
+      ->check(OneOf(CalibrationNames()));
   command
       ->add_option("--lens", options->lens, "Lens parameters to find: none; radial2 (k1, k2, p1, p2); radial3 (and k3)")
-      ->check(OneOf({"none", "radial2", "radial3"}))
-      ->capture_default_str();
+      ->check(OneOf({"none", "radial2", "radial3"}));
   command->add_flag(
       "--skew", options->skew,
       "Also find the angle between the picture's axes (as paper B does; that of today's sensors is 90 degrees)");
   command->add_option("--size", options->size, "Size of the pictures, for point pairs as CSV: 1920x1080");
   command->add_option("--world", options->world, "Where the board is in the first picture: on the floor or on a wall")
-      ->check(OneOf({"floor", "wall"}))
-      ->capture_default_str();
+      ->check(OneOf({"floor", "wall"}));
   command
       ->add_option("--every", options->every,
                    "Use every n-th frame of a film (0: every 30th; for a board of OpenCV's, at most 200 frames in all)")
-      ->check(CLI::Range(0, 100000))
-      ->capture_default_str();
+      ->check(CLI::Range(0, 100000));
   command
       ->add_option("--sync", options->sync_s,
                    "Largest delay of a film that is searched for, s; the delay is found from the board (0: twice the "
                    "time between the pictures that are used)")
-      ->check(NumberWithin(0, 60, "time in s"))
-      ->capture_default_str();
+      ->check(NumberWithin(0, 60, "time in s"));
   // Define further outputs and comparisons.
   command->add_option("--picture", options->picture,
                       "Also draw the corners that were found, and their residuals (.png)");

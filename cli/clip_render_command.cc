@@ -139,8 +139,7 @@ void DefineRender(CLI::App& clip, Action& action) {
                    "orange)\n(default: own if the file has meshes, otherwise mannequin; bear for built-in clips)")
       ->check(OneOf({"own", "mannequin", "bear", "body"}));
   command->add_option("--view", options->view, "View of the first pose: front, three-quarter or side")
-      ->check(OneOf({"front", "three-quarter", "side"}))
-      ->capture_default_str();
+      ->check(OneOf({"front", "three-quarter", "side"}));
   command->add_option("--size", options->size,
                       "Size of the film, or of each picture of a sheet (default: 720x720, 200x260)");
   command

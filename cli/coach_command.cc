@@ -204,18 +204,12 @@ void DefineCoach(CLI::App& app, Action& action) {
       ->add_option("--right-from", options->right_from,
                    "Lowest evidence that counts as a right performance (default: the recogniser's own)")
       ->check(NumberWithin(0.001, 1, "level of evidence"));
-  command->add_option("--policy", options->policy, "When the coach interrupts")
-      ->check(OneOf(LivePolicyNames()))
-      ->capture_default_str();
+  command->add_option("--policy", options->policy, "When the coach interrupts")->check(OneOf(LivePolicyNames()));
   command->add_option("--choice", options->choice, "How the frames of a transition are chosen")
-      ->check(OneOf(ChoiceNames()))
-      ->capture_default_str();
+      ->check(OneOf(ChoiceNames()));
   command->add_option("--join", options->join, "How the two clips are joined at these frames")
-      ->check(OneOf(JoinNames()))
-      ->capture_default_str();
-  command->add_option("--filter", options->filter, "Filter that smooths the skeletons")
-      ->check(OneOf(FilterNames()))
-      ->capture_default_str();
+      ->check(OneOf(JoinNames()));
+  command->add_option("--filter", options->filter, "Filter that smooths the skeletons")->check(OneOf(FilterNames()));
   // Define how players dance, and how frames are read and printed.
   command->add_flag("--mirror", options->mirror,
                     "Players mirror the coach: they move their right when it moves its left");

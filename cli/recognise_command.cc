@@ -297,13 +297,11 @@ void DefineRecognise(CLI::App& app, Action& action) {
           "else learnt; key-pose if a move has no example)")
       ->check(OneOf(RecogniserNames()));
   command->add_option("--filter", options->filter, "Filter that smooths the joints before recognition")
-      ->check(OneOf(FilterNames()))
-      ->capture_default_str();
+      ->check(OneOf(FilterNames()));
   command
       ->add_option("--weights", options->weights,
                    "Weights of the angles: all equal (fixed), or by how well they are seen (adaptive)")
-      ->check(OneOf({"fixed", "adaptive"}))
-      ->capture_default_str();
+      ->check(OneOf({"fixed", "adaptive"}));
   command
       ->add_option("--threshold", options->threshold,
                    "Lowest evidence at which a move counts as performed (default: the recogniser's)")

@@ -212,9 +212,7 @@ void DefineStats(CLI::App& sensor, Action& action) {
   command->add_option("files", options->files, "Recordings")->required();
   command->add_option("--reference", options->reading.reference, "The same motion from a trusted system");
   command->add_option("--simulate", options->simulate, "Also simulate this sensor: v1, v2 or a sensor file");
-  command->add_option("--worlds", options->worlds, "Number of simulated recordings")
-      ->check(CLI::Range(1, 10000))
-      ->capture_default_str();
+  command->add_option("--worlds", options->worlds, "Number of simulated recordings")->check(CLI::Range(1, 10000));
   AddSensorReading(*command, options->reading);
   AddJson(*command, options->as_json);
   command->callback([=, &action] { action = [=] { return Finish(SensorStatsCommand(*options)); }; });
@@ -303,16 +301,11 @@ void DefineFit(CLI::App& sensor, Action& action) {
   command->add_option("file", options->file, "A recording")->required();
   command->add_option("--reference", options->reading.reference, "The same motion from a trusted system")->required();
   command->add_option("-o,--output", options->output, "The sensor file to write (YAML)")->required();
-  command
-      ->add_option("--base", options->base,
-                   "The sensor that gives all values that are not fitted: v1, v2 or a sensor file")
-      ->capture_default_str();
-  command->add_option("--worlds", options->worlds, "Simulated recordings per step")
-      ->check(CLI::Range(1, 10000))
-      ->capture_default_str();
+  command->add_option("--base", options->base,
+                      "The sensor that gives all values that are not fitted: v1, v2 or a sensor file");
+  command->add_option("--worlds", options->worlds, "Simulated recordings per step")->check(CLI::Range(1, 10000));
   command->add_option("--steps", options->steps, "Number of steps; each step simulates, compares and corrects")
-      ->check(CLI::Range(1, 1000))
-      ->capture_default_str();
+      ->check(CLI::Range(1, 1000));
   AddOverwrite(*command, options->overwrite);
   AddSensorReading(*command, options->reading);
   AddJson(*command, options->as_json);

@@ -307,22 +307,14 @@ void DefineTrain(CLI::App& app, Action& action) {
   // Define the inputs and outputs; then the options of fuzzy systems.
   command->add_option("clips", options->clips, "Clips to learn from and to judge the result")->required();
   command->add_option("-o,--output", options->output, "The file to write (YAML)")->required();
-  command->add_option("--method", options->method, "Learning method")
-      ->check(OneOf({"adaptive", "genetic"}))
-      ->capture_default_str();
+  command->add_option("--method", options->method, "Learning method")->check(OneOf({"adaptive", "genetic"}));
   command->add_flag("--memberships", options->memberships, "Also tune the membership functions (genetic)");
-  command
-      ->add_option("--hold-out", options->hold_out,
-                   "Clips that are not learnt from but used to judge: a share drawn by the seed (0: none), or a "
-                   "pattern of names")
-      ->capture_default_str();
+  command->add_option("--hold-out", options->hold_out,
+                      "Clips that are not learnt from but used to judge: a share drawn by the seed (0: none), or a "
+                      "pattern of names");
   AddSeed(*command, options->seed, "Seed");
-  command->add_option("--population", options->population, "Genomes per generation")
-      ->check(CLI::Range(5, 1000))
-      ->capture_default_str();
-  command->add_option("--generations", options->generations, "Number of generations")
-      ->check(CLI::Range(1, 10000))
-      ->capture_default_str();
+  command->add_option("--population", options->population, "Genomes per generation")->check(CLI::Range(5, 1000));
+  command->add_option("--generations", options->generations, "Number of generations")->check(CLI::Range(1, 10000));
   // Define the options of recognisers.
   command->add_flag("--recogniser", options->recogniser, "Learn the recogniser `learnt`");
   command->add_flag("--coached", options->coached, "Learn the recogniser `coached`: CLIPS are built-in songs")
