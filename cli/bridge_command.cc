@@ -31,15 +31,10 @@ struct BridgeCommandOptions {
   ClipReading reading;
 };
 
-constexpr const char* kBridgeExamples =
+constexpr const char* kBridgeText =
     "\nA bridge frame is suitable for a transition: its pose occurs in several clips, and the head is still. Two\n"
     "bridge frames match when their fuzzy distance is below the threshold. Clips are named as in etude clip --help;\n"
-    "docs/bridge-frames.md explains more.\n\n"
-    "Try:\n"
-    "  etude bridge 'builtin:*' builtin:acts -o tags.xml      the bear's moves and acts\n"
-    "  etude bridge 'mocap/*.bvh' --to wave.bvh               which clips can lead into wave.bvh?\n"
-    "  etude bridge 'mocap/*.bvh' --threshold 0.6 --json      everything, for another program\n"
-    "  etude bridge --check tags.xml 'mocap/*.bvh'            is the file valid, and does it fit these clips?";
+    "docs/bridge-frames.md explains more.";
 
 Result<BridgeLibrary> LoadLibrary(const BridgeCommandOptions& options) {
   BridgeLibraryOptions bridge{.clips = options.clips,
@@ -156,7 +151,7 @@ void DefineBridge(CLI::App& app, Action& action) {
   add(command->add_flag("--json", options->as_json, "Print JSON (docs/schemas/bridge-summary.schema.json)"));
   AddOverwrite(*command, options->overwrite);
   AddClipReading(*command, options->reading);
-  command->footer(kBridgeExamples);
+  command->footer(kBridgeText);
   command->callback([=, &action] { action = [=] { return Finish(BridgeCommand(*options)); }; });
 }
 

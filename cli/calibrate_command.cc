@@ -72,7 +72,7 @@ Result<int> CalibrateCommand(const CalibrateCommandOptions& asked) {
   return kSuccess;
 }
 
-constexpr const char* kCalibrateExamples =
+constexpr const char* kCalibrateText =
     "\nA rig describes the cameras of `etude capture`: focal lengths, principal points, lens distortion and poses. It "
     "can\nbe found in two ways.\n\n"
     "From point pairs: at least six points, not all in one plane (use two or three walls), measured in metres, Y up,\n"
@@ -90,15 +90,7 @@ constexpr const char* kCalibrateExamples =
     "The file that is written is YAML that OpenCV reads, too: "
     "cv::FileStorage(\"rig.yaml\")[\"left\"][\"camera_matrix\"].\n"
     "`etude capture` also takes calibrations of OpenCV, Pose2Sim, Anipose, FreeMoCap, Caliscope, Qualisys, EasyMocap "
-    "and COLMAP.\n\n"
-    "Try:\n"
-    "  etude calibrate --print board.png                                a board for A4 or Letter, squares of 34 mm\n"
-    "  etude calibrate --print board.png --board 8x8x0.1                a board of 80 cm, squares of 10 cm\n"
-    "  etude calibrate left/ right/ --board 8x8x0.1 -o rig.yaml         folders of PNG or JPG pictures\n"
-    "  etude calibrate left.mp4 right.mp4 --board 8x8x0.1 -o rig.yaml   films that began together\n"
-    "  etude calibrate a.mp4 b.mp4 --board charuco:5x7x0.04 --sync 2 --picture found.png -o rig.yaml\n"
-    "  etude calibrate a.mp4 b.mp4 --board charuco:4x5x0.054 -o rig.yaml   an OpenCV board: count its squares\n"
-    "  etude calibrate pairs.csv --size 1920x1080 -o rig.yaml           measured points";
+    "and COLMAP.";
 
 }  // namespace
 
@@ -148,7 +140,7 @@ void DefineCalibrate(CLI::App& app, Action& action) {
       command->add_option("--print", options->print, "Only write the board as a picture (.png) for printing");
   AddOverwrite(*command, asked->overwrite);
   AddJson(*command, asked->as_json)->excludes(print);
-  command->footer(kCalibrateExamples);
+  command->footer(kCalibrateText);
   command->callback([=, &action] { action = [=] { return Finish(CalibrateCommand(*asked)); }; });
 }
 

@@ -14,7 +14,7 @@
 namespace etude {
 namespace {
 
-constexpr const char* kCaptureExamples =
+constexpr const char* kCaptureText =
     "\nTwo or more calibrated cameras film a person at the same time; this command recovers the person's motion. "
     "The\nperson in the pictures is given by keypoints of an estimator (--keypoints: a folder with, for each film, a "
     "folder of\n"
@@ -46,13 +46,7 @@ constexpr const char* kCaptureExamples =
     "With --reference FILE.trc a table shows the distance of the triangulated keypoints from it, for all cameras "
     "and\nevery pair. If the reference was made from the same keypoints, this is agreement, not error. With "
     "--silhouettes it is\nthe distance of the joints, which is error; every pair of cameras is then captured "
-    "separately, which takes some time.\n\n"
-    "Try:\n"
-    "  etude capture --rig rig.yaml cam1.mp4 cam2.mp4 --keypoints json/ -o motion.bvh\n"
-    "  etude capture --rig Calib.toml cam*.mp4 --keypoints openpose/ --layout body_25b --fit letterbox \\\n"
-    "                -o motion.trc --points keypoints.trc --film overlay.mp4 --smooth 6 --report page.html\n"
-    "  etude capture --rig rig.yaml cam1.mp4 cam2.mp4 --silhouettes --stature 1.8 -o motion.bvh --report page.html\n"
-    "  etude capture --rig rig.yaml cam1.mp4 cam2.mp4 --silhouettes --masks masks/ --mask-id 1 -o motion.bvh";
+    "separately, which takes some time.";
 
 struct CaptureCommandOptions {
   CaptureFilmsOptions capture;
@@ -184,7 +178,7 @@ void DefineCapture(CLI::App& app, const std::string& command_line, Action& actio
       ->check(NumberWithin(0, 60, "time in s"));
   AddOverwrite(*command, asked->overwrite, "Replace existing files");
   AddJson(*command, asked->as_json);
-  command->footer(kCaptureExamples);
+  command->footer(kCaptureText);
   command->callback([=, &action] { action = [=] { return Finish(CaptureCommand(*asked)); }; });
 }
 

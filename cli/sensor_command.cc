@@ -20,16 +20,12 @@
 namespace etude {
 namespace {
 
-constexpr const char* kSensorExamples =
+constexpr const char* kSensorText =
     "\nA recording is a Kinect v2's text (25 joints a line: x y z, or x y z and a quaternion) or joint CSV (etude "
     "clip\n"
     "convert writes such files). A reference is the same motion from a trusted system: text with 17 rigid targets of "
     "an\n"
-    "optical system per line, or joint CSV. docs/sensor.md explains the formats and each statistic.\n\n"
-    "Try:\n"
-    "  etude sensor stats kinect.txt                                        statistics of the recording alone\n"
-    "  etude sensor stats kinect.txt --reference vicon.txt --simulate v2    compared with a simulated sensor\n"
-    "  etude sensor fit kinect.txt --reference vicon.txt -o sensor.yaml     then `sensor: sensor.yaml` in a scenario";
+    "optical system per line, or joint CSV. docs/sensor.md explains the formats and each statistic.";
 
 /// Options with facts about recordings that the recordings' files do not state.
 struct SensorReading {
@@ -317,7 +313,7 @@ void DefineFit(CLI::App& sensor, Action& action) {
 void DefineSensor(CLI::App& app, Action& action) {
   CLI::App* sensor = app.add_subcommand("sensor", "Compute statistics of sensors, and fit sensors to recordings");
   sensor->require_subcommand(1);
-  sensor->footer(kSensorExamples);
+  sensor->footer(kSensorText);
   DefineStats(*sensor, action);
   DefineFit(*sensor, action);
 }

@@ -51,7 +51,7 @@ struct TrainOptions {
   ClipReading reading;
 };
 
-constexpr const char* kTrainExamples =
+constexpr const char* kTrainText =
     "\nPaper A's distance says that two frames match when d < 0.4. The weights of its ten features (S) and the\n"
     "corners of its membership functions were chosen by hand. This command learns them: it takes pairs of frames\nfrom "
     "two clips at a time, calls a pair close if no joint differs by 15 cm or more (after one pose is aligned with\nthe "
@@ -60,14 +60,7 @@ constexpr const char* kTrainExamples =
     "A scenario uses the file by `fuzzy: tuned.yaml`; docs/fuzzy-system.md explains it.\n\n"
     "With --recogniser it learns the model of the recogniser `learnt` (docs/detection.md): simulated people dance the\n"
     "labelled clips, right and wrong, and the model learns to tell them apart. With --coached it learns that of\n"
-    "`coached`: people dance songs along with a coach (docs/coach.md).\n\n"
-    "Try:\n"
-    "  etude train 'builtin:*' -o tuned.yaml                           S, by a genetic algorithm\n"
-    "  etude train 'builtin:*' -o tuned.yaml --memberships             the membership functions, too\n"
-    "  etude train 'builtin:*' -o tuned.yaml --method adaptive         S, by logistic regression\n"
-    "  etude train 'builtin:*' 'mocap/*.bvh' -o tuned.yaml --hold-out 'mass_*'    judged by these\n"
-    "  etude train 'builtin:*' -o learnt.yaml --recogniser             the model of recogniser learnt\n"
-    "  etude train groove sprint warm_up -o coached.yaml --coached     the model of recogniser coached";
+    "`coached`: people dance songs along with a coach (docs/coach.md).";
 
 constexpr std::size_t kMaxTrainingClips = 150;
 
@@ -331,7 +324,7 @@ void DefineTrain(CLI::App& app, Action& action) {
   AddOverwrite(*command, options->overwrite);
   AddJson(*command, options->as_json);
   AddClipReading(*command, options->reading);
-  command->footer(kTrainExamples);
+  command->footer(kTrainText);
   command->callback([=, &action] {
     action = [=] {
       return Finish(options->recogniser || options->coached ? TrainRecogniserCommand(*options)
