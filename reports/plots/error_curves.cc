@@ -19,7 +19,7 @@ constexpr double kErrorsHeight = 200, kErrorsTop = 8, kErrorsBottom = 172;
 // The maximum number of steps whose values can be read. More steps would make the page larger.
 constexpr std::size_t kMaxColumns = 120;
 // Values below this share of the largest value are drawn at the lower end of a logarithmic axis.
-constexpr double kLeastShare = 1e-8;
+constexpr double kMinShareShown = 1e-8;
 
 std::string Caption(const std::string& what, const MetricWords& words) {
   const std::string unit = UnitOf(words);
@@ -86,7 +86,7 @@ CurveAxes AxesOf(const std::vector<PlotCurve>& curves) {
     all.insert(all.end(), curve.values.begin(), curve.values.end());
   }
   const auto [low, high] = std::ranges::minmax(all);
-  axes.up = AxisOf(all, kLeastShare * high);
+  axes.up = AxisOf(all, kMinShareShown * high);
   if (!axes.up.is_logarithmic && low >= 0) axes.up.low = 0;
   axes.across.from = kPanelLeft, axes.across.to = kPanelRight;
   axes.up.from = kErrorsBottom, axes.up.to = kErrorsTop;
