@@ -146,7 +146,9 @@ void DefineRender(CLI::App& clip, Action& action) {
       ->add_option("--frames", options->frames,
                    "Sheet: number of pictures of each clip (default: 12 for one clip, 8 for several)")
       ->check(CLI::Range(1, 1000));
-  command->add_option("--columns", options->columns, "Sheet: number of pictures in a row")->check(CLI::Range(1, 100));
+  command->add_option("--columns", options->columns, "Sheet: number of pictures in a row")
+      ->check(CLI::Range(1, 100))
+      ->default_str("");
   command->add_option("--trim", options->trim, "Only the part FROM:TO in seconds, such as 1.5:4 or 2:");
   AddJobs(*command, options->jobs);
   AddOverwrite(*command, options->overwrite);
