@@ -105,15 +105,16 @@ const std::map<std::string_view, std::vector<std::string_view>>& ExamplesByComma
        {"etude clip grades walk.bvh", "etude clip grades walk.bvh -o grades.csv",
         "etude clip grades 'mocap/*.bvh' --fuzzy mine.yaml"}},
       {"bridge",
-       {"etude bridge 'mocap/*.bvh' -o tags.xml", "etude bridge 'mocap/*.bvh' --json",
-        "etude bridge 'mocap/*.bvh' --check tags.xml"}},
+       {"etude bridge 'mocap/*.bvh' -o tags.xml", "etude bridge 'mocap/*.bvh' --to wave.bvh",
+        "etude bridge --check tags.xml 'mocap/*.bvh'"}},
       {"transition",
        {"etude transition walk.bvh kick.bvh --at 2.5 -o out.bvh",
         "etude transition builtin:groove builtin:clap --at 1 -o out.bvh --choice motion-matching --join "
         "inertialised-spring",
         "etude transition lie.bvh run.bvh --at 3 -o out.glb --library 'mocap/*.bvh' --wait 2"}},
       {"train",
-       {"etude train 'mocap/*.bvh' -o fuzzy.yaml", "etude train 'builtin:*' -o fuzzy.yaml --method adaptive",
+       {"etude train 'builtin:*' 'mocap/*.bvh' -o tuned.yaml --hold-out 'mass_*'",
+        "etude train 'builtin:*' -o tuned.yaml --method adaptive",
         "etude train 'builtin:*' -o learnt.yaml --recogniser"}},
       {"teach",
        {"etude teach takes/*.txt --labels labels.csv -o moves.yaml", "etude teach wave.bvh bow.bvh -o moves.yaml",
@@ -121,7 +122,7 @@ const std::map<std::string_view, std::vector<std::string_view>>& ExamplesByComma
       {"recognise",
        {"etude recognise new.txt --moves moves.yaml",
         "device | etude recognise - --moves moves.yaml --format kinect-v2",
-        "etude recognise takes/ --labels labels.csv --leave-one-person-out"}},
+        "etude recognise joints/ --labels actionLabel.txt --leave-one-person-out --recogniser dtw"}},
       {"sensor stats",
        {"etude sensor stats take.txt", "etude sensor stats take.txt --reference optical.csv",
         "etude sensor stats take.txt --reference optical.csv --simulate v2"}},
@@ -130,18 +131,18 @@ const std::map<std::string_view, std::vector<std::string_view>>& ExamplesByComma
         "etude sensor fit take.txt --reference optical.csv -o mine.yaml --base v1",
         "etude sensor fit take.txt --reference optical.csv -o mine.yaml --steps 3"}},
       {"calibrate",
-       {"etude calibrate --print board.png", "etude calibrate left/ right/ -o rig.yaml",
-        "etude calibrate points.csv --size 1920x1080 -o rig.yaml"}},
+       {"etude calibrate --print board.png", "etude calibrate pairs.csv --size 1920x1080 -o rig.yaml",
+        "etude calibrate a.mp4 b.mp4 --board charuco:5x7x0.04 --sync 2 --picture found.png -o rig.yaml"}},
       {"forecast",
        {"etude forecast rig.yaml", "etude forecast rig.yaml --noise-px 8 --size 4,2,4 --report rig.html",
         "etude forecast Calib.toml --dropout 0.1 --picture map.png --table map.csv"}},
       {"capture",
        {"etude capture --rig rig.yaml left.mp4 right.mp4 --keypoints json/ -o motion.bvh",
-        "etude capture --rig rig.yaml left.mp4 right.mp4 --silhouettes -o motion.bvh",
+        "etude capture --rig rig.yaml cam1.mp4 cam2.mp4 --silhouettes --stature 1.8 -o motion.bvh --report page.html",
         "etude capture --rig rig.yaml left.mp4 right.mp4 --marks marks/ -o motion.trc"}},
       {"coach",
-       {"etude coach first-steps --stream - --format kinect-v2", "etude coach song.yaml --stream take.txt --brief",
-        "etude coach song.yaml --stream - --click click.wav"}},
+       {"etude coach warm_up --stream take.csv --brief", "my_sensor | etude coach groove --stream - | my_stage",
+        "etude coach my_song.yaml --beats my_song.txt --click clicks.wav --stream - --policy after-n"}},
       {"crowd",
        {"etude crowd", "etude crowd -o crowd.mp4 --seconds 10", "etude crowd --characters 200 --rate 120 --float"}},
       {"completion",
@@ -189,7 +190,7 @@ const CLI::Range& SeedRange() {
 }  // namespace
 
 CLI::Option* AddSeed(CLI::App& command, std::uint64_t& seed, const std::string& help) {
-  return command.add_option("--seed", seed, help)->check(SeedRange())->capture_default_str();
+  return command.add_option("--seed", seed, help)->check(SeedRange());
 }
 
 CLI::Option* AddSeed(CLI::App& command, std::optional<std::uint64_t>& seed, const std::string& help) {
@@ -334,6 +335,7 @@ void GroupCommands(CLI::App& app) {
 
 void DefineCommands(CLI::App& app, const std::string& command_line, Action& action) {
   app.require_subcommand(1);
+  app.option_defaults()->always_capture_default();  // the help shows every default
   // Define the commands that run scenarios and judge results.
   DefineRun(app, command_line, action);
   DefineEvaluate(app, command_line, action);

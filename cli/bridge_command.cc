@@ -31,15 +31,10 @@ struct BridgeCommandOptions {
   ClipReading reading;
 };
 
-constexpr const char* kBridgeExamples =
+constexpr const char* kBridgeText =
     "\nA bridge frame is suitable for a transition: its pose occurs in several clips, and the head is still. Two\n"
     "bridge frames match when their fuzzy distance is below the threshold. Clips are named as in etude clip --help;\n"
-    "docs/bridge-frames.md explains more.\n\n"
-    "Try:\n"
-    "  etude bridge 'builtin:*' builtin:acts -o tags.xml      the bear's moves and acts\n"
-    "  etude bridge 'mocap/*.bvh' --to wave.bvh               which clips can lead into wave.bvh?\n"
-    "  etude bridge 'mocap/*.bvh' --threshold 0.6 --json      everything, for another program\n"
-    "  etude bridge --check tags.xml 'mocap/*.bvh'            is the file valid, and does it fit these clips?";
+    "docs/bridge-frames.md explains more.";
 
 Result<BridgeLibrary> LoadLibrary(const BridgeCommandOptions& options) {
   BridgeLibraryOptions bridge{.clips = options.clips,
@@ -135,24 +130,20 @@ void DefineBridge(CLI::App& app, Action& action) {
       "wave, puzzled and slow demonstrations, if they are among the clips)"));
   // Define the rules of matching and tagging.
   add(command->add_option("--threshold", options->threshold, "Fuzzy distance below which two frames match")
-          ->check(NumberWithin(1e-6, 6, "threshold"))
-          ->capture_default_str());
+          ->check(NumberWithin(1e-6, 6, "threshold")));
   add(command->add_flag("--within-class", options->within_class, "Compare only frames with the same ten tags"));
   add(command
           ->add_option("--min-clips", options->min_clips,
                        "Minimum number of clips in which a bridge frame's tags must occur")
-          ->check(CLI::Range(1, 1000))
-          ->capture_default_str());
+          ->check(CLI::Range(1, 1000)));
   add(command
           ->add_option(
               "--most-per-class", options->most_per_class,
               "Maximum number of bridge frames per clip and pose; those most like other clips' frames are kept "
               "(0: all)")
-          ->check(CLI::Range(0, 1000000))
-          ->capture_default_str());
+          ->check(CLI::Range(0, 1000000)));
   add(command->add_option("--wait", options->wait_s, "Longest wait for a transition, seconds")
-          ->check(NumberWithin(0, 3600, "time in seconds"))
-          ->capture_default_str());
+          ->check(NumberWithin(0, 3600, "time in seconds")));
   command->add_option("--fuzzy", options->fuzzy, "Fuzzy system: builtin:NAME or a file (default: builtin:paper)");
   add(command->add_flag(
       "--pairs", options->with_pairs,
@@ -160,7 +151,7 @@ void DefineBridge(CLI::App& app, Action& action) {
   add(command->add_flag("--json", options->as_json, "Print JSON (docs/schemas/bridge-summary.schema.json)"));
   AddOverwrite(*command, options->overwrite);
   AddClipReading(*command, options->reading);
-  command->footer(kBridgeExamples);
+  command->footer(kBridgeText);
   command->callback([=, &action] { action = [=] { return Finish(BridgeCommand(*options)); }; });
 }
 

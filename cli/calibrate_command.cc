@@ -72,7 +72,7 @@ Result<int> CalibrateCommand(const CalibrateCommandOptions& asked) {
   return kSuccess;
 }
 
-constexpr const char* kCalibrateExamples =
+constexpr const char* kCalibrateText =
     "\nA rig describes the cameras of `etude capture`: focal lengths, principal points, lens distortion and poses. It "
     "can\nbe found in two ways.\n\n"
     "From point pairs: at least six points, not all in one plane (use two or three walls), measured in metres, Y up,\n"
@@ -90,15 +90,7 @@ constexpr const char* kCalibrateExamples =
     "The file that is written is YAML that OpenCV reads, too: "
     "cv::FileStorage(\"rig.yaml\")[\"left\"][\"camera_matrix\"].\n"
     "`etude capture` also takes calibrations of OpenCV, Pose2Sim, Anipose, FreeMoCap, Caliscope, Qualisys, EasyMocap "
-    "and COLMAP.\n\n"
-    "Try:\n"
-    "  etude calibrate --print board.png                                a board for A4 or Letter, squares of 34 mm\n"
-    "  etude calibrate --print board.png --board 8x8x0.1                a board of 80 cm, squares of 10 cm\n"
-    "  etude calibrate left/ right/ --board 8x8x0.1 -o rig.yaml         folders of PNG or JPG pictures\n"
-    "  etude calibrate left.mp4 right.mp4 --board 8x8x0.1 -o rig.yaml   films that began together\n"
-    "  etude calibrate a.mp4 b.mp4 --board charuco:5x7x0.04 --sync 2 --picture found.png -o rig.yaml\n"
-    "  etude calibrate a.mp4 b.mp4 --board charuco:4x5x0.054 -o rig.yaml   an OpenCV board: count its squares\n"
-    "  etude calibrate pairs.csv --size 1920x1080 -o rig.yaml           measured points";
+    "and COLMAP.";
 
 }  // namespace
 
@@ -112,39 +104,32 @@ void DefineCalibrate(CLI::App& app, Action& action) {
   command->add_option("inputs", options->inputs,
                       "A file of point pairs; or for each camera a folder of pictures or a film");
   command->add_option("-o,--output", options->output, "The rig to write (YAML)");
-  command
-      ->add_option(
-          "--board", options->boards,
-          "COLUMNSxROWSxSQUARE: the numbers of squares, and a square's side in metres; @FIRST_CODE gives a second "
-          "board other codes. Or a board of OpenCV: chess:9x6x0.025, charuco:5x7x0.04 (dictionary, colours and layout "
-          "are found)")
-      ->capture_default_str();
+  command->add_option(
+      "--board", options->boards,
+      "COLUMNSxROWSxSQUARE: the numbers of squares, and a square's side in metres; @FIRST_CODE gives a second "
+      "board other codes. Or a board of OpenCV: chess:9x6x0.025, charuco:5x7x0.04 (dictionary, colours and layout "
+      "are found)");
   // Define what is estimated, and in which world frame.
   command->add_option("--method", options->method, "How cameras are computed from point pairs")
-      ->check(OneOf(CalibrationNames()))
-      ->capture_default_str();
+      ->check(OneOf(CalibrationNames()));
   command
       ->add_option("--lens", options->lens, "Lens parameters to find: none; radial2 (k1, k2, p1, p2); radial3 (and k3)")
-      ->check(OneOf({"none", "radial2", "radial3"}))
-      ->capture_default_str();
+      ->check(OneOf({"none", "radial2", "radial3"}));
   command->add_flag(
       "--skew", options->skew,
       "Also find the angle between the picture's axes (as paper B does; that of today's sensors is 90 degrees)");
   command->add_option("--size", options->size, "Size of the pictures, for point pairs as CSV: 1920x1080");
   command->add_option("--world", options->world, "Where the board is in the first picture: on the floor or on a wall")
-      ->check(OneOf({"floor", "wall"}))
-      ->capture_default_str();
+      ->check(OneOf({"floor", "wall"}));
   command
       ->add_option("--every", options->every,
                    "Use every n-th frame of a film (0: every 30th; for a board of OpenCV's, at most 200 frames in all)")
-      ->check(CLI::Range(0, 100000))
-      ->capture_default_str();
+      ->check(CLI::Range(0, 100000));
   command
       ->add_option("--sync", options->sync_s,
                    "Largest delay of a film that is searched for, s; the delay is found from the board (0: twice the "
                    "time between the pictures that are used)")
-      ->check(NumberWithin(0, 60, "time in s"))
-      ->capture_default_str();
+      ->check(NumberWithin(0, 60, "time in s"));
   // Define further outputs and comparisons.
   command->add_option("--picture", options->picture,
                       "Also draw the corners that were found, and their residuals (.png)");
@@ -155,7 +140,7 @@ void DefineCalibrate(CLI::App& app, Action& action) {
       command->add_option("--print", options->print, "Only write the board as a picture (.png) for printing");
   AddOverwrite(*command, asked->overwrite);
   AddJson(*command, asked->as_json)->excludes(print);
-  command->footer(kCalibrateExamples);
+  command->footer(kCalibrateText);
   command->callback([=, &action] { action = [=] { return Finish(CalibrateCommand(*asked)); }; });
 }
 

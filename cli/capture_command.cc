@@ -14,7 +14,7 @@
 namespace etude {
 namespace {
 
-constexpr const char* kCaptureExamples =
+constexpr const char* kCaptureText =
     "\nTwo or more calibrated cameras film a person at the same time; this command recovers the person's motion. "
     "The\nperson in the pictures is given by keypoints of an estimator (--keypoints: a folder with, for each film, a "
     "folder of\n"
@@ -46,13 +46,7 @@ constexpr const char* kCaptureExamples =
     "With --reference FILE.trc a table shows the distance of the triangulated keypoints from it, for all cameras "
     "and\nevery pair. If the reference was made from the same keypoints, this is agreement, not error. With "
     "--silhouettes it is\nthe distance of the joints, which is error; every pair of cameras is then captured "
-    "separately, which takes some time.\n\n"
-    "Try:\n"
-    "  etude capture --rig rig.yaml cam1.mp4 cam2.mp4 --keypoints json/ -o motion.bvh\n"
-    "  etude capture --rig Calib.toml cam*.mp4 --keypoints openpose/ --layout body_25b --fit letterbox \\\n"
-    "                -o motion.trc --points keypoints.trc --film overlay.mp4 --smooth 6 --report page.html\n"
-    "  etude capture --rig rig.yaml cam1.mp4 cam2.mp4 --silhouettes --stature 1.8 -o motion.bvh --report page.html\n"
-    "  etude capture --rig rig.yaml cam1.mp4 cam2.mp4 --silhouettes --masks masks/ --mask-id 1 -o motion.bvh";
+    "separately, which takes some time.";
 
 struct CaptureCommandOptions {
   CaptureFilmsOptions capture;
@@ -95,21 +89,16 @@ void DefineCapture(CLI::App& app, const std::string& command_line, Action& actio
       ->required();
   command->add_option("--rig", options->rig, "A file of the calibrated cameras (etude calibrate writes one)")
       ->required();
-  command
-      ->add_option("--rig-unit", options->place.unit,
-                   fmt::format("The rig's unit of length: {}, metres in one unit, or auto (the unit in which the "
-                               "person is 0.5 to 2.2 m tall)",
-                               RigUnits()))
-      ->capture_default_str();
-  command
-      ->add_option("--rig-up", options->place.up,
-                   "The rig's axis that points up: x, y, z, -x, -y, -z, floor (found from cameras and feet), or auto")
-      ->capture_default_str();
-  command
-      ->add_option("--floor", options->place.floor,
-                   "What becomes height 0: keep (the rig's), feet, a height in m, or auto (the feet, if the up axis "
-                   "was found from them)")
-      ->capture_default_str();
+  command->add_option("--rig-unit", options->place.unit,
+                      fmt::format("The rig's unit of length: {}, metres in one unit, or auto (the unit in which the "
+                                  "person is 0.5 to 2.2 m tall)",
+                                  RigUnits()));
+  command->add_option(
+      "--rig-up", options->place.up,
+      "The rig's axis that points up: x, y, z, -x, -y, -z, floor (found from cameras and feet), or auto");
+  command->add_option("--floor", options->place.floor,
+                      "What becomes height 0: keep (the rig's), feet, a height in m, or auto (the feet, if the up axis "
+                      "was found from them)");
   command->add_option("--cameras", options->cameras, "The rig's cameras in the order of the films: left,right")
       ->delimiter(',')
       ->allow_extra_args(false);  // otherwise, the option would also take the film names that follow its value
@@ -143,8 +132,7 @@ void DefineCapture(CLI::App& app, const std::string& command_line, Action& actio
       ->needs(silhouettes);
   command->add_option("--stature", options->stature_m, "How tall the person is, m (0: found from the outlines)")
       ->needs(silhouettes)
-      ->check(NumberWithin(0, 2.5, "stature in m"))
-      ->capture_default_str();
+      ->check(NumberWithin(0, 2.5, "stature in m"));
   command->add_option("--layout", options->layout, "The order of the keypoints, if their number does not determine it")
       ->check(OneOf(KeypointLayoutNames()));
   // Define the outputs, and the reference to compare with.
@@ -161,43 +149,36 @@ void DefineCapture(CLI::App& app, const std::string& command_line, Action& actio
       ->needs(reference);
   // Define how films, people and time are interpreted.
   command->add_option("--fit", options->fit, "How the rig's pictures were changed into films of another size")
-      ->check(OneOf({"none", "letterbox", "stretch", "crop"}))
-      ->capture_default_str();
+      ->check(OneOf({"none", "letterbox", "stretch", "crop"}));
   command->add_option("--person", options->person, "Number of the person; 1 is the one seen most")
-      ->check(CLI::Range(1, 64))
-      ->capture_default_str();
+      ->check(CLI::Range(1, 64));
   command
       ->add_option(
           "--poses", options->poses,
           "frames: each frame by itself; bundle: one body in smooth motion that explains all keypoints at once")
       ->check(OneOf({"frames", "bundle"}))
-      ->excludes(silhouettes)
-      ->capture_default_str();
+      ->excludes(silhouettes);
   command
       ->add_option(
           "--smooth", options->smooth_hz,
           "Smooth positions by a low pass of this frequency, Hz, for poses fitted frame by frame (0: no smoothing)")
-      ->check(NumberWithin(0, 1000, "frequency in Hz"))
-      ->capture_default_str();
+      ->check(NumberWithin(0, 1000, "frequency in Hz"));
   // Define the limits of gaps, outliers and clocks.
   command->add_option("--longest-gap", options->max_gap_s, "Longest gap that is bridged, s")
-      ->check(NumberWithin(0, 60, "gap in s"))
-      ->capture_default_str();
+      ->check(NumberWithin(0, 60, "gap in s"));
   command
       ->add_option("--outlier", options->outlier_px,
                    "Largest distance of a keypoint from the point that the other cameras determine, px; more distant "
                    "ones are left out (0: eight standard deviations of the residuals, at most 3 % of the picture)")
-      ->check(NumberWithin(0, 10000, "distance in px"))
-      ->capture_default_str();
+      ->check(NumberWithin(0, 10000, "distance in px"));
   command
       ->add_option("--sync", options->sync_s,
                    "Largest difference of the films' clocks, s; the difference is found from the keypoints (0: the "
                    "clocks agree)")
-      ->check(NumberWithin(0, 60, "time in s"))
-      ->capture_default_str();
+      ->check(NumberWithin(0, 60, "time in s"));
   AddOverwrite(*command, asked->overwrite, "Replace existing files");
   AddJson(*command, asked->as_json);
-  command->footer(kCaptureExamples);
+  command->footer(kCaptureText);
   command->callback([=, &action] { action = [=] { return Finish(CaptureCommand(*asked)); }; });
 }
 

@@ -115,11 +115,8 @@ void DefineCheckMethod(CLI::App& app, Action& action) {
   AddStreamReading(*command, options->people.reading);
   // Define limits, and the fence.
   command->add_option("--time", options->time_s, "Time limit per problem, or per step of a session, seconds")
-      ->check(NumberWithin(0.001, 1e6, "time in seconds"))
-      ->capture_default_str();
-  command->add_option("--memory", options->memory_mb, "Memory limit, MB")
-      ->check(NumberWithin(1, 1e6, "size in MB"))
-      ->capture_default_str();
+      ->check(NumberWithin(0.001, 1e6, "time in seconds"));
+  command->add_option("--memory", options->memory_mb, "Memory limit, MB")->check(NumberWithin(1, 1e6, "size in MB"));
   command
       ->add_option("--files", options->files,
                    "Files and folders that the program can read inside the fence (default: its own folder)")

@@ -24,18 +24,11 @@
 namespace etude {
 namespace {
 
-constexpr const char* kClipExamples =
+constexpr const char* kClipText =
     "\nA clip is a BVH or DeepMimic file, an animation of a glTF file (dance.glb#Jump; without # all of them), a "
     "pattern of files\n"
     "('mocap/*.bvh'), or builtin:NAME (builtin:* all moves, builtin:acts, builtin:songs). docs/clips.md explains "
-    "more.\n\n"
-    "Try:\n"
-    "  etude clip info 'mocap/*.bvh'                          what these files contain, and whether it is understood\n"
-    "  etude clip render dance.bvh -o dance.png               a contact sheet\n"
-    "  etude clip render builtin:clap -o clap.mp4             the bear, as a film\n"
-    "  etude clip convert dance.bvh bear.glb --character bear a file for other viewers\n"
-    "  etude clip contacts dance.bvh -o contacts.svg          when its feet are on the floor\n"
-    "  etude clip map odd.bvh -o odd.yaml                     names of joints: edit it, then --joint-map odd.yaml";
+    "more.";
 
 struct ClipInfoOptions {
   std::vector<std::string> clips;
@@ -357,7 +350,7 @@ void DefineMap(CLI::App& clip, Action& action) {
 
 void DefineClip(CLI::App& app, Action& action) {
   CLI::App* clip = app.add_subcommand("clip", "Look at motion clips, convert and render them");
-  clip->footer(kClipExamples);
+  clip->footer(kClipText);
   clip->require_subcommand(1);
   DefineInfo(*clip, action);
   DefineConvert(*clip, action);

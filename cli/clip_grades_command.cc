@@ -121,7 +121,7 @@ void DefineGrades(CLI::App& clip, Action& action) {
       "grades", "Show fuzzy features, grades, tags and poses of every frame, and how similar clips are");
   command->add_option("clips", options->clips, "Clips")->required();
   command->add_option("-o,--output", options->output, "A table (.csv) of one clip, one line per frame");
-  command->add_option("--fuzzy", options->fuzzy, "Fuzzy system: builtin:NAME or a file")->capture_default_str();
+  command->add_option("--fuzzy", options->fuzzy, "Fuzzy system: builtin:NAME or a file");
   AddOverwrite(*command, options->overwrite);
   AddJson(*command, options->as_json);
   AddClipReading(*command, options->reading);

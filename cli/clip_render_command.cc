@@ -139,15 +139,16 @@ void DefineRender(CLI::App& clip, Action& action) {
                    "orange)\n(default: own if the file has meshes, otherwise mannequin; bear for built-in clips)")
       ->check(OneOf({"own", "mannequin", "bear", "body"}));
   command->add_option("--view", options->view, "View of the first pose: front, three-quarter or side")
-      ->check(OneOf({"front", "three-quarter", "side"}))
-      ->capture_default_str();
+      ->check(OneOf({"front", "three-quarter", "side"}));
   command->add_option("--size", options->size,
                       "Size of the film, or of each picture of a sheet (default: 720x720, 200x260)");
   command
       ->add_option("--frames", options->frames,
                    "Sheet: number of pictures of each clip (default: 12 for one clip, 8 for several)")
       ->check(CLI::Range(1, 1000));
-  command->add_option("--columns", options->columns, "Sheet: number of pictures in a row")->check(CLI::Range(1, 100));
+  command->add_option("--columns", options->columns, "Sheet: number of pictures in a row")
+      ->check(CLI::Range(1, 100))
+      ->default_str("");
   command->add_option("--trim", options->trim, "Only the part FROM:TO in seconds, such as 1.5:4 or 2:");
   AddJobs(*command, options->jobs);
   AddOverwrite(*command, options->overwrite);

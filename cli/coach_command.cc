@@ -54,7 +54,7 @@ struct CoachCommandOptions {
   bool overwrite = false;
 };
 
-constexpr const char* kCoachExamples =
+constexpr const char* kCoachText =
     "\nReads a device's skeletons line by line, and writes line by line, as JSON, what a screen should show: first the "
     "song, its\n"
     "moves and their key poses, then an object for each frame (docs/coach.md explains all keys). The coach waits for\n"
@@ -62,13 +62,7 @@ constexpr const char* kCoachExamples =
     "is\npuzzled, shows the move slowly, and returns to the dance. Scenarios of `task: coach` judge this program.\n\n"
     "Rows are what `etude clip convert` writes as CSV, or a Kinect's (docs/streams.md). You play the music: a\nframe's "
     "\"music\" states from where to play it, and when to stop. A line '#music 12.34' in the stream tells the coach\n"
-    "where the music is, so that it can slow down or speed up its moves.\n\n"
-    "Try:\n"
-    "  etude coach warm_up --stream take.csv --brief          what would the coach have said to this recording?\n"
-    "  my_sensor | etude coach groove --stream - | my_stage   live\n"
-    "  etude coach my_song.yaml --beats my_song.txt --click clicks.wav --stream - --policy after-n\n"
-    "  etude teach clap.csv jump.csv -o mine.yaml && etude coach groove --moves mine.yaml --stream -\n"
-    "  etude clip convert builtin:warm_up me.csv && etude coach warm_up --now --brief --stream me.csv";
+    "where the music is, so that it can slow down or speed up its moves.";
 
 /// A dance, and its moves in the form in which recognisers learn them, in the order of the dance.
 struct Lesson {
@@ -204,18 +198,12 @@ void DefineCoach(CLI::App& app, Action& action) {
       ->add_option("--right-from", options->right_from,
                    "Lowest evidence that counts as a right performance (default: the recogniser's own)")
       ->check(NumberWithin(0.001, 1, "level of evidence"));
-  command->add_option("--policy", options->policy, "When the coach interrupts")
-      ->check(OneOf(LivePolicyNames()))
-      ->capture_default_str();
+  command->add_option("--policy", options->policy, "When the coach interrupts")->check(OneOf(LivePolicyNames()));
   command->add_option("--choice", options->choice, "How the frames of a transition are chosen")
-      ->check(OneOf(ChoiceNames()))
-      ->capture_default_str();
+      ->check(OneOf(ChoiceNames()));
   command->add_option("--join", options->join, "How the two clips are joined at these frames")
-      ->check(OneOf(JoinNames()))
-      ->capture_default_str();
-  command->add_option("--filter", options->filter, "Filter that smooths the skeletons")
-      ->check(OneOf(FilterNames()))
-      ->capture_default_str();
+      ->check(OneOf(JoinNames()));
+  command->add_option("--filter", options->filter, "Filter that smooths the skeletons")->check(OneOf(FilterNames()));
   // Define how players dance, and how frames are read and printed.
   command->add_flag("--mirror", options->mirror,
                     "Players mirror the coach: they move their right when it moves its left");
@@ -228,7 +216,7 @@ void DefineCoach(CLI::App& app, Action& action) {
       ->check(NumberWithin(1, 1000, "rate in Hz"));
   command->add_flag("--reflect", options->reflect, "Negate X, for a mirrored stream");
   AddOverwrite(*command, options->overwrite);
-  command->footer(kCoachExamples);
+  command->footer(kCoachText);
   command->callback([=, &action] { action = [=] { return Finish(CoachCommand(*options)); }; });
 }
 

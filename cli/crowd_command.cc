@@ -183,17 +183,12 @@ void DefineCrowd(CLI::App& app, Action& action) {
   CLI::App* command =
       app.add_subcommand("crowd", "Solve the poses of a whole crowd frame by frame, and draw a film of it");
   command->add_option("--characters", options->crowd.characters, "Number of characters; each has its own motion")
-      ->check(CLI::Range(1, 10'000))
-      ->capture_default_str();
-  command->add_option("--seconds", options->seconds, "Duration, seconds")
-      ->check(NumberWithin(0.01, 60, "time in s"))
-      ->capture_default_str();
+      ->check(CLI::Range(1, 10'000));
+  command->add_option("--seconds", options->seconds, "Duration, seconds")->check(NumberWithin(0.01, 60, "time in s"));
   command->add_option("--rate", options->crowd.rate_hz, "Frames per second")
-      ->check(NumberWithin(1, 1000, "rate in Hz"))
-      ->capture_default_str();
+      ->check(NumberWithin(1, 1000, "rate in Hz"));
   command->add_option("--steps", options->steps, "Maximum gauss-newton steps per character and frame")
-      ->check(CLI::Range(1, 10'000))
-      ->capture_default_str();
+      ->check(CLI::Range(1, 10'000));
   AddSeed(*command, options->crowd.seed, "Seed of the motions");
   command->add_flag("--float", options->in_float, "Solve in floats, not in doubles");
   command->add_option("-o,--output", options->output, "A film of the crowd (.mp4)");

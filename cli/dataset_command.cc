@@ -94,7 +94,7 @@ void DefineScore(CLI::App& app, const std::string& command_line, Action& action)
   command->add_option("target", options->target, "An exported data set, or its scenario files")->required();
   command->add_option("predictions", options->predictions, "Folder of answers")->required();
   command->add_option("-o,--output", options->output, "Result folder")->required();
-  command->add_option("--name", options->name, "Name of the method")->capture_default_str();
+  command->add_option("--name", options->name, "Name of the method");
   AddOutsideRules(*command, options->outside);
   command->add_flag("--alone", options->alone, "Do not run the scenarios' own methods");
   command->add_flag("--allow-missing", options->allow_missing, "Count a world without answer as a failed cell");

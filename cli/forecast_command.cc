@@ -117,23 +117,17 @@ void DefineForecast(CLI::App& app, const std::string& command_line, Action& acti
   options->listener = TerminalListener();
   CLI::App* command = app.add_subcommand("forecast", "Forecast the errors of a rig of cameras before you film");
   command->add_option("rig", options->rig, "A file of the calibrated cameras, as for `etude capture`")->required();
-  command
-      ->add_option(
-          "--rig-unit", options->place.unit,
-          fmt::format("The rig's unit of length: {}, metres in one unit, or auto (that of its format)", RigUnits()))
-      ->capture_default_str();
-  command->add_option("--rig-up", options->place.up, "The rig's axis that points up: x, y, z, -x, -y, -z, or auto")
-      ->capture_default_str();
-  command
-      ->add_option("--floor", options->place.floor,
-                   "What becomes height 0: a height in m, or auto (the rig's own height 0)")
-      ->capture_default_str();
+  command->add_option(
+      "--rig-unit", options->place.unit,
+      fmt::format("The rig's unit of length: {}, metres in one unit, or auto (that of its format)", RigUnits()));
+  command->add_option("--rig-up", options->place.up, "The rig's axis that points up: x, y, z, -x, -y, -z, or auto");
+  command->add_option("--floor", options->place.floor,
+                      "What becomes height 0: a height in m, or auto (the rig's own height 0)");
   // Define the volume in which people move.
   command->add_option("--size", asked->size, "Width (x), height and depth (z) of the volume, m")
       ->delimiter(',')
       ->expected(3)
-      ->check(NumberWithin(0.1, 100, "length in m"))
-      ->capture_default_str();
+      ->check(NumberWithin(0.1, 100, "length in m"));
   command
       ->add_option("--middle", asked->middle,
                    "Middle of the volume on the floor: x,z in m (default: where the cameras look)")
@@ -150,8 +144,7 @@ void DefineForecast(CLI::App& app, const std::string& command_line, Action& acti
   // Define the errors of keypoints (given, or measured in films) and of the calibration.
   auto* noise =
       command->add_option("--noise-px", options->errors.noise_px, "Standard deviation of keypoints along each axis, px")
-          ->check(NumberWithin(0.001, 1000, "deviation in px"))
-          ->capture_default_str();
+          ->check(NumberWithin(0.001, 1000, "deviation in px"));
   auto* films =
       command->add_option("--films", options->take.films,
                           "Films of any take with this rig: measure the keypoints' deviation (--noise-px) in them");
@@ -170,18 +163,15 @@ void DefineForecast(CLI::App& app, const std::string& command_line, Action& acti
       ->add_option("--fit", options->take.fit,
                    "With --films: how the rig's pictures were changed into films of another size")
       ->check(OneOf({"none", "letterbox", "stretch", "crop"}))
-      ->needs(keypoints)
-      ->capture_default_str();
+      ->needs(keypoints);
   command->add_option("--dropout", options->errors.dropout, "Share of a camera's pictures that give no keypoint")
-      ->check(NumberWithin(0, 0.9, "share"))
-      ->capture_default_str();
+      ->check(NumberWithin(0, 0.9, "share"));
   command
       ->add_option("--calibration", asked->calibration,
                    "Standard deviations of each camera: place in mm, direction in degrees, focal length in per cent")
       ->delimiter(',')
       ->expected(3)
-      ->check(NumberWithin(0, 1000, "deviation"))
-      ->capture_default_str();
+      ->check(NumberWithin(0, 1000, "deviation"));
   // Define the outputs.
   command->add_option("--picture", options->picture,
                       "Also draw the errors at each height as a heat map, and the cameras from above (.png)");

@@ -227,7 +227,6 @@ void DefineGate(CLI::App& app, Action& action) {
                                ->excludes(baseline);
   command->add_option("--repetitions", options->repetitions, "Self-test: number of pairs of seeds")
       ->check(CLI::Range(1, 100000))
-      ->capture_default_str()
       ->needs(self_test);
   command->add_option("--trials", options->trials, "Self-test: worlds per condition (default: the scenario's)")
       ->check(CLI::Range(1, 1000000))

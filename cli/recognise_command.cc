@@ -36,7 +36,7 @@ struct RecogniseCommandOptions {
   StreamArguments reading;
 };
 
-constexpr const char* kRecogniseExamples =
+constexpr const char* kRecogniseText =
     "\n"
     "Prints each move as soon as it is spotted, as a line of JSON. With labels it also prints the accuracy: "
     "performances\n"
@@ -44,13 +44,7 @@ constexpr const char* kRecogniseExamples =
     "people\n"
     "teach the recogniser of each person. Recordings and devices: Kinect v1 and v2 rows, MSRC-12, UTKinect, NTU, Azure "
     "Kinect, CSV, TRC; rows and CSV\n"
-    "also live (docs/streams.md).\n"
-    "\n"
-    "Try:\n"
-    "  etude recognise take.txt --moves moves.yaml\n"
-    "  my-kinect-reader | etude recognise - --moves moves.yaml\n"
-    "  etude recognise take.txt --moves moves.yaml --labels labels.csv\n"
-    "  etude recognise joints/ --labels actionLabel.txt --leave-one-person-out --recogniser dtw";
+    "also live (docs/streams.md).\n";
 
 /// Reads settings such as "tolerance_scale=1.2"; all other settings keep their defaults. Fails for unknown settings and
 /// values out of range.
@@ -297,13 +291,11 @@ void DefineRecognise(CLI::App& app, Action& action) {
           "--leave-one-person-out; otherwise learnt)")
       ->check(OneOf(RecogniserNames()));
   command->add_option("--filter", options->filter, "Filter that smooths the joints before recognition")
-      ->check(OneOf(FilterNames()))
-      ->capture_default_str();
+      ->check(OneOf(FilterNames()));
   command
       ->add_option("--weights", options->weights,
                    "Weights of the angles: all equal (fixed), or by how well they are seen (adaptive)")
-      ->check(OneOf({"fixed", "adaptive"}))
-      ->capture_default_str();
+      ->check(OneOf({"fixed", "adaptive"}));
   command
       ->add_option("--threshold", options->threshold,
                    "Lowest evidence at which a move counts as performed (default: the recogniser's)")
@@ -313,7 +305,7 @@ void DefineRecognise(CLI::App& app, Action& action) {
   command->add_flag("--json", options->as_json, "Also print the scores as JSON (docs/schemas/facts.schema.json)")
       ->needs(labels);
   AddStreamReading(*command, options->reading);
-  command->footer(kRecogniseExamples);
+  command->footer(kRecogniseText);
   command->callback([=, &action] { action = [=] { return Finish(RecogniseCommand(*options)); }; });
 }
 

@@ -131,8 +131,7 @@ void DefineReport(CLI::App& app, Action& action) {
           ->excludes("--no-video", "--whole-sessions", "--real");
   command->add_option("--pairs", blind->pairs, "With --blind: the largest number of pairs")
       ->needs(methods)
-      ->check(NumberWithin(1, 1000, "number of pairs"))
-      ->capture_default_str();
+      ->check(NumberWithin(1, 1000, "number of pairs"));
   AddSeed(*command, blind->seed, "With --blind: seed of the random numbers that choose worlds, order and sides")
       ->needs(methods);
   command->callback([=, &action] {

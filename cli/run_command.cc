@@ -327,11 +327,9 @@ void DefineRun(CLI::App& app, const std::string& command_line, Action& action) {
   AddOtherLibraries(*command, options->other_libraries);
   AddOutsideRules(*command, options->outside);
   command->add_option("--sync-seconds", options->sync.seconds, "Longest time until a finished cell is on the disk, s")
-      ->check(NumberWithin(0, 3600, "time in s"))
-      ->capture_default_str();
+      ->check(NumberWithin(0, 3600, "time in s"));
   command->add_option("--sync-mebibytes", options->sync.mebibytes, "Largest amount of results not yet on the disk, MiB")
-      ->check(NumberWithin(0, 1024, "size in MiB"))
-      ->capture_default_str();
+      ->check(NumberWithin(0, 1024, "size in MiB"));
   CLI::Option* dry =
       command->add_flag("--dry-run", *dry_run, "Only estimate the run's time, and the differences that it could show");
   dry->excludes(overwrite, resume);

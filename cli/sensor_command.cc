@@ -20,16 +20,12 @@
 namespace etude {
 namespace {
 
-constexpr const char* kSensorExamples =
+constexpr const char* kSensorText =
     "\nA recording is a Kinect v2's text (25 joints a line: x y z, or x y z and a quaternion) or joint CSV (etude "
     "clip\n"
     "convert writes such files). A reference is the same motion from a trusted system: text with 17 rigid targets of "
     "an\n"
-    "optical system per line, or joint CSV. docs/sensor.md explains the formats and each statistic.\n\n"
-    "Try:\n"
-    "  etude sensor stats kinect.txt                                        statistics of the recording alone\n"
-    "  etude sensor stats kinect.txt --reference vicon.txt --simulate v2    compared with a simulated sensor\n"
-    "  etude sensor fit kinect.txt --reference vicon.txt -o sensor.yaml     then `sensor: sensor.yaml` in a scenario";
+    "optical system per line, or joint CSV. docs/sensor.md explains the formats and each statistic.";
 
 /// Options with facts about recordings that the recordings' files do not state.
 struct SensorReading {
@@ -214,9 +210,7 @@ void DefineStats(CLI::App& sensor, Action& action) {
   command->add_option("files", options->files, "Recordings")->required();
   command->add_option("--reference", options->reading.reference, "The same motion from a trusted system");
   command->add_option("--simulate", options->simulate, "Also simulate this sensor: v1, v2 or a sensor file");
-  command->add_option("--worlds", options->worlds, "Number of simulated recordings")
-      ->check(CLI::Range(1, 10000))
-      ->capture_default_str();
+  command->add_option("--worlds", options->worlds, "Number of simulated recordings")->check(CLI::Range(1, 10000));
   AddSensorReading(*command, options->reading);
   AddJson(*command, options->as_json);
   command->callback([=, &action] { action = [=] { return Finish(SensorStatsCommand(*options)); }; });
@@ -305,16 +299,11 @@ void DefineFit(CLI::App& sensor, Action& action) {
   command->add_option("file", options->file, "A recording")->required();
   command->add_option("--reference", options->reading.reference, "The same motion from a trusted system")->required();
   command->add_option("-o,--output", options->output, "The sensor file to write (YAML)")->required();
-  command
-      ->add_option("--base", options->base,
-                   "The sensor that gives all values that are not fitted: v1, v2 or a sensor file")
-      ->capture_default_str();
-  command->add_option("--worlds", options->worlds, "Simulated recordings per step")
-      ->check(CLI::Range(1, 10000))
-      ->capture_default_str();
+  command->add_option("--base", options->base,
+                      "The sensor that gives all values that are not fitted: v1, v2 or a sensor file");
+  command->add_option("--worlds", options->worlds, "Simulated recordings per step")->check(CLI::Range(1, 10000));
   command->add_option("--steps", options->steps, "Number of steps; each step simulates, compares and corrects")
-      ->check(CLI::Range(1, 1000))
-      ->capture_default_str();
+      ->check(CLI::Range(1, 1000));
   AddOverwrite(*command, options->overwrite);
   AddSensorReading(*command, options->reading);
   AddJson(*command, options->as_json);
@@ -326,7 +315,7 @@ void DefineFit(CLI::App& sensor, Action& action) {
 void DefineSensor(CLI::App& app, Action& action) {
   CLI::App* sensor = app.add_subcommand("sensor", "Compute statistics of sensors, and fit sensors to recordings");
   sensor->require_subcommand(1);
-  sensor->footer(kSensorExamples);
+  sensor->footer(kSensorText);
   DefineStats(*sensor, action);
   DefineFit(*sensor, action);
 }

@@ -20,8 +20,7 @@ void AddStreamReading(CLI::App& command, StreamArguments& reading) {
   command
       .add_option("--level", reading.level,
                   "Up axis and floor: auto estimates them from the body, none takes the file's")
-      ->check(OneOf({"auto", "none"}))
-      ->capture_default_str();
+      ->check(OneOf({"auto", "none"}));
   command.add_flag("--reflect", reading.reflect, "Negate X, for mirrored recordings");
   AddClipReading(command, reading.clips, "");
 }

@@ -28,15 +28,11 @@ struct TeachCommandOptions {
   StreamArguments reading;
 };
 
-constexpr const char* kTeachExamples =
+constexpr const char* kTeachText =
     "\nFinds what recognisers need to know about a move: key poses with tolerances, and the performances "
     "themselves.\nWithout labels each file is one move with the file's name. Labels are a CSV "
     "(clip,from_s,to_s,move,truth and,\noptionally, person), MSRC-12's tag streams or UTKinect's action labels: "
-    "docs/streams.md.\n\n"
-    "Try:\n"
-    "  etude teach wave.csv clap.csv -o moves.yaml\n"
-    "  etude teach kinect/*.txt --labels labels.csv -o moves.yaml\n"
-    "  etude recognise new.txt --moves moves.yaml";
+    "docs/streams.md.";
 
 Result<std::vector<TaughtMove>> Teach(const TeachCommandOptions& options) {
   ASSIGN_OR_RETURN(const auto clips, options.reading.ClipOptions());
@@ -125,7 +121,7 @@ void DefineTeach(CLI::App& app, Action& action) {
   AddOverwrite(*command, options->overwrite);
   AddJson(*command, options->as_json);
   AddStreamReading(*command, options->reading);
-  command->footer(kTeachExamples);
+  command->footer(kTeachText);
   command->callback([=, &action] { action = [=] { return Finish(TeachCommand(*options)); }; });
 }
 

@@ -51,7 +51,7 @@ struct TrainOptions {
   ClipReading reading;
 };
 
-constexpr const char* kTrainExamples =
+constexpr const char* kTrainText =
     "\nPaper A's distance says that two frames match when d < 0.4. The weights of its ten features (S) and the\n"
     "corners of its membership functions were chosen by hand. This command learns them from pairs of frames, one\nfrom "
     "each of two clips. A pair is close if all joints differ by less than 15 cm, after one pose is aligned with "
@@ -61,14 +61,7 @@ constexpr const char* kTrainExamples =
     "A scenario uses the file by `fuzzy: tuned.yaml`; docs/fuzzy-system.md explains it.\n\n"
     "With --recogniser it learns the model of the recogniser `learnt` (docs/detection.md): simulated people dance the\n"
     "labelled clips, right and wrong, and the model learns to tell them apart. With --coached it learns the model of\n"
-    "`coached`: people dance songs along with a coach (docs/coach.md).\n\n"
-    "Try:\n"
-    "  etude train 'builtin:*' -o tuned.yaml                           S, by a genetic algorithm\n"
-    "  etude train 'builtin:*' -o tuned.yaml --memberships             the membership functions, too\n"
-    "  etude train 'builtin:*' -o tuned.yaml --method adaptive         S, by logistic regression\n"
-    "  etude train 'builtin:*' 'mocap/*.bvh' -o tuned.yaml --hold-out 'mass_*'    judged by these\n"
-    "  etude train 'builtin:*' -o learnt.yaml --recogniser             the model of recogniser learnt\n"
-    "  etude train groove sprint warm_up -o coached.yaml --coached     the model of recogniser coached";
+    "`coached`: people dance songs along with a coach (docs/coach.md).";
 
 constexpr std::size_t kMaxTrainingClips = 150;
 
@@ -308,22 +301,14 @@ void DefineTrain(CLI::App& app, Action& action) {
   // Define the inputs and outputs; then the options of fuzzy systems.
   command->add_option("clips", options->clips, "Clips to learn from and to judge the result")->required();
   command->add_option("-o,--output", options->output, "The file to write (YAML)")->required();
-  command->add_option("--method", options->method, "Learning method")
-      ->check(OneOf({"adaptive", "genetic"}))
-      ->capture_default_str();
+  command->add_option("--method", options->method, "Learning method")->check(OneOf({"adaptive", "genetic"}));
   command->add_flag("--memberships", options->memberships, "Also tune the membership functions (genetic)");
-  command
-      ->add_option("--hold-out", options->hold_out,
-                   "Clips that are not learnt from but used to judge: a share drawn by the seed (0: none), or a "
-                   "pattern of names")
-      ->capture_default_str();
+  command->add_option("--hold-out", options->hold_out,
+                      "Clips that are not learnt from but used to judge: a share drawn by the seed (0: none), or a "
+                      "pattern of names");
   AddSeed(*command, options->seed, "Seed");
-  command->add_option("--population", options->population, "Genomes per generation")
-      ->check(CLI::Range(5, 1000))
-      ->capture_default_str();
-  command->add_option("--generations", options->generations, "Number of generations")
-      ->check(CLI::Range(1, 10000))
-      ->capture_default_str();
+  command->add_option("--population", options->population, "Genomes per generation")->check(CLI::Range(5, 1000));
+  command->add_option("--generations", options->generations, "Number of generations")->check(CLI::Range(1, 10000));
   // Define the options of recognisers.
   command->add_flag("--recogniser", options->recogniser, "Learn the recogniser `learnt`");
   command->add_flag("--coached", options->coached, "Learn the recogniser `coached`: CLIPS are built-in songs")
@@ -340,7 +325,7 @@ void DefineTrain(CLI::App& app, Action& action) {
   AddOverwrite(*command, options->overwrite);
   AddJson(*command, options->as_json);
   AddClipReading(*command, options->reading);
-  command->footer(kTrainExamples);
+  command->footer(kTrainText);
   command->callback([=, &action] {
     action = [=] {
       return Finish(options->recogniser || options->coached ? TrainRecogniserCommand(*options)

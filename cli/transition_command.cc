@@ -98,16 +98,13 @@ void DefineTransition(CLI::App& app, Action& action) {
       ->required();
   // Define how the transition is chosen and made.
   command->add_option("--wait", options->budget_s, "Longest time from the request until the second clip plays, s")
-      ->check(NumberWithin(0, 3600, "time in s"))
-      ->capture_default_str();
+      ->check(NumberWithin(0, 3600, "time in s"));
   command
       ->add_option("--choice", options->choice,
                    "How the frame that leaves the first clip and the frame that enters the second are chosen")
-      ->check(OneOf(ChoiceNames()))
-      ->capture_default_str();
+      ->check(OneOf(ChoiceNames()));
   command->add_option("--join", options->join, "How the two clips are joined at these frames")
-      ->check(OneOf(JoinNames()))
-      ->capture_default_str();
+      ->check(OneOf(JoinNames()));
   command->add_option("--library", options->library, "Further clips; one of them may be played in between");
   AddOverwrite(*command, asked->overwrite);
   AddJson(*command, asked->as_json);

@@ -203,8 +203,7 @@ void DefineVerify(CLI::App& app, Action& action) {
   command
       ->add_option("--sample", options->sample,
                    "Number of cells to run again, in addition to all with a recording; 0: none, all: every cell")
-      ->check(CheckSample)
-      ->capture_default_str();
+      ->check(CheckSample);
   command->add_option("--sample-seed", options->replay.dice,
                       "Seed of the sample, to repeat a check; a forger must not know it (default: random)");
   command->add_option("--sign", options->sign,

@@ -203,8 +203,6 @@ std::string WritePage(const RunData& run, const Media& media, std::span<const Re
   html += Footer(run);
   // Add the scripts.
   html += "</main><script>";
-  html += ChartJs();
-  html += "</script><script>";
   html += ReportJs();
   html += "</script>";
   if (const std::string index = ViewerIndexHtml(run); !index.empty()) {

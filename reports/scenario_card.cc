@@ -3,7 +3,6 @@
 #include <fmt/core.h>
 
 #include <algorithm>
-#include <map>
 #include <nlohmann/json.hpp>
 #include <span>
 #include <string_view>
@@ -30,131 +29,6 @@
 namespace etude {
 namespace {
 
-// The maximum number of points per curve. More points would make the page larger, and would hardly change the picture.
-constexpr std::size_t kMaxSteps = 120;
-// If the largest value exceeds the smallest by more than this ratio, the axis is logarithmic.
-constexpr double kLogarithmicFrom = 100;
-
-std::string Caption(const std::string& what, const MetricWords& words) {
-  const std::string unit = UnitOf(words);
-  std::string caption = what + " of the " + words.plain_label;
-  if (!unit.empty()) caption += fmt::format(" ({})", unit);
-  if (const auto direction = DirectionWords(words.direction); !direction.empty())
-    caption += fmt::format("; {}", direction);
-  return caption;
-}
-
-bool NeedsLogarithm(const std::vector<double>& values) {
-  if (values.empty() || std::ranges::any_of(values, [](double v) { return v <= 0; })) return false;
-  const auto [low, high] = std::ranges::minmax(values);
-  return high / low > kLogarithmicFrom;
-}
-
-// Returns the name of a metric's variant for the worst effector: "orientation_error_max_deg" for
-// "orientation_error_deg".
-std::string WorstOf(const std::string& metric) {
-  const std::size_t unit = metric.rfind('_');
-  return unit == std::string::npos ? metric : metric.substr(0, unit) + "_max" + metric.substr(unit);
-}
-
-// Returns the first headline metric (or its variant for the worst effector) for which cells keep a series along this
-// axis, else the first metric with such a series. Three kinds of series are skipped: series that are not metrics, which
-// have plots of their own; series of zeros, which are errors of effectors without a target; and yes-or-no series, whose
-// median is meaningless.
-std::optional<std::string> FindCurve(const RunData& run, const ScenarioSummary& scenario, const std::string& axis,
-                                     const std::map<std::string, std::string>& method_of) {
-  std::vector<std::string> found;
-  for (const CellSeries& cell : run.series) {
-    if (!method_of.contains(cell.cell)) continue;
-    for (const Series& series : cell.series) {
-      if (series.axis != axis || FindMetric(series.name) == nullptr || WordsFor(series.name).is_share) continue;
-      if (std::ranges::any_of(series.values, [](double value) { return value > 0; })) found.push_back(series.name);
-    }
-  }
-  const auto is_found = [&](const std::string& metric) { return std::ranges::find(found, metric) != found.end(); };
-  for (const std::string& headline : scenario.headline_metrics) {
-    for (const std::string& name : {headline, WorstOf(headline)}) {
-      if (is_found(name)) return name;
-    }
-  }
-  return found.empty() ? std::nullopt : std::optional(found.front());
-}
-
-std::vector<double> Thinned(const std::vector<double>& curve, std::size_t stride) {
-  std::vector<double> out;
-  for (std::size_t i = 0; i < curve.size(); i += stride) out.push_back(curve[i]);
-  return out;
-}
-
-}  // namespace
-
-std::optional<Chart> CurveChart(const RunData& run, const ScenarioSummary& scenario) {
-  if (scenario.conditions.empty()) return std::nullopt;
-  const bool follows_motion = scenario.task == "tracking";
-  const std::vector<SweptValue>& first = scenario.conditions.front().condition;
-  // Find the metric, and the cells and methods whose curves are drawn.
-  std::map<std::string, std::string> method_of;
-  for (const Row& row : run.rows) {
-    if (row.scenario == scenario.name && (!follows_motion || row.condition == first)) method_of[row.Id()] = row.method;
-  }
-  const std::string axis = follows_motion ? "frame" : "iteration";
-  const auto name = FindCurve(run, scenario, axis, method_of);
-  if (!name) return std::nullopt;
-
-  // Collect the curves of each method's cells, and compute the method's median curve.
-  std::map<std::string, std::vector<const std::vector<double>*>> curves;
-  for (const CellSeries& cell : run.series) {
-    const auto method = method_of.find(cell.cell);
-    if (method == method_of.end()) continue;
-    for (const Series& series : cell.series) {
-      if (series.name == *name && !series.values.empty()) curves[method->second].push_back(&series.values);
-    }
-  }
-
-  std::map<std::string, std::vector<double>> medians;
-  std::size_t longest = 0;
-  for (const auto& [method, of_method] : curves) {
-    medians[method] = MedianCurve(of_method);
-    longest = std::max(longest, medians[method].size());
-  }
-  const std::size_t stride = std::max<std::size_t>(1, (longest + kMaxSteps - 1) / kMaxSteps);
-
-  // Write the caption, and a description in words for screen readers.
-  const MetricWords words = WordsFor(*name);
-  Chart chart;
-  chart.is_wide = follows_motion;
-  chart.caption = Caption(follows_motion ? "Frame by frame: median" : "Error by iteration: median", words);
-  if (scenario.conditions.size() > 1) {
-    chart.caption += follows_motion ? fmt::format("; under {}", ConditionLabel(first)) : "; over all conditions";
-  }
-  Json methods = Json::array();
-  std::vector<double> drawn;
-  for (const std::string& method : scenario.methods) {
-    const auto found = medians.find(method);
-    if (found == medians.end()) continue;
-    const std::vector<double>& curve = found->second;
-    drawn.insert(drawn.end(), curve.begin(), curve.end());
-    chart.description +=
-        fmt::format("{}: from {} to {} in {}. ", method, FormatNumber(curve.front()) + words.suffix,
-                    FormatNumber(curve.back()) + words.suffix, Plural(static_cast<long long>(curve.size()) - 1, axis));
-    Json values = Json::array();
-    for (const double value : Thinned(curve, stride)) values.push_back(value);
-    methods.push_back({{"name", MethodLabel(scenario, method)}, {"values", std::move(values)}});
-  }
-  // Write the data for the page's script.
-  Json json{{"kind", "curves"},
-            {"label", words.label},
-            {"suffix", words.suffix},
-            {"axis", axis},
-            {"stride", stride},
-            {"methods", std::move(methods)},
-            {"logarithmic", NeedsLogarithm(drawn)}};
-  chart.json = json.dump(-1, ' ', false, Json::error_handler_t::replace);
-  return chart;
-}
-
-namespace {
-
 std::string DataUri(std::string_view type, const std::string& bytes) {
   return fmt::format("data:{};base64,{}", type, Base64(bytes));
 }
@@ -170,27 +44,14 @@ std::string StillElement(const Still& still) {
       EscapeMarkup(still.caption), still.jpeg_base64);
 }
 
-/// Returns a chart as HTML: a canvas, and the chart's data as JSON in a script element that browsers do not run.
-std::string ChartFigure(const Chart& chart, const std::string& id) {
-  return fmt::format(
-      "<figure class=\"chart{}\"><figcaption>{}</figcaption><div class=\"canvas\">"
-      "<canvas data-chart=\"{}\" role=\"img\" aria-label=\"{}\"></canvas></div>"
-      "<script type=\"application/json\" id=\"{}\">{}</script></figure>",
-      chart.is_wide ? " full" : "", EscapeMarkup(chart.caption), id, EscapeMarkup(chart.description), id,
-      EscapeScriptJson(chart.json));
-}
-
 /// Returns a collapsed section (<details>) of the card; "" if `html` is empty.
 std::string Folded(const std::string& title, const std::string& html, std::string_view style = "") {
   if (html.empty()) return "";
   return fmt::format("<details{}><summary>{}</summary>{}</details>", style, EscapeMarkup(title), html);
 }
 
-std::string OtherPictures(const RunData& run, const ScenarioSummary& scenario, std::size_t index) {
-  std::string html = PlotSectionHtml(run, scenario);
-  if (const auto chart = CurveChart(run, scenario)) {
-    html += fmt::format("<div class=\"charts\">{}</div>", ChartFigure(*chart, fmt::format("chart-{}-curves", index)));
-  }
+std::string OtherPictures(const RunData& run, const ScenarioSummary& scenario) {
+  const std::string html = PlotSectionHtml(run, scenario) + ErrorCurvesHtml(run, scenario);
   return html.empty() ? "" : "<div class=\"plots\">" + html + "</div>";
 }
 
@@ -393,7 +254,7 @@ std::string WriteScenarioCard(const RunData& run, std::size_t index, const Scena
   html += Expectations(scenario);
   html += Failures(run, scenario, findings);
   html += Folded("Pair by pair", PairsHtml(run, scenario));
-  html += Folded("Pictures", OtherPictures(run, scenario, index));
+  html += Folded("Pictures", OtherPictures(run, scenario));
   html += PosePairsHtml(run, scenario);
   html += Folded("Transitions explained", TransitionsHtml(RecordedRequestsOf(run, scenario)));
   html += PaperAHtml(scenario) + PaperBHtml(run, scenario);

@@ -61,16 +61,10 @@ std::string CurvePlotSvg(const std::vector<PlotCurve>& curves, CurveAxes axes, c
   return svg + "</svg>";
 }
 
-std::string CurveKeySvg(std::size_t style) {
-  return fmt::format(
-      "<svg class=\"panel key\" viewBox=\"0 0 28 10\" aria-hidden=\"true\"><polyline {} points=\"1,5 27,5\"/></svg>",
-      CurveStyle(style));
-}
-
 std::string CurveLegend(const std::vector<std::string>& methods, const std::string& more) {
   std::string html = "<p class=\"quiet legend\">";
   for (std::size_t m = 0; m < methods.size(); ++m) {
-    html += fmt::format("<span class=\"method\">{} {}</span> ", CurveKeySvg(m), EscapeMarkup(methods[m]));
+    html += fmt::format("<span class=\"method\">{} {}</span> ", LineKeySvg(m), EscapeMarkup(methods[m]));
   }
   return html + "<br>" + more + "</p>";
 }

@@ -31,9 +31,6 @@ std::string CurvePlotSvg(const std::vector<PlotCurve>& curves, CurveAxes axes, c
 /// Returns a curve as an SVG line: at most 80 points of the curve, including the last point.
 std::string CurveLine(const PlotCurve& curve, const Axis& across, const Axis& up);
 
-/// Draws the short line that stands for a method in a legend.
-std::string CurveKeySvg(std::size_t style);
-
 /// Returns a legend's paragraph: each method's line and name, then `more`.
 std::string CurveLegend(const std::vector<std::string>& methods, const std::string& more);
 

@@ -35,6 +35,11 @@ std::string ErrorBudgetHtml(const ErrorBudget& budget, const std::string& condit
 /// event never happened stay in the denominator, so a method gains nothing by giving up early.
 std::string SurvivalHtml(const RunData& run, const ScenarioSummary& scenario);
 
+/// Draws each method's median error over iterations, or over frames if the methods follow a motion. The median is taken
+/// over the method's cells. A plot over frames shows the first condition only, because the motions of other conditions
+/// may differ. Returns "" if the run kept no such curves.
+std::string ErrorCurvesHtml(const RunData& run, const ScenarioSummary& scenario);
+
 /// The values of the two methods of a comparison in one world; each of the two methods has a value in this world.
 /// Shares are in per cent.
 struct PairedWorld {

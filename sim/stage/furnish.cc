@@ -14,7 +14,8 @@ namespace etude {
 namespace {
 
 // Collects the boxes of a piece of furniture in the piece's own frame: x to the left, y up, z away from the wall;
-// metres.
+// metres. `place` is the point on the floor at the middle of the piece's back, or at its centre if the piece stands
+// free; `heading` is the direction of its front.
 class FurnitureBuilder {
  public:
   FurnitureBuilder(const glm::dvec3& place, double heading) : place_(place), heading_(heading) {}
@@ -26,7 +27,7 @@ class FurnitureBuilder {
     boxes_.push_back({place_ + turned, 0.5 * (high - low), heading_, paint});
   }
 
-  std::vector<FurnitureBox> Take() && { return std::move(boxes_); }
+  const std::vector<FurnitureBox>& boxes() const { return boxes_; }
 
  private:
   glm::dvec3 place_;
@@ -74,26 +75,22 @@ void AddLegs(FurnitureBuilder& builder, double half_x, double z_near, double z_f
   }
 }
 
-// Each function below makes one piece of furniture from boxes. `place` is the point on the floor at the middle of the
-// piece's back, or at its centre if the piece stands free; `heading` is the direction of its front. Sizes, colours and
-// details are random. Colours are interpolated by `share` between the studio's colours (0) and the colours of everyday
-// objects (1). Each function draws a constant number of random numbers.
+// Each function below makes one piece of furniture from boxes. Sizes, colours and details are random. Colours are
+// interpolated by `share` between the studio's colours (0) and the colours of everyday objects (1). Each function draws
+// a constant number of random numbers.
 
-std::vector<FurnitureBox> MakeCupboard(RandomStream& random, double share, const glm::dvec3& place, double heading) {
+void MakeCupboard(RandomStream& random, double share, FurnitureBuilder& builder) {
   const double half = random.Uniform(0.4, 0.65), height = random.Uniform(0.9, 2.05), deep = random.Uniform(0.36, 0.48);
   const SurfacePaint wood = DrawWood(random, share), doors = DrawWood(random, share);
-  FurnitureBuilder builder(place, heading);
   builder.Add({-half, 0.06, 0.01}, {half, height, deep}, wood);
   builder.Add({-half + 0.03, 0.10, deep}, {-0.01, height - 0.04, deep + 0.015}, doors);
   builder.Add({0.01, 0.10, deep}, {half - 0.03, height - 0.04, deep + 0.015}, doors);
   builder.Add({-half + 0.04, 0, 0.03}, {half - 0.04, 0.06, deep - 0.04}, Darker(wood));
-  return std::move(builder).Take();
 }
 
-std::vector<FurnitureBox> MakeShelf(RandomStream& random, double share, const glm::dvec3& place, double heading) {
+void MakeShelf(RandomStream& random, double share, FurnitureBuilder& builder) {
   const double half = random.Uniform(0.4, 0.6), height = random.Uniform(1.4, 2.1), deep = random.Uniform(0.26, 0.34);
   const SurfacePaint wood = DrawWood(random, share);
-  FurnitureBuilder builder(place, heading);
   builder.Add({-half, 0, 0.01}, {-half + 0.03, height, deep}, wood);
   builder.Add({half - 0.03, 0, 0.01}, {half, height, deep}, wood);
   builder.Add({-half, 0, 0.005}, {half, height, 0.02}, Darker(wood));
@@ -107,58 +104,48 @@ std::vector<FurnitureBox> MakeShelf(RandomStream& random, double share, const gl
     const SurfacePaint books{.first = ToRgb(one), .second = ToRgb(two), .pattern = Pattern::kPatchwork, .size = 0.045};
     if (i < kBoards) builder.Add({left, y + 0.03, 0.03}, {right, y + 0.03 + tall, deep - 0.05}, books);
   }
-  return std::move(builder).Take();
 }
 
-std::vector<FurnitureBox> MakeSofa(RandomStream& random, double share, const glm::dvec3& place, double heading) {
+void MakeSofa(RandomStream& random, double share, FurnitureBuilder& builder) {
   const double half = random.Uniform(0.7, 0.88), seat = random.Uniform(0.38, 0.46), back = random.Uniform(0.75, 0.9);
   const SurfacePaint fabric = DrawFabric(random, share), cushion = DrawFabric(random, share);
-  FurnitureBuilder builder(place, heading);
   builder.Add({-half, 0.06, 0.03}, {half, seat, 0.82}, fabric);
   builder.Add({-half, seat, 0.03}, {half, back, 0.24}, fabric);
   builder.Add({-half - 0.12, 0.04, 0.03}, {-half, seat + 0.2, 0.84}, Darker(fabric));
   builder.Add({half, 0.04, 0.03}, {half + 0.12, seat + 0.2, 0.84}, Darker(fabric));
   builder.Add({-half + 0.08, seat, 0.24}, {-half + 0.48, seat + 0.36, 0.36}, cushion);
   builder.Add({half - 0.46, seat, 0.24}, {half - 0.06, seat + 0.34, 0.36}, cushion);
-  return std::move(builder).Take();
 }
 
-std::vector<FurnitureBox> MakeTable(RandomStream& random, double share, const glm::dvec3& place, double heading) {
+void MakeTable(RandomStream& random, double share, FurnitureBuilder& builder) {
   const double half = random.Uniform(0.5, 0.75), height = random.Uniform(0.68, 0.76), deep = random.Uniform(0.6, 0.8);
   const SurfacePaint wood = DrawWood(random, share);
-  FurnitureBuilder builder(place, heading);
   builder.Add({-half, height - 0.04, 0.05}, {half, height, 0.05 + deep}, wood);
   AddLegs(builder, half - 0.06, 0.1, deep, height - 0.04, 0.025, Darker(wood));
   const double x = random.Uniform(-half + 0.2, half - 0.2);
   const SurfacePaint things = DrawFabric(random, share);
   builder.Add({x - 0.12, height, 0.2}, {x + 0.12, height + random.Uniform(0.1, 0.28), 0.4}, things);
-  return std::move(builder).Take();
 }
 
-// Makes a low cabinet with a screen on top. The screen is the last box in the result.
-std::vector<FurnitureBox> MakeScreen(RandomStream& random, double share, const glm::dvec3& place, double heading) {
+// Makes a low cabinet with a screen on top. The screen is the last box.
+void MakeScreen(RandomStream& random, double share, FurnitureBuilder& builder) {
   const double half = random.Uniform(0.5, 0.7), low = random.Uniform(0.42, 0.55), wide = random.Uniform(0.42, 0.58);
   const SurfacePaint wood = DrawWood(random, share);
-  FurnitureBuilder builder(place, heading);
   builder.Add({-half, 0.05, 0.02}, {half, low, 0.4}, wood);
   builder.Add({-0.12, low, 0.16}, {0.12, low + 0.05, 0.28}, Darker(wood));
   const SurfacePaint black{.first = {34, 34, 38}, .second = {34, 34, 38}};
   builder.Add({-wide, low + 0.05, 0.19}, {wide, low + 0.05 + 1.15 * wide, 0.24}, black);
-  return std::move(builder).Take();
 }
 
 // Makes a plant's pot as one box. The plant's leaves move; class Movers draws them.
-std::vector<FurnitureBox> MakePlantPot(RandomStream& random, double share, const glm::dvec3& place, double heading) {
+void MakePlantPot(RandomStream& random, double share, FurnitureBuilder& builder) {
   const double half = random.Uniform(0.13, 0.2), height = random.Uniform(0.25, 0.42), out = random.Uniform(0.35, 0.5);
   const SurfacePaint pot = WithGrain(DrawMixed(random, share), Pattern::kPlain, 0.1);
-  FurnitureBuilder builder(place, heading);
   builder.Add({-half, 0, out - half}, {half, height, out + half}, pot);
-  return std::move(builder).Take();
 }
 
 // Makes a pile of three boxes.
-std::vector<FurnitureBox> MakePile(RandomStream& random, double share, const glm::dvec3& place, double heading) {
-  FurnitureBuilder builder(place, heading);
+void MakePile(RandomStream& random, double share, FurnitureBuilder& builder) {
   double y = 0, half = random.Uniform(0.26, 0.36);
   for (int i = 0; i < 3; ++i) {
     const double height = random.Uniform(0.2, 0.36), x = random.Uniform(-0.08, 0.08);
@@ -168,30 +155,25 @@ std::vector<FurnitureBox> MakePile(RandomStream& random, double share, const glm
     y += height;
     half *= random.Uniform(0.7, 0.95);
   }
-  return std::move(builder).Take();
 }
 
-std::vector<FurnitureBox> MakeChair(RandomStream& random, double share, const glm::dvec3& place, double heading) {
+void MakeChair(RandomStream& random, double share, FurnitureBuilder& builder) {
   const double half = random.Uniform(0.19, 0.23), seat = random.Uniform(0.43, 0.48), back = random.Uniform(0.82, 0.95);
   const SurfacePaint wood = DrawWood(random, share), cover = DrawFabric(random, share);
-  FurnitureBuilder builder(place, heading);
   builder.Add({-half, seat - 0.05, -half}, {half, seat, half}, cover);
   AddLegs(builder, half - 0.02, -half + 0.02, half - 0.02, seat - 0.05, 0.018, wood);
   builder.Add({-half, seat, -half}, {-half + 0.03, back, -half + 0.03}, wood);
   builder.Add({half - 0.03, seat, -half}, {half, back, -half + 0.03}, wood);
   builder.Add({-half, back - 0.2, -half}, {half, back, -half + 0.025}, wood);
-  return std::move(builder).Take();
 }
 
-std::vector<FurnitureBox> MakeCrate(RandomStream& random, double share, const glm::dvec3& place, double heading) {
+void MakeCrate(RandomStream& random, double share, FurnitureBuilder& builder) {
   const double half = random.Uniform(0.2, 0.32), height = random.Uniform(0.36, 0.6);
   const SurfacePaint wood = DrawWood(random, share);
   const double lid = random.Uniform(0.02, 0.05);
-  FurnitureBuilder builder(place, heading);
   builder.Add({-half, 0, -0.8 * half}, {half, height, 0.8 * half}, wood);
   builder.Add({-half - 0.015, height, -0.8 * half - 0.015}, {half + 0.015, height + lid, 0.8 * half + 0.015},
               Darker(wood));
-  return std::move(builder).Take();
 }
 
 // The threshold of each piece: the piece can be in the room only if `scene` is at least this value.
@@ -365,11 +347,11 @@ FurnishedRoom Furnish(std::uint64_t seed, double scene, double colour_share, con
   const std::array<Slot, 8> slots = Shuffled(Slots(room), order);
   const auto add_piece = [&](const char* purpose, double threshold, auto make, const Slot& slot) {
     RandomStream random(key, purpose);
-    const std::vector<FurnitureBox> piece = make(random, colour_share, slot.place, slot.heading);
+    FurnitureBuilder builder(slot.place, slot.heading);
+    make(random, colour_share, builder);
+    const std::vector<FurnitureBox>& piece = builder.boxes();
     if (scene < threshold) return false;
-    for (const FurnitureBox& box : piece) {
-      if (StandsOn(box, free)) return false;
-    }
+    if (std::ranges::any_of(piece, [&](const FurnitureBox& box) { return StandsOn(box, free); })) return false;
     room.furniture.insert(room.furniture.end(), piece.begin(), piece.end());
     return true;
   };

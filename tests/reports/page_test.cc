@@ -141,16 +141,6 @@ TEST(Page, PointsToNothingOutsideItself) {
   EXPECT_THAT(OutsideReferences("<a href=\"tables/a.csv\"><a href=\"../summary.json\">"), ::testing::IsEmpty());
 }
 
-TEST(Page, ItsChartsAreDataThatParses) {
-  const std::vector<std::string> islands = IslandsOf(WritePage(ExampleRun(), {}));
-  ASSERT_EQ(islands.size(), 1u);  // the convergence of ik
-  for (const std::string& island : islands) {
-    const auto json = nlohmann::json::parse(island, nullptr, false);
-    ASSERT_TRUE(json.is_object()) << island;
-    EXPECT_FALSE(json.at("methods").empty());
-  }
-}
-
 TEST(Page, SurvivesHostileNames) {
   RunData run = ExampleRun();
   const std::string hostile = "</script><script>alert(1)</script>&\"'\xff";

@@ -5,7 +5,6 @@
 namespace etude {
 
 /// Return the scripts and styles that every report's page uses. They are built into the program (CMakeLists.txt).
-std::string_view ChartJs();
 std::string_view ReportCss();
 std::string_view ReportJs();
 /// Returns the style and script of pages that show motions (reports/viewer).

@@ -1,70 +1,7 @@
-// Draws every <canvas data-chart="id"> from the JSON element of that id, one line for each method. Shows the cells of a
-// dot or a row, and the command that runs these cells again. Sorts, filters and copies tables; saves pictures.
+// Shows the cells of a dot or a row, and the command that runs these cells again. Sorts, filters and copies tables; saves
+// pictures.
 (() => {
   'use strict';
-  const style = (name) => getComputedStyle(document.documentElement).getPropertyValue(name).trim();
-  const colour = (i) => style('--m' + (i % 8));
-  // After the eighth method, the colours repeat with other dashes.
-  const dashes = (i) => i >= 8 ? [10, 3, 2, 3] : [[], [], [6, 4], [2, 3]][Math.floor(i / 2)];
-  const short = (v) => v === 0 ? '0' : Math.abs(v) < 0.001 || Math.abs(v) >= 1e8 ? v.toExponential(1) :
-      Number(v.toPrecision(3)).toLocaleString('en', {maximumFractionDigits: 6});
-
-  const numberAxis = (data) => ({
-    type: data.logarithmic ? 'logarithmic' : 'linear',
-    beginAtZero: !data.logarithmic,
-    grid: {color: style('--line'), drawBorder: false},
-    ticks: {color: style('--quiet'), maxTicksLimit: 6, maxRotation: 0, callback: (v) =>
-        data.logarithmic && !Number.isInteger(Math.log10(v) + 1e-9 - 1e-9) ? '' : short(v)},
-  });
-
-  const fit = (axis, data, ends) => {
-    if (data.logarithmic) {
-      axis.min = 10 ** Math.floor(Math.log10(Math.min(...ends)));
-      axis.max = 10 ** Math.ceil(Math.log10(Math.max(...ends)) + 1e-9);
-    } else {
-      axis.suggestedMin = Math.min(...ends);
-      axis.suggestedMax = Math.max(...ends);
-    }
-    return axis;
-  };
-
-  const common = () => ({
-    responsive: true, maintainAspectRatio: false, animation: false,
-    plugins: {legend: {display: false}, tooltip: {displayColors: false}},
-  });
-  const legend = () => ({display: true, position: 'top', align: 'start',
-    labels: {usePointStyle: true, color: style('--ink'), boxHeight: 7}});
-  const curves = (data) => {
-    const options = common();
-    const all = data.methods.flatMap((m) => m.values);
-    options.scales = {
-      x: {type: 'linear', min: 0, grid: {display: false, drawBorder: false}, ticks: {color: style('--quiet'), maxTicksLimit: 6},
-        title: {display: true, text: data.axis, color: style('--quiet')}},
-      y: fit(numberAxis(data), data, all),
-    };
-    options.plugins.legend = legend();
-    options.plugins.legend.labels.pointStyle = 'line';
-    options.interaction = {mode: 'nearest', axis: 'x', intersect: false};
-    options.plugins.tooltip.callbacks = {title: (c) => c.length ? data.axis + ' ' + c[0].parsed.x : '',
-      label: (c) => c.dataset.label + ': ' + short(c.parsed.y) + data.suffix};
-    return {type: 'line', options, data: {datasets: data.methods.map((method, i) => ({
-      label: method.name, borderColor: colour(i), backgroundColor: colour(i), borderWidth: 2, pointRadius: 0, tension: 0.15,
-      borderDash: dashes(i), data: method.values.map((y, k) => ({x: k * data.stride, y}))}))}};
-  };
-
-  const charts = [];
-  const draw = () => {
-    charts.splice(0).forEach((chart) => chart.destroy());
-    Chart.defaults.font.family = getComputedStyle(document.body).fontFamily;
-    Chart.defaults.font.size = 13;
-    document.querySelectorAll('canvas[data-chart]').forEach((canvas) => {
-      const data = JSON.parse(document.getElementById(canvas.dataset.chart).textContent);
-      charts.push(new Chart(canvas, curves(data)));
-    });
-  };
-  draw();
-  matchMedia('(prefers-color-scheme: dark)').addEventListener('change', draw);
-
   const make = (tag, text, properties = {}) => Object.assign(document.createElement(tag), {textContent: text, ...properties});
   const button = (text, label, use, style = '') => {
     const made = make('button', text, {type: 'button', className: style, onclick: use});

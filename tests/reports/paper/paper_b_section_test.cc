@@ -54,7 +54,8 @@ TEST(PaperBSection, HasSixteenPanelsPerConditionWithEveryMethodInEach) {
   const std::string html = PaperBHtml(run, run.scenarios[2]);
   EXPECT_EQ(CountOf(html, "<figure>"), 3 * 16);
   // Per panel and method, a line for the first trial and one for the median; per condition, a key for each method.
-  EXPECT_EQ(CountOf(html, "<polyline"), 3 * (16 * 4 * 2 + 4));
+  EXPECT_EQ(CountOf(html, "<polyline"), 3 * 16 * 4 * 2);
+  EXPECT_EQ(CountOf(html, "class=\"linekey\""), 3 * 4);
   EXPECT_THAT(html, HasSubstr("<figcaption>head: position, cm</figcaption>"));
   EXPECT_THAT(html, HasSubstr("<figcaption>right foot: Z axis, degrees</figcaption>"));
   EXPECT_LT(html.size(), 1u << 20);
