@@ -167,6 +167,21 @@ TEST(Amass, TakesTheRateThatIsToldAndRefusesNone) {
               HasSubstr("states no frame rate (its arrays: poses, trans); allowed: mocap_framerate"));
 }
 
+TEST(Amass, TakesTimesAndJointsByThemselves) {
+  const Npz usual = SmallAmass(156);
+  ASSERT_OK(wanted, ReadAmass(usual, "a.npz"));
+  Npz npz = usual;
+  npz.arrays["poses"].shape = {2, 52, 3};
+  ASSERT_OK(same, ReadAmass(npz, "a.npz"));
+  EXPECT_EQ(same->frames, wanted->frames);
+  // Times overrule the rate, which is 120 Hz.
+  npz.arrays["times"] = {.shape = {2}, .values = {3, 3.5}};
+  npz.arrays.erase("mocap_framerate");
+  EXPECT_EQ(ReadAmass(npz, "a.npz")->rate_hz, 2);
+  npz.arrays["times"].values = {3, 3};
+  EXPECT_THAT(testing::Refusal(ReadAmass(npz, "a.npz")), HasSubstr("times has no two different times"));
+}
+
 TEST(Amass, RefusesArraysThatAreNoMotion) {
   const auto reason = [](const std::function<void(Npz&)>& change) {
     Npz npz = SmallAmass(156);
