@@ -92,7 +92,7 @@ Result<Clip> ReadAmass(const Npz& npz, const std::string& file, std::optional<do
   if ((width != 72 && width != 156 && width != 165) || WidthOf(places) != 3) {
     return Fail(
         {file},
-        "found the arrays {}; allowed: a motion of AMASS with poses (frames × 72, 156 or 165, or × joints × 3), trans "
+        "found the arrays {}; allowed: a motion of AMASS with poses (frames × 72, 156 or 165), trans "
         "(frames × 3) and "
         "mocap_framerate or mocap_frame_rate, or of Kimodo with posed_joints and global_rot_mats; use a .npy file "
         "for positions of joints",

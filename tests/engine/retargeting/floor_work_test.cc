@@ -266,8 +266,10 @@ TEST(FloorWork, IsNotTakenForSitting) {
     }
   }
   // Two postures have the shape of a person who sits; the doubt names them, too.
-  for (const Act& act : {Act{"on the back", &LyingWithRaisedShanks}, Act{"on one side", &LyingCurledUp}}) {
-    EXPECT_THAT(FindUp(Film(act, 0, true), kRate_hz, AmassUp()).doubt, HasSubstr("or lies with bent hips and knees"))
+  for (const auto& [act, quarters] :
+       {std::pair(Act{"on the back", &LyingWithRaisedShanks}, 0), {Act{"on one side", &LyingCurledUp}, 1}}) {
+    EXPECT_THAT(FindUp(Film(act, quarters, true), kRate_hz, AmassUp()).doubt,
+                HasSubstr("or lies with bent hips and knees"))
         << act.name;
   }
   const UpFinding curled = FindUp(Film({"on one side", &LyingCurledUp}, 0, false), kRate_hz, ArrayUp());
