@@ -4,6 +4,7 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <map>
 #include <utility>
@@ -281,7 +282,13 @@ Result<LocalTransform> ReadTransform(const AcclaimLines& lines, const AcclaimSke
 
 bool IsAcclaimMotion(std::string_view text) {
   AcclaimLines lines(text.substr(0, 4096), "");
-  return lines.Next() && (lines.Is(":FULLY-SPECIFIED") || lines.Is(":DEGREES") || lines.Is(":RADIANS"));
+  const auto is_of_motion = [&](const char* section) { return lines.IsSection(section); };
+  if (!lines.Next() || !lines.IsSection()) return false;
+  if (std::ranges::any_of(std::array{":FULLY-SPECIFIED", ":DEGREES", ":RADIANS"}, is_of_motion)) return true;
+  while (lines.IsSection()) {
+    if (!lines.Next()) return false;
+  }
+  return lines.words.size() == 1 && lines.Number(0).has_value();
 }
 
 Result<AcclaimSkeleton> ReadAcclaimSkeleton(std::string_view text, const std::string& file) {
@@ -304,6 +311,8 @@ struct AcclaimFrames {
   bool in_degrees = true;
   double of_root = 0, of_bones = 0;
   std::vector<std::string_view> still = {};  ///< bones with channels that have no values in any frame
+  bool has_rate = false;
+  std::vector<std::string_view> unknown = {};  ///< the first words of lines with ':' that are not used
 };
 
 /// Reads the frames. If `is_told_degrees` is true, all angles are read as degrees, whatever unit the file states.
@@ -323,8 +332,20 @@ Result<AcclaimFrames> ReadFrames(std::string_view text, const AcclaimSkeleton& s
   // A line is a directive, the number of the next frame, or the values of one bone.
   while (lines.Next()) {
     if (lines.IsSection()) {
-      if (lines.Is(":DEGREES")) in_degrees = true;
-      if (lines.Is(":RADIANS")) in_degrees = is_told_degrees;
+      if (lines.IsSection(":DEGREES")) {
+        in_degrees = true;
+      } else if (lines.IsSection(":RADIANS")) {
+        in_degrees = is_told_degrees;
+      } else if (lines.IsSection(":SAMPLES-PER-SECOND")) {
+        ASSIGN_OR_RETURN(clip.rate_hz, lines.Number(1));
+        constexpr double kMinRate_hz = 0.1, kMaxRate_hz = 10'000;
+        if (!(clip.rate_hz >= kMinRate_hz && clip.rate_hz <= kMaxRate_hz)) {
+          return Fail(lines.At(1), "the rate is {:g} Hz; allowed: {:g} to {:g} Hz", clip.rate_hz, kMinRate_hz, kMaxRate_hz);
+        }
+        read.has_rate = true;
+      } else if (!lines.IsSection(":FULLY-SPECIFIED")) {
+        read.unknown.push_back(lines.words.front().text);
+      }
     } else if (lines.words.size() == 1 && !joint_of.contains(lines.words.front().text)) {
       ASSIGN_OR_RETURN(const double number, lines.Number(0));
       if (!clip.frames.empty() && number != last + 1) {
@@ -369,7 +390,7 @@ Result<AcclaimFrames> ReadFrames(std::string_view text, const AcclaimSkeleton& s
 }  // namespace
 
 Result<Clip> ReadAcclaimMotion(std::string_view text, const AcclaimSkeleton& skeleton, const std::string& file,
-                               std::vector<std::string>* remarks) {
+                               AcclaimFacts* facts) {
   ASSIGN_OR_RETURN(auto read, ReadFrames(text, skeleton, file, false));
   std::string remark;
   constexpr double kMinDegrees = 0.5;  // a recording whose angles are all smaller shows only the rest pose
@@ -386,12 +407,16 @@ Result<Clip> ReadAcclaimMotion(std::string_view text, const AcclaimSkeleton& ske
   } else if (read.in_degrees && largest > kMinDegrees && largest <= 2 * kPi) {
     remark = fmt::format("its angles stay within {:.2g} degrees; if they are radians, add a line :RADIANS", largest);
   }
-  if (remarks != nullptr && !read.still.empty()) {
-    remarks->push_back(fmt::format("these bones have no values in any frame and keep their rest pose: {}",
-                                   fmt::join(read.still, ", ")));
+  if (facts == nullptr) return std::move(read.clip);
+  facts->has_rate = read.has_rate;
+  std::vector<std::string>& remarks = facts->remarks;
+  if (!read.still.empty()) {
+    remarks.push_back(fmt::format("these bones have no values in any frame and keep their rest pose: {}",
+                                  fmt::join(read.still, ", ")));
   }
-  if (remarks != nullptr && !skeleton.remark.empty()) remarks->push_back(skeleton.remark);
-  if (remarks != nullptr && !remark.empty()) remarks->push_back(remark);
+  if (!read.unknown.empty()) remarks.push_back(fmt::format("not used: {}", fmt::join(read.unknown, ", ")));
+  if (!skeleton.remark.empty()) remarks.push_back(skeleton.remark);
+  if (!remark.empty()) remarks.push_back(remark);
   return std::move(read.clip);
 }
 

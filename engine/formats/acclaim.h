@@ -25,22 +25,28 @@ struct AcclaimSkeleton {
   std::string remark = "";  ///< message about angles that are impossible in the stated unit; "" if there are none
 };
 
-/// Returns true if the first line of `text` that is not a comment is ":FULLY-SPECIFIED", ":DEGREES" or ":RADIANS", as
-/// in a motion file (AMC).
+/// Returns true if `text` begins with a line ":FULLY-SPECIFIED", ":DEGREES" or ":RADIANS" in any case, or if its lines
+/// that begin with ':' are followed by the number of a frame, as in a motion file (AMC). Lines of comments are ignored.
 bool IsAcclaimMotion(std::string_view text);
+
+/// Facts about a motion file that its clip does not have.
+struct AcclaimFacts {
+  bool has_rate = false;  ///< true if the file states its rate
+  std::vector<std::string> remarks = {};
+};
 
 /// Reads an ASF file. If an angle exceeds 4π radians, all angles are read as degrees, whatever unit the file states.
 /// Returns an error with file:line:column if the text is not an ASF file, if bone lengths are channels, if a bone is
 /// defined twice or not connected, if a number is beyond ±10⁹, or if there are more than 1,000 bones.
 Result<AcclaimSkeleton> ReadAcclaimSkeleton(std::string_view text, const std::string& file);
 
-/// Reads an AMC file for a skeleton of ReadAcclaimSkeleton. The file has no frame rate; 120 Hz is assumed, the rate of
-/// CMU's recordings. Angles have the unit that the file states, otherwise the skeleton's unit. If an angle of a bone
-/// below the root exceeds 4π radians, all angles are read as degrees. `remarks` (may be null) receives the skeleton's
-/// remark, and a sentence if the unit was changed or may be wrong. Returns an error for bones that the skeleton lacks,
-/// a wrong number of values, frames that are not numbered consecutively, no frames, or frames that take more than 1 GB
-/// in total.
+/// Reads an AMC file for a skeleton of ReadAcclaimSkeleton. A line :SAMPLES-PER-SECOND states the rate; without it,
+/// 120 Hz is assumed, the rate of CMU's recordings. Angles have the unit that the file states, otherwise the skeleton's
+/// unit. If an angle of a bone below the root exceeds 4π radians, all angles are read as degrees. `facts` (may be null)
+/// receives the skeleton's remark, a sentence if the unit was changed or may be wrong, and the names of unknown lines
+/// with ':'. Returns an error for bones that the skeleton lacks, a wrong number of values, frames that are not numbered
+/// consecutively, no frames, or frames that take more than 1 GB in total.
 Result<Clip> ReadAcclaimMotion(std::string_view text, const AcclaimSkeleton& skeleton, const std::string& file,
-                               std::vector<std::string>* remarks = nullptr);
+                               AcclaimFacts* facts = nullptr);
 
 }  // namespace etude

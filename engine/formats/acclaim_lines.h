@@ -36,6 +36,11 @@ class AcclaimLines {
   }
 
   bool Is(std::string_view first) const { return !words.empty() && words.front().text == first; }
+  /// Returns true if the first word is `section`, which is in capital letters, in any case.
+  bool IsSection(std::string_view section) const {
+    const auto upper = [](char c) { return c >= 'a' && c <= 'z' ? static_cast<char>(c - 'a' + 'A') : c; };
+    return !words.empty() && std::ranges::equal(words.front().text, section, {}, upper);
+  }
   bool IsSection() const { return !words.empty() && words.front().text.starts_with(':'); }
   Place At(std::size_t word = 0) const {
     return word < words.size() ? scanner_.At(words[word]) : scanner_.At({"", number_, 0});

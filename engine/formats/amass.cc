@@ -6,6 +6,7 @@
 
 #include "engine/base/angles.h"
 #include "engine/base/names.h"
+#include "engine/formats/array_clock.h"
 
 namespace etude {
 namespace {
@@ -48,6 +49,8 @@ const std::array<SmplJoint, kJoints + 5> kSmpl = {{{"pelvis", -1, {0, 0, 0}},
                                                    {"left_hand_end", 20, {0.18, 0, 0}, true},
                                                    {"right_hand_end", 21, {-0.18, 0, 0}, true}}};
 
+}  // namespace
+
 Skeleton SmplSkeleton() {
   Skeleton skeleton;
   for (const SmplJoint& joint : kSmpl) {
@@ -61,20 +64,25 @@ Skeleton SmplSkeleton() {
   return skeleton;
 }
 
+namespace {
+
 glm::dquat TurnOf(const double* axis_times_angle) {
   const glm::dvec3 turn(axis_times_angle[0], axis_times_angle[1], axis_times_angle[2]);
   const double angle = glm::length(turn);
   return angle > 0 ? glm::angleAxis(angle, turn / angle) : glm::dquat(1, 0, 0, 0);
 }
 
-/// Returns the number of columns of a two-dimensional array; 0 for any other array.
+/// Returns the number of values in a frame of an array of frames × values or frames × joints × 3; 0 for other arrays.
 std::size_t WidthOf(const NumberArray* array) {
-  return array != nullptr && array->shape.size() == 2 ? array->shape[1] : 0;
+  if (array == nullptr) return 0;
+  if (array->shape.size() == 3 && array->shape[2] == 3) return 3 * array->shape[1];
+  return array->shape.size() == 2 ? array->shape[1] : 0;
 }
 
 }  // namespace
 
-Result<Clip> ReadAmass(const Npz& npz, const std::string& file, std::optional<double> told_hz) {
+Result<Clip> ReadAmass(const Npz& npz, const std::string& file, std::optional<double> told_hz,
+                       std::vector<std::string>* remarks) {
   // Find the arrays and check their shapes.
   const NumberArray *poses = npz.Find("poses"), *places = npz.Find("trans");
   const std::size_t width = WidthOf(poses);
@@ -94,10 +102,12 @@ Result<Clip> ReadAmass(const Npz& npz, const std::string& file, std::optional<do
   if (places->shape[0] != frames) {
     return Fail({file}, "trans has {} frames; poses has {}", places->shape[0], frames);
   }
-  std::optional<ArrayRate> stated;
+  std::optional<double> stated_hz = told_hz;
   if (!told_hz) {
-    ASSIGN_OR_RETURN(stated, RateOfArrays(npz, file));
-    if (!stated) {
+    std::string remark;
+    ASSIGN_OR_RETURN(stated_hz, EvenRateOf(npz, frames, file, remark));
+    if (remarks != nullptr && !remark.empty()) remarks->push_back(remark);
+    if (!stated_hz) {
       return Fail({file},
                   "states no frame rate (its arrays: {}); allowed: mocap_framerate or mocap_frame_rate, a number of "
                   "frames per second, or `--rate` (in convert `--file-rate`, in a joint map `rate: 60`)",
@@ -105,7 +115,7 @@ Result<Clip> ReadAmass(const Npz& npz, const std::string& file, std::optional<do
     }
   }
   constexpr double kMinRate_hz = 1, kMaxRate_hz = 10'000, kMaxValue = 1e6;
-  const double rate_hz = told_hz ? *told_hz : stated->rate_hz;
+  const double rate_hz = *stated_hz;
   if (!(rate_hz >= kMinRate_hz && rate_hz <= kMaxRate_hz)) {
     return Fail({file}, "the rate is {} Hz; allowed: {} to {} Hz", rate_hz, kMinRate_hz, kMaxRate_hz);
   }
@@ -113,7 +123,7 @@ Result<Clip> ReadAmass(const Npz& npz, const std::string& file, std::optional<do
     for (std::size_t i = 0; i < array->values.size(); ++i) {
       if (std::abs(array->values[i]) <= kMaxValue) continue;
       return Fail({file}, "{} of frame {} is {}; allowed: numbers within ±10⁶", array == poses ? "poses" : "trans",
-                  i / array->shape[1], array->values[i]);
+                  i / WidthOf(array), array->values[i]);
     }
   }
   // A larger angle shows that rotations are in degrees instead of radians.

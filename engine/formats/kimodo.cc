@@ -4,9 +4,13 @@
 #include <initializer_list>
 #include <string_view>
 
+#include "engine/formats/amass.h"
+#include "engine/formats/array_clock.h"
 
 namespace etude {
 namespace {
+
+constexpr std::size_t kWholeJoints = 77, kSmplJoints = 22;
 
 struct SomaJoint {
   std::string name;
@@ -49,23 +53,33 @@ SomaSkeleton MakeSoma(bool is_whole) {
   return joints;
 }
 
+/// Returns Kimodo's skeleton of as many joints; somaskel30 for any other number.
+SomaSkeleton SkeletonOf(std::size_t joints) {
+  if (joints != kSmplJoints) return MakeSoma(joints == kWholeJoints);
+  SomaSkeleton smpl;
+  for (const Joint& joint : SmplSkeleton().joints) smpl.push_back({joint.name, joint.parent});
+  smpl.resize(kSmplJoints);
+  return smpl;
+}
+
 }  // namespace
 
 bool IsKimodoNpz(const Npz& arrays) {
   return arrays.Find("posed_joints") != nullptr && arrays.Find("global_rot_mats") != nullptr;
 }
 
-Result<Clip> ReadKimodo(const Npz& arrays, const std::string& file) {
+Result<Clip> ReadKimodo(const Npz& arrays, const std::string& file, std::optional<double> told_hz,
+                        std::vector<std::string>& remarks) {
   // Check the shapes and the values.
   const NumberArray &places = *arrays.Find("posed_joints"), &matrices = *arrays.Find("global_rot_mats");
   const std::size_t frames = places.shape.empty() ? 0 : places.shape[0];
-  constexpr std::size_t kWholeJoints = 77;
-  const SomaSkeleton soma = MakeSoma(places.shape.size() > 1 && places.shape[1] == kWholeJoints);
+  const SomaSkeleton soma = SkeletonOf(places.shape.size() > 1 ? places.shape[1] : 0);
   const std::size_t joints = soma.size();
   if (frames == 0 || places.shape != std::vector<std::size_t>{frames, joints, 3} ||
       matrices.shape != std::vector<std::size_t>{frames, joints, 3, 3}) {
     return Fail({file},
-                "posed_joints {}, global_rot_mats {}; allowed: frames × J × 3 and frames × J × 3 × 3, J = 30 or 77",
+                "posed_joints {}, global_rot_mats {}; allowed: frames × J × 3 and frames × J × 3 × 3, J = 22, 30 or 77 "
+                "(34 joints are a robot's)",
                 ShapeText(places), ShapeText(matrices));
   }
   const auto place = [&](std::size_t frame, std::size_t joint) {
@@ -88,8 +102,17 @@ Result<Clip> ReadKimodo(const Npz& arrays, const std::string& file) {
       return Fail({file}, "the matrix of joint {} in frame {} is no rotation", soma[j].name, f);
     }
   }
+  // Find the rate.
+  constexpr double kModelRate_hz = 30;
+  std::optional<double> rate_hz = told_hz;
+  if (!rate_hz) {
+    std::string remark;
+    ASSIGN_OR_RETURN(rate_hz, EvenRateOf(arrays, frames, file, remark));
+    if (!rate_hz) remark = "Kimodo's arrays state no rate; 30 Hz is taken, its model's rate";
+    if (!remark.empty()) remarks.push_back(remark);
+  }
   // Make the skeleton at rest: the first frame's offsets, without rotations.
-  Clip clip{.name = "kimodo", .skeleton = {}, .rate_hz = 30, .frames = {}};
+  Clip clip{.name = "kimodo", .skeleton = {}, .rate_hz = rate_hz.value_or(kModelRate_hz), .frames = {}};
   for (std::size_t j = 0; j < joints; ++j) {
     const int parent = soma[j].parent;
     Joint joint{.name = soma[j].name, .parent = parent, .rest = {}};

@@ -41,7 +41,7 @@ bool IsUprightPose(const BodyPose& pose) {
 
 }  // namespace
 
-GroundView::GroundView(const BodyMotion& motion, const Displacements& displacements, std::optional<double> floor)
+GroundView::GroundView(const BodyMotion& motion, const Displacements& displacements, const FaultOptions& options)
     : motion_(motion), displacements_(displacements), offsets_(motion.poses.size()) {
   // Sum the displacements. `largest` is the offset of the frames within a displacement, `lasting` that of all later
   // frames.
@@ -65,12 +65,13 @@ GroundView::GroundView(const BodyMotion& motion, const Displacements& displaceme
   toe_rest_ = Mode(toes);
   ankle_rest_ = Mode(ankles);
   if (ankle_rest_ > toe_rest_ + kMaxAnkle) ankle_rest_ = toe_rest_ + kUsualAnkle;
-  // Use the given floor. Without it, the floor is at height 0, unless the lowest joint is usually far from 0.
+  // Use the given floor. Without it, the floor is at height 0, unless that is known to be another height, or the lowest
+  // joint is usually far from 0.
   constexpr double kFar = 0.6, kLow = 0.05, kBelowJoint = 0.02;
   const double low = Quantile(lowest_, kLow);
-  is_floor_found_ = !floor && std::abs(low) > kFar;
-  if (floor) {
-    floor_ = *floor;
+  is_floor_found_ = !options.floor_m && (!options.is_floor_known || std::abs(low) > kFar);
+  if (options.floor_m) {
+    floor_ = *options.floor_m;
   } else if (is_floor_found_) {
     floor_ = is_mostly_upright ? LowestRest() - kBelowJoint : low;
   }

@@ -18,7 +18,7 @@ inline constexpr std::array kFootJoints = {Role::kLeftFoot, Role::kRightFoot, Ro
 class GroundView {
  public:
   /// `motion` and `displacements` must outlive this object. FindMotionFaults says how the floor is found.
-  GroundView(const BodyMotion& motion, const Displacements& displacements, std::optional<double> floor);
+  GroundView(const BodyMotion& motion, const Displacements& displacements, const FaultOptions& options);
 
   const BodyMotion& motion() const { return motion_; }
   const std::vector<Displacement>& displacements() const { return displacements_.common; }

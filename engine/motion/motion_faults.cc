@@ -68,7 +68,7 @@ void AppendSpeed(const BodyMotion& motion, std::vector<MotionFault>& faults) {
 /// Appends all faults but gaps.
 void FindInFrames(const BodyMotion& motion, const FaultOptions& options, MotionFaults& found) {
   const Displacements displacements = FindDisplacements(motion, options.unseen);
-  const GroundView ground(motion, displacements, options.floor_m);
+  const GroundView ground(motion, displacements, options);
   found.floor_m = ground.floor();
   found.is_floor_found = ground.is_floor_found();
   FindLevelFaults(ground, found.faults);

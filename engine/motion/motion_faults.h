@@ -59,6 +59,7 @@ struct MotionFaults {
 /// Options of FindMotionFaults.
 struct FaultOptions {
   std::optional<double> floor_m = {};  ///< the height of the floor; absent: see FindMotionFaults
+  bool is_floor_known = true;          ///< false: height 0 is not that of a floor, but of the camera or the hips
   double begin_s = 0;                  ///< time of the first frame by the file's clock, which faults' times use
   /// For each frame, the joints that it does not show, because the file lacks them and a reader guessed their
   /// positions; empty: all joints are shown. Limbs that end at such joints are not judged.
@@ -76,8 +77,9 @@ constexpr std::size_t kMinFramesForFaults = 8;
 
 /// Finds the faults of a motion without a reference motion; the method is our own. FaultRules states the rules. The
 /// motion is in metres, Y up, with finite positions, and at its own rate, because resampling hides displaced or
-/// repeated frames. If `floor_m` is absent, the floor is at height 0; but if the 5th percentile of the lowest joint's
-/// height is then more than 60 cm from 0, the floor is found from the height at which the feet rest. In a motion of
+/// repeated frames. If `floor_m` is absent, the floor is at height 0; but if the floor is not known, or the 5th
+/// percentile of the lowest joint's height is then more than 60 cm from 0, the floor is found from the height at which
+/// the feet rest. In a motion of
 /// fewer than kMinFramesForFaults frames, only gaps are found.
 MotionFaults FindMotionFaults(const BodyMotion& motion, const FaultOptions& options = {});
 

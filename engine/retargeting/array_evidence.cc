@@ -81,6 +81,9 @@ Standing HowItStands(std::span<const glm::dvec3> positions, const std::vector<st
   const std::array<std::size_t, 4> columns = {column_of(Role::kLeftShoulder), column_of(Role::kRightShoulder),
                                               column_of(Role::kLeftKnee), column_of(Role::kRightKnee)};
   if (std::ranges::count(columns, names.size()) > 0) return Standing::kNotTold;
+  const std::array<std::size_t, 4> seat = {column_of(Role::kLeftHip), column_of(Role::kRightHip),
+                                           column_of(Role::kLeftAnkle), column_of(Role::kRightAnkle)};
+  const bool has_seat = std::ranges::count(seat, names.size()) == 0;
   constexpr double kUpright = 0.8;  // cosine of the angle between the body and the axis
   int seen = 0, upside_down = 0, along_z = 0;
   std::vector<double> lengths;
@@ -90,7 +93,11 @@ Standing HowItStands(std::span<const glm::dvec3> positions, const std::vector<st
     const double length = glm::length(body);
     seen += std::isnan(length) ? 0 : 1;
     if (!std::isnan(length)) lengths.push_back(0.5 * length);
-    upside_down += body.y < -kUpright * length ? 1 : 0;
+    // The thighs of a person who sits are across, so trunk and shanks show the direction, too.
+    const auto joint = [&](std::size_t i) { return positions[begin + seat[i]]; };
+    const glm::dvec3 seated =
+        has_seat ? place(0) + place(1) - joint(0) - joint(1) + place(2) + place(3) - joint(2) - joint(3) : body;
+    upside_down += body.y < -kUpright * length || seated.y < -kUpright * glm::length(seated) ? 1 : 0;
     along_z += std::abs(body.z) > kUpright * length ? 1 : 0;
   }
   if (upside_down > 0 && 4 * upside_down >= 3 * seen) {

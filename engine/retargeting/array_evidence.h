@@ -20,9 +20,10 @@ std::optional<double> UnitOfSpread(double spread);
 
 /// How a body stands in the array's axes; kNotTold if it stands along Y on its feet, or if its direction is not known.
 enum class Standing { kNotTold, kAlongMinusY, kOnHands, kAlongZ };
-/// Returns how the body stands. The direction from knees to shoulders decides; it must be the same in at least three
-/// quarters of the frames that show these joints. A body that is upside down stands on its hands if a wrist is near
-/// the lowest joint in most frames and if that joint stays at one height.
+/// Returns how the body stands. The direction from knees to shoulders decides, and for −Y also that of trunk and
+/// shanks, as in people who sit; it must be the same in at least three quarters of the frames that show these joints. A
+/// body that is upside down stands on its hands if a wrist is near the lowest joint in most frames and if that joint
+/// stays at one height.
 Standing HowItStands(std::span<const glm::dvec3> positions, const std::vector<std::string>& names);
 
 }  // namespace etude

@@ -5,17 +5,20 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <set>
 #include <string_view>
 
 #include "engine/base/names.h"
-#include "engine/formats/row_clock.h"
+#include "engine/base/order_statistics.h"
+#include "engine/formats/array_clock.h"
 #include "engine/retargeting/array_evidence.h"
 #include "engine/retargeting/data_set_names.h"
 #include "engine/retargeting/joint_layouts.h"
 #include "engine/retargeting/map_file.h"
 #include "engine/retargeting/marker_repairs.h"
 #include "engine/retargeting/rig.h"
+#include "engine/retargeting/up_axis.h"
 
 namespace etude {
 namespace {
@@ -40,25 +43,6 @@ std::string TextOf(const Npz& arrays, const std::string& name) {
   std::string text = found->second.front();
   std::ranges::transform(text, text.begin(), [](char c) { return c >= 'A' && c <= 'Z' ? char(c - 'A' + 'a') : c; });
   return text;
-}
-
-/// An array of the times of frames; `name` is "" without one.
-struct FrameTimes {
-  std::string name = "";
-  std::vector<double> values = {};
-};
-/// Finds the times of the frames: one number for each frame. Fails if an array that is named like times has another
-/// number of values.
-Result<FrameTimes> TimesOf(const Npz& arrays, std::size_t frames, const std::string& file) {
-  for (const char* name : {"times_s", "time_s", "timestamps_s", "times", "timestamps", "time", "timestamp", "t"}) {
-    const NumberArray* times = arrays.Find(name);
-    if (times == nullptr) continue;
-    if (times->values.size() == frames && frames > 1) return FrameTimes{name, times->values};
-    if (times->shape.size() != 1 || times->values.size() < 2 || std::string_view(name) == "t") continue;
-    return Fail({file}, "{} has {} values, and positions have {} frames; allowed: one time for each frame", name,
-                times->values.size(), frames);
-  }
-  return FrameTimes{};
 }
 
 /// Returns the length of the arrays' unit in metres; appends each assumption to `notes`.
@@ -92,25 +76,14 @@ Result<double> UnitOf(const Npz& arrays, const RawMotion& motion, const std::str
   return *likely;
 }
 
-/// Replaces positions that stand for gaps by NaN (RepairMarkers), places the frames at even steps by their times, if
-/// there are any (LayOnClock), and states this in the notes. `rate` is the stated rate, if there is one.
-Result<void> LeaveGapsOut(const std::optional<ArrayRate>& rate, FrameTimes times, const std::string& file,
-                          RawMotion& motion) {
+/// Replaces positions that stand for gaps by NaN (RepairMarkers), places the frames at even steps by the clock's times,
+/// if there are any (LayOnClock), and states this in the notes.
+Result<void> LeaveGapsOut(ArrayClock clock, const std::string& file, RawMotion& motion) {
   MarkerMotion markers = MarkersOf(motion);
   RepairMarkers(markers);
-  if (!times.name.empty()) {
-    MarkerRows rows{.markers = std::move(markers),
-                    .times_s = std::move(times.values),
-                    .lines = {},
-                    .rate_name = rate ? rate->name : "",
-                    .time_name = "the array " + times.name};
-    ASSIGN_OR_RETURN(markers, LayOnClock(std::move(rows), file));
-    if (!rate && !markers.start_s) {
-      return Fail({file}, "all times in {} are equal; allowed: different times in seconds, or rate_hz", times.name);
-    }
-    motion.rate_hz = markers.rate_hz;
-    motion.start_s = markers.start_s;
-  }
+  ASSIGN_OR_RETURN(markers, LayOnClock(std::move(markers), std::move(clock), file));
+  motion.rate_hz = markers.rate_hz;
+  motion.start_s = markers.start_s;
   if (markers.remark.empty() && markers.frames.size() == motion.FrameCount()) return {};
   if (!markers.remark.empty()) motion.notes.push_back(markers.remark);
   motion.positions.clear();
@@ -144,8 +117,8 @@ void Add(const glm::dvec3& v, NumberArray& array) {
 
 }  // namespace
 
-Result<MarkerMotion> JointsOfArray(const NumberArray& array, const std::optional<std::string>& layout,
-                                   const std::string& file, std::string& note, std::optional<UpAxis> told) {
+Result<ArrayJoints> JointsOfArray(const NumberArray& array, const std::optional<std::string>& layout,
+                                  const std::string& file, std::optional<UpAxis> told) {
   constexpr std::size_t kHumanMl3dFeatures = 263;
   if (array.shape.size() == 2 && array.shape[1] == kHumanMl3dFeatures) {
     return Fail({file}, "an array of {}: features of HumanML3D; convert them to joints (docs/clips.md#humanml3d)",
@@ -157,7 +130,9 @@ Result<MarkerMotion> JointsOfArray(const NumberArray& array, const std::optional
   // Find the layout by its name or by the number of joints.
   const std::size_t frames = array.shape[0], joints = array.shape[1];
   const auto fits = [&](const JointLayout& one) { return one.joints.size() == joints; };
-  const auto is_named = [&](const JointLayout& one) { return fits(one) && (!layout || *layout == one.name); };
+  const auto is_named = [&](const JointLayout& one) {
+    return fits(one) && (layout ? *layout == one.name : one.is_usual);
+  };
   const auto count = std::ranges::count_if(JointLayouts(), is_named);
   if (count != 1) {
     return Fail({file}, "{} joints{}; allowed: {}#LAYOUT, where LAYOUT has as many joints and is one of {}", joints,
@@ -180,6 +155,10 @@ Result<MarkerMotion> JointsOfArray(const NumberArray& array, const std::optional
       if (IsSeen(*place)) frame[j] = *place;
     }
   }
+  if (const JointLayout* const better = FindBetterLayout(places, found)) {
+    return Fail({file}, "in the layout {}, its limbs have impossible lengths; allowed: {}#{}, whose limbs fit",
+                found.name, file, better->name);
+  }
   // Convert to metres.
   const double unit = motion.metres_per_unit = UnitOfSpread(SpreadOf(places, joints)).value_or(1);
   const Standing standing = told ? Standing::kNotTold : HowItStands(places, motion.names);
@@ -190,27 +169,72 @@ Result<MarkerMotion> JointsOfArray(const NumberArray& array, const std::optional
       if (place) *place *= scale;
     }
   }
-  note = fmt::format("layout {}, 1 unit = {:g} cm", found.name, 100 * unit);
-  if (is_turned) note += std::string("; ") + kFromCamera;
-  if (standing == Standing::kOnHands) note += std::string("; ") + kOnHands;
-  return motion;
+  motion.remark = fmt::format("layout {}, 1 unit = {:g} cm", found.name, 100 * unit);
+  if (is_turned) motion.remark += std::string("; ") + kFromCamera;
+  if (standing == Standing::kOnHands) motion.remark += std::string("; ") + kOnHands;
+  return ArrayJoints{std::move(motion), std::string(found.name), is_turned};
 }
 
-std::optional<NumberArray> JointsOfSam(const Npz& arrays) {
+Result<std::optional<NumberArray>> JointsOfSam(const Npz& arrays, const std::string& file, std::string& note) {
+  // An axis of length 1 after the frames counts the people of one picture.
+  const auto of_one_person = [](NumberArray array, std::size_t rank) {
+    if (array.shape.size() == rank + 1 && array.shape[1] == 1) array.shape.erase(array.shape.begin() + 1);
+    return array;
+  };
   for (const char* name : {"pred_joint_coords", "pred_keypoints_3d"}) {
-    const auto found = arrays.arrays.find(name);
-    if (found == arrays.arrays.end()) continue;
-    NumberArray joints = found->second;
-    const auto moved = arrays.arrays.find("pred_cam_t");
-    const bool fits = moved != arrays.arrays.end() && joints.shape.size() == 3 && joints.shape[2] == 3 &&
-                      moved->second.shape == std::vector<std::size_t>{joints.shape[0], 3};
-    for (std::size_t i = 0; joints.shape.size() == 3 && joints.shape[2] == 3 && i < joints.values.size(); ++i) {
-      if (fits) joints.values[i] += moved->second.values[3 * (i / (3 * joints.shape[1])) + i % 3];
+    const NumberArray* const found = arrays.Find(name);
+    if (found == nullptr) continue;
+    NumberArray joints = of_one_person(*found, 3);
+    if (joints.shape.size() != 3 || joints.shape[2] != 3) {
+      return Fail({file}, "{} {}; allowed: frames × joints × 3, one person", name, ShapeText(*found));
+    }
+    note = "SAM 3D Body's arrays in the camera's frame, turned to Y up as if the camera were level";
+    NumberArray moved;
+    if (const NumberArray* const camera = arrays.Find("pred_cam_t")) {
+      moved = of_one_person(*camera, 2);
+      if (moved.shape != std::vector<std::size_t>{joints.shape[0], 3}) {
+        return Fail({file}, "pred_cam_t {}, {} {}; allowed: frames × 3 and frames × joints × 3, as many frames in both",
+                    ShapeText(*camera), name, ShapeText(*found));
+      }
+    } else {
+      note += "; without pred_cam_t, the file does not say where the body is, so it stays in place";
+    }
+    for (std::size_t i = 0; i < joints.values.size(); ++i) {
+      if (!moved.values.empty()) joints.values[i] += moved.values[3 * (i / (3 * joints.shape[1])) + i % 3];
       if (i % 3 != 0) joints.values[i] = -joints.values[i];  // y down and z forwards become y up and z backwards
     }
-    return joints;
+    return std::optional(std::move(joints));
   }
   return std::nullopt;
+}
+
+std::string DescribeFewFrames(const MarkerMotion& motion) {
+  constexpr std::size_t kMaxFrames = 12;
+  constexpr double kMaxStep_m = 0.25, kMaxChange_m = 0.12;  // 7.5 m/s, and 3.6 m/s without the body's travel, at 30 Hz
+  if (motion.frames.size() < 2 || motion.frames.size() > kMaxFrames) return "";
+  double least = std::numeric_limits<double>::infinity();
+  for (std::size_t f = 1; f < motion.frames.size(); ++f) {
+    std::vector<glm::dvec3> steps;
+    glm::dvec3 mean(0);
+    for (std::size_t j = 0; j < motion.names.size(); ++j) {
+      const MarkerPosition &from = motion.frames[f - 1][j], &to = motion.frames[f][j];
+      if (from && to) steps.push_back(*to - *from);
+    }
+    if (steps.empty()) return "";
+    for (const glm::dvec3& step : steps) mean += step / static_cast<double>(steps.size());
+    std::vector<double> lengths, changes;
+    for (const glm::dvec3& step : steps) {
+      lengths.push_back(glm::length(step));
+      changes.push_back(glm::length(step - mean));
+    }
+    const double step = Median(lengths);
+    if (step < kMaxStep_m && Median(changes) < kMaxChange_m) return "";
+    least = std::min(least, step);
+  }
+  return fmt::format(
+      "from each of its {} frames to the next, most joints jump by at least {:.0f} cm: does the first axis count "
+      "people instead of frames?",
+      motion.frames.size(), 100 * least);
 }
 
 std::string WriteBodyNpz(const BodyMotion& motion, const BodyPose& rest) {
@@ -261,22 +285,16 @@ Result<RawMotion> ReadRawNpz(const Npz& arrays, const std::string& file, const A
   }
   RawMotion motion;
   motion.name = file;
-  std::optional<ArrayRate> rate;
-  FrameTimes times;
+  ArrayClock clock;
   if (!told.rate_hz) {
-    ASSIGN_OR_RETURN(rate, RateOfArrays(arrays, file));
-    constexpr double kMinRate_hz = 0.1, kMaxRate_hz = 10'000;
-    if (rate && !(rate->rate_hz >= kMinRate_hz && rate->rate_hz <= kMaxRate_hz)) {
-      return Fail({file}, "{} is {:g}; allowed: {:g} to {:g} Hz", rate->name, rate->rate_hz, kMinRate_hz, kMaxRate_hz);
-    }
-    ASSIGN_OR_RETURN(times, TimesOf(arrays, shape[0], file));
-    if (!rate && times.name.empty()) {
+    ASSIGN_OR_RETURN(clock, ClockOfArrays(arrays, shape[0], file));
+    if (!clock.IsStated()) {
       return Fail({file},
                   "found no rate_hz (frames per second); allowed: one number from 0.1 to 10000, as numpy.savez(…, "
                   "positions=p, rate_hz=30) writes it, `times` in seconds, or `rate: 30` in a joint map");
     }
   }
-  motion.rate_hz = rate ? rate->rate_hz : told.rate_hz.value_or(kJudgedRateHz);
+  motion.rate_hz = told.rate_hz.value_or(kJudgedRateHz);
   // Read the joints' names, and find the roles that they play.
   if (const auto names = arrays.texts.find("names"); names != arrays.texts.end()) {
     motion.joints = names->second;
@@ -306,7 +324,7 @@ Result<RawMotion> ReadRawNpz(const Npz& arrays, const std::string& file, const A
     if (!place) return Fail({file}, "positions of frame {}: joint {} lies beyond ±10⁹", i / joints, i % joints);
     motion.positions.push_back(*place);
   }
-  RETURN_IF_ERROR(LeaveGapsOut(rate, std::move(times), file, motion));
+  RETURN_IF_ERROR(LeaveGapsOut(std::move(clock), file, motion));
   // Convert to metres and Y up.
   double unit = told.metres_per_unit.value_or(1);
   if (told.metres_per_unit) {
@@ -337,12 +355,16 @@ Result<RawMotion> ReadRawNpz(const Npz& arrays, const std::string& file, const A
     }
   } else if (standing == Standing::kAlongMinusY) {
     motion.notes.emplace_back(kFromCamera);
+    motion.is_of_camera = true;
     for (glm::dvec3& place : motion.positions) place *= glm::dvec3(1, -1, -1);
   } else if (standing == Standing::kOnHands) {
     motion.notes.emplace_back(kOnHands);
   } else if (standing == Standing::kAlongZ) {
     motion.notes.emplace_back(
         "with Y up, the body lies along Z; if it stands, state `up: z` in the file or in a joint map");
+  } else if (const auto body = told.up ? std::nullopt : BodyOf(motion)) {
+    std::string doubt = FindUp(body->poses, motion.rate_hz, RawArraysUp()).doubt;
+    if (!doubt.empty()) motion.notes.push_back(std::move(doubt));
   }
   return motion;
 }

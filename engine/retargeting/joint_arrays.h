@@ -14,21 +14,32 @@
 
 namespace etude {
 
+/// Joints in an array of a known layout.
+struct ArrayJoints {
+  MarkerMotion motion;        ///< `remark` states layout, unit and a rotation
+  std::string layout;         ///< the name of the layout
+  bool is_of_camera = false;  ///< true: the array was rotated from a camera's frame
+};
 /// Converts an array T × J × 3 (frames, joints, X Y Z; NaN: not seen) to trajectories. The file states no frame rate,
 /// so the rate is kJudgedRateHz. `layout` is one of JointLayoutNames(); without a `layout`, the layout with J joints is
 /// taken. The unit is the metre, or the centimetre or millimetre if the extent of the joints in this unit is a person's
 /// size. If no up axis is `told` and the body is upside down in three of four frames without standing on its hands, the
-/// array is taken to be in a camera's frame (Y down, Z forwards) and is rotated by half a turn about X. `note` states
-/// layout and unit. Fails for other shapes, a layout with another number of joints, 17 joints without a layout, and
-/// positions beyond ±10⁹.
-Result<MarkerMotion> JointsOfArray(const NumberArray& array, const std::optional<std::string>& layout,
-                                   const std::string& file, std::string& note, std::optional<UpAxis> told = {});
+/// array is taken to be in a camera's frame (Y down, Z forwards) and is rotated by half a turn about X. Fails for other
+/// shapes, a layout with another number of joints, 17 joints without a layout, a layout that does not fit if another
+/// one does (FindBetterLayout), and positions beyond ±10⁹.
+Result<ArrayJoints> JointsOfArray(const NumberArray& array, const std::optional<std::string>& layout,
+                                  const std::string& file, std::optional<UpAxis> told = {});
+
+/// Returns a remark if an array has only a few frames, and most joints jump from each to the next: they may be people
+/// of one picture. Otherwise returns "".
+std::string DescribeFewFrames(const MarkerMotion& motion);
 
 /// Returns the joints in SAM 3D Body's results: `pred_joint_coords` (frames × 127 × 3), otherwise `pred_keypoints_3d`
 /// (frames × 70 × 3), in metres. The joints are translated by `pred_cam_t` (frames × 3) if that array exists, and
-/// rotated from the camera's frame (y down, z forwards) to Y up, z backwards. The body is upright if the camera was
-/// level. Returns nullopt if neither array exists.
-std::optional<NumberArray> JointsOfSam(const Npz& arrays);
+/// rotated from the camera's frame (y down, z forwards) to Y up, z backwards. Frames × 1 count as frames of one person.
+/// The body is upright if the camera was level. `note` states this. Returns nullopt if neither array exists; fails for
+/// other shapes.
+Result<std::optional<NumberArray>> JointsOfSam(const Npz& arrays, const std::string& file, std::string& note);
 
 /// Writes a body's motion as an .npz file. Its arrays are `names`, and in the order of `names`: `positions` (T × 20 ×
 /// 3, metres, Y up), `translations` (T × 20 × 3) and `rotations` (T × 20 × 4, w x y z) relative to each joint's parent,

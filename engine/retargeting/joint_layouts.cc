@@ -1,5 +1,12 @@
 #include "engine/retargeting/joint_layouts.h"
 
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <optional>
+
+#include "engine/base/order_statistics.h"
 #include "engine/base/text.h"
 #include "engine/motion/body.h"
 
@@ -39,6 +46,55 @@ constexpr std::string_view kMhrJoints =
     "c_neck_twist1_proc c_neck_twist0_proc c_head c_jaw c_teeth c_jaw_null c_tongue0 c_tongue1 c_tongue2 "
     "c_tongue3 c_tongue4 r_eye r_eye_null l_eye l_eye_null head";
 
+/// Returns the median distance of two joints; nullopt if the layout lacks one of them, or no frame shows both apart.
+std::optional<double> LengthOf(std::span<const glm::dvec3> positions, const JointLayout& layout, Role from, Role to) {
+  const auto column_of = [&](Role role) {
+    const std::string name(RoleName(role));  // "left_hip", or "LHip" in layouts of marker names
+    std::string marker = {static_cast<char>(name[0] - 'a' + 'A'),
+                          static_cast<char>(name[name.find('_') + 1] - 'a' + 'A')};
+    marker += name.substr(name.find('_') + 2);
+    return static_cast<std::size_t>(
+        std::ranges::find_if(layout.joints, [&](std::string_view one) { return one == name || one == marker; }) -
+        layout.joints.begin());
+  };
+  const std::size_t a = column_of(from), b = column_of(to), joints = layout.joints.size();
+  if (std::max(a, b) == joints) return std::nullopt;
+  std::vector<double> lengths;
+  for (std::size_t begin = 0; begin + joints <= positions.size(); begin += joints) {
+    const double length = glm::distance(positions[begin + a], positions[begin + b]);
+    if (length > 0) lengths.push_back(length);
+  }
+  return lengths.empty() ? std::nullopt : std::optional(UpperMedian(std::move(lengths)));
+}
+
+/// Returns the largest logarithm of a ratio of lengths that people have equal: left and right limbs, upper arm and
+/// forearm, thigh and shank (whose ratio may be 1.35). A hand is at most as long as the forearm. Lengths that are not
+/// known count as `unknown`.
+double MisfitOf(std::span<const glm::dvec3> positions, const JointLayout& layout, double unknown) {
+  using enum Role;
+  constexpr double kProportion = 0.3;  // the logarithm of 1.35
+  constexpr std::array<std::array<Role, 4>, 2> kLimbs = {
+      {{kLeftShoulder, kLeftElbow, kLeftWrist, kLeftHand}, {kLeftHip, kLeftKnee, kLeftAnkle, kLeftAnkle}}};
+  double worst = 0;
+  const auto compare = [&](std::optional<double> one, std::optional<double> other, double allowed) {
+    worst = std::max(worst, one && other ? std::abs(std::log(*one / *other)) - allowed : unknown);
+  };
+  for (const auto& [upper, middle, end, tip] : kLimbs) {
+    std::array<std::optional<double>, 2> uppers, lowers;
+    for (const bool is_left : {true, false}) {
+      const auto of = [&](Role role) { return is_left ? role : Mirrored(role); };
+      uppers[is_left] = LengthOf(positions, layout, of(upper), of(middle));
+      lowers[is_left] = LengthOf(positions, layout, of(middle), of(end));
+      compare(uppers[is_left], lowers[is_left], kProportion);
+      const auto hand = tip == end ? std::nullopt : LengthOf(positions, layout, of(end), of(tip));
+      if (hand && lowers[is_left]) worst = std::max(worst, std::log(*hand / *lowers[is_left]));
+    }
+    compare(uppers[0], uppers[1], 0);
+    compare(lowers[0], lowers[1], 0);
+  }
+  return worst;
+}
+
 }  // namespace
 
 const std::vector<JointLayout>& JointLayouts() {
@@ -73,6 +129,30 @@ const std::vector<JointLayout>& JointLayouts() {
                                  "RBigToe", "LSmallToe", "RSmallToe", "LHeel",  "RHeel"}});
     made.push_back({"mhr70", SplitAt(kMhrKeypoints, ' ')});
     made.push_back({"mhr", SplitAt(kMhrJoints, ' ')});
+    // Kinect v2 and NTU RGB+D, LAFAN1, the order of MuJoCo's humanoid with SMPL's joints, and SMPL-X's first joints.
+    made.push_back({"kinect_v2",
+                    SplitAt("hip_centre spine neck head left_shoulder left_elbow left_wrist left_hand "
+                            "right_shoulder right_elbow right_wrist right_hand left_hip left_knee "
+                            "left_ankle left_foot right_hip right_knee right_ankle right_foot "
+                            "shoulder_centre left_tip left_thumb right_tip right_thumb",
+                            ' '),
+                    false});
+    made.push_back({"lafan1",
+                    SplitAt("hip_centre left_hip left_knee left_ankle left_foot right_hip right_knee "
+                            "right_ankle right_foot spine1 spine spine3 shoulder_centre head left_collar "
+                            "left_shoulder left_elbow left_wrist right_collar right_shoulder right_elbow "
+                            "right_wrist",
+                            ' '),
+                    false});
+    made.push_back({"smpl_humanoid",
+                    SplitAt("hip_centre left_hip left_knee left_ankle left_foot right_hip right_knee "
+                            "right_ankle right_foot spine1 spine spine3 shoulder_centre head "
+                            "left_collar left_shoulder left_elbow left_wrist left_hand right_collar "
+                            "right_shoulder right_elbow right_wrist right_hand",
+                            ' '),
+                    false});
+    made.push_back({"smplx", body, false});
+    for (const std::string_view joint : {"jaw", "left_eye"}) made.back().joints.push_back(joint);
     return made;
   }();
   return layouts;
@@ -91,6 +171,22 @@ std::vector<std::string> JointsOfLayout(std::string_view layout, std::size_t joi
     if (one.name == layout && one.joints.size() == joints) return {one.joints.begin(), one.joints.end()};
   }
   return {};
+}
+
+const JointLayout* FindBetterLayout(std::span<const glm::dvec3> positions, const JointLayout& used) {
+  constexpr double kMinMisfit = 0.5, kMaxShare = 1.0 / 3;
+  const double misfit = MisfitOf(positions, used, 0);
+  if (misfit < kMinMisfit) return nullptr;
+  const JointLayout* best = nullptr;
+  double least = kMaxShare * misfit;
+  for (const JointLayout& other : JointLayouts()) {
+    if (other.joints.size() != used.joints.size() || other.name == used.name) continue;
+    const double its = MisfitOf(positions, other, std::numeric_limits<double>::infinity());
+    if (its >= least) continue;
+    least = its;
+    best = &other;
+  }
+  return best;
 }
 
 }  // namespace etude

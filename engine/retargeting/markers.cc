@@ -206,12 +206,12 @@ double FloorOf(const std::vector<BodyPose>& poses) {
   return lowest[lowest.size() / 20];
 }
 
-/// Moves the poses so that the floor is at 0. Does nothing if the user keeps the floor, or if Etude wrote the file and
-/// the floor is near 0.
+/// Moves the poses so that the floor is at 0. Does nothing if the user keeps the floor, or if the joints have the names
+/// of Etude's own and a known floor near 0.
 void StandOnFloor(bool keeps_floor, bool is_own, MarkerBody& body) {
   constexpr double kMaxOwn = 0.5, kMinTold = 0.001;
   const double floor = FloorOf(body.motion.poses);
-  if (keeps_floor || (is_own && std::abs(floor) <= kMaxOwn)) return;
+  if (keeps_floor || (is_own && body.is_floor_known && std::abs(floor) <= kMaxOwn)) return;
   body.floor = floor;
   const auto lower = [floor](std::vector<BodyPose>& poses) {
     for (BodyPose& pose : poses) {
@@ -223,6 +223,13 @@ void StandOnFloor(bool keeps_floor, bool is_own, MarkerBody& body) {
   if (std::abs(floor) >= kMinTold) {
     body.changes.push_back(fmt::format("the floor was at {:.4g} cm: moved to 0", 100 * floor));
   }
+}
+
+/// Returns true if the positions are relative to the hips, which then never leave the origin.
+bool IsRelativeToHips(const std::vector<BodyPose>& poses) {
+  constexpr double kMaxAway = 1e-3;
+  return std::ranges::all_of(poses,
+                             [](const BodyPose& pose) { return glm::length(pose[Role::kHipCentre]) < kMaxAway; });
 }
 
 /// Makes the body from the markers' positions times `scale`; nullopt if no frame has all needed joints.
@@ -243,12 +250,14 @@ std::optional<MarkerBody> BodyAt(double scale, const MarkerMotion& markers, cons
   int filled = 0;
   const auto max_gap = static_cast<std::size_t>(kMaxGap_s * markers.rate_hz);
   for (std::size_t joint = 0; joint < kRoleCount; ++joint) filled += BridgeGaps(frames, joint, max_gap);
-  // Rotate upright. Files that Etude wrote have Y up.
+  // Rotate upright. Files that Etude wrote have Y up; arrays of other layouts only borrow the names of Etude's joints.
   UpRule rule = options.up;
-  if (set.is_own && rule.evidence == UpEvidence::kPosture) {
+  const bool is_borrowed = !options.layout.empty() && (options.layout != "etude" || options.is_of_camera);
+  if (set.is_own && !is_borrowed && rule.evidence == UpEvidence::kPosture) {
     rule = {.axis = {0, 1, 0}, .evidence = UpEvidence::kFile, .source = "the convention of Etude's own joints"};
   }
-  MarkerBody body{.name = "", .motion = {.rate_hz = markers.rate_hz, .poses = {}}, .up = {}, .changes = {set.name}};
+  const std::string name = set.is_own && is_borrowed ? "layout " + options.layout : set.name;
+  MarkerBody body{.name = "", .motion = {.rate_hz = markers.rate_hz, .poses = {}}, .up = {}, .changes = {name}};
   body.up = FindUpOf(frames, markers.rate_hz, rule);
   for (JointPositions& places : frames) {
     for (MarkerPosition& place : places) {
@@ -261,6 +270,8 @@ std::optional<MarkerBody> BodyAt(double scale, const MarkerMotion& markers, cons
   const Stretch longest = *std::ranges::max_element(stretches, {}, [](const Stretch& s) { return s.second - s.first; });
   body.first_frame = longest.first;
   body.motion.poses = PosesOf(frames, longest);
+  const bool has_no_origin = body.up.axis.y < 0 || IsRelativeToHips(body.motion.poses);
+  body.is_floor_known = !options.is_of_camera && (options.layout.empty() || !has_no_origin);
   for (const Stretch& stretch : stretches) {
     if (options.keeps_others && stretch != longest) body.others.push_back({stretch.first, PosesOf(frames, stretch)});
   }

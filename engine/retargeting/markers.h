@@ -21,6 +21,8 @@ struct MarkerOptions {
   std::optional<double> metres_per_unit = std::nullopt;  ///< given by the user; replaces the file's unit
   std::string set = "";                                  ///< a key of MarkerSets; "" = chosen by rank
   std::map<Role, std::string> roles = {};                ///< the markers that play roles, as given by the user
+  std::string layout = "";    ///< the layout that names the joints of an array; "": the file itself names its markers
+  bool is_of_camera = false;  ///< true: the array was rotated from a camera's frame
   bool keeps_shown = false;                              ///< true: MarkerBody::shown is filled
   bool keeps_others = false;                             ///< true: MarkerBody::others is filled
 };
@@ -37,6 +39,7 @@ struct MarkerBody {
   BodyMotion motion;  ///< at the file's rate; metres, Y up, feet on the floor
   UpFinding up;       ///< the axis of the file that became the motion's Y axis
   double floor = 0;   ///< the height of the floor in the file, metres; in `motion` this height is 0
+  bool is_floor_known = true;   ///< false: height 0 of the file is the camera's or the hips', not that of a floor
   std::size_t first_frame = 0;  ///< the file's index of the first kept frame
   /// The shorter stretches without a gap of over a second, in order of time, in the coordinates of `motion`. Empty
   /// unless MarkerOptions::keeps_others is set.
@@ -70,9 +73,10 @@ struct MarkerBody {
 /// without such a gap becomes the motion, and the note states this. Positions at 0, 0, 0 may count as gaps
 /// (RepairMarkers). The note names joints that seem to be exchanged between left and right (FindExchangedJoints).
 /// FindUp finds the up axis by the rule `options.up`. The floor (5th percentile of the lowest joint's height) becomes
-/// 0. For Etude's own joints, Y is up, and the floor stays unless it is over half a metre from 0. If a person has
-/// several complete sets, ChooseSet chooses one by rank, and the note names the best other set whose knee markers
-/// differ.
+/// 0. For Etude's own joints, Y is up, except in arrays of other layouts (`options.layout`) or of a camera's frame. If
+/// joints have the names of Etude's own, the floor stays unless it is over half a metre from 0, or unknown because the
+/// array is of a camera's frame or relative to the hips. If a person has several complete sets, ChooseSet chooses one
+/// by rank, and the note names the best other set whose knee markers differ.
 ///
 /// If a body is not 0.4 to 4 m tall (median), its unit is assumed to be wrong. The unit is then multiplied by the power
 /// of ten that makes the body 1.2 to 2.3 m tall, and the note states this. A unit given in `options` is never changed.

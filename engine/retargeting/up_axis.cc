@@ -31,6 +31,8 @@ struct Stance {
   double way = 0;       ///< largest extent of the hip centre's path, perpendicular to the axis
   double steps = 0;     ///< of the frames in which the hips travel, the share in which an ankle stands
   double on_hands = 0;  ///< share of the frames with a wrist beyond the head, as in a handstand
+  double seated = 0;    ///< share of the frames in which the body sits upright (IsSeated)
+  double on_side = 0;   ///< share of the frames with the line between the hips along the axis
 };
 
 /// Shares of the frames that are smaller than this count as never.
@@ -119,6 +121,19 @@ bool IsStraight(const BodyPose& pose, const glm::dvec3& up) {
          is_leg_straight(kLeftHip, kLeftKnee, kLeftAnkle) && is_leg_straight(kRightHip, kRightKnee, kRightAnkle);
 }
 
+/// Returns true if the body sits upright: trunk and shanks along `up`, thighs across, and both ankles at one height. A
+/// body that lies on its back or on one side with hips and knees at right angles has the same shape, and so has a body
+/// that crawls (IsPropped).
+bool IsSeated(const BodyPose& pose, const glm::dvec3& up, double stature) {
+  constexpr double kAlong = 0.7, kAcross = 0.5, kLevel = 0.05;
+  const glm::dvec3 knees = pose[kLeftKnee] + pose[kRightKnee];
+  const glm::dvec3 shanks = knees - pose[kLeftAnkle] - pose[kRightAnkle];
+  const glm::dvec3 thighs = knees - pose[kLeftHip] - pose[kRightHip];
+  return IsUpright(pose, up) && glm::dot(shanks, up) > kAlong * glm::length(shanks) &&
+         std::abs(glm::dot(thighs, up)) < kAcross * glm::length(thighs) &&
+         std::abs(glm::dot(pose[kLeftAnkle] - pose[kRightAnkle], up)) < kLevel * stature;
+}
+
 /// The frames to measure: every n-th pose, each paired with the pose about a twentieth of a second later.
 struct Frames {
   std::span<const BodyPose> poses;
@@ -143,7 +158,7 @@ Frames FramesOf(std::span<const BodyPose> poses, double rate_hz) {
 Stance MeasureStance(const Frames& frames, const glm::dvec3& up) {
   // The hips travel if their speed is at least kTravelling statures per second. Meanwhile an ankle stands if it moves
   // less than kStands times as far as the hips.
-  constexpr double kTravelling = 0.15, kStands = 0.4, kTall = 0.8;
+  constexpr double kTravelling = 0.15, kStands = 0.4, kTall = 0.8, kSideways = 0.7;
   Stance stance;
   std::vector<double> lowest;
   double count = 0, travelling = 0;
@@ -161,6 +176,9 @@ Stance MeasureStance(const Frames& frames, const glm::dvec3& up) {
     stance.propped += IsPropped(pose, up, frames.stature) ? 1 : 0;
     const double wrist = std::max(glm::dot(pose[kLeftWrist], up), glm::dot(pose[kRightWrist], up));
     stance.on_hands += wrist > glm::dot(pose[kHead], up) ? 1 : 0;
+    stance.seated += IsSeated(pose, up, frames.stature) ? 1 : 0;
+    const glm::dvec3 hips_line = pose[kLeftHip] - pose[kRightHip];
+    stance.on_side += std::abs(glm::dot(hips_line, up)) > kSideways * glm::length(hips_line) ? 1 : 0;
     lowest.push_back(Lowest(pose, up));
     low = glm::min(low, pose[kHipCentre]);
     high = glm::max(high, pose[kHipCentre]);
@@ -179,6 +197,8 @@ Stance MeasureStance(const Frames& frames, const glm::dvec3& up) {
   stance.tall /= count;
   stance.propped /= count;
   stance.on_hands /= count;
+  stance.seated /= count;
+  stance.on_side /= count;
   stance.steps = travelling > 0 ? stance.steps / travelling : 0;
   stance.lowest = LowerPercentile(lowest, 0.05) / frames.stature;
   stance.floor = LowerPercentile(lowest, 0.95) / frames.stature - stance.lowest;
@@ -215,6 +235,14 @@ bool Overrules(const Stance& other, const Stance& usual, bool is_opposite, const
   // varies less than with the usual axis or the body is still.
   if (other.balanced > 0.75 && other.floor < kStillFloor && usual.floor > std::max(0.06, 2 * other.floor)) return true;
   return other.straight > 0.9 && other.balanced > 0.9 && other.floor < 0.02;
+}
+
+/// Returns true if the body sits along the axis of `other`, with its feet at one height, and is never upright along the
+/// usual axis, nor carried by its hands there (unless it would lie on one side, where hands and legs touch the floor).
+bool Sits(const Stance& other, const Stance& usual, const UpRule& rule) {
+  constexpr double kMostly = 0.8, kStillFloor = 0.05, kRarely = 0.25;
+  return !rule.is_of_rest && other.seated > kMostly && other.floor < kStillFloor && usual.upright < kHardlyEver &&
+         (usual.propped < kRarely || usual.on_side > kMostly);
 }
 
 /// Describes, for users, how a body that seems upright along the usual axis shows that it may be on the floor, with
@@ -267,28 +295,36 @@ UpFinding FindUp(std::span<const BodyPose> all, double rate_hz, const UpRule& ru
   const Stance usual = MeasureStance(frames, rule.axis);
   const glm::dvec3* best = nullptr;
   double most = 0;
+  bool is_seated = false;
   for (const glm::dvec3& axis : kAxes) {
     // Motions estimated from videos are often in a camera's frame, whose Y axis points down, also if the format is Z
     // up.
     const bool is_cameras = rule.evidence == UpEvidence::kFormat && rule.axis.z > 0 && axis.y < 0;
     if (axis == rule.axis || (rule.is_y_or_z && axis.y + axis.z < 1 && !is_cameras)) continue;
     const Stance stance = MeasureStance(frames, axis);
-    if (stance.upright <= most || !Overrules(stance, usual, axis == -rule.axis, rule)) continue;
+    const bool overrules = Overrules(stance, usual, axis == -rule.axis, rule);
+    if (stance.upright <= most || !(overrules || Sits(stance, usual, rule))) continue;
     most = stance.upright;
     best = &axis;
+    is_seated = !overrules;
   }
-  // Take the axis `best` if the rule's axis is only a guess (kPosture). If the file or its format states the axis, keep
-  // that axis and report the contradiction.
+  // Take the axis `best` if the rule's axis is only a guess (kPosture), unless a body that seems to sit along `best`
+  // may lie on one side. If the file or its format states the axis, keep that axis and report the contradiction.
+  constexpr double kMostly = 0.5;
   const std::string usually = fmt::format("{} is {}", AxisName(rule.axis), rule.source);
-  if (best != nullptr && rule.evidence == UpEvidence::kPosture) {
+  const bool is_guess = rule.evidence == UpEvidence::kPosture;
+  if (best != nullptr && is_guess && !(is_seated && usual.on_side > kMostly)) {
     found.axis = *best;
     found.source = "its posture";
     found.doubt = fmt::format("{} is assumed to be up because of the posture, although {}", AxisName(*best), usually);
+  } else if (is_seated) {
+    found.doubt =
+        fmt::format("{}, but the body sits along {}, or lies with bent hips and knees", usually, AxisName(*best));
   } else if (best != nullptr) {
     found.doubt = fmt::format("the body stands along {}, but {}", AxisName(*best), usually);
-  } else if (rule.evidence == UpEvidence::kPosture && usual.upright < kHardlyEver) {
+  } else if (is_guess && usual.upright < kHardlyEver) {
     found.doubt = fmt::format("the posture never shows clearly which axis is up: {}, so it is assumed", usually);
-  } else if (rule.evidence == UpEvidence::kPosture && !rule.is_y_or_z) {  // a skeleton also has a rest pose
+  } else if (is_guess && !rule.is_y_or_z) {  // a skeleton also has a rest pose
     const glm::dvec3 other = rule.axis.y != 0 ? glm::dvec3(0, 0, 1) : glm::dvec3(0, 1, 0);
     const std::string odd = DescribeFloorWork(usual, MeasureStance(frames, other));
     if (!odd.empty()) {
@@ -296,7 +332,8 @@ UpFinding FindUp(std::span<const BodyPose> all, double rate_hz, const UpRule& ru
                                 odd, AxisName(other));
     }
   }
-  const bool is_selectable = best == nullptr || !rule.is_y_or_z || best->y + best->z > 0;
+  // The user can state Y or Z: the axis that the posture shows, or the usual one instead of the posture's.
+  const bool is_selectable = best == nullptr || best->y + best->z > 0 || found.axis == *best;
   if (!found.doubt.empty()) {
     found.doubt += is_selectable ? "; --up sets another axis" : "; allowed: Y or Z, so the file must be rotated first";
   }
@@ -324,6 +361,8 @@ UpRule C3dUp(char axis, bool is_negative) {
 }
 
 UpRule ArrayUp() { return {.source = "the usual axis of arrays of joints"}; }
+
+UpRule CameraUp() { return {.evidence = UpEvidence::kFormat, .source = "the up axis of a level camera"}; }
 
 UpRule RawArraysUp() { return {.evidence = UpEvidence::kFormat, .source = "the convention of Etude's arrays"}; }
 

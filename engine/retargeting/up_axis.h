@@ -48,7 +48,10 @@ struct UpFinding {
 ///   - along the other axis, the body's weight is over its feet (not so for a person who lies), and the lowest joint's
 ///     height varies less than along the usual axis;
 ///   - along the other axis, the body's weight is over its feet, and the body stands quite still and straight, as in
-///     static trials.
+///     static trials;
+///   - the body sits upright along the other axis with its feet at one height, and its hands do not carry it along the
+///     usual axis. A body that lies with hips and knees at right angles has the same shape; so `doubt` names both, and
+///     if the body may lie on one side, the usual axis is kept.
 /// In case of doubt, the usual axis is taken. If it is only a guess, and the body would climb, lean or float along it
 /// but would be on the floor with Y or Z, the other of the two, as the up axis, `doubt` names both. `poses` contains at
 /// least one pose, in the file's unit and axes. A missing toe must be at the position of its ankle, and a missing hand
@@ -65,6 +68,7 @@ UpRule TrcUp();
 /// usual axis, by the convention of biomechanics.
 UpRule C3dUp(char axis, bool is_negative);
 UpRule ArrayUp();
+UpRule CameraUp();     ///< for arrays that JointsOfSam has already rotated
 UpRule RawArraysUp();  ///< for arrays that ReadRawNpz has already rotated
 UpRule JointCsvUp();
 UpRule MotiveUp();

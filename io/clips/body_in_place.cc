@@ -74,13 +74,20 @@ Result<BodyInPlace> BodyInPlaceOf(SourceClip clip, const OpenOptions& options) {
                       {body.motion.rate_hz, std::move(other.poses)},
                       std::move(unseen_there)});
   }
-  return BodyInPlace{std::move(body.motion),  begin_s,           lost_after_s,
-                     lost_before_s,           std::move(unseen), is_of_markers,
-                     std::move(body.changes), std::move(others)};
+  return BodyInPlace{.motion = std::move(body.motion),
+                     .begin_s = begin_s,
+                     .lost_after_s = lost_after_s,
+                     .lost_before_s = lost_before_s,
+                     .unseen = std::move(unseen),
+                     .is_of_markers = is_of_markers,
+                     .notes = std::move(body.changes),
+                     .is_floor_known = !opened.source.made || opened.source.made->is_floor_known,
+                     .others = std::move(others)};
 }
 
 FaultOptions FaultOptionsOf(const BodyInPlace& body, std::optional<double> floor_m) {
   return {.floor_m = floor_m,
+          .is_floor_known = body.is_floor_known,
           .begin_s = body.begin_s,
           .unseen = body.unseen,
           .lost_before_s = body.lost_before_s,

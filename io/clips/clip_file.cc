@@ -11,6 +11,7 @@
 #include "engine/base/utf8.h"
 #include "engine/formats/acclaim.h"
 #include "engine/formats/amass.h"
+#include "engine/formats/array_clock.h"
 #include "engine/formats/bvh.h"
 #include "engine/formats/deepmimic.h"
 #include "engine/formats/gltf/gltf.h"
@@ -115,12 +116,11 @@ Result<std::string> AcclaimSkeletonBeside(const std::string& path) {
               found.empty() ? "no" : std::to_string(found.size()));
 }
 
-Result<Clip> ReadAcclaim(std::string_view bytes, const std::string& path, CappedReader& reader,
-                         std::vector<std::string>& remarks) {
+Result<Clip> ReadAcclaim(std::string_view bytes, const std::string& path, CappedReader& reader, AcclaimFacts& facts) {
   ASSIGN_OR_RETURN(const auto skeleton_path, AcclaimSkeletonBeside(path));
   ASSIGN_OR_RETURN(const auto text, reader.Read(skeleton_path));
   ASSIGN_OR_RETURN(const auto skeleton, ReadAcclaimSkeleton(text, skeleton_path));
-  return ReadAcclaimMotion(bytes, skeleton, path, &remarks);
+  return ReadAcclaimMotion(bytes, skeleton, path, &facts);
 }
 
 /// Returns the roles that the bones of a VRM file play. Spine, hands, feet and crown are left to FindJointMap.
@@ -200,18 +200,26 @@ Result<UpRule> UpOfBids(const std::string& path, const std::set<std::string, std
   return rule;
 }
 
-/// Makes a clip file from an array of joints; such an array states no frame rate. `said` describes how the array was
+/// Makes a clip file from an array of joints, whose clock other arrays may state. `said` describes how the array was
 /// turned to Y up; it is appended to the clip's remark.
 Result<ClipFile> FileOfArray(const NumberArray& array, const std::optional<std::string>& layout,
-                             const std::string& path, const OpenOptions& options, const std::string& said = "") {
-  std::string note;
+                             const std::string& path, const OpenOptions& options, ArrayClock clock = {},
+                             const std::string& said = "") {
   // If the array was turned, the array's up axis is known. A search for the up axis could turn a handstand into a
   // stance.
-  const auto up = said.empty() ? ToldUp(options) : std::optional(UpAxis::kY);
-  ASSIGN_OR_RETURN(auto joints, JointsOfArray(array, layout, path, note, up));
-  joints.remark = said.empty() ? note : note + "; " + said;
-  ASSIGN_OR_RETURN(auto file, FileOfMarkers(ClipFormat::kNpy, std::move(joints), path, options, ArrayUp()));
-  file.has_rate = false;
+  const bool is_known = !said.empty();
+  ASSIGN_OR_RETURN(auto joints, JointsOfArray(array, layout, path, is_known ? UpAxis::kY : ToldUp(options)));
+  MarkerMotion motion = std::move(joints.motion);
+  if (is_known) motion.remark += "; " + said;
+  const bool has_rate = clock.IsStated() || ToldOfArrays(options).rate_hz;
+  if (std::string doubt = has_rate ? "" : DescribeFewFrames(motion); !doubt.empty()) motion.remark += "; " + doubt;
+  ASSIGN_OR_RETURN(motion, LayOnClock(std::move(motion), std::move(clock), path));
+  MarkerOptions told = ToldOfMarkers(options, is_known ? CameraUp() : ArrayUp());
+  told.layout = std::move(joints.layout);
+  told.is_of_camera = is_known || joints.is_of_camera;
+  ASSIGN_OR_RETURN(auto file,
+                   FileOfMarkers(is_known ? ClipFormat::kNpz : ClipFormat::kNpy, std::move(motion), path, told));
+  file.has_rate = has_rate;
   return file;
 }
 
@@ -247,25 +255,35 @@ Result<ClipFile> ReadClipFile(const std::string& path, const std::optional<std::
         }
         file = FileOfBody(ClipFormat::kNpz, *motion, path, std::move(notes));
         file.bodies[0].start_s = raw.start_s;
+        file.bodies[0].is_floor_known = !raw.is_of_camera;
         if (const auto up = ToldUp(options)) file.bodies[0].up = {.axis = AxisOf(*up), .evidence = UpEvidence::kTold};
         return file;
       }
       // If the joints are not the twenty canonical ones, or if tracks have gaps, find the body by the joints' names.
       return FileOfJoints(ClipFormat::kNpz, raw, path, options);
     }
+    const std::optional<double> told_hz = ToldOfArrays(options).rate_hz;
+    std::vector<std::string> remarks;
     if (IsKimodoNpz(arrays)) {
-      ASSIGN_OR_RETURN(auto clip, ReadKimodo(arrays, path));
+      ASSIGN_OR_RETURN(auto clip, ReadKimodo(arrays, path, told_hz, remarks));
       file = FileOfOne(ClipFormat::kNpz, std::move(clip));
       file.roles = JointMapOverrides{.joints = {}, .metres_per_unit = 1, .up = UpAxis::kY};
-      file.remarks.push_back("Kimodo's arrays state no rate; 30 Hz is taken, its model's rate");
+      file.remarks = std::move(remarks);
       return file;
     }
-    if (const auto joints = JointsOfSam(arrays)) {
-      return FileOfArray(*joints, layout, path, options,
-                         "SAM 3D Body's arrays in the camera's frame, turned to Y up as if the camera were level");
+    std::string note;
+    ASSIGN_OR_RETURN(const auto joints, JointsOfSam(arrays, path, note));
+    if (joints) {
+      ArrayClock clock;
+      if (!told_hz) {
+        ASSIGN_OR_RETURN(clock, ClockOfArrays(arrays, joints->shape[0], path));
+      }
+      return FileOfArray(*joints, layout, path, options, std::move(clock), note);
     }
-    ASSIGN_OR_RETURN(auto clip, ReadAmass(arrays, path, ToldOfArrays(options).rate_hz));
-    return FileOfOne(ClipFormat::kAmass, std::move(clip));
+    ASSIGN_OR_RETURN(auto clip, ReadAmass(arrays, path, told_hz, &remarks));
+    file = FileOfOne(ClipFormat::kAmass, std::move(clip));
+    file.remarks = std::move(remarks);
+    return file;
   }
   if (IsNpy(bytes)) {
     ASSIGN_OR_RETURN(const auto array, ReadNpy(bytes, path));
@@ -281,13 +299,13 @@ Result<ClipFile> ReadClipFile(const std::string& path, const std::optional<std::
     ASSIGN_OR_RETURN(const BidsFacts facts, ReadBidsFacts(path, stem, reader));
     ASSIGN_OR_RETURN(auto joints, ReadMotionBids(bytes, channels, facts, {path, named}));
     ASSIGN_OR_RETURN(auto up, UpOfBids(path, FramesOfBids(channels), reader));
-    return FileOfMarkers(ClipFormat::kBids, std::move(joints), path, options, std::move(up));
+    return FileOfMarkers(ClipFormat::kBids, std::move(joints), path, ToldOfMarkers(options, std::move(up)));
   }
   // Try markers, and recordings of runs.
   if (auto read = ReadMarkers(bytes, path)) {
     ASSIGN_OR_RETURN(auto markers, *std::move(read));
-    ASSIGN_OR_RETURN(file,
-                     FileOfMarkers(markers.format, std::move(markers.markers), path, options, std::move(markers.rule)));
+    ASSIGN_OR_RETURN(file, FileOfMarkers(markers.format, std::move(markers.markers), path,
+                                         ToldOfMarkers(options, std::move(markers.rule))));
     file.has_rate = markers.has_rate;
     return file;
   }
@@ -333,10 +351,11 @@ Result<ClipFile> ReadClipFile(const std::string& path, const std::optional<std::
   }
   // Try Acclaim and BVH; the complaint of the BVH reader describes any other file.
   if (IsAcclaimMotion(bytes)) {
-    ASSIGN_OR_RETURN(auto clip, ReadAcclaim(bytes, path, reader, file.remarks));
+    AcclaimFacts facts;
+    ASSIGN_OR_RETURN(auto clip, ReadAcclaim(bytes, path, reader, facts));
     ClipFile read = FileOfOne(ClipFormat::kAcclaim, std::move(clip));
-    read.remarks = std::move(file.remarks);
-    read.has_rate = false;
+    read.remarks = std::move(facts.remarks);
+    read.has_rate = facts.has_rate;
     return read;
   }
   constexpr std::string_view kBvhStart = "HIERARCHY";

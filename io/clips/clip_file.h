@@ -48,6 +48,7 @@ struct MadeBody {
   std::vector<std::string> changes;
   UpFinding up = {};                   ///< the axis of the file that became Y
   double floor_m = 0;                  ///< the height in the file that became 0
+  bool is_floor_known = true;          ///< MarkerBody::is_floor_known
   std::size_t first_frame = 0;         ///< the frame of the file that became the first frame
   std::optional<double> start_s = {};  ///< the first frame's time by the file's own clock, if the file states times
   std::vector<BodyStretch> others = {};  ///< MarkerBody::others

@@ -45,13 +45,13 @@ MarkerOptions ToldOfMarkers(const OpenOptions& options, UpRule rule) {
 }
 
 Result<ClipFile> FileOfMarkers(ClipFormat format, MarkerMotion markers, const std::string& path,
-                               const OpenOptions& options, UpRule rule) {
-  const MarkerOptions told = ToldOfMarkers(options, std::move(rule));
-  ASSIGN_OR_RETURN(auto bodies, FindMarkerBodies(std::move(markers), path, told));
+                               const MarkerOptions& options) {
+  ASSIGN_OR_RETURN(auto bodies, FindMarkerBodies(std::move(markers), path, options));
   ClipFile file{.format = format, .figure = {.name = "", .skeleton = {}, .materials = {}, .meshes = {}}, .clips = {}};
   for (MarkerBody& body : bodies) {
     file.clips.push_back(RigClip(body.motion, StandingPose(), body.name));
-    file.bodies.push_back({body.changes, body.up, body.floor, body.first_frame, {}, std::move(body.others)});
+    file.bodies.push_back(
+        {body.changes, body.up, body.floor, body.is_floor_known, body.first_frame, {}, std::move(body.others)});
     if (options.keeps_shown) file.shown.push_back(std::move(body.shown));
   }
   file.figure.skeleton = file.clips.front().skeleton;
@@ -63,8 +63,10 @@ Result<ClipFile> FileOfJoints(ClipFormat format, const RawMotion& motion, const 
   options.body.up.reset();
   if (options.roles) options.roles->up.reset();
   options.body.metres_per_unit = 1;
-  options.body.keep_floor = true;
-  ASSIGN_OR_RETURN(auto file, FileOfMarkers(format, MarkersOf(motion), path, options, RawArraysUp()));
+  options.body.keep_floor = options.body.keep_floor || !motion.is_of_camera;
+  MarkerOptions told = ToldOfMarkers(options, RawArraysUp());
+  told.is_of_camera = motion.is_of_camera;
+  ASSIGN_OR_RETURN(auto file, FileOfMarkers(format, MarkersOf(motion), path, told));
   const auto add_notes = [&](std::vector<std::string>& said) {
     said.insert(said.end(), motion.notes.begin(), motion.notes.end());
   };

@@ -33,14 +33,14 @@ bool IsOfMarkers(ClipFormat format);
 /// Returns the user's options for markers; `rule` determines the up axis if the user gives none.
 MarkerOptions ToldOfMarkers(const OpenOptions& options, UpRule rule);
 
-/// Finds every body that the markers show, and makes a clip of each. `rule` determines the up axis if the user gives
-/// none.
+/// Finds every body that the markers show, and makes a clip of each.
 Result<ClipFile> FileOfMarkers(ClipFormat format, MarkerMotion markers, const std::string& path,
-                               const OpenOptions& options, UpRule rule);
+                               const MarkerOptions& options);
 
 /// Makes a clip of the body in a motion whose joints may have any names. The positions are in metres with Y up and keep
-/// the motion's own floor. The options for unit and up axis are ignored here, because the reader of arrays has already
-/// applied them. The notes of `motion` are added to the clip's changes.
+/// the motion's own floor, except if they were rotated from a camera's frame. The options for unit and up axis are
+/// ignored here, because the reader of arrays has already applied them. The notes of `motion` are added to the clip's
+/// changes.
 Result<ClipFile> FileOfJoints(ClipFormat format, const RawMotion& motion, const std::string& path, OpenOptions options);
 
 /// The markers of a file, before any body is searched.

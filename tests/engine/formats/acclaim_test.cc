@@ -76,18 +76,19 @@ TEST(Acclaim, AnglesThatAreImpossibleInTheStatedUnitAreTakenInTheOtherOrSaid) {
   ASSERT_OK(wanted, ReadAcclaimMotion(frames, *ReadAcclaimSkeleton(degrees, "a.asf"), "a.amc"));
   // A skeleton or a motion that states radians, but has degrees.
   for (const auto& [asf, head] : {std::pair(radians, ""), {radians, ":DEGREES\n"}, {degrees, ":RADIANS\n"}}) {
-    std::vector<std::string> remarks;
+    AcclaimFacts facts;
     ASSERT_OK(skeleton, ReadAcclaimSkeleton(asf, "a.asf"));
-    ASSERT_OK(clip, ReadAcclaimMotion(head + frames, *skeleton, "a.amc", &remarks));
+    ASSERT_OK(clip, ReadAcclaimMotion(head + frames, *skeleton, "a.amc", &facts));
+    const std::vector<std::string>& remarks = facts.remarks;
     EXPECT_EQ(clip->frames, wanted->frames);
     ASSERT_EQ(remarks.size(), 1u);
     EXPECT_NE(remarks[0].find("angles are taken as degrees"), std::string::npos);
   }
   // Radians that are called degrees could be a nearly still body, so the reader only remarks on them.
   const auto said = [&](const std::string& motion) {
-    std::vector<std::string> remarks;
-    EXPECT_TRUE(ReadAcclaimMotion(motion, *ReadAcclaimSkeleton(degrees, "a.asf"), "a.amc", &remarks));
-    return remarks.empty() ? "" : remarks[0];
+    AcclaimFacts facts;
+    EXPECT_TRUE(ReadAcclaimMotion(motion, *ReadAcclaimSkeleton(degrees, "a.asf"), "a.amc", &facts));
+    return facts.remarks.empty() ? "" : facts.remarks[0];
   };
   EXPECT_EQ(said("1\nroot 5 0 0 0 0 0\nupper 1.6 0 0\n"),
             "its angles stay within 1.6 degrees; if they are radians, add a line :RADIANS");
@@ -99,9 +100,10 @@ TEST(Acclaim, ARootThatTurnsOnAndOnMayBeInRadians) {
   const std::string degrees = "1\nroot 0 0 0 0 1080 0\nupper 90 0 0\n", radians =
       ":RADIANS\n1\nroot 0 0 0 0 18.8495559215388 0\nupper 1.5707963267949 0 0\n";
   ASSERT_OK(skeleton, ReadAcclaimSkeleton(kSkeleton, "a.asf"));
-  std::vector<std::string> remarks;
+  AcclaimFacts facts;
   ASSERT_OK(wanted, ReadAcclaimMotion(degrees, *skeleton, "a.amc"));
-  ASSERT_OK(clip, ReadAcclaimMotion(radians, *skeleton, "a.amc", &remarks));
+  ASSERT_OK(clip, ReadAcclaimMotion(radians, *skeleton, "a.amc", &facts));
+  const std::vector<std::string>& remarks = facts.remarks;
   const int end = clip->skeleton.Find("lower_end");
   ExpectAcclaimNear(AcclaimGlobals(*clip, 0)[end].position, AcclaimGlobals(*wanted, 0)[end].position);
   ASSERT_EQ(remarks.size(), 1u);
@@ -119,10 +121,38 @@ TEST(Acclaim, ABoneWithoutValuesIsRefusedOrSaid) {
       "bone 'upper' is twice in this frame, or missing in an earlier frame; allowed: once in each frame";
   EXPECT_EQ(refusal(head + second + arm), std::string("a.amc:6:1: ") + once);
   EXPECT_EQ(refusal(head + arm + arm), std::string("a.amc:5:1: ") + once);
-  std::vector<std::string> remarks;
-  EXPECT_TRUE(ReadAcclaimMotion(head + second, *skeleton, "a.amc", &remarks));
-  EXPECT_EQ(remarks,
+  AcclaimFacts facts;
+  EXPECT_TRUE(ReadAcclaimMotion(head + second, *skeleton, "a.amc", &facts));
+  EXPECT_EQ(facts.remarks,
             std::vector<std::string>{"these bones have no values in any frame and keep their rest pose: upper"});
+}
+
+TEST(Acclaim, AMotionMayStateItsRateAndNameOtherFilesInAnyCaseAndOrder) {
+  ASSERT_OK(skeleton, ReadAcclaimSkeleton(kSkeleton, "a.asf"));
+  const std::string frames = "1\nroot 5 0 0 0 0 0\nupper 90 0 0\n";
+  ASSERT_OK(wanted, ReadAcclaimMotion(":DEGREES\n" + frames, *skeleton, "a.amc"));
+  for (const std::string& head :
+       {std::string(":SAMPLES-PER-SECOND 60\n:FULLY-SPECIFIED\n:DEGREES\n"),
+        std::string("# written by hand\n:fully-specified\n:degrees\n:samples-per-second 60\n"),
+        std::string(":asf-file a.asf\n:samples-per-second 60\n:Degrees\n")}) {
+    SCOPED_TRACE(head);
+    AcclaimFacts facts;
+    ASSERT_TRUE(IsAcclaimMotion(head + frames));
+    ASSERT_OK(clip, ReadAcclaimMotion(head + frames, *skeleton, "a.amc", &facts));
+    EXPECT_EQ(clip->rate_hz, 60);
+    EXPECT_TRUE(facts.has_rate);
+    EXPECT_EQ(clip->frames, wanted->frames);
+    const bool names_file = head.starts_with(":asf");
+    EXPECT_EQ(facts.remarks, names_file ? std::vector<std::string>{"not used: :asf-file"} : std::vector<std::string>());
+  }
+  // Controls: a motion without a rate, skeletons, and a rate that is none.
+  AcclaimFacts facts;
+  EXPECT_TRUE(ReadAcclaimMotion(":DEGREES\n" + frames, *skeleton, "a.amc", &facts));
+  EXPECT_FALSE(facts.has_rate);
+  EXPECT_FALSE(IsAcclaimMotion(kSkeleton));
+  EXPECT_FALSE(IsAcclaimMotion(":version 1.10\n:name x\n"));
+  EXPECT_EQ(testing::Refusal(ReadAcclaimMotion(":SAMPLES-PER-SECOND 0\n" + frames, *skeleton, "a.amc")),
+            "a.amc:1:21: the rate is 0 Hz; allowed: 0.1 to 10000 Hz");
 }
 
 TEST(Acclaim, RefusesWhatHasNoBones) {

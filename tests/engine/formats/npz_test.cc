@@ -167,6 +167,21 @@ TEST(Amass, TakesTheRateThatIsToldAndRefusesNone) {
               HasSubstr("states no frame rate (its arrays: poses, trans); allowed: mocap_framerate"));
 }
 
+TEST(Amass, TakesTimesAndJointsByThemselves) {
+  const Npz usual = SmallAmass(156);
+  ASSERT_OK(wanted, ReadAmass(usual, "a.npz"));
+  Npz npz = usual;
+  npz.arrays["poses"].shape = {2, 52, 3};
+  ASSERT_OK(same, ReadAmass(npz, "a.npz"));
+  EXPECT_EQ(same->frames, wanted->frames);
+  // Times overrule the rate, which is 120 Hz.
+  npz.arrays["times"] = {.shape = {2}, .values = {3, 3.5}};
+  npz.arrays.erase("mocap_framerate");
+  EXPECT_EQ(ReadAmass(npz, "a.npz")->rate_hz, 2);
+  npz.arrays["times"].values = {3, 3};
+  EXPECT_THAT(testing::Refusal(ReadAmass(npz, "a.npz")), HasSubstr("times has no two different times"));
+}
+
 TEST(Amass, RefusesArraysThatAreNoMotion) {
   const auto reason = [](const std::function<void(Npz&)>& change) {
     Npz npz = SmallAmass(156);
@@ -186,7 +201,7 @@ TEST(Amass, RefusesArraysThatAreNoMotion) {
   EXPECT_THAT(reason([](Npz& npz) { npz.arrays["mocap_framerate"].values = {0.5}; }), HasSubstr("the rate is 0.5 Hz"));
   EXPECT_EQ(reason([](Npz& npz) { npz.arrays["mocap_framerate"].values = {10000}; }), "(read)");
   EXPECT_THAT(reason([](Npz& npz) { npz.arrays["mocap_framerate"].values = {10001}; }),
-              HasSubstr("allowed: 1 to 10000"));
+              HasSubstr("mocap_framerate is 10001; allowed: 0.1 to 10000 Hz"));
   EXPECT_THAT(reason([](Npz& npz) { npz.arrays["trans"].values[4] = 2e6; }), HasSubstr("trans of frame 1 is 2000000"));
   EXPECT_THAT(reason([](Npz& npz) { npz.arrays["poses"].values[3] = NAN; }), HasSubstr("poses of frame 0 is nan"));
   EXPECT_THAT(

@@ -168,6 +168,33 @@ BodyPose LeaningOnAWall(double time_s) {
   return pose;
 }
 
+/// Lies on the back with the shanks on a chair: the shape of a person who sits.
+BodyPose LyingWithRaisedShanks(double time_s) {
+  BodyPose pose = Sitting(time_s);
+  Move(pose, [](const glm::dvec3& p) { return Bowed(p, -90) + glm::dvec3(0, -1.7, 0); });
+  return pose;
+}
+
+/// Lies on one side with bent hips and knees.
+BodyPose LyingCurledUp(double time_s) {
+  BodyPose pose = Sitting(time_s);
+  Move(pose, [](const glm::dvec3& p) { return glm::dvec3(p.y, -p.x, p.z) + glm::dvec3(0, .2, 0); });
+  return pose;
+}
+
+/// Lies on the back with the soles on the floor and the knees up.
+BodyPose LyingWithRaisedKnees(double time_s) {
+  BodyPose pose = StandingStill(time_s);
+  for (const bool is_left : {true, false}) {
+    const auto of = [&](Role role) { return is_left ? role : Mirrored(role); };
+    pose[of(kLeftKnee)] += glm::dvec3(0, .1, .3);
+    pose[of(kLeftAnkle)] += glm::dvec3(0, .3, 0);
+    pose[of(kLeftFoot)] = pose[of(kLeftAnkle)] + glm::dvec3(0, -.17, .05);
+  }
+  Move(pose, [](const glm::dvec3& p) { return Bowed(p, -90) + glm::dvec3(0, .1, 0); });
+  return pose;
+}
+
 struct Act {
   const char* name;
   BodyPose (*pose)(double);
@@ -201,6 +228,53 @@ TEST(FloorWork, IsNeverStoodUpInSilence) {
     }
   }
   EXPECT_GE(doubts, 10) << "each act, with its head along the usual axis, in both kinds of file";
+}
+
+TEST(FloorWork, PeopleWhoSitAreUprightWhateverTheUsualAxis) {
+  const UpRule of_file = {.evidence = UpEvidence::kFile, .source = "its rule"};
+  for (int quarters = 0; quarters < 4; ++quarters) {
+    const std::vector<BodyPose> y_up = Film({"sitting", &Sitting}, quarters, false);
+    const std::vector<BodyPose> z_up = Film({"sitting", &Sitting}, quarters, true);
+    // If the file or its format states another axis, this is doubted. A camera's frame has Y down.
+    std::vector<BodyPose> y_down = y_up;
+    for (BodyPose& pose : y_down) Move(pose, [](const glm::dvec3& p) { return glm::dvec3(p.x, -p.y, -p.z); });
+    EXPECT_EQ(
+        FindUp(y_up, kRate_hz, AmassUp()).doubt,
+        "Z is the convention of AMASS, but the body sits along Y, or lies with bent hips and knees; --up overrules "
+        "that");
+    EXPECT_THAT(FindUp(y_down, kRate_hz, AmassUp()).doubt, HasSubstr("the body sits along −Y"));
+    EXPECT_THAT(FindUp(z_up, kRate_hz, of_file).doubt, HasSubstr("the body sits along Z"));
+    // If it is only a guess, the axis of the posture is taken, unless the body may lie on one side.
+    const bool may_lie_on_side = quarters % 2 == 1;
+    for (const bool is_z_up : {false, true}) {
+      const UpFinding found = is_z_up ? FindUp(z_up, kRate_hz, ArrayUp()) : FindUp(y_up, kRate_hz, C3dUp(0, false));
+      EXPECT_EQ(AxisName(found.axis), is_z_up != may_lie_on_side ? "Z" : "Y") << quarters;
+      EXPECT_THAT(found.doubt,
+                  HasSubstr(may_lie_on_side ? "or lies with bent hips and knees" : "only because of the posture"));
+    }
+    // Controls: the usual axis is right.
+    EXPECT_EQ(FindUp(z_up, kRate_hz, AmassUp()).doubt, "");
+    EXPECT_EQ(FindUp(y_up, kRate_hz, ArrayUp()).doubt, "");
+    EXPECT_EQ(FindUp(y_up, kRate_hz, of_file).doubt, "");
+  }
+}
+
+TEST(FloorWork, IsNotTakenForSitting) {
+  for (const Act& act : {Act{"crawling", &Crawling}, Act{"push-ups", &PushingUp},
+                         Act{"knees up", &LyingWithRaisedKnees}, Act{"standing", &StandingStill}}) {
+    for (int quarters = 0; quarters < 4; ++quarters) {
+      EXPECT_EQ(FindUp(Film(act, quarters, true), kRate_hz, AmassUp()).doubt, "") << act.name;
+    }
+  }
+  // Two postures have the shape of a person who sits; the doubt names them, too.
+  for (const auto& [act, quarters] :
+       {std::pair(Act{"on the back", &LyingWithRaisedShanks}, 0), {Act{"on one side", &LyingCurledUp}, 1}}) {
+    EXPECT_THAT(FindUp(Film(act, quarters, true), kRate_hz, AmassUp()).doubt,
+                HasSubstr("or lies with bent hips and knees"))
+        << act.name;
+  }
+  const UpFinding curled = FindUp(Film({"on one side", &LyingCurledUp}, 0, false), kRate_hz, ArrayUp());
+  EXPECT_EQ(AxisName(curled.axis), "Y") << "not stood up";
 }
 
 TEST(FloorWork, IsNotSeenInPeopleWhoStandSitClimbJumpOrLean) {

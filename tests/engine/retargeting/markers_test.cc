@@ -374,7 +374,8 @@ TEST(MarkersUp, OfPeopleWhoStandOnTheirHeadsIsSaidToBeTheOther) {
   const auto down = [](glm::dvec3 p) { return glm::dvec3(p.x, -p.y, -p.z); };
   ASSERT_OK(motive, FindMarkerBodies(Keypoints(poses, down), "a.csv", {.up = MotiveUp()}));
   EXPECT_EQ(motive->front().up.doubt,
-            "the body stands along −Y, but Y is the convention of Motive's exports; --up sets another axis");
+            "the body stands along −Y, but Y is the convention of Motive's exports; allowed: Y or Z, so the file must "
+            "be rotated first");
 }
 
 TEST(MarkersUp, OfPeopleWhoLieAndThenStandIsTheAxisThatKeepsTheFloor) {

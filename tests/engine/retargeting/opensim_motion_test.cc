@@ -218,12 +218,11 @@ TEST(JointsOfArray, TakesTheLayoutOfAsManyJointsAndTheUnitOfAPerson) {
     NumberArray array{{2, 20, 3}, {}};
     for (int i = 0; i < 120; ++i) array.values.push_back(i % 3 == 1 ? 0.09 * (i / 3 % 20) / metres : 0.1 / metres);
     array.values[3] = NAN;
-    std::string note;
-    ASSERT_OK(read, JointsOfArray(array, std::nullopt, "a.npy", note, UpAxis::kY));
-    EXPECT_EQ(note, std::string("layout etude, 1 unit = ") + unit + " cm");
-    EXPECT_EQ(read->names[2], "shoulder_centre");
-    EXPECT_FALSE(read->frames[0][1]);
-    EXPECT_LT(glm::distance(*read->frames[1][10], glm::dvec3(0.1, 0.9, 0.1)), 1e-12);
+    ASSERT_OK(read, JointsOfArray(array, std::nullopt, "a.npy", UpAxis::kY));
+    EXPECT_EQ(read->motion.remark, std::string("layout etude, 1 unit = ") + unit + " cm");
+    EXPECT_EQ(read->motion.names[2], "shoulder_centre");
+    EXPECT_FALSE(read->motion.frames[0][1]);
+    EXPECT_LT(glm::distance(*read->motion.frames[1][10], glm::dvec3(0.1, 0.9, 0.1)), 1e-12);
   }
 }
 
@@ -231,11 +230,9 @@ TEST(JointsOfArray, RefusesOtherShapes) {
   for (const std::vector<std::size_t>& shape : {std::vector<std::size_t>{20, 3}, {0, 20, 3}, {1, 20, 4}, {1, 5, 3}}) {
     std::size_t count = 1;
     for (const std::size_t size : shape) count *= size;
-    std::string note;
-    EXPECT_FALSE(JointsOfArray({shape, std::vector<double>(count)}, {}, "a.npy", note)) << shape.size();
+    EXPECT_FALSE(JointsOfArray({shape, std::vector<double>(count)}, {}, "a.npy")) << shape.size();
   }
-  std::string note;
-  EXPECT_TRUE(JointsOfArray({{1, 17, 3}, std::vector<double>(51)}, "h36m", "a.npy", note)) << "one of several layouts";
+  EXPECT_TRUE(JointsOfArray({{1, 17, 3}, std::vector<double>(51)}, "h36m", "a.npy")) << "one of several layouts";
 }
 
 TEST(OpenSimMotion, ComplaintsAreAsTheyWere) {
@@ -272,11 +269,11 @@ TEST(JointArrays, AreUnderstoodAsTheyWere) {
         NumberArray array{.shape = {3, joints, 3}, .values = {}};
         for (std::size_t i = 0; i < 9 * joints; ++i) array.values.push_back(0.5 * spread * dice.Signed());
         array.values[4] = std::numeric_limits<double>::quiet_NaN();
-        std::string note;
-        const auto motion = JointsOfArray(array, layout, "a.npy", note);
-        if (!motion) lines.push_back(ToString(motion.error()));
-        if (motion)
-          lines.push_back(fmt::format("{}; the last is {} at {} Hz", note, motion->names.back(), motion->rate_hz));
+        const auto joints = JointsOfArray(array, layout, "a.npy");
+        if (!joints) lines.push_back(ToString(joints.error()));
+        if (!joints) continue;
+        const MarkerMotion& motion = joints->motion;
+        lines.push_back(fmt::format("{}; the last is {} at {} Hz", motion.remark, motion.names.back(), motion.rate_hz));
       }
     }
   }
@@ -288,12 +285,33 @@ TEST(JointArrays, OfSam3dBodyAreTurnedFromTheCamerasFrame) {
   NumberArray joints{.shape = {2, 70, 3}, .values = std::vector<double>(420, 0.0)};
   joints.values[3 * 70 + 3] = 1;  // frame 1, joint 1, x
   arrays.arrays["pred_keypoints_3d"] = joints;
-  EXPECT_EQ(JointsOfSam(arrays)->values[3 * 70 + 3], 1);
-  arrays.arrays["pred_cam_t"] = {.shape = {2, 3}, .values = {0, 0, 3, 0.25, 0.5, 4}};
-  const NumberArray moved = *JointsOfSam(arrays);
-  EXPECT_EQ(moved.values[2], -3);
-  EXPECT_EQ(std::vector<double>(&moved.values[213], &moved.values[216]), (std::vector<double>{1.25, -0.5, -4}));
-  EXPECT_FALSE(JointsOfSam({}));
+  std::string note;
+  const auto read = [&] { return JointsOfSam(arrays, "a.npz", note); };
+  ASSERT_OK(still, read());
+  EXPECT_EQ((*still)->values[3 * 70 + 3], 1);
+  EXPECT_THAT(note, HasSubstr("so it stays in place"));
+  // The axis of the only person of each picture may be left out, in each of the two arrays.
+  for (const bool has_people : {false, true}) {
+    arrays.arrays["pred_cam_t"] = {.shape = {2, 3}, .values = {0, 0, 3, 0.25, 0.5, 4}};
+    if (has_people) arrays.arrays["pred_cam_t"].shape = {2, 1, 3};
+    if (has_people) arrays.arrays["pred_keypoints_3d"].shape = {2, 1, 70, 3};
+    ASSERT_OK(moved, read());
+    EXPECT_EQ((*moved)->shape, (std::vector<std::size_t>{2, 70, 3}));
+    EXPECT_EQ((*moved)->values[2], -3);
+    EXPECT_EQ(std::vector<double>(&(*moved)->values[213], &(*moved)->values[216]),
+              (std::vector<double>{1.25, -0.5, -4}));
+    EXPECT_EQ(note, "SAM 3D Body's arrays in the camera's frame, turned to Y up as if the camera were level");
+  }
+  // Other shapes are refused.
+  arrays.arrays["pred_cam_t"].shape = {3, 2};
+  EXPECT_EQ(testing::Refusal(read()),
+            "a.npz: pred_cam_t 3 × 2, pred_keypoints_3d 2 × 1 × 70 × 3; allowed: frames × 3 and frames × joints × 3, "
+            "as many frames in both");
+  arrays.arrays["pred_keypoints_3d"].shape = {1, 2, 70, 3};
+  EXPECT_EQ(testing::Refusal(read()),
+            "a.npz: pred_keypoints_3d 1 × 2 × 70 × 3; allowed: frames × joints × 3, one person");
+  ASSERT_OK(none, JointsOfSam({}, "a.npz", note));
+  EXPECT_FALSE(*none);
   // The same joints as a bare array: the body stands on its head unless Y is declared up.
   NumberArray bare{.shape = {4, 70, 3}, .values = std::vector<double>(840, 0.0)};
   for (std::size_t i = 0; i < 280; ++i) {
@@ -301,11 +319,13 @@ TEST(JointArrays, OfSam3dBodyAreTurnedFromTheCamerasFrame) {
     bare.values[3 * i + 1] = joint.ends_with("shoulder") ? -1.4 : joint.ends_with("knee") ? -0.5 : 0;
     bare.values[3 * i + 2] = 3;
   }
-  std::string note;
-  const auto turned = JointsOfArray(bare, std::nullopt, "a.npy", note);
-  EXPECT_EQ((*turned->frames[2][5]), glm::dvec3(0, 1.4, -3));
-  EXPECT_THAT(note, HasSubstr("as in a camera's frame"));
-  EXPECT_EQ((*JointsOfArray(bare, std::nullopt, "a.npy", note, UpAxis::kY)->frames[2][5]), glm::dvec3(0, -1.4, 3));
+  ASSERT_OK(turned, JointsOfArray(bare, std::nullopt, "a.npy"));
+  EXPECT_EQ((*turned->motion.frames[2][5]), glm::dvec3(0, 1.4, -3));
+  EXPECT_THAT(turned->motion.remark, HasSubstr("as in a camera's frame"));
+  EXPECT_TRUE(turned->is_of_camera);
+  ASSERT_OK(kept, JointsOfArray(bare, std::nullopt, "a.npy", UpAxis::kY));
+  EXPECT_EQ((*kept->motion.frames[2][5]), glm::dvec3(0, -1.4, 3));
+  EXPECT_FALSE(kept->is_of_camera);
   // The joints' indices as the layouts' authors list them.
   const auto keypoints = JointsOfLayout("mhr70", 70), whole = JointsOfLayout("mhr", 127);
   EXPECT_EQ(keypoints[15] + keypoints[50] + keypoints[41] + keypoints[69], "left_footleft_handright_wristshoulder_centre");
@@ -463,10 +483,9 @@ TEST(BodyNpz, OnItsHandsStaysAHandstandAndAFootAlwaysAtZeroIsNotSeen) {
   ASSERT_OK(read, ReadRawNpz(arrays, "a.npz"));
   EXPECT_LT(WorstJointDistance(*BodyOf(*read), motion), 1e-12);
   EXPECT_THAT(read->notes, ::testing::ElementsAre(HasSubstr("on its hands")));
-  std::string note;
-  const auto joints = JointsOfArray(arrays.arrays.at("positions"), std::nullopt, "a.npy", note);
-  EXPECT_LT(glm::distance(*joints->frames[3][0], motion.poses[3].joints[0]), 1e-12);
-  EXPECT_THAT(note, HasSubstr("on its hands"));
+  ASSERT_OK(joints, JointsOfArray(arrays.arrays.at("positions"), std::nullopt, "a.npy"));
+  EXPECT_LT(glm::distance(*joints->motion.frames[3][0], motion.poses[3].joints[0]), 1e-12);
+  EXPECT_THAT(joints->motion.remark, HasSubstr("on its hands"));
   // One foot is at (0, 0, 0), which marks a gap.
   std::vector<double>& values = arrays.arrays.at("positions").values;
   for (std::size_t at = 3 * Index(kLeftFoot); at < values.size(); at += 3 * kRoleCount) {

@@ -170,9 +170,8 @@ void NpzFile(std::string_view bytes) {
 void NpyFile(std::string_view bytes) {
   const auto array = ReadNpy(bytes, kFile);
   if (!array) return;
-  std::string note;
-  const auto joints = JointsOfArray(*array, std::nullopt, kFile, note);
-  if (joints) (void)FindMarkerBodies(*joints, kFile);
+  const auto joints = JointsOfArray(*array, std::nullopt, kFile);
+  if (joints) (void)FindMarkerBodies(joints->motion, kFile);
 }
 
 std::string NpySeed() {

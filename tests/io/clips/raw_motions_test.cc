@@ -6,10 +6,12 @@
 #include <cmath>
 #include <sstream>
 
+#include "engine/formats/amass.h"
 #include "engine/formats/kimodo.h"
 #include "engine/formats/npz.h"
 #include "engine/formats/trc.h"
 #include "engine/motion/clip.h"
+#include "engine/retargeting/joint_layouts.h"
 #include "engine/retargeting/opensim_motion.h"
 #include "io/clips/body_in_place.h"
 #include "io/clips/references.h"
@@ -291,7 +293,8 @@ TEST_F(RawMotionsTest, KimodosWholeSkeletonHasItsFingersAndTheSameRoles) {
     made.arrays = {{"posed_joints", places}, {"global_rot_mats", matrices}};
     return made;
   };
-  const Clip clip = ReadKimodo(arrays(), "k.npz").value();
+  std::vector<std::string> remarks;
+  const Clip clip = ReadKimodo(arrays(), "k.npz", {}, remarks).value();
   ASSERT_EQ(clip.skeleton.joints.size(), kJoints);
   for (std::size_t j = 0; j < kJoints; ++j) EXPECT_EQ(clip.skeleton.joints[j].parent, kParents[j]) << j;
   const std::pair<std::size_t, const char*> kNames[] = {{7, "HeadEnd"},       {10, "RightEye"},     {18, "LeftHandThumbEnd"},
@@ -299,9 +302,63 @@ TEST_F(RawMotionsTest, KimodosWholeSkeletonHasItsFingersAndTheSameRoles) {
                                                         {67, "LeftLeg"},      {71, "LeftToeEnd"},   {76, "RightToeEnd"}};
   for (const auto& [index, name] : kNames) EXPECT_EQ(clip.skeleton.joints[index].name, name);
   places.shape[1] = 76;
-  const auto refused = ReadKimodo(arrays(), "k.npz");
+  const auto refused = ReadKimodo(arrays(), "k.npz", {}, remarks);
   ASSERT_FALSE(refused);
   EXPECT_THAT(refused.error().message, HasSubstr("1 × 76 × 3"));
+}
+
+TEST_F(RawMotionsTest, KimodosMotionsOfSmplXHaveTheStatedRateOrTheModels) {
+  // A person who stands in SMPL's T-pose, in two frames.
+  const Skeleton smpl = SmplSkeleton();
+  std::vector<GlobalTransform> globals;
+  LocalPose rest = RestPose(smpl);
+  rest[0].rotation = glm::dquat(1, 0, 0, 0);
+  ComputeGlobals(smpl, rest, globals);
+  Npz npz;
+  NumberArray places{{2, 22, 3}, {}}, matrices{{2, 22, 3, 3}, {}};
+  for (std::size_t i = 0; i < 44; ++i) {
+    const glm::dvec3 p = globals[i % 22].position;
+    places.values.insert(places.values.end(), {p.x, p.y, p.z});
+    for (int k = 0; k < 9; ++k) matrices.values.push_back(k % 4 == 0 ? 1 : 0);
+  }
+  npz.arrays = {{"posed_joints", places}, {"global_rot_mats", matrices}};
+  const auto read = [&](std::optional<double> told_hz, std::vector<std::string>& remarks) {
+    return ReadKimodo(npz, "k.npz", told_hz, remarks).value();
+  };
+  std::vector<std::string> remarks;
+  const Clip clip = read({}, remarks);
+  EXPECT_EQ(clip.rate_hz, 30);
+  EXPECT_EQ(remarks, std::vector<std::string>{"Kimodo's arrays state no rate; 30 Hz is taken, its model's rate"});
+  EXPECT_EQ(clip.skeleton.joints[21].name, "right_wrist");
+  ComputeGlobals(clip.skeleton, clip.frames[1], globals);
+  for (std::size_t j = 0; j < 22; ++j) {
+    EXPECT_NEAR(globals[j].position.y, places.values[3 * j + 1], 1e-12) << j;
+  }
+  // A default is named only if it is used.
+  remarks.clear();
+  EXPECT_EQ(read(20, remarks).rate_hz, 20);
+  npz.arrays["fps"] = {.shape = {}, .values = {25}};
+  EXPECT_EQ(read({}, remarks).rate_hz, 25);
+  EXPECT_TRUE(remarks.empty());
+}
+
+TEST_F(RawMotionsTest, ArraysOfSam3dBodyHaveTheStatedRateAndFormat) {
+  const auto layout = JointsOfLayout("mhr70", 70);
+  NumberArray joints{.shape = {30, 70, 3}, .values = {}};
+  for (std::size_t i = 0; i < 30 * 70; ++i) {
+    const auto role = FindRole(layout[i % 70]);
+    const glm::dvec3 p = StandingPose()[role.value_or(Role::kHead)];
+    joints.values.insert(joints.values.end(), {p.x, 1 - p.y, 4 - p.z});
+  }
+  std::map<std::string, NumberArray> arrays = {{"pred_keypoints_3d", joints}, {"fps", {.shape = {}, .values = {60}}}};
+  ASSERT_OK(file, ReadClipFile(Write("s.npz", WriteNpz(arrays, {}))));
+  EXPECT_EQ(FormatName(file->format), "NPZ");
+  EXPECT_TRUE(file->has_rate);
+  EXPECT_EQ(file->clips.front().rate_hz, 60);
+  EXPECT_EQ(file->bodies.front().changes.front(), "layout mhr70");
+  EXPECT_EQ(file->bodies.front().up.doubt, "");
+  arrays.erase("fps");
+  EXPECT_FALSE(ReadClipFile(Write("t.npz", WriteNpz(arrays, {})))->has_rate);
 }
 
 TEST_F(RawMotionsTest, AnglesKeepTheClockOfTheirFile) {
