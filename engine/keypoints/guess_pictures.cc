@@ -225,6 +225,12 @@ class Guesser {
 
 }  // namespace
 
+PictureOfFilm Turned(PictureOfFilm film, int turns) {
+  film.fit = FitOf(film, {.quarter_turns = turns});
+  if (turns % 2 != 0) film.film_px = {film.film_px.y, film.film_px.x};
+  return film;
+}
+
 double MissOfPictures(std::span<const PictureOfFilm> films, double min_confidence) {
   return Guesser(films, min_confidence).MissOfAll({});
 }

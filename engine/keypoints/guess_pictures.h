@@ -26,6 +26,9 @@ struct PictureGuess {
   std::string told;  ///< explanation for users; "" if `fit` is as declared
 };
 
+/// Returns `film` with keypoints that are of pictures turned clockwise by `turns` more quarter turns than declared.
+PictureOfFilm Turned(PictureOfFilm film, int turns);
+
 /// Finds how keypoints map to the rig's pictures *(ours)*: as `fit` declares, or also rotated by quarter turns or
 /// mirrored. Cameras are corrected one after the other. A camera's error is the distance of its keypoints from the
 /// other cameras' epipolar lines: the median over frames, with the best-fitting person and labelling of sides in each

@@ -4,9 +4,13 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <functional>
 #include <optional>
 #include <utility>
+
+#include "engine/cameras/triangulation.h"
+#include "engine/keypoints/recover_person.h"
 
 namespace etude {
 namespace {
@@ -65,6 +69,147 @@ bool AreAlike(const PictureOfFilm& a, const PictureOfFilm& b) {
   return p.width == q.width && p.height == q.height && a.fit == b.fit && a.film_px == b.film_px;
 }
 
+void MapPixels(PictureOfFilm& film, const std::function<glm::dvec2(const glm::dvec2&)>& map) {
+  for (auto& frame : film.people) {
+    for (SeenPerson& person : frame) {
+      for (Keypoint& keypoint : person.keypoints) keypoint.pixel = map(keypoint.pixel);
+    }
+  }
+}
+
+/// Returns the share of people whose shoulders are above their ankles in the cameras' world, Y up, as far as one
+/// picture shows this.
+double UprightShare(const Films& films) {
+  using enum Landmark;
+  int upright = 0, people = 0;
+  for (const PictureOfFilm& film : films) {
+    const glm::dvec3 up_C = film.camera.R_CW * glm::dvec3(0, 1, 0);
+    for (const auto& frame : film.people) {
+      for (const SeenPerson& person : frame) {
+        const auto middle = [&](Landmark a, Landmark b) {
+          return 0.5 * (film.fit.ToRig(person[a].pixel) + film.fit.ToRig(person[b].pixel));
+        };
+        const bool shows_all = std::min({person[kLeftShoulder].confidence, person[kRightShoulder].confidence,
+                                         person[kLeftAnkle].confidence, person[kRightAnkle].confidence}) > 0;
+        if (!shows_all) continue;
+        ++people;
+        const glm::dvec2 body = middle(kLeftShoulder, kRightShoulder) - middle(kLeftAnkle, kRightAnkle);
+        upright += glm::dot(body, glm::dvec2(up_C)) > 0;
+      }
+    }
+  }
+  return people == 0 ? 0.5 : static_cast<double>(upright) / people;
+}
+
+/// Keypoints that are scaled about the middle of the pictures, then shifted: the logarithms of the scales of x and y,
+/// and the shifts as shares of the picture's size.
+using FreeFit = glm::dvec4;
+
+glm::dvec2 Fitted(const FreeFit& fit, const glm::dvec2& p, const glm::dvec2& size) {
+  return glm::exp(glm::dvec2(fit)) * (p - 0.5 * size) + (0.5 + glm::dvec2(fit.z, fit.w)) * size;
+}
+
+Films Fitted(Films films, const FreeFit& fit) {
+  for (PictureOfFilm& film : films) {
+    MapPixels(film, [&](const glm::dvec2& p) { return Fitted(fit, p, film.film_px); });
+  }
+  return films;
+}
+
+/// Finds the scale and shift of all films that minimise the squared distances to epipolar lines, as shares of the
+/// person's height (Levenberg–Marquardt). Only frames in which every film shows one person are used.
+class FreeFitter {
+ public:
+  FreeFitter(const Films& films, double min_confidence)
+      : least_confidence_(min_confidence), geometry_(MatricesOf(films)) {
+    constexpr std::size_t kFrames = 16;
+    films_ = films;
+    for (PictureOfFilm& film : films_) film.people.clear();
+    for (std::size_t i = 0; i < kFrames; ++i) {
+      const std::size_t frame = i * films.front().people.size() / kFrames;
+      const auto shows_one = [&](const PictureOfFilm& film) {
+        return frame < film.people.size() && film.people[frame].size() == 1;
+      };
+      if (!std::ranges::all_of(films, shows_one)) continue;
+      for (std::size_t c = 0; c < films.size(); ++c) films_[c].people.push_back(films[c].people[frame]);
+    }
+  }
+
+  FreeFit From(FreeFit fit) const {
+    std::vector<double> now = Distances(fit);
+    constexpr int kSteps = 40;
+    double damping = 1e-3;
+    for (int step = 0; step < kSteps && !now.empty(); ++step) {
+      // The normal equations, with derivatives by differences.
+      constexpr double kDifference = 1e-6;
+      std::array<std::vector<double>, 4> changed;
+      for (int k = 0; k < 4; ++k) {
+        FreeFit there = fit;
+        there[k] += kDifference;
+        changed[k] = Distances(there);
+      }
+      glm::dmat4 normal(0);
+      glm::dvec4 gradient(0);
+      for (std::size_t i = 0; i < now.size(); ++i) {
+        glm::dvec4 row;
+        for (int k = 0; k < 4; ++k) row[k] = (changed[k][i] - now[i]) / kDifference;
+        normal += glm::outerProduct(row, row);
+        gradient += row * now[i];
+      }
+      for (int k = 0; k < 4; ++k) normal[k][k] *= 1 + damping;
+      const FreeFit next = fit - glm::inverse(normal) * gradient;
+      std::vector<double> then = Distances(next);
+      const bool is_better = SquaresOf(then) < SquaresOf(now);  // false for NaN
+      damping *= is_better ? 0.2 : 5;
+      if (!is_better) continue;
+      fit = next;
+      now = std::move(then);
+    }
+    return fit;
+  }
+
+ private:
+  static double SquaresOf(const std::vector<double>& values) {
+    double sum = 0;
+    for (const double value : values) sum += value * value;
+    return sum;
+  }
+
+  std::vector<double> Distances(const FreeFit& fit) const {
+    std::vector<SeenPeople> seen;
+    for (PictureOfFilm& film : Fitted(films_, fit)) {
+      MapPixels(film, [&](const glm::dvec2& p) { return film.fit.ToRig(p); });
+      seen.push_back(UndistortPeople(film.camera, std::move(film.people)));
+    }
+    std::vector<double> distances;
+    for (std::size_t a = 0; a < seen.size(); ++a) {
+      for (std::size_t b = a + 1; b < seen.size(); ++b) {
+        if (!geometry_(a, b)) continue;
+        for (std::size_t frame = 0; frame < seen[a].size(); ++frame) {
+          const SeenPerson &one = seen[a][frame][0], &other = seen[b][frame][0];
+          const double height = std::max({1.0, HeightPx(one), HeightPx(other)});
+          for (std::size_t i = 0; i < kLandmarkCount; ++i) {
+            const Keypoint &p = one.keypoints[i], &q = other.keypoints[i];
+            if (std::min(p.confidence, q.confidence) < least_confidence_) continue;
+            distances.push_back(geometry_(a, b)->DistancePx(p.pixel, q.pixel) / height);
+          }
+        }
+      }
+    }
+    return distances;
+  }
+
+  static std::vector<ProjectionMatrix> MatricesOf(const Films& films) {
+    std::vector<ProjectionMatrix> matrices;
+    for (const PictureOfFilm& film : films) matrices.push_back(MatrixOf(film.camera));
+    return matrices;
+  }
+
+  Films films_;
+  double least_confidence_;
+  PairGeometry geometry_;
+};
+
 class SessionGuesser {
  public:
   SessionGuesser(std::span<const PictureOfFilm> films, std::span<const std::string> names, const glm::dmat3& R_WF,
@@ -77,11 +222,16 @@ class SessionGuesser {
     constexpr double kOff = 0.001, kBetter = 0.5, kPercent = 100;
     // Test all hypotheses. Of the hypotheses that at least halve the distance, keep the best.
     if (said > kOff) {
-      least_ = kBetter * std::min(said, MissAsGuessed());
+      const double guessed = std::min(said, MissAsGuessed());
+      least_ = kBetter * guessed;
+      TryTurns(said);
       TryPoses();
       TryExchanges();
       TryReadings();
-      if (best_ && least_ < kMaxPlausibleMiss) {
+      const bool is_mended = best_ && least_ < kMaxPlausibleMiss;
+      found.doubt = DoubtOfScale(is_mended ? least_ : guessed, is_mended);
+      if (is_mended && found.doubt.empty()) {
+        found.turns = turns_;
         found.mended = fmt::format("{}: rays miss each other by {:.2f} % of the person's height instead of {:.2f} %",
                                    told_, kPercent * least_, kPercent * said);
         films_ = std::move(*best_);
@@ -89,6 +239,7 @@ class SessionGuesser {
     }
     for (PictureOfFilm& film : films_) {
       found.cameras.push_back(film.camera);
+      found.fits.push_back(film.fit);
       found.people.push_back(std::move(film.people));
     }
     return found;
@@ -104,12 +255,63 @@ class SessionGuesser {
   }
 
   // Keeps `films` as the best hypothesis if they have the smallest distance so far.
-  void Try(Films films, std::string told) {
+  void Try(Films films, std::string told, int turns = 0, bool is_size = false) {
     const double miss = MissOfPictures(films, least_confidence_);
     if (!(miss < least_)) return;
     least_ = miss;
     best_ = std::move(films);
     told_ = std::move(told);
+    turns_ = turns;
+    is_size_ = is_size;
+  }
+
+  /// Tries to turn the keypoints of all films alike.
+  void TryTurns(double said) {
+    const int declared = films_.front().fit.quarter_turns;
+    for (int turns = 1; turns < 4; ++turns) {
+      Films films;
+      for (const PictureOfFilm& film : films_) films.push_back(Turned(film, turns));
+      constexpr double kMostly = 0.9, kStillBetter = 0.9;
+      // An upright person is evidence, too: seen from afar, pictures that are turned by 180° show a mirrored body.
+      if (turns == 2 && UprightShare(films_) < 1 - kMostly && UprightShare(films) > kMostly) {
+        least_ = std::max(least_, kStillBetter * said);
+      }
+      const int all = (declared + turns) % 4;
+      Try(std::move(films),
+          all == 0        ? "keypoints are of the rig's pictures, which the films show turned"
+          : declared == 0 ? fmt::format("keypoints of all films are turned by {}° clockwise", 90 * all)
+                          : fmt::format("pictures of all films are turned by {}° clockwise", 90 * all),
+          turns);
+    }
+  }
+
+  /// Returns the doubt that another scale and shift of all films fit much better than `miss`; "" if they do not.
+  std::string DoubtOfScale(double miss, bool is_mended) const {
+    constexpr double kOff = 0.03, kNoise = 0.0005, kPercent = 100;
+    if (is_mended ? !is_size_ || miss < kNoise : miss < kOff) return "";
+    const auto [fit, least] = FitFreely();
+    if (!(least < (is_mended ? 0.5 : 0.25) * miss - kNoise)) return "";
+    const glm::dvec2 size = films_.front().film_px, scale = glm::exp(glm::dvec2(fit)),
+                     origin = Fitted(fit, glm::dvec2(0), size);
+    return fmt::format(
+        "keypoints of all films fit the rig best if they are scaled by {:.3f} and {:.3f}, then shifted by {:+.0f} and "
+        "{:+.0f} px: rays miss each other by {:.2f} % of the person's height instead of {:.2f} %; are they of pictures "
+        "of another size, or cropped? Not corrected",
+        scale.x, scale.y, origin.x, origin.y, kPercent * least, kPercent * miss);
+  }
+
+  /// Searches the scale and shift that fit the rig best, from several sizes of the pictures; returns them with their
+  /// MissOfPictures.
+  std::pair<FreeFit, double> FitFreely() const {
+    std::pair<FreeFit, double> best{FreeFit(0), MissOfPictures(films_, least_confidence_)};
+    const FreeFitter fitter(films_, least_confidence_);
+    for (const double scale : {0.25, 0.5, 1.0, 1.4, 2.0, 4.0}) {
+      const double log = std::log(scale), corner = 0.5 * (scale - 1);  // scaled about the corner
+      const FreeFit fit = fitter.From({log, log, corner, corner});
+      const double miss = MissOfPictures(Fitted(films_, fit), least_confidence_);
+      if (miss < best.second) best = {fit, miss};
+    }
+    return best;
   }
 
   void TryPoses() {
@@ -143,20 +345,18 @@ class SessionGuesser {
     }
     for (const double scale : {0.25, 1.0 / 3, 0.375, 0.5, 2.0 / 3, 0.75, 4.0 / 3, 1.5, 2.0, 8.0 / 3, 3.0, 4.0}) {
       const auto told = fmt::format("keypoints are of pictures {:.4g} times as large", 1 / scale);
-      TryPixels(told, [&](const PictureOfFilm&, const glm::dvec2& pixel) { return scale * pixel; });
+      TryPixels(
+          told, [&](const PictureOfFilm&, const glm::dvec2& pixel) { return scale * pixel; }, true);
     }
   }
 
-  void TryPixels(std::string told, const std::function<glm::dvec2(const PictureOfFilm&, const glm::dvec2&)>& read) {
+  void TryPixels(std::string told, const std::function<glm::dvec2(const PictureOfFilm&, const glm::dvec2&)>& read,
+                 bool is_size = false) {
     Films films = films_;
     for (PictureOfFilm& film : films) {
-      for (auto& frame : film.people) {
-        for (SeenPerson& person : frame) {
-          for (Keypoint& keypoint : person.keypoints) keypoint.pixel = read(film, keypoint.pixel);
-        }
-      }
+      MapPixels(film, [&](const glm::dvec2& pixel) { return read(film, pixel); });
     }
-    Try(std::move(films), std::move(told));
+    Try(std::move(films), std::move(told), 0, is_size);
   }
 
   Films films_;
@@ -164,6 +364,8 @@ class SessionGuesser {
   const glm::dmat3& R_WF_;
   double least_confidence_;
   double least_ = 0;
+  int turns_ = 0;
+  bool is_size_ = false;  ///< true if the best hypothesis is another size of the pictures
   std::optional<Films> best_;
   std::string told_;
 };

@@ -275,11 +275,17 @@ std::vector<ClockDrift> FindDrifts(std::span<const ProjectionMatrix> cameras, st
 SeenPeople PeopleInTime(const SeenPeople& people, const FilmClock& clock, std::size_t frames,
                         const FollowOptions& options) {
   if (clock == FilmClock{} && people.size() == frames) return people;
-  SeenPeople in_time(frames);
+  std::vector<double> at;
+  for (std::size_t frame = 0; frame < frames; ++frame) at.push_back(clock.FrameAt(static_cast<double>(frame)));
+  return PeopleAt(people, at, options);
+}
+
+SeenPeople PeopleAt(const SeenPeople& people, std::span<const double> frames, const FollowOptions& options) {
+  SeenPeople in_time(frames.size());
   for (const PersonTrack& track : FollowPeople(people, options)) {
     const MovingPerson person(people, track);
-    for (std::size_t frame = 0; frame < frames; ++frame) {
-      if (const auto there = person.At(clock.FrameAt(static_cast<double>(frame)))) in_time[frame].push_back(*there);
+    for (std::size_t i = 0; i < frames.size(); ++i) {
+      if (const auto there = person.At(frames[i])) in_time[i].push_back(*there);
     }
   }
   return in_time;

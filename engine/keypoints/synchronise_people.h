@@ -69,9 +69,11 @@ std::vector<FoundClock> FindClocks(std::span<const ProjectionMatrix> cameras, st
 
 /// Returns `frames` frames of one camera's people at the first camera's times. Between two frames, each keypoint's
 /// pixel follows a cubic (`PixelBetween`), and its confidence is the lower one of the two frames. At times without
-/// frames of the film, nobody is present.
+/// frames of the film, nobody is present. `PeopleAt` takes the fractional frame for each of the times; nobody is
+/// present at negative ones.
 SeenPeople PeopleInTime(const SeenPeople& people, const FilmClock& clock, std::size_t frames,
                         const FollowOptions& options = {});
+SeenPeople PeopleAt(const SeenPeople& people, std::span<const double> frames, const FollowOptions& options = {});
 SeenPeople PeopleInTime(const SeenPeople& people, double offset, std::size_t frames, const FollowOptions& options = {});
 
 }  // namespace etude

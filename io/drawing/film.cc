@@ -157,7 +157,7 @@ Result<std::string> Encode(Scene& scene, const FilePath& path, const FilmWatch& 
   return ReadWholeFile(path);
 }
 
-Result<bool> EncodeDrawn(const FilePath& path, int frames, int rate_hz, FilmWorkers workers, const FilmWatch& watch,
+Result<bool> EncodeDrawn(const FilePath& path, int frames, double rate_hz, FilmWorkers workers, const FilmWatch& watch,
                          const std::filesystem::path& sound) {
   ASSIGN_OR_RETURN(auto encoder,
                    Encoder::Start(path, workers.width(), workers.height(), rate_hz, sound, Encoder::Form::kI420));
@@ -180,7 +180,7 @@ Result<bool> EncodeFrames(const FilePath& path, int frames, int rate_hz, const s
   return EncodeDrawn(path, frames, rate_hz, std::move(workers), watch, sound);
 }
 
-Result<bool> EncodeFedFrames(const FilePath& path, int frames, int rate_hz, FrameFeed feed,
+Result<bool> EncodeFedFrames(const FilePath& path, int frames, double rate_hz, FrameFeed feed,
                              const FilmWorkers::Draw& draw, const FilmWatch& watch) {
   ASSIGN_OR_RETURN(auto workers, FilmWorkers::Start(frames, watch.jobs, draw, std::move(feed)));
   return EncodeDrawn(path, frames, rate_hz, std::move(workers), watch, {});

@@ -143,7 +143,7 @@ class Scene {
 Result<bool> EncodeFrames(const FilePath& path, int frames, int rate_hz, const std::function<Canvas(int frame)>& draw,
                           const FilmWatch& watch, const std::filesystem::path& sound = {});
 /// Works like EncodeFrames without sound, for frames that are drawn from the data of `feed`.
-Result<bool> EncodeFedFrames(const FilePath& path, int frames, int rate_hz, FrameFeed feed,
+Result<bool> EncodeFedFrames(const FilePath& path, int frames, double rate_hz, FrameFeed feed,
                              const FilmWorkers::Draw& draw, const FilmWatch& watch);
 
 /// Returns an empty canvas of a film's size, with the heading in its top 52 pixels.

@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <memory>
 #include <string>
+#include <vector>
 
 #include "engine/base/image.h"
 #include "engine/base/result.h"
@@ -16,12 +17,26 @@ namespace etude {
 struct FilmFacts {
   int width = 0;  ///< width as shown, after the rotation that a telephone may have stored
   int height = 0;
-  double rate_hz = 0;  ///< frames per second; the mean for films without a constant rate
-  int frames = 0;
+  double rate_hz = 0;  ///< frames per second
+  int frames = 0;      ///< number of pictures that decoders give
+  int turned = 0;      ///< clockwise quarter turns, 0 to 3, from the stored pictures to the shown ones
+  /// For a film whose pictures are unevenly spaced in time: for each frame of even spacing at `rate_hz`, the index of
+  /// its picture, with a fraction if the frame lies between two pictures, or −1 if its picture is missing. Empty for
+  /// other films, whose frame k is picture k.
+  std::vector<double> pictures;
+  std::string remark;  ///< what the times in the file show; "" if the pictures are evenly spaced
+
+  int EvenFrames() const { return pictures.empty() ? frames : static_cast<int>(pictures.size()); }
+  /// Returns the picture that is shown at an even frame: the nearest, or the one before a missing picture.
+  int PictureAt(int frame) const;
+  /// Returns the even frame of each picture; −1 for pictures that no even frame is nearest to.
+  std::vector<int> FramesOfPictures() const;
 };
 
 /// Asks ffprobe about the first video stream of a file; a picture counts as a film of one frame. Fails if ffprobe
-/// cannot be started, if there is no video stream, and for frames of more than 64 million pixels.
+/// cannot be started, if there is no video stream, and for frames of more than 64 million pixels. Pictures that an edit
+/// list hides, and those before the first key frame, do not count. The pictures' times decide whether they are evenly
+/// spaced: `pictures` is set if they are more than 0.4 frames off an even spacing.
 Result<FilmFacts> ProbeFilm(const std::filesystem::path& path, const std::string& program = "ffprobe");
 
 /// Reads the frames of any film or picture that ffmpeg knows, one after the other, through a pipe. ffmpeg is started

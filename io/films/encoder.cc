@@ -22,13 +22,13 @@ namespace {
 // file. FLAC needs no floating-point arithmetic, so its bytes are the same on every CPU, and browsers play it in an
 // MP4. FFV1 with Golomb-Rice codes and the small context takes half the time of FFV1's range coder, and gives files of
 // the same size for noisy pictures; every frame is a key frame, so that players seek exactly.
-std::vector<std::string> Arguments(const std::string& program, int width, int height, int rate_hz,
+std::vector<std::string> Arguments(const std::string& program, int width, int height, double rate_hz,
                                    const std::filesystem::path& sound, Encoder::Form form) {
   const bool is_drawn = form == Encoder::Form::kI420;
   std::vector<std::string> all = {program, "-loglevel", "error", "-xerror", "-y"};
   const auto add = [&](const std::vector<std::string>& words) { all.insert(all.end(), words.begin(), words.end()); };
   add({"-f", "rawvideo", "-pix_fmt", is_drawn ? "yuv420p" : "rgb24", "-s", fmt::format("{}x{}", width, height)});
-  add({"-r", fmt::format("{}", rate_hz), "-i", "-"});
+  add({"-r", fmt::format("{:.9g}", rate_hz), "-i", "-"});
   if (!sound.empty()) add({"-i", sound.string(), "-c:a", "flac", "-strict", "-2", "-flags:a", "+bitexact"});
   if (sound.empty()) add({"-an"});
   const bool is_exact = form == Encoder::Form::kExactRgb;
@@ -47,7 +47,7 @@ std::vector<std::string> Arguments(const std::string& program, int width, int he
 
 }  // namespace
 
-Result<Encoder> Encoder::Start(const FilePath& path, int width, int height, int rate_hz,
+Result<Encoder> Encoder::Start(const FilePath& path, int width, int height, double rate_hz,
                                const std::filesystem::path& sound, Form form, const std::string& program) {
   const Place place{.file = path.string()};
   ASSIGN_OR_RETURN(auto film, PartialFile::Claim(path));

@@ -28,7 +28,7 @@ class Encoder {
   /// Starts ffmpeg. All pictures must have this size (even numbers, unless the form is kExactRgb); they are shown at
   /// `rate_hz`. `sound` is a WAV file that is stored losslessly (FLAC); empty = silence. Fails with the reason if
   /// `program` cannot be started.
-  static Result<Encoder> Start(const FilePath& path, int width, int height, int rate_hz,
+  static Result<Encoder> Start(const FilePath& path, int width, int height, double rate_hz,
                                const std::filesystem::path& sound = {}, Form form = Form::kRgb,
                                const std::string& program = "ffmpeg");
   ~Encoder();

@@ -84,7 +84,9 @@ Result<PeopleOfFilm> FilmOfNumbers(std::map<long, std::vector<SeenPerson>> numbe
   const auto frames = static_cast<long>(of.frames);
   // If the film's length is not known, the frame numbers give it.
   long first = frames > 0 ? 0 : std::min(lowest, 1L), step = 1;
-  if (frames > 0 && lowest > 0 && highest == frames) first = 1;
+  film.is_from_one = frames > 0 && lowest > 0 && highest == frames;
+  film.is_base_open = frames > 0 && lowest > 0 && highest < frames;
+  if (film.is_from_one || (film.is_base_open && of.from_one)) first = 1;
   if (frames > 0 && highest - first >= frames) {
     // The numbers are those of a longer film, from which all frames or every n-th frame were cut.
     for (const auto& [number, people] : numbered) step = number == lowest ? 0 : std::gcd(step, number - lowest);
@@ -98,11 +100,11 @@ Result<PeopleOfFilm> FilmOfNumbers(std::map<long, std::vector<SeenPerson>> numbe
     }
     film.Tell(fmt::format("frames are numbered {} to {}, and the film has {}; number {} is assumed to be its first",
                           lowest, highest, frames, lowest));
-  } else if (frames > 0 && lowest > 0 && highest < frames) {
+  } else if (film.is_base_open) {
     film.Tell(
         fmt::format("frames are numbered {} to {}, and the film has {}; the numbers are assumed to be counted "
-                    "from 0",
-                    lowest, highest, frames));
+                    "from {}",
+                    lowest, highest, frames, of.from_one ? "1, as in another film" : "0"));
   }
   film.frames.resize(static_cast<std::size_t>(frames > 0 ? frames : highest - first + 1));
   for (auto& [number, people] : numbered) {
@@ -191,7 +193,9 @@ void LayByNames(std::span<const std::string> names, const FilmOfKeypoints& of, P
   // count from any first number.
   const long step = are_films ? 1 : usual;
   long first = numbers.front();
-  if (are_films && first > 1) first = last == frames ? 1 : 0;
+  film.is_from_one = are_films && first > 0 && last == frames;
+  film.is_base_open = are_films && first > 1 && last < frames;
+  if (are_films && first > 1) first = last == frames || of.from_one ? 1 : 0;
   std::vector<std::size_t> indices;
   for (const long number : numbers) {
     if ((number - first) % step != 0) return;
@@ -203,11 +207,11 @@ void LayByNames(std::span<const std::string> names, const FilmOfKeypoints& of, P
   const bool is_from_start = indices.front() == 0 || usual > 1;
   if (is_even && (!are_films || (is_from_start && end + usual < frames))) return;
   if (indices.back() >= kMaxSpread * indices.size() + of.frames) return;
-  if (are_films && first == 0 && numbers.front() > 1) {
+  if (film.is_base_open) {
     film.Tell(
         fmt::format("files are numbered {} to {}, and the film has {} frames; the numbers are assumed to be "
-                    "counted from 0",
-                    numbers.front(), last, frames));
+                    "counted from {}",
+                    numbers.front(), last, frames, of.from_one ? "1, as in another film" : "0"));
   }
   MoveFrames(indices, are_films ? of.frames : indices.back() + 1, film);
 }

@@ -9,6 +9,7 @@
 #include <optional>
 #include <vector>
 
+#include "engine/base/order_statistics.h"
 #include "io/keypoints/frame_numbers.h"
 #include "io/keypoints/people_json.h"
 
@@ -33,13 +34,22 @@ std::optional<double> TimeOf(const Json& frame) {
   return std::nullopt;
 }
 
-/// Reads results: one object per person, whose image_id gives the frame. If the largest confidence exceeds 1, as COCO's
-/// flags and AlphaPose's scores may, all confidences are divided by it.
+/// Returns the number by which confidences are divided so that they are 0…1. COCO's flags and AlphaPose's scores go up
+/// to 2; others, such as 0…255 or Detectron2's ratios of a heat map, have no upper limit, so a quantile decides.
+double ScaleOf(std::vector<double> confidences) {
+  std::erase_if(confidences, [](double confidence) { return !(confidence > 0); });
+  const double largest = confidences.empty() ? 1 : std::ranges::max(confidences);
+  constexpr double kMaxFlag = 2, kQuantile = 0.75;
+  if (largest <= kMaxFlag) return std::max(1.0, largest);
+  return std::max(1.0, LowerPercentile(std::move(confidences), kQuantile));
+}
+
+/// Reads results: one object per person, whose image_id gives the frame. Confidences above 1 are scaled (ScaleOf).
 Result<PeopleOfFilm> ReadResults(const Json& list, const std::string& layout, const FilmOfKeypoints& of,
                                  const Place& place) {
-  // Collect the points of every frame and the largest confidence.
+  // Collect the points of every frame and the confidences.
   std::map<long, std::vector<ListedPerson>> numbered;
-  double max_confidence = 1;
+  std::vector<double> confidences;
   std::size_t boxes = 0;
   for (const Json& one : list) {
     const Json* id = Member(one, "image_id");
@@ -50,16 +60,17 @@ Result<PeopleOfFilm> ReadResults(const Json& list, const std::string& layout, co
       continue;
     }
     ASSIGN_OR_RETURN(ListedPerson listed, PointsOf(one, place));
-    for (const Keypoint& point : listed.points) max_confidence = std::max(max_confidence, point.confidence);
+    for (const Keypoint& point : listed.points) confidences.push_back(point.confidence);
     if (numbered[*number].size() >= kMaxPeople) return Fail(place, "more than {} people in a frame", kMaxPeople);
     numbered[*number].push_back(std::move(listed));
   }
   if (numbered.empty()) return Fail(place, "none of {} results has a list 'keypoints'", boxes);
   // Scale the confidences to 0…1 and order the landmarks.
+  const double scale = ScaleOf(std::move(confidences));
   std::map<long, std::vector<SeenPerson>> people;
   for (auto& [number, persons] : numbered) {
     for (ListedPerson& listed : persons) {
-      for (Keypoint& point : listed.points) point.confidence /= max_confidence;
+      for (Keypoint& point : listed.points) point.confidence /= scale;
       ASSIGN_OR_RETURN(const SeenPerson person, ToPerson(listed.points, layout, listed.names, place));
       people[number].push_back(person);
     }
@@ -77,7 +88,10 @@ Result<PeopleOfFilm> ReadKeypointList(const Json& json, const std::string& layou
   if (list.empty()) return Fail(place, "an empty list of frames");
   if (Member(list.front(), "image_id") != nullptr) return ReadResults(list, layout, of, place);
   const KeypointNames names = NamesOfMeta(json);
-  const auto number_of = [](const Json& frame) { return FirstMember(frame, {"frame_id", "frame", "frame_index"}); };
+  const auto number_of = [](const Json& frame) {
+    return FirstMember(frame, {"frame_id", "frame", "frame_index", "frame_idx", "frame_number", "frame_num", "frame_no",
+                               "frameIndex", "frameNumber", "frameId", "frame_nr", "image_number"});
+  };
   const bool has_numbers = number_of(list.front()) != nullptr;
   std::map<long, std::vector<SeenPerson>> numbered;
   PeopleOfFilm film;
@@ -88,6 +102,14 @@ Result<PeopleOfFilm> ReadKeypointList(const Json& json, const std::string& layou
     const Json* id = number_of(frame);
     const auto number = id != nullptr ? FrameNumber(*id) : std::nullopt;
     if (id != nullptr && !number) return Fail(place, "frame {} is not a number", ShowJson(*id));
+    if (!has_numbers && frame.is_object()) {
+      for (const auto& [key, value] : frame.items()) {
+        const Json* first = Member(list.front(), key.c_str());
+        const bool may_be_number = key.starts_with("frame") && value.is_number_integer() && first && value != *first;
+        if (may_be_number)
+          return Fail(place, "the key '{}' of entry {} may be a frame number; allowed: frame_id", key, i);
+      }
+    }
     if (number.has_value() != has_numbers) {
       return Fail(place,
                   "entry {} has {} frame number, but the first has {}; allowed: a frame number in all entries or "

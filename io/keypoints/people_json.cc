@@ -4,6 +4,7 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <map>
 #include <nlohmann/json.hpp>
@@ -212,12 +213,36 @@ std::optional<double> NumberOf(const Json* json) {
   return std::abs(value) <= kMaxListedPixel ? std::optional(value) : std::nullopt;
 }
 
-/// Reads a point with named coordinates; a point without numbers was not seen.
-Keypoint PointOf(const Json& json) {
+/// Reads a point with named coordinates; a point without numbers was not seen. Fails if a number beside the
+/// coordinates may be a score under a name that is not known.
+Result<Keypoint> PointOf(const Json& json, const Place& place) {
   const auto x = NumberOf(Member(json, "x")), y = NumberOf(Member(json, "y"));
-  const Json* sure = FirstMember(json, {"visibility", "score", "confidence"});
-  if (!x || !y) return {};
-  return {glm::dvec2(*x, *y) + kHalfPixel, sure == nullptr ? 1 : NumberOf(sure).value_or(0)};
+  const Json* sure = FirstMember(json, {"visibility", "score", "confidence", "conf", "likelihood", "probability",
+                                        "prob", "keypoint_score", "kp_score", "c", "p", "v"});
+  for (const auto& [key, value] : json.items()) {
+    constexpr std::array kNoScores = {"x", "y", "z", "id", "index", "presence", "world_x", "world_y", "world_z"};
+    if (sure != nullptr || !value.is_number_float() || std::ranges::count(kNoScores, key) > 0) continue;
+    return Fail(place, "a keypoint has the number '{}' beside x and y; allowed: score, confidence or visibility", key);
+  }
+  if (!x || !y) return Keypoint{};
+  return Keypoint{glm::dvec2(*x, *y) + kHalfPixel, sure == nullptr ? 1 : NumberOf(sure).value_or(0)};
+}
+
+/// Returns the list of a person's scores; null if there is none. Fails if another list of numbers, as long as the list
+/// of keypoints, may be the scores.
+Result<const Json*> ScoresOf(const Json& person, std::size_t keypoints, const Place& place) {
+  if (const Json* scores =
+          FirstMember(person, {"keypoint_scores", "scores", "keypoints_scores", "kpt_scores", "kp_scores", "kp_score",
+                               "keypoints_visible", "confidences", "conf", "confidence", "likelihood"})) {
+    return scores;
+  }
+  const auto is_number = [](const Json& entry) { return entry.is_number_float(); };
+  if (!person.is_object()) return nullptr;
+  for (const auto& [key, value] : person.items()) {
+    if (!value.is_array() || value.size() != keypoints || !std::ranges::all_of(value, is_number)) continue;
+    return Fail(place, "a person has the list '{}' beside the keypoints; allowed: keypoint_scores", key);
+  }
+  return nullptr;
 }
 
 /// Reads points [[x, y], …] with a list of scores, or [x, y, score].
@@ -229,6 +254,10 @@ Result<std::vector<Keypoint>> PointsOfPairs(const Json& list, const Json* scores
     const auto x = NumberOf(&pair[0]), y = NumberOf(&pair[1]);
     double sure = 1;
     if (scores != nullptr && scores->is_array() && scores->size() == list.size()) {
+      if (pair.size() > 2 && pair[2] != (*scores)[i]) {
+        return Fail(place, "a keypoint has {} coordinates beside a score: {}; allowed: pixels of one picture, [x, y]",
+                    pair.size(), ShowJson(pair));
+      }
       sure = NumberOf(&(*scores)[i]).value_or(0);
     } else if (pair.size() > 2) {
       sure = NumberOf(&pair[2]).value_or(0);
@@ -264,14 +293,15 @@ Result<ListedPerson> PointsOf(const Json& person, const Place& place) {
   }
   ListedPerson listed;
   if (list->front().is_array()) {
-    const Json* scores = FirstMember(person, {"keypoint_scores", "scores"});
+    ASSIGN_OR_RETURN(const Json* scores, ScoresOf(person, list->size(), place));
     ASSIGN_OR_RETURN(listed.points, PointsOfPairs(*list, scores, place));
   } else if (!list->front().is_object()) {
     ASSIGN_OR_RETURN(listed.points, Triples(list, place));
   } else {
     std::vector<std::string> names;
     for (const Json& point : *list) {
-      listed.points.push_back(PointOf(point));
+      ASSIGN_OR_RETURN(const Keypoint read, PointOf(point, place));
+      listed.points.push_back(read);
       const Json* name = Member(point, "name");
       names.push_back(name != nullptr && name->is_string() ? name->get<std::string>() : "");
     }

@@ -25,6 +25,7 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr double kOurPixelCentre = 0.5;
+constexpr const char* kAllowed = "JSON of OpenPose, COCO, AlphaPose, MMPose or MediaPipe";
 
 Result<std::vector<fs::path>> FilesIn(const fs::path& folder, const char* ending) {
   std::vector<fs::path> files;
@@ -33,7 +34,13 @@ Result<std::vector<fs::path>> FilesIn(const fs::path& folder, const char* ending
     if (entry.path().extension() == ending) files.push_back(entry.path());
   }
   if (error) return Fail({folder.string()}, "{}", error.message());
-  if (files.empty()) return Fail({folder.string()}, "no {} file in it", ending);
+  if (files.empty()) {
+    for (const fs::directory_entry& entry : fs::directory_iterator(folder, error)) {
+      if (entry.path().extension() != ".txt") continue;
+      return Fail({folder.string()}, "no {} file in it, but text files, as YOLO writes; allowed: {}", ending, kAllowed);
+    }
+    return Fail({folder.string()}, "no {} file in it", ending);
+  }
   std::ranges::sort(files, NaturallyBefore, &fs::path::native);
   return files;
 }
@@ -177,8 +184,14 @@ void Denormalise(const FilmOfKeypoints& of, PeopleOfFilm& film) {
 
 Result<PeopleOfFilm> ReadFile(const fs::path& file, const std::string& layout, const FilmOfKeypoints& of) {
   ASSIGN_OR_RETURN(const std::string text, ReadWholeFile(file));
-  ASSIGN_OR_RETURN(const Json json, ReadJson(WithNullForNan(text), file.string()));
   const Place place{file.string()};
+  if (text.starts_with("\x89HDF")) {
+    return Fail(place, "an HDF5 file, as DeepLabCut (.h5) and SLEAP (.slp) write; allowed: {}", kAllowed);
+  }
+  if (file.extension() == ".csv") {
+    return Fail(place, "a CSV file, as DeepLabCut and SLEAP write; allowed: {}", kAllowed);
+  }
+  ASSIGN_OR_RETURN(const Json json, ReadJson(WithNullForNan(text), file.string()));
   return IsKeypointList(json) ? ReadKeypointList(json, layout, of, place) : ReadCoco(json, layout, of, place);
 }
 
@@ -278,7 +291,9 @@ Result<fs::path> EntryOfFilm(const fs::path& folder, const std::string& film) {
   std::vector<fs::path> found;
   std::error_code error;
   for (const fs::directory_entry& entry : fs::directory_iterator(folder, error)) {
-    const std::string name = entry.path().filename().string();
+    std::string name = entry.path().filename().string();
+    constexpr std::string_view kOfMmpose = "results_";  // MMPose's demo puts this before the film's name
+    if (!film.starts_with(kOfMmpose) && name.starts_with(kOfMmpose)) name.erase(0, kOfMmpose.size());
     const bool begins = name.starts_with(film);
     if (begins && (name.size() == film.size() || !std::isalnum(static_cast<unsigned char>(name[film.size()])))) {
       found.push_back(entry.path());
@@ -286,7 +301,9 @@ Result<fs::path> EntryOfFilm(const fs::path& folder, const std::string& film) {
   }
   std::ranges::sort(found);
   if (error) return Fail({folder.string()}, "{}", error.message());
-  if (found.empty()) return Fail({folder.string()}, "no file in it begins with the film's name {}", film);
+  if (found.empty())
+    return Fail({folder.string()}, "no file in it begins with the film's name {}, followed by no letter or digit",
+                film);
   if (found.size() > 1) {
     return Fail({folder.string()}, "{} and {} both begin with the film's name {}", found[0].filename().string(),
                 found[1].filename().string(), film);

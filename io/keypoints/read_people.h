@@ -14,6 +14,8 @@ struct PeopleOfFilm {
   int width = 0, height = 0;  ///< size of the pictures, pixels; 0 if the files do not state it
   std::string told;           ///< a note about assumptions that were made, "" if none
   std::string doubt;          ///< the reason why `layout` seems to be wrong, "" if none
+  bool is_from_one = false;   ///< true if frame numbers certainly count from 1
+  bool is_base_open = false;  ///< true if frame numbers may count from 0 or from 1; they were taken as `from_one` says
 
   /// Adds a note to `told`.
   void Tell(const std::string& note) { told += (told.empty() ? "" : "; ") + note; }
@@ -23,6 +25,7 @@ struct PeopleOfFilm {
 struct FilmOfKeypoints {
   int width = 0, height = 0;
   std::size_t frames = 0;
+  bool from_one = false;  ///< frame numbers count from 1 if they may count from 0 or from 1
 };
 
 /// Reads keypoints from a folder of OpenPose's or MMPose's JSON (`*.json`, one file per frame, ordered by name with
@@ -47,8 +50,8 @@ Result<PeopleOfFilm> ReadKeypoints(const std::filesystem::path& path, const std:
 Result<PeopleOfFilm> ReadMarkedPictures(const std::filesystem::path& folder);
 
 /// Finds the one entry of a folder that belongs to a film: its name is the film's name, alone or followed by a
-/// character that is neither letter nor digit ("cam01", "cam01_json", "cam01.json"). Fails if the folder has no such
-/// entry, or more than one.
+/// character that is neither letter nor digit ("cam01", "cam01_json", "cam01.json"), perhaps after "results_". Fails if
+/// the folder has no such entry, or more than one.
 Result<std::filesystem::path> EntryOfFilm(const std::filesystem::path& folder, const std::string& film);
 
 }  // namespace etude

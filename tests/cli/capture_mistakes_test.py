@@ -378,6 +378,10 @@ STRANGERS = {
     "shares of the longer side": ("Pose2Sim", lambda p: (p + 0.5) / WIDTH, "corrected: keypoints are relative to the picture's longer side"),
     "x and y exchanged": ("Pose2Sim", lambda p: p[::-1], "corrected: keypoints have x and y exchanged"),
     "v counted from below": ("Pose2Sim", lambda p: np.array([p[0], HEIGHT - 1 - p[1]]), "corrected: keypoints count v from the picture's bottom"),
+    "all films turned by 180": ("Pose2Sim", lambda p: np.array([WIDTH - 1 - p[0], HEIGHT - 1 - p[1]]),
+                                "corrected: keypoints of all films are turned by 180° clockwise"),
+    "all films turned by 90": ("Pose2Sim", lambda p: np.array([HEIGHT - 1 - p[1], p[0]]),
+                               "corrected: keypoints of all films are turned by 90° clockwise"),
     "all films mirrored": ("Pose2Sim", lambda p: np.array([WIDTH - 1 - p[0], p[1]]), "corrected: keypoints of all films are mirrored"),
 }
 
@@ -493,6 +497,70 @@ class Mistakes(EtudeCase):
                 with self.subTest(name, cameras=cameras):
                     told, errors, _ = self.capture(rig, cameras=cameras, pixels=pixels, lens=Lens(LENS[:4]))
                     self.check(told, errors, words=words)
+
+    # Sizes and crops outside the list of known ones are doubted, with the fit, and never "corrected".
+    def test_other_sizes_and_crops_are_doubted(self):
+        crops = {"scaled by 1.304 and 1.304": lambda p: 0.7667 * p,
+                 "shifted by +80 and +30 px": lambda p: p - (80, 30),
+                 "scaled by 2.000 and 2.000, then shifted by +0 and -80 px": lambda p: p / 2 + (0, 40)}
+        for words, pixels in list(crops.items())[::1 if HEAVY else 2]:
+            with self.subTest(words):
+                folder, rig, films, _ = self.take(cameras=3, pixels=pixels, lens=Lens(LENS[:4]))
+                told = self.etude("capture", "--rig", rig, *films, "--keypoints", folder / "keypoints", "-o", folder / "m.csv")
+                self.assertRegex(told.stdout, r"doubtful: keypoints of all films fit the rig best .*Not corrected")
+                self.assertNotIn("corrected: keypoints", told.stdout)
+
+    def remade(self, folder, name, filters, times, *arguments):
+        """Makes the film of a camera again, and its keypoints at these times: files that are numbered from 0."""
+        subprocess.run(["ffmpeg", "-y", "-v", "error", "-f", "lavfi", "-i", f"testsrc=size={WIDTH}x{HEIGHT}:rate={RATE}",
+                        *(("-vf", filters, "-vsync", "vfr") if filters else ()), "-frames:v", str(len(times)), "-preset",
+                        "ultrafast", "-pix_fmt", "yuv420p", *arguments, str(folder / f"{name}.mp4")], check=True)
+        for old in (folder / "keypoints" / f"{name}_json").iterdir():
+            old.unlink()
+        for k, time in enumerate(times):
+            person = Camera(PLACES[name]).person(figure(time))
+            (folder / "keypoints" / f"{name}_json" / f"{name}_{k}.json").write_text(json.dumps(
+                {"people": [{"pose_keypoints_2d": [float(v) for key in HALPE for v in (*person[key], 0.9)]}]}))
+
+    # The times of the pictures lay them on even frames, whichever film lacks some.
+    def test_films_of_uneven_rate(self):
+        low_light = [k for k in range(FRAMES) if k < 30 or k % 2 == 0]
+        for name, kept, words in (("cam1", [k for k in range(FRAMES) if not 30 <= k < 36], "missing: frames 31 to 36"),
+                                  ("cam2", low_light, "14 of 59 frames are missing")):
+            with self.subTest(name):
+                folder, rig, films, _ = self.take(cameras=3, lens=Lens())
+                picked = "+".join(rf"eq(n\,{k})" for k in kept)
+                self.remade(folder, name, f"select='{picked}'", [k / RATE for k in kept])
+                told = self.etude("capture", "--rig", rig, *films, "--keypoints", folder / "keypoints", "--points",
+                                  folder / "p.trc", "-o", folder / "m.csv")
+                self.assertEqual(told.returncode, 0, told.stderr)
+                self.assertIn(words, told.stdout)
+                errors, _ = errors_mm(read_trc(folder / "p.trc"), figure)
+                self.assertLess(np.max(errors), 2.0, told.stdout)
+
+    # A film that was cut between two key frames has more packets than pictures.
+    def test_a_cut_film_has_the_frames_that_it_shows(self):
+        folder, rig, films, _ = self.take(cameras=2, lens=Lens())
+        long = folder / "long"
+        long.mkdir()
+        shutil.copytree(folder / "keypoints", long / "keypoints")
+        self.remade(long, "cam2", "", [k / RATE for k in range(RATE + FRAMES)], "-g", "250")
+        subprocess.run(["ffmpeg", "-y", "-v", "error", "-ss", "1", "-i", str(long / "cam2.mp4"), "-c", "copy", str(films[1])],
+                       check=True)
+        told = self.etude("capture", "--rig", rig, *films, "--keypoints", folder / "keypoints", "--points", folder / "p.trc",
+                          "-o", folder / "m.csv", "--film", folder / "film.mp4")
+        self.assertEqual(told.returncode, 0, told.stderr)
+        self.assertLess(np.max(errors_mm(read_trc(folder / "p.trc"), figure)[0]), 2.0, told.stdout)
+
+    # The end of a film decides, not the number of its frames.
+    def test_films_may_end_a_frame_apart(self):
+        folder, rig, films, _ = self.take(cameras=2, lens=Lens())
+        self.remade(folder, "cam2", "", [k / RATE for k in range(FRAMES + 1)])
+        told = self.etude("capture", "--rig", rig, *films, "--keypoints", folder / "keypoints", "-o", folder / "m.csv")
+        self.assertIn("cam2: the film has 61 frames, but cam1 has 60; both are assumed to begin at the same moment", told.stdout)
+        self.remade(folder, "cam2", "", [k / RATE for k in range(FRAMES + 2)])
+        told = self.etude("capture", "--rig", rig, *films, "--keypoints", folder / "keypoints", "-o", folder / "n.csv")
+        self.assertIn("cut both so that they begin and end at the same moments", told.stderr)
 
     # With errors of 8 px no mistake may be reported, but exchanged cameras must still be found.
     def test_imprecise_keypoints_are_no_mistake_of_the_session(self):

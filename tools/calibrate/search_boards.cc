@@ -82,8 +82,8 @@ Result<void> AddFolder(std::size_t camera, const fs::path& folder, const Calibra
   return {};
 }
 
-/// Searches every n-th frame of a film. The frame's number becomes the view's moment (views of one moment show the same
-/// board position).
+/// Searches every n-th frame of a film, of evenly spaced frames. The frame's number becomes the view's moment (views of
+/// one moment show the same board position).
 Result<void> AddFilm(std::size_t camera, const fs::path& film, const CalibrateOptions& options, BoardViews& views,
                      CameraBoards& seen) {
   ASSIGN_OR_RETURN(const FilmFacts facts, ProbeFilm(film));
@@ -93,6 +93,8 @@ Result<void> AddFilm(std::size_t camera, const fs::path& film, const CalibrateOp
                : is_printed      ? std::max(1, (static_cast<int>(facts.frames) + kPictures - 1) / kPictures)
                                  : kUsual;
   seen.period_s = seen.every / (facts.rate_hz > 0 ? facts.rate_hz : 1.0);
+  if (!facts.remark.empty()) options.listener.print(fmt::format("{}: {}\n", seen.name, facts.remark));
+  const std::vector<int> moments = facts.FramesOfPictures();
   const OnProgress progress = options.listener.progress(fmt::format("frames of {}", seen.name));
   ASSIGN_OR_RETURN(Decoder decoder, Decoder::Start(film, facts));
   ColourImage frame;
@@ -100,8 +102,10 @@ Result<void> AddFilm(std::size_t camera, const fs::path& film, const CalibrateOp
     ASSIGN_OR_RETURN(const bool is_there, decoder.Next(frame));
     if (!is_there) return {};
     progress(static_cast<std::size_t>(i), static_cast<std::size_t>(facts.frames));
-    if (i % seen.every != 0) continue;
-    RETURN_IF_ERROR(AddPicture(camera, fmt::format("{:08}", i), frame, i / seen.every, film.string(), views, seen));
+    const int moment = i < facts.frames ? moments[static_cast<std::size_t>(i)] : i;
+    if (moment < 0 || moment % seen.every != 0) continue;
+    RETURN_IF_ERROR(
+        AddPicture(camera, fmt::format("{:08}", moment), frame, moment / seen.every, film.string(), views, seen));
   }
 }
 

@@ -51,7 +51,8 @@ Result<CapturedFilms> CaptureFilms(const CaptureFilmsOptions& options) {
   // Open the films, and resample the reference to the films' frame rate.
   ASSIGN_OR_RETURN(FilmedSession session, OpenFilms(options));
   const FilmFacts facts = session.views.front().facts;
-  options.listener.print(fmt::format("{} films, {} frames at {:g} Hz\n", session.views.size(), facts.frames, facts.rate_hz));
+  options.listener.print(
+      fmt::format("{} films, {} frames at {:g} Hz\n", session.views.size(), facts.EvenFrames(), facts.rate_hz));
   if (reference && std::abs(reference->rate_hz - facts.rate_hz) > kSameRateTolerance * facts.rate_hz) {
     options.listener.print(fmt::format("reference: resampled from {:g} to {:g} Hz, linearly between its frames\n",
                                        reference->rate_hz, facts.rate_hz));
@@ -62,8 +63,9 @@ Result<CapturedFilms> CaptureFilms(const CaptureFilmsOptions& options) {
   for (const FilmedView& view : session.views) {
     seen.push_back({{"film", view.path.string()}, {"camera", view.camera.name}});
   }
-  Json told = {{"films", std::move(seen)}, {"frames", facts.frames}, {"rate_hz", facts.rate_hz}, {"keypoints", nullptr},
-               {"silhouettes", nullptr},   {"doubt", nullptr},       {"output", options.output}};
+  Json told = {{"films", std::move(seen)}, {"frames", facts.EvenFrames()}, {"rate_hz", facts.rate_hz},
+               {"keypoints", nullptr},     {"silhouettes", nullptr},       {"doubt", nullptr},
+               {"output", options.output}};
   bool is_whole = false;
   // With silhouettes alone, the rig must be placed in the world before the person is found.
   if (options.silhouettes && options.keypoints.empty()) {

@@ -2,10 +2,12 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <filesystem>
 #include <nlohmann/json.hpp>
 #include <optional>
 
+#include "engine/base/angles.h"
 #include "engine/base/names.h"
 #include "engine/formats/trc.h"
 #include "engine/keypoints/adjust_person.h"
@@ -135,12 +137,38 @@ Result<UnmarkedMotion> WithOutlines(const RecoveredPerson& person, std::size_t c
                            {.person = &person.people[chosen], .lengths = person.body.lengths});
 }
 
-/// Returns the first doubt about the keypoints' layout, which explains why nobody was found, for the end of a message.
+/// Returns true if, in most frames, the person hangs upside down with exchanged sides in all cameras: seen from afar,
+/// pictures that are turned by 180° show this.
+bool HangsMirrored(const RecoveredPerson& person, std::size_t cameras) {
+  constexpr double kMaxLean = Radians(120), kMostly = 0.5;
+  std::size_t hanging = 0, standing = 0, exchanged = 0;
+  for (const LandmarkPositions& at : person.landmarks) {
+    using enum Landmark;
+    const auto &a = at[Index(kLeftAnkle)], &b = at[Index(kRightAnkle)], &c = at[Index(kLeftShoulder)],
+               &d = at[Index(kRightShoulder)];
+    if (!a || !b || !c || !d) continue;
+    const glm::dvec3 body = *c + *d - *a - *b;
+    ++(body.y < std::cos(kMaxLean) * glm::length(body) ? hanging : standing);
+  }
+  for (std::size_t camera = 0; camera < cameras; ++camera) {
+    std::size_t frames = 0;
+    for (const Mend& mend : person.mends) {
+      if (mend.camera == camera && mend.kind == Mend::Kind::kSwappedSides) frames += mend.frames.size();
+    }
+    exchanged += static_cast<double>(frames) > kMostly * static_cast<double>(person.landmarks.size());
+  }
+  return hanging > standing && exchanged == cameras;
+}
+
+/// Returns the first doubt about the keypoints' layout or scores, which explains why nobody was found, for the end of a
+/// message.
 std::string DoubtOfLayout(const SeenFilms& films) {
-  const auto doubt = std::ranges::find_if(films.told.lines, [](const std::string& line) {
-    return line.starts_with("doubtful: ") && line.find("layout") != line.npos;
-  });
-  return doubt == films.told.lines.end() ? "" : "; " + doubt->substr(doubt->find(' ') + 1);
+  for (const std::string& line : films.told.lines) {
+    if (line.find(" have a score below ") != line.npos) return "; " + line;
+    if (line.starts_with("doubtful: ") && line.find("layout") != line.npos)
+      return "; " + line.substr(line.find(' ') + 1);
+  }
+  return "";
 }
 
 AdjustPersonOptions AdjustOf(const RecoverPersonOptions& recover) {
@@ -299,6 +327,11 @@ Result<bool> CaptureKeypoints(const CaptureFilmsOptions& options, FilmedSession 
   TellDoubts(person.people[chosen], views, recover.triangulate.min_confidence, films.told);
   std::vector<JointPositions> joints;
   for (const LandmarkPositions& frame : person.landmarks) joints.push_back(JointsOf(frame));
+  if (HangsMirrored(person, views.size())) {
+    films.told.Tell(
+        "doubtful: the person is upside down, and left and right are exchanged in all cameras: are the pictures of all "
+        "films turned by 180°, against the rig's?");
+  }
   const std::string exchanged = DescribeExchangedJoints(joints, recover.rate_hz);
   if (!exchanged.empty()) films.told.Tell("doubtful: " + exchanged);
   options.listener.print(ReportText(person, views) + FitText(person));

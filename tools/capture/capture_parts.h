@@ -39,9 +39,12 @@ struct FilmedSession {
   std::vector<std::string> told;  ///< messages about the rig and the films
 };
 
+/// Returns ranges of frames, counted from 1: "3 to 20, 25".
+std::string FramesText(const std::vector<std::size_t>& frames);
+
 /// Opens the films and assigns a camera of the rig to each. Fails if there are fewer than two films, if a camera is
-/// missing or named twice, if `--fit` does not explain the size of the pictures, and, without `--sync`, if the films
-/// have different lengths.
+/// missing or named twice, if `--fit` does not explain the size of the pictures, and, without `--sync`, if the films'
+/// lengths differ by more than 1.5 frames.
 Result<FilmedSession> OpenFilms(const CaptureFilmsOptions& options);
 
 /// Returns the lines "doubtful: …" about the cameras of the films (RigDoubts).

@@ -16,14 +16,35 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Reads the people of a film, in pixels of the keypoint file. Sets `view.is_sized` if the file states the size of the
-/// pictures.
-Result<SeenPeople> ReadPeople(const CaptureFilmsOptions& options, FilmedView& view, MessageLog& told) {
-  const bool is_marks = !options.marks.empty();
-  ASSIGN_OR_RETURN(const fs::path entry,
-                   EntryOfFilm(is_marks ? options.marks : options.keypoints, view.path.stem().string()));
-  const FilmOfKeypoints of{view.facts.width, view.facts.height, static_cast<std::size_t>(view.facts.frames)};
-  ASSIGN_OR_RETURN(PeopleOfFilm film, is_marks ? ReadMarkedPictures(entry) : ReadKeypoints(entry, options.layout, of));
+Result<fs::path> EntryOf(const CaptureFilmsOptions& options, const FilmedView& view) {
+  return EntryOfFilm(options.marks.empty() ? options.keypoints : options.marks, view.path.stem().string());
+}
+
+/// Reads the keypoints or marks of all films. If the frame numbers of one film count from 1, so do those of a film
+/// whose numbers may count from 0 or from 1.
+Result<std::vector<PeopleOfFilm>> ReadFilms(const CaptureFilmsOptions& options, const std::vector<FilmedView>& views) {
+  std::vector<PeopleOfFilm> films;
+  for (const bool from_one : {false, true}) {
+    for (std::size_t i = 0; i < views.size(); ++i) {
+      if (from_one && !films[i].is_base_open) continue;
+      ASSIGN_OR_RETURN(const fs::path entry, EntryOf(options, views[i]));
+      const FilmFacts& facts = views[i].facts;
+      const FilmOfKeypoints of{facts.width, facts.height, static_cast<std::size_t>(facts.frames), from_one};
+      ASSIGN_OR_RETURN(PeopleOfFilm film,
+                       options.marks.empty() ? ReadKeypoints(entry, options.layout, of) : ReadMarkedPictures(entry));
+      if (!from_one) films.emplace_back();
+      films[i] = std::move(film);
+    }
+    if (std::ranges::none_of(films, &PeopleOfFilm::is_from_one)) break;
+  }
+  return films;
+}
+
+/// Returns the people of a film, in pixels of the keypoint file. Sets `view.is_sized` if the file states the size of
+/// the pictures.
+Result<SeenPeople> TakePeople(const CaptureFilmsOptions& options, PeopleOfFilm film, FilmedView& view,
+                              double min_confidence, MessageLog& told) {
+  ASSIGN_OR_RETURN(const fs::path entry, EntryOf(options, view));
   if (!film.told.empty()) options.listener.print(fmt::format("{}: {}\n", entry.filename().string(), film.told));
   if (!film.doubt.empty()) told.Tell(fmt::format("doubtful: {}: {}", entry.filename().string(), film.doubt));
   // Check that the file has the film's number of frames and, up to a rotation by 90°, the film's picture size.
@@ -40,6 +61,22 @@ Result<SeenPeople> ReadPeople(const CaptureFilmsOptions& options, FilmedView& vi
                 film.width, film.height, view.facts.width, view.facts.height);
   }
   view.is_sized = film.width != 0;
+  // Report scores that are too low for keypoints to be used.
+  std::size_t seen = 0, unsure = 0;
+  for (const auto& frame : film.frames) {
+    for (const SeenPerson& person : frame) {
+      for (const Keypoint& keypoint : person.keypoints) {
+        seen += keypoint.confidence > 0;
+        unsure += keypoint.confidence > 0 && keypoint.confidence < min_confidence;
+      }
+    }
+  }
+  constexpr double kMaxUnsure = 0.25;
+  if (static_cast<double>(unsure) > kMaxUnsure * static_cast<double>(seen)) {
+    told.Tell(fmt::format("{}: {:.0f} % of its keypoints have a score below {:g} and are not used",
+                          entry.filename().string(), 100.0 * static_cast<double>(unsure) / static_cast<double>(seen),
+                          min_confidence));
+  }
   return std::move(film.frames);
 }
 
@@ -57,18 +94,28 @@ void FitPeople(const RigFile& rig, std::vector<FilmedView>& views, std::vector<S
   // Find out whether films were exchanged between cameras.
   SessionGuess session = GuessSession(films, names, rig.R_WF, min_confidence);
   if (!session.mended.empty()) told_lines.Tell("corrected: " + session.mended);
+  if (!session.doubt.empty()) told_lines.Tell("doubtful: " + session.doubt);
   for (std::size_t i = 0; i < views.size(); ++i) {
+    films[i] = Turned(std::move(films[i]), session.turns);
     films[i].camera = views[i].camera.camera = session.cameras[i];
     films[i].people = people[i] = std::move(session.people[i]);
+    // The keypoints' pictures and the film's are the same, unless only one of them is turned by 90°.
+    if (session.turns % 2 == 0) views[i].fit = session.fits[i];
   }
   // Find each film's rotation, scale and shift, and apply these to the keypoints.
-  const std::vector<PictureGuess> guesses = GuessPictures(films, min_confidence);
+  std::vector<PictureGuess> guesses;
+  if (session.doubt.empty()) {
+    guesses = GuessPictures(films, min_confidence);
+  } else {
+    for (const PixelFit& fit : session.fits) guesses.push_back({fit, ""});
+  }
   for (std::size_t i = 0; i < views.size(); ++i) {
     FilmedView& view = views[i];
     const PictureGuess& guess = guesses[i];
     std::string told = guess.told;
-    if (told.empty() && view.fit.quarter_turns != 0) {
-      told = "pictures turned by 90° clockwise, as their size and the other cameras show";
+    if (told.empty() && view.fit.quarter_turns != 0 && session.turns == 0) {
+      told = fmt::format("pictures turned by {}° clockwise, {}", 90 * view.fit.quarter_turns,
+                         view.facts.turned % 2 != 0 ? "as the film states" : "as their size suggests");
     }
     if (!told.empty()) told_lines.Tell(fmt::format("{}: {}", view.camera.name, told));
     for (auto& frame : people[i]) {
@@ -79,7 +126,7 @@ void FitPeople(const RigFile& rig, std::vector<FilmedView>& views, std::vector<S
     // If the keypoints' pictures were scaled differently from the film, the keypoints do not show how the film itself
     // was scaled.
     const bool is_films_own = guess.fit.scale == view.fit.scale && guess.fit.shift == view.fit.shift;
-    if (is_films_own) view.fit = guess.fit;
+    if (is_films_own && session.turns % 2 == 0) view.fit = guess.fit;
   }
 }
 
@@ -241,7 +288,8 @@ void CorrectClocks(const std::vector<FilmedView>& views, const RecoverPersonOpti
   }
 }
 
-/// Returns ranges of frames, counted from 1: "3 to 20, 25".
+}  // namespace
+
 std::string FramesText(const std::vector<std::size_t>& frames) {
   std::string text;
   constexpr std::size_t kMaxRanges = 12;
@@ -257,8 +305,6 @@ std::string FramesText(const std::vector<std::size_t>& frames) {
   return text;
 }
 
-}  // namespace
-
 Result<SeenFilms> SeeFilms(const CaptureFilmsOptions& options, const RecoverPersonOptions& recover,
                            FilmedSession& session) {
   std::vector<FilmedView>& views = session.views;
@@ -266,8 +312,12 @@ Result<SeenFilms> SeeFilms(const CaptureFilmsOptions& options, const RecoverPers
   for (const std::string& line : session.told) films.told.Tell(line);
   films.clocks.resize(views.size());
   // Read the keypoints, map them to the rig's pictures and remove the lens distortion.
-  for (FilmedView& view : views) {
-    ASSIGN_OR_RETURN(SeenPeople people, ReadPeople(options, view, films.told));
+  ASSIGN_OR_RETURN(std::vector<PeopleOfFilm> read, ReadFilms(options, views));
+  for (std::size_t i = 0; i < views.size(); ++i) {
+    FilmedView& view = views[i];
+    ASSIGN_OR_RETURN(SeenPeople people,
+                     TakePeople(options, std::move(read[i]), view, recover.triangulate.min_confidence, films.told));
+    if (!view.facts.pictures.empty()) people = PeopleAt(people, view.facts.pictures, recover.match.follow);
     films.people.push_back(std::move(people));
   }
   FitPeople(session.rig, views, films.people, recover.triangulate.min_confidence, films.told);

@@ -43,7 +43,7 @@ std::vector<FilmClock> ClocksByRates(const std::vector<FilmedView>& views, Messa
     const double own = view.facts.rate_hz, rate = first.rate_hz;
     if (own == rate) continue;
     constexpr double kMs = 1000;
-    const double seconds = static_cast<double>(first.frames) / rate;
+    const double seconds = first.EvenFrames() / rate;
     const bool is_one = std::abs(own - rate) <= kSameRateTolerance * rate;
     if (!is_one) clocks.back().drift = rate / own - 1;
     told.Tell(fmt::format("{}: the film has {:g} frames per second, but the others have {:g}; ", view.camera.name, own,
@@ -60,12 +60,13 @@ std::vector<FilmClock> ClocksByRates(const std::vector<FilmedView>& views, Messa
 
 /// Selects the pictures of a film that are nearest to the times of the first film's frames.
 template <typename Picture>
-std::vector<Picture> NearestInTime(std::vector<Picture> film, const FilmClock& clock, std::size_t frames) {
-  if (clock == FilmClock{} && film.size() == frames) return film;
+std::vector<Picture> NearestInTime(std::vector<Picture> film, const FilmFacts& facts, const FilmClock& clock,
+                                   int frames) {
+  if (clock == FilmClock{} && std::ssize(film) == frames && facts.pictures.empty()) return film;
   std::vector<Picture> in_time;
-  for (std::size_t k = 0; k < frames; ++k) {
-    const double at = std::clamp(clock.FrameAt(static_cast<double>(k)), 0.0, static_cast<double>(film.size() - 1));
-    in_time.push_back(film[static_cast<std::size_t>(std::lround(at))]);
+  for (int k = 0; k < frames; ++k) {
+    const double at = std::clamp<double>(clock.FrameAt(k), 0, facts.EvenFrames() - 1);
+    in_time.push_back(film[static_cast<std::size_t>(facts.PictureAt(static_cast<int>(std::lround(at))))]);
   }
   return in_time;
 }
@@ -91,7 +92,7 @@ Result<ReducedTake> ReadTake(const CaptureFilmsOptions& options, const std::vect
     const FilmClock& clock = clocks[take.cameras.size() - 1];
     if (!options.masks.empty()) {
       ASSIGN_OR_RETURN(auto masks, ReadMasks(options.masks, options.mask_id, view, told));
-      take.masks.push_back(NearestInTime(std::move(masks), clock, views.front().facts.frames));
+      take.masks.push_back(NearestInTime(std::move(masks), view.facts, clock, views.front().facts.EvenFrames()));
       continue;
     }
     ASSIGN_OR_RETURN(auto film, ReadReduced(view.path, view.facts, view.camera.camera, view.fit,
@@ -99,7 +100,7 @@ Result<ReducedTake> ReadTake(const CaptureFilmsOptions& options, const std::vect
     if (film.empty() || film.size() != static_cast<std::size_t>(view.facts.frames)) {
       return Fail({view.path.string()}, "{} frames, although its header states {}", film.size(), view.facts.frames);
     }
-    take.pictures.push_back(NearestInTime(std::move(film), clock, views.front().facts.frames));
+    take.pictures.push_back(NearestInTime(std::move(film), view.facts, clock, views.front().facts.EvenFrames()));
     if (options.rooms.empty()) continue;
     ASSIGN_OR_RETURN(ColourImage room, ReadRoom(options.rooms, view));
     take.rooms.push_back(std::move(room));

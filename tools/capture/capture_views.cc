@@ -111,33 +111,33 @@ void FindSize(FilmedView& view, std::vector<std::string>& told) {
   in.height = static_cast<int>(std::lround(best.y / scale));
 }
 
-/// Checks that the films cover the same time: at equal rates, they must have equally many frames; at different rates,
-/// equal durations.
-Result<void> CheckTogether(const std::vector<FilmedView>& views, bool may_differ_in_time) {
-  const FilmedView& first = views.front();
+/// Checks that the films cover the same time, to 1.5 frames. Films whose rates differ by less than `kSameRateTolerance`
+/// may instead have equally many frames.
+Result<void> CheckTogether(const std::vector<FilmedView>& views, bool may_differ_in_time,
+                           std::vector<std::string>& told) {
+  const FilmFacts& first = views.front().facts;
   for (const FilmedView& view : views) {
-    if (!(view.facts.rate_hz > 0)) {
+    const FilmFacts& film = view.facts;
+    if (!(film.rate_hz > 0)) {
       return Fail({view.path.string()}, "does not state its frame rate");
     }
     if (may_differ_in_time) continue;
-    const bool is_one_rate = std::abs(view.facts.rate_hz - first.facts.rate_hz) <= kSameRateTolerance * first.facts.rate_hz;
-    if (is_one_rate && view.facts.frames != first.facts.frames) {
-      return Fail({view.path.string()},
-                  "the film has {} frames, but {} has {}; cut both so that they begin and end at the same moments, or "
-                  "use keypoints to find the delay (--sync)",
-                  view.facts.frames, first.path.string(), first.facts.frames);
-    }
-    const double seconds = static_cast<double>(view.facts.frames) / view.facts.rate_hz;
-    const double wanted = static_cast<double>(first.facts.frames) / first.facts.rate_hz;
-    const double frame = 1 / std::min(view.facts.rate_hz, first.facts.rate_hz);
+    const bool is_one_rate = std::abs(film.rate_hz - first.rate_hz) <= kSameRateTolerance * first.rate_hz;
+    if (is_one_rate && film.EvenFrames() == first.EvenFrames()) continue;
+    const double seconds = film.EvenFrames() / film.rate_hz, wanted = first.EvenFrames() / first.rate_hz;
     constexpr double kFrames = 1.5;
-    if (!is_one_rate && std::abs(seconds - wanted) > kFrames * frame) {
-      return Fail(
-          {view.path.string()},
-          "the film lasts {:.3g} s at {:g} frames per second, but {} lasts {:.3g} s at {:g} frames per second; cut "
-          "both so that they begin and end at the same moments, or use keypoints to find the delay (--sync)",
-          seconds, view.facts.rate_hz, first.path.string(), wanted, first.facts.rate_hz);
+    if (std::abs(seconds - wanted) > kFrames / std::min(film.rate_hz, first.rate_hz)) {
+      return Fail({view.path.string()},
+                  "the film has {} frames, that is {:.4g} s at {:g} Hz, but {} has {}, that is {:.4g} s at {:g} Hz; "
+                  "cut both so "
+                  "that they begin and end at the same moments, or use keypoints to find the delay (--sync)",
+                  film.EvenFrames(), seconds, film.rate_hz, views.front().path.string(), first.EvenFrames(), wanted,
+                  first.rate_hz);
     }
+    if (!is_one_rate) continue;
+    told.push_back(
+        fmt::format("{}: the film has {} frames, but {} has {}; both are assumed to begin at the same moment",
+                    view.camera.name, film.EvenFrames(), views.front().camera.name, first.EvenFrames()));
   }
   return {};
 }
@@ -207,8 +207,9 @@ Result<FilmedSession> OpenFilms(const CaptureFilmsOptions& options) {
     if (in.width == 0) FindSize(view, told);
     const bool is_turned = options.fit == "none" && in.width != in.height && in.width == view.facts.height &&
                            in.height == view.facts.width;
-    if (is_turned) {  // the keypoints will show in which direction the film is turned
-      view.fit = {.quarter_turns = 1, .size = {in.width, in.height}};
+    if (is_turned) {  // the keypoints will show in which direction the film is turned, if it does not state it
+      const int turns = view.facts.turned % 2 != 0 ? view.facts.turned : 1;
+      view.fit = {.quarter_turns = turns, .size = {in.width, in.height}};
       views.push_back(std::move(view));
       continue;
     }
@@ -218,7 +219,16 @@ Result<FilmedSession> OpenFilms(const CaptureFilmsOptions& options) {
     view.fit = *fit;
     views.push_back(std::move(view));
   }
-  RETURN_IF_ERROR(CheckTogether(views, options.sync_s > 0));
+  for (const FilmedView& view : views) {
+    if (view.facts.remark.empty()) continue;
+    std::vector<std::size_t> missing;
+    for (std::size_t i = 0; i < view.facts.pictures.size(); ++i) {
+      if (view.facts.pictures[i] < 0) missing.push_back(i);
+    }
+    told.push_back(fmt::format("{}: {}{}", view.camera.name, view.facts.remark,
+                               missing.empty() ? "" : fmt::format("; missing: frames {}", FramesText(missing))));
+  }
+  RETURN_IF_ERROR(CheckTogether(views, options.sync_s > 0, told));
   return FilmedSession{std::move(views), std::move(rig_file), std::move(told)};
 }
 
@@ -305,7 +315,7 @@ RealTake RealTakeOf(const std::vector<ComparedColumn>& columns, const std::vecto
                             : options.keypoints.empty() ? "marks"
                                                         : "keypoints",
                 .reference = fs::path(options.reference).filename().string(),
-                .frames = static_cast<int>(views.front().facts.frames),
+                .frames = views.front().facts.EvenFrames(),
                 .rate_hz = views.front().facts.rate_hz};
   for (const FilmedView& view : views) take.films.push_back(view.path.filename().string());
   for (const ComparedColumn& column : columns) {

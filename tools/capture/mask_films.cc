@@ -93,6 +93,15 @@ bool HasSeveral(const Mask& mask) {
   return 4 * largest[1] > largest[0];
 }
 
+/// Returns true if there are few values and the second most frequent one is frequent, too: they number several people
+/// or things. Shades at a person's rim are rare. @param pixels the number of pixels with each value
+bool AreFew(std::vector<std::size_t> pixels) {
+  constexpr std::size_t kMaxValues = 8, kMinShare = 4;
+  std::erase(pixels, std::size_t{0});
+  std::ranges::sort(pixels, std::greater());
+  return pixels.size() > 1 && pixels.size() <= kMaxValues && kMinShare * pixels[1] > pixels[0];
+}
+
 /// Lists values for a message.
 std::string ListOf(const std::vector<std::string>& values) {
   constexpr std::size_t kListed = 20;
@@ -110,7 +119,7 @@ Result<std::vector<Mask>> ReadMasks(const std::string& folder, std::optional<int
   // numbers. Transparent pictures are cut-outs, whose opacity shows the person. Keep all interpretations until all
   // values are known.
   std::vector<Mask> shades, shades_of_8_bits, numbers, cut_outs;
-  std::vector<bool> found(std::size_t{1} << 16, false);
+  std::vector<std::size_t> found(std::size_t{1} << 16);  // number of pixels with each value
   bool is_indexed = false, has_16_bits = false, has_alpha = false;
   const MaskVisit visit = [&](const MaskPicture& mask, const std::string& file) -> Result<void> {
     const Image<std::uint16_t>& values = mask.values;
@@ -125,7 +134,7 @@ Result<std::vector<Mask>> ReadMasks(const std::string& folder, std::optional<int
     is_indexed |= mask.is_indexed;
     has_16_bits |= mask.has_16_bits;
     has_alpha |= !mask.alpha.pixels.empty();
-    for (const std::uint16_t value : values.pixels) found[value] = true;
+    for (const std::uint16_t value : values.pixels) ++found[value];
     numbers.push_back(Reduced(values, patches, [&](std::uint16_t value) { return id ? value == *id : value != 0; }));
     if (id) return {};
     const auto from = [&](int least) {
@@ -146,11 +155,11 @@ Result<std::vector<Mask>> ReadMasks(const std::string& folder, std::optional<int
   std::vector<std::string> ids;
   int largest = 0;
   for (int value = 1; value < static_cast<int>(found.size()); ++value) {
-    if (!found[value]) continue;
+    if (found[value] == 0) continue;
     ids.push_back(std::to_string(value));
     largest = value;
   }
-  const bool are_numbers = id || is_indexed || largest <= kMaxNumber;
+  const bool are_numbers = id || is_indexed || largest <= kMaxNumber || AreFew({found.begin() + 1, found.end()});
   const bool are_cut_outs = has_alpha && !id;
   if (!id && !are_cut_outs && are_numbers && ids.size() > 1) {
     return Fail({entry.string()}, "masks of several people or things: {}; choose one by --mask-id", ListOf(ids));

@@ -84,8 +84,9 @@ class FilmReader {
 
   /// Returns the film's picture that is nearest in time to a frame of the motion. Call it with ascending frames.
   Result<const ColourImage*> At(std::size_t frame) {
-    const long wanted = std::clamp(std::lround((static_cast<double>(frame) - view_->offset) / (1 + view_->drift)), 0l,
-                                   static_cast<long>(view_->facts.frames) - 1);
+    const long even = std::clamp(std::lround((static_cast<double>(frame) - view_->offset) / (1 + view_->drift)), 0l,
+                                 static_cast<long>(view_->facts.EvenFrames()) - 1);
+    const int wanted = view_->facts.PictureAt(static_cast<int>(even));
     for (; shown_ < wanted; ++shown_) {
       ASSIGN_OR_RETURN(const bool is_there, decoder_.Next(picture_));
       if (!is_there) return Fail({view_->film.string()}, "ends before frame {}", wanted + 1);
@@ -99,7 +100,7 @@ class FilmReader {
   const OverlayView* view_;
   Decoder decoder_;
   ColourImage picture_;
-  long shown_ = -1;
+  int shown_ = -1;
 };
 
 /// Reads all films in parallel, and writes their pictures into one buffer, one after the other.
@@ -166,8 +167,7 @@ Result<bool> WriteOverlayFilm(const std::filesystem::path& path, std::span<const
     if (middle && frame == static_cast<int>(frames / 2)) *middle = PictureOf(draw(frame, into), middle->caption);
     return {};
   };
-  const int rate = std::max(1, static_cast<int>(std::lround(motion.rate_hz)));
-  return EncodeFedFrames(path, static_cast<int>(frames), rate, {readers.bytes(), fill}, draw, watch);
+  return EncodeFedFrames(path, static_cast<int>(frames), motion.rate_hz, {readers.bytes(), fill}, draw, watch);
 }
 
 }  // namespace etude

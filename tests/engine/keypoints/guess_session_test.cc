@@ -151,6 +151,8 @@ TEST(GuessSession, LeavesASessionThatIsAsSaid) {
     const auto films = FilmedWalker(4, sigma_px);
     const SessionGuess guess = GuessSession(films, kFilms, glm::dmat3(1), 0.1);
     EXPECT_EQ(guess.mended, "");
+    EXPECT_EQ(guess.doubt, "");
+    EXPECT_EQ(guess.turns, 0);
     EXPECT_THAT(Doubts(films), IsEmpty());
     EXPECT_EQ(FurthestPx(guess.people, films), 0);
   }
@@ -175,6 +177,50 @@ TEST(GuessSession, ReadsKeypointsAsTheyWereMeant) {
     const SessionGuess guess = GuessSession(films, kFilms, glm::dmat3(1), 0.1);
     EXPECT_THAT(guess.mended, StartsWith(told + ": rays miss each other by 0.0")) << told;
     EXPECT_LT(FurthestPx(guess.people, truth), 1e-9) << told;
+  }
+}
+
+TEST(GuessSession, FindsHowAllFilmsAreTurned) {
+  const auto truth = FilmedWalker();
+  for (const int declared : {0, 1}) {  // films of the rig's size, or films that are shown turned
+    for (int turns = 0; turns < 4; ++turns) {
+      auto films = truth;
+      const PixelFit fit{.quarter_turns = turns, .size = kPicture};
+      for (PictureOfFilm& film : films) {
+        ChangePixels(film, [&](glm::dvec2 p) { return fit.ToFilm(p); });
+        if (declared == 0) continue;
+        film.fit = {.quarter_turns = declared, .size = kPicture};
+        film.film_px = {kPicture.y, kPicture.x};
+      }
+      const SessionGuess guess = GuessSession(films, kFilms, glm::dmat3(1), 0.1);
+      EXPECT_EQ((declared + guess.turns) % 4, turns);
+      EXPECT_EQ(guess.mended.empty(), turns == declared) << guess.mended;
+      EXPECT_EQ(guess.doubt, "");
+      auto read = guess.people;
+      for (std::size_t c = 0; c < films.size(); ++c) {
+        PictureOfFilm film{.people = read[c]};
+        ChangePixels(film, [&](glm::dvec2 p) { return guess.fits[c].ToRig(p); });
+        read[c] = film.people;
+      }
+      EXPECT_LT(FurthestPx(read, truth), 1e-9) << declared << turns;
+    }
+  }
+}
+
+TEST(GuessSession, DoubtsAnUnknownScaleOrCropAndLeavesIt) {
+  const std::vector<std::pair<std::string, std::function<glm::dvec2(glm::dvec2)>>> mistakes = {
+      {"scaled by 1.304 and 1.304, then shifted by", [](glm::dvec2 p) { return 0.7667 * p; }},
+      {"scaled by 5.000 and 2.812, then shifted by", [](glm::dvec2 p) { return glm::dvec2(256, 256) / kPicture * p; }},
+      {"scaled by 1.000 and 1.000, then shifted by +160 and +60 px",
+       [](glm::dvec2 p) { return p - glm::dvec2(160, 60); }}};
+  const auto truth = FilmedWalker(3);
+  for (const auto& [words, mistake] : mistakes) {
+    auto films = truth;
+    for (PictureOfFilm& film : films) ChangePixels(film, mistake);
+    const SessionGuess guess = GuessSession(films, kFilms, glm::dmat3(1), 0.1);
+    EXPECT_EQ(guess.mended, "");
+    EXPECT_THAT(guess.doubt, HasSubstr(words));
+    EXPECT_EQ(FurthestPx(guess.people, films), 0);
   }
 }
 

@@ -139,5 +139,32 @@ TEST_F(FrameNumbers, TimesCountFromTheFilmsStartIfTheyLieWithinIt) {
   EXPECT_EQ(Noses(List({3, 4, 5, 9, 10, 11}, ms(1e12)), 12), (std::vector<double>{3, 4, 5, -1, -1, -1, 9, 10, 11}));
 }
 
+// Only a film whose last frame shows a person tells 0…N − 1 from 1…N; a session has one numbering.
+TEST_F(FrameNumbers, CountFromOneIfAnotherFilmDoes) {
+  const auto id = [](int k) { return fmt::format(R"("image_id": {}, )", k + 1); };
+  const auto list = List(Range(2, 9), id);
+  for (const bool from_one : {false, true}) {
+    const auto film = ReadKeypoints(list, "", {.frames = 12, .from_one = from_one});
+    ASSERT_TRUE(film);
+    EXPECT_TRUE(film->is_base_open);
+    EXPECT_EQ(film->frames[2].empty(), !from_one) << "frame 2 is the first of the list";
+    EXPECT_THAT(film->told, HasSubstr(from_one ? "from 1, as in another film" : "from 0"));
+  }
+  const auto whole = ReadKeypoints(List(Range(2, 11), id), "", {.frames = 12});
+  ASSERT_TRUE(whole);
+  EXPECT_TRUE(whole->is_from_one);
+  EXPECT_FALSE(whole->is_base_open);
+}
+
+TEST_F(FrameNumbers, HaveKnownNamesOrAreRefused) {
+  for (const char* name : {"frame_idx", "frame_number", "frame_id"}) {
+    const auto path = List({0, 1, 5, 11}, [&](int k) { return fmt::format(R"("{}": {}, )", name, k); });
+    EXPECT_EQ(Noses(path, 12), OfTwelve({0, 1, 5, 11})) << name;
+  }
+  const auto path =
+      List({0, 1, 5}, [&](int k) { return fmt::format(R"("frames_so_far": {}, "frame_rate": 30, )", k); });
+  EXPECT_THAT(Reason(path, "", {.frames = 3}), HasSubstr("the key 'frames_so_far' of entry 1 may be a frame number"));
+}
+
 }  // namespace
 }  // namespace etude

@@ -311,5 +311,58 @@ TEST_F(ReadPeople, FindsTheEntryOfAFilm) {
   EXPECT_THAT(EntryOfFilm(folder_.path(), "cam3").error().message, HasSubstr("no file in it begins"));
 }
 
+// Detectron2's scores are ratios without an upper limit: one peak must not hide all other keypoints.
+TEST_F(ReadPeople, LargeScoresHideNoKeypoints) {
+  std::string results;
+  for (int k = 0; k < 20; ++k) {
+    std::string points;
+    for (int i = 0; i < 17; ++i) {
+      points += fmt::format("{}{}, {}, {}", i == 0 ? "" : ", ", 10 + i, 20 + k, k == 3 && i == 5 ? 14.0 : 0.4);
+    }
+    results += fmt::format(R"({}{{"image_id": {}, "keypoints": [{}]}})", k == 0 ? "" : ", ", k, points);
+  }
+  ASSERT_OK(film, ReadKeypoints(Write("results.json", "[" + results + "]"), ""));
+  for (const auto& frame : film->frames) {
+    EXPECT_EQ(frame.at(0)[Landmark::kNose].confidence, 0.4);
+  }
+}
+
+TEST_F(ReadPeople, ScoresHaveKnownNamesOrAreRefused) {
+  const auto list = [&](const std::string& key) {
+    std::string points;
+    for (int i = 0; i < 17; ++i)
+      points += fmt::format(R"({}{{"x": {}, "y": 2, "{}": 0.02}})", i == 0 ? "" : ", ", i, key);
+    return Write("points.json", R"([{"keypoints": [)" + points + "]}]");
+  };
+  for (const char* key : {"score", "conf", "likelihood"}) {
+    ASSERT_OK(film, ReadKeypoints(list(key), ""));
+    EXPECT_EQ(film->frames.at(0).at(0)[Landmark::kLeftHip].confidence, 0.02) << key;
+  }
+  EXPECT_THAT(Reason(list("surety")), HasSubstr("a keypoint has the number 'surety' beside x and y"));
+  const auto lists = [&](const std::string& key, const std::string& point) {
+    std::string points, scores;
+    for (int i = 0; i < 17; ++i) {
+      points += (i == 0 ? "" : ", ") + point;
+      scores += i == 0 ? "0.02" : ", 0.02";
+    }
+    return Write("lists.json",
+                 fmt::format(R"([{{"instances": [{{"keypoints": [{}], "{}": [{}]}}]}}])", points, key, scores));
+  };
+  ASSERT_OK(film, ReadKeypoints(lists("kpt_scores", "[3, 4]"), ""));
+  EXPECT_EQ(film->frames.at(0).at(0)[Landmark::kLeftHip].confidence, 0.02);
+  EXPECT_THAT(Reason(lists("sureties", "[3, 4]")), HasSubstr("a person has the list 'sureties' beside the keypoints"));
+  EXPECT_THAT(Reason(lists("keypoint_scores", "[0.3, 0.4, 0.5]")), HasSubstr("3 coordinates beside a score"));
+}
+
+TEST_F(ReadPeople, NamesTheProgramsWhoseFilesAreNotRead) {
+  EXPECT_THAT(Reason(Write("a.h5", "\x89HDF\r\n\x1a\n")), HasSubstr("an HDF5 file, as DeepLabCut"));
+  EXPECT_THAT(Reason(Write("b.csv", "track,frame_idx\n")), HasSubstr("a CSV file, as DeepLabCut and SLEAP write"));
+  const auto folder = *TemporaryFolder::Make("yolo");
+  ASSERT_TRUE(WriteFileAtomically(folder.path() / "cam1_1.txt", "0 0.5 0.5"));
+  EXPECT_THAT(Reason(folder.path()), HasSubstr("text files, as YOLO writes"));
+  Write("results_cam7.json", "[]");
+  EXPECT_EQ(EntryOfFilm(folder_.path(), "cam7")->filename(), "results_cam7.json");
+}
+
 }  // namespace
 }  // namespace etude

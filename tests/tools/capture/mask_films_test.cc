@@ -198,5 +198,21 @@ TEST_F(ReadMasksTest, SayWhatLooksWrong) {
   EXPECT_THAT(Reason(), HasSubstr("no file in it begins with the film's name cam1"));
 }
 
+TEST_F(ReadMasksTest, AsksForOneOfSeveralGreysOrColours) {
+  Image<std::uint8_t> two = Rectangle(20, 40, 100);
+  for (int y = 10; y < 50; ++y) {
+    for (int x = 60; x < 75; ++x) two.At(x, y) = 200;
+  }
+  Add("1.png", two);
+  Add("2.png", two);
+  EXPECT_THAT(Reason(), HasSubstr("masks of several people or things: 100, 200; choose one by --mask-id"));
+  // A soft rim is no second person.
+  Image<std::uint8_t> soft = Rectangle(20, 40, 255);
+  for (int y = 10; y < 50; ++y) soft.At(40, y) = 150;
+  Add("1.png", soft);
+  Add("2.png", soft);
+  EXPECT_TRUE(Read());
+}
+
 }  // namespace
 }  // namespace etude
