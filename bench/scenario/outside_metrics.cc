@@ -17,8 +17,8 @@ namespace {
 constexpr int kMaxExampleFrames = 10'000;
 constexpr const char* kIdPattern = "^[a-z][a-z0-9_]{0,59}$";
 /// The keys of a row of cells.jsonl that are not metrics. A metric must not have one of these names.
-constexpr std::string_view kRowKeys[] = {"cell",  "scenario", "task",   "condition", "trial",        "clip",
-                                         "units", "method",   "status", "reason",    "null_reasons", "ok_share"};
+constexpr std::string_view kRowKeys[] = {"cell",   "scenario", "task",   "condition",    "trial",  "clip",    "units",
+                                         "method", "status",   "reason", "null_reasons", "judged", "ok_share"};
 /// The tasks for which a scenario cannot define metrics. Cells of task pose-distance keep no motion; the worlds of the
 /// other three tasks come from files.
 constexpr std::string_view kTasksWithoutOwnMetrics[] = {"pose-distance", "evaluation", "plausibility", "inbetween"};

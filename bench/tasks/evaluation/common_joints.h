@@ -16,9 +16,10 @@ struct CommonJoint {
   int truth = -1, answer = -1;
 };
 
-/// Returns the joints of `set` that both motions have. Adds the set's other joints to `lacking`.
+/// Returns the joints of `set` that both motions have. Adds the set's other joints to `lacking`, with −1 for a motion
+/// that lacks the joint.
 std::vector<CommonJoint> FindCommon(const RawMotion& truth, const RawMotion& answer, std::string_view set,
-                                    std::vector<std::string>& lacking);
+                                    std::vector<CommonJoint>& lacking);
 
 /// Fails if the motions have no common joint, or so few that the roles of their joints are probably unknown: fewer than
 /// the number of kNeededJoints, and fewer than half of the joints of the motion with fewer joints. For the set "same",

@@ -158,7 +158,7 @@ ClockOffset OffsetOf(const RawMotion& truth, const RawMotion& answer) {
     return {0, both + ": their first frames are taken as simultaneous (--lag find searches the lag)"};
   const bool is_whole = HaveSameRate(truth, answer) && std::abs(frames - std::round(frames)) < kSame;
   if (is_whole) return {std::round(frames) / answer.rate_hz, both + kByClocks};
-  return {frames / truth.rate_hz, both + kByClocks + ", and the answer is interpolated linearly"};
+  return {frames / truth.rate_hz, both + kByClocks};
 }
 
 /// Describes the lag, e.g. "the answer is 40.20 ms late (95 %: 39.80 to 40.60), which was removed".
@@ -173,14 +173,20 @@ std::string NoteOn(const TimeShift& lag) {
   return fmt::format("the answer is {:.2f} ms {}{}, which was removed", std::abs(ms), ms < 0 ? "early" : "late", range);
 }
 
-/// Describes which joints are the roots; "" if one of the motions has no root.
-std::string NoteOnRoots(const RawMotion& truth, const RawMotion& answer) {
-  const int of_truth = truth.roles[Index(Role::kHipCentre)], of_answer = answer.roles[Index(Role::kHipCentre)];
-  if (of_truth < 0 || of_answer < 0) return "";
-  if (!HasOwnRoot(truth)) return ", root midway between the hips";
-  const std::string &a = truth.joints[static_cast<std::size_t>(of_truth)],
-                    &b = answer.joints[static_cast<std::size_t>(of_answer)];
-  return a == b ? ", root " + a : fmt::format(", root {} of the truth, {} of the answer", a, b);
+/// Returns the name of the truth's root, or "midway between the hips"; "" if one of the motions has no root.
+std::string RootOf(const RawMotion& truth, const RawMotion& answer) {
+  const int of_truth = truth.roles[Index(Role::kHipCentre)];
+  if (of_truth < 0 || answer.roles[Index(Role::kHipCentre)] < 0) return "";
+  return HasOwnRoot(truth) ? truth.joints[static_cast<std::size_t>(of_truth)] : "midway between the hips";
+}
+
+/// Describes which joints are the roots; "" if one of the motions has no root. `of_truth` is RootOf.
+std::string NoteOnRoots(const std::string& of_truth, const RawMotion& truth, const RawMotion& answer) {
+  if (of_truth.empty()) return "";
+  if (!HasOwnRoot(truth)) return ", root " + of_truth;
+  const std::string& of_answer = answer.joints[static_cast<std::size_t>(answer.roles[Index(Role::kHipCentre)])];
+  return of_answer == of_truth ? ", root " + of_truth
+                               : fmt::format(", root {} of the truth, {} of the answer", of_truth, of_answer);
 }
 
 /// Returns a note on joints whose distance from the truth hardly varies and is far larger than that of most joints:
@@ -220,10 +226,12 @@ std::string NoteOn(const RawMotion& truth, const RawMotion& answer, const std::s
   };
   std::string note = count(matched.joints.size(), "joint");
   if (!matched.lacking.empty()) note += fmt::format(" (the truth or the answer lacks {})", SomeOf(matched.lacking));
-  note += NoteOnRoots(truth, answer) + NoteOnStrangers(matched);
-  const bool is_resampled = !HaveSameRate(truth, answer) || matched.lag;
-  note += fmt::format(", {} at {:g} Hz", count(matched.pair.truth.FrameCount(), "frame"), truth.rate_hz);
-  if (is_resampled) note += fmt::format(", the answer was interpolated linearly from {:g} Hz", answer.rate_hz);
+  note += NoteOnRoots(matched.root, truth, answer) + NoteOnStrangers(matched);
+  note += fmt::format(", {} at {:g} Hz", count(matched.pair.truth.FrameCount(), "frame"), matched.pair.rate_hz);
+  if (!HaveSameRate(truth, answer)) {
+    note += fmt::format(" (the truth has {:g} Hz, the answer {:g} Hz)", truth.rate_hz, answer.rate_hz);
+  }
+  if (matched.is_interpolated) note += ", for which the truth was interpolated";
   if (matched.lag) note += ", " + NoteOn(*matched.lag);
   if (!clock.empty()) note += ", " + clock;
   // One surplus frame is not mentioned: in motions of equal length, the answer's last frame lies after the truth's last
@@ -238,6 +246,69 @@ std::string NoteOn(const RawMotion& truth, const RawMotion& answer, const std::s
   return note;
 }
 
+/// The frames at which an answer is judged, in frames of the answer (whole numbers, which may lie outside of it) and in
+/// frames of the truth.
+struct JudgedFrames {
+  std::vector<double> of_answer, of_truth;
+  std::vector<double> own;  ///< all frames of the answer within the truth, if more than are judged; else empty
+  double rate_hz = 0;
+  bool is_interpolated = false;  ///< true: the truth has no frame at one of these times
+  bool is_even = true;           ///< true: the answer's frames follow each other at equal steps
+};
+
+/// Returns the frames at which the answer is judged (Match). The truth's first frame is at `start_s` of the answer.
+JudgedFrames FramesToJudge(const RawMotion& truth, const RawMotion& answer, double start_s) {
+  constexpr double kSame = 0.01;  // tolerance, frames of the truth
+  JudgedFrames frames;
+  const bool is_same_rate = HaveSameRate(truth, answer);
+  const double truth_rate_hz = is_same_rate ? answer.rate_hz : truth.rate_hz;
+  const double last = static_cast<double>(truth.FrameCount()) - 1, start = start_s * answer.rate_hz;
+  const auto in_truth = [&](double frame) {
+    const double at = (frame - start) * truth_rate_hz / answer.rate_hz;
+    return std::abs(at - std::round(at)) < kSame ? std::round(at) : at;
+  };
+  // Find the answer's first and last frame within the truth. The answer may not have these frames.
+  double first = std::floor(start) - 1, end = std::ceil(start + last * answer.rate_hz / truth_rate_hz) + 1;
+  while (in_truth(first) < 0) ++first;
+  while (in_truth(end) > last) --end;
+  const bool is_denser = !is_same_rate && answer.rate_hz > truth.rate_hz;
+  frames.rate_hz = is_same_rate || is_denser ? truth.rate_hz : answer.rate_hz;
+  for (double frame = first; frame <= end && !is_denser; ++frame) frames.of_answer.push_back(frame);
+  if (first > end) return frames;
+  // If the answer has the higher rate, take the frame nearest to each of the truth's.
+  for (double f = 0; f <= last && is_denser; ++f) {
+    const double frame = std::clamp(std::round(start + f * answer.rate_hz / truth.rate_hz), first, end);
+    if (frames.of_answer.empty() || frames.of_answer.back() < frame) frames.of_answer.push_back(frame);
+  }
+  for (double frame = first; frame <= end && is_denser; ++frame) frames.own.push_back(frame);
+  for (std::size_t i = 0; i < frames.of_answer.size(); ++i) {
+    const auto& at = frames.of_answer;
+    frames.of_truth.push_back(in_truth(at[i]));
+    frames.is_interpolated = frames.is_interpolated || frames.of_truth[i] != std::round(frames.of_truth[i]);
+    frames.is_even = frames.is_even && (i < 2 || at[i] - at[i - 1] == at[i - 1] - at[i - 2]);
+  }
+  return frames;
+}
+
+/// Returns the motion at these frames (AtFrames). If they are exactly its own, returns the motion itself; `changed`
+/// holds any other result.
+const RawMotion& At(const RawMotion& motion, const std::vector<double>& frames, double rate_hz, RawMotion& changed) {
+  bool is_own = frames.size() == motion.FrameCount();
+  for (std::size_t i = 0; i < frames.size() && is_own; ++i) is_own = frames[i] == static_cast<double>(i);
+  if (is_own) return motion;
+  return changed = AtFrames(motion, frames, rate_hz, Inbetween::kCubic);
+}
+
+/// Stores in `pair` everything that is known of the answer at its frames `found`.
+void TakeAnswer(const RawMotion& found, const std::vector<int>& joints, EvaluatedPair& pair) {
+  const std::size_t frames = found.FrameCount();
+  pair.found = Columns(found, joints, frames);
+  pair.found_turns = TurnsOf(found, joints, frames);
+  pair.found_root = RoleColumns(found, {Role::kHipCentre}, frames).positions;
+  pair.feet = RoleColumns(found, {Role::kLeftAnkle, Role::kLeftFoot, Role::kRightAnkle, Role::kRightFoot}, frames);
+  pair.found_contacts = found.contacts;
+}
+
 }  // namespace
 
 Result<MatchedMotions> Match(const RawMotion& given_truth, const RawMotion& given_answer, std::string_view set,
@@ -246,7 +317,8 @@ Result<MatchedMotions> Match(const RawMotion& given_truth, const RawMotion& give
   const auto both = WithCommonRoles(given_truth, given_answer, changed_truth, changed_answer);
   const RawMotion &truth = both.first, &answer = both.second;
   MatchedMotions matched;
-  const std::vector<CommonJoint> common = FindCommon(truth, answer, set, matched.lacking);
+  std::vector<CommonJoint> lacking;
+  const std::vector<CommonJoint> common = FindCommon(truth, answer, set, lacking);
   RETURN_IF_ERROR(CheckCommon(truth, answer, common.size(), set));
   std::vector<int> of_truth, of_answer;
   for (const CommonJoint& joint : common) {
@@ -255,10 +327,7 @@ Result<MatchedMotions> Match(const RawMotion& given_truth, const RawMotion& give
     of_answer.push_back(joint.answer);
   }
   const std::size_t frames = truth.FrameCount();
-  const bool is_same_rate = HaveSameRate(truth, answer);
-  const double rate_hz = is_same_rate ? answer.rate_hz : truth.rate_hz;
-  matched.pair.rate_hz = truth.rate_hz;
-  matched.pair.truth = Columns(truth, of_truth, frames);
+  const double truth_rate_hz = HaveSameRate(truth, answer) ? answer.rate_hz : truth.rate_hz;
   const ClockOffset clock = OffsetOf(truth, answer);
   if (lag == Lag::kFind) {
     // Move the answer to the truth's clock. Frames before the answer's beginning are added, so that the answer's end is
@@ -268,7 +337,7 @@ Result<MatchedMotions> Match(const RawMotion& given_truth, const RawMotion& give
     RawMotion moved;
     if (clock.seconds != 0) moved = Sampled(answer, answer.rate_hz, -clock.seconds, count);
     const PointTracks found = Columns(clock.seconds != 0 ? moved : answer, of_answer, count);
-    matched.lag = FindTimeShift(matched.pair.truth, rate_hz, found, answer.rate_hz);
+    matched.lag = FindTimeShift(Columns(truth, of_truth, frames), truth_rate_hz, found, answer.rate_hz);
     if (!matched.lag) {
       return Fail({answer.name},
                   "no lag within ±{:g} s is found: the motion is too short, the body stands still or moves evenly, or "
@@ -276,33 +345,47 @@ Result<MatchedMotions> Match(const RawMotion& given_truth, const RawMotion& give
                   kMaxTimeShift_s);
     }
   }
-  // Sample the answer at the truth's times, unless it already has the truth's frames.
+  // Take the answer's own frames, and the truth at their times.
   const double start_s = (matched.lag ? matched.lag->shift_s : 0) - clock.seconds;
-  RawMotion resampled;
-  if (!is_same_rate || start_s != 0 || answer.FrameCount() != frames) {
-    resampled = Sampled(answer, rate_hz, start_s, frames);
+  const JudgedFrames judged = FramesToJudge(truth, answer, start_s);
+  RawMotion changed_frames, found_frames;
+  const RawMotion& true_at = At(truth, judged.of_truth, judged.rate_hz, changed_frames);
+  const RawMotion& found_at = At(answer, judged.of_answer, judged.rate_hz, found_frames);
+  const std::size_t count = judged.of_truth.size();
+  matched.is_interpolated = judged.is_interpolated;
+  matched.is_even = judged.is_even;
+  matched.pair.rate_hz = judged.rate_hz;
+  matched.pair.truth = Columns(true_at, of_truth, count);
+  matched.pair.true_turns = TurnsOf(true_at, of_truth, count);
+  matched.pair.true_root = RoleColumns(true_at, {Role::kHipCentre}, count).positions;
+  matched.pair.true_contacts = true_at.contacts;
+  TakeAnswer(found_at, of_answer, matched.pair);
+  if (matched.pair.true_root.empty() || matched.pair.found_root.empty()) {
+    matched.pair.true_root.clear();
+    matched.pair.found_root.clear();
   }
-  const RawMotion& sampled = resampled.joints.empty() ? answer : resampled;
-  matched.pair.found = Columns(sampled, of_answer, frames);
-  matched.pair.true_turns = TurnsOf(truth, of_truth, frames);
-  matched.pair.found_turns = TurnsOf(sampled, of_answer, frames);
-  const PointTracks true_root = RoleColumns(truth, {Role::kHipCentre}, frames);
-  const PointTracks found_root = RoleColumns(sampled, {Role::kHipCentre}, frames);
-  if (true_root.points > 0 && found_root.points > 0) {
-    matched.pair.true_root = true_root.positions;
-    matched.pair.found_root = found_root.positions;
+  if (count > 0) matched.own_start_s = judged.of_truth.front() / truth_rate_hz;
+  if (!judged.own.empty()) {
+    matched.own_start_s = judged.own.front() / answer.rate_hz - start_s;
+    RawMotion own_frames;
+    matched.own.emplace().rate_hz = answer.rate_hz;
+    TakeAnswer(At(answer, judged.own, answer.rate_hz, own_frames), of_answer, *matched.own);
+    if (matched.pair.found_root.empty()) matched.own->found_root.clear();
   }
-  matched.pair.feet =
-      RoleColumns(sampled, {Role::kLeftAnkle, Role::kLeftFoot, Role::kRightAnkle, Role::kRightFoot}, frames);
-  matched.pair.true_contacts = truth.contacts;
-  matched.pair.found_contacts = sampled.contacts;
+  for (const CommonJoint& joint : lacking) {
+    matched.lacking.push_back(joint.name);
+    for (std::size_t f = 0; f < count && joint.truth >= 0; ++f) {
+      matched.pair.without_joint += IsSeen(true_at.At(f, static_cast<std::size_t>(joint.truth))) ? 1 : 0;
+    }
+  }
+  matched.root = RootOf(truth, answer);
   matched.bends = FindBends(common, truth);
   matched.parents = FindParents(common, truth);
-  MatchAngles(truth, sampled, matched);
+  MatchAngles(true_at, found_at, matched);
   // Count the truth's frames before the answer's beginning and after its end.
   for (std::size_t f = 0; f < frames; ++f) {
-    constexpr double kRounding = 1e-6;  // tolerance in frames, as in `Sampled`
-    const double at = (start_s + static_cast<double>(f) / rate_hz) * answer.rate_hz;
+    constexpr double kRounding = 0.01;  // tolerance in frames, as in FramesToJudge
+    const double at = (start_s + static_cast<double>(f) / truth_rate_hz) * answer.rate_hz;
     if (at < -kRounding || at > static_cast<double>(answer.FrameCount() - 1) + kRounding) ++matched.uncovered;
   }
   // Count the frames of the answer that come before the truth's first frame or after the truth's last frame.
