@@ -53,6 +53,7 @@ Result<int> CompareCommand(const std::string& a, const std::string& b, Sealing s
   }
   // Print the comparison as text: changed metrics, unmatched cells, and a summary.
   PrintMoves(comparison, "A", "B", comparison.moves.size());
+  PrintList("Undecided, because values cannot be compared:", NotAlikeLines(comparison));
   PrintList("Only in A:", comparison.only_before);
   PrintList("Only in B:", comparison.only_after);
   PrintList("Not comparable because the worlds differ:", incomparable);

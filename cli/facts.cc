@@ -51,6 +51,7 @@ Json FactsOf(const SnapshotComparison& comparison) {
                      {"worlds", move.worlds},
                      {"differing", move.differing},
                      {"far_worse", move.tail.size()}});
+    if (!move.comparison.not_alike.empty()) moves.back()["not_alike"] = move.comparison.not_alike;
   }
   return {{"comparisons", comparison.moves.size()},
           {"moves", std::move(moves)},

@@ -74,6 +74,7 @@ void PrintReport(const GateReport& report) {
     fmt::print("{}: {}: {} [{}]\n", ClaimOutcomeName(ratio.outcome), ratio.scenario, RatioClaim(ratio),
                RatioDetail(ratio));
   }
+  PrintList("Undecided, because values cannot be compared:", NotAlikeLines(report.comparison));
   PrintList("New, not in the baseline:", report.comparison.only_after);
   PrintList("Settings of the method changed in the scenario:", report.comparison.settings_changed);
   PrintList("Methods without an answer:", report.silent);

@@ -120,6 +120,7 @@ std::string FactsCode(Fields& fields) {
                         OneOf(fields, "reads", {{"yes-no", "kYesNo"}, {"share", "kShare"}, {"score", "kScore"}}));
   }
   if (fields.Boolean("success", false)) code += ", .is_success = true";
+  if (fields.Boolean("by_rate", false)) code += ", .by_rate = true";
   code += fmt::format(", .practical = {}", RequiredNumber(fields, "practical_threshold"));
   for (const char* key : {"definition", "practical_reason", "formula", "null_rule", "source"}) {
     code += fmt::format(", .{} = {}", key, Literal(fields.RequiredText(key)));

@@ -140,6 +140,22 @@ std::string_view GateVerdictWords(GateVerdict verdict) {
   return kWords[static_cast<std::size_t>(verdict)];
 }
 
+std::vector<std::string> NotAlikeLines(const SnapshotComparison& comparison) {
+  std::vector<std::pair<std::string, std::string>> lines;  // the method with the reason, and the metrics
+  for (const MetricMove& move : comparison.moves) {
+    if (move.movement != Movement::kUndecided || move.comparison.not_alike.empty()) continue;
+    const MoveIdentity& one = move.identity;
+    const std::string about = one.scenario + (one.condition == "-" ? "" : ", " + one.condition) + ", " + one.method +
+                              ": " + move.comparison.not_alike;
+    auto line = std::ranges::find(lines, about, &std::pair<std::string, std::string>::first);
+    if (line == lines.end()) line = lines.insert(lines.end(), {about, ""});
+    line->second += (line->second.empty() ? "" : ", ") + GateWordsFor(one.metric).label;
+  }
+  std::vector<std::string> text;
+  for (const auto& [about, metrics] : lines) text.push_back(fmt::format("{} ({})", about, metrics));
+  return text;
+}
+
 std::string CompareSentence(const SnapshotComparison& comparison) {
   if (comparison.moves.empty()) return "nothing to compare";
   return Plural(static_cast<long long>(comparison.moves.size()), "comparison") + ": " +
@@ -334,6 +350,8 @@ JunitCase CaseOf(const MetricMove& move, const GateReport& report) {
   const GateTableRow row = GateRowOf(move);
   std::string detail = fmt::format("{}: {} -> {}, difference {}, p {}, in {} worlds", row.verdict, row.before,
                                    row.after, row.difference, row.p, row.worlds);
+  if (move.movement == Movement::kUndecided && !move.comparison.not_alike.empty())
+    detail += "\n" + move.comparison.not_alike;
   for (const TailLine& line : TailLines({&move}, report, kMaxWorldsOfCase)) {
     detail += "\n" + line.world + (line.replay.empty() ? "" : ": " + line.replay);
   }
@@ -371,6 +389,7 @@ std::string WriteGateMarkdown(const GateReport& report) {
   const std::vector<std::string> undecided = ClaimsThatAre(report, ClaimOutcome::kUndecided);
   text += FoldedAway(fmt::format("Could not be decided ({})", undecided.size()), List("These pass:", undecided));
   text += FoldedAway(fmt::format("Answers of this run ({})", report.answers.size()), AnswerTable(report.answers));
+  text += List("Undecided, because values cannot be compared:", NotAlikeLines(report.comparison));
   text += List("New, not in the baseline (`--update` adds it):", report.comparison.only_after);
   text += List("Settings of the method changed in the scenario:", report.comparison.settings_changed);
   if (!report.baseline_file.empty()) {

@@ -7,6 +7,7 @@
 
 #include "bench/gate/placed_json.h"
 #include "bench/metrics/catalogue.h"
+#include "bench/results/row_json.h"
 #include "engine/base/digest.h"
 #include "engine/base/names.h"
 #include "io/files/files.h"
@@ -43,6 +44,24 @@ Json EncodeValues(const SnapshotValues& kept) {
   Json values = Json::array();
   for (const auto& value : kept.values) values.push_back(value ? Json(*value) : Json(nullptr));
   return values;
+}
+
+/// Encodes what the cells were judged on: each list of parts once, and for each trial the number of its list, the rate
+/// and the shares; null for a trial that does not say it.
+Json EncodeJudgedCells(const std::vector<JudgedOn>& judged) {
+  Json json{{"parts", Json::array()}, {"cells", Json::array()}};
+  for (const JudgedOn& one : judged) {
+    Json cell = one.parts.empty() ? Json(nullptr) : EncodeJudged(one);
+    if (!one.parts.empty()) {
+      Json& lists = json["parts"];
+      const auto known = std::ranges::find(lists, cell["parts"]);
+      const auto at = known - lists.begin();
+      if (known == lists.end()) lists.push_back(cell["parts"]);
+      cell["parts"] = at;
+    }
+    json["cells"].push_back(std::move(cell));
+  }
+  return json;
 }
 
 /// Collects the entries of a JSON array and writes one per line.
@@ -251,8 +270,8 @@ class BaselineReader {
   }
 
   Result<void> ReadStatuses(const Json& entry, const Place& place) {
-    ASSIGN_OR_RETURN(const auto line,
-                     JsonObject::Of(entry, place, "a line of statuses", {"scenario", "condition", "method", "cells"}));
+    ASSIGN_OR_RETURN(const auto line, JsonObject::Of(entry, place, "a line of statuses",
+                                                     {"scenario", "condition", "method", "cells"}, {"judged"}));
     ASSIGN_OR_RETURN(const auto slot, FindSlot(line, "statuses"));
     const auto& [name, cells] = *slot;
     std::string& statuses = cells.cells->statuses;
@@ -261,6 +280,7 @@ class BaselineReader {
     if (statuses.find_first_not_of(kLetters) != std::string::npos || statuses.size() != cells.trials) {
       return Fail(place, "the statuses of {} are not {} letters of '{}'", name, cells.trials, kLetters);
     }
+    if (line.Has("judged")) RETURN_IF_ERROR(ReadJudged(entry.at("judged"), place, name, cells));
     // A method whose cells were all skipped needs no answer.
     const bool skipped = statuses.find_first_not_of('s') == std::string::npos;
     if (skipped || statuses.find_first_of(kAnswers) != std::string::npos) return {};
@@ -268,6 +288,23 @@ class BaselineReader {
                 "all {} cells of {} failed, so no run could be worse; allowed: for each method, a cell that is ok "
                 "or unsolved, or only skipped cells",
                 cells.trials, name);
+  }
+
+  /// Reads what the cells were judged on (EncodeJudgedCells).
+  static Result<void> ReadJudged(const Json& json, const Place& place, const std::string& name, const Slot& slot) {
+    try {
+      for (Json cell : json.at("cells")) {
+        JudgedOn& judged = slot.cells->judged.emplace_back();
+        if (cell.is_null()) continue;
+        cell["parts"] = json.at("parts").at(cell.at("parts").get<std::size_t>());
+        judged = DecodeJudged(cell);
+      }
+    } catch (const Json::exception& error) {
+      return Fail(place, "'judged' of {} does not say what the cells were judged on: {}", name, error.what());
+    }
+    if (slot.cells->judged.size() == slot.trials) return {};
+    return Fail(place, "'judged' of {} has {} cells, but the scenario has {} trials", name, slot.cells->judged.size(),
+                slot.trials);
   }
 
   Result<void> ReadValues(const Json& entry, const Place& place) {
@@ -332,6 +369,7 @@ Result<std::string> WriteBaseline(const Snapshot& snapshot) {
       const Json identity = IdentityOf(scenario, cells);
       Json line = identity;
       line["cells"] = cells.statuses;
+      if (!cells.judged.empty()) line["judged"] = EncodeJudgedCells(cells.judged);
       statuses.Add(line);
       for (const SnapshotValues& kept : cells.metrics) {
         line = identity;

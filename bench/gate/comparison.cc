@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <map>
 
+#include "bench/statistics/judged_alike.h"
+
 namespace etude {
 namespace {
 
@@ -112,6 +114,7 @@ Elements Picked(const Elements& elements, const std::vector<std::size_t>& places
 /// Returns a copy of the cells that has only the statuses and values of the given trials.
 SnapshotCells Picked(const SnapshotCells& cells, const std::vector<std::size_t>& trials) {
   SnapshotCells picked{cells.condition, cells.method, Picked(cells.statuses, trials), {}};
+  if (!cells.judged.empty()) picked.judged = Picked(cells.judged, trials);
   for (const SnapshotValues& values : cells.metrics) {
     picked.metrics.push_back({values.metric, Picked(values.values, trials)});
   }
@@ -138,6 +141,19 @@ int CountDiffering(const SnapshotCells& before, const SnapshotCells& after, cons
 const std::vector<std::optional<double>>* WeightsOf(const SnapshotCells& cells, const MetricInfo& metric) {
   const SnapshotValues* weights = metric.weight.empty() ? nullptr : FindValues(cells, metric.weight);
   return weights == nullptr ? nullptr : &weights->values;
+}
+
+/// Returns why the values of a metric cannot be compared (WhyNotAlike); "" if they can.
+std::string WhyNotAlike(const SnapshotValues& before, const SnapshotCells& cells, const SnapshotValues& after,
+                        const SnapshotCells& others) {
+  std::vector<JudgedPair> judged;
+  const auto side = [&](const JudgedOn& one) {
+    return JudgedPair::Side{&one.parts, one.rate_hz, one.ShareOf(before.metric)};
+  };
+  for (std::size_t t = 0; t < std::min(cells.judged.size(), others.judged.size()); ++t) {
+    if (before.values[t] && after.values[t]) judged.push_back({side(cells.judged[t]), side(others.judged[t])});
+  }
+  return WhyNotAlike(*FindMetric(before.metric), judged, "before", "now");
 }
 
 std::vector<std::optional<double>> OkIn(const std::string& statuses) {
@@ -222,22 +238,25 @@ SnapshotComparison CompareSnapshots(const Snapshot& before, const Snapshot& afte
       const SnapshotCells* others = &kept_others;
       const std::vector<bool> compared = WorldsToCompare(cells, *others);
       // Compare the share of ok cells and the values of every metric, world by world.
-      const auto add = [&](const std::string& metric, const auto& values, const auto& other_values) {
+      const auto add = [&](const std::string& metric, const auto& values, const auto& other_values,
+                           std::string not_alike) {
         const MetricInfo& info = *FindGateMetric(metric);
         const MoveColumns columns{values,   other_values,   WeightsOf(cells, info), WeightsOf(*others, info),
-                                  compared, cells.statuses, others->statuses};
+                                  compared, cells.statuses, others->statuses,       std::move(not_alike)};
         MetricMove& move = comparison.moves.emplace_back(
             MeasureMove({scenario.name, cells.condition, cells.method, metric}, columns, scenario.seed));
         move.tail = FindTail(columns, info, RuleOf(scenario.name, tails));
         for (TailWorld& world : move.tail) world.trial = static_cast<int>(shared.after[world.trial]);
       };
-      add(kOkShare, OkIn(cells.statuses), OkIn(others->statuses));
+      add(kOkShare, OkIn(cells.statuses), OkIn(others->statuses), "");
       // An exact comparison also counts cells whose status changed between `unsolved` and `failed`; the share of ok
       // cells does not show such changes.
       if (exact.contains(scenario.name)) comparison.moves.back().differing = CountDiffering(cells, *others, compared);
       for (const SnapshotValues& values : cells.metrics) {
         const SnapshotValues* other = FindValues(*others, values.metric);
-        if (other != nullptr) add(values.metric, values.values, other->values);
+        if (other != nullptr) {
+          add(values.metric, values.values, other->values, WhyNotAlike(values, cells, *other, *others));
+        }
       }
     }
   }

@@ -47,6 +47,7 @@ ScenarioSummary SummaryOf(Study study, const SnapshotScenario& snapshot) {
       for (const SnapshotValues& kept : cells.metrics) {
         if (kept.values[trial]) row.result.Measure(kept.metric, *kept.values[trial]);
       }
+      if (!cells.judged.empty()) row.result.judged = cells.judged[trial];
       table.Add(row);
     }
   }

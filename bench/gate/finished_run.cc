@@ -2,6 +2,7 @@
 
 #include <fmt/core.h>
 
+#include <algorithm>
 #include <map>
 #include <set>
 #include <string_view>
@@ -64,6 +65,12 @@ class ScenarioTaker {
     const auto trial = static_cast<std::size_t>(row.trial);
     cells.statuses[trial] = StatusLetter(row.result.status);
     for (SnapshotValues& kept : cells.metrics) kept.values[trial] = ValueOf(row, kept.metric);
+    if (row.result.judged.parts.empty()) return;
+    cells.judged.resize(cells.statuses.size());
+    cells.judged[trial] = row.result.judged;
+    std::erase_if(cells.judged[trial].shares, [&](const auto& share) {
+      return std::ranges::find(cells.metrics, share.first, &SnapshotValues::metric) == cells.metrics.end();
+    });
   }
 
   SnapshotScenario Finish() { return std::move(taken_); }

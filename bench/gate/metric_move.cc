@@ -174,6 +174,7 @@ MetricMove MeasureMove(MoveIdentity identity, const MoveColumns& columns, std::u
   if (move.differing == 0) return move;  // usually, all values are equal, and no test is needed
   if (columns.weights_before != nullptr) Weigh(values, weights);
   move.comparison = ComparePaired(values, metric, seed, purpose);
+  move.comparison.not_alike = columns.not_alike;
   if (move.lost + move.gained > 0) {
     move.presence = ComparePaired(presence, *FindGateMetric(kOkShare), seed, purpose + "/presence");
   }
@@ -209,6 +210,7 @@ std::vector<TailWorld> FindTail(const MoveColumns& columns, const MetricInfo& me
                     !columns.after[t]};
     if (metric.id == kOkShare)
       world.lost = world.ended_before == kOk && world.ended_after != kUnsolved && *world.after == 0;
+    if (!world.lost && !columns.not_alike.empty()) continue;
     const double worse =
         world.lost ? std::numeric_limits<double>::infinity() : Worse(*world.before, *world.after, metric);
     if (worse > rule.times) found.push_back({worse, world});

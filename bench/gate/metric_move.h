@@ -75,11 +75,13 @@ struct MoveColumns {
   std::vector<bool> compared;
   /// The cell's status in each snapshot (StatusLetter), by trial; only the tail rule needs it.
   std::string ended_before, ended_after;
+  std::string not_alike = {};  ///< why the values of the two snapshots cannot be compared (WhyNotAlike); "" = they can
 };
 
 /// Compares the values of two snapshots world by world. `movement` of the result stays kSame until JudgeMoves sets it.
 /// With weights, MetricMove::before and ::after are the means that each snapshot's own summary shows; the comparison
 /// of pairs weighs both values of a world by the earlier weight.
+/// If the columns are not alike, the change of the values is kUndecided, and only lost values count as far worse.
 /// `seed` seeds the random numbers of the bootstrap and of the tests.
 MetricMove MeasureMove(MoveIdentity identity, const MoveColumns& columns, std::uint64_t seed);
 

@@ -83,7 +83,7 @@ std::optional<double> AucTo150(std::span<const double> values) {
 }
 
 std::optional<double> SeenShare(const EvaluatedPair& pair) {
-  std::size_t shown = 0, both = 0;
+  std::size_t shown = pair.without_joint, both = 0;
   for (std::size_t i = 0; i < pair.truth.positions.size(); ++i) {
     if (std::isnan(pair.truth.positions[i].x)) continue;
     ++shown;

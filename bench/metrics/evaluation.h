@@ -35,6 +35,8 @@ struct EvaluatedPair {
   /// The contacts with the floor that each file states, frames × the four columns of `feet`; the ankle columns hold the
   /// heels' contacts. Empty if the file states none.
   std::vector<bool> found_contacts, true_contacts;
+  /// The number of positions (joints × frames) that the truth shows of joints that the answer does not have at all.
+  std::size_t without_joint = 0;
 };
 
 /// The mean of all added values, without the NaN values.
@@ -57,8 +59,8 @@ std::optional<double> MeanOfSeen(std::span<const double> values);
 std::optional<double> ShareBelow(std::span<const double> values, double limit_mm);
 /// Returns the mean of ShareBelow over the limits 0, 5, …, 150 mm, as MPI-INF-3DHP's code computes it.
 std::optional<double> AucTo150(std::span<const double> values);
-/// Returns the share of joints seen in the answer among the joints seen in the truth, over all frames; nothing if no
-/// joint is seen in the truth.
+/// Returns the share of joints seen in the answer among the joints seen in the truth, over all frames; joints that the
+/// answer does not have at all count as not seen. Returns nothing if no joint is seen in the truth.
 std::optional<double> SeenShare(const EvaluatedPair& pair);
 
 /// Returns the mean length of the difference between the answer's and the truth's second differences, metres per

@@ -32,6 +32,13 @@ std::string ConditionLabel(const std::vector<SweptValue>& condition) { return La
 
 std::string Row::Id() const { return fmt::format("{}/{}/{:03}/{}", scenario, CompactLabel(condition), trial, method); }
 
+double JudgedOn::ShareOf(std::string_view metric) const {
+  for (const auto& [id, share] : shares) {
+    if (id == metric) return share;
+  }
+  return 1;
+}
+
 std::optional<double> ValueOf(const Row& row, std::string_view metric) {
   for (const MetricValue& value : row.result.metrics) {
     if (value.id == metric) return value.value;

@@ -73,6 +73,22 @@ struct Recording {
   std::string extras_json;
 };
 
+/// What a cell's values were measured on. Two methods are compared by a metric only if they were judged alike
+/// (bench/statistics/judged_alike.h).
+struct JudgedOn {
+  std::vector<std::string> parts;  ///< what was judged, e.g. the names of joints; empty: the task does not say
+  double rate_hz = 0;              ///< the rate of the answer's frames; 0: the task does not say
+  /// By metric, the share of what the truth shows on which the value was measured. Metrics not listed have the share 1.
+  std::vector<std::pair<std::string, double>> shares;
+
+  double ShareOf(std::string_view metric) const;
+  bool operator==(const JudgedOn&) const = default;
+};
+
+/// The mean difference of two methods' judged shares from which on their values are not compared: one frame in a
+/// hundred. Page, `compare` and `gate` use it.
+inline constexpr double kMaxShareDifference = 0.01;
+
 /// The result of one method in one world.
 struct CellResult {
   Status status = Status::kFailed;
@@ -83,6 +99,7 @@ struct CellResult {
   std::vector<std::pair<std::string, std::string>> digests;
   std::vector<Series> series;
   std::optional<Recording> recording;
+  JudgedOn judged = {};
 
   /// Returns the result of a cell that ended without measurements.
   static CellResult Ended(Status status, std::string reason) {

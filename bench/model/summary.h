@@ -84,6 +84,7 @@ struct Beyond {
   std::optional<double> p_holm;    ///< p-value of `test` after Holm's correction over the scenario's comparisons
   std::optional<Verdict> verdict;  ///< verdict for units that were not run; nullopt = too few units in this run
   std::string why_open;            ///< why there is no verdict, or why the verdict is undecided
+  std::string not_alike;           ///< as in Comparison
   std::vector<LeftOut> left_out;   ///< one entry per unit, in the order of names; empty if every world is its own unit
 };
 
@@ -114,6 +115,7 @@ struct Comparison {
   std::optional<double> effect_size;
   Verdict verdict = Verdict::kUndecided;     ///< the verdict on the worlds of this run
   std::string why_open;                      ///< why the verdict is undecided, if a reason is known
+  std::string not_alike;                     ///< why no verdict is possible: WhyNotAlike; "" = both were judged alike
   std::vector<std::string> notes;            ///< warnings for readers of the numbers
   Beyond beyond;                             ///< the result generalised to sampling units that were not run
 };

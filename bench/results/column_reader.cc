@@ -10,6 +10,7 @@
 
 #include "bench/results/columns.h"
 #include "bench/results/npy.h"
+#include "bench/results/row_json.h"
 #include "io/files/json.h"
 
 namespace etude {
@@ -61,6 +62,7 @@ class ScenarioColumns {
     }
     RETURN_IF_ERROR(columns.CheckNumbers(own));
     RETURN_IF_ERROR(columns.ReadUnits(own));
+    RETURN_IF_ERROR(columns.ReadJudged(own));
     return columns;
   }
 
@@ -104,6 +106,7 @@ class ScenarioColumns {
       digest.clear();
       fmt::format_to(std::back_inserter(digest), "{:016x}", columns.digests[i]->Numbers<std::uint64_t>()[at]);
     }
+    result.judged = judged_[TextNumber(kJudged, at)];
     result.series.clear();
     result.recording.reset();
   }
@@ -128,8 +131,8 @@ class ScenarioColumns {
   }
 
  private:
-  enum TextColumn { kReason, kClip, kUnits };
-  static constexpr std::array<const char*, 3> kTextColumns = {"reason", "clip", "units"};
+  enum TextColumn { kReason, kClip, kUnits, kJudged };
+  static constexpr std::array<const char*, 4> kTextColumns = {"reason", "clip", "units", "judged"};
   /// The columns of one kind of rows: its metrics, stages and series, in the order of ColumnIndex::Kind. The column of
   /// a metric without values is null.
   struct KindColumns {
@@ -209,6 +212,22 @@ class ScenarioColumns {
     return {};
   }
 
+  /// Parses the texts that say what cells were judged on.
+  Result<void> ReadJudged(const FilePath& folder) {
+    judged_.resize(index_.texts.size());
+    if (!texts_[kJudged]) return {};
+    for (const std::uint32_t text : texts_[kJudged]->Numbers<std::uint32_t>()) {
+      if (text == 0 || !judged_[text].parts.empty()) continue;
+      ASSIGN_OR_RETURN(const auto json, ReadJson(index_.texts[text], folder.string()));
+      try {
+        judged_[text] = DecodeJudged(json);
+      } catch (const Json::exception&) {
+        return Fail({folder.string()}, "'{}' does not say what was judged", index_.texts[text]);
+      }
+    }
+    return {};
+  }
+
   std::size_t TextNumber(TextColumn column, std::size_t at) const {
     return texts_[column] ? texts_[column]->Numbers<std::uint32_t>()[at] : 0;
   }
@@ -219,6 +238,7 @@ class ScenarioColumns {
   std::array<std::optional<NpyFile>, kTextColumns.size()> texts_;
   /// For each text, the sampling units that it lists; empty if the text is not a list of units.
   std::vector<std::vector<std::string>> units_;
+  std::vector<JudgedOn> judged_;  ///< for each text, what it says was judged
   // The maps are behind pointers, so that pointers in KindColumns stay valid when this object is moved.
   std::unique_ptr<Files> values_ = std::make_unique<Files>(), digests_ = std::make_unique<Files>(),
                          curves_ = std::make_unique<Files>(), ends_ = std::make_unique<Files>();

@@ -9,6 +9,7 @@
 #include <tuple>
 #include <utility>
 
+#include "bench/results/row_json.h"
 #include "io/files/files.h"
 #include "io/files/json.h"
 
@@ -241,6 +242,9 @@ Result<void> ColumnWriter::Add(const Row& row, const CellUsage& usage) {
   if (!result.reason.empty()) RETURN_IF_ERROR(indices_.Put(rows_, "reason", TextOf(result.reason)));
   if (!row.clip.empty()) RETURN_IF_ERROR(indices_.Put(rows_, "clip", TextOf(row.clip)));
   if (!row.units.empty()) RETURN_IF_ERROR(indices_.Put(rows_, "units", TextOf(Json(row.units).dump())));
+  if (const Json judged = EncodeJudged(result.judged); !judged.empty()) {
+    RETURN_IF_ERROR(indices_.Put(rows_, "judged", TextOf(judged.dump())));
+  }
   for (const MetricValue& metric : result.metrics) {
     if (metric.value) RETURN_IF_ERROR(values_.Put(rows_, metric.id, *metric.value));
   }

@@ -32,6 +32,21 @@ std::vector<SweptValue> SplitCondition(const std::string& label) {
 
 }  // namespace
 
+Json EncodeJudged(const JudgedOn& judged) {
+  Json json = Json::object();
+  if (!judged.parts.empty()) json["parts"] = judged.parts;
+  if (judged.rate_hz > 0) json["rate_hz"] = judged.rate_hz;
+  for (const auto& [metric, share] : judged.shares) json["shares"][metric] = share;
+  return json;
+}
+
+JudgedOn DecodeJudged(const Json& json) {
+  JudgedOn judged{json.value("parts", std::vector<std::string>{}), json.value("rate_hz", 0.0), {}};
+  const Json shares = json.value("shares", Json::object());
+  for (const auto& [metric, share] : shares.items()) judged.shares.emplace_back(metric, share.get<double>());
+  return judged;
+}
+
 Json EncodeRow(const Row& row) {
   Json json;
   json["cell"] = row.Id();
@@ -54,6 +69,7 @@ Json EncodeRow(const Row& row) {
     if (!metric.value) null_reasons[metric.id] = metric.null_reason;
   }
   if (!null_reasons.empty()) json["null_reasons"] = std::move(null_reasons);
+  if (const Json judged = EncodeJudged(row.result.judged); !judged.empty()) json["judged"] = judged;
   for (const auto& [stage, digest] : row.result.digests) json[std::string(kDigestPrefix) + stage] = digest;
   return json;
 }
@@ -73,6 +89,7 @@ Result<Row> DecodeRow(const Json& json, const Place& place) {
     if (!status) return Fail(place, "unknown status {}", json.at("status").dump());
     row.result.status = *status;
     row.result.reason = json.at("reason").is_null() ? "" : json.at("reason").get<std::string>();
+    row.result.judged = DecodeJudged(json.value("judged", Json::object()));
     // All other keys are digests, metrics or swept parameters.
     const Json null_reasons = json.value("null_reasons", Json::object());
     for (const auto& [key, value] : json.items()) {

@@ -5,11 +5,15 @@
 
 namespace etude {
 
-/// Encodes a row as a line of cells.jsonl: one object, flat except for the keys "units" and "null_reasons". The
-/// identity comes first, then the metrics with their ids as keys. A missing value is null, and its reason is in
-/// "null_reasons". Stage digests have keys "digest_<stage>".
+/// Encodes a row as a line of cells.jsonl: one object, flat except for the keys "units", "null_reasons" and
+/// "judged". The identity comes first, then the metrics with their ids as keys. A missing value is null, and its reason
+/// is in "null_reasons". Stage digests have keys "digest_<stage>".
 Json EncodeRow(const Row& row);
 Result<Row> DecodeRow(const Json& json, const Place& place);
+
+/// Encodes what a cell was judged on; an empty object if the task does not say it.
+Json EncodeJudged(const JudgedOn& judged);
+JudgedOn DecodeJudged(const Json& json);
 
 Json EncodeSeries(const std::vector<Series>& series);
 /// Encodes a line of series/SCENARIO.jsonl.

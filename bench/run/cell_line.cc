@@ -51,6 +51,7 @@ Result<std::string> TextOf(std::size_t cell, const FinishedCell& finished) {
     if (!metric.value) Append(line, "why", {metric.null_reason});
   }
   for (const auto& [stage, digest] : result.digests) Append(line, "digests", {stage, digest});
+  if (Json judged = EncodeJudged(result.judged); !judged.empty()) line["judged"] = std::move(judged);
   // Encode the curves and the recording.
   for (const Series& series : result.series) {
     if (!std::ranges::all_of(series.values, [](double value) { return std::isfinite(value); })) {
@@ -163,6 +164,7 @@ Result<FinishedCell> DecodeCellLine(std::string_view line, Row identity, const P
     for (std::size_t i = 0; i < digests.size(); i += 2) {
       result.digests.emplace_back(digests.at(i).get<std::string>(), digests.at(i + 1).get<std::string>());
     }
+    if (const Json judged = take("judged"); !judged.is_null()) result.judged = DecodeJudged(judged);
     // Read each curve: its name, axis, values, and the names of categories.
     for (const Json& curve : take("series")) {
       Series& series = result.series.emplace_back();

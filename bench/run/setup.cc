@@ -117,6 +117,7 @@ Json EncodeSetup(const SuiteSetup& setup) {
     for (const JudgedFiles& one : scenario.files) {
       scenarios.back()["files"].push_back({{"name", one.name}, {"truth", one.truth}, {"answers", one.answers}});
       if (!one.unit.empty()) scenarios.back()["files"].back()["unit"] = one.unit;
+      if (!one.same_as.empty()) scenarios.back()["files"].back()["same_as"] = one.same_as;
     }
     if (scenario.keeps_motions) scenarios.back()["keeps_motions"] = true;
     if (!scenario.streams.empty()) scenarios.back()["streams"] = scenario.streams;
@@ -171,9 +172,9 @@ Result<SuiteSetup> DecodeSetup(const Json& json, const Place& place) {
         setup.scenarios.back().refused.push_back({one.at("clip").get<std::string>(), one.at("why").get<std::string>()});
       }
       for (const Json& one : scenario.value("files", Json::array())) {
-        setup.scenarios.back().files.push_back({one.at("name").get<std::string>(), one.value("unit", ""),
-                                                one.at("truth").get<std::string>(),
-                                                one.at("answers").get<std::vector<std::string>>()});
+        setup.scenarios.back().files.push_back(
+            {one.at("name").get<std::string>(), one.value("unit", ""), one.at("truth").get<std::string>(),
+             one.at("answers").get<std::vector<std::string>>(), one.value("same_as", "")});
       }
       for (const Json& library : scenario.value("libraries", Json::array())) {
         setup.scenarios.back().libraries.push_back(
@@ -220,6 +221,10 @@ Result<void> FindFiles(const Scenario& scenario, const SourceTexts& texts, Scena
   }
   for (auto& [file, why] : found.left_out) setup.refused.push_back({file, why});
   setup.files = std::move(found.worlds);
+  if (kind.find_equal_truths != nullptr) {
+    ASSIGN_OR_RETURN(const OpenOptions opening, OpenOptionsOf(setup, texts));
+    kind.find_equal_truths(setup.files, opening);
+  }
   return {};
 }
 
@@ -381,6 +386,8 @@ Row PreparedScenario::IdentityOf(int condition, int trial, std::size_t method) c
   if (!clips.empty()) row.clip = clips.front();
   row.units = UnitsOf(clips, scenario_.unit, ClipsOf(scenario_.conditions[condition]));
   if (scenario_.unit == SamplingUnit::kRecordedPerson) row.units = {setup_.files[trial].unit};
+  const bool is_copy = !setup_.files.empty() && !setup_.files[trial].same_as.empty();
+  if (scenario_.unit == SamplingUnit::kClip && is_copy) row.units = {setup_.files[trial].same_as};
   row.method = scenario_.methods[method].name;
   return row;
 }

@@ -161,8 +161,9 @@ FieldTable<Scenario> SuccessFields(const std::vector<std::string>& metrics) {
   return {{KnownName("metric", &Scenario::success, "a share that the task reports; higher values are better", metrics,
                      "The metric that measures success: a share of the cells, or a share within each cell.")
                .WhenAbsent("(the task's)"),
-           Field<Scenario>::Number("matters", &Scenario::success_matters, {0.001, 1},
-                                   "The smallest difference of two methods that matters, as a share.")}};
+           Field<Scenario>::Number(
+               "matters", &Scenario::success_matters, {0.001, 1},
+               "The smallest difference of two methods that matters, as a share. Task evaluation: 0.01.")}};
 }
 
 FieldTable<TimeRatio> TimeRatioFields(const Scenario& scenario) {

@@ -17,8 +17,8 @@ namespace {
 constexpr int kMaxExampleFrames = 10'000;
 constexpr const char* kIdPattern = "^[a-z][a-z0-9_]{0,59}$";
 /// The keys of a row of cells.jsonl that are not metrics. A metric must not have one of these names.
-constexpr std::string_view kRowKeys[] = {"cell",  "scenario", "task",   "condition", "trial",        "clip",
-                                         "units", "method",   "status", "reason",    "null_reasons", "ok_share"};
+constexpr std::string_view kRowKeys[] = {"cell",   "scenario", "task",   "condition",    "trial",  "clip",    "units",
+                                         "method", "status",   "reason", "null_reasons", "judged", "ok_share"};
 /// The task for which a scenario cannot define metrics, because its cells keep no motion.
 constexpr std::string_view kTaskWithoutMotion = "pose-distance";
 

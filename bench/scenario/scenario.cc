@@ -227,6 +227,7 @@ const FieldTable<Scenario>& ScenarioFields() {
          "headline metric."},
         when_right([](Fields& fields, Scenario& s, const TaskKind& kind) {
           s.success = kind.success;
+          s.success_matters = kind.success_matters;
           ReadNested(fields, "success", SuccessFields(SuccessMetricsOf(kind, s)), s);
         })},
        {{"expect", ListKind("a list of expectations", MappingKind("", ExpectationFields(unread, {}).Describe())), "[]",

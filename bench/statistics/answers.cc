@@ -107,6 +107,7 @@ class Measurer {
     }
     if (!WorldsAreUnits(study_.unit))
       found.beyond = MeasureBeyond(UnitsOf(worlds, table_, metric), CountAnswers(study_));
+    found.not_alike = found.beyond.not_alike = worlds.not_alike;
     return found;
   }
 
@@ -125,6 +126,7 @@ class Measurer {
     // Compare the value in the worlds in which both methods succeeded.
     if (!successes.pairs.empty() && AreShares(successes.pairs, ShareMetric(study_, study_.success))) {
       PairedWorlds both;
+      both.not_alike = values.not_alike;
       for (std::size_t i = 0; i < values.pairs.size(); ++i) {
         const auto at = std::ranges::lower_bound(successes.trials, values.trials[i]);
         if (at == successes.trials.end() || *at != values.trials[i]) continue;

@@ -155,6 +155,7 @@ Beyond MeasureBeyond(const UnitSample& sample, int comparisons) {
 
 std::optional<Verdict> VerdictBeyond(const Beyond& beyond, const MetricInfo& metric) {
   if (!beyond.low || !beyond.p_holm) return std::nullopt;
+  if (!beyond.not_alike.empty()) return Verdict::kUndecided;
   // "No difference" requires that the intervals of the pseudo-median and of the mean lie within ± threshold, and that
   // enough units differ.
   const auto is_within = [&](double low, double high) { return low >= -metric.practical && high <= metric.practical; };
@@ -178,6 +179,7 @@ std::string WhyOpenBeyond(const Beyond& beyond, const MetricInfo& metric, Sampli
   }
   if (!beyond.low) return "all worlds show the same clip: no verdict for other clips";
   if (beyond.verdict != Verdict::kUndecided) return "";
+  if (!beyond.not_alike.empty()) return beyond.not_alike;
   const bool within = *beyond.low >= -metric.practical && *beyond.high <= metric.practical;
   if (within && beyond.differing < kMinUnits) {
     return fmt::format("only {} of {} differ; rare differences may be missing among them", beyond.differing,

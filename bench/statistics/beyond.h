@@ -50,7 +50,7 @@ Beyond MeasureBeyond(const UnitSample& sample, int comparisons);
 ///                    differ
 ///   better / worse   if p_holm ≤ alpha, the interval of the pseudo-median lies on one side of zero, the pseudo-median
 ///                    is at least as large as the threshold, and the mean has the same sign
-///   undecided        otherwise
+///   undecided        otherwise, and always if the two methods were not judged alike
 std::optional<Verdict> VerdictBeyond(const Beyond& beyond, const MetricInfo& metric);
 
 /// Returns a sentence that says why the verdict is missing or undecided; "" if the verdict is clear.

@@ -101,7 +101,7 @@ bool SeesTooFewDiffer(const Comparison& comparison, const MetricInfo& metric) {
 }
 
 Verdict VerdictOf(const Comparison& comparison, const MetricInfo& metric, double confidence) {
-  if (!comparison.ci_low || !comparison.p_holm) return Verdict::kUndecided;
+  if (!comparison.not_alike.empty() || !comparison.ci_low || !comparison.p_holm) return Verdict::kUndecided;
   const double low = *comparison.ci_low, high = *comparison.ci_high, difference = *comparison.difference;
   // "No difference" requires that the intervals of the aggregate and of the mean lie within ± threshold.
   const auto is_within = [&](double from, double to) { return from >= -metric.practical && to <= metric.practical; };

@@ -47,7 +47,7 @@ bool SeesTooFewDiffer(const Comparison& comparison, const MetricInfo& metric);
 ///                    interval is bootstrapped, at least kMinSample pairs must differ, because a bootstrap cannot see
 ///                    rare differences
 ///   better / worse   if p_holm ≤ alpha, the interval lies on one side of zero, and |difference| ≥ threshold
-///   undecided        otherwise, and always with fewer than kMinSample pairs
+///   undecided        otherwise, and always with fewer than kMinSample pairs or if the two were not judged alike
 Verdict VerdictOf(const Comparison& comparison, const MetricInfo& metric, double confidence = kConfidence);
 
 /// Judges a comparison of pairs alone and, if `with_failures` is given, the same comparison with failures counted. Both

@@ -215,9 +215,11 @@ Finding JudgeComparison(const Expectation& expectation, const ConditionTable& ta
   metric.direction = wants_lower ? Direction::kLowerIsBetter : Direction::kHigherIsBetter;
   const PairedWorlds worlds = PairsOf(table, other, expectation.of, expectation.metric);
   Comparison found = ComparePaired(worlds.pairs, metric, seed, purpose, expectation.confidence);
+  found.not_alike = worlds.not_alike;
   std::optional<Comparison> with_failures;
   if (const auto all = WithFailures(worlds, metric)) {
     with_failures = ComparePaired(all->pairs, metric, seed, purpose + "/failures", expectation.confidence);
+    with_failures->not_alike = worlds.not_alike;
   }
   const Verdict of_pairs = JudgeBothWays(found, with_failures, metric, expectation.confidence);
   // As in JudgeFamily, methods of which one loses values are not equal.
@@ -241,6 +243,7 @@ Finding JudgeComparison(const Expectation& expectation, const ConditionTable& ta
   std::string detail = fmt::format(
       "difference {:.4g}{} ({:.4g} % interval {:.4g} to {:.4g}, p = {:.2g}) on {} worlds{}", *found.difference, unit,
       100 * expectation.confidence, *found.ci_low, *found.ci_high, *found.p_holm, found.pairs, missing);
+  if (!found.not_alike.empty()) return {outcome, detail + "; " + found.not_alike};
   if (found.verdict != of_pairs) return {outcome, detail + "; it does not hold if a failure counts as a loss"};
   if (is_open) return {outcome, detail + "; " + WhyValuesLost(found)};
   if (outcome == ClaimOutcome::kUndecided && SmallestP(found.differing) > alpha) {
@@ -285,6 +288,7 @@ std::string WhyOpen(const Comparison& c, const MetricInfo& metric, int compariso
   if (c.verdict != Verdict::kUndecided) return "";
   const std::string_view worlds = unit == SamplingUnit::kPerson ? "people" : "worlds";
   if (c.pairs == 0) return "no world has values of both methods";
+  if (!c.not_alike.empty()) return c.not_alike;
   // McNemar's mid-p of n differing pairs is at least 1 / 2ⁿ, half of the smallest p of the other tests.
   const double sharper = c.sign_flip.how == kMidP ? 2 : 1;
   const int needed = PairsNeeded(comparisons, sharper * kAlpha);

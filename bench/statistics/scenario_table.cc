@@ -97,6 +97,30 @@ void MethodColumns::Add(const Row& row) {
     if (column == nullptr) column = &values_.Add(metric.id, std::vector<double>(statuses_.size(), kNone));
     if (metric.value) (*column)[trial] = *metric.value;
   }
+  AddJudged(row.result.judged, trial);
+}
+
+void MethodColumns::AddJudged(const JudgedOn& judged, std::size_t trial) {
+  if (judged.parts.empty()) return;
+  parts_.resize(statuses_.size());
+  rates_.resize(statuses_.size());
+  auto parts = std::ranges::find(all_parts_, judged.parts);
+  if (parts == all_parts_.end()) parts = all_parts_.insert(parts, judged.parts);
+  parts_[trial] = 1 + static_cast<std::size_t>(parts - all_parts_.begin());
+  rates_[trial] = judged.rate_hz;
+  for (const auto& [metric, share] : judged.shares) {
+    std::vector<double>* column = shares_.Find(metric);
+    if (column == nullptr) column = &shares_.Add(metric, std::vector<double>(statuses_.size(), kNone));
+    (*column)[trial] = share;
+  }
+}
+
+std::optional<JudgedPair::Side> MethodColumns::JudgedAt(const std::string& metric, int trial) const {
+  const auto at = static_cast<std::size_t>(trial);
+  if (parts_.empty() || parts_[at] == 0) return std::nullopt;
+  const std::vector<double>* shares = shares_.Find(metric);
+  const double share = shares == nullptr || std::isnan((*shares)[at]) ? 1 : (*shares)[at];
+  return JudgedPair::Side{&all_parts_[parts_[at] - 1], rates_[at], share};
 }
 
 std::optional<double> MethodColumns::ValueAt(const std::string& metric, int trial) const {
@@ -170,6 +194,9 @@ void ScenarioTable::Add(const Row& row) {
   }
 }
 
+namespace {
+
+/// Adds one world to `paired`: a pair, or one more world without a pair.
 void AddWorld(const MethodColumns& baseline, const MethodColumns& method, const std::string& metric, int trial,
               PairedWorlds& paired) {
   // A cell that was never run counts as skipped.
@@ -194,6 +221,21 @@ void AddWorld(const MethodColumns& baseline, const MethodColumns& method, const 
   }
 }
 
+/// Returns why the pairs of a metric cannot be compared (WhyNotAlike). `baseline_at(trial)` is the other method.
+template <typename BaselineAt>
+std::string WhyNotAlike(const PairedWorlds& paired, const std::string& metric, const BaselineAt& baseline_at,
+                        const MethodColumns& method, const std::string& name_of_baseline) {
+  std::vector<JudgedPair> judged;
+  for (const int trial : paired.trials) {
+    const auto theirs = baseline_at(trial).JudgedAt(metric, trial), mine = method.JudgedAt(metric, trial);
+    if (theirs && mine) judged.push_back({*theirs, *mine});
+  }
+  return judged.empty() ? "" : WhyNotAlike(*FindMetric(metric), judged, name_of_baseline, method.name());
+}
+
+/// Multiplies the values of each pair by the world's weight (MetricInfo::weight) divided by the mean weight. The plain
+/// mean of differences then is the weighted mean, and the tests are weighted, too. All cells of a world have the same
+/// weight, because the weight depends on the truth alone. Does nothing for metrics without weights.
 void WeighPairs(const MethodColumns& method, const std::string& metric, PairedWorlds& paired) {
   const MetricInfo* info = FindMetric(metric);
   if (info == nullptr || info->weight.empty()) return;
@@ -206,12 +248,16 @@ void WeighPairs(const MethodColumns& method, const std::string& metric, PairedWo
   }
 }
 
+}  // namespace
+
 PairedWorlds PairsOf(const ConditionTable& table, const std::string& baseline, const std::string& method,
                      const std::string& metric) {
   PairedWorlds paired;
   const MethodColumns &of_baseline = table.Of(baseline), &of_method = table.Of(method);
   for (int trial = 0; trial < table.trials(); ++trial) AddWorld(of_baseline, of_method, metric, trial, paired);
   WeighPairs(of_method, metric, paired);
+  const auto baseline_at = [&](int) -> const MethodColumns& { return of_baseline; };
+  paired.not_alike = WhyNotAlike(paired, metric, baseline_at, of_method, baseline);
   return paired;
 }
 
@@ -273,11 +319,15 @@ std::optional<Rival> FindRival(const Study& study, const ConditionTable& table, 
 PairedWorlds WorldsAgainst(const Rival& rival, const ConditionTable& table, const std::string& method,
                            const std::string& metric) {
   const std::array<const MethodColumns*, 2> of_half = {&table.Of(rival.of_half[0]), &table.Of(rival.of_half[1])};
+  const auto baseline_at = [&](int trial) -> const MethodColumns& {
+    return *of_half[static_cast<std::size_t>(HalfOf(table, trial))];
+  };
   PairedWorlds worlds;
   for (int trial = 0; trial < table.trials(); ++trial) {
-    AddWorld(*of_half[static_cast<std::size_t>(HalfOf(table, trial))], table.Of(method), metric, trial, worlds);
+    AddWorld(baseline_at(trial), table.Of(method), metric, trial, worlds);
   }
   WeighPairs(table.Of(method), metric, worlds);
+  worlds.not_alike = WhyNotAlike(worlds, metric, baseline_at, table.Of(method), rival.Name());
   return worlds;
 }
 

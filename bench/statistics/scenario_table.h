@@ -9,6 +9,7 @@
 #include "bench/metrics/catalogue.h"
 #include "bench/model/study.h"
 #include "bench/statistics/compare.h"
+#include "bench/statistics/judged_alike.h"
 #include "engine/base/cyclic_lookup.h"
 
 namespace etude {
@@ -25,6 +26,8 @@ class MethodColumns {
   std::optional<Status> StatusAt(int trial) const { return statuses_[static_cast<std::size_t>(trial)]; }
   /// Returns the trial's value of a metric; nothing if the trial's cell has none.
   std::optional<double> ValueAt(const std::string& metric, int trial) const;
+  /// Returns what the trial's value of a metric was measured on; nothing if the cell does not say it.
+  std::optional<JudgedPair::Side> JudgedAt(const std::string& metric, int trial) const;
   /// Returns all values of a metric in the order of trials. `missing` receives the number of cells without a value.
   std::vector<double> ValuesOf(const std::string& metric, int& missing) const;
   /// Returns the weights of the values of a metric, in the order of ValuesOf, scaled to mean 1 (MetricInfo::weight). A
@@ -34,9 +37,16 @@ class MethodColumns {
   bool Reports(const std::string& metric) const { return values_.Find(metric) != nullptr; }
 
  private:
+  void AddJudged(const JudgedOn& judged, std::size_t trial);
+
   std::string name_;
   std::vector<std::optional<Status>> statuses_;  ///< statuses by trial
   CyclicLookup<std::vector<double>> values_;     ///< values by metric and trial; NaN = none
+  // What the cells were judged on (JudgedOn). The columns are empty if no cell says it.
+  std::vector<std::vector<std::string>> all_parts_;  ///< each list of parts once
+  std::vector<std::size_t> parts_;                   ///< by trial, 1 + an index in all_parts_; 0 = the cell has none
+  std::vector<double> rates_;
+  CyclicLookup<std::vector<double>> shares_;  ///< shares by metric and trial; NaN = 1
 };
 
 /// All values and statuses measured under one condition.
@@ -84,20 +94,12 @@ struct PairedWorlds {
   /// Trials in which a cell failed and did not merely lack this metric. baseline_failed lists trials of only_method in
   /// which the baseline's cell failed; method_failed lists trials of only_baseline in which the method's cell failed.
   std::vector<int> baseline_failed, method_failed;
+  std::string not_alike = {};  ///< why the pairs cannot be compared (WhyNotAlike); "" = they can
 };
-
-/// Multiplies the values of each pair by the world's weight (MetricInfo::weight) divided by the mean weight. The plain
-/// mean of differences then is the weighted mean, and the tests are weighted, too. All cells of a world have the same
-/// weight, because the weight depends on the truth alone. Does nothing for metrics without weights.
-void WeighPairs(const MethodColumns& method, const std::string& metric, PairedWorlds& paired);
 
 /// Returns the pairs of values of `baseline` and `method` in all worlds of the condition.
 PairedWorlds PairsOf(const ConditionTable& table, const std::string& baseline, const std::string& method,
                      const std::string& metric);
-
-/// Adds one world to `paired`: a pair, or one more world without a pair.
-void AddWorld(const MethodColumns& baseline, const MethodColumns& method, const std::string& metric, int trial,
-              PairedWorlds& paired);
 
 /// Counts failures as losses: in each world in which only one method failed, that method is worse by the largest
 /// difference among the pairs, and at least by the practical threshold, or by 1 for shares (worst ranks, Lachin 1999).

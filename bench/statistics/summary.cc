@@ -99,7 +99,9 @@ struct Family {
   /// Estimates the difference for other units. Empty if every world is its own unit.
   Beyond MeasureUnits(const PairedWorlds& worlds, const ConditionTable& table, const MetricInfo& metric) const {
     if (WorldsAreUnits(study.unit)) return {};
-    return MeasureBeyond(UnitsOf(worlds, table, metric), size);
+    Beyond beyond = MeasureBeyond(UnitsOf(worlds, table, metric), size);
+    beyond.not_alike = worlds.not_alike;
+    return beyond;
   }
 
   /// Measures one comparison. Its verdict is left open, because it depends on the other comparisons.
@@ -109,9 +111,11 @@ struct Family {
     question.comparison.only_baseline = worlds.only_baseline;
     question.comparison.only_method = worlds.only_method;
     question.comparison.neither = worlds.neither;
+    question.comparison.not_alike = worlds.not_alike;
     question.comparison.beyond = MeasureUnits(worlds, table, metric);
     if (const auto all = WithFailures(worlds, metric)) {
       question.with_failures = ComparePaired(all->pairs, metric, seed, purpose + "/failures");
+      question.with_failures->not_alike = worlds.not_alike;
       question.with_failures->beyond = MeasureUnits(*all, table, metric);
     }
     return question;

@@ -60,16 +60,32 @@ bool HasOwnRoot(const RawMotion& motion) {
 
 glm::dvec3 NotSeen() { return glm::dvec3(std::numeric_limits<double>::quiet_NaN()); }
 
-RawMotion Sampled(const RawMotion& motion, double rate_hz, double start_s, std::size_t count) {
+namespace {
+
+/// Returns the position of a joint at the fraction `u` of the way from the frame `from` to the next
+/// (Inbetween::kCubic).
+glm::dvec3 CubicAt(const RawMotion& motion, std::size_t from, double u, std::size_t joint) {
+  const glm::dvec3 &b = motion.At(from, joint), &c = motion.At(from + 1, joint);
+  glm::dvec3 a = from > 0 ? motion.At(from - 1, joint) : NotSeen();
+  glm::dvec3 d = from + 2 < motion.FrameCount() ? motion.At(from + 2, joint) : NotSeen();
+  if (!IsSeen(a) && !IsSeen(d)) return b + u * (c - b);
+  if (!IsSeen(a)) a = 3.0 * (b - c) + d;
+  if (!IsSeen(d)) d = 3.0 * (c - b) + a;
+  return b + 0.5 * u * (c - a + u * (2.0 * a - 5.0 * b + 4.0 * c - d + u * (3.0 * (b - c) + d - a)));
+}
+
+}  // namespace
+
+RawMotion AtFrames(const RawMotion& motion, std::span<const double> times, double rate_hz, Inbetween inbetween) {
   RawMotion sampled = motion;
-  const std::size_t joints = motion.joints.size(), frames = motion.FrameCount();
+  const std::size_t joints = motion.joints.size(), frames = motion.FrameCount(), count = times.size();
   sampled.rate_hz = rate_hz;
   sampled.positions.assign(count * joints, NotSeen());
   if (!motion.rotations.empty()) sampled.rotations.assign(count * joints, glm::dquat(1, 0, 0, 0));
   if (!motion.contacts.empty()) sampled.contacts.assign(count * kFootContacts, false);
   for (std::size_t i = 0; i < count; ++i) {
     // Find the two frames around this time.
-    double at = (start_s + static_cast<double>(i) / rate_hz) * motion.rate_hz;
+    double at = times[i];
     if (std::abs(at - std::round(at)) < kSameFrame) at = std::round(at);
     if (at < 0 || at > static_cast<double>(frames) - 1) continue;
     const auto from = static_cast<std::size_t>(at);
@@ -80,13 +96,22 @@ RawMotion Sampled(const RawMotion& motion, double rate_hz, double start_s, std::
     }
     for (std::size_t j = 0; j < joints; ++j) {
       const glm::dvec3 &a = motion.At(from, j), &b = motion.At(to, j);
-      sampled.positions[i * joints + j] = part > 0 ? a + part * (b - a) : a;
+      const bool is_cubic = part > 0 && inbetween == Inbetween::kCubic;
+      sampled.positions[i * joints + j] = is_cubic ? CubicAt(motion, from, part, j) : part > 0 ? a + part * (b - a) : a;
       if (motion.rotations.empty()) continue;
       const glm::dquat &p = motion.rotations[from * joints + j], &q = motion.rotations[to * joints + j];
       sampled.rotations[i * joints + j] = part > 0 ? glm::slerp(p, q, part) : p;
     }
   }
   return sampled;
+}
+
+RawMotion Sampled(const RawMotion& motion, double rate_hz, double start_s, std::size_t count) {
+  std::vector<double> frames;
+  for (std::size_t i = 0; i < count; ++i) {
+    frames.push_back((start_s + static_cast<double>(i) / rate_hz) * motion.rate_hz);
+  }
+  return AtFrames(motion, frames, rate_hz, Inbetween::kLine);
 }
 
 }  // namespace etude

@@ -5,6 +5,7 @@
 #include <glm/glm.hpp>
 #include <glm/gtc/quaternion.hpp>
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -64,11 +65,20 @@ bool HasOwnRoot(const RawMotion& motion);
 glm::dvec3 NotSeen();
 inline bool IsSeen(const glm::dvec3& position) { return position.x == position.x; }
 
-/// Returns `count` frames of a motion, sampled at `rate_hz` from `start_s` after its first frame. A time within a
-/// millionth of a frame of an original frame returns that frame unchanged. Between frames, positions are interpolated
-/// linearly and rotations by slerp, and contacts are taken from the nearer frame. A joint is not seen if one of the two
-/// frames does not show it, or if the time is before the first frame or after the last. No low-pass filter is applied,
-/// not even at lower rates.
+/// How positions between two frames are interpolated.
+enum class Inbetween {
+  kLine,
+  kCubic,  ///< a Catmull-Rom cubic through four frames; at an end or a gap, a parabola through three; else a line
+};
+
+/// Returns a motion at the given times, which are counted in its frames: 1.5 lies midway between the second and the
+/// third frame. A time within a millionth of a frame of an original frame returns that frame unchanged. Between frames,
+/// rotations are interpolated by slerp, and contacts are taken from the nearer frame. A joint is not seen if one of the
+/// two frames does not show it, or if the time is before the first frame or after the last. No low-pass filter is
+/// applied, not even at lower rates. `rate_hz` is the result's rate.
+RawMotion AtFrames(const RawMotion& motion, std::span<const double> frames, double rate_hz, Inbetween inbetween);
+
+/// Returns `count` frames of a motion, sampled at `rate_hz` from `start_s` after its first frame (AtFrames, kLine).
 RawMotion Sampled(const RawMotion& motion, double rate_hz, double start_s, std::size_t count);
 
 }  // namespace etude

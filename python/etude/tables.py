@@ -181,7 +181,8 @@ def _table_of_rows(scenario, task, rows, metrics):
     for row in rows:
         for name in row:
             names.setdefault(name, None)
-    names.pop("null_reasons", None)
+    for name in "null_reasons", "judged":
+        names.pop(name, None)
     values = {name: [row.get(name) for row in rows] for name in names}
     digests = [name for name in names if name.startswith("digest_")]
     settings = [name for name in names if name not in IDENTITY and name not in metrics and name not in digests]

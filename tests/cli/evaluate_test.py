@@ -117,7 +117,7 @@ class Evaluate(EtudeCase):
         self.assertGreater(rows["size"]["mpjpe_root_mm"], 20)
         self.assertAlmostEqual(rows["size"]["mpjpe_each_frame_scaled_mm"], 0, 3)
         self.assertGreater(rows["slow"]["mpjpe_unaligned_mm"], 5, "a motion at half its rate is another motion")
-        self.assertIn("interpolated linearly from 15 Hz", rows["slow"]["reason"])
+        self.assertIn("(the truth has 30 Hz, the answer 15 Hz)", rows["slow"]["reason"])
 
     def test_a_file_more_changes_no_other_and_a_changed_one_is_told(self):
         for name in "b", "d":

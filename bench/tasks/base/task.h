@@ -104,6 +104,8 @@ struct JudgedFiles {
   std::string unit;   ///< the sampling unit to which the world belongs, such as a person; "" = the world's name
   std::string truth;  ///< a reference to a motion (io/clips/references.h); "" = the task knows no truths
   std::vector<std::string> answers;  ///< references to motions, by method; "" = the method has no answer in this world
+  /// The name of the first world whose truth is the same, apart from one rigid motion; "" = none. The two are one unit.
+  std::string same_as = {};
   friend bool operator==(const JudgedFiles&, const JudgedFiles&) = default;
 };
 
@@ -157,6 +159,10 @@ struct TaskKind {
   /// Returns the software that the task's results depend on in addition to the build, for the manifest: "4.5 (Core
   /// Profile) Mesa 22.3.6". Null if there is none.
   std::string (*platform)() = nullptr;
+  double success_matters = 0.05;  ///< the smallest difference of success that matters, unless a scenario states it
+  /// Finds, for a task that judges files, the worlds with equal truths, and sets their JudgedFiles::same_as. Null if
+  /// the task has no truths.
+  void (*find_equal_truths)(std::vector<JudgedFiles>& worlds, const OpenOptions& opening) = nullptr;
 };
 
 }  // namespace etude

@@ -13,7 +13,7 @@
 namespace etude {
 
 std::vector<CommonJoint> FindCommon(const RawMotion& truth, const RawMotion& answer, std::string_view set,
-                                    std::vector<std::string>& lacking) {
+                                    std::vector<CommonJoint>& lacking) {
   std::vector<std::string> names;
   if (set == "same") {
     for (std::size_t j = 0; j < truth.joints.size(); ++j) {
@@ -32,7 +32,7 @@ std::vector<CommonJoint> FindCommon(const RawMotion& truth, const RawMotion& ans
       return found == motion.joints.end() ? -1 : static_cast<int>(found - motion.joints.begin());
     };
     const CommonJoint joint{name, index_in(truth), index_in(answer)};
-    joint.truth >= 0 && joint.answer >= 0 ? common.push_back(joint) : lacking.push_back(name);
+    (joint.truth >= 0 && joint.answer >= 0 ? common : lacking).push_back(joint);
   }
   return common;
 }

@@ -17,9 +17,10 @@ struct CommonJoint {
   int truth = -1, answer = -1;
 };
 
-/// Returns the joints of `set` that both motions have. Adds the set's other joints to `lacking`.
+/// Returns the joints of `set` that both motions have. Adds the set's other joints to `lacking`, with −1 for a motion
+/// that lacks the joint.
 std::vector<CommonJoint> FindCommon(const RawMotion& truth, const RawMotion& answer, std::string_view set,
-                                    std::vector<std::string>& lacking);
+                                    std::vector<CommonJoint>& lacking);
 
 /// Returns the joints of equal names in both motions that are not among the `judged` joints.
 std::vector<std::string> FindAlsoHeld(const RawMotion& truth, const RawMotion& answer,

@@ -1,3 +1,5 @@
+#include <fmt/core.h>
+
 #include <algorithm>
 #include <iterator>
 
@@ -7,6 +9,7 @@
 #include "bench/tasks/base/read_methods.h"
 #include "bench/tasks/base/task_kinds.h"
 #include "bench/tasks/evaluation/controls.h"
+#include "bench/tasks/evaluation/equal_truths.h"
 #include "bench/tasks/evaluation/find_files.h"
 #include "bench/tasks/evaluation/match.h"
 #include "bench/tasks/evaluation/options.h"
@@ -89,6 +92,9 @@ class EvaluationWorld final : public FileWorld {
     if (!matched) return CellResult::Ended(Status::kFailed, ToString(matched.error()));
     const EvaluationSideData side = study_.has_only_controls ? SideDataOf(*matched, study_.side) : study_.side;
     CellResult result = JudgeMotion(*matched, side);
+    if (!files_.same_as.empty()) {
+      result.reason += fmt::format("; the truth is that of {}, so the two are one unit", files_.same_as);
+    }
     if (keeps_motion_) result.recording = RecordingOf(*matched);
     return result;
   }
@@ -133,7 +139,9 @@ TaskKind MakeEvaluationTaskKind() {
           .uses_clips = false,
           .units = {SamplingUnit::kClip, SamplingUnit::kWorld},
           .find_files = FindEvaluatedFiles,
-          .keys_of_files = {"truth", "pairs"}};
+          .keys_of_files = {"truth", "pairs"},
+          .success_matters = kMaxShareDifference,
+          .find_equal_truths = FindEqualTruths};
 }
 
 }  // namespace etude

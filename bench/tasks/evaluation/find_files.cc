@@ -192,6 +192,13 @@ Result<void> RefuseTruths(const JudgedFiles& files, const Place& place) {
   return {};
 }
 
+/// Returns true if the references are a single file, neither a folder nor a pattern.
+bool NamesOneFile(const std::vector<std::string>& references) {
+  std::error_code none;
+  return references.size() == 1 && references.front().find_first_of("*?[") == std::string::npos &&
+         !fs::is_directory(references.front(), none);
+}
+
 /// Pairs truths and answers whose files have the same name. `nodes` are the mappings of the methods.
 Result<FoundFiles> PairByName(const EvaluationOptions& options, std::span<const EvaluationMethod> methods,
                               std::span<const Node> nodes, const Place& place) {
@@ -210,8 +217,10 @@ Result<FoundFiles> PairByName(const EvaluationOptions& options, std::span<const 
     if (method.answers.empty()) return Fail(nodes[m].place, "method {} has no 'answers'", Quote(method.name));
     const Place& of_answers = nodes[m].Find("answers")->place;
     ASSIGN_OR_RETURN(const auto files, ExpandFiles(method.answers, Links::kRefused, of_answers));
-    // A single truth and a single answer are a pair, whatever their names.
-    if (truths.size() == 1 && files.size() == 1) {
+    // A single truth and a single answer are a pair, whatever their names, if the scenario names these two files
+    // itself.
+    const bool are_named = NamesOneFile(options.truth) && NamesOneFile(method.answers);
+    if (are_named && truths.size() == 1 && files.size() == 1) {
       found.worlds.front().answers.push_back(files.front());
       continue;
     }
@@ -256,6 +265,15 @@ bool Matches(std::string_view pattern, std::string_view text) {
   return pattern.find_first_not_of('*', p) == std::string_view::npos;
 }
 
+/// Returns a person's name in lower case and without spaces, as `etude blind` compares the names of raters.
+std::string ComparedName(std::string_view name) {
+  std::string letters;
+  for (const char c : name) {
+    if (c != ' ') letters += c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
+  }
+  return letters;
+}
+
 }  // namespace
 
 std::optional<std::string> PersonIn(std::string_view pattern, std::string_view name) {
@@ -272,13 +290,14 @@ std::optional<std::string> PersonIn(std::string_view pattern, std::string_view n
 }
 
 Result<void> FindPeople(const std::string& people, const Place& place, std::vector<JudgedFiles>& worlds) {
+  std::map<std::string, std::string> spellings;  // the first spelling of each person's name, by ComparedName
   for (JudgedFiles& world : worlds) {
     const auto person = PersonIn(people, world.name);
     if (!person) {
       return Fail(place, "{} does not fit the name {}; allowed: a pattern with {}, such as {}_*", Quote(people),
                   Quote(world.name), kPerson, kPerson);
     }
-    world.unit = *person;
+    world.unit = spellings.emplace(ComparedName(*person), *person).first->second;
   }
   return {};
 }

@@ -17,7 +17,8 @@ constexpr std::size_t kMaxPairs = 100'000;
 /// Finds the pairs of files of task evaluation (TaskKind::find_files), sorted by name. A folder stands for the motion
 /// files in it, recognised by their extensions. The pairs are those of the CSV file that the condition names (`pairs`).
 /// Without a CSV file, a truth and an answer are a pair if their file names are equal apart from the extension; if
-/// there is a single truth and a method has a single answer, they are a pair whatever their names. An answer without a
+/// the condition names a single truth and a method a single answer, by their files' own names, they are a pair whatever
+/// these names. An answer without a
 /// truth is left out. Fails if two truths, or two answers of a method, have the same name; if a method has no answer
 /// for any truth; if there are more than kMaxPairs pairs; if the CSV file is invalid; and if an answer is a link that
 /// the scenario does not name itself.
@@ -37,7 +38,8 @@ Result<std::vector<std::string>> ExpandFiles(const std::vector<std::string>& ref
 /// Motion-BIDS recording leaves out the tracking system, so that truth and answers have the same name.
 std::string NameOfReference(const std::string& reference);
 
-/// Sets the unit of each world to the person in its name (PersonIn). `people` must not be empty. Fails at `place` if a
+/// Sets the unit of each world to the person in its name (PersonIn). Names that differ only in case (A–Z) or spaces are
+/// one person, by the first name's spelling. `people` must not be empty. Fails at `place` if a
 /// name contains no person.
 Result<void> FindPeople(const std::string& people, const Place& place, std::vector<JudgedFiles>& worlds);
 

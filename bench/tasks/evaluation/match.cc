@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "bench/tasks/evaluation/common_joints.h"
+#include "bench/tasks/evaluation/judged_frames.h"
 #include "engine/base/names.h"
 #include "engine/base/order_statistics.h"
 
@@ -122,45 +123,6 @@ std::vector<int> FindParents(const std::vector<CommonJoint>& joints, const RawMo
   return parents;
 }
 
-/// Returns true if the two frame rates count as equal: at the truth's end, the times of frames of equal number differ
-/// by less than a hundredth of a frame. Files may state their rates with rounding.
-bool HaveSameRate(const RawMotion& truth, const RawMotion& answer) {
-  constexpr double kMaxDrift = 0.01;  // tolerance, frames
-  return std::abs(answer.rate_hz / truth.rate_hz - 1) * static_cast<double>(truth.FrameCount()) < kMaxDrift;
-}
-
-/// The time from the truth's first frame to the answer's, by the clocks that their files state.
-struct ClockOffset {
-  double seconds = 0;
-  std::string note;
-};
-
-/// Compares the clocks that both files state. If a file states none, or if the clocks never show the same time, the
-/// first frames count as simultaneous. If the rates are equal and the offset is within a tenth of a frame of a whole
-/// number of frames, it is rounded to this number.
-ClockOffset OffsetOf(const RawMotion& truth, const RawMotion& answer) {
-  constexpr const char* kByClocks = ": judged by these clocks (--lag find searches the lag)";
-  constexpr double kSame = 0.1;  // tolerance, frames
-  const double truth_s = truth.start_s.value_or(0), answer_s = answer.start_s.value_or(0);
-  const double frames = (answer_s - truth_s) * truth.rate_hz;
-  if (std::abs(frames) < kSame) return {};
-  const auto told = [](const RawMotion& motion) {
-    // Round to milliseconds. 13 digits are enough, even for times since 1970.
-    return motion.start_s ? fmt::format("begins at {:.13g} s", std::round(1000 * *motion.start_s) / 1000)
-                          : std::string("states no clock");
-  };
-  const std::string both = fmt::format("the truth {}, the answer {}", told(truth), told(answer));
-  const auto end_of = [](const RawMotion& motion, double start_s) {
-    return start_s + static_cast<double>(motion.FrameCount() - 1) / motion.rate_hz;
-  };
-  const bool overlap = answer_s <= end_of(truth, truth_s) && truth_s <= end_of(answer, answer_s);
-  if (!truth.start_s || !answer.start_s || !overlap)
-    return {0, both + ": their first frames are taken as simultaneous (--lag find searches the lag)"};
-  const bool is_whole = HaveSameRate(truth, answer) && std::abs(frames - std::round(frames)) < kSame;
-  if (is_whole) return {std::round(frames) / answer.rate_hz, both + kByClocks};
-  return {frames / truth.rate_hz, both + kByClocks + ", and the answer is interpolated linearly"};
-}
-
 /// Describes the lag, e.g. "the answer is 40.20 ms late (95 %: 39.80 to 40.60), which was removed".
 std::string NoteOn(const TimeShift& lag) {
   constexpr double kToMs = 1000;
@@ -173,14 +135,20 @@ std::string NoteOn(const TimeShift& lag) {
   return fmt::format("the answer is {:.2f} ms {}{}, which was removed", std::abs(ms), ms < 0 ? "early" : "late", range);
 }
 
-/// Describes which joints are the roots; "" if one of the motions has no root.
-std::string NoteOnRoots(const RawMotion& truth, const RawMotion& answer) {
-  const int of_truth = truth.roles[Index(Role::kHipCentre)], of_answer = answer.roles[Index(Role::kHipCentre)];
-  if (of_truth < 0 || of_answer < 0) return "";
-  if (!HasOwnRoot(truth)) return ", root midway between the hips";
-  const std::string &a = truth.joints[static_cast<std::size_t>(of_truth)],
-                    &b = answer.joints[static_cast<std::size_t>(of_answer)];
-  return a == b ? ", root " + a : fmt::format(", root {} of the truth, {} of the answer", a, b);
+/// Returns the name of the truth's root, or "midway between the hips"; "" if one of the motions has no root.
+std::string RootOf(const RawMotion& truth, const RawMotion& answer) {
+  const int of_truth = truth.roles[Index(Role::kHipCentre)];
+  if (of_truth < 0 || answer.roles[Index(Role::kHipCentre)] < 0) return "";
+  return HasOwnRoot(truth) ? truth.joints[static_cast<std::size_t>(of_truth)] : "midway between the hips";
+}
+
+/// Describes which joints are the roots; "" if one of the motions has no root. `of_truth` is RootOf.
+std::string NoteOnRoots(const std::string& of_truth, const RawMotion& truth, const RawMotion& answer) {
+  if (of_truth.empty()) return "";
+  if (!HasOwnRoot(truth)) return ", root " + of_truth;
+  const std::string& of_answer = answer.joints[static_cast<std::size_t>(answer.roles[Index(Role::kHipCentre)])];
+  return of_answer == of_truth ? ", root " + of_truth
+                               : fmt::format(", root {} of the truth, {} of the answer", of_truth, of_answer);
 }
 
 /// Returns a note on joints whose distance from the truth hardly varies and is far larger than that of most joints:
@@ -268,10 +236,12 @@ std::string NoteOn(const RawMotion& truth, const RawMotion& answer, const std::s
     note += fmt::format(", both files also contain {}, which are not judged (--joints same judges them)",
                         SomeOf(matched.also_held));
   }
-  note += NoteOnRoots(truth, answer) + NoteOnStrangers(matched);
-  const bool is_resampled = !HaveSameRate(truth, answer) || matched.lag;
-  note += fmt::format(", {} at {:g} Hz", count(matched.pair.truth.FrameCount(), "frame"), truth.rate_hz);
-  if (is_resampled) note += fmt::format(", the answer was interpolated linearly from {:g} Hz", answer.rate_hz);
+  note += NoteOnRoots(matched.root, truth, answer) + NoteOnStrangers(matched);
+  note += fmt::format(", {} at {:g} Hz", count(matched.pair.truth.FrameCount(), "frame"), matched.pair.rate_hz);
+  if (!HaveSameRate(truth, answer)) {
+    note += fmt::format(" (the truth has {:g} Hz, the answer {:g} Hz)", truth.rate_hz, answer.rate_hz);
+  }
+  if (matched.is_interpolated) note += ", for which the truth was interpolated";
   if (matched.lag) note += ", " + NoteOn(*matched.lag);
   if (!clock.empty()) note += ", " + clock;
   // One surplus frame is not mentioned: in motions of equal length, the answer's last frame lies after the truth's last
@@ -287,6 +257,25 @@ std::string NoteOn(const RawMotion& truth, const RawMotion& answer, const std::s
   return note;
 }
 
+/// Returns the motion at these frames (AtFrames). If they are exactly its own, returns the motion itself; `changed`
+/// holds any other result.
+const RawMotion& At(const RawMotion& motion, const std::vector<double>& frames, double rate_hz, RawMotion& changed) {
+  bool is_own = frames.size() == motion.FrameCount();
+  for (std::size_t i = 0; i < frames.size() && is_own; ++i) is_own = frames[i] == static_cast<double>(i);
+  if (is_own) return motion;
+  return changed = AtFrames(motion, frames, rate_hz, Inbetween::kCubic);
+}
+
+/// Stores in `pair` everything that is known of the answer at its frames `found`.
+void TakeAnswer(const RawMotion& found, const std::vector<int>& joints, EvaluatedPair& pair) {
+  const std::size_t frames = found.FrameCount();
+  pair.found = Columns(found, joints, frames);
+  pair.found_turns = TurnsOf(found, joints, frames);
+  pair.found_root = RoleColumns(found, {Role::kHipCentre}, frames).positions;
+  pair.feet = RoleColumns(found, {Role::kLeftAnkle, Role::kLeftFoot, Role::kRightAnkle, Role::kRightFoot}, frames);
+  pair.found_contacts = found.contacts;
+}
+
 }  // namespace
 
 Result<MatchedMotions> Match(const RawMotion& given_truth, const RawMotion& given_answer, std::string_view set,
@@ -295,7 +284,8 @@ Result<MatchedMotions> Match(const RawMotion& given_truth, const RawMotion& give
   const auto both = WithCommonRoles(given_truth, given_answer, changed_truth, changed_answer);
   const RawMotion &truth = both.first, &answer = both.second;
   MatchedMotions matched;
-  const std::vector<CommonJoint> common = FindCommon(truth, answer, set, matched.lacking);
+  std::vector<CommonJoint> lacking;
+  const std::vector<CommonJoint> common = FindCommon(truth, answer, set, lacking);
   RETURN_IF_ERROR(CheckCommon(truth, answer, common.size(), set));
   matched.also_held = FindAlsoHeld(truth, answer, common);
   std::vector<int> of_truth, of_answer;
@@ -305,10 +295,7 @@ Result<MatchedMotions> Match(const RawMotion& given_truth, const RawMotion& give
     of_answer.push_back(joint.answer);
   }
   const std::size_t frames = truth.FrameCount();
-  const bool is_same_rate = HaveSameRate(truth, answer);
-  const double rate_hz = is_same_rate ? answer.rate_hz : truth.rate_hz;
-  matched.pair.rate_hz = truth.rate_hz;
-  matched.pair.truth = Columns(truth, of_truth, frames);
+  const double truth_rate_hz = HaveSameRate(truth, answer) ? answer.rate_hz : truth.rate_hz;
   const ClockOffset clock = OffsetOf(truth, answer);
   if (lag == Lag::kFind) {
     // Move the answer to the truth's clock. Frames before the answer's beginning are added, so that the answer's end is
@@ -318,7 +305,7 @@ Result<MatchedMotions> Match(const RawMotion& given_truth, const RawMotion& give
     RawMotion moved;
     if (clock.seconds != 0) moved = Sampled(answer, answer.rate_hz, -clock.seconds, count);
     const PointTracks found = Columns(clock.seconds != 0 ? moved : answer, of_answer, count);
-    matched.lag = FindTimeShift(matched.pair.truth, rate_hz, found, answer.rate_hz);
+    matched.lag = FindTimeShift(Columns(truth, of_truth, frames), truth_rate_hz, found, answer.rate_hz);
     if (!matched.lag) {
       return Fail({answer.name},
                   "no lag within ±{:g} s is found: the motion is too short, the body stands still or moves evenly, or "
@@ -326,37 +313,49 @@ Result<MatchedMotions> Match(const RawMotion& given_truth, const RawMotion& give
                   kMaxTimeShift_s);
     }
   }
-  // Sample the answer at the truth's times, unless it already has the truth's frames.
+  // Take the answer's own frames, and the truth at their times.
   const double start_s = (matched.lag ? matched.lag->shift_s : 0) - clock.seconds;
-  RawMotion resampled;
-  if (!is_same_rate || start_s != 0 || answer.FrameCount() != frames) {
-    resampled = Sampled(answer, rate_hz, start_s, frames);
+  const JudgedFrames judged = FramesToJudge(truth, answer, start_s);
+  RawMotion changed_frames, found_frames;
+  const RawMotion& true_at = At(truth, judged.of_truth, judged.rate_hz, changed_frames);
+  const RawMotion& found_at = At(answer, judged.of_answer, judged.rate_hz, found_frames);
+  const std::size_t count = judged.of_truth.size();
+  matched.is_interpolated = judged.is_interpolated;
+  matched.is_even = judged.is_even;
+  matched.pair.rate_hz = judged.rate_hz;
+  matched.pair.truth = Columns(true_at, of_truth, count);
+  matched.pair.true_turns = TurnsOf(true_at, of_truth, count);
+  matched.pair.true_root = RoleColumns(true_at, {Role::kHipCentre}, count).positions;
+  matched.pair.true_contacts = true_at.contacts;
+  TakeAnswer(found_at, of_answer, matched.pair);
+  if (matched.pair.true_root.empty() || matched.pair.found_root.empty()) {
+    matched.pair.true_root.clear();
+    matched.pair.found_root.clear();
   }
-  const RawMotion& sampled = resampled.joints.empty() ? answer : resampled;
-  matched.pair.found = Columns(sampled, of_answer, frames);
-  matched.pair.true_turns = TurnsOf(truth, of_truth, frames);
-  matched.pair.found_turns = TurnsOf(sampled, of_answer, frames);
-  const PointTracks true_root = RoleColumns(truth, {Role::kHipCentre}, frames);
-  const PointTracks found_root = RoleColumns(sampled, {Role::kHipCentre}, frames);
-  if (true_root.points > 0 && found_root.points > 0) {
-    matched.pair.true_root = true_root.positions;
-    matched.pair.found_root = found_root.positions;
+  if (count > 0) matched.own_start_s = judged.of_truth.front() / truth_rate_hz;
+  if (!judged.own.empty()) {
+    matched.own_start_s = judged.own.front() / answer.rate_hz - start_s;
+    RawMotion own_frames;
+    matched.own.emplace().rate_hz = answer.rate_hz;
+    TakeAnswer(At(answer, judged.own, answer.rate_hz, own_frames), of_answer, *matched.own);
+    if (matched.pair.found_root.empty()) matched.own->found_root.clear();
   }
-  matched.pair.feet =
-      RoleColumns(sampled, {Role::kLeftAnkle, Role::kLeftFoot, Role::kRightAnkle, Role::kRightFoot}, frames);
-  matched.pair.true_contacts = truth.contacts;
-  matched.pair.found_contacts = sampled.contacts;
+  for (const CommonJoint& joint : lacking) {
+    matched.lacking.push_back(joint.name);
+    for (std::size_t f = 0; f < count && joint.truth >= 0; ++f) {
+      matched.pair.without_joint += IsSeen(true_at.At(f, static_cast<std::size_t>(joint.truth))) ? 1 : 0;
+    }
+  }
+  matched.root = RootOf(truth, answer);
   matched.bends = FindBends(common, truth);
   matched.parents = FindParents(common, truth);
-  MatchAngles(truth, sampled, matched);
+  MatchAngles(true_at, found_at, matched);
   // Count the truth's frames before the answer's beginning and after its end.
-  std::vector<bool> is_covered(frames, true);
   for (std::size_t f = 0; f < frames; ++f) {
-    constexpr double kRounding = 1e-6;  // tolerance in frames, as in `Sampled`
-    const double at = (start_s + static_cast<double>(f) / rate_hz) * answer.rate_hz;
-    if (at < -kRounding || at > static_cast<double>(answer.FrameCount() - 1) + kRounding) is_covered[f] = false;
+    constexpr double kRounding = 0.01;  // tolerance in frames, as in FramesToJudge
+    const double at = (start_s + static_cast<double>(f) / truth_rate_hz) * answer.rate_hz;
+    if (at < -kRounding || at > static_cast<double>(answer.FrameCount() - 1) + kRounding) ++matched.uncovered;
   }
-  matched.uncovered = static_cast<std::size_t>(std::ranges::count(is_covered, false));
   // Count the frames of the answer that come before the truth's first frame or after the truth's last frame.
   for (std::size_t f = 0; f < answer.FrameCount(); ++f) {
     constexpr double kOutside = 0.5;  // frames
@@ -365,6 +364,10 @@ Result<MatchedMotions> Match(const RawMotion& given_truth, const RawMotion& give
   }
   if (SeenShare(matched.pair).value_or(0) == 0) {
     return Fail({answer.name}, "no joint of '{}' is ever seen in both motions", truth.name);
+  }
+  std::vector<bool> is_covered;
+  for (const double frame : judged.of_answer) {
+    is_covered.push_back(frame >= 0 && frame <= static_cast<double>(answer.FrameCount()) - 1);
   }
   matched.note = NoteOn(truth, answer, clock.note, matched, is_covered);
   return matched;

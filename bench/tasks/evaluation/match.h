@@ -16,7 +16,13 @@ namespace etude {
 /// A truth and an answer, matched joint by joint and frame by frame, with a note on the changes made to the answer.
 struct MatchedMotions {
   EvaluatedPair pair;
+  /// The answer alone at all its frames within the truth, if it has more frames than the truth; else `pair` has them.
+  std::optional<EvaluatedPair> own = {};
+  double own_start_s = 0;            ///< the time of the first frame of OwnFrames, in seconds after the truth's first
+  bool is_interpolated = false;      ///< true: the truth has no frames at these times, so it was interpolated
+  bool is_even = true;               ///< true: the frames of `pair` follow each other at equal times
   std::vector<std::string> joints;   ///< the judged joints
+  std::string root;                  ///< which joint is the root, as text; "" if a motion has no root
   std::vector<int> parents;          ///< for each joint, the next judged joint towards the root; −1: none
   std::vector<std::string> lacking;  ///< joints of the set that are not found in both motions
   std::vector<std::string> also_held;  ///< joints of equal names in both motions that are not judged
@@ -27,6 +33,9 @@ struct MatchedMotions {
   std::size_t surplus = 0;                ///< number of frames of the answer that the truth does not cover
   std::optional<TimeShift> lag;           ///< the time shift that was found and removed
   std::string note;                       ///< a note on the match, in one line
+
+  /// Returns the answer's own frames, for metrics of the answer alone. Fields of the truth may be empty.
+  const EvaluatedPair& OwnFrames() const { return own ? *own : pair; }
 };
 
 /// The time of the answer that is paired with the truth's first frame.
@@ -35,12 +44,14 @@ enum class Lag {
   kFind,  ///< the time that FindTimeShift finds, which may be between two frames
 };
 
-/// Matches an answer with a truth. `joints` is the name of a set of joints (JointSetNames). The result has the
-/// truth's frames, and the answer is sampled at the truth's times plus the lag (`Sampled`). The two frame rates count
-/// as equal, so that frames are paired one to one, if the times of frames of equal number differ by less than a
-/// hundredth of a frame at the truth's end. The root, which also has the role hip_centre, is the files' own if both
-/// have one; otherwise it is the midpoint of the hips in both. Nothing else is changed. Fails if there is no common
-/// joint, if no joint is ever seen in both, or if `lag` is kFind and no lag is found.
+/// Matches an answer with a truth. `joints` is the name of a set of joints (JointSetNames). The answer is judged at its
+/// own frames and never interpolated, because interpolation would smooth it; if it has the higher rate, at the frame
+/// nearest to each of the truth's. Where the truth has no frame within a hundredth of a frame of that time (plus the
+/// lag), it is interpolated by a cubic (Inbetween::kCubic). The two frame rates count as equal, so that frames are
+/// paired one to one, if the times of frames of equal number differ by less than a hundredth of a frame at the truth's
+/// end. The root, which also has the role hip_centre, is the files' own if both have one; otherwise it is the midpoint
+/// of the hips in both. Nothing else is changed. Fails if there is no common joint, if no joint is ever seen in both,
+/// or if `lag` is kFind and no lag is found.
 Result<MatchedMotions> Match(const RawMotion& truth, const RawMotion& answer, std::string_view joints, Lag lag);
 
 }  // namespace etude

@@ -5,6 +5,7 @@
 
 #include "bench/metrics/alignment.h"
 #include "bench/metrics/beat_alignment.h"
+#include "bench/tasks/evaluation/judged_shares.h"
 #include "engine/base/digest.h"
 
 namespace etude {
@@ -29,8 +30,6 @@ constexpr AlignedError kErrors[] = {{"mpjpe_unaligned_mm", Alignment::kNone, "no
                                     {"mpjpe_take_scaled_mm", Alignment::kTakeScaled, kNoFit},
                                     {"mpjpe_each_frame_mm", Alignment::kFrame, kNoFit},
                                     {"mpjpe_each_frame_scaled_mm", Alignment::kFrameScaled, kNoFit}};
-constexpr std::size_t kSegmentFrames = 100;  // length of a segment of W-MPJPE and WA-MPJPE
-constexpr std::size_t kWindowFrames = 30;    // length of a window of NPSS: LAFAN1's gap of one second
 
 std::optional<double> Times(double factor, std::optional<double> value) {
   return value ? std::optional(factor * *value) : std::nullopt;
@@ -99,28 +98,36 @@ void MeasureErrors(const MatchedMotions& matched, const PairFits& fits, CellResu
                    "the root is seen in both motions in fewer than three frames, or the true root does not move");
 }
 
-void MeasureMovement(const EvaluatedPair& pair, CellResult& result) {
+void MeasureMovement(const MatchedMotions& matched, CellResult& result) {
+  const EvaluatedPair &pair = matched.pair, &own = matched.OwnFrames();
   const double rate = pair.rate_hz;
   constexpr const char* kTooShort = "no joint is seen in both motions in three frames in a row";
+  constexpr const char* kBetween =
+      "the truth has no frames at the times of the answer's, and accelerations of interpolated frames are not measured";
   constexpr double kToMm = 1000;
-  const auto acceleration = AccelerationError(pair.found, pair.truth);
-  result.MeasureOr("accel_error_mm@human_dynamics", Times(kToMm, acceleration), kTooShort);
-  result.MeasureOr("accel_error_mps2", Times(rate * rate, acceleration), kTooShort);
-  result.MeasureOr("accel_error_mps2@wham", Times(rate * rate, RootAccelerationError(pair)),
-                   "no joint is seen together with the root in both motions in three frames in a row, not counting the "
-                   "first and last frame");
-  result.MeasureOr("jitter@wham", Jitter(pair.found, rate), "no joint is seen in four frames in a row");
+  const bool can_differ = !matched.is_interpolated;
+  const auto acceleration = can_differ ? AccelerationError(pair.found, pair.truth) : std::nullopt;
+  const auto of_root = can_differ ? RootAccelerationError(pair) : std::nullopt;
+  result.MeasureOr("accel_error_mm@human_dynamics", Times(kToMm, acceleration), can_differ ? kTooShort : kBetween);
+  result.MeasureOr("accel_error_mps2", Times(rate * rate, acceleration), can_differ ? kTooShort : kBetween);
+  result.MeasureOr("accel_error_mps2@wham", Times(rate * rate, of_root),
+                   can_differ ? "no joint is seen together with the root in both motions in three frames in a row, not "
+                                "counting the first and last frame"
+                              : kBetween);
+  result.MeasureOr("jitter@wham", Jitter(own.found, own.rate_hz), "no joint is seen in four frames in a row");
 }
 
 /// Measures the feet and the floor contact of the answer, with the floor of the answer's file.
-void MeasureFeet(const EvaluatedPair& pair, CellResult& result) {
+void MeasureFeet(const MatchedMotions& matched, CellResult& result) {
+  const EvaluatedPair& pair = matched.OwnFrames();
   result.MeasureOr("skating_ratio@gmd", SkatingRatio(pair.feet, pair.rate_hz), kNoFeet);
   result.MeasureOr("skate_from_height_mps@kimodo", SkateFromHeight(pair.feet, pair.rate_hz), kNoFeet);
   const char* no_contacts = pair.found_contacts.empty() ? "the answer's file has no contacts" : kNoFeet;
   result.MeasureOr("skate_from_contacts_mps@kimodo", SkateFromContacts(pair.feet, pair.found_contacts, pair.rate_hz),
                    no_contacts);
-  const bool have_contacts = !pair.found_contacts.empty() && !pair.true_contacts.empty();
-  result.MeasureOr("contact_f1", ContactF1(pair.found_contacts, pair.true_contacts),
+  const std::vector<bool>&true_contacts = matched.pair.true_contacts, &contacts = matched.pair.found_contacts;
+  const bool have_contacts = !contacts.empty() && !true_contacts.empty();
+  result.MeasureOr("contact_f1", ContactF1(contacts, true_contacts),
                    have_contacts ? "neither foot ever touches the floor" : "one of the two files has no contacts");
   result.MeasureOr("pfc@edge", PhysicalFootContact(pair.feet, pair.found_root, pair.rate_hz),
                    "the answer has no ankles, toes or root, has fewer than three frames, or its root does not "
@@ -178,10 +185,14 @@ void MeasureInbetweening(const MatchedMotions& matched, const EvaluationSideData
   }
   result.MeasureOr("l2p@lafan1", l2p, why);
   // Measure NPSS, and the weight of this pair among other pairs.
+  const bool is_even = matched.is_even;
   const auto measure = [&](PowerOf kind) {
-    return rotations ? MeasurePowerSpectrum(rotations->found, rotations->truth, kWindowFrames, kind) : std::nullopt;
+    return rotations && is_even ? MeasurePowerSpectrum(rotations->found, rotations->truth, kWindowFrames, kind)
+                                : std::nullopt;
   };
-  const char* no_window = rotations ? "no 30 frames in a row show every joint in both motions" : kNoRotations;
+  const char* no_window = rotations && !is_even ? "the frames nearest to the truth's do not follow at equal times"
+                          : rotations           ? "no 30 frames in a row show every joint in both motions"
+                                                : kNoRotations;
   const auto real = measure(PowerOf::kRealPart), magnitude = measure(PowerOf::kMagnitude);
   const auto part = [](const auto& error, double PowerSpectrumError::*which) {
     return error ? std::optional<double>((*error).*which) : std::nullopt;
@@ -192,13 +203,16 @@ void MeasureInbetweening(const MatchedMotions& matched, const EvaluationSideData
   result.MeasureOr("npss_power", part(magnitude, &PowerSpectrumError::power), no_window);
 }
 
-void MeasureBeats(const EvaluatedPair& pair, const EvaluationSideData& side, CellResult& result) {
+void MeasureBeats(const MatchedMotions& matched, const EvaluationSideData& side, CellResult& result) {
+  const EvaluatedPair& own = matched.OwnFrames();
+  std::vector<double> beats_s = side.music_beats_s.value_or(std::vector<double>());
+  for (double& beat_s : beats_s) beat_s -= matched.own_start_s;
   const char* why = side.music_beats_s ? "no beat of the music is within the motion, the motion has no beat of its "
                                          "own, or a joint is not seen throughout"
                                        : "needs `music_beats`";
   for (const auto& [id, measure] :
        {std::pair("beat_alignment@bailando", &BeatAlignmentOfMusic), {"beat_alignment@mint", &BeatAlignmentOfMotion}}) {
-    const auto value = side.music_beats_s ? measure(pair.found, pair.rate_hz, *side.music_beats_s) : std::nullopt;
+    const auto value = side.music_beats_s ? measure(own.found, own.rate_hz, beats_s) : std::nullopt;
     result.MeasureOr(id, value, why);
   }
 }
@@ -252,14 +266,15 @@ CellResult JudgeMotion(const MatchedMotions& matched, const EvaluationSideData& 
   }
   result.digests = {{"truth", DigestOf(matched.pair.truth)}, {"answer", DigestOf(matched.pair.found)}};
   const PairFits fits(matched.pair);
+  result.judged = JudgedOf(matched, fits);
   MeasureErrors(matched, fits, result);
-  MeasureMovement(matched.pair, result);
-  MeasureFeet(matched.pair, result);
+  MeasureMovement(matched, result);
+  MeasureFeet(matched, result);
   result.MeasureOr("bend_error_deg", BendErrorDeg(matched.pair.found, matched.pair.truth, matched.bends),
                    "no knee or elbow with its neighbours is seen in both motions");
   MeasureAngles(matched, result);
   MeasureInbetweening(matched, side, result);
-  MeasureBeats(matched.pair, side, result);
+  MeasureBeats(matched, side, result);
   constexpr double kToMs = 1000;
   result.MeasureOr("lag_ms", matched.lag ? std::optional(kToMs * matched.lag->shift_s) : std::nullopt,
                    "is measured only with `lag: find`");

@@ -48,6 +48,23 @@ TEST(Baseline, ReadsBackToTheDigit) {
   EXPECT_EQ(read->scenarios[0].seed, 5u);
 }
 
+TEST(Baseline, KeepsWhatItsCellsWereJudgedOn) {
+  Snapshot made = Example();
+  SnapshotCells& cells = made.scenarios[0].cells[1];
+  cells.judged.resize(24);
+  cells.judged[0] = {{"head", "root pelvis"}, 30, {}};
+  cells.judged[2] = {{"head"}, 25, {{"position_error_cm", 0.1 + 0.2}}};
+  cells.judged[5] = cells.judged[0];
+  const std::string text = *WriteBaseline(made);
+  ASSERT_OK(read, ReadBaseline(text, "b.json"));
+  EXPECT_EQ(read->scenarios[0].cells[1].judged, cells.judged);
+  EXPECT_TRUE(read->scenarios[0].cells[0].judged.empty());
+  EXPECT_EQ(*WriteBaseline(*read), text);
+  EXPECT_THAT(ComplaintAbout(Edited(text, R"({"parts":1, => {"parts":7,)")), HasSubstr("'judged' of s, "));
+  EXPECT_THAT(ComplaintAbout(Edited(text, R"("cells":[{"parts":0,"rate_hz":30.0},null, => "cells":[null,)")),
+              HasSubstr("has 23 cells, but the scenario has 24 trials"));
+}
+
 TEST(Baseline, HasOneLinePerMethodAndMetric) {
   const std::string text = Text();
   // Lines: head and brackets; statuses and two metrics of 2 × 2 cells; the scenario; 7 others; the seal.

@@ -85,6 +85,51 @@ TEST(Snapshots, WeighCellsAsTheSummaryDoes) {
   EXPECT_EQ(lost.lost, 1);
 }
 
+/// Returns a snapshot of 24 clips with one method, as task evaluation makes it.
+Snapshot SnapshotOfFiles(double error_mm, double seen_share, const JudgedOn& judged) {
+  SnapshotScenario scenario;
+  scenario.name = "evaluate";
+  scenario.trials = 24;
+  SnapshotCells cells{"-", "mine", std::string(24, 'o'), {{"seen_share", {}}, {"mpjpe_unaligned_mm", {}}}};
+  for (int trial = 0; trial < 24; ++trial) {
+    cells.metrics[0].values.emplace_back(seen_share);
+    cells.metrics[1].values.emplace_back(error_mm + 0.1 * trial);
+  }
+  cells.judged.assign(24, judged);
+  scenario.worlds = {{"-", "w"}};
+  scenario.methods = {{"mine", "m"}};
+  scenario.metrics = {{"seen_share", 2}, {"mpjpe_unaligned_mm", 1}};
+  scenario.cells = {cells};
+  Snapshot made;
+  made.scenarios = {scenario};
+  return made;
+}
+
+TEST(Snapshots, AreNotBetterByFewerJointsOrFrames) {
+  const JudgedOn all = {{"head", "left_wrist"}, 30, {}}, fewer_joints = {{"head"}, 30, {}};
+  const JudgedOn fewer_frames = {{"head", "left_wrist"}, 30, {{"mpjpe_unaligned_mm", 0.96}}};
+  const Snapshot before = SnapshotOfFiles(40, 1, all);
+  const auto moves_to = [&](const Snapshot& after) {
+    const SnapshotComparison comparison = CompareSnapshots(before, after, {});
+    EXPECT_EQ(comparison.moves.size(), 3u);  // the share of ok cells, and two metrics
+    return std::pair(comparison.moves[1], comparison.moves[2]);
+  };
+  EXPECT_EQ(moves_to(SnapshotOfFiles(30, 1, all)).second.movement, Movement::kBetter);
+  const auto [wrists, error] = moves_to(SnapshotOfFiles(30, 0.5, fewer_joints));
+  EXPECT_EQ(wrists.movement, Movement::kWorse);
+  EXPECT_EQ(error.movement, Movement::kUndecided);
+  EXPECT_EQ(error.comparison.not_alike, "not judged alike: only “before” is judged on left_wrist");
+  const auto [share, of_frames] = moves_to(SnapshotOfFiles(30, 0.96, fewer_frames));
+  EXPECT_EQ(share.movement, Movement::kWorse);
+  EXPECT_EQ(of_frames.movement, Movement::kUndecided);
+  // Who answers more is not worse, either: values that are far worse do not count.
+  const SnapshotComparison more =
+      CompareSnapshots(SnapshotOfFiles(40, 0.5, fewer_joints), SnapshotOfFiles(400, 1, all), {});
+  EXPECT_EQ(more.moves[1].movement, Movement::kBetter);
+  EXPECT_EQ(more.moves[2].movement, Movement::kUndecided);
+  EXPECT_THAT(more.moves[2].tail, IsEmpty());
+}
+
 TEST(Snapshots, TellAClearDifferenceThatMattersFromOneThatDoesNot) {
   const auto wobble = [](int trial) { return 0.001 * (trial % 5); };
   const auto movement = [&](double size) {

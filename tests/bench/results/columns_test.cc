@@ -66,6 +66,7 @@ std::vector<Row> RowsOf(const std::vector<Study>& studies) {
           if (study.scenario == "clips") {
             row.clip = trial == 1 ? "" : "builtin:clap";
             row.units = {row.clip, "builtin:sway, \"slow\""};
+            if (trial == 2) row.result.judged = {{"head", "root pelvis"}, 59.94, {{"error_mm", 0.1 + 0.2}}};
           }
           rows.push_back(std::move(row));
         }

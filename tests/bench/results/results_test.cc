@@ -52,6 +52,14 @@ TEST(Row, SurvivesTheWayToAFileAndBack) {
   EXPECT_EQ(*WriteJson(EncodeRow(*back)), *WriteJson(EncodeRow(row)));
 }
 
+TEST(Row, KeepsWhatItWasJudgedOn) {
+  Row row = SampleRow();
+  EXPECT_FALSE(EncodeRow(row).contains("judged"));
+  row.result.judged = {{"head", "root pelvis"}, 59.94, {{"position_error_cm", 0.96}}};
+  ASSERT_OK(back, DecodeRow(EncodeRow(row), kPlace));
+  EXPECT_EQ(back->result.judged, row.result.judged);
+}
+
 TEST(Recording, NamesItsJointsAndRefusesThoseThatDoNot) {
   const Json json = *EncodeRecording(*SampleRow().result.recording);
   EXPECT_EQ(json.at("joints").at(3), "head");

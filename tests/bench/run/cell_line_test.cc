@@ -29,6 +29,7 @@ FinishedCell SampleCell() {
   result.series = {{"position_error_cm", "iteration", {3, 2, 1e300}},
                    {"empty", "frame", {}},
                    {"named", "performance", {1}, {"clap", "a \"so\""}}};
+  result.judged = {{"head", "root pelvis"}, 59.94, {{"iterations", 0.1 + 0.2}}};
   BodyPose pose;
   pose[Role::kHead] = {0.1, 1.7, -0.3};
   result.recording = Recording{{{"truth", {30, {pose, pose}}}}, R"({"from":"clap"})"};
@@ -56,6 +57,7 @@ TEST(CellLine, SaysAllThatACellIsAndTook) {
   }
   EXPECT_TRUE(std::signbit(*is.metrics[2].value));
   EXPECT_EQ(is.digests, was.digests);
+  EXPECT_EQ(is.judged, was.judged);
   ASSERT_EQ(is.series.size(), 3u);
   for (std::size_t i = 0; i < 3; ++i) {
     EXPECT_EQ(is.series[i].name, was.series[i].name);

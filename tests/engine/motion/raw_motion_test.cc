@@ -33,6 +33,25 @@ TEST(Sampled, ShowsNothingOutsideTheMotionOrBesideAGap) {
   for (std::size_t i = 0; i < 10; ++i) EXPECT_EQ(IsSeen(sampled.At(i, 0)), seen[i]) << i;
 }
 
+TEST(AtFrames, FollowsAParabolaAndALineBesideAGap) {
+  const auto at = [](double t) { return glm::dvec3(t * t, 1 - 2 * t * t, 3 * t); };
+  RawMotion thrown{.rate_hz = 10, .joints = {"a"}};
+  for (int f = 0; f < 9; ++f) thrown.positions.push_back(at(f));
+  const std::vector<double> frames = {0, 0.3, 1.5, 4.25, 7.9, 8, 8.1, -0.1};
+  const RawMotion found = AtFrames(thrown, frames, 10, Inbetween::kCubic);
+  for (std::size_t i = 0; i < 6; ++i) EXPECT_LT(glm::distance(found.At(i, 0), at(frames[i])), 1e-12) << frames[i];
+  EXPECT_FALSE(IsSeen(found.At(6, 0)) || IsSeen(found.At(7, 0))) << "outside the motion";
+  // Beside one gap a parabola through three frames, between two gaps a line.
+  thrown.positions[2] = thrown.positions[5] = NotSeen();
+  const std::vector<double> beside = {0.5, 3.5, 6.5};
+  const RawMotion with_gaps = AtFrames(thrown, beside, 10, Inbetween::kCubic);
+  EXPECT_LT(glm::distance(with_gaps.At(2, 0), at(6.5)), 1e-12);
+  for (const std::size_t i : {0, 1}) {
+    const double a = std::floor(beside[i]);
+    EXPECT_LT(glm::distance(with_gaps.At(i, 0), 0.5 * (at(a) + at(a + 1))), 1e-12) << beside[i];
+  }
+}
+
 TEST(Sampled, TurnsRotationsEvenly) {
   RawMotion turn = Striding(10, 2);
   turn.rotations = {glm::dquat(1, 0, 0, 0), glm::dquat(0, 0, 1, 0)};

@@ -58,6 +58,19 @@ TEST_F(FindFilesTest, OneTruthAndOneAnswerAreAPairWhateverTheirNames) {
   EXPECT_EQ(found->worlds[0].answers[0], In("mine.bvh"));
 }
 
+TEST_F(FindFilesTest, OneFileOfAFolderOrPatternIsAPairOnlyByItsName) {
+  Make({"t/run.bvh", "m/walk.bvh", "n/run.trc"});
+  for (const char* truth : {"t", "t/*"}) {
+    for (const char* answers : {"m", "m/w*", "m/walk.bvh"}) {
+      EXPECT_THAT(Complaint("truth: ['@/" + std::string(truth) + "']",
+                            {"{name: m, answers: ['@/" + std::string(answers) + "']}"}),
+                  HasSubstr("none of the 1 answers of method 'm' has the name of a truth"));
+    }
+  }
+  EXPECT_THAT(Complaint("truth: ['@/t/run.bvh']", {"{name: m, answers: ['@/m']}"}), HasSubstr("none of the 1 answers"));
+  EXPECT_TRUE(Find("truth: ['@/t']", {"{name: m, answers: ['@/n']}"}));
+}
+
 TEST_F(FindFilesTest, AnswersThatAreLinksMustBeNamed) {
   Make({"t/a.bvh", "t/b.bvh", "u/b.bvh", "m/a.bvh"});
   std::filesystem::create_symlink(In("u/b.bvh"), In("m/b.bvh"));
@@ -123,6 +136,15 @@ TEST_F(FindFilesTest, TheUnitIsThePersonInTheName) {
   EXPECT_EQ(PersonIn("{person}", "all"), "all");
   EXPECT_EQ(PersonIn("{person}_*", "none"), std::nullopt);
   EXPECT_EQ(PersonIn("without", "without"), std::nullopt);
+}
+
+TEST_F(FindFilesTest, APersonsNameMayDifferInCaseAndSpaces) {
+  Make({"t/ANNA_3.bvh", "t/Anna_1.bvh", "t/anna_2.bvh", "t/b ob_2.bvh", "t/Bob_1.bvh", "t/bobo_1.bvh"});
+  const auto found = Find("{truth: ['@/t'], people: '{person}_*'}", {"{name: m, answers: ['@/t']}"});
+  ASSERT_TRUE(found) << ToString(found.error());
+  std::vector<std::string> units;
+  for (const JudgedFiles& world : found->worlds) units.push_back(world.unit);
+  EXPECT_THAT(units, ::testing::ElementsAre("ANNA", "ANNA", "Bob", "ANNA", "Bob", "bobo"));
 }
 
 TEST_F(FindFilesTest, WhatCannotBePairedIsRefused) {

@@ -8,7 +8,7 @@
 #include "bench/tasks/evaluation/options.h"
 #include "bench/tasks/evaluation/run.h"
 #include "bench/tasks/evaluation/side_files.h"
-#include "sim/choreography/canonical_body.h"
+#include "tests/bench/tasks/evaluation/motions.h"
 #include "tests/support/results.h"
 
 namespace etude {
@@ -17,30 +17,7 @@ namespace {
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 
-RawMotion Gliding(double rate_hz, std::size_t frames) {
-  RawMotion motion;
-  motion.name = "gliding";
-  motion.rate_hz = rate_hz;
-  for (const Role role : AllRoles()) {
-    motion.roles[Index(role)] = static_cast<int>(motion.joints.size());
-    motion.joints.emplace_back(RoleName(role));
-  }
-  const BodyPose pose = StandingPose();
-  for (std::size_t f = 0; f < frames; ++f) {
-    const glm::dvec3 moved(0, 0, 0.3 * static_cast<double>(f) / rate_hz);
-    for (const glm::dvec3& joint : pose.joints) motion.positions.push_back(joint + moved);
-  }
-  return motion;
-}
-
-double ValueIn(const CellResult& result, const std::string& id) {
-  for (const MetricValue& metric : result.metrics) {
-    if (metric.id == id) return metric.value.value_or(-1);
-  }
-  return -2;
-}
-
-CellResult Judged(const RawMotion& truth, const RawMotion& answer, const std::string& joints = "roles") {
+CellResult ResultOf(const RawMotion& truth, const RawMotion& answer, const std::string& joints = "roles") {
   const auto matched = Match(truth, answer, joints, Lag::kNone);
   EXPECT_TRUE(matched) << ToString(matched.error());
   return JudgeMotion(*matched);
@@ -49,18 +26,18 @@ CellResult Judged(const RawMotion& truth, const RawMotion& answer, const std::st
 TEST(Match, AShiftIsAllThatIsLeftOfAnAnswerAtAnotherRate) {
   RawMotion answer = Gliding(12.5, 26);
   for (glm::dvec3& p : answer.positions) p.x += 0.01;
-  const CellResult result = Judged(Gliding(30, 60), answer);
+  const CellResult result = ResultOf(Gliding(30, 60), answer);
   EXPECT_NEAR(ValueIn(result, "mpjpe_unaligned_mm"), 10, 1e-9);
   EXPECT_NEAR(ValueIn(result, "mpjpe_root_mm"), 0, 1e-9);
   EXPECT_NEAR(ValueIn(result, "mpjpe_take_mm"), 0, 1e-9);
-  EXPECT_NEAR(ValueIn(result, "accel_error_mps2"), 0, 1e-9);
+  EXPECT_EQ(ValueIn(result, "accel_error_mps2"), -1) << "no accelerations of interpolated frames";
   EXPECT_EQ(ValueIn(result, "seen_share"), 1);
-  EXPECT_THAT(result.reason, HasSubstr("20 joints, root hip_centre, 60 frames at 30 Hz, the answer was interpolated "
-                                       "linearly from 12.5 Hz"));
+  EXPECT_THAT(result.reason, HasSubstr("20 joints, root hip_centre, 25 frames at 12.5 Hz (the truth has 30 Hz, the "
+                                       "answer 12.5 Hz), for which the truth was interpolated"));
 }
 
 TEST(Match, AnAnswerThatEndsEarlyIsJudgedWhereItIs) {
-  const CellResult result = Judged(Gliding(30, 60), Gliding(30, 45));
+  const CellResult result = ResultOf(Gliding(30, 60), Gliding(30, 45));
   EXPECT_NEAR(ValueIn(result, "mpjpe_unaligned_mm"), 0, 1e-9);
   EXPECT_NEAR(ValueIn(result, "seen_share"), 0.75, 1e-12);
   EXPECT_THAT(result.reason, HasSubstr("15 frames of the truth outside the answer"));
@@ -77,34 +54,35 @@ TEST(Match, SaysWhatTheMeansLeaveOut) {
     if (f < 30) truth.positions[f * kRoleCount + foot] = unseen;
     for (std::size_t j = 0; f >= 54 && j < kRoleCount; ++j) answer.positions[f * kRoleCount + j] = unseen;
   }
-  const CellResult result = Judged(truth, answer);
+  const CellResult result = ResultOf(truth, answer);
   // The truth shows 1200 − 30 positions; of these, the answer lacks 54 of the head and 6 × 20.
   EXPECT_NEAR(ValueIn(result, "seen_share"), 1 - 174.0 / 1170, 1e-12);
   EXPECT_THAT(result.reason, HasSubstr("the truth has no value for 2.5 % of the joints and frames, which no mean "
                                        "includes, the answer has no value for 14.9 % of the joints and frames, which "
                                        "no mean includes, and no joint in 6 of 60 frames, and never shows head"));
-  EXPECT_THAT(Judged(Gliding(30, 60), Gliding(30, 60)).reason, ::testing::Not(HasSubstr("no value")));
-  EXPECT_THAT(Judged(Gliding(30, 60), Gliding(30, 45)).reason, ::testing::Not(HasSubstr("no value")))
+  EXPECT_THAT(ResultOf(Gliding(30, 60), Gliding(30, 60)).reason, ::testing::Not(HasSubstr("no value")));
+  EXPECT_THAT(ResultOf(Gliding(30, 60), Gliding(30, 45)).reason, ::testing::Not(HasSubstr("no value")))
       << "frames outside the answer have a note of their own";
 }
 
 TEST(Match, FramesOfTheAnswerOutsideTheTruthAreSaid) {
-  EXPECT_THAT(Judged(Gliding(30, 60), Gliding(30, 120)).reason, HasSubstr("60 frames of the answer outside the truth"));
-  EXPECT_THAT(Judged(Gliding(30, 60), Gliding(60, 240)).reason,
+  EXPECT_THAT(ResultOf(Gliding(30, 60), Gliding(30, 120)).reason,
+              HasSubstr("60 frames of the answer outside the truth"));
+  EXPECT_THAT(ResultOf(Gliding(30, 60), Gliding(60, 240)).reason,
               HasSubstr("120 frames of the answer outside the truth"));
   RawMotion truth = Gliding(30, 60), answer = Gliding(30, 60);
   truth.start_s = 10;
   answer.start_s = 9;
-  EXPECT_THAT(Judged(truth, answer).reason, HasSubstr("30 frames of the answer outside the truth, 30 frames of the"));
+  EXPECT_THAT(ResultOf(truth, answer).reason, HasSubstr("30 frames of the answer outside the truth, 30 frames of the"));
   for (const RawMotion& same : {Gliding(30, 60), Gliding(12.5, 26), Gliding(60, 120), Gliding(30, 30)}) {
-    EXPECT_THAT(Judged(Gliding(30, 60), same).reason, ::testing::Not(HasSubstr("outside the truth")));
+    EXPECT_THAT(ResultOf(Gliding(30, 60), same).reason, ::testing::Not(HasSubstr("outside the truth")));
   }
 }
 
 TEST(Match, ABodyOfAnotherSizeIsRightOnceScaled) {
   RawMotion answer = Gliding(30, 10);
   for (glm::dvec3& p : answer.positions) p *= 1.1;
-  const CellResult result = Judged(Gliding(30, 10), answer);
+  const CellResult result = ResultOf(Gliding(30, 10), answer);
   EXPECT_GT(ValueIn(result, "mpjpe_root_mm"), 10);
   for (const char* id : {"mpjpe_root_scaled_mm", "mpjpe_first_frame_scaled_mm", "mpjpe_take_scaled_mm",
                          "mpjpe_each_frame_scaled_mm", "wa_mpjpe_mm@wham"}) {
@@ -115,7 +93,7 @@ TEST(Match, ABodyOfAnotherSizeIsRightOnceScaled) {
 TEST(Match, ATurnedAndMovedBodyIsRightOnceMoved) {
   RawMotion answer = Gliding(30, 10);
   for (glm::dvec3& p : answer.positions) p = {p.z + 2, p.y, -p.x};
-  const CellResult result = Judged(Gliding(30, 10), answer);
+  const CellResult result = ResultOf(Gliding(30, 10), answer);
   EXPECT_GT(ValueIn(result, "mpjpe_unaligned_mm"), 1000);
   for (const char* id : {"mpjpe_first_frame_mm", "mpjpe_take_mm", "mpjpe_each_frame_mm", "rte@wham"}) {
     EXPECT_NEAR(ValueIn(result, id), 0, 1e-9) << id;
@@ -130,6 +108,7 @@ TEST(Match, JudgesWhatBothHaveOfASet) {
   ASSERT_TRUE(matched);
   EXPECT_EQ(matched->joints.size(), 13u);
   EXPECT_THAT(matched->lacking, ElementsAre("left_elbow"));
+  EXPECT_NEAR(ValueIn(JudgeMotion(*matched), "seen_share"), 13.0 / 14, 1e-12) << "of the joints that the truth shows";
   EXPECT_EQ(matched->bends.size(), 3u) << "both knees, and the right elbow";
   const std::size_t sizes[] = {0, 0, 20, 17, 17, 22, 24, 14};
   const auto sets = JointSetNames();
@@ -156,16 +135,16 @@ TEST(Match, TheRootIsTheFilesOwnIfBothHaveOneElseTheMiddleOfTheHips) {
   const auto pelvis = static_cast<std::size_t>(Index(Role::kHipCentre));
   RawMotion truth = Gliding(30, 5), answer = truth;
   for (std::size_t at = pelvis; at < answer.positions.size(); at += kRoleCount) answer.positions[at].y += 0.037;
-  CellResult own = Judged(truth, answer, "lsp-14");
+  CellResult own = ResultOf(truth, answer, "lsp-14");
   EXPECT_NEAR(ValueIn(own, "mpjpe_root_mm"), 37, 1e-9) << "every joint but the pelvis, which is not judged";
   EXPECT_THAT(own.reason, HasSubstr("14 joints, root hip_centre, 5 frames"));
-  EXPECT_NEAR(ValueIn(Judged(truth, answer), "mpjpe_root_mm"), 37 * 19.0 / 20, 1e-9);
+  EXPECT_NEAR(ValueIn(ResultOf(truth, answer), "mpjpe_root_mm"), 37 * 19.0 / 20, 1e-9);
   // If one file has no pelvis, the middle of the hips replaces it in both files; there the two agree.
   truth.joints[pelvis] = "(none)";
   truth.roles[pelvis] = -1;
   AddMidwayHips(truth);
   for (const auto& [a, b] : {std::pair(truth, answer), {answer, truth}}) {
-    own = Judged(a, b);
+    own = ResultOf(a, b);
     EXPECT_NEAR(ValueIn(own, "mpjpe_root_mm"), 0, 1e-9);
     EXPECT_NEAR(ValueIn(own, "mpjpe_unaligned_mm"), 0, 1e-9) << "hip_centre is the root";
     EXPECT_THAT(own.reason, HasSubstr("20 joints, root midway between the hips"));
@@ -196,7 +175,7 @@ TEST(Match, MarkersNamedAsASkeletonsJointsHaveTheirRoles) {
   answer.roles[Index(Role::kSpine)] = static_cast<int>(Index(Role::kHead));
   for (glm::dvec3& p : answer.positions) p.x += 0.012;
   for (const auto& [a, b] : {std::pair(truth, answer), {answer, truth}}) {
-    const CellResult result = Judged(a, b);
+    const CellResult result = ResultOf(a, b);
     EXPECT_NEAR(ValueIn(result, "mpjpe_unaligned_mm"), 12, 1e-9);
     EXPECT_NEAR(ValueIn(result, "mpjpe_root_mm"), 0, 1e-9);
     EXPECT_THAT(result.reason, HasSubstr("19 joints (not found in both files: head), root bone 0"));
@@ -212,11 +191,11 @@ TEST(Match, NamesJointsThatBothFilesContainButThatAreNotJudged) {
   RawMotion truth = Gliding(30, 5);
   truth.joints[Index(Role::kSpine)] = "Torso";
   truth.roles[Index(Role::kSpine)] = -1;
-  EXPECT_THAT(Judged(truth, truth).reason,
+  EXPECT_THAT(ResultOf(truth, truth).reason,
               HasSubstr("19 joints (not found in both files: spine), both files also contain "
                         "Torso, which are not judged (--joints same judges them), root"));
-  EXPECT_THAT(Judged(truth, truth, "same").reason, ::testing::StartsWith("20 joints, root"));
-  EXPECT_THAT(Judged(truth, Gliding(30, 5)).reason, HasSubstr("(not found in both files: spine), root"));
+  EXPECT_THAT(ResultOf(truth, truth, "same").reason, ::testing::StartsWith("20 joints, root"));
+  EXPECT_THAT(ResultOf(truth, Gliding(30, 5)).reason, HasSubstr("(not found in both files: spine), root"));
 }
 
 /// 120 beats a minute during a motion of 60 s: every 21.5 frames of librosa, or 15 frames of the motion.
@@ -272,13 +251,13 @@ TEST(Match, AJointThatIsAnotherPointOfTheBodyIsNamed) {
   };
   const auto said = HasSubstr(
       "head 101 mm away from the truth in all frames (median joint 9.9 mm): is it the same point in both files?");
-  EXPECT_THAT(Judged(Gliding(30, 30), off_by(Role::kHead, 0.1, 0.01)).reason, said);
+  EXPECT_THAT(ResultOf(Gliding(30, 30), off_by(Role::kHead, 0.1, 0.01)).reason, said);
   // The reason does not ask this if the whole body is displaced, or if the joint is displaced in some frames only.
   const auto silent = ::testing::Not(HasSubstr("the same point"));
-  EXPECT_THAT(Judged(Gliding(30, 30), off_by(Role::kHead, 0.1, 0.1)).reason, silent);
+  EXPECT_THAT(ResultOf(Gliding(30, 30), off_by(Role::kHead, 0.1, 0.1)).reason, silent);
   RawMotion flickering = off_by(Role::kHead, 0, 0.01);
   for (std::size_t f = 0; f < 30; f += 2) flickering.positions[f * kRoleCount + Index(Role::kHead)].y += 0.4;
-  EXPECT_THAT(Judged(Gliding(30, 30), flickering).reason, silent);
+  EXPECT_THAT(ResultOf(Gliding(30, 30), flickering).reason, silent);
 }
 
 TEST(Match, FailsWithoutACommonJointOrAnySeen) {
@@ -293,21 +272,6 @@ TEST(Match, FailsWithoutACommonJointOrAnySeen) {
   const auto unseen = Match(Gliding(30, 3), blind, "roles", Lag::kNone);
   ASSERT_FALSE(unseen);
   EXPECT_THAT(ToString(unseen.error()), HasSubstr("ever seen in both motions"));
-}
-
-/// Returns the standing body with limbs that sway, each at its own frequency, delayed by `late_s`.
-RawMotion Swaying(double rate_hz, std::size_t frames, double late_s) {
-  RawMotion motion = Gliding(rate_hz, frames);
-  for (std::size_t f = 0; f < frames; ++f) {
-    const double t = static_cast<double>(f) / rate_hz - late_s;
-    for (std::size_t j = 0; j < motion.joints.size(); ++j) {
-      const double phase = static_cast<double>(j);
-      motion.positions[f * motion.joints.size() + j] =
-          StandingPose().joints[j] +
-          glm::dvec3(0.1 * std::sin(5 * t + phase), 0.05 * std::cos(7 * t + phase), 0.08 * std::sin(3 * t + 2 * phase));
-    }
-  }
-  return motion;
 }
 
 TEST(Match, HEAVY_FindsALagToAFractionOfAFrame) {
@@ -330,7 +294,7 @@ TEST(Match, HEAVY_FindsALagToAFractionOfAFrame) {
       EXPECT_NEAR(matched->lag->shift_s, late_s, 0.0005) << "a sixtieth of a frame";
       EXPECT_LT(std::abs(matched->lag->shift_s - late_s), 3 * *matched->lag->half_width_s);
       EXPECT_LT(*matched->lag->half_width_s, 0.001);
-      const CellResult with = JudgeMotion(*matched), without = Judged(truth, answer);
+      const CellResult with = JudgeMotion(*matched), without = ResultOf(truth, answer);
       EXPECT_LT(ValueIn(with, "mpjpe_take_scaled_mm"), 7);
       if (std::abs(late_s) > 0.1) {
         EXPECT_GT(ValueIn(without, "mpjpe_take_scaled_mm"), 20);
@@ -425,33 +389,35 @@ TEST(Match, TimesOfOneClockBelongTogether) {
   };
   const RawMotion truth = begins(10, 60);
   // By its clock, the answer begins a second later.
-  const CellResult later = Judged(truth, moved(begins(11, 30), 1));
+  const CellResult later = ResultOf(truth, moved(begins(11, 30), 1));
   EXPECT_NEAR(ValueIn(later, "mpjpe_unaligned_mm"), 0, 1e-9);
   EXPECT_EQ(ValueIn(later, "seen_share"), 0.5);
   EXPECT_THAT(later.reason,
               HasSubstr("the truth begins at 10 s, the answer begins at 11 s: judged by these clocks (--lag find "
                         "searches the lag), 30 frames of the truth outside the answer"));
-  EXPECT_THAT(Judged(begins(1.7e9, 60), begins(1.7e9 + 1.25, 30)).reason,
+  EXPECT_THAT(ResultOf(begins(1.7e9, 60), begins(1.7e9 + 1.25, 30)).reason,
               HasSubstr("the truth begins at 1700000000 s, the answer begins at 1700000001.25 s: judged by"));
   // The answer begins before the truth by a fraction of a frame, and has another rate.
-  EXPECT_NEAR(ValueIn(Judged(truth, moved(begins(9.5, 90), -0.5)), "mpjpe_unaligned_mm"), 0, 1e-9);
-  const CellResult between = Judged(truth, moved(begins(10.01, 60), 0.01));
+  EXPECT_NEAR(ValueIn(ResultOf(truth, moved(begins(9.5, 90), -0.5)), "mpjpe_unaligned_mm"), 0, 1e-9);
+  const CellResult between = ResultOf(truth, moved(begins(10.01, 60), 0.01));
   EXPECT_NEAR(ValueIn(between, "mpjpe_unaligned_mm"), 0, 1e-9);
-  EXPECT_THAT(between.reason,
-              HasSubstr("by these clocks (--lag find searches the lag), and the answer is interpolated linearly"));
-  EXPECT_NEAR(ValueIn(Judged(truth, moved(begins(10.5, 50, 50), 0.5)), "mpjpe_unaligned_mm"), 0, 1e-9);
+  EXPECT_THAT(
+      between.reason,
+      HasSubstr("at 30 Hz, for which the truth was interpolated, the truth begins at 10 s, the answer begins at "
+                "10.01 s: judged by these clocks"));
+  EXPECT_NEAR(ValueIn(ResultOf(truth, moved(begins(10.5, 50, 50), 0.5)), "mpjpe_unaligned_mm"), 0, 1e-9);
   // If a clock is missing, or the two have no time in common, the first frames are matched.
-  const CellResult none = Judged(truth, Gliding(30, 60));
+  const CellResult none = ResultOf(truth, Gliding(30, 60));
   EXPECT_NEAR(ValueIn(none, "mpjpe_unaligned_mm"), 0, 1e-9);
   EXPECT_THAT(none.reason,
               HasSubstr("the truth begins at 10 s, the answer states no clock: their first frames are taken "
                         "as simultaneous"));
-  const CellResult apart = Judged(truth, begins(0, 60));
+  const CellResult apart = ResultOf(truth, begins(0, 60));
   EXPECT_NEAR(ValueIn(apart, "mpjpe_unaligned_mm"), 0, 1e-9);
   EXPECT_THAT(apart.reason, HasSubstr("begins at 0 s: their first frames are taken as simultaneous"));
   // Clocks that agree to their printed digits give no note.
   for (const RawMotion& same : {begins(10, 60), begins(10.003, 60)}) {
-    const CellResult result = Judged(truth, same);
+    const CellResult result = ResultOf(truth, same);
     EXPECT_EQ(ValueIn(result, "mpjpe_unaligned_mm"), 0);
     EXPECT_THAT(result.reason, ::testing::Not(HasSubstr("begins")));
   }
@@ -476,7 +442,7 @@ TEST(Match, TimesOfOneClockBelongTogether) {
 }
 
 TEST(JudgeMotion, ReportsEveryMetricOfTheTask) {
-  const CellResult result = Judged(Gliding(30, 1), Gliding(30, 1));  // too short for most metrics
+  const CellResult result = ResultOf(Gliding(30, 1), Gliding(30, 1));  // too short for most metrics
   for (const std::string& id : EvaluationMetrics()) {
     EXPECT_NE(ValueIn(result, id), -2) << id;
     EXPECT_NE(FindMetric(id), nullptr) << id;

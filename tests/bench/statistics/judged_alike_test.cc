@@ -1,0 +1,138 @@
+#include "bench/statistics/judged_alike.h"
+
+#include <gmock/gmock.h>
+
+#include "bench/statistics/summary.h"
+
+namespace etude {
+namespace {
+
+using ::testing::HasSubstr;
+using ::testing::IsEmpty;
+
+constexpr const char* kError = "mpjpe_unaligned_mm";
+constexpr const char* kRootError = "mpjpe_root_mm";
+constexpr const char* kJitter = "jitter@wham";
+
+/// A study of two methods on twelve clips, as task evaluation has it.
+Study StudyOfFiles() {
+  Study study;
+  study.scenario = "evaluate";
+  study.task = "evaluation";
+  study.unit = SamplingUnit::kClip;
+  study.trials = 12;
+  study.methods = {{"a", "a"}, {"b", "a"}};
+  study.conditions = {{}};
+  study.metrics = {kError, kRootError, kJitter};
+  study.success = "seen_share";
+  study.success_matters = kMaxShareDifference;
+  return study;
+}
+
+/// Summarises rows in which b is 10 mm better than a in each clip. `change(trial, result)` changes b's rows.
+template <typename Change>
+ConditionSummary SummaryWith(const Change& change) {
+  const Study study = StudyOfFiles();
+  ScenarioTable table(study);
+  for (int trial = 0; trial < study.trials; ++trial) {
+    for (const char* method : {"a", "b"}) {
+      Row row{study.scenario, study.task, {}, trial, "", {"clip" + std::to_string(trial)}, method, {}};
+      row.result = CellResult::Ended(Status::kOk, "");
+      const bool is_b = row.method == "b";
+      for (const std::string& metric : study.metrics) row.result.Measure(metric, (is_b ? 30 : 40) + 0.1 * trial);
+      row.result.Measure("seen_share", 1);
+      row.result.judged = {{"left_wrist", "right_wrist", "root pelvis"}, 60, {}};
+      if (is_b) change(trial, row.result);
+      table.Add(row);
+    }
+  }
+  return Summarise(study, table, 1).conditions.front();
+}
+
+const Comparison& Of(const ConditionSummary& summary, const std::string& metric) {
+  return *std::ranges::find(summary.comparisons, metric, &Comparison::metric);
+}
+
+TEST(JudgedAlike, MethodsThatWereAreCompared) {
+  const ConditionSummary summary = SummaryWith([](int trial, CellResult& result) {
+    result.judged.rate_hz = 59.94;
+    if (trial == 3) result.judged.shares = {{kError, 0.95}};  // 0.4 % on average
+  });
+  for (const Comparison& comparison : summary.comparisons) {
+    EXPECT_EQ(comparison.verdict, Verdict::kBetter) << comparison.why_open;
+    EXPECT_EQ(comparison.beyond.verdict, Verdict::kBetter);
+    EXPECT_THAT(comparison.not_alike, IsEmpty());
+  }
+  EXPECT_EQ(summary.answers.front().verdict, Verdict::kBetter);
+}
+
+TEST(JudgedAlike, NoMethodIsBetterByFewerJointsOrAnotherRoot) {
+  const ConditionSummary summary = SummaryWith([](int, CellResult& result) {
+    result.judged.parts = {"right_wrist", "root midway between the hips"};
+  });
+  for (const Comparison& comparison : summary.comparisons) {
+    EXPECT_EQ(comparison.verdict, Verdict::kUndecided);
+    EXPECT_EQ(comparison.beyond.verdict, Verdict::kUndecided);
+    EXPECT_EQ(
+        comparison.why_open,
+        "not judged alike: only “a” is judged on left_wrist, root pelvis; only “b” is judged on root midway between "
+        "the hips");
+    EXPECT_EQ(comparison.beyond.why_open, comparison.why_open);
+  }
+  EXPECT_EQ(summary.answers.front().verdict, Verdict::kUndecided);
+  EXPECT_EQ(summary.answers.front().beyond, Verdict::kUndecided);
+}
+
+TEST(JudgedAlike, NoMethodIsBetterByLeavingOutFourPerCent) {
+  // The two methods are equal in the frames that b shows; b leaves out its worst 4 %.
+  const ConditionSummary summary = SummaryWith([](int, CellResult& result) {
+    for (MetricValue& metric : result.metrics) {
+      if (metric.id == "seen_share") metric.value = 0.96;
+    }
+    result.judged.shares = {{kError, 0.96}, {kRootError, 0.96}, {kJitter, 0.96}};
+  });
+  for (const Comparison& comparison : summary.comparisons) {
+    EXPECT_EQ(comparison.verdict, Verdict::kUndecided);
+    EXPECT_THAT(comparison.why_open, HasSubstr("“a” is judged on 100.0 % of what the truth shows, “b” on 96.0 %"));
+  }
+  const Answer& answer = summary.answers.front();
+  EXPECT_EQ(answer.verdict, Verdict::kWorse);
+  EXPECT_EQ(answer.decided_by, AnswerStep::kSuccess);
+  EXPECT_EQ(answer.beyond, Verdict::kWorse);
+}
+
+TEST(JudgedAlike, EachMetricHasItsOwnShareAndMayDependOnTheRate) {
+  const ConditionSummary summary = SummaryWith([](int, CellResult& result) {
+    result.judged.shares = {{kRootError, 0.6}};  // the root is hidden in 40 % of the frames
+    result.judged.rate_hz = 30;
+  });
+  EXPECT_EQ(Of(summary, kError).verdict, Verdict::kBetter);
+  EXPECT_EQ(Of(summary, kRootError).verdict, Verdict::kUndecided);
+  EXPECT_EQ(Of(summary, kJitter).verdict, Verdict::kUndecided);
+  EXPECT_EQ(Of(summary, kJitter).why_open,
+            "not judged alike: “a” has 60 Hz, “b” 30 Hz, and the value depends on the rate");
+}
+
+TEST(JudgedAlike, AnExpectationIsUndecidedAsWell) {
+  Study study = StudyOfFiles();
+  study.expectations = {{.metric = kError, .of = "b", .below = "a"}};
+  const auto outcome = [&](double share) {
+    ScenarioTable table(study);
+    for (int trial = 0; trial < study.trials; ++trial) {
+      for (const char* method : {"a", "b"}) {
+        Row row{study.scenario, study.task, {}, trial, "", {"clip" + std::to_string(trial)}, method, {}};
+        row.result = CellResult::Ended(Status::kOk, "");
+        row.result.Measure(kError, (row.method == "b" ? 30 : 40) + 0.1 * trial);
+        row.result.judged = {{"head"}, 60, {{kError, row.method == "b" ? share : 1}}};
+        table.Add(row);
+      }
+    }
+    return Summarise(study, table, 1).expectations.front();
+  };
+  EXPECT_EQ(outcome(1).outcome, ClaimOutcome::kMet);
+  EXPECT_EQ(outcome(0.96).outcome, ClaimOutcome::kUndecided);
+  EXPECT_THAT(outcome(0.96).detail, HasSubstr("not judged alike"));
+}
+
+}  // namespace
+}  // namespace etude
