@@ -26,11 +26,16 @@ struct Stance {
   double tall = 0;      ///< share of the frames with the hips above the ankles by nearly the length of the legs
   double propped = 0;   ///< share of the frames in which hands and legs on one plane carry the body (IsPropped)
   double lowest = 0;    ///< the lowest joint's height in the file's axes (5th percentile)
+  double bottom = 0;    ///< like `lowest`, but the 1st percentile, which also people who jump reach
   double floor = 0;     ///< range of the lowest joint's height (5th to 95th percentile)
   double hover_s = 0;   ///< longest time, seconds, with the lowest joint more than half a stature above `lowest`
   double way = 0;       ///< largest extent of the hip centre's path, perpendicular to the axis
   double steps = 0;     ///< of the frames in which the hips travel, the share in which an ankle stands
   double on_hands = 0;  ///< share of the frames with a wrist beyond the head, as in a handstand
+  double seated = 0;    ///< share of the frames with the trunk upright, the thighs level and the shanks upright
+  /// Ranges (5th to 95th percentile): of the heights of hip centre and shoulder centre; of the path of the stiller
+  /// ankle; of the shoulder centre's path perpendicular to the axis.
+  double hip_rise = 0, shoulder_rise = 0, ankle_way = 0, sway = 0;
 };
 
 /// Shares of the frames that are smaller than this count as never.
@@ -140,12 +145,36 @@ Frames FramesOf(std::span<const BodyPose> poses, double rate_hz) {
   return frames;
 }
 
+/// Returns true if the body sits with its shanks upright.
+bool IsSeated(const BodyPose& pose, const glm::dvec3& up) {
+  constexpr double kLevel = 0.5, kSteep = 0.9;
+  const auto rise = [&](Role from, Role to) {
+    const glm::dvec3 v = pose[to] - pose[from];
+    return glm::dot(v, up) / std::max(glm::length(v), 1e-12);
+  };
+  return IsUpright(pose, up) && std::abs(rise(kLeftHip, kLeftKnee)) < kLevel &&
+         std::abs(rise(kRightHip, kRightKnee)) < kLevel && rise(kLeftAnkle, kLeftKnee) > kSteep &&
+         rise(kRightAnkle, kRightKnee) > kSteep;
+}
+
+/// Returns the largest range (5th to 95th percentile) of the three coordinates.
+double RangeOf(const std::vector<glm::dvec3>& places) {
+  double range = 0;
+  for (int axis = 0; axis < 3; ++axis) {
+    std::vector<double> values;
+    for (const glm::dvec3& place : places) values.push_back(place[axis]);
+    range = std::max(range, LowerPercentile(values, 0.95) - LowerPercentile(values, 0.05));
+  }
+  return range;
+}
+
 Stance MeasureStance(const Frames& frames, const glm::dvec3& up) {
   // The hips travel if their speed is at least kTravelling statures per second. Meanwhile an ankle stands if it moves
   // less than kStands times as far as the hips.
   constexpr double kTravelling = 0.15, kStands = 0.4, kTall = 0.8;
   Stance stance;
   std::vector<double> lowest;
+  std::vector<glm::dvec3> hips_up, shoulders_up, left_ankle, right_ankle, shoulders;
   double count = 0, travelling = 0;
   glm::dvec3 low = frames.poses.front()[kHipCentre], high = low;
   const auto flat = [&](const glm::dvec3& v) { return v - glm::dot(v, up) * up; };
@@ -161,7 +190,13 @@ Stance MeasureStance(const Frames& frames, const glm::dvec3& up) {
     stance.propped += IsPropped(pose, up, frames.stature) ? 1 : 0;
     const double wrist = std::max(glm::dot(pose[kLeftWrist], up), glm::dot(pose[kRightWrist], up));
     stance.on_hands += wrist > glm::dot(pose[kHead], up) ? 1 : 0;
+    stance.seated += IsSeated(pose, up) ? 1 : 0;
     lowest.push_back(Lowest(pose, up));
+    hips_up.push_back(glm::dot(pose[kHipCentre], up) * up);
+    shoulders_up.push_back(glm::dot(pose[kShoulderCentre], up) * up);
+    left_ankle.push_back(pose[kLeftAnkle]);
+    right_ankle.push_back(pose[kRightAnkle]);
+    shoulders.push_back(flat(pose[kShoulderCentre]));
     low = glm::min(low, pose[kHipCentre]);
     high = glm::max(high, pose[kHipCentre]);
     // Measure steps: one ankle stands while the hips travel.
@@ -179,8 +214,14 @@ Stance MeasureStance(const Frames& frames, const glm::dvec3& up) {
   stance.tall /= count;
   stance.propped /= count;
   stance.on_hands /= count;
+  stance.seated /= count;
+  stance.hip_rise = RangeOf(hips_up) / frames.stature;
+  stance.shoulder_rise = RangeOf(shoulders_up) / frames.stature;
+  stance.ankle_way = std::min(RangeOf(left_ankle), RangeOf(right_ankle)) / frames.stature;
+  stance.sway = RangeOf(shoulders) / frames.stature;
   stance.steps = travelling > 0 ? stance.steps / travelling : 0;
   stance.lowest = LowerPercentile(lowest, 0.05) / frames.stature;
+  stance.bottom = LowerPercentile(lowest, 0.01) / frames.stature;
   stance.floor = LowerPercentile(lowest, 0.95) / frames.stature - stance.lowest;
   constexpr double kHovers = 0.5;
   double run = 0;
@@ -191,6 +232,19 @@ Stance MeasureStance(const Frames& frames, const glm::dvec3& up) {
   const glm::dvec3 box = flat(high - low);
   stance.way = std::max({std::abs(box.x), std::abs(box.y), std::abs(box.z)}) / frames.stature;
   return stance;
+}
+
+/// Returns true if the body travels perpendicular to the axis while one foot stands.
+bool Walks(const Stance& stance) { return stance.way > 0.5 && stance.steps > 0.4; }
+
+/// Returns true if the motion shows that the body stands or sits along the axis: it walks, its lowest joint is near
+/// height 0, it sits, or it moves over a floor that stays at one height.
+bool ShowsStanding(const Stance& stance) {
+  constexpr double kBelow = -0.03, kAbove = 0.08, kStillFloor = 0.05, kMostly = 0.75;
+  constexpr double kSteps = 0.12, kRise = 0.08, kSway = 0.02;
+  if (Walks(stance) || (stance.bottom > kBelow && stance.bottom < kAbove) || stance.seated > kMostly) return true;
+  return stance.floor < kStillFloor &&
+         (stance.ankle_way > kSteps || stance.hip_rise > kRise || (stance.balanced > kMostly && stance.sway > kSway));
 }
 
 /// Returns true if the motion is sufficient evidence that the axis of `other` points up instead of the axis of `usual`.
@@ -209,7 +263,7 @@ bool Overrules(const Stance& other, const Stance& usual, bool is_opposite, const
   // `other`.
   if (is_opposite && other.on_hands <= 0.5 && rule.evidence != UpEvidence::kPosture) return true;
   // Accept `other` if the body walks perpendicular to it.
-  if (other.way > 0.5 && other.steps > 0.4) return true;
+  if (Walks(other)) return true;
   if (rule.is_of_rest) return false;
   // Accept `other` if, with `other` as the up axis, the body stands on its feet, and either the lowest joint's height
   // varies less than with the usual axis or the body is still.
@@ -238,10 +292,14 @@ std::string DescribeFloorWork(const Stance& usual, const Stance& other) {
   // The lowest joint stays near height 0 along the other axis, but is away from 0 along the usual axis.
   constexpr double kBelow = 0.005, kAbove = 0.08, kAway = 0.12;
   const bool is_away = usual.lowest > kAway || usual.lowest + usual.floor < -kAway;
-  const bool walks = usual.way > 0.5 && usual.steps > 0.4;
-  if (is_away && !walks && other.floor < kStillFloor && other.lowest > kBelow && other.lowest + other.floor < kAbove) {
+  if (is_away && !Walks(usual) && other.floor < kStillFloor && other.lowest > kBelow &&
+      other.lowest + other.floor < kAbove) {
     return fmt::format("its lowest joint would be at {:.2g} times its stature", usual.lowest);
   }
+  // Nothing shows that the body stands or sits along the usual axis, and along the other axis it may lie on something
+  // that is not at height 0, such as a bed: its hips or its shoulders stay at one height.
+  const bool may_lie = other.upright < kHardlyEver && std::min(other.hip_rise, other.shoulder_rise) < kStillFloor;
+  if (may_lie && !ShowsStanding(usual)) return "nothing shows that it stands or sits on a floor";
   return "";
 }
 
@@ -280,7 +338,11 @@ UpFinding FindUp(std::span<const BodyPose> all, double rate_hz, const UpRule& ru
   // Take the axis `best` if the rule's axis is only a guess (kPosture). If the file or its format states the axis, keep
   // that axis and report the contradiction.
   const std::string usually = fmt::format("{} is {}", AxisName(rule.axis), rule.source);
-  if (best != nullptr && rule.evidence == UpEvidence::kPosture) {
+  if (best != nullptr && rule.yields_to_walking && Walks(MeasureStance(frames, *best))) {
+    found = {.axis = *best, .evidence = UpEvidence::kPosture, .source = "the body walks"};
+    found.doubt =
+        fmt::format("the body walks upright along {}, which is taken to be up, although {}", AxisName(*best), usually);
+  } else if (best != nullptr && rule.evidence == UpEvidence::kPosture) {
     found.axis = *best;
     found.source = "its posture";
     found.doubt = fmt::format("{} is assumed to be up only because of the posture: {}", AxisName(*best), usually);
@@ -319,6 +381,7 @@ UpRule TrcUp() { return {.source = "the usual axis of TRC files"}; }
 UpRule C3dUp(char axis, bool is_negative) {
   if (axis == 0) return {.axis = {0, 0, 1}, .source = "the usual axis of C3D files"};
   UpRule rule{.axis = glm::dvec3(0), .evidence = UpEvidence::kFile, .source = "its Y_SCREEN entry"};
+  rule.yields_to_walking = true;  // the entry only states how a program first shows the file (c3d.org)
   rule.axis[axis - 'X'] = is_negative ? -1 : 1;
   return rule;
 }
@@ -329,7 +392,11 @@ UpRule RawArraysUp() { return {.evidence = UpEvidence::kFormat, .source = "the c
 
 UpRule JointCsvUp() { return {.evidence = UpEvidence::kFormat, .source = "the convention of joint CSV"}; }
 
-UpRule MotiveUp() { return {.evidence = UpEvidence::kFormat, .source = "the convention of Motive's exports"}; }
+UpRule MotiveUp() {
+  return {.evidence = UpEvidence::kFormat,
+          .source = "the convention of Motive's exports",
+          .yields_to_walking = true};  // Motive can also export Z up, and does not state it
+}
 
 UpRule AmassUp() {
   return {.axis = {0, 0, 1}, .evidence = UpEvidence::kFormat, .source = "the convention of AMASS", .is_y_or_z = true};

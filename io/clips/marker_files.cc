@@ -51,7 +51,8 @@ Result<ClipFile> FileOfMarkers(ClipFormat format, MarkerMotion markers, const st
   ClipFile file{.format = format, .figure = {.name = "", .skeleton = {}, .materials = {}, .meshes = {}}, .clips = {}};
   for (MarkerBody& body : bodies) {
     file.clips.push_back(RigClip(body.motion, StandingPose(), body.name));
-    file.bodies.push_back({body.changes, body.up, body.floor, body.first_frame, {}, std::move(body.others)});
+    file.bodies.push_back(
+        {body.changes, body.up, body.floor, body.first_frame, {}, std::move(body.others), std::move(body.markers)});
     if (options.keeps_shown) file.shown.push_back(std::move(body.shown));
   }
   file.figure.skeleton = file.clips.front().skeleton;
