@@ -332,7 +332,7 @@ TEST(Markers, ThatAreNotUsedDoNotDecideWhichAreFarAway) {
   MarkerMotion take = OwnJoints();
   for (auto& frame : take.frames) {
     for (auto& place : frame) *place += glm::dvec3(4, 0, 1);
-    for (int i = 0; i < 40; ++i) frame.emplace_back(glm::dvec3(0.001 * i, 0.002, -0.001 * i));
+    for (int i = 0; i < 40; ++i) frame.emplace_back(glm::dvec3(0.001 * i, 0.0005, -0.001 * i));
   }
   for (int i = 0; i < 40; ++i) take.names.push_back("Output" + std::to_string(i));
   const auto changes = [](const MarkerMotion& markers) {
