@@ -230,12 +230,13 @@ std::vector<std::string> UnusedJoints(const Skeleton& skeleton, const JointMap& 
   return unused;
 }
 
-Json RolesAsJson(const Skeleton& skeleton, const JointMap& map) {
+Json RolesAsJson(const Skeleton& skeleton, const JointMap& map, const MadeBody& made) {
   Json roles = Json::array();
   for (const Role role : AllRoles()) {
     roles.push_back({{"role", RoleName(role)},
                      {"joint", skeleton.joints[map[role].joint].name},
                      {"composed", std::ranges::find(map.composed, role) != map.composed.end()}});
+    if (HasMarkers(made.markers)) roles.back()["markers"] = made.markers[Index(role)];
   }
   return roles;
 }
@@ -305,6 +306,7 @@ Result<int> ClipMapCommand(const ClipMapOptions& options) {
   as_file.recorded = reading.recorded;
   ASSIGN_OR_RETURN(const auto clips, ReadClips(options.clip, as_file));
   const Skeleton& skeleton = clips.front().clip.skeleton;
+  const MadeBody made = clips.front().made.value_or(MadeBody{});
   const auto chosen =
       ChooseBody(clips.front().clip, options.clip, reading.roles ? &*reading.roles : nullptr, clips.front().skinned);
   const JointMap* const map = chosen ? &chosen->map : nullptr;
@@ -322,7 +324,11 @@ Result<int> ClipMapCommand(const ClipMapOptions& options) {
   }
   // If all roles are known, print and write the map.
   if (options.as_json) {
-    RETURN_IF_ERROR(PrintFacts("clip map", {{"clip", options.clip}, {"roles", RolesAsJson(skeleton, *map)}}));
+    RETURN_IF_ERROR(PrintFacts("clip map", {{"clip", options.clip}, {"roles", RolesAsJson(skeleton, *map, made)}}));
+  } else if (HasMarkers(made.markers)) {
+    for (const Role role : AllRoles()) {
+      fmt::print("{:<16} {}\n", RoleName(role), DescribeMarkers(made.markers[Index(role)]));
+    }
   } else {
     PrintRoles(skeleton, *map);
     PrintList("joints without a role:", UnusedJoints(skeleton, *map));

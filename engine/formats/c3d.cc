@@ -3,11 +3,14 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <bit>
 #include <cmath>
 #include <cstdint>
 #include <map>
 #include <optional>
+#include <set>
+#include <utility>
 
 #include "engine/base/names.h"
 #include "engine/formats/c3d_parameters.h"
@@ -58,16 +61,63 @@ std::optional<double> TrialField(const C3dParameters& parameters, const char* na
 }
 constexpr const char* kStartField = "TRIAL:ACTUAL_START_FIELD";
 
-std::size_t CountFrames(const C3dBytes& bytes, const C3dParameters& parameters) {
-  const double first = bytes.Word(6), last = bytes.Word(8);
-  double frames = last - first + 1;
+/// The number of frames, and the other number that the file states; 0 = none differs.
+struct FrameCount {
+  double frames = 0, other = 0;
+  const char *by = "", *other_by = "";  ///< the entries that state the two numbers
+};
+
+/// POINT:FRAMES is the number of frames (c3d.org). A number that does not fit into its 16 bits is in POINT:LONG_FRAMES
+/// or in TRIAL. The header's words count only if these are missing, because programs leave the range of the first
+/// recording there.
+FrameCount CountFrames(const C3dBytes& bytes, const C3dParameters& parameters) {
+  constexpr double kWords = 65536;
+  const double first = bytes.Word(6), last = bytes.Word(8), in_header = last - first + 1;
   const auto begin = TrialField(parameters, kStartField), end = TrialField(parameters, "TRIAL:ACTUAL_END_FIELD");
-  if (begin && end && *end >= *begin) frames = *end - *begin + 1;
-  // A number of frames that does not fit into the header's 16-bit words is in POINT:LONG_FRAMES, or in POINT:FRAMES as
-  // a float.
-  if (const auto told = parameters.Number("POINT:FRAMES"); told && last >= 65535 && *told > frames) frames = *told;
-  if (const auto told = parameters.Number("POINT:LONG_FRAMES"); told && *told > frames) frames = *told;
-  return frames >= 1 && frames <= kMaxC3dFrames ? static_cast<std::size_t>(frames) : 0;
+  std::optional<double> of_trial;
+  if (begin && end && *end >= *begin) of_trial = *end - *begin + 1;
+  FrameCount count{.frames = in_header, .by = "its header", .other_by = ""};
+  if (of_trial) count = {.frames = *of_trial, .by = "TRIAL", .other_by = ""};
+  if (const auto told = parameters.Number("POINT:LONG_FRAMES"); told && *told > count.frames)
+    count = {.frames = *told, .by = "POINT:LONG_FRAMES", .other_by = ""};
+  const auto told = parameters.Number("POINT:FRAMES");
+  const bool is_long = count.frames >= kWords && told && std::fmod(count.frames, kWords) == *told;
+  if (told && *told >= 1 && *told != kWords - 1 && !is_long) count = {.frames = *told, .by = "POINT:FRAMES", .other_by = ""};
+  if (of_trial && *of_trial != count.frames) {
+    count.other = *of_trial;
+    count.other_by = "TRIAL";
+  } else if (in_header != count.frames && last < kWords - 1 && count.frames < kWords) {
+    count.other = in_header;
+    count.other_by = "its header";
+  }
+  return count;
+}
+
+/// Returns the labels of the points that hold angles, forces and so on instead of positions: those in POINT:ANGLES and
+/// similar lists, and in lists to which POINT:TYPE_GROUPS gives such a type. (Vicon's programs write both.)
+std::set<std::string> LabelsOfOtherQuantities(const C3dParameters& parameters) {
+  constexpr std::array<std::string_view, 6> kTypes = {"ANGLE", "FORCE", "MOMENT", "POWER", "SCALAR", "REACTION"};
+  constexpr std::size_t kMaxGroups = 200;
+  std::set<std::string> lists;
+  for (const std::string_view type : kTypes) lists.insert(std::string(type) + "S");
+  // The entries of TYPE_GROUPS are pairs: a type, and the name of the list.
+  auto groups = parameters.Texts("POINT:TYPE_GROUPS", kMaxGroups);
+  const auto upper = [](char c) { return c >= 'a' && c <= 'z' ? static_cast<char>(c - 'a' + 'A') : c; };
+  for (std::string& name : groups) std::ranges::transform(name, name.begin(), upper);
+  for (std::size_t i = 0; i + 1 < groups.size(); i += 2) {
+    const bool is_other = std::ranges::any_of(kTypes, [&](std::string_view t) { return groups[i].starts_with(t); });
+    if (is_other) lists.insert(groups[i + 1]);
+  }
+  std::set<std::string> labels;
+  for (const std::string& list : lists) {
+    for (int part = 1; part < 100; ++part) {
+      const auto more = parameters.Texts("POINT:" + list + (part == 1 ? "" : std::to_string(part)), kMaxPoints);
+      if (more.empty()) break;
+      labels.insert(more.begin(), more.end());
+    }
+  }
+  labels.erase("");
+  return labels;
 }
 
 /// The layout of the points in a frame of the file.
@@ -139,33 +189,53 @@ Result<C3d> ReadC3d(std::string_view bytes, const std::string& file) {
   }
   read.markers.sizes_m = BodySizes(parameters);
 
+  // Leave out the points that are no positions.
+  const std::set<std::string> others = LabelsOfOtherQuantities(parameters);
+  std::vector<std::size_t> kept;
+  for (std::size_t point = 0; point < layout.points; ++point) {
+    if (!others.contains(read.markers.names[point])) kept.push_back(point);
+  }
+  if (kept.empty()) return Fail({file}, "contains no points (angles, forces and analogue channels are not read)");
+  std::vector<std::string> names;
+  for (const std::size_t point : kept) names.push_back(std::move(read.markers.names[point]));
+  read.markers.names = std::move(names);
+
   // Locate the frames and check that they are all there.
   const auto data_block = static_cast<std::size_t>(parameters.Number("POINT:DATA_START").value_or(all.Word(16)));
   layout.begin = (std::max<std::size_t>(data_block, 1) - 1) * kC3dBlock;
   layout.frame_bytes = (4 * layout.points + all.Word(4)) * (layout.has_floats ? 4 : 2);
-  const std::size_t frames = CountFrames(all, parameters);
+  const FrameCount count = CountFrames(all, parameters);
+  const auto frames = static_cast<std::size_t>(count.frames >= 1 && count.frames <= kMaxC3dFrames ? count.frames : 0);
   if (frames == 0) return Fail({file}, "its header states 0 frames, or more than the allowed 10⁷");
   const std::size_t there = bytes.size() > layout.begin ? (bytes.size() - layout.begin) / layout.frame_bytes : 0;
   if (there < frames) return Fail({file}, "is cut short: it contains {} of {} frames", there, frames);
   // Read the points.
   read.markers.frames.reserve(frames);
   for (std::size_t frame = 0; frame < frames; ++frame) {
-    auto& places = read.markers.frames.emplace_back(layout.points);
-    for (std::size_t point = 0; point < layout.points; ++point) {
+    auto& places = read.markers.frames.emplace_back();
+    places.reserve(kept.size());
+    for (const std::size_t point : kept) {
       const std::size_t at = layout.begin + frame * layout.frame_bytes + point * (layout.has_floats ? 16 : 8);
-      places[point] = PointAt(all, at, layout);
+      places.push_back(PointAt(all, at, layout));
     }
   }
-  // Add a remark if data follow after the block of the last frame.
+  // Add remarks if data follow after the block of the last frame, or if the file states another number of frames.
   const std::size_t end = layout.begin + frames * layout.frame_bytes;
   const std::size_t data_end = parameters_at >= end ? parameters_at : bytes.size();
   const std::size_t padded = (end + kC3dBlock - 1) / kC3dBlock * kC3dBlock;
-  if (data_end >= padded + layout.frame_bytes &&
-      bytes.substr(padded, data_end - padded).find_first_not_of('\0') != std::string_view::npos) {
-    if (!read.markers.remark.empty()) read.markers.remark += "; ";
-    read.markers.remark +=
-        fmt::format("data of {} more frames follow the {} that its header states; they were not read",
-                    (data_end - end) / layout.frame_bytes, frames);
+  const bool has_more = data_end >= padded + layout.frame_bytes &&
+                        bytes.substr(padded, data_end - padded).find_first_not_of('\0') != std::string_view::npos;
+  const std::size_t more = has_more ? (data_end - end) / layout.frame_bytes : 0;
+  const auto remark = [&](const std::string& text) {
+    read.markers.remark += (read.markers.remark.empty() ? "" : "; ") + text;
+  };
+  if (count.other > 0) {
+    remark(fmt::format("{} states {} frames, which is used; {} states {:g}; the file holds {}", count.by, frames,
+                       count.other_by, count.other, frames + more));
+  }
+  if (has_more) {
+    remark(fmt::format("data of {} more frames follow the {} that {} states; they were not read", more, frames,
+                       count.by));
   }
   return read;
 }

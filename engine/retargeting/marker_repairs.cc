@@ -33,22 +33,23 @@ bool IsOfLimb(std::string name) {
   });
 }
 
+bool Counts(const std::set<std::size_t>& used, std::size_t column) { return used.empty() || used.contains(column); }
+
 /// Returns true if, in a tenth of the frames, the origin is farther from the markers' centroid than twice the markers'
 /// median distance from that centroid. The positions are then not relative to a point of the body.
-bool IsFarFromZero(const MarkerMotion& markers) {
+bool IsFarFromZero(const MarkerMotion& markers, const std::set<std::size_t>& used) {
   constexpr double kTimes = 2, kTenth = 0.1;
-  const auto is_far = [](const auto& frame) {
+  const auto is_far = [&](const auto& frame) {
     glm::dvec3 middle(0);
-    double count = 0;
-    for (const auto& place : frame) {
-      if (!place || IsZero(place)) continue;
-      middle += *place;
-      count += 1;
+    std::vector<glm::dvec3> places;
+    for (std::size_t i = 0; i < frame.size(); ++i) {
+      if (!frame[i] || IsZero(frame[i]) || !Counts(used, i)) continue;
+      middle += *frame[i];
+      places.push_back(*frame[i]);
     }
+    const auto count = static_cast<double>(places.size());
     std::vector<double> distances;
-    for (const auto& place : frame) {
-      if (place && !IsZero(place)) distances.push_back(glm::distance(*place, middle / count));
-    }
+    for (const glm::dvec3& place : places) distances.push_back(glm::distance(place, middle / count));
     return !distances.empty() && glm::length(middle / count) > kTimes * Median(std::move(distances));
   };
   const auto far = std::ranges::count_if(markers.frames, is_far);
@@ -58,7 +59,7 @@ bool IsFarFromZero(const MarkerMotion& markers) {
 /// Removes a marker's positions at 0, 0, 0 if the marker has other positions in other frames, if it is on a limb and
 /// other markers move, or if the body is far from the origin. (The root of a root-relative pose stays, because it is
 /// always at 0.) Returns the number of removed positions.
-int LeaveZerosOut(MarkerMotion& markers) {
+int LeaveZerosOut(MarkerMotion& markers, const std::set<std::size_t>& used) {
   int zeros = 0;
   const auto moves = [&](std::size_t marker) {
     return std::ranges::any_of(markers.frames,
@@ -70,7 +71,7 @@ int LeaveZerosOut(MarkerMotion& markers) {
     const auto is_elsewhere = [&](const auto& frame) { return frame[marker] && !is_zero(frame); };
     if (std::ranges::none_of(markers.frames, is_zero)) continue;
     if (std::ranges::none_of(markers.frames, is_elsewhere)) {
-      if (!is_far) is_far = IsFarFromZero(markers);
+      if (!is_far) is_far = IsFarFromZero(markers, used);
       if (!is_moving) is_moving = std::ranges::any_of(std::views::iota(std::size_t{0}, markers.names.size()), moves);
       if (!*is_far && !(*is_moving && IsOfLimb(markers.names[marker]))) continue;
     }
@@ -111,23 +112,23 @@ int LeaveEqualNumbersOut(MarkerMotion& markers) {
   return removed;
 }
 
-/// Removes positions that are a hundred times farther from the middle of the frame's markers than usual, because some
-/// programs write numbers such as -9999 for a gap. Returns the number of removed positions.
-int LeaveFarOut(MarkerMotion& markers) {
+/// Removes positions that are a hundred times farther from the middle of the frame's used markers than usual, because
+/// some programs write numbers such as -9999 for a gap. Returns the number of removed positions.
+int LeaveFarOut(MarkerMotion& markers, const std::set<std::size_t>& used) {
   constexpr double kTimesUsual = 100;
   constexpr std::size_t kMinMarkers = 5;
   int far = 0;
   for (auto& frame : markers.frames) {
     std::array<std::vector<double>, 3> coordinates;
-    for (const auto& place : frame) {
-      for (int axis = 0; axis < 3 && place; ++axis)
-        coordinates[static_cast<std::size_t>(axis)].push_back((*place)[axis]);
+    for (std::size_t i = 0; i < frame.size(); ++i) {
+      for (int axis = 0; axis < 3 && frame[i] && Counts(used, i); ++axis)
+        coordinates[static_cast<std::size_t>(axis)].push_back((*frame[i])[axis]);
     }
     if (coordinates[0].size() < kMinMarkers) continue;
     const glm::dvec3 middle(Median(coordinates[0]), Median(coordinates[1]), Median(coordinates[2]));
     std::vector<double> distances;
-    for (const auto& place : frame) {
-      if (place) distances.push_back(glm::distance(*place, middle));
+    for (std::size_t i = 0; i < frame.size(); ++i) {
+      if (frame[i] && Counts(used, i)) distances.push_back(glm::distance(*frame[i], middle));
     }
     const double limit = kTimesUsual * Median(std::move(distances));
     for (auto& place : frame) {
@@ -150,11 +151,11 @@ std::vector<std::string> NamesOfSeveral(const MarkerMotion& markers) {
 
 }  // namespace
 
-void RepairMarkers(MarkerMotion& markers) {
+void RepairMarkers(MarkerMotion& markers, const std::set<std::size_t>& used) {
   const auto remark = [&](const std::string& text) { markers.remark += (markers.remark.empty() ? "" : "; ") + text; };
-  if (const int zeros = LeaveZerosOut(markers); zeros > 0)
+  if (const int zeros = LeaveZerosOut(markers, used); zeros > 0)
     remark(fmt::format("{} positions at 0, 0, 0 are taken as gaps", zeros));
-  if (const int far = LeaveFarOut(markers); far > 0) {
+  if (const int far = LeaveFarOut(markers, used); far > 0) {
     remark(fmt::format("{} positions a hundred times as far away as the others are taken as gaps", far));
   }
   if (const int equal = LeaveEqualNumbersOut(markers); equal > 0) {

@@ -9,6 +9,7 @@
 #include "engine/base/names.h"
 #include "engine/retargeting/data_set_names.h"
 #include "engine/retargeting/limb_finder.h"
+#include "engine/retargeting/skin_names.h"
 
 namespace etude {
 namespace {
@@ -104,6 +105,7 @@ std::vector<MarkerSet> MakeSets() {
                            "l", "r");
   gait.pelvis = {"lasi", "rasi", "lpsi", "rpsi"};
   gait.sacrum = "sacr";
+  gait.wands = {"lthi", "rthi", "ltib", "rtib"};
   gait.has_skin_limbs = gait.has_skin_shoulders = true;
   gait.rank = 1;
   sets.push_back(std::move(gait));
@@ -127,10 +129,28 @@ std::optional<std::array<std::string, 4>> PelvisOf(const MarkerSet& set, const M
   return !markers.front().empty() && HasAll(columns, markers) ? std::optional(std::move(markers)) : std::nullopt;
 }
 
+std::vector<std::string> MarkersOfRole(const MarkerSet& set, const MarkerColumns& columns, Role role) {
+  for (const MarkerRule& rule : set.rules) {
+    if (rule.role == role && HasAll(columns, rule.markers)) return rule.markers;
+  }
+  if (role != Role::kLeftHip && role != Role::kRightHip) return {};
+  const auto pelvis = PelvisOf(set, columns);
+  if (!pelvis) return {};
+  std::vector<std::string> markers(pelvis->begin(), pelvis->end());
+  markers.erase(std::ranges::unique(markers).begin(), markers.end());
+  return markers;
+}
+
+bool LiesUnderSkin(const MarkerSet& set, Role role) {
+  const bool is_shoulder = role == Role::kLeftShoulder || role == Role::kRightShoulder;
+  const auto is_single = [&](const MarkerRule& rule) {
+    return rule.role == role && rule.markers.size() == 1 && !rule.is_joint;
+  };
+  return (is_shoulder ? set.has_skin_shoulders : set.has_skin_limbs) && std::ranges::any_of(set.rules, is_single);
+}
+
 bool Determines(const MarkerSet& set, const MarkerColumns& columns, Role role) {
-  if ((role == Role::kLeftHip || role == Role::kRightHip) && PelvisOf(set, columns)) return true;
-  return std::ranges::any_of(
-      set.rules, [&](const MarkerRule& rule) { return rule.role == role && HasAll(columns, rule.markers); });
+  return !MarkersOfRole(set, columns, role).empty();
 }
 
 std::vector<std::string> MissingFrom(const MarkerSet& set, const MarkerColumns& columns) {
@@ -198,6 +218,10 @@ std::optional<MarkerSet> SetOfSkeletonNames(const MarkerColumns& columns, std::s
   return set;
 }
 
+bool HasEveryName(const MarkerSet& set, const MarkerColumns& columns) {
+  return std::ranges::all_of(set.rules, [&](const MarkerRule& rule) { return HasAll(columns, rule.markers); });
+}
+
 /// Returns true if the markers are Etude's own joints, some of which may be missing: ten or more of their names, with
 /// one that no other set has.
 bool AreOwnJoints(const MarkerColumns& columns) {
@@ -243,19 +267,22 @@ void TakeJointsOfDataSet(const MarkerColumns& columns, std::span<const std::stri
 ChosenSet ChooseSet(const MarkerColumns& columns, std::span<const std::string> names, const std::string& wanted,
                     const std::map<Role, std::string>& roles) {
   ChosenSet chosen = ChooseKnown(columns, wanted);
-  if (chosen.known == nullptr && wanted.empty()) {
+  // Some sets of joints have names ("RHip") that are also given to skin markers, but not all names of the set.
+  const bool may_be_skin = chosen.known != nullptr && chosen.known->rank == 0 && !HasEveryName(*chosen.known, columns);
+  if ((chosen.known == nullptr || may_be_skin) && wanted.empty()) {
     // If a column is missing, another scheme would take Etude's names for other joints: "left_hand" for the wrist.
     if (AreOwnJoints(columns)) {
       chosen.known = &MarkerSets().front();
     } else {
-      chosen.made = SetOfSkeletonNames(columns, names);
+      chosen.made = SetOfSkinNames(columns, names);
+      if (!chosen.made && !may_be_skin) chosen.made = SetOfSkeletonNames(columns, names);
     }
   }
   if (wanted.empty()) TakeJointsOfDataSet(columns, names, chosen);
   std::vector<MarkerRule> told;
   for (const auto& [role, marker] : roles) {
     if (const auto found = columns.find(MarkerKey(marker)); found != columns.end())
-      told.push_back({role, {found->first}});
+      told.push_back({role, {found->first}, chosen.made.has_value()});
   }
   if (told.empty()) return chosen;
   const MarkerSet* base = chosen.set();

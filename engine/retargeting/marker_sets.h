@@ -17,6 +17,7 @@ namespace etude {
 struct MarkerRule {
   Role role;
   std::vector<std::string> markers;
+  bool is_joint = false;  ///< true: the user takes them as the joint, also in a set of skin markers
 };
 
 /// A convention of marker names, in lower case.
@@ -27,11 +28,12 @@ struct MarkerSet {
   std::array<std::string, 4> pelvis = {};  ///< markers of the pelvis: left and right front, left and right back; the
                                            ///< hips are computed from these markers
   std::string sacrum = "";                 ///< the marker that may replace the two markers on the back of the pelvis
-  /// True if knees, ankles and elbows have one marker each, on the skin. Further markers on thighs and shanks (wands)
-  /// then show the planes in which the limbs bend.
+  /// True if knees, ankles and elbows with one marker each have it on the skin. Further markers on thighs and shanks
+  /// (wands) then show the planes in which the limbs bend.
   bool has_skin_limbs = false;
   bool has_skin_shoulders = false;  ///< true if shoulders have one marker each, on top
   bool is_own = false;              ///< true for Etude's joints: Y is up, and the floor may be kept
+  std::array<std::string, 4> wands = {};  ///< markers beside left and right thigh, left and right shank; "" = none
   int rank = 0;                     ///< if a person has several sets, the set with the highest rank is used
 };
 
@@ -60,6 +62,10 @@ bool HasAll(const MarkerColumns& columns, std::span<const std::string> markers);
 /// Returns the names of the pelvis's four markers. If the marker on the sacrum replaces the two markers on the back,
 /// its name appears twice. Returns nullopt if markers are missing.
 std::optional<std::array<std::string, 4>> PelvisOf(const MarkerSet& set, const MarkerColumns& columns);
+/// Lists the markers that determine a joint, by their keys; empty if none do.
+std::vector<std::string> MarkersOfRole(const MarkerSet& set, const MarkerColumns& columns, Role role);
+/// Returns true if the joint's marker lies on the skin, and the joint under it.
+bool LiesUnderSkin(const MarkerSet& set, Role role);
 /// Returns true if the set determines a joint from a person's markers.
 bool Determines(const MarkerSet& set, const MarkerColumns& columns, Role role);
 /// Lists the needed joints that the set does not determine.
@@ -74,7 +80,9 @@ struct ChosenSet {
 };
 /// Chooses one of the sets that are complete. If the user wants a set, `wanted` is the set's key, and only that set is
 /// chosen. If `wanted` is "", chooses the set with the highest rank; of equal ranks, the set that determines the most
-/// joints. If no set is complete, makes a set if a naming scheme of skeletons (joint_names.h) names all needed joints.
+/// joints. If no set is complete, or only a set of joints that lacks some of its names, makes the set of skin markers
+/// (SetOfSkinNames; it may be incomplete). If the names do not show skin markers either, makes a set if a naming scheme
+/// of skeletons (joint_names.h) names all needed joints.
 /// Markers with the names of Etude's own joints keep their meaning: their set is then chosen, although it is
 /// incomplete. If the names are those of a data set (FindDataSet), its joints replace the rules of the chosen set,
 /// unless the user wants a set or the set is of markers on the skin. `roles` states which markers the user takes as

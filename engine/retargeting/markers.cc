@@ -6,6 +6,7 @@
 #include <array>
 #include <cmath>
 #include <optional>
+#include <set>
 #include <string_view>
 
 #include "engine/base/names.h"
@@ -18,6 +19,7 @@
 #include "engine/retargeting/marker_sets.h"
 #include "engine/retargeting/shown_markers.h"
 #include "engine/retargeting/skin_markers.h"
+#include "engine/retargeting/skin_names.h"
 #include "engine/retargeting/to_body.h"
 
 namespace etude {
@@ -92,25 +94,23 @@ JointPositions PositionsOf(const MarkerSet& set, const MarkerColumns& columns, c
   return places;
 }
 
-/// Returns the file's names of the markers that determine a joint, or the joint's name if no markers do.
-std::string NamesOf(Role role, const MarkerSet& set, const MarkerColumns& columns, const MarkerMotion& markers) {
-  for (const MarkerRule& rule : set.rules) {
-    if (rule.role != role || !HasAll(columns, rule.markers)) continue;
-    std::vector<std::string> names;
-    for (const std::string& marker : rule.markers) names.push_back(markers.names[columns.find(marker)->second]);
-    return Join(names, " and ");
-  }
-  return std::string(RoleName(role));
+/// Returns the file's names of the markers that determine a joint; empty if none do.
+std::vector<std::string> NamesOf(Role role, const MarkerSet& set, const MarkerColumns& columns,
+                                 const MarkerMotion& markers) {
+  std::vector<std::string> names = MarkersOfRole(set, columns, role);
+  for (std::string& name : names) name = markers.names[columns.find(name)->second];
+  return names;
 }
 
-/// Returns the markers of thighs and shanks in one frame.
-Wands WandsOf(const MarkerColumns& columns, const std::vector<MarkerPosition>& frame, double scale) {
-  const auto at = [&](const char* marker) -> MarkerPosition {
-    const auto found = columns.find(marker);
+/// Returns the wands of thighs and shanks in one frame.
+Wands WandsOf(const MarkerSet& set, const MarkerColumns& columns, const std::vector<MarkerPosition>& frame,
+              double scale) {
+  const auto at = [&](std::size_t wand) -> MarkerPosition {
+    const auto found = columns.find(set.wands[wand]);
     if (found == columns.end() || !frame[found->second]) return std::nullopt;
     return scale * *frame[found->second];
   };
-  return {.thigh = {at("lthi"), at("rthi")}, .shank = {at("ltib"), at("rtib")}};
+  return {.thigh = {at(0), at(1)}, .shank = {at(2), at(3)}};
 }
 
 /// Adds the joints that have no markers, by rules of proportion. Y points up.
@@ -241,10 +241,13 @@ std::optional<MarkerBody> BodyAt(double scale, const MarkerMotion& markers, cons
   frames.reserve(markers.frames.size());
   for (const auto& frame : markers.frames) {
     frames.push_back(PositionsOf(set, columns, frame, scale));
-    wands.push_back(WandsOf(columns, frame, scale));
+    wands.push_back(WandsOf(set, columns, frame, scale));
   }
-  const std::string crossing =
-      DescribeExchangedJoints(frames, markers.rate_hz, [&](Role role) { return NamesOf(role, set, columns, markers); });
+  const std::string crossing = DescribeExchangedJoints(frames, markers.rate_hz, [&](Role role) {
+    const bool has_rule = std::ranges::find(set.rules, role, &MarkerRule::role) != set.rules.end();
+    const std::string names = has_rule ? Join(NamesOf(role, set, columns, markers), " and ") : "";
+    return names.empty() ? std::string(RoleName(role)) : names;
+  });
   const std::string centres = MoveToJointCentres(set, markers.sizes_m, wands, frames);
   const std::vector<JointPositions> seen = options.keeps_shown ? frames : std::vector<JointPositions>();
   int filled = 0;
@@ -258,6 +261,7 @@ std::optional<MarkerBody> BodyAt(double scale, const MarkerMotion& markers, cons
   }
   const std::string name = set.is_own && is_borrowed ? "layout " + options.layout : set.name;
   MarkerBody body{.name = "", .motion = {.rate_hz = markers.rate_hz, .poses = {}}, .up = {}, .changes = {name}};
+  for (const Role role : AllRoles()) body.markers[Index(role)] = NamesOf(role, set, columns, markers);
   body.up = FindUpOf(frames, markers.rate_hz, rule);
   for (JointPositions& places : frames) {
     for (MarkerPosition& place : places) {
@@ -283,7 +287,7 @@ std::optional<MarkerBody> BodyAt(double scale, const MarkerMotion& markers, cons
   if (!centres.empty()) body.changes.push_back(centres);
   std::vector<std::string> guessed;
   for (const Role role : AllRoles()) {
-    if (!Determines(set, columns, role)) guessed.emplace_back(RoleName(role));
+    if (body.markers[Index(role)].empty()) guessed.emplace_back(RoleName(role));
   }
   if (!guessed.empty()) body.changes.push_back("placed by rule: " + Join(guessed));
   if (!markers.remark.empty()) body.changes.push_back(markers.remark);
@@ -329,9 +333,16 @@ Result<std::optional<MarkerBody>> BodyOf(const MarkerMotion& markers, const Mark
     if (!likely.empty()) body->changes.push_back(std::move(likely));
     return body;
   }
+  // A body that is far too small is measured at a thousand times its size, where rules in metres hardly matter.
+  double own = told;
+  if (told < kMinStature) {
+    if (const auto large = BodyAt(1000 * told_scale, markers, set, columns, options)) {
+      own = MiddleStature(large->motion) / 1000;
+    }
+  }
   if (options.metres_per_unit) {
     return Fail({file}, "in the unit given (1 unit = {:.4g} cm) the body is {:.3g} m tall; allowed: {:g} to {:g} m",
-                100 * *options.metres_per_unit, told, kMinStature, kMaxStature);
+                100 * *options.metres_per_unit, own, kMinStature, kMaxStature);
   }
   for (const double scale : {1000.0, 100.0, 10.0, 0.1, 0.01, 0.001}) {
     auto scaled = BodyAt(scale, markers, set, columns, options);
@@ -339,17 +350,31 @@ Result<std::optional<MarkerBody>> BodyOf(const MarkerMotion& markers, const Mark
     const double stature = MiddleStature(scaled->motion);
     if (stature < kMinPerson || stature > kMaxPerson) continue;
     scaled->changes.push_back(fmt::format(
-        "in the file's unit the body would be {:.3g} m tall: all lengths are multiplied by {:g}", told, scale));
+        "in the file's unit the body would be {:.3g} m tall: all lengths are multiplied by {:g}", stature / scale, scale));
     return scaled;
   }
-  return Fail({file}, "its markers show a body {:.3g} m tall; allowed: {:g} to {:g} m; is their unit right?", told,
+  return Fail({file}, "its markers show a body {:.3g} m tall; allowed: {:g} to {:g} m; is their unit right?", own,
               kMinStature, kMaxStature);
+}
+
+/// Lists the columns of the markers by which the complete people are read.
+std::set<std::size_t> UsedColumns(const std::vector<MarkerPerson>& people) {
+  std::set<std::size_t> used;
+  for (const MarkerPerson& person : people) {
+    for (const Role role : AllRoles()) {
+      if (!person.IsComplete()) continue;
+      for (const std::string& marker : MarkersOfRole(*person.chosen.set(), person.columns, role)) {
+        used.insert(person.columns.find(marker)->second);
+      }
+    }
+  }
+  return used;
 }
 
 }  // namespace
 
 std::string DescribeUnknownMarkers(const MarkerMotion& markers, const MarkerOptions& options) {
-  std::string nearest = "";
+  std::string nearest = "", why = "";
   std::size_t fewest = kNeededJoints.size() + 1;
   for (const MarkerPerson& person : FindMarkerPeople(markers, options.set, options.roles)) {
     if (person.IsComplete()) return "";
@@ -360,24 +385,31 @@ std::string DescribeUnknownMarkers(const MarkerMotion& markers, const MarkerOpti
       nearest = fmt::format("{} lacks {}", set.name, Join(lacks));
     };
     if (person.chosen.made) compare(*person.chosen.made);
+    if (person.chosen.made && person.chosen.made->has_skin_limbs) {
+      why = "; a marker on a thigh, a shank or an upper arm is no joint";
+      continue;
+    }
     for (const MarkerSet& set : MarkerSets()) compare(set);
   }
   const std::size_t shown = std::min<std::size_t>(markers.names.size(), 12);
   return fmt::format(
-      "its markers ({}{}) are not of a known set (nearest: {}); known: {}, the joint names of skeletons{}{}; a joint "
+      "its markers ({}{}) are not of a known set (nearest: {}{}); known: {}, the joint names of skeletons{}{}; a joint "
       "map (--joint-map) states which markers are the joints",
-      Join(std::span(markers.names).first(shown)), markers.names.size() > shown ? ", …" : "", nearest,
+      Join(std::span(markers.names).first(shown)), markers.names.size() > shown ? ", …" : "", nearest, why,
       NamesOfMarkerSets(), markers.remark.empty() ? "" : "; ", markers.remark);
 }
 
 Result<std::vector<MarkerBody>> FindMarkerBodies(MarkerMotion markers, const std::string& file,
                                                  const MarkerOptions& options) {
-  RepairMarkers(markers);
+  RepairMarkers(markers, UsedColumns(FindMarkerPeople(markers, options.set, options.roles)));
   // Choose the marker set of each person, and make the body from it.
   std::vector<MarkerBody> bodies;
   const std::vector<MarkerPerson> people = FindMarkerPeople(markers, options.set, options.roles);
   for (const MarkerPerson& person : people) {
     if (!person.IsComplete()) continue;
+    if (const std::string wand = DescribeWandAsHip(markers, *person.chosen.set(), person.columns); !wand.empty()) {
+      return Fail({file}, "{}", wand);
+    }
     ASSIGN_OR_RETURN(auto body, BodyOf(markers, *person.chosen.set(), person.columns, options, file));
     if (!body) continue;
     body->name = person.name;

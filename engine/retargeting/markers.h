@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <map>
 #include <optional>
 #include <string>
@@ -38,6 +39,8 @@ struct MarkerBody {
   std::string name;   ///< the text that the body's markers share ("Derrick" of "Derrick:LANK"), or ""
   BodyMotion motion;  ///< at the file's rate; metres, Y up, feet on the floor
   UpFinding up;       ///< the axis of the file that became the motion's Y axis
+  /// By Index(role): the file's names of the markers that determine the joint; empty if it is placed by rule.
+  std::array<std::vector<std::string>, kRoleCount> markers = {};
   double floor = 0;   ///< the height of the floor in the file, metres; in `motion` this height is 0
   bool is_floor_known = true;   ///< false: height 0 of the file is the camera's or the hips', not that of a floor
   std::size_t first_frame = 0;  ///< the file's index of the first kept frame
@@ -58,10 +61,10 @@ struct MarkerBody {
 
 /// Finds the bodies of a marker recording by the markers' names. Known sets: Etude's own joints, OpenPose's BODY_25,
 /// COCO, HALPE_26, the bones of Motive and HumanIK, the augmented markers of OpenCap and Pose2Sim, Plug-in Gait; if
-/// none is complete, a naming scheme of skeletons (SetOfSkeletonNames). For each person who has the markers that
-/// `options.roles` names, its rules replace the set's rules; without a known set, they are the only rules. Case is
-/// ignored. FindMarkerPeople finds whose markers are whose. Joint centres are found by these rules, which are ours
-/// where no source is named:
+/// none is complete, skin markers such as Helen Hayes (SetOfSkinNames) or a naming scheme of skeletons. For each person
+/// who has the markers that `options.roles` names, its rules replace the set's rules; without a known set, they are the
+/// only rules. Case is ignored. FindMarkerPeople finds whose markers are whose. Joint centres are found by these rules,
+/// which are ours where no source is named:
 /// - the mean of the markers on both sides of a joint, if a set has both;
 /// - hips from the four markers of the pelvis (or its two front markers and one on the sacrum) by the regression of
 ///   Harrington et al. (2007);
@@ -82,7 +85,8 @@ struct MarkerBody {
 /// of ten that makes the body 1.2 to 2.3 m tall, and the note states this. A unit given in `options` is never changed.
 ///
 /// Fails, naming `file`, if no set is complete in shoulders, elbows, wrists, hips, knees and ankles (the message lists
-/// the missing joints of the best set), or if no unit gives a plausible size.
+/// the missing joints of the best set), if a marker on the thigh is named as the hip (DescribeWandAsHip), or if no unit
+/// gives a plausible size.
 Result<std::vector<MarkerBody>> FindMarkerBodies(MarkerMotion markers, const std::string& file,
                                                  const MarkerOptions& options = {});
 

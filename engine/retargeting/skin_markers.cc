@@ -92,7 +92,7 @@ SkinDepths DepthsOf(const MarkerSet& set, const std::map<std::string, double>& s
     return found == sizes_m.end() ? std::nullopt : std::optional(found->second);
   };
   for (const SkinJoint& joint : kSkinJoints) {
-    if (joint.left == kLeftShoulder ? !set.has_skin_shoulders : !set.has_skin_limbs) continue;
+    if (!LiesUnderSkin(set, joint.left) && !LiesUnderSkin(set, Mirrored(joint.left))) continue;
     std::vector<double> lengths;
     bool is_of_file = true;
     for (const bool is_left : {true, false}) {
@@ -112,6 +112,7 @@ SkinDepths DepthsOf(const MarkerSet& set, const std::map<std::string, double>& s
     const double share = lengths.empty() ? 0 : joint.share * LowerPercentile(std::move(lengths), 0.5);
     for (const Role role : {joint.left, Mirrored(joint.left)}) {
       if (depths.metres[Index(role)] == 0) depths.metres[Index(role)] = share;
+      if (!LiesUnderSkin(set, role)) depths.metres[Index(role)] = 0;
     }
     const double mean = 50 * (depths.metres[Index(joint.left)] + depths.metres[Index(Mirrored(joint.left))]);
     if (joint.left == kLeftElbow) depths.has_elbow_widths = is_of_file;
@@ -188,7 +189,9 @@ void MoveLeg(const SideOf& side, const Wands& wands, const UsedWands& used, cons
   const glm::dvec3 knee = Chord(hip, skin, in, depths.metres[Index(side.On(kLeftKnee))]);
   side[kLeftKnee] = knee;
   // The ankle's axis is parallel to the knee's, unless the shank's wand shows another axis.
-  const glm::dvec3 at_ankle = shank && used.shank[index] ? ByWand(*shank, knee, ankle) : knee - skin;
+  const glm::dvec3 at_ankle = shank && used.shank[index] ? ByWand(*shank, knee, ankle)
+                              : knee == skin             ? in
+                                                         : knee - skin;
   side[kLeftAnkle] = Chord(knee, ankle, at_ankle, depths.metres[Index(side.On(kLeftAnkle))]);
 }
 
@@ -259,6 +262,7 @@ std::string MoveToJointCentres(const MarkerSet& set, const std::map<std::string,
     }
   }
   // State which joints were moved, and by which rule.
+  if (depths.of_file.empty() && depths.of_limb.empty()) return "";
   std::string said = "joint centres moved under the skin, distances from their markers in cm: ";
   if (!depths.of_file.empty()) said += Join(depths.of_file) + " by the file's widths";
   if (!depths.of_file.empty() && !depths.of_limb.empty()) said += "; ";

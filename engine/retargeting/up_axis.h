@@ -24,6 +24,7 @@ struct UpRule {
   /// True if the body at rest stands along `axis`; weight over the feet along another axis is then no evidence.
   bool is_of_rest = false;
   bool is_y_or_z = false;             ///< true if only Y and Z can be the up axis
+  bool yields_to_walking = false;     ///< true if a body that walks upright along another axis overrules `axis`
 };
 
 /// The up axis of a file, and its evidence.
@@ -37,7 +38,7 @@ struct UpFinding {
 
 /// Finds the axis that points up (ours). The result is the rule's axis, unless the rule's evidence is kPosture and the
 /// whole motion is evidence for another axis. If the file or its format states the axis, evidence for another axis only
-/// sets `doubt`. The motion is evidence for another axis in two cases:
+/// sets `doubt`; but UpRule::yields_to_walking. The motion is evidence for another axis in two cases:
 /// - Along the other axis, the body is upright in a tenth of the frames and the lowest joint stays at one height. Along
 ///   the usual axis, this height varies. In the other frames, people may lie, crawl or stand on their hands.
 /// - The body is upright in four fifths of the frames along the other axis, and hardly ever along the usual axis. In
@@ -53,7 +54,9 @@ struct UpFinding {
 ///     usual axis. A body that lies with hips and knees at right angles has the same shape; so `doubt` names both, and
 ///     if the body may lie on one side, the usual axis is kept.
 /// In case of doubt, the usual axis is taken. If it is only a guess, and the body would climb, lean or float along it
-/// but would be on the floor with Y or Z, the other of the two, as the up axis, `doubt` names both. `poses` contains at
+/// but would be on the floor with Y or Z, the other of the two, as the up axis, `doubt` names both; also if nothing
+/// shows that the body stands or sits along the usual axis (steps, a floor at height 0, shanks upright below level
+/// thighs, hips or shoulders that move over the feet) and it may lie along it. `poses` contains at
 /// least one pose, in the file's unit and axes. A missing toe must be at the position of its ankle, and a missing hand
 /// at its wrist.
 UpFinding FindUp(std::span<const BodyPose> poses, double rate_hz, const UpRule& rule);

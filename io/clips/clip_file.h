@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <optional>
 #include <set>
@@ -52,6 +53,7 @@ struct MadeBody {
   std::size_t first_frame = 0;         ///< the frame of the file that became the first frame
   std::optional<double> start_s = {};  ///< the first frame's time by the file's own clock, if the file states times
   std::vector<BodyStretch> others = {};  ///< MarkerBody::others
+  std::array<std::vector<std::string>, kRoleCount> markers = {};  ///< MarkerBody::markers; all empty: not of markers
 };
 
 /// The content of a motion file.

@@ -51,7 +51,8 @@ Result<ClipFile> FileOfMarkers(ClipFormat format, MarkerMotion markers, const st
   for (MarkerBody& body : bodies) {
     file.clips.push_back(RigClip(body.motion, StandingPose(), body.name));
     file.bodies.push_back(
-        {body.changes, body.up, body.floor, body.is_floor_known, body.first_frame, {}, std::move(body.others)});
+        {body.changes, body.up, body.floor, body.is_floor_known, body.first_frame, {}, std::move(body.others),
+         std::move(body.markers)});
     if (options.keeps_shown) file.shown.push_back(std::move(body.shown));
   }
   file.figure.skeleton = file.clips.front().skeleton;

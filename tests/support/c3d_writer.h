@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <glm/glm.hpp>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace etude::testing {
@@ -24,6 +25,10 @@ class C3dWriter {
   std::size_t analogue = 0;            ///< analogue values per frame
   std::size_t header_frames = 0;       ///< header's number of frames; 0 = the true number
   double long_frames = 0;              ///< POINT:LONG_FRAMES; 0 = none
+  std::size_t told_frames = 0, trial_frames = 0;  ///< POINT:FRAMES, and the last frame in TRIAL; 0 = none
+  /// Lists of labels of four letters in the group POINT: "ANGLES" and "LKNARKNA".
+  std::vector<std::pair<std::string, std::string>> lists;
+  std::string types;  ///< POINT:TYPE_GROUPS, eight letters each
 
   /// Returns the position of point p in frame f, in the file's unit; in frame 1, points with odd p are lost.
   static glm::dvec3 PlaceOf(std::size_t f, std::size_t p) {
@@ -44,6 +49,14 @@ class C3dWriter {
     const std::size_t first = second_labels_from == 0 ? points : second_labels_from;
     Parameter(parameters, 1, "LABELS", -1, {4, first}, labels.substr(0, 4 * first));
     if (first < points) Parameter(parameters, 1, "LABELS2", -1, {4, points - first}, labels.substr(4 * first));
+    if (told_frames > 0) Parameter(parameters, 1, "FRAMES", 2, {}, Word(told_frames));
+    for (const auto& [name, text] : lists) Parameter(parameters, 1, name, -1, {4, text.size() / 4}, text);
+    if (!types.empty()) Parameter(parameters, 1, "TYPE_GROUPS", -1, {8, 2, types.size() / 16}, types);
+    if (trial_frames > 0) {
+      Group(parameters, 2, "TRIAL");
+      Parameter(parameters, 2, "ACTUAL_START_FIELD", 2, {2}, Word(1) + Word(0));
+      Parameter(parameters, 2, "ACTUAL_END_FIELD", 2, {2}, Word(trial_frames & 0xffff) + Word(trial_frames >> 16));
+    }
     Parameter(parameters, 1, "DATA_START", 2, {}, Word(2 + kBlocks));
     parameters.resize(512 * kBlocks, '\0');
 

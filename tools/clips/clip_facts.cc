@@ -60,6 +60,7 @@ BodyFacts FactsOfBody(const OpenedClip& clip) {
   for (const Role role : AllRoles()) {
     facts.joints[Index(role)] = clip.source.clip.skeleton.joints[clip.map[role].joint].name;
   }
+  if (clip.source.made) facts.markers = clip.source.made->markers;
   return facts;
 }
 
@@ -108,7 +109,9 @@ Json JsonOf(const BodyFacts& body) {
   Json roles = Json::object();
   for (const Role role : AllRoles()) {
     const bool composed = std::ranges::find(body.composed, role) != body.composed.end();
-    roles[std::string(RoleName(role))] = {{"joint", body.joints[Index(role)]}, {"composed", composed}};
+    Json& shown = roles[std::string(RoleName(role))];
+    shown = {{"joint", body.joints[Index(role)]}, {"composed", composed}};
+    if (HasMarkers(body.markers)) shown["markers"] = body.markers[Index(role)];
   }
   // Write the facts of the whole body: unit and axes, then the motion.
   const MotionStatistics& motion = body.motion;
@@ -230,6 +233,10 @@ std::string BodyLines(const BodyFacts& body) {
 std::vector<std::string> RoleItems(const BodyFacts& body) {
   std::vector<std::string> items;
   for (const Role role : AllRoles()) {
+    if (HasMarkers(body.markers)) {
+      items.push_back(fmt::format("{} = {}", RoleName(role), DescribeMarkers(body.markers[Index(role)])));
+      continue;
+    }
     const bool composed = std::ranges::find(body.composed, role) != body.composed.end();
     items.push_back(
         fmt::format("{} {}{}", RoleName(role), composed ? "composed on " : "= ", Quote(body.joints[Index(role)])));
@@ -238,6 +245,16 @@ std::vector<std::string> RoleItems(const BodyFacts& body) {
 }
 
 }  // namespace
+
+std::string DescribeMarkers(const std::vector<std::string>& markers) {
+  std::vector<std::string> quoted;
+  for (const std::string& marker : markers) quoted.push_back(Quote(marker));
+  return quoted.empty() ? "by rule" : Join(quoted, " + ");
+}
+
+bool HasMarkers(const std::array<std::vector<std::string>, kRoleCount>& markers) {
+  return std::ranges::any_of(markers, [](const auto& of_role) { return !of_role.empty(); });
+}
 
 std::vector<ClipFacts> FactsOf(const std::string& reference, const OpenOptions& options) {
   OpenOptions with_gaps = options;  // keep gaps, so that joints that the file does not show have no faults
@@ -284,7 +301,8 @@ std::string FactsAsText(const ClipFacts& facts, const ClipFacts* before) {
   if (facts.format) text += FileLine(facts) + FigureLine(facts.figure);
   if (facts.body) {
     text += BodyLines(*facts.body);
-    const bool as_before = before != nullptr && before->body && before->body->joints == facts.body->joints;
+    const bool as_before = before != nullptr && before->body && before->body->joints == facts.body->joints &&
+                           before->body->markers == facts.body->markers;
     text += as_before ? Line("roles", "as above") : WrappedLine("roles", RoleItems(*facts.body));
   }
   if (facts.complaint) text += Line("but", facts.complaint->message);

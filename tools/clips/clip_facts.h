@@ -24,6 +24,7 @@ struct FigureFacts {
 /// The facts about a clip's body motion.
 struct BodyFacts {
   std::array<std::string, kRoleCount> joints;  ///< by Index(role): the name of the file's joint that plays the role
+  std::array<std::vector<std::string>, kRoleCount> markers = {};  ///< MadeBody::markers
   /// Roles without a joint of their own; such a role is rigidly attached to the joint that `joints` lists for it.
   std::vector<Role> composed;
   std::string unit;
@@ -52,6 +53,11 @@ struct ClipFacts {
   std::optional<BodyFacts> body;
   std::optional<Error> complaint;
 };
+
+/// Lists, for users, the markers by which a role is played: "'LASI' + 'RASI'", or "by rule".
+std::string DescribeMarkers(const std::vector<std::string>& markers);
+/// Returns true if a body was made from markers.
+bool HasMarkers(const std::array<std::vector<std::string>, kRoleCount>& markers);
 
 /// Collects the facts of every clip that a reference stands for; ExpandReference must have returned the reference. The
 /// result is never empty: a file without clips also gives facts, and an unreadable file gives only the complaint.

@@ -92,6 +92,49 @@ TEST(C3d, TellsOfDataBeyondTheLastFrame) {
   EXPECT_EQ(ReadC3d(padded, "a.c3d")->markers.remark, "") << "zeros are no data";
 }
 
+TEST(C3d, HasAsManyFramesAsPointFramesTells) {
+  const auto writer = [](std::size_t held, std::size_t header, std::size_t told, std::size_t trial) {
+    C3dWriter one(kIntel, true);
+    one.frames = held;
+    one.header_frames = header;
+    one.told_frames = told;
+    one.trial_frames = trial;
+    return one.Write();
+  };
+  struct Case {
+    std::size_t held, header, told, trial, read;
+    const char* remark;
+  };
+  const char* const cropped = "POINT:FRAMES states 20 frames, which is used; TRIAL states 40; the file holds 20";
+  for (const Case& one : {Case{40, 40, 40, 40, 40, ""}, Case{20, 20, 20, 40, 20, cropped},
+                          Case{20, 40, 20, 0, 20,
+                               "POINT:FRAMES states 20 frames, which is used; its header states 40; the file holds 20"},
+                          Case{40, 40, 40, 20, 40,
+                               "POINT:FRAMES states 40 frames, which is used; TRIAL states 20; the file holds 40"},
+                          Case{70'000, 65'535, 65'535, 70'000, 70'000, ""},
+                          Case{70'000, 65'535, 70'000 - 65'536, 70'000, 70'000, ""}}) {
+    ASSERT_OK(read, ReadC3d(writer(one.held, one.header, one.told, one.trial), "a.c3d"));
+    EXPECT_EQ(read->markers.frames.size(), one.read);
+    EXPECT_EQ(read->markers.remark, one.remark);
+  }
+  EXPECT_EQ(C3dComplaint(writer(20, 20, 40, 20)), "a.c3d: is cut short: it contains 20 of 40 frames");
+}
+
+TEST(C3d, LeavesOutThePointsThatAreNoPositions) {
+  C3dWriter writer(kIntel, true);
+  writer.points = 6;
+  writer.labels = "LSHOLKNALGRFRSHOXROTCOFM";
+  writer.lists = {{"ANGLES", "LKNA"}, {"POWERS", "LGRF"}, {"TURN", "XROT"}, {"BODY", "COFM"}};
+  ASSERT_OK(read, ReadC3d(writer.Write(), "a.c3d"));
+  EXPECT_THAT(read->markers.names, ::testing::ElementsAre("LSHO", "RSHO", "XROT", "COFM"));
+  ASSERT_TRUE(read->markers.frames[2][3]);
+  EXPECT_LT(glm::distance(*read->markers.frames[2][3], 1e-3 * C3dWriter::PlaceOf(2, 5)), 1e-7) << "its own position";
+  writer.types = "Angle   TURN    MARKER  BODY    ";
+  EXPECT_THAT(ReadC3d(writer.Write(), "a.c3d")->markers.names, ::testing::ElementsAre("LSHO", "RSHO", "COFM"));
+  writer.lists.push_back({"SCALARS", writer.labels});
+  EXPECT_THAT(C3dComplaint(writer.Write()), HasSubstr("contains no points (angles, forces and"));
+}
+
 TEST(C3d, TakesWhatIsNoNumberForAGap) {
   std::string bytes = C3dWriter(kIntel, true).Write();
   const float nan = std::numeric_limits<float>::quiet_NaN();

@@ -327,6 +327,25 @@ TEST(Markers, ThatAreExchangedBetweenLeftAndRightAreNamed) {
   }
 }
 
+TEST(Markers, ThatAreNotUsedDoNotDecideWhichAreFarAway) {
+  // Angles and forces of a gait model, as points near 0; the person stands 4 m from the origin.
+  MarkerMotion take = OwnJoints();
+  for (auto& frame : take.frames) {
+    for (auto& place : frame) *place += glm::dvec3(4, 0, 1);
+    for (int i = 0; i < 40; ++i) frame.emplace_back(glm::dvec3(0.001 * i, 0.0005, -0.001 * i));
+  }
+  for (int i = 0; i < 40; ++i) take.names.push_back("Output" + std::to_string(i));
+  const auto changes = [](const MarkerMotion& markers) {
+    const auto bodies = FindMarkerBodies(markers, "a.c3d");
+    return bodies ? fmt::format("{} frames; {}", bodies->front().motion.poses.size(), bodies->front().Note())
+                  : ToString(bodies.error());
+  };
+  EXPECT_EQ(changes(take), "40 frames; Etude's joints");
+  // The control: a used marker that is lost is still a gap.
+  for (std::size_t t = 10; t < 14; ++t) take.frames[t].front() = glm::dvec3(0, -9999, 0);
+  EXPECT_THAT(changes(take), HasSubstr("4 positions a hundred times as far away as the others are taken as gaps"));
+}
+
 TEST(Markers, OfThreeEqualNumbersThatRecurAreGaps) {
   for (const glm::dvec3& gap : {glm::dvec3(-1), glm::dvec3(9.999), glm::dvec3(0.5, -0.5, 0.5)}) {
     MarkerMotion take = OwnJoints();

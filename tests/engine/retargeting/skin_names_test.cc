@@ -1,0 +1,235 @@
+#include "engine/retargeting/skin_names.h"
+
+#include <fmt/format.h>
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <functional>
+
+#include "engine/motion/statistics.h"
+#include "engine/retargeting/markers.h"
+#include "tests/support/results.h"
+
+namespace etude {
+namespace {
+
+using enum Role;
+using ::testing::HasSubstr;
+using ::testing::Not;
+
+/// A marker: its name for the side "?", its joint of the left side, and its offset outwards, upwards and forwards.
+struct Placed {
+  std::string name;
+  Role role;
+  glm::dvec3 off = glm::dvec3(0);
+};
+
+/// Returns a person who stands and faces +Z: hips 0.18 m apart, thighs and shanks of 0.42 m; metres, Y up.
+BodyPose Standing() {
+  BodyPose pose;
+  pose[kHipCentre] = {0, 0.9, 0};
+  pose[kSpine] = {0, 1.15, 0};
+  pose[kShoulderCentre] = {0, 1.4, 0};
+  pose[kHead] = {0, 1.6, 0};
+  const auto put = [&](Role left, double x, double y, double z) {
+    pose[left] = {x, y, z};
+    pose[Mirrored(left)] = {-x, y, z};
+  };
+  put(kLeftShoulder, 0.18, 1.4, 0);
+  put(kLeftElbow, 0.2, 1.1, 0);
+  put(kLeftWrist, 0.2, 0.85, 0);
+  put(kLeftHand, 0.2, 0.7, 0);
+  put(kLeftHip, 0.09, 0.9, 0);
+  put(kLeftKnee, 0.09, 0.48, 0);
+  put(kLeftAnkle, 0.09, 0.06, 0);
+  put(kLeftFoot, 0.09, 0.02, 0.17);
+  return pose;
+}
+
+/// Returns ten frames; markers whose names have '?' are on both sides, named by `left` and `right`.
+MarkerMotion Take(const std::vector<Placed>& markers, const std::string& left = "L.", const std::string& right = "R.") {
+  MarkerMotion take{.rate_hz = 50, .names = {}, .frames = decltype(MarkerMotion::frames)(10)};
+  for (const auto& [name, role, off] : markers) {
+    const std::size_t at = name.find('?');
+    for (const bool is_left : {true, false}) {
+      if (!is_left && at == std::string::npos) continue;
+      std::string full = name;
+      if (at != std::string::npos) full.replace(at, 1, is_left ? left : right);
+      take.names.push_back(full);
+      const glm::dvec3 place = Standing()[is_left ? role : Mirrored(role)];
+      for (auto& frame : take.frames) frame.emplace_back(place + glm::dvec3(is_left ? off.x : -off.x, off.y, off.z));
+    }
+  }
+  return take;
+}
+
+/// Helen Hayes: front spines and sacrum so that Harrington's regression gives exactly the hips of Standing.
+std::vector<Placed> HelenHayes() {
+  // Half the width w of the pelvis follows from 0.33·w + 7.3 mm = 90 mm, its height and depth from the other two rows.
+  const double w = (0.09 - 0.0073) / 0.33, depth = 0.15, up = 0.30 * w + 0.0109, ahead = 0.24 * depth + 0.0099;
+  return {{"Front.Head", kHead, {0, 0, 0.1}},          {"Rear.Head", kHead, {0, 0, -0.1}},
+          {"?Shoulder", kLeftShoulder, {0, 0.045, 0}}, {"R.Offset", kSpine, {-0.08, 0, -0.1}},
+          {"?Elbow", kLeftElbow, {0.04, 0, 0}},        {"?Wrist", kLeftWrist},
+          {"?ASIS", kHipCentre, {w / 2, up, ahead}},   {"V.Sacral", kHipCentre, {0, up, ahead - depth}},
+          {"?Thigh", kLeftKnee, {0.09, 0.2, 0}},       {"?Knee", kLeftKnee, {0.05, 0, 0}},
+          {"?Shank", kLeftAnkle, {0.07, 0.2, 0}},      {"?Ankle", kLeftAnkle, {0.036, 0, 0}},
+          {"?Heel", kLeftAnkle, {0, -0.04, -0.06}},    {"?Toe", kLeftFoot}};
+}
+
+/// Returns the largest distance of the needed joints from Standing, and from which joint.
+std::pair<double, Role> Furthest(const MarkerBody& body) {
+  std::pair<double, Role> furthest{0, kHead};
+  for (const Role role : kNeededJoints) {
+    const glm::dvec3 wanted = Standing()[role] - glm::dvec3(0, body.floor, 0);
+    furthest = std::max(furthest, std::pair(glm::distance(body.motion.poses.front()[role], wanted), role));
+  }
+  return furthest;
+}
+
+TEST(HelenHayes, GivesTheHipsOfThePelvisWhateverItsNamesLookLike) {
+  for (const auto& [left, right] :
+       {std::pair("L.", "R."), {"L_", "R_"}, {"L", "R"}, {"left_", "right_"}, {"l ", "r "}}) {
+    const auto bodies = FindMarkerBodies(Take(HelenHayes(), left, right), "a.trc");
+    ASSERT_TRUE(bodies) << left << ToString(bodies.error());
+    const auto [distance, role] = Furthest(bodies->front());
+    EXPECT_LT(distance, 0.02) << left << RoleName(role);
+    EXPECT_LT(glm::distance(bodies->front().motion.poses.front()[kLeftHip] + glm::dvec3(0, bodies->front().floor, 0),
+                            Standing()[kLeftHip]),
+              1e-9);
+    EXPECT_THAT(bodies->front().Note(), HasSubstr("skin markers (Helen Hayes); joint centres moved under the skin"));
+    EXPECT_EQ(bodies->front().markers[Index(kLeftHip)].size(), 3u) << "two spines and the sacrum";
+    EXPECT_EQ(bodies->front().markers[Index(kLeftKnee)], std::vector{std::string(left) + "Knee"});
+    EXPECT_TRUE(bodies->front().markers[Index(kSpine)].empty()) << "by rule";
+  }
+}
+
+TEST(HelenHayes, JointsWithAnInnerMarkerAreMidwayAndStay) {
+  std::vector<Placed> markers = HelenHayes();
+  markers.push_back({"?Knee.Medial", kLeftKnee, {-0.05, 0, 0}});
+  markers.push_back({"?Ankle.Medial", kLeftAnkle, {-0.036, 0, 0}});
+  ASSERT_OK(bodies, FindMarkerBodies(Take(markers), "a.trc"));
+  const MarkerBody& body = bodies->front();
+  for (const Role role : {kLeftKnee, kRightKnee, kLeftAnkle, kRightAnkle}) {
+    const glm::dvec3 wanted = Standing()[role] - glm::dvec3(0, body.floor, 0);
+    EXPECT_LT(glm::distance(body.motion.poses.front()[role], wanted), 1e-9) << RoleName(role);
+  }
+  EXPECT_THAT(body.Note(), Not(HasSubstr("knees")));
+  EXPECT_THAT(body.Note(), HasSubstr("elbows"));
+  // An inner marker on the knees only: the ankles still move under the skin.
+  markers.pop_back();
+  ASSERT_OK(knees, FindMarkerBodies(Take(markers), "a.trc"));
+  EXPECT_LT(Furthest(knees->front()).first, 0.02);
+}
+
+TEST(HelenHayes, WithoutAPelvisTakesTheFilesHipCentresOrIsRefused) {
+  std::vector<Placed> markers = HelenHayes();
+  std::erase_if(markers, [](const Placed& one) { return one.role == kHipCentre; });
+  const std::string refusal = testing::Refusal(FindMarkerBodies(Take(markers), "a.trc"));
+  EXPECT_THAT(refusal,
+              HasSubstr("nearest: skin markers (Helen Hayes) lacks left_hip, right_hip; a marker on a thigh, a "
+                        "shank or an upper arm is no joint"));
+  EXPECT_THAT(refusal, HasSubstr("a joint map (--joint-map) states which markers are the joints"));
+  markers.push_back({"V_?Hip_JC", kLeftHip});
+  ASSERT_OK(bodies, FindMarkerBodies(Take(markers), "a.trc"));
+  EXPECT_LT(Furthest(bodies->front()).first, 0.02);
+  // What the user takes as joints stays where it is.
+  markers.push_back({"?KneeCentre", kLeftKnee});
+  ASSERT_OK(told, FindMarkerBodies(Take(markers), "a.trc", {.roles = {{kLeftKnee, "L.KneeCentre"}}}));
+  EXPECT_LT(glm::distance(told->front().motion.poses.front()[kLeftKnee],
+                          Standing()[kLeftKnee] - glm::dvec3(0, told->front().floor, 0)),
+            1e-9);
+}
+
+TEST(SkinMarkers, NamedLikeKeypointsAreNotKeypoints) {
+  std::vector<Placed> markers = HelenHayes();
+  for (Placed& one : markers) std::erase(one.name, '.');
+  markers.push_back({"?PSIS", kHipCentre, {0.05, 0.09, -0.1}});
+  markers.push_back({"?Hip", kLeftHip, {0.07, 0, 0}});
+  ASSERT_OK(skin, FindMarkerBodies(Take(markers, "L", "R"), "a.trc"));
+  EXPECT_THAT(skin->front().Note(), HasSubstr("skin markers"));
+  EXPECT_LT(glm::distance(skin->front().motion.poses.front()[kLeftHip],
+                          Standing()[kLeftHip] - glm::dvec3(0, skin->front().floor, 0)),
+            0.02);
+  // The control: with all names of BODY_25, the keypoints count.
+  for (const char* name : {"MidHip", "Neck"}) markers.push_back({name, name[0] == 'N' ? kShoulderCentre : kHipCentre});
+  markers.push_back({"?Ear", kHead, {0.07, 0, 0}});
+  markers.push_back({"?BigToe", kLeftFoot});
+  EXPECT_THAT(FindMarkerBodies(Take(markers, "L", "R"), "a.trc")->front().Note(), HasSubstr("OpenPose BODY_25"));
+}
+
+TEST(SkinMarkers, OfOpenSimAndOfOtherLabsAreRead) {
+  const std::vector<Placed> pelvis = {{"?ASI", kHipCentre, {0.125, 0.0861, 0.0459}},
+                                      {"?PSI", kHipCentre, {0.05, 0.0861, -0.1041}}};
+  using Rows = std::vector<Placed>;
+  for (const Rows& rows : {Rows{{"?ACR", kLeftShoulder, {0, 0.045, 0}},
+                                {"?LEL", kLeftElbow, {0.04, 0, 0}},
+                                {"?MEL", kLeftElbow, {-0.04, 0, 0}},
+                                {"?FAradius", kLeftWrist, {0, 0, 0.03}},
+                                {"?FAulna", kLeftWrist, {0, 0, -0.03}},
+                                {"?LFC", kLeftKnee, {0.05, 0, 0}},
+                                {"?MFC", kLeftKnee, {-0.05, 0, 0}},
+                                {"?LMAL", kLeftAnkle, {0.036, 0, 0}},
+                                {"?MMAL", kLeftAnkle, {-0.036, 0, 0}},
+                                {"?TOE", kLeftFoot}},
+                           Rows{{"?ACR", kLeftShoulder, {0, 0.045, 0}},
+                                {"?HLE", kLeftElbow, {0.04, 0, 0}},
+                                {"?HME", kLeftElbow, {-0.04, 0, 0}},
+                                {"?RSP", kLeftWrist, {0, 0, 0.03}},
+                                {"?USP", kLeftWrist, {0, 0, -0.03}},
+                                {"?FLE", kLeftKnee, {0.05, 0, 0}},
+                                {"?FME", kLeftKnee, {-0.05, 0, 0}},
+                                {"?FAL", kLeftAnkle, {0.036, 0, 0}},
+                                {"?TAM", kLeftAnkle, {-0.036, 0, 0}}},
+                           Rows{{"?_shoulder", kLeftShoulder, {0, 0.045, 0}},
+                                {"?_lelbow", kLeftElbow, {0.04, 0, 0}},
+                                {"?_melbow", kLeftElbow, {-0.04, 0, 0}},
+                                {"?_lwrist", kLeftWrist, {0, 0, 0.03}},
+                                {"?_mwrist", kLeftWrist, {0, 0, -0.03}},
+                                {"?_knee", kLeftKnee, {0.05, 0, 0}},
+                                {"?_mknee", kLeftKnee, {-0.05, 0, 0}},
+                                {"?_ankle", kLeftAnkle, {0.036, 0, 0}},
+                                {"?_mankle", kLeftAnkle, {-0.036, 0, 0}}}}) {
+    Rows markers = pelvis;
+    markers.insert(markers.end(), rows.begin(), rows.end());
+    const auto bodies = FindMarkerBodies(Take(markers, "L", "R"), "a.trc");
+    ASSERT_TRUE(bodies) << ToString(bodies.error());
+    for (const Role role : {kLeftElbow, kRightElbow, kLeftWrist, kRightKnee, kLeftKnee, kRightAnkle, kLeftAnkle}) {
+      const glm::dvec3 wanted = Standing()[role] - glm::dvec3(0, bodies->front().floor, 0);
+      EXPECT_LT(glm::distance(bodies->front().motion.poses.front()[role], wanted), 1e-9)
+          << rows[1].name << RoleName(role);
+    }
+  }
+}
+
+TEST(SkinMarkers, HaveTheirOwnSizeInMessagesAboutTheUnit) {
+  // Millimetres are stated, metres are stored: the regression's millimetres must not count as the body's size.
+  MarkerMotion take = Take(HelenHayes());
+  const double stature = Stature(FindMarkerBodies(take, "a.c3d")->front().motion.poses.front());
+  take.metres_per_unit = 0.001;
+  for (auto& frame : take.frames) {
+    for (auto& place : frame) *place *= 0.001;
+  }
+  EXPECT_THAT(FindMarkerBodies(take, "a.c3d")->front().Note(),
+              HasSubstr(fmt::format("in the file's unit the body would be {:.3g} m tall: all lengths are taken to be "
+                                    "1000 times as long",
+                                    stature / 1000)));
+  EXPECT_THAT(testing::Refusal(FindMarkerBodies(take, "a.c3d", {.metres_per_unit = 0.001})),
+              HasSubstr(fmt::format("the body is {:.3g} m tall", stature / 1000)));
+}
+
+TEST(AThighMarker, BetweenPelvisAndKneeIsNeverAHip) {
+  std::vector<Placed> markers = HelenHayes();
+  std::erase_if(markers, [](const Placed& one) { return one.role == kHipCentre || one.name == "?Shank"; });
+  EXPECT_THAT(testing::Refusal(FindMarkerBodies(Take(markers), "a.trc")),
+              HasSubstr("L.Thigh is on the thigh, not at the hip: its distance from L.Knee is 0.49 times the distance "
+                        "from there to L.Ankle; allowed: "));
+  // The control: "thigh" at the hip, as bones are called.
+  for (Placed& one : markers) {
+    if (one.name == "?Thigh") one = {"?Thigh", kLeftHip};
+  }
+  ASSERT_OK(bones, FindMarkerBodies(Take(markers), "a.trc"));
+  EXPECT_THAT(bones->front().Note(), HasSubstr("joint names of a skeleton"));
+}
+
+}  // namespace
+}  // namespace etude
