@@ -363,7 +363,7 @@ Result<MarkerMotion> LayOnClock(MarkerRows rows, const std::string& file) {
   AddRemark(markers.remark, scale.remark);
   ASSIGN_OR_RETURN(const auto grid, GridOfRows(rows.times_s, rows.lines, told, markers.names.size(), file));
   if (told) AddRemark(markers.remark, DescribeOtherRate(rows, *told, grid));
-  if (rows.has_clock) AddRemark(markers.remark, DescribeOtherNumbers(rows));
+  if (rows.has_clock && !MeanStepOfBursts(rows.times_s)) AddRemark(markers.remark, DescribeOtherNumbers(rows));
   if (!grid) return std::move(markers);
   markers.rate_hz = grid->rate_hz;
   if (!rows.has_clock && rows.first_number > 1) {
