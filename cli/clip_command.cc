@@ -153,7 +153,7 @@ void DefineConvert(CLI::App& clip, Action& action) {
   command->add_option("--trim", options->trim, "Only the part FROM:TO in seconds, such as 1.5:4 or 2:");
   command
       ->add_option("--rate", options->rate_hz,
-                   "Frames per second (default: the clip's rate; with --ground or --retarget, 30)")
+                   "Frames per second (default: the clip's rate; for a body of twenty joints, 30)")
       ->check(NumberWithin(1, 1000, "rate in Hz"));
   command->add_flag("--mirror", options->mirror, "Mirror the motion: left becomes right");
   command->add_flag("--ground", options->ground, "Write a body: twenty joints, metres, Y up, feet on the floor");

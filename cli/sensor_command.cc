@@ -57,6 +57,8 @@ Result<RealRecording> LoadRealRecording(const std::string& path, const SensorRea
   ASSIGN_OR_RETURN(auto twin,
                    ReadTwinMotion(text, reading.reference, reading.reference_rate, recording.DurationSeconds()));
   auto real = MakeRealRecording(std::move(recording), std::move(twin));
+  const std::string mismatch = real ? DescribeMismatch(*real) : "";
+  if (!mismatch.empty()) return Fail({reading.reference}, "does not show the motion of {}: {}", path, mismatch);
   if (real) return *std::move(real);
   return Fail({path}, "cannot be compared with {}: both must show at least three common joints for at least a second",
               reading.reference);

@@ -317,6 +317,14 @@ void AddLabels(const std::vector<std::string>& names, ParameterWriter& parameter
   }
 }
 
+/// Returns the number of the first frame, by which C3D states its time; 1 if the time is negative or has no number.
+std::size_t FirstField(const MarkerMotion& motion) {
+  constexpr double kMaxField = 4e9;
+  const double field = std::round(motion.start_s.value_or(0) * motion.rate_hz) + 1;
+  return field >= 1 && field + static_cast<double>(motion.frames.size()) < kMaxField ? static_cast<std::size_t>(field)
+                                                                                     : 1;
+}
+
 /// Returns the parameter section; `data_block` is the number of the block at which the points begin.
 std::string ParameterSection(const MarkerMotion& motion, std::size_t data_block) {
   constexpr std::size_t kMaxWord = 65535;
@@ -334,8 +342,9 @@ std::string ParameterSection(const MarkerMotion& motion, std::size_t data_block)
   AddLabels(motion.names, parameters);
   parameters.Group(kTrial, "TRIAL");
   const auto field = [](std::size_t frame) { return Word(frame & 0xffffU) + Word(frame >> 16U); };
-  parameters.Add(kTrial, "ACTUAL_START_FIELD", 2, {2}, field(1));
-  parameters.Add(kTrial, "ACTUAL_END_FIELD", 2, {2}, field(motion.frames.size()));
+  const std::size_t first = FirstField(motion);
+  parameters.Add(kTrial, "ACTUAL_START_FIELD", 2, {2}, field(first));
+  parameters.Add(kTrial, "ACTUAL_END_FIELD", 2, {2}, field(first + motion.frames.size() - 1));
   std::string section("\x01\x50\x00\x54", 4);
   section += parameters.bytes();
   section += '\0';  // end of the parameters
@@ -355,8 +364,8 @@ std::string WriteC3d(const MarkerMotion& motion) {
   std::string bytes("\x02\x50", 2);
   PutWord(bytes, motion.names.size());
   PutWord(bytes, 0);  // number of analogue values
-  PutWord(bytes, 1);
-  PutWord(bytes, std::min(motion.frames.size(), kMaxWord));
+  PutWord(bytes, std::min(FirstField(motion), kMaxWord));
+  PutWord(bytes, std::min(FirstField(motion) + motion.frames.size() - 1, kMaxWord));
   PutWord(bytes, 0);  // maximal interpolation gap
   PutFloat(bytes, -1);
   PutWord(bytes, data_block);
@@ -375,11 +384,6 @@ std::string WriteC3d(const MarkerMotion& motion) {
   return bytes;
 }
 
-std::string WriteC3d(const BodyMotion& motion) {
-  MarkerMotion markers{.rate_hz = motion.rate_hz, .names = {}, .frames = {}};
-  for (const Role role : AllRoles()) markers.names.emplace_back(RoleName(role));
-  for (const BodyPose& pose : motion.poses) markers.frames.emplace_back(pose.joints.begin(), pose.joints.end());
-  return WriteC3d(markers);
-}
+std::string WriteC3d(const BodyMotion& motion) { return WriteC3d(JointMarkers(motion, 0)); }
 
 }  // namespace etude

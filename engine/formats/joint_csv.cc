@@ -118,7 +118,9 @@ JointCsvRow RowOf(std::span<const double> values, const JointCsvColumns& columns
 
 }  // namespace
 
-std::string WriteJointCsv(const BodyMotion& motion) {
+std::string WriteJointCsv(const BodyMotion& motion) { return WriteJointCsv(motion, 0); }
+
+std::string WriteJointCsv(const BodyMotion& motion, double start_s) {
   std::string text = "frame,time_s";
   const auto out = std::back_inserter(text);
   for (const Role role : AllRoles()) {
@@ -126,7 +128,7 @@ std::string WriteJointCsv(const BodyMotion& motion) {
   }
   text += '\n';
   for (std::size_t k = 0; k < motion.poses.size(); ++k) {
-    fmt::format_to(out, "{},{}", k, static_cast<double>(k) / motion.rate_hz);
+    fmt::format_to(out, "{},{}", k, start_s + static_cast<double>(k) / motion.rate_hz);
     for (const glm::dvec3& joint : motion.poses[k].joints) fmt::format_to(out, ",{},{},{}", joint.x, joint.y, joint.z);
     text += '\n';
   }
@@ -156,6 +158,10 @@ Result<JointCsv> ReadJointCsv(std::string_view text, const std::string& file) {
   csv.rate_hz = RateOf(csv.times_s);
   std::vector<std::string> said;
   if (!csv.scale.remark.empty()) said.push_back(csv.scale.remark);
+  const auto is_first = [&](double time) { return time == csv.times_s.front(); };
+  if (csv.times_s.size() > 1 && std::ranges::all_of(csv.times_s, is_first)) {
+    said.emplace_back("all times in time_s are equal, so they give no rate");
+  }
   if (table.has_decimal_commas) said.emplace_back("its numbers have decimal commas");
   if (!left_out.empty()) {
     constexpr std::size_t kListed = 8;

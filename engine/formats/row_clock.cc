@@ -9,6 +9,7 @@
 
 #include "engine/base/names.h"
 #include "engine/base/order_statistics.h"
+#include "engine/formats/row_rates.h"
 #include "engine/formats/usual_rates.h"
 
 namespace etude {
@@ -34,28 +35,6 @@ double PrintedStep(std::span<const double> times, double largest = 0.1) {
     if (std::ranges::all_of(times, is_multiple)) return 1 / scale;
   }
   return 0;
-}
-
-/// Returns the rate that best fits steps of one to three frames, starting from the rate of the median step. If
-/// `only_clear_steps`, steps about half-way between whole numbers of frames are left out; they occur beside a row at a
-/// wrong time.
-double FittedRate(const std::vector<double>& steps, bool only_clear_steps) {
-  constexpr double kUnclear = 0.4;  // a step farther than this from a whole number of frames is unclear
-  constexpr int kRounds = 4;
-  constexpr double kMaxFrames = 3;
-  double rate = 1 / LowerPercentile(steps, 0.5);
-  for (int round = 0; round < kRounds; ++round) {
-    double frames = 0, seconds = 0;
-    for (const double step : steps) {
-      const double count = std::round(step * rate);
-      const bool is_left_out = only_clear_steps && std::abs(step * rate - count) > kUnclear;
-      if (count > kMaxFrames || is_left_out) continue;
-      frames += count;
-      seconds += step;
-    }
-    if (frames > 0) rate = frames / seconds;
-  }
-  return rate;
 }
 
 /// Returns the indices of the rows that are used: of rows with equal times only the last. Fails if a time is missing,
@@ -112,6 +91,23 @@ std::string DescribeGrid(const RowGrid& grid, std::size_t twice) {
 /// Returns true if the gaps of a grid of `frames` frames with `width` values each may be stored.
 bool AreGapsStorable(double frames, std::size_t rows, std::size_t width) {
   return (frames - static_cast<double>(rows)) * static_cast<double>(width) <= kMaxAddedValues;
+}
+
+/// Returns the grid of rows that come in bursts (MeanStepOfBursts), as evenly spaced frames.
+RowGrid GridOfBursts(const std::vector<std::size_t>& rows, double mean_s, double median_s,
+                     std::optional<double> told_hz, std::size_t all) {
+  constexpr double kSameRate = 0.02;
+  RowGrid grid{.rate_hz = 1 / mean_s, .frames = {}, .is_even = rows.size() == all, .remark = ""};
+  const double whole = std::round(grid.rate_hz);
+  for (const double rate : {whole, told_hz.value_or(0)}) {
+    if (std::abs(rate * mean_s - 1) <= kSameRate) grid.rate_hz = rate;
+  }
+  for (const std::size_t row : rows) grid.frames.push_back({row, row});
+  grid.remark = fmt::format(
+      "its times come in bursts: rows are mostly {:.3g} s apart, but {:.3g} s on average; they are taken as evenly "
+      "spaced, at {:.6g} Hz",
+      median_s, mean_s, grid.rate_hz);
+  return grid;
 }
 
 /// Rows that follow each other without a missing row.
@@ -221,8 +217,14 @@ Result<std::optional<RowGrid>> GridOfRows(std::span<const double> times_s, std::
   }
 
   // Fit the rate to the time steps between rows.
-  std::vector<double> steps;
-  for (std::size_t i = 1; i < rows.size(); ++i) steps.push_back(times_s[rows[i]] - times_s[rows[i - 1]]);
+  std::vector<double> used = {times_s[rows.front()]}, steps;
+  for (std::size_t i = 1; i < rows.size(); ++i) {
+    used.push_back(times_s[rows[i]]);
+    steps.push_back(used[i] - used[i - 1]);
+  }
+  if (const auto mean_s = MeanStepOfBursts(used)) {
+    return GridOfBursts(rows, *mean_s, LowerPercentile(steps, 0.5), told_hz, times_s.size());
+  }
   const double start = times_s[rows.front()], span = times_s[rows.back()] - start;
   const double printed = 1.05 * PrintedStep(times_s), fitted = FittedRate(steps, false);
   const auto tolerance = [&](double rate) { return std::clamp(printed * rate, kEven, kMaxEven); };
@@ -239,7 +241,9 @@ Result<std::optional<RowGrid>> GridOfRows(std::span<const double> times_s, std::
   if (is_brief && std::abs(fitted / *told_hz - 1) > kBriefTolerance) return std::nullopt;
   // Try the stated rate, a whole rate, and the rate at which the last row coincides with a frame, in this order. Take
   // the first of these rates at which nearly all rows coincide with frames.
-  RowGrid grid{.rate_hz = fitted, .frames = {}, .remark = {}};
+  const auto uneven = RateOfUnevenRows(used, told_hz);
+  RowGrid grid{.rate_hz = uneven.value_or(fitted), .frames = {}, .remark = {}};
+  bool is_whole = uneven.has_value();  // true if no rate fits, and no row is missing
   for (const double near : {fitted, FittedRate(steps, true)}) {
     const double whole = std::round(near), to_last = std::round(span * near) / span;
     const auto is_near = [&](double rate) { return std::abs(near - rate) * span <= kMaxEven; };
@@ -252,6 +256,7 @@ Result<std::optional<RowGrid>> GridOfRows(std::span<const double> times_s, std::
     } else {
       continue;
     }
+    is_whole = false;
     break;
   }
 
@@ -281,7 +286,7 @@ Result<std::optional<RowGrid>> GridOfRows(std::span<const double> times_s, std::
     if (next == at || std::abs(frame - place_of(at)) <= slack) continue;
     constexpr double kMissing = 1.5;  // a row is missing if neighbouring rows are at least this many frames apart
     const double step = place_of(next) - place_of(at);
-    made = {rows[at], rows[next], (frame - place_of(at)) / step, step >= kMissing};
+    made = {rows[at], rows[next], (frame - place_of(at)) / step, step >= kMissing && !is_whole};
   }
   grid.is_even = grid.frames.size() == times_s.size();
   for (std::size_t k = 0; grid.is_even && k < grid.frames.size(); ++k) {
@@ -358,7 +363,7 @@ Result<MarkerMotion> LayOnClock(MarkerRows rows, const std::string& file) {
   AddRemark(markers.remark, scale.remark);
   ASSIGN_OR_RETURN(const auto grid, GridOfRows(rows.times_s, rows.lines, told, markers.names.size(), file));
   if (told) AddRemark(markers.remark, DescribeOtherRate(rows, *told, grid));
-  if (rows.has_clock) AddRemark(markers.remark, DescribeOtherNumbers(rows));
+  if (rows.has_clock && !MeanStepOfBursts(rows.times_s)) AddRemark(markers.remark, DescribeOtherNumbers(rows));
   if (!grid) return std::move(markers);
   markers.rate_hz = grid->rate_hz;
   if (!rows.has_clock && rows.first_number > 1) {

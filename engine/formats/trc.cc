@@ -151,22 +151,22 @@ Result<std::vector<std::optional<glm::dvec3>>> ReadFrame(std::string_view line, 
 
 }  // namespace
 
+MarkerMotion JointMarkers(const BodyMotion& motion, double start_s) {
+  MarkerMotion markers{.rate_hz = motion.rate_hz, .names = {}, .frames = {}, .start_s = start_s};
+  for (const Role role : AllRoles()) markers.names.emplace_back(RoleName(role));
+  for (const BodyPose& pose : motion.poses) markers.frames.emplace_back(pose.joints.begin(), pose.joints.end());
+  return markers;
+}
+
 std::string WriteTrc(const BodyMotion& motion, std::string name) {
-  std::vector<std::string> markers;
-  for (const Role role : AllRoles()) markers.emplace_back(RoleName(role));
-  std::string text = Head(motion.rate_hz, motion.poses.size(), markers, std::move(name));
-  for (std::size_t k = 0; k < motion.poses.size(); ++k) {
-    fmt::format_to(std::back_inserter(text), "{}\t{:.6f}", k + 1, static_cast<double>(k) / motion.rate_hz);
-    for (const glm::dvec3& joint : motion.poses[k].joints) AddPlace(joint, text);
-    text += '\n';
-  }
-  return text;
+  return WriteTrc(JointMarkers(motion, 0), std::move(name));
 }
 
 std::string WriteTrc(const MarkerMotion& motion, std::string name) {
   std::string text = Head(motion.rate_hz, motion.frames.size(), motion.names, std::move(name));
   for (std::size_t k = 0; k < motion.frames.size(); ++k) {
-    fmt::format_to(std::back_inserter(text), "{}\t{:.6f}", k + 1, static_cast<double>(k) / motion.rate_hz);
+    const double time_s = motion.start_s.value_or(0) + static_cast<double>(k) / motion.rate_hz;
+    fmt::format_to(std::back_inserter(text), "{}\t{:.6f}", k + 1, time_s);
     for (const auto& place : motion.frames[k]) AddPlace(place, text);
     text += '\n';
   }

@@ -29,7 +29,11 @@ struct MarkerMotion {
   std::optional<double> start_s = {};          ///< the first frame's time by the file's own clock, if it states one
 };
 
-/// Writes markers as a TRC file. The cells of a marker that was not seen are empty, as OpenSim expects.
+/// Returns a body's joints as markers, one per role; `start_s` is the first frame's time.
+MarkerMotion JointMarkers(const BodyMotion& motion, double start_s);
+
+/// Writes markers as a TRC file whose times begin at `start_s`. The cells of a marker that was not seen are empty, as
+/// OpenSim expects.
 std::string WriteTrc(const MarkerMotion& motion, std::string name);
 
 struct MarkerRows;

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "engine/recognition/pose_vector.h"
+
 namespace etude {
 namespace {
 
@@ -69,11 +71,15 @@ Judgement JudgeWindow(const EvidenceTrace& trace, const FrameInterval& window, d
 MoveSpotter::MoveSpotter(std::size_t moves, const DecisionOptions& options, double rate_hz)
     : threshold_(options.threshold),
       refractory_frames_(static_cast<int>(std::lround(options.refractory_s * rate_hz))),
+      step_frames_(static_cast<int>(std::ceil(rate_hz / kStepsPerSecond))),
       states_(moves) {}
 
-std::span<const std::size_t> MoveSpotter::Update(std::span<const double> spotted) {
+std::span<const std::size_t> MoveSpotter::Update(std::span<const double> spotted, bool body_seen) {
   fired_.clear();
-  for (std::size_t move = 0; move < states_.size(); ++move) {
+  // Recognisers that compare steps renew their evidence when the first step with a body ends.
+  if (!body_seen) renewed_at_ = frame_ + step_frames_;
+  const bool is_renewed = body_seen && frame_ >= renewed_at_;
+  for (std::size_t move = 0; move < states_.size() && is_renewed; ++move) {
     State& state = states_[move];
     const bool is_above = spotted[move] >= threshold_;
     if (is_above && !state.is_above && frame_ >= state.silent_until) {

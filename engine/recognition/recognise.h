@@ -67,13 +67,15 @@ Judgement JudgeWindow(const EvidenceTrace& trace, const FrameInterval& window, d
 
 /// Turns evidence into detections frame by frame, separately for each move. A move is detected when its evidence
 /// reaches the threshold. It can be detected again after the evidence fell below the threshold and the refractory time
-/// has passed.
+/// has passed. The time without a body changes nothing: evidence that only the loss of the body lowered is not taken as
+/// fallen.
 class MoveSpotter {
  public:
   MoveSpotter(std::size_t moves, const DecisionOptions& options, double rate_hz);
 
-  /// Returns the moves detected in this frame, in index order. The span is valid until the next call.
-  std::span<const std::size_t> Update(std::span<const double> spotted);
+  /// Returns the moves detected in this frame, in index order. The span is valid until the next call. `body_seen` is
+  /// false for a frame without a body.
+  std::span<const std::size_t> Update(std::span<const double> spotted, bool body_seen = true);
 
  private:
   struct State {
@@ -81,8 +83,8 @@ class MoveSpotter {
     int silent_until = 0;
   };
   double threshold_;
-  int refractory_frames_;
-  int frame_ = 0;
+  int refractory_frames_, step_frames_;
+  int frame_ = 0, renewed_at_ = 0;
   std::vector<State> states_;
   std::vector<std::size_t> fired_;
 };

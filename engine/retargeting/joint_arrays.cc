@@ -237,7 +237,9 @@ std::string DescribeFewFrames(const MarkerMotion& motion) {
       motion.frames.size(), 100 * least);
 }
 
-std::string WriteBodyNpz(const BodyMotion& motion, const BodyPose& rest) {
+std::string WriteBodyNpz(const BodyMotion& motion, const BodyPose& rest) { return WriteBodyNpz(motion, rest, 0); }
+
+std::string WriteBodyNpz(const BodyMotion& motion, const BodyPose& rest, double start_s) {
   const Clip clip = RigClip(motion, rest, "");
   const std::size_t frames = motion.poses.size();
   NumberArray positions = ArrayOf({frames, kRoleCount, 3}), translations = positions,
@@ -261,13 +263,16 @@ std::string WriteBodyNpz(const BodyMotion& motion, const BodyPose& rest) {
       for (const double part : {turn.w, turn.x, turn.y, turn.z}) rotations.values.push_back(part);
     }
   }
-  return WriteNpz({{"positions", std::move(positions)},
-                   {"translations", std::move(translations)},
-                   {"rotations", std::move(rotations)},
-                   {"offsets", std::move(offsets)},
-                   {"parents", std::move(parents)},
-                   {"rate_hz", ArrayOf({}, {motion.rate_hz})}},
-                  {{"names", std::move(names)}, {"unit", {"m"}}, {"up", {"y"}}});
+  std::map<std::string, NumberArray> arrays = {
+      {"positions", std::move(positions)}, {"translations", std::move(translations)},
+      {"rotations", std::move(rotations)}, {"offsets", std::move(offsets)},
+      {"parents", std::move(parents)},     {"rate_hz", ArrayOf({}, {motion.rate_hz})}};
+  // A motion that does not begin at 0 s needs times.
+  for (std::size_t k = 0; k < frames && start_s != 0; ++k) {
+    NumberArray& times = arrays.try_emplace("times", ArrayOf({frames})).first->second;
+    times.values.push_back(start_s + static_cast<double>(k) / motion.rate_hz);
+  }
+  return WriteNpz(arrays, {{"names", std::move(names)}, {"unit", {"m"}}, {"up", {"y"}}});
 }
 
 bool IsBodyNpz(const Npz& arrays) {

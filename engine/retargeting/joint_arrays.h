@@ -46,6 +46,8 @@ Result<std::optional<NumberArray>> JointsOfSam(const Npz& arrays, const std::str
 /// `offsets` (at rest, 20 × 3) and `parents` (−1 for the root); also `rate_hz`, `unit` and `up`. All rotations are the
 /// identity in `rest`.
 std::string WriteBodyNpz(const BodyMotion& motion, const BodyPose& rest);
+/// Writes times from `start_s` on.
+std::string WriteBodyNpz(const BodyMotion& motion, const BodyPose& rest, double start_s);
 
 /// Returns true if the arrays hold positions of joints, as WriteBodyNpz writes them.
 bool IsBodyNpz(const Npz& arrays);

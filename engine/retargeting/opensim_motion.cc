@@ -406,6 +406,10 @@ Result<BodyMotion> ReadOpenSimMotion(std::string_view bytes, const std::string& 
 }
 
 std::string WriteOpenSimMotion(const BodyMotion& motion, const BodyPose& rest, std::string name) {
+  return WriteOpenSimMotion(motion, rest, std::move(name), 0);
+}
+
+std::string WriteOpenSimMotion(const BodyMotion& motion, const BodyPose& rest, std::string name, double start_s) {
   const std::vector<WrittenPart> parts = WrittenParts();
   const Clip rig = RigClip(motion, rest, name);
   std::string text = HeaderOf(motion, parts, rest, std::move(name));
@@ -415,7 +419,7 @@ std::string WriteOpenSimMotion(const BodyMotion& motion, const BodyPose& rest, s
   for (std::size_t f = 0; f < motion.poses.size(); ++f) {
     const BodyPose& pose = motion.poses[f];
     const auto turns = PartTurns(pose, rest, rig, rig.frames[f]);
-    fmt::format_to(out, "{:.6f}", static_cast<double>(f) / motion.rate_hz);
+    fmt::format_to(out, "{:.6f}", start_s + static_cast<double>(f) / motion.rate_hz);
     for (const WrittenPart& part : parts) {
       const auto parent = ParentOf(part.end);
       const glm::dmat3 above = parent ? turns[Index(*parent)] : glm::dmat3(1);

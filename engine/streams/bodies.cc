@@ -21,10 +21,43 @@ std::string NameOf(const std::string& id) { return id.empty() ? "without an id" 
 void Bodies::Add(std::string_view id, std::size_t frame, const RolePositions& places,
                  const std::array<TrackingState, kRoleCount>& states) {
   if (!pending_.empty() && pending_.front().frames.front().frame != frame) Assign();
-  pending_.push_back({std::string(id), {{frame, places, states}}});
+  const auto earlier = ids_.find(id);
+  pending_.push_back({earlier == ids_.end() ? std::string(id) : earlier->second, {{frame, places, states}}});
+}
+
+void Bodies::FollowExchange() {
+  constexpr double kMinGap = 0.25, kMuchNearer = 0.3;  // in trunk lengths; a share of the distance
+  const auto before = [&](const Body& body) -> const Seen* {
+    const auto known = std::ranges::find(bodies_, body.id, &Body::id);
+    const bool is_last = known != bodies_.end() && known->frames.back().frame + 1 == body.frames.front().frame;
+    return is_last && !body.id.empty() ? &known->frames.back() : nullptr;
+  };
+  for (std::size_t a = 0; a < pending_.size(); ++a) {
+    for (std::size_t b = a + 1; b < pending_.size(); ++b) {
+      const Seen *was_a = before(pending_[a]), *was_b = before(pending_[b]);
+      if (pending_[a].id == pending_[b].id || was_a == nullptr || was_b == nullptr) continue;
+      const Seen &is_a = pending_[a].frames.front(), &is_b = pending_[b].frames.front();
+      const auto kept_a = GapInTrunks(*was_a, is_a), kept_b = GapInTrunks(*was_b, is_b);
+      const auto other_a = GapInTrunks(*was_b, is_a), other_b = GapInTrunks(*was_a, is_b);
+      if (!kept_a || !kept_b || !other_a || !other_b || std::min(*kept_a, *kept_b) < kMinGap) continue;
+      if (*other_a > kMuchNearer * *kept_a || *other_b > kMuchNearer * *kept_b) continue;
+      // Exchange the names back, in this frame and in all later ones.
+      exchanged_.push_back({pending_[a].id, is_a.frame});
+      for (const std::size_t i : {a, b}) ids_.try_emplace(pending_[i].id, pending_[i].id);
+      for (auto& [given, earlier] : ids_) {
+        if (earlier == pending_[a].id) {
+          earlier = pending_[b].id;
+        } else if (earlier == pending_[b].id) {
+          earlier = pending_[a].id;
+        }
+      }
+      std::swap(pending_[a].id, pending_[b].id);
+    }
+  }
 }
 
 void Bodies::Assign() {
+  FollowExchange();
   while (!pending_.empty()) {
     // Take the bodies that have the first one's identifier.
     const std::string id = pending_.front().id;
@@ -135,6 +168,12 @@ Result<void> Bodies::Choose(const StreamReading& reading, const std::string& fil
     recording.remarks.push_back(fmt::format(
         "several bodies of one frame have {} (first in frame {}); each continues the body that was nearest before",
         ambiguous_->id.empty() ? "no id" : "the id " + ambiguous_->id, ambiguous_->frame));
+  }
+  if (!exchanged_.empty()) {
+    const std::size_t more = exchanged_.size() - 1;
+    recording.remarks.push_back(fmt::format(
+        "two bodies exchange their ids in frame {} (one is {}){}; each is read on as the same person",
+        exchanged_.front().frame, exchanged_.front().id, more > 0 ? fmt::format(", and {} times more", more) : ""));
   }
   JoinContinued(recording);
   // Choose the requested body, or the most frequent one.

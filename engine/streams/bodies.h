@@ -2,6 +2,8 @@
 
 #include <array>
 #include <cstddef>
+#include <functional>
+#include <map>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -41,6 +43,10 @@ class Bodies {
     std::size_t frame;
   };
 
+  /// Finds two bodies of the last frame (`pending_`) that have exchanged their identifiers: each is much nearer to
+  /// where the other was in the frame before. From this frame on, each keeps its earlier identifier (`ids_`).
+  void FollowExchange();
+
   /// Appends the bodies of the last frame (`pending_`) to `bodies_`.
   void Assign();
   /// Appends bodies of one frame that have the same identifier, the nearest pair of bodies first.
@@ -57,6 +63,8 @@ class Bodies {
 
   std::vector<Body> bodies_;
   std::vector<Body> pending_;           // the bodies of the last frame, each with this one frame
+  std::map<std::string, std::string, std::less<>> ids_;  // the earlier identifiers of exchanged bodies
+  std::vector<Ambiguous> exchanged_;    // the frames in which identifiers are exchanged; one identifier of each pair
   std::optional<Ambiguous> ambiguous_;  // the first identifier that several bodies of one frame have
 };
 

@@ -7,6 +7,7 @@
 #include "engine/base/names.h"
 #include "engine/base/order_statistics.h"
 #include "engine/formats/number_rows.h"
+#include "engine/formats/row_rates.h"
 #include "engine/formats/usual_rates.h"
 #include "engine/streams/format_readers.h"
 
@@ -81,12 +82,13 @@ struct ClockUnit {
 constexpr ClockUnit kClockUnits[] = {
     {1e-3, "milliseconds"}, {1e-6, "microseconds"}, {1e-7, "ticks of 100 ns"}, {1e-9, "nanoseconds"}};
 
-/// Returns the length in seconds of the first column's unit, by the median step between rows. A step below 1 counts
-/// seconds. Integers with a step below 16 are frame numbers at 30 Hz, because no skeleton sensor is faster than 60 Hz.
-/// Larger steps have the largest unit of `kClockUnits` that gives a rate of a Kinect, or else the largest that gives at
-/// least 1 Hz. A remark states frame numbers, ticks and nanoseconds. Returns nullopt if the clock stands still or its
-/// steps are too large.
-std::optional<double> SecondsPerCount(const NumberRows& table, std::vector<std::string>& remarks) {
+/// Returns the length in seconds of the first column's unit, by the median step between rows (in bursts, by
+/// the mean step `mean_step`). A step below 1 counts seconds. Integers with a step below 16 are frame numbers at 30 Hz,
+/// because no skeleton sensor is faster than 60 Hz. Larger steps have the largest unit of `kClockUnits` that gives a
+/// rate of a Kinect, or else the largest that gives at least 1 Hz. A remark states frame numbers, ticks and
+/// nanoseconds. Returns nullopt if the clock stands still or its steps are too large.
+std::optional<double> SecondsPerCount(const NumberRows& table, const std::optional<double>& mean_step,
+                                      std::vector<std::string>& remarks) {
   constexpr double kMinStepMs = 16;
   std::vector<double> steps;
   for (std::size_t t = 1; t < table.RowCount(); ++t) {
@@ -94,7 +96,7 @@ std::optional<double> SecondsPerCount(const NumberRows& table, std::vector<std::
     if (step > 0) steps.push_back(step);
   }
   if (steps.empty()) return table.RowCount() == 1 ? std::optional(1 / kJudgedRateHz) : std::nullopt;
-  const double step = UpperMedian(std::move(steps));
+  const double step = mean_step.value_or(UpperMedian(std::move(steps)));
   if (step < 1) return 1.0;
   if (step < (CountsWhole(table) ? kMinStepMs : 5)) {
     const std::string rows = step >= 2 ? fmt::format(", with one row for every {:g} frames", step) : "";
@@ -115,6 +117,16 @@ std::optional<double> SecondsPerCount(const NumberRows& table, std::vector<std::
                     unit->name, rate_in(*unit), unit[-1].name, rate_in(unit[-1])));
   }
   return unit->seconds;
+}
+
+/// Returns the mean step of a clock whose rows come in bursts (MeanStepOfBursts), in its unit; nullopt for other clocks
+/// and for numbers of frames.
+std::optional<double> StepOfBursts(const NumberRows& table) {
+  constexpr double kMinStep = 16;  // see kMinStepMs
+  std::vector<double> counts;
+  for (std::size_t t = 0; t < table.RowCount(); ++t) counts.push_back(table.Row(t)[0]);
+  const auto step = MeanStepOfBursts(counts);
+  return step && (*step < 1 || *step >= kMinStep) ? step : std::nullopt;
 }
 
 // Converts a row to a frame. The frame lacks joints that have no position or are not tracked.
@@ -174,8 +186,16 @@ Result<StreamRecording> ReadKinectRows(std::string_view text, const std::string&
   recording.records_states = FourthsAreStates(table, *layout);
   recording.records_times = layout->first == 1 && !reading.rate_hz;
   recording.rate_hz = reading.rate_hz.value_or(kJudgedRateHz);
-  const auto unit =
-      recording.records_times ? SecondsPerCount(table, recording.remarks) : std::optional(1 / recording.rate_hz);
+  const auto bursts = recording.records_times ? StepOfBursts(table) : std::nullopt;
+  auto unit = recording.records_times ? SecondsPerCount(table, bursts, recording.remarks)
+                                      : std::optional(1 / recording.rate_hz);
+  if (unit && bursts) {
+    recording.rate_hz = 1 / (*bursts * *unit);
+    recording.records_times = false;
+    unit = 1 / recording.rate_hz;
+    recording.remarks.push_back(
+        fmt::format("its times come in bursts; the rows are taken as evenly spaced, at {:.3g} Hz", recording.rate_hz));
+  }
   if (!unit) return Fail({file, table.lines.front(), 1}, "the first column is neither a clock nor a count of frames");
   recording.seconds_per_count = *unit;
   // Convert every row.

@@ -55,8 +55,9 @@ Result<void> LiveStream::Take(std::string_view line, std::vector<SensedFrame>& s
     auto frame = Read(line);
     if (!frame) {
       frame.error().place.line = line_;
-      return tl::unexpected(std::move(frame).error());
+      return LeaveOut(std::move(frame).error());
     }
+    damaged_ = 0;
     frame->line = line_;
     return Add(*std::move(frame), stream);
   }
@@ -108,16 +109,54 @@ Result<void> LiveStream::Start(bool at_end, std::vector<SensedFrame>& stream) {
   std::vector<RecordedFrame> frames = std::move(recording.frames);
   recording.frames.clear();
   meaning_ = std::move(recording);
-  for (const RecordedFrame& frame : frames) RETURN_IF_ERROR(Add(frame, stream));
+  for (RecordedFrame& frame : frames) {
+    LeaveNoPlacesOut(frame, elsewhere_);
+    RETURN_IF_ERROR(Add(std::move(frame), stream));
+  }
   first_lines_.clear();
   return {};
 }
 
 std::vector<std::string> LiveStream::TakeRemarks() { return std::exchange(remarks_, {}); }
 
+// Leaves a damaged row out, unless so many follow each other that the stream has changed.
+Result<void> LiveStream::LeaveOut(Error error) {
+  constexpr int kMaxDamaged = 30;  // one second of a Kinect
+  ++frames_;
+  if (++damaged_ > kMaxDamaged) return tl::unexpected(std::move(error));
+  if (!std::exchange(has_damage_, true)) {
+    remarks_.push_back(
+        fmt::format("line {}: {}; the row is left out, and later damaged rows too", line_, error.message));
+  }
+  return {};
+}
+
+// Returns the time of a frame on a clock that goes on: a counter of 32 bits begins again at 0, and a clock that was set
+// jumps ahead.
+double LiveStream::SteadyTime(double time_s) {
+  constexpr double kMaxStep_s = 1, kMaxJump_s = 600, kLoss_s = 1;
+  time_s += shift_s_;
+  if (frames_ == 0 || !meaning_->records_times) return time_s;
+  const double wrap_s = 4294967296.0 * meaning_->seconds_per_count, wrapped_s = time_s + wrap_s - last_s_;
+  if (wrapped_s > 0 && wrapped_s <= kMaxStep_s) {
+    shift_s_ += wrap_s;
+    return time_s + wrap_s;
+  }
+  if (!(time_s - last_s_ > kMaxJump_s)) return time_s;
+  if (!std::exchange(has_leapt_, true)) {
+    remarks_.push_back(
+        fmt::format("the clock jumps from {:.6g} s to {:.6g} s in line {}; the time between counts as {:g} s without a "
+                    "body, and so does every later jump of over {:g} s",
+                    last_s_, time_s, line_, kLoss_s, kMaxJump_s));
+  }
+  shift_s_ -= time_s - last_s_ - kLoss_s;
+  return last_s_ + kLoss_s;
+}
+
 /// Adds a frame unless the previous frame has the same time, or a time that is a little later.
-Result<void> LiveStream::Add(const RecordedFrame& frame, std::vector<SensedFrame>& stream) {
+Result<void> LiveStream::Add(RecordedFrame frame, std::vector<SensedFrame>& stream) {
   constexpr double kMaxBack_s = 1;
+  frame.time_s = SteadyTime(frame.time_s);
   const double back_s = frames_ > 0 ? last_s_ - frame.time_s : -1;
   ++frames_;
   if (back_s > kMaxBack_s) {
@@ -151,6 +190,7 @@ Result<RecordedFrame> LiveStream::Read(std::string_view line) {
   }
   ASSIGN_OR_RETURN(const JointCsvRow row, ReadJointCsvRow(line, *columns_, name_));
   RecordedFrame frame{.places = row.places};
+  LeaveNoPlacesOut(frame, elsewhere_);
   const TimeScale scale{.first = meaning_->first_count, .seconds = meaning_->seconds_per_count};
   frame.time_s =
       meaning_->records_times ? scale.SecondsOf(row.time_s) : static_cast<double>(frames_) / meaning_->rate_hz;

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -22,9 +23,10 @@ class LiveStream {
   LiveStream(std::string name, const StreamReading& reading, const StreamOptions& options);
 
   /// Takes the next line, without its line end, and appends the frames that it completes. A row whose time is up to a
-  /// second earlier than that of the row before is left out. Fails, with the line, for the
-  /// errors of ReadStreamRecording and StreamMaker, for formats that do not consist of rows, and after ten minutes
-  /// without a body.
+  /// second earlier than that of the row before is left out, and so is a damaged row after the start. A counter of 32
+  /// bits may begin again at 0. After the start, a clock that jumps ahead by more than ten minutes goes on a second
+  /// after the row before. Fails, with the line, for the errors of ReadStreamRecording, for more than 30 damaged rows
+  /// that follow each other, for formats that do not consist of rows, and after ten minutes without a body.
   Result<void> Take(std::string_view line, std::vector<SensedFrame>& stream);
   /// Ends the stream: appends the frames of a stream that is shorter than a second.
   Result<void> Finish(std::vector<SensedFrame>& stream);
@@ -33,12 +35,15 @@ class LiveStream {
   const std::optional<StreamRecording>& Meaning() const { return meaning_; }
   /// Returns the remarks for users since the last call: with the first frames, those of the reader of the format, and
   /// one if the frames were rotated upright or if trunks are far from upright; later one about the first row whose time
-  /// is earlier than that of the row before, and one about the first jump of the body (BodyJumps).
+  /// is earlier than that of the row before, one each about the first damaged row and the first jump of the clock, and
+  /// one about the first jump of the body (BodyJumps).
   std::vector<std::string> TakeRemarks();
 
  private:
   Result<void> Start(bool at_end, std::vector<SensedFrame>& stream);
-  Result<void> Add(const RecordedFrame& frame, std::vector<SensedFrame>& stream);
+  Result<void> LeaveOut(Error error);
+  double SteadyTime(double time_s);
+  Result<void> Add(RecordedFrame frame, std::vector<SensedFrame>& stream);
   Result<RecordedFrame> Read(std::string_view line);
 
   std::string name_;
@@ -49,7 +54,10 @@ class LiveStream {
   int rows_ = 0;
   std::size_t frames_ = 0;
   double last_s_ = 0;
-  bool has_gone_back_ = false;
+  bool has_gone_back_ = false, has_leapt_ = false, has_damage_ = false;
+  double shift_s_ = 0;                        // from the device's clock to the stream's times
+  int damaged_ = 0;                           // number of damaged rows since the last good row
+  std::array<bool, kRoleCount> elsewhere_{};  // joints that were not only at the origin (LeaveNoPlacesOut)
   BodyJumps jumps_;
   bool has_jumped_ = false;
   std::vector<std::string> remarks_;        // not yet taken

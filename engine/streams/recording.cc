@@ -14,6 +14,7 @@
 #include "engine/formats/joint_csv.h"
 #include "engine/formats/number_rows.h"
 #include "engine/formats/row_clock.h"
+#include "engine/formats/row_rates.h"
 #include "engine/formats/trc.h"
 #include "engine/formats/usual_rates.h"
 #include "engine/streams/body_jumps.h"
@@ -83,6 +84,13 @@ double MiddleDistance(const StreamRecording& recording, Role a, Role b) {
   }
   if (lengths.empty()) return 0;
   return UpperMedian(std::move(lengths));
+}
+
+/// Removes the positions of all frames that stand for missing joints.
+void LeaveNoPlacesOut(std::vector<RecordedFrame>& frames) {
+  std::array<bool, kRoleCount> elsewhere{};
+  for (RecordedFrame& frame : std::vector(frames)) LeaveNoPlacesOut(frame, elsewhere);
+  for (RecordedFrame& frame : frames) LeaveNoPlacesOut(frame, elsewhere);
 }
 
 /// Returns the time of each row on the grid, seconds from the first row; empty if a row is on no frame.
@@ -211,6 +219,15 @@ std::string RateDoubt(const StreamRecording& recording) {
       *rate);
 }
 
+void LeaveNoPlacesOut(RecordedFrame& frame, std::array<bool, kRoleCount>& elsewhere) {
+  const auto is_elsewhere = [](const auto& place) { return place && !IsNoPlace(*place); };
+  const bool shows_body = std::ranges::any_of(frame.places, is_elsewhere);
+  for (std::size_t i = 0; i < kRoleCount; ++i) {
+    if (is_elsewhere(frame.places[i])) elsewhere[i] = true;
+    if (!is_elsewhere(frame.places[i]) && (elsewhere[i] || !shows_body)) frame.places[i].reset();
+  }
+}
+
 Result<void> ToMetres(StreamRecording& recording, const std::string& file) {
   constexpr double kMinTrunk_m = 0.15, kMaxTrunk_m = 0.95;  // trunk lengths of a toddler and of a tall adult
   const double trunk = MiddleDistance(recording, kHipCentre, kShoulderCentre);
@@ -275,6 +292,12 @@ Result<StreamRecording> ReadEtudeCsv(std::string_view text, const std::string& f
   recording.first_count = csv.scale.first;
   if (!csv.remark.empty()) recording.remarks.push_back(csv.remark);
   recording.rate_hz = reading.rate_hz.value_or(csv.rate_hz.value_or(kJudgedRateHz));
+  if (const auto step_s = MeanStepOfBursts(csv.times_s); step_s && recording.records_times) {
+    recording.records_times = false;
+    recording.rate_hz = 1 / *step_s;
+    recording.remarks.push_back(
+        fmt::format("its times come in bursts; the rows are taken as evenly spaced, at {:.3g} Hz", recording.rate_hz));
+  }
   const std::vector<double> counted = TimesOfNumbers(csv.numbers, recording.rate_hz);
   for (std::size_t t = 0; t < csv.frames.size(); ++t) {
     RecordedFrame& frame = recording.frames.emplace_back();
@@ -285,6 +308,7 @@ Result<StreamRecording> ReadEtudeCsv(std::string_view text, const std::string& f
     frame.places = csv.frames[t];
     if (std::isnan(frame.time_s)) return Fail({file, frame.line}, "this row has no time, but other rows have one");
   }
+  LeaveNoPlacesOut(recording.frames);
   return recording;
 }
 
@@ -307,13 +331,14 @@ Result<StreamRecording> ReadTrcStream(std::string_view text, const std::string& 
   for (std::size_t t = 0; t < markers.frames.size(); ++t) {
     RecordedFrame& frame = recording.frames.emplace_back();
     frame.time_s = !grid            ? static_cast<double>(t) / recording.rate_hz
-                   : evenly.empty() ? rows.times_s[t] - rows.times_s.front()
-                                    : evenly[t];
+                   : evenly.empty() ? rows.times_s[t]
+                                    : rows.times_s.front() + evenly[t];
     frame.line = rows.lines[t];
     for (std::size_t marker = 0; marker < markers.names.size(); ++marker) {
       if (const auto role = FindRole(markers.names[marker])) frame.places[Index(*role)] = markers.frames[t][marker];
     }
   }
+  LeaveNoPlacesOut(recording.frames);
   return recording;
 }
 

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <iterator>
 #include <map>
 #include <regex>
 #include <set>
@@ -44,6 +45,49 @@ Result<void> RefuseTwice(const std::vector<LabelledPart>& parts, const std::stri
     }
   }
   return {};
+}
+
+/// Returns the first frame that shows a body, in which a performance can begin; 0 if none does.
+int FirstSeen(const SkeletonStream& stream) {
+  const auto first = std::ranges::find_if(stream.frames, &SensedFrame::body_seen);
+  return first == stream.frames.end() ? 0 : static_cast<int>(first - stream.frames.begin());
+}
+
+std::string InLowerCase(std::string text) {
+  for (char& c : text) c = c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
+  return text;
+}
+
+/// Describes what the labels' authors may not have meant: two right performances of different moves of which more than
+/// half of the longer one is the same time, and names of moves that differ in case only.
+std::vector<std::string> DoubtMoves(const std::vector<Label>& labels, const std::string& file) {
+  std::vector<std::string> doubts;
+  std::map<std::string, std::string> names;  // each name of a move, by its lower-case form
+  const auto is_whole = [](const Label& label) { return label.IsRight() && label.from_s && label.to_s; };
+  for (auto a = labels.begin(); a != labels.end(); ++a) {
+    const std::string& known = names.try_emplace(InLowerCase(a->move), a->move).first->second;
+    if (known != a->move && doubts.empty()) {
+      doubts.push_back(ToString(
+          Error{{file, a->line},
+                fmt::format("doubtful: the moves {} and {} differ in case only; they are two moves", known, a->move)}));
+    }
+  }
+  for (auto a = labels.begin(); a != labels.end(); ++a) {
+    const auto is_same = [&](const Label& b) {
+      if (!is_whole(*a) || !is_whole(b) || a->clip != b.clip || a->move == b.move) return false;
+      const double common = std::min(*a->to_s, *b.to_s) - std::max(*a->from_s, *b.from_s);
+      return 2 * common > std::max(*a->to_s - *a->from_s, *b.to_s - *b.from_s);
+    };
+    const auto b = std::find_if(labels.begin(), a, is_same);
+    if (b == a) continue;
+    doubts.push_back(
+        ToString(Error{{file, a->line},
+                       fmt::format("doubtful: line {} labels the same time of {} as {}, this line as {}; both are "
+                                   "used as right",
+                                   b->line, a->clip, b->move, a->move)}));
+    break;
+  }
+  return doubts;
 }
 
 /// Warns of a recording whose own clock begins late if all its labels may be times of that clock; otherwise returns "".
@@ -99,7 +143,7 @@ Result<std::vector<LabelledPart>> MatchLabels(const std::vector<Label>& labels, 
       part.is_action_point = label.IsActionPoint();
       part.line = label.line;
       const FrameInterval frames = FramesBetween(from, part.is_action_point ? from : to, stream.stream);
-      part.begin = std::min(frames.begin, count - 1);
+      part.begin = std::min(label.from_s ? frames.begin : FirstSeen(stream.stream), count - 1);
       part.end = std::max(part.begin + 1, frames.end);
     }
   }
@@ -149,6 +193,7 @@ std::vector<std::string> DescribeLabels(const std::vector<Label>& labels, const 
   for (const NamedStream& stream : streams) {
     if (std::string doubt = DoubtClock(labels, file, stream); !doubt.empty()) lines.push_back(std::move(doubt));
   }
+  std::ranges::move(DoubtMoves(labels, file), std::back_inserter(lines));
   if (!faults.empty()) {
     std::vector<std::string> truths{fmt::format("right {}", right)};
     const std::vector<std::string> known{"right"};
@@ -172,6 +217,7 @@ std::vector<LabelledPart> WholeStreams(const std::vector<NamedStream>& streams) 
     part.stream = s;
     part.move = is_ntu ? match[1].str() : stream.name;
     part.person = stream.person;
+    part.begin = FirstSeen(stream.stream);
     part.end = static_cast<int>(stream.stream.frames.size());
   }
   return parts;

@@ -13,7 +13,7 @@ StreamWatcher::StreamWatcher(const Recogniser& recogniser, std::size_t moves, co
 std::vector<Spotting> StreamWatcher::Take(const SensedFrame& frame) {
   const Evidence evidence = follower_->Update(sight_.Update(frame));
   std::vector<Spotting> spottings;
-  for (const std::size_t move : spotter_.Update(evidence.spotted)) {
+  for (const std::size_t move : spotter_.Update(evidence.spotted, frame.body_seen)) {
     spottings.push_back({move, frame_, evidence.spotted[move]});
   }
   ++frame_;

@@ -69,6 +69,19 @@ Result<Clip> Edited(const Clip& clip, const ConvertOptions& options) {
   return edited;
 }
 
+/// Returns the time at which the converted part begins, by the file's own clock; a file without a clock begins at 0 s.
+double StartOf(const SourceClip& source, const ConvertOptions& options) {
+  const double rate_hz = source.clip.rate_hz, trimmed_s = options.trim ? options.trim->from_s : 0;
+  return (source.made ? source.made->start_s.value_or(0) : 0) + std::round(trimmed_s * rate_hz) / rate_hz;
+}
+
+/// Describes when a motion begins, for a format without a clock; "" for other formats and for motions that begin at 0.
+std::string DescribeStart(double start_s, MotionFormat format) {
+  using enum MotionFormat;
+  if (start_s == 0 || (format != kBvh && format != kGlb && format != kBids)) return "";
+  return fmt::format("time 0 of the output is {:.6g} s of the input", start_s);
+}
+
 /// Adds the user's edits to the list of changes. `from_hz` is the clip's own rate; or it is the wanted rate if
 /// UnderstandClip has resampled the clip and described this.
 void AddEdits(double from_hz, const ConvertOptions& options, std::vector<std::string>& changes) {
@@ -102,6 +115,9 @@ Result<Converted> ConvertOwnSkeletons(std::vector<SourceClip> sources, MotionFor
   std::vector<Clip> clips;
   // Edit each clip. GLB requires metres and Y up, so clips that are not from a glTF file are converted.
   for (const SourceClip& source : sources) {
+    if (std::string said = DescribeStart(StartOf(source, options), format); !said.empty()) {
+      converted.changes.push_back(std::move(said));
+    }
     auto edited = Edited(source.clip, options);
     if (!edited) return Fail({source.source, 0, 0}, "{}", edited.error().message);
     if (format == MotionFormat::kGlb && source.format != ClipFormat::kGltf && source.format != ClipFormat::kGlb) {
@@ -155,6 +171,7 @@ Result<Converted> ConvertBodies(std::vector<SourceClip> sources, MotionFormat fo
   BodyPose rest = StandingPose();
   // Trim each clip, and turn it into a body motion; mirror and retarget it if the options require this.
   for (SourceClip& source : sources) {
+    const double source_hz = source.clip.rate_hz, from_s = StartOf(source, options);
     auto part = TrimTo(source.clip, options.trim);
     if (!part) return Fail({source.source, 0, 0}, "{}", part.error().message);
     source.clip = std::move(*part);
@@ -169,14 +186,16 @@ Result<Converted> ConvertBodies(std::vector<SourceClip> sources, MotionFormat fo
     if (is_canonical) motion = Retarget(motion, StandingPose());
     const std::string& name = opened.source.name;
     // Write the formats that hold one motion of joints.
-    if (format == MotionFormat::kTrc) converted.bytes = WriteTrc(motion, name);
+    const double start_s = from_s + static_cast<double>(opened.body.dropped_frames) / source_hz;
+    if (format == MotionFormat::kTrc) converted.bytes = WriteTrc(JointMarkers(motion, start_s), name);
     if (format == MotionFormat::kBids) converted.files = WriteMotionBids(motion, name, options.version);
-    if (format == MotionFormat::kCsv) converted.bytes = WriteJointCsv(motion);
-    if (format == MotionFormat::kC3d) converted.bytes = WriteC3d(motion);
+    if (format == MotionFormat::kCsv) converted.bytes = WriteJointCsv(motion, start_s);
+    if (format == MotionFormat::kC3d) converted.bytes = WriteC3d(JointMarkers(motion, start_s));
     // The rest pose of a body with its own proportions is the canonical stance, scaled to this body's limb lengths.
     if (!is_canonical && clips.empty()) rest = Retarget({.poses = {rest}}, motion.poses.front()).poses.front();
-    if (format == MotionFormat::kNpz) converted.bytes = WriteBodyNpz(motion, rest);
-    if (format == MotionFormat::kMot) converted.bytes = WriteOpenSimMotion(motion, rest, name);
+    if (format == MotionFormat::kNpz) converted.bytes = WriteBodyNpz(motion, rest, start_s);
+    if (format == MotionFormat::kMot) converted.bytes = WriteOpenSimMotion(motion, rest, name, start_s);
+    if (std::string said = DescribeStart(start_s, format); !said.empty()) converted.changes.push_back(std::move(said));
     clips.push_back(RigClip(motion, rest, opened.source.clip.name));
   }
   AddEdits(open.body.rate_hz, options, converted.changes);

@@ -45,14 +45,17 @@ MarkerOptions ToldOfMarkers(const OpenOptions& options, UpRule rule) {
 }
 
 Result<ClipFile> FileOfMarkers(ClipFormat format, MarkerMotion markers, const std::string& path,
-                               const MarkerOptions& options) {
-  ASSIGN_OR_RETURN(auto bodies, FindMarkerBodies(std::move(markers), path, options));
+                               const OpenOptions& options, UpRule rule) {
+  const MarkerOptions told = ToldOfMarkers(options, std::move(rule));
+  const std::optional<double> file_start_s = markers.start_s;
+  ASSIGN_OR_RETURN(auto bodies, FindMarkerBodies(std::move(markers), path, told));
   ClipFile file{.format = format, .figure = {.name = "", .skeleton = {}, .materials = {}, .meshes = {}}, .clips = {}};
   for (MarkerBody& body : bodies) {
     file.clips.push_back(RigClip(body.motion, StandingPose(), body.name));
-    file.bodies.push_back(
-        {body.changes, body.up, body.floor, body.is_floor_known, body.first_frame, {}, std::move(body.others),
-         std::move(body.markers)});
+    const double cut_s = static_cast<double>(body.first_frame) / body.motion.rate_hz;
+    const auto start_s = file_start_s ? std::optional(*file_start_s + cut_s) : std::nullopt;
+    file.bodies.push_back({body.changes, body.up, body.floor, body.is_floor_known, body.first_frame, start_s,
+                           std::move(body.others), std::move(body.markers)});
     if (options.keeps_shown) file.shown.push_back(std::move(body.shown));
   }
   file.figure.skeleton = file.clips.front().skeleton;

@@ -4,11 +4,13 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <filesystem>
 
 #include "engine/base/names.h"
 #include "engine/recognition/recognise.h"
 #include "engine/retargeting/exchanged_sides.h"
+#include "io/clips/open_clip.h"
 #include "io/clips/references.h"
 #include "io/files/files.h"
 
@@ -52,6 +54,10 @@ std::string Describe(const StreamRecording& recording, const MadeStream& made) {
   return text;
 }
 
+std::string Describe(const BodyMotion& motion, const std::vector<std::string>& changes) {
+  return fmt::format("clip, {:.1f} s{}{}", motion.DurationSeconds(), changes.empty() ? "" : ", ", Join(changes, "; "));
+}
+
 /// Lists all files below a folder, sorted; links to folders are not followed.
 Result<std::vector<std::string>> FilesBelow(const std::string& folder) {
   std::vector<std::string> files;
@@ -92,6 +98,38 @@ Result<void> AddFolder(const std::string& folder, const StreamReading& reading, 
   return {};
 }
 
+/// Returns a clip's stream. It begins at the file's first frame: `cut` frames before the motion show no body. `clock_s`
+/// is the time of the motion's first frame by the file's own clock.
+NamedStream StreamOfFile(const OpenedClip& opened, double clock_s, std::size_t cut) {
+  BodyMotion motion = opened.body.motion;
+  const double cut_s = static_cast<double>(cut) / opened.source.clip.rate_hz;
+  const auto lead = static_cast<std::size_t>(std::lround(cut_s * motion.rate_hz));
+  SkeletonStream stream = StreamOf(motion);
+  stream.frames.insert(stream.frames.begin(), lead, SensedFrame{.joints = {}, .body_seen = false});
+  motion.poses.insert(motion.poses.begin(), lead, BodyPose(motion.poses.front()));
+  return {.name = opened.source.name,
+          .source = opened.source.source,
+          .person = "",
+          .stream = std::move(stream),
+          .start_s = clock_s - cut_s,
+          .description = Describe(motion, opened.body.changes),
+          .motion = std::move(motion)};
+}
+
+/// Reads the streams of all clips of a motion file.
+Result<std::vector<NamedStream>> StreamsOfFile(const std::string& reference, const OpenOptions& options) {
+  std::vector<NamedStream> streams;
+  ASSIGN_OR_RETURN(auto clips, ReadClips(reference, options));
+  for (SourceClip& clip : clips) {
+    const std::optional<MadeBody> made = clip.made;
+    ASSIGN_OR_RETURN(const auto opened, UnderstandClip(std::move(clip), options));
+    const std::size_t cut = opened.body.dropped_frames + (made ? made->first_frame : 0);
+    const double begin_s = static_cast<double>(cut) / opened.source.clip.rate_hz;
+    streams.push_back(StreamOfFile(opened, made && made->start_s ? *made->start_s : begin_s, cut));
+  }
+  return streams;
+}
+
 }  // namespace
 
 std::vector<NamedStream> StreamsOf(const ClipLibrary& library) {
@@ -102,8 +140,7 @@ std::vector<NamedStream> StreamsOf(const ClipLibrary& library) {
                        .person = "",
                        .stream = StreamOf(clip.motion),
                        .start_s = 0,
-                       .description = fmt::format("clip, {:.1f} s{}{}", clip.motion.DurationSeconds(),
-                                                  clip.changes.empty() ? "" : ", ", Join(clip.changes, "; ")),
+                       .description = Describe(clip.motion, clip.changes),
                        .motion = clip.motion});
   }
   return streams;
@@ -111,14 +148,15 @@ std::vector<NamedStream> StreamsOf(const ClipLibrary& library) {
 
 Result<std::vector<NamedStream>> LoadStream(const std::string& reference, const StreamReading& reading,
                                             const StreamOptions& options, const OpenOptions& clips) {
-  if (IsClip(reference)) {
+  if (reference.starts_with("builtin:")) {
     ASSIGN_OR_RETURN(const ClipLibrary library, LoadClips({reference}, {}, clips));
     return StreamsOf(library);
   }
+  if (IsClip(reference)) return StreamsOfFile(reference, clips);
   ASSIGN_OR_RETURN(const std::string text, ReadWholeFile(reference));
   // A file in no sensor's format may be a clip.
   if (!reading.format && !DetectStreamFormat(text)) {
-    if (const auto library = LoadClips({reference}, {}, clips)) return StreamsOf(*library);
+    if (auto streams = StreamsOfFile(reference, clips)) return streams;
   }
   ASSIGN_OR_RETURN(const StreamRecording recording, ReadStreamRecording(text, reference, reading));
   ASSIGN_OR_RETURN(MadeStream made, MakeStream(recording, reference, options));

@@ -1,5 +1,7 @@
 #include "tools/sensor_fit/fit.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 
@@ -131,6 +133,68 @@ std::optional<RealRecording> MakeRealRecording(JointRecording recording, TwinMot
   auto match = AlignTwin(recording, twin);
   if (!match) return std::nullopt;
   return RealRecording{std::move(recording), std::move(twin), *std::move(match)};
+}
+
+namespace {
+
+/// Returns the mean over frames of the joints' RMS distance from their middle. `place` gives the position of a joint in
+/// a frame, if there is one.
+template <typename PlaceOf>
+double SizeOf(std::size_t frames, const PlaceOf& place) {
+  double sum = 0, count = 0;
+  for (std::size_t t = 0; t < frames; ++t) {
+    glm::dvec3 middle(0);
+    double squares = 0, joints = 0;
+    for (std::size_t j = 0; j < kRoleCount; ++j) {
+      const std::optional<glm::dvec3> at = place(t, j);
+      if (!at) continue;
+      middle += *at;
+      squares += glm::dot(*at, *at);
+      ++joints;
+    }
+    if (joints < 3) continue;
+    middle /= joints;
+    sum += std::sqrt(std::max(0.0, squares / joints - glm::dot(middle, middle)));
+    ++count;
+  }
+  return count > 0 ? sum / count : 0;
+}
+
+}  // namespace
+
+std::string DescribeMismatch(const RealRecording& real) {
+  constexpr double kMaxRatio = 2, kMax_m = 0.3, kMinMirror_m = 0.05, kMirror = 0.5;
+  using Places = std::optional<glm::dvec3>;
+  const auto& [recording, twin, match] = real;
+  // Compare the sizes by the joints that both show.
+  std::array<bool, kRoleCount> is_common{};
+  for (std::size_t j = 0; j < kRoleCount; ++j) is_common[j] = match.alignment.offsets[j].has_value();
+  const double own = SizeOf(recording.frames.size(), [&](std::size_t t, std::size_t j) {
+    return is_common[j] ? recording.frames[t][j] : Places();
+  });
+  const double other = SizeOf(twin.frames.size(), [&](std::size_t t, std::size_t j) {
+    const auto& carrier = twin.frames[t][j];
+    return is_common[j] && carrier ? Places(carrier->position) : Places();
+  });
+  if (!(other <= kMaxRatio * own && own <= kMaxRatio * other)) {
+    return fmt::format("its body is {:.3g} times as large as the recording's; is its unit right?", other / own);
+  }
+  const double rms_m = match.alignment.rms_m;
+  if (rms_m > kMinMirror_m) {
+    JointRecording mirrored = recording;
+    for (RolePositions& frame : mirrored.frames) {
+      for (auto& place : frame) {
+        if (place) place->x = -place->x;
+      }
+    }
+    const auto image = AlignTwin(mirrored, twin);
+    if (image && image->alignment.rms_m < kMirror * rms_m) {
+      return fmt::format("{:.1f} mm RMS remain, but {:.1f} mm if it is mirrored; one of the two is a mirror image",
+                         1000 * rms_m, 1000 * image->alignment.rms_m);
+    }
+  }
+  if (rms_m <= kMax_m) return "";
+  return fmt::format("{:.1f} mm RMS remain; allowed: at most {:g} mm, as of one motion", 1000 * rms_m, 1000 * kMax_m);
 }
 
 SensorStatistics StatisticsOf(const RealRecording& real) { return StatisticsOf(real.recording, &real.match); }

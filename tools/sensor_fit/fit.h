@@ -2,6 +2,7 @@
 
 #include <functional>
 #include <optional>
+#include <string>
 
 #include "sim/random/stream.h"
 #include "sim/skeleton_sensor/options.h"
@@ -20,6 +21,10 @@ struct RealRecording {
 
 /// Aligns a recording with its twin. Returns nullopt if AlignTwin fails.
 std::optional<RealRecording> MakeRealRecording(JointRecording recording, TwinMotion twin);
+
+/// Describes why a recording and its twin cannot show the same motion: one body is more than twice as large as the
+/// other, the mirrored recording fits much better, or more than 0.3 m RMS remain. Returns "" if they can.
+std::string DescribeMismatch(const RealRecording& real);
 
 SensorStatistics StatisticsOf(const RealRecording& real);
 

@@ -244,6 +244,34 @@ TEST(RowClock, UnevenTimesAreInterpolatedAndTold) {
   EXPECT_LT(FarthestFromCurve(*laid, times.front()), 0.005) << "as even rows they are 12 mm off";
 }
 
+TEST(RowClock, RowsInBurstsAreEvenlySpaced) {
+  for (const int burst : {2, 3, 6}) {
+    std::vector<double> times;
+    for (int k = 0; k < 300; ++k) times.push_back(k / burst * burst / 30.0 + 0.001 * (k % burst));
+    for (const double told : {0.0, 30.0}) {
+      auto rows = RowsAt(times, told);
+      for (int k = 0; k < 300; ++k) rows.markers.frames[static_cast<std::size_t>(k)] = {CurveAt(k / 30.0)};
+      ASSERT_OK(laid, LayOnClock(std::move(rows), "a"));
+      EXPECT_NEAR(laid->rate_hz, 30, 1e-9);
+      EXPECT_EQ(laid->frames.size(), 300u);
+      EXPECT_LT(FarthestFromCurve(*laid), 1e-9);
+      EXPECT_THAT(laid->remark, HasSubstr("its times come in bursts"));
+    }
+  }
+}
+
+TEST(RowClock, JitterMakesNoRowMissing) {
+  for (const auto& [rate, jitter_s] : {std::pair(30.0, 0.012), {100.0, 0.004}}) {
+    std::vector<double> times;
+    for (int k = 0; k < 300; ++k) times.push_back(k / rate + jitter_s * std::sin(1.0 + 37.7 * k * k));
+    times.front() = 0;
+    ASSERT_OK(laid, LayOnClock(RowsAt(times), "a"));
+    EXPECT_EQ(laid->rate_hz, rate);
+    EXPECT_NEAR(static_cast<double>(laid->frames.size()), 300, 1);
+    for (const auto& frame : laid->frames) EXPECT_TRUE(frame[0]);
+  }
+}
+
 TEST(RowClock, TheRateThatAHeaderTellsYieldsToTheTimes) {
   ASSERT_OK(other, LayOnClock(RowsAt(TimesAt(29.97, 300), 30), "a"));
   EXPECT_NEAR(other->rate_hz, 29.97, 1e-9);

@@ -199,6 +199,27 @@ TEST(MoveSpotter, SpotsAMoveWhenItsEvidenceRisesAndNotAgainForAWhile) {
   EXPECT_THAT(fired, ElementsAre(1, 7)) << "what rose while it had to be silent does not count";
 }
 
+TEST(MoveSpotter, ALostBodySpotsNoMoveAgain) {
+  // At 30 Hz a step of a recogniser has two frames, so its evidence is 0 until the second frame with a body.
+  MoveSpotter spotter(1, {.threshold = 0.5, .refractory_s = 0.1}, 30);
+  std::vector<double> evidence(60, 0.9);
+  std::vector<bool> seen(60, true);
+  for (std::size_t t = 20; t < 26; ++t) seen[t] = false;
+  for (std::size_t t = 21; t < 27; ++t) evidence[t] = 0;
+  for (std::size_t t = 40; t < 50; ++t)
+    evidence[t] = 0.1;  // falls while the body is seen: a new performance may follow
+  const auto fired = [&](bool is_told) {
+    MoveSpotter one = spotter;
+    std::vector<int> at;
+    for (std::size_t t = 0; t < 60; ++t) {
+      if (!one.Update(std::span(&evidence[t], 1), is_told ? seen[t] : true).empty()) at.push_back(static_cast<int>(t));
+    }
+    return at;
+  };
+  EXPECT_THAT(fired(true), ElementsAre(0, 50));
+  EXPECT_THAT(fired(false), ElementsAre(0, 27, 50)) << "the control: the loss counts as fallen evidence";
+}
+
 TEST(MakeRecogniser, RefusesMovesItCannotBeTaughtAndSaysWhatIsAllowed) {
   const auto complaint = [&](const std::vector<TaughtMove>& taught) {
     return testing::Message(MakeRecogniser({}, taught));

@@ -77,6 +77,27 @@ TEST_P(UntrainedRecogniser, SpotsEachMoveAtItsEndAndNothingInRest) {
   EXPECT_TRUE(found[1].frame > 200 && found[1].frame < 270) << found[1].frame;
 }
 
+TEST_P(UntrainedRecogniser, SpotsNoMoveAgainBecauseTheBodyIsLost) {
+  const SkeletonStream stream = Then({Rest(2), Swing(kHigh, 0, 2), Rest(3)});
+  const auto recogniser = *MakeRecogniser({.kind = GetParam()}, Taught());
+  const auto spotted = [&](std::size_t lost_at, std::size_t lost) {
+    SkeletonStream part = stream;
+    for (std::size_t t = lost_at; t < lost_at + lost; ++t) part.frames[t] = {};
+    LiveSight sight({}, 30);
+    const auto follower = recogniser->Follow(30);
+    MoveSpotter spotter(2, {.threshold = GetParam()->threshold, .refractory_s = 0.1}, 30);
+    std::size_t count = 0;
+    for (const SensedFrame& frame : part.frames) {
+      count += spotter.Update(follower->Update(sight.Update(frame)).spotted, frame.body_seen).size();
+    }
+    return count;
+  };
+  const std::size_t whole = spotted(0, 0);
+  for (const std::size_t at : {130, 135, 150}) {
+    for (const std::size_t lost : {2, 3, 15}) EXPECT_LE(spotted(at, lost), whole) << at << ' ' << lost;
+  }
+}
+
 TEST_P(AnyRecogniser, NeverTakesBackWhatItSaidOfThePerformanceAskedFor) {
   const SkeletonStream stream = Then({Rest(1), Swing(kHigh, 0, 2), Swing(0, kHigh, 2), Rest(1)});
   const EvidenceTrace trace = Trace(stream);

@@ -207,6 +207,30 @@ TEST(Streams, BodiesWithoutIdsAreToldApartByNearness) {
               Contains("the file has 2 bodies; body 0 is read, which moves most; 2 bodies are in equally many frames"));
 }
 
+TEST(Streams, TwoBodiesThatExchangeTheirIdsAreReadOnAsTheSamePeople) {
+  const BodyMotion one = Aside([](int t) { return 0.002 * t; }), other = Aside([](int) { return 0.45; });
+  const auto with_id = [](const BodyMotion& motion, int id) {
+    std::vector<std::string> bodies;
+    const std::string text = AzureText(motion), begin = "{\"body_id\":1,";
+    for (std::size_t at = 0; (at = text.find(begin, at)) != std::string::npos; at += begin.size()) {
+      bodies.push_back(fmt::format("{{\"body_id\":{},", id) +
+                       text.substr(at + begin.size(), text.find("}]", at) + 1 - at - begin.size()));
+    }
+    return bodies;
+  };
+  const auto a1 = with_id(one, 1), a2 = with_id(one, 2), b1 = with_id(other, 1), b2 = with_id(other, 2);
+  ASSERT_EQ(a1.size(), 60u);
+  std::string frames;
+  for (std::size_t t = 0; t < 60; ++t) {
+    const bool is_exchanged = t >= 20 && t < 45;
+    frames += fmt::format("{}{{\"timestamp_usec\":{},\"bodies\":[{},{}]}}", t == 0 ? "" : ",", 33333 * t,
+                          is_exchanged ? a2[t] : a1[t], is_exchanged ? b1[t] : b2[t]);
+  }
+  ASSERT_OK(read, ReadStreamRecording("{\"frames\":[" + frames + "]}", "s", {.body = 0}));
+  EXPECT_THAT(read->remarks, Contains(StartsWith("two bodies exchange their ids in frame 20")));
+  for (std::size_t t = 0; t < 60; ++t) EXPECT_NEAR(read->frames[t].places[0]->x, one.poses[t].joints[0].x, 1e-5) << t;
+}
+
 TEST(Streams, OneIdOfTwoBodiesInAFrameIsTwoPeople) {
   const std::string text = NtuText(WavingMotion(4)), other = NtuText(Aside([](int) { return 1.2; }, 4));
   const auto bodies_of = [](const std::string& ntu) {

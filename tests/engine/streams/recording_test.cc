@@ -144,6 +144,51 @@ TEST(Streams, APlaceOfThreeTimesMinusOneIsNoPlace) {
   }
 }
 
+TEST(Streams, AJointThatIsSometimesAtTheOriginIsNotReportedThere) {
+  BodyMotion motion = WavingMotion();
+  for (std::size_t t = 20; t < 40; ++t) motion.poses[t][Role::kLeftHand] = glm::dvec3(0);
+  for (std::size_t t = 50; t < 55; ++t) motion.poses[t].joints.fill(glm::dvec3(0));
+  for (const std::string& text : {WriteJointCsv(motion), WriteTrc(motion, "m")}) {
+    ASSERT_OK(read, ReadStreamRecording(text, "s"));
+    ASSERT_EQ(read->frames.size(), 60u);
+    for (std::size_t t = 0; t < 60; ++t) {
+      const bool is_lost = t >= 50 && t < 55;
+      EXPECT_EQ(read->frames[t].places[Index(Role::kHead)].has_value(), !is_lost) << t;
+      EXPECT_EQ(read->frames[t].places[Index(Role::kLeftHand)].has_value(), !is_lost && (t < 20 || t >= 40)) << t;
+    }
+  }
+  // The root of a pose that is relative to it is always at the origin.
+  for (BodyPose& pose : motion.poses = WavingMotion().poses) {
+    const glm::dvec3 root = pose[Role::kHipCentre];
+    for (glm::dvec3& joint : pose.joints) joint -= root;
+  }
+  ASSERT_OK(relative, ReadStreamRecording(WriteJointCsv(motion), "s"));
+  for (const RecordedFrame& frame : relative->frames) EXPECT_TRUE(frame.places[Index(Role::kHipCentre)]);
+}
+
+TEST(Streams, TheClockOfARecordingIsKept) {
+  const BodyMotion motion = WavingMotion();
+  for (const std::string& text : {WriteJointCsv(motion, 5), WriteTrc(JointMarkers(motion, 5), "m")}) {
+    const MadeStream made = Made(text);
+    EXPECT_NEAR(made.start_s, 5, 1e-6);
+    EXPECT_EQ(made.stream.frames.size(), 60u);
+  }
+}
+
+TEST(Streams, RowsInBurstsAreEvenlySpaced) {
+  // Packets of six rows, 1 ms apart, 30 Hz on average.
+  const BodyMotion motion = WavingMotion(90);
+  const std::string rows = KinectV1Text(motion);
+  std::string timed;
+  for (std::size_t at = 0, row = 0; at < rows.size(); ++row) {
+    const std::size_t end = rows.find('\n', at);
+    timed += fmt::format("{} {}\n", row / 6 * 200 + row % 6, rows.substr(at, end - at));
+    at = end + 1;
+  }
+  EXPECT_EQ(Made(timed).stream.frames.size(), 90u);
+  EXPECT_LT(FurthestFrom(motion, Made(timed).stream), 1e-3);
+}
+
 TEST(Streams, RowsOfCoarseTimesKeepTheirPlaceBesideAHole) {
   const BodyMotion motion = WavingMotion(600, 120);
   std::string trc, line;

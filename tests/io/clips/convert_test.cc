@@ -76,6 +76,26 @@ TEST_F(ConvertTest, OfMarkersToASkeletonSaysWhatTheirReaderChanged) {
   }
 }
 
+TEST_F(ConvertTest, FormatsWithAClockKeepWhenAMotionBegins) {
+  BodyMotion raised{.rate_hz = 30, .poses = std::vector<BodyPose>(90, StandingPose())};
+  MarkerMotion markers = JointMarkers(raised, 5);
+  for (std::size_t t = 0; t < 30; ++t) markers.frames[t][Index(Role::kLeftKnee)].reset();  // the body begins at 6 s
+  const std::string trc = Write("late.trc", WriteTrc(markers, "late"));
+  ConvertOptions options{.trim = TimeSpan{0.5, 1.5}};  // and the trimmed part at 6.5 s
+  for (const auto& [format, name] : {std::pair(MotionFormat::kTrc, "a.trc"),
+                                     {MotionFormat::kCsv, "a.csv"},
+                                     {MotionFormat::kC3d, "a.c3d"},
+                                     {MotionFormat::kNpz, "a.npz"},
+                                     {MotionFormat::kMot, "a.mot"}}) {
+    const auto back = ReadClips(Write(name, Convert(trc, format, options)));
+    ASSERT_TRUE(back) << ToString(back.error());
+    ASSERT_TRUE(back->front().made->start_s) << name;
+    EXPECT_NEAR(*back->front().made->start_s, 6.5, 1e-6) << name;
+  }
+  ASSERT_OK(bvh, ConvertClips(*ReadClips(trc), MotionFormat::kBvh, options));
+  EXPECT_THAT(bvh->changes, ::testing::Contains("time 0 of the output is 6.5 s of the input"));
+}
+
 TEST_F(ConvertTest, BvhToGlbIsInMetresAndComesBackAsTheSamePlaces) {
   ASSERT_OK(opened, UnderstandClip(ReadClips(kReal)->front(), {}));
   const double metres = opened->body.metres_per_unit;

@@ -3,7 +3,10 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 #include "engine/formats/bvh.h"
+#include "engine/formats/c3d.h"
 #include "engine/formats/joint_csv.h"
 #include "engine/motion/edit.h"
 #include "engine/teaching/teach_moves.h"
@@ -11,6 +14,7 @@
 #include "io/files/files.h"
 #include "io/files/temporary_folder.h"
 #include "sim/choreography/move.h"
+#include "tests/engine/streams/small_files.h"
 #include "tests/support/results.h"
 
 namespace etude {
@@ -113,6 +117,36 @@ TEST(DescribeLabels, DoubtsLabelsThatMayBeTimesOfTheRecordingsClock) {
       std::vector<std::string>{"l: doubtful: the clock of a begins at 1.000 s, and no label begins earlier; from_s and "
                                "to_s count from the first frame: if yours count by that clock, subtract 1.000 s"});
   EXPECT_TRUE(lines("a,0.5,1,m,right\na,2.2,3,m,right\n").empty()) << "the first label begins before the clock does";
+}
+
+TEST(DescribeLabels, DoubtsTwoMovesAtOneTimeAndNamesThatDifferInCase) {
+  const auto lines = [&](const std::string& rows) {
+    return DescribeLabels(*ReadLabels("clip,from_s,to_s,move,truth\nb,0,1,m,right\n" + rows, "l"), "l", TwoStreams());
+  };
+  using Lines = std::vector<std::string>;
+  EXPECT_EQ(lines("a,1,2,m,right\na,1.2,2,n,right\n"),
+            Lines{"l:4: doubtful: line 3 labels the same time of a as m, this line as n; both are used as right"});
+  EXPECT_EQ(lines("a,1,2,M,right\n"),
+            Lines{"l:3: doubtful: the moves m and M differ in case only; they are two moves"});
+  EXPECT_EQ(lines("a,0,2,m,right\na,1.2,1.8,n,right\n"), Lines{}) << "a short move may be a part of a long one";
+  EXPECT_EQ(lines("a,1,2,m,right\na,2,3,n,right\n"), Lines{});
+}
+
+TEST(LoadStreams, TimesOfAClipCountFromItsFilesFirstFrame) {
+  ASSERT_OK(folder, TemporaryFolder::Make("hidden"));
+  BodyMotion motion{.rate_hz = 30, .poses = {}};
+  for (int t = 0; t < 120; ++t) motion.poses.push_back(testing::StandingPose(0.3 * std::sin(0.1 * t)));
+  MarkerMotion markers = JointMarkers(motion, 5);
+  for (std::size_t t = 0; t < 45; ++t) markers.frames[t][Index(Role::kLeftKnee)].reset();
+  const std::string path = (std::filesystem::path(folder->path()) / "late.c3d").string();
+  ASSERT_TRUE(WriteFileAtomically(path, WriteC3d(markers)));
+  ASSERT_OK(loaded, LoadStream(path, {}, {}));
+  const NamedStream& stream = loaded->front();
+  EXPECT_NEAR(stream.start_s, 5, 1e-6);
+  ASSERT_EQ(stream.stream.frames.size(), 120u);
+  EXPECT_EQ(stream.motion->poses.size(), 120u);
+  for (std::size_t t = 0; t < 120; ++t) EXPECT_EQ(stream.stream.frames[t].body_seen, t >= 45) << t;
+  EXPECT_EQ(WholeStreams(*loaded).front().begin, 45);
 }
 
 TEST(PerformancesOf, AnActionPointIsTheTimeAroundIt) {

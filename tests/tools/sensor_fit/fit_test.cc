@@ -49,6 +49,26 @@ TEST(FitSensor, GivesASensorWhoseRecordingsHaveTheRealOnesStatistics) {
   EXPECT_LE(before.within, after.within - 5);  // the control: without the fit fewer values are within the bands
 }
 
+TEST(DescribeMismatch, OfAnotherUnitAMirrorImageOrAnotherMotionIsToldAndOfATrueReferenceNot) {
+  ASSERT_OK(real, RecordedBySensor(SensorV2(), DancingTwin(9)));
+  EXPECT_EQ(DescribeMismatch(*real), "");
+  RealRecording changed = *real;
+  for (RolePositions& frame : changed.recording.frames) {
+    for (auto& place : frame) {
+      if (place) place->x = -place->x;
+    }
+  }
+  ASSERT_OK(mirrored, MakeRealRecording(changed.recording, real->twin));
+  EXPECT_NE(DescribeMismatch(*mirrored).find("one of the two is a mirror image"), std::string::npos);
+  for (auto& frame : changed.twin.frames) {
+    for (auto& carrier : frame) {
+      if (carrier) carrier->position *= 1000.0;
+    }
+  }
+  ASSERT_OK(large, MakeRealRecording(real->recording, changed.twin));
+  EXPECT_NE(DescribeMismatch(*large).find("times as large as the recording's; is its unit right?"), std::string::npos);
+}
+
 TEST(FitSensor, IsTheSameEveryTime) {
   ASSERT_OK(real, RecordedBySensor(Unknown(), DancingTwin(9)));
   const SensorFitOptions options{.start = SensorV2(), .worlds = 3, .steps = 2, .progress = {}};
