@@ -45,10 +45,9 @@ MarkerOptions ToldOfMarkers(const OpenOptions& options, UpRule rule) {
 }
 
 Result<ClipFile> FileOfMarkers(ClipFormat format, MarkerMotion markers, const std::string& path,
-                               const OpenOptions& options, UpRule rule) {
-  const MarkerOptions told = ToldOfMarkers(options, std::move(rule));
+                               const MarkerOptions& options) {
   const std::optional<double> file_start_s = markers.start_s;
-  ASSIGN_OR_RETURN(auto bodies, FindMarkerBodies(std::move(markers), path, told));
+  ASSIGN_OR_RETURN(auto bodies, FindMarkerBodies(std::move(markers), path, options));
   ClipFile file{.format = format, .figure = {.name = "", .skeleton = {}, .materials = {}, .meshes = {}}, .clips = {}};
   for (MarkerBody& body : bodies) {
     file.clips.push_back(RigClip(body.motion, StandingPose(), body.name));

@@ -45,7 +45,8 @@ std::string SomeOf(const std::vector<std::string>& names) {
 
 std::vector<std::string> FindAlsoHeld(const RawMotion& truth, const RawMotion& answer,
                                       std::span<const CommonJoint> judged) {
-  std::vector<std::string> held, lacking;
+  std::vector<std::string> held;
+  std::vector<CommonJoint> lacking;
   for (const CommonJoint& same : FindCommon(truth, answer, "same", lacking)) {
     if (std::ranges::find(judged, same.truth, &CommonJoint::truth) == judged.end()) held.push_back(same.name);
   }
