@@ -12,7 +12,7 @@ bool HaveSameRate(const RawMotion& truth, const RawMotion& answer) {
   return std::abs(answer.rate_hz / truth.rate_hz - 1) * static_cast<double>(truth.FrameCount()) < kMaxDrift;
 }
 
-ClockOffset OffsetOf(const RawMotion& truth, const RawMotion& answer) {
+StatedOffset OffsetOf(const RawMotion& truth, const RawMotion& answer) {
   constexpr const char* kByClocks = ": judged by these clocks (--lag find searches the lag)";
   constexpr double kSame = 0.1;  // tolerance, frames
   const double truth_s = truth.start_s.value_or(0), answer_s = answer.start_s.value_or(0);

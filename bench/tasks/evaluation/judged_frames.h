@@ -12,7 +12,7 @@ namespace etude {
 bool HaveSameRate(const RawMotion& truth, const RawMotion& answer);
 
 /// The time from the truth's first frame to the answer's, by the clocks that their files state.
-struct ClockOffset {
+struct StatedOffset {
   double seconds = 0;
   std::string note;
 };
@@ -20,7 +20,7 @@ struct ClockOffset {
 /// Compares the clocks that both files state. If a file states none, or if the clocks never show the same time, the
 /// first frames count as simultaneous. If the rates are equal and the offset is within a tenth of a frame of a whole
 /// number of frames, it is rounded to this number.
-ClockOffset OffsetOf(const RawMotion& truth, const RawMotion& answer);
+StatedOffset OffsetOf(const RawMotion& truth, const RawMotion& answer);
 
 /// The frames at which an answer is judged, in frames of the answer (whole numbers, which may lie outside of it) and in
 /// frames of the truth.

@@ -296,7 +296,7 @@ Result<MatchedMotions> Match(const RawMotion& given_truth, const RawMotion& give
   }
   const std::size_t frames = truth.FrameCount();
   const double truth_rate_hz = HaveSameRate(truth, answer) ? answer.rate_hz : truth.rate_hz;
-  const ClockOffset clock = OffsetOf(truth, answer);
+  const StatedOffset clock = OffsetOf(truth, answer);
   if (lag == Lag::kFind) {
     // Move the answer to the truth's clock. Frames before the answer's beginning are added, so that the answer's end is
     // kept.
