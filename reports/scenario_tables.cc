@@ -24,7 +24,7 @@ constexpr std::string_view kHead =
 using Group = std::vector<TableRow>;
 
 std::string_view Stars(const Comparison& c) {
-  if (!c.p_holm || *c.p_holm > 0.05) return "";
+  if (!c.not_alike.empty() || !c.p_holm || *c.p_holm > 0.05) return "";
   return *c.p_holm <= 0.001 ? "$^{***}$" : *c.p_holm <= 0.01 ? "$^{**}$" : "$^{*}$";
 }
 

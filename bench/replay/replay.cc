@@ -122,6 +122,7 @@ CellCheck CompareRows(const Row& then, const Row& now) {
   }
   differ("status", StatusText(was), StatusText(is));
   differ("reason", then.result.reason, now.result.reason);
+  differ("judged", EncodeJudged(then.result.judged).dump(), EncodeJudged(now.result.judged).dump());
   for (const Row* row : {&then, &now}) {
     for (const MetricValue& metric : row->result.metrics) {
       differ(metric.id, TextOf(then, metric.id), TextOf(now, metric.id));

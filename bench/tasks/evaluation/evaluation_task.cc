@@ -29,12 +29,12 @@ struct EvaluationStudy : FileStudy<EvaluationOptions, EvaluationMethod> {
 /// Returns a recording of both motions. It contains the judged joints only.
 Recording RecordingOf(const MatchedMotions& matched) {
   EvaluationExtras extras;
-  extras.truth.rate_hz = matched.pair.rate_hz;
+  extras.truth.rate_hz = matched.shown ? matched.shown_rate_hz : matched.pair.rate_hz;
   extras.truth.joints = matched.joints;
   extras.truth.parents = matched.parents;
   extras.answer = extras.truth;
-  extras.truth.positions = matched.pair.truth.positions;
-  extras.answer.positions = matched.pair.found.positions;
+  extras.truth.positions = matched.shown ? matched.shown->first.positions : matched.pair.truth.positions;
+  extras.answer.positions = matched.shown ? matched.shown->second.positions : matched.pair.found.positions;
   return {{}, WriteEvaluationExtras(extras)};
 }
 

@@ -332,6 +332,11 @@ Result<MatchedMotions> Match(const RawMotion& given_truth, const RawMotion& give
     matched.pair.true_root.clear();
     matched.pair.found_root.clear();
   }
+  if (judged.rate_hz != truth_rate_hz || judged.is_interpolated || !judged.own.empty()) {
+    matched.shown = {Columns(truth, of_truth, frames),
+                     Columns(Sampled(answer, truth_rate_hz, start_s, frames), of_answer, frames)};
+  }
+  matched.shown_rate_hz = truth_rate_hz;
   if (count > 0) matched.own_start_s = judged.of_truth.front() / truth_rate_hz;
   if (!judged.own.empty()) {
     matched.own_start_s = judged.own.front() / answer.rate_hz - start_s;

@@ -25,7 +25,7 @@ struct Placed {
 };
 
 /// Returns a person who stands and faces +Z: hips 0.18 m apart, thighs and shanks of 0.42 m; metres, Y up.
-BodyPose Standing() {
+BodyPose StandingSubject() {
   BodyPose pose;
   pose[kHipCentre] = {0, 0.9, 0};
   pose[kSpine] = {0, 1.15, 0};
@@ -56,7 +56,7 @@ MarkerMotion Take(const std::vector<Placed>& markers, const std::string& left = 
       std::string full = name;
       if (at != std::string::npos) full.replace(at, 1, is_left ? left : right);
       take.names.push_back(full);
-      const glm::dvec3 place = Standing()[is_left ? role : Mirrored(role)];
+      const glm::dvec3 place = StandingSubject()[is_left ? role : Mirrored(role)];
       for (auto& frame : take.frames) frame.emplace_back(place + glm::dvec3(is_left ? off.x : -off.x, off.y, off.z));
     }
   }
@@ -80,7 +80,7 @@ std::vector<Placed> HelenHayes() {
 std::pair<double, Role> Furthest(const MarkerBody& body) {
   std::pair<double, Role> furthest{0, kHead};
   for (const Role role : kNeededJoints) {
-    const glm::dvec3 wanted = Standing()[role] - glm::dvec3(0, body.floor, 0);
+    const glm::dvec3 wanted = StandingSubject()[role] - glm::dvec3(0, body.floor, 0);
     furthest = std::max(furthest, std::pair(glm::distance(body.motion.poses.front()[role], wanted), role));
   }
   return furthest;
@@ -94,7 +94,7 @@ TEST(HelenHayes, GivesTheHipsOfThePelvisWhateverItsNamesLookLike) {
     const auto [distance, role] = Furthest(bodies->front());
     EXPECT_LT(distance, 0.02) << left << RoleName(role);
     EXPECT_LT(glm::distance(bodies->front().motion.poses.front()[kLeftHip] + glm::dvec3(0, bodies->front().floor, 0),
-                            Standing()[kLeftHip]),
+                            StandingSubject()[kLeftHip]),
               1e-9);
     EXPECT_THAT(bodies->front().Note(), HasSubstr("skin markers (Helen Hayes); joint centres moved under the skin"));
     EXPECT_EQ(bodies->front().markers[Index(kLeftHip)].size(), 3u) << "two spines and the sacrum";
@@ -110,7 +110,7 @@ TEST(HelenHayes, JointsWithAnInnerMarkerAreMidwayAndStay) {
   ASSERT_OK(bodies, FindMarkerBodies(Take(markers), "a.trc"));
   const MarkerBody& body = bodies->front();
   for (const Role role : {kLeftKnee, kRightKnee, kLeftAnkle, kRightAnkle}) {
-    const glm::dvec3 wanted = Standing()[role] - glm::dvec3(0, body.floor, 0);
+    const glm::dvec3 wanted = StandingSubject()[role] - glm::dvec3(0, body.floor, 0);
     EXPECT_LT(glm::distance(body.motion.poses.front()[role], wanted), 1e-9) << RoleName(role);
   }
   EXPECT_THAT(body.Note(), Not(HasSubstr("knees")));
@@ -136,7 +136,7 @@ TEST(HelenHayes, WithoutAPelvisTakesTheFilesHipCentresOrIsRefused) {
   markers.push_back({"?KneeCentre", kLeftKnee});
   ASSERT_OK(told, FindMarkerBodies(Take(markers), "a.trc", {.roles = {{kLeftKnee, "L.KneeCentre"}}}));
   EXPECT_LT(glm::distance(told->front().motion.poses.front()[kLeftKnee],
-                          Standing()[kLeftKnee] - glm::dvec3(0, told->front().floor, 0)),
+                          StandingSubject()[kLeftKnee] - glm::dvec3(0, told->front().floor, 0)),
             1e-9);
 }
 
@@ -148,7 +148,7 @@ TEST(SkinMarkers, NamedLikeKeypointsAreNotKeypoints) {
   ASSERT_OK(skin, FindMarkerBodies(Take(markers, "L", "R"), "a.trc"));
   EXPECT_THAT(skin->front().Note(), HasSubstr("skin markers"));
   EXPECT_LT(glm::distance(skin->front().motion.poses.front()[kLeftHip],
-                          Standing()[kLeftHip] - glm::dvec3(0, skin->front().floor, 0)),
+                          StandingSubject()[kLeftHip] - glm::dvec3(0, skin->front().floor, 0)),
             0.02);
   // The control: with all names of BODY_25, the keypoints count.
   for (const char* name : {"MidHip", "Neck"}) markers.push_back({name, name[0] == 'N' ? kShoulderCentre : kHipCentre});
@@ -194,7 +194,7 @@ TEST(SkinMarkers, OfOpenSimAndOfOtherLabsAreRead) {
     const auto bodies = FindMarkerBodies(Take(markers, "L", "R"), "a.trc");
     ASSERT_TRUE(bodies) << ToString(bodies.error());
     for (const Role role : {kLeftElbow, kRightElbow, kLeftWrist, kRightKnee, kLeftKnee, kRightAnkle, kLeftAnkle}) {
-      const glm::dvec3 wanted = Standing()[role] - glm::dvec3(0, bodies->front().floor, 0);
+      const glm::dvec3 wanted = StandingSubject()[role] - glm::dvec3(0, bodies->front().floor, 0);
       EXPECT_LT(glm::distance(bodies->front().motion.poses.front()[role], wanted), 1e-9)
           << rows[1].name << RoleName(role);
     }

@@ -7,7 +7,7 @@
 namespace etude {
 namespace {
 
-BodyPose Standing() {
+BodyPose StandingPerson() {
   const Skeleton person = testing::PersonSkeleton();
   return testing::BodyAtRest(person, *FindJointMap(person, "person.bvh"));
 }
@@ -17,21 +17,21 @@ BodyPose Turned(BodyPose pose, double radians, const glm::dvec3& axis, const glm
   return pose;
 }
 
-BodyPose StandingAlongZ(const glm::dvec3& shift = {}) { return Turned(Standing(), kPi / 2, {1, 0, 0}, shift); }
+BodyPose StandingAlongZ(const glm::dvec3& shift = {}) { return Turned(StandingPerson(), kPi / 2, {1, 0, 0}, shift); }
 
-BodyPose Folded() { return Turned(Standing(), kPi / 2, {0, 0, 1}); }
+BodyPose Folded() { return Turned(StandingPerson(), kPi / 2, {0, 0, 1}); }
 
 UpAxis FindUpAxis(const BodyPose& rest, std::span<const BodyPose> poses) {
   return FindUp(rest, poses, 30).axis.z > 0 ? UpAxis::kZ : UpAxis::kY;
 }
 
 TEST(UpAxis, IsWhatTheRestPoseStandsAlongUnlessTheBodyMovesOtherwise) {
-  const std::vector<BodyPose> still_y = {Standing(), Standing()};
+  const std::vector<BodyPose> still_y = {StandingPerson(), StandingPerson()};
   const std::vector<BodyPose> still_z = {StandingAlongZ(), StandingAlongZ()};
-  EXPECT_EQ(FindUpAxis(Standing(), still_y), UpAxis::kY);
+  EXPECT_EQ(FindUpAxis(StandingPerson(), still_y), UpAxis::kY);
   EXPECT_EQ(FindUpAxis(StandingAlongZ(), still_z), UpAxis::kZ);
   EXPECT_EQ(FindUpAxis(StandingAlongZ(), still_y), UpAxis::kY);
-  EXPECT_EQ(FindUpAxis(Standing(), still_z), UpAxis::kY) << "lies";
+  EXPECT_EQ(FindUpAxis(StandingPerson(), still_z), UpAxis::kY) << "lies";
   EXPECT_EQ(FindUpAxis(Folded(), still_z), UpAxis::kZ);
   EXPECT_EQ(FindUpAxis(Folded(), still_y), UpAxis::kY);
   EXPECT_EQ(FindUpAxis(Folded(), {&still_y[0], 1}), UpAxis::kY);
@@ -39,23 +39,23 @@ TEST(UpAxis, IsWhatTheRestPoseStandsAlongUnlessTheBodyMovesOtherwise) {
 
 TEST(UpAxis, OfABodyThatTravelsStandingAlongZIsZ) {
   const std::vector<BodyPose> walk = {StandingAlongZ(), StandingAlongZ({0, -60, 0}), StandingAlongZ({0, -120, 0})};
-  EXPECT_EQ(FindUpAxis(Standing(), walk), UpAxis::kZ);
+  EXPECT_EQ(FindUpAxis(StandingPerson(), walk), UpAxis::kZ);
   // The control: a person lying along Z may creep along Z.
   const std::vector<BodyPose> creep = {StandingAlongZ(), StandingAlongZ({0, 0, 60}), StandingAlongZ({0, 0, 120})};
-  EXPECT_EQ(FindUpAxis(Standing(), creep), UpAxis::kY);
+  EXPECT_EQ(FindUpAxis(StandingPerson(), creep), UpAxis::kY);
 }
 
 TEST(UpAxis, OfSomersaultsIsTheRestPoses) {
   std::vector<BodyPose> over;
-  for (int i = 0; i < 24; ++i) over.push_back(Turned(Standing(), i * kPi / 12, {1, 0, 0}));
+  for (int i = 0; i < 24; ++i) over.push_back(Turned(StandingPerson(), i * kPi / 12, {1, 0, 0}));
   EXPECT_LT(glm::length(MeanBodyAxis(over)), 1e-12);
-  EXPECT_EQ(FindUpAxis(Standing(), over), UpAxis::kY);
+  EXPECT_EQ(FindUpAxis(StandingPerson(), over), UpAxis::kY);
   EXPECT_EQ(FindUpAxis(StandingAlongZ(), over), UpAxis::kZ);
   EXPECT_EQ(FindUpAxis(Folded(), over), UpAxis::kY) << "in doubt";
 }
 
 TEST(UpAxis, OfSeveralPosesIsTheirMean) {
-  const std::vector<BodyPose> both = {Standing(), StandingAlongZ()};
+  const std::vector<BodyPose> both = {StandingPerson(), StandingAlongZ()};
   const glm::dvec3 y = MeanBodyAxis({&both[0], 1}), z = MeanBodyAxis({&both[1], 1});
   EXPECT_LT(glm::length(MeanBodyAxis(both) - (y + z) / 2.0), 1e-12);
   EXPECT_NEAR(glm::length(y), 1, 1e-12) << "of one pose it is a direction";
@@ -64,11 +64,12 @@ TEST(UpAxis, OfSeveralPosesIsTheirMean) {
 TEST(UpAxis, OfAmassInACamerasFrameIsDoubted) {
   const auto doubt = [](const BodyPose& pose) { return FindUp(std::vector(3, pose), 30, AmassUp()).doubt; };
   EXPECT_EQ(doubt(StandingAlongZ()), "");
-  EXPECT_EQ(doubt(Standing()), "the body stands along Y, but Z is the convention of AMASS; --up sets another axis");
-  EXPECT_EQ(doubt(Turned(Standing(), kPi, {1, 0, 0})),
+  EXPECT_EQ(doubt(StandingPerson()),
+            "the body stands along Y, but Z is the convention of AMASS; --up sets another axis");
+  EXPECT_EQ(doubt(Turned(StandingPerson(), kPi, {1, 0, 0})),
             "the body stands along −Y, but Z is the convention of AMASS; allowed: Y or Z, so the file must be rotated "
             "first");
-  EXPECT_EQ(doubt(Turned(Standing(), kPi / 2, {0, 0, 1})), "") << "lies along X";
+  EXPECT_EQ(doubt(Turned(StandingPerson(), kPi / 2, {0, 0, 1})), "") << "lies along X";
 }
 
 TEST(Upright, KeepsHandednessAndTurnsMinusYToPlusZ) {
