@@ -19,7 +19,7 @@ namespace {
 
 using testing::HasSubstr;
 
-constexpr std::int64_t kSecond = 46'186'158'000;
+constexpr std::int64_t kTicksPerSecond = 46'186'158'000;
 constexpr int kStep = 2, kLinear = 4, kCubic = 8;
 
 /// The keys of one axis: times in seconds, angles in degrees, and the kind of its curve.
@@ -50,7 +50,7 @@ std::string File(const std::array<Axis, 3>& axes, const std::string& settings = 
   for (int k = 0; k < 3; ++k) {
     const Axis& axis = axes[static_cast<std::size_t>(k)];
     std::vector<std::int64_t> ticks;
-    for (const double time_s : axis.times_s) ticks.push_back(std::llround(time_s * kSecond));
+    for (const double time_s : axis.times_s) ticks.push_back(std::llround(time_s * kTicksPerSecond));
     objects += fmt::format(
         "AnimationCurve: {}, \"AnimCurve::\", \"\" {{\nDefault: 0\nKeyVer: 4008\nKeyTime: *{} {{\na: {}\n}}\n"
         "KeyValueFloat: *{} {{\na: {}\n}}\nKeyAttrFlags: *1 {{\na: {}\n}}\nKeyAttrDataFloat: *4 {{\na: 0,0,0,0\n}}\n"
@@ -196,7 +196,7 @@ TEST(FbxKeys, SparseAndSteppedCurvesOfOneAxisAreTold) {
   for (Axis& axis : steps) axis.kind = kStep;
   EXPECT_EQ(ReadText(File(steps)).remark, "");
   // Keys outside of the time span do not count.
-  const auto ticks = [](double s) { return fmt::format("{}", std::llround(s * kSecond)); };
+  const auto ticks = [](double s) { return fmt::format("{}", std::llround(s * kTicksPerSecond)); };
   const std::string span = Property("LocalStart", "KTime", ticks(1)) + Property("LocalStop", "KTime", ticks(2));
   auto late = axes({{0, 2, 3}, {0, 0, 60}, kCubic});
   EXPECT_EQ(ReadText(File(late, "", span)).remark.find("its keys"), std::string::npos);
