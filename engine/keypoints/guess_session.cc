@@ -297,7 +297,7 @@ class SessionGuesser {
         "keypoints of all films fit the rig best if they are scaled by {:.3f} and {:.3f}, then shifted by {:+.0f} and "
         "{:+.0f} px: rays miss each other by {:.2f} % of the person's height instead of {:.2f} %; are they of pictures "
         "of another size, or cropped? Not corrected",
-        scale.x, scale.y, origin.x, origin.y, kPercent * least, kPercent * miss);
+        scale.x, scale.y, std::round(origin.x) + 0.0, std::round(origin.y) + 0.0, kPercent * least, kPercent * miss);
   }
 
   /// Searches the scale and shift that fit the rig best, from several sizes of the pictures; returns them with their

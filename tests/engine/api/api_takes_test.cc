@@ -112,7 +112,7 @@ TEST(ApiTransitions, RefusesWhatThereIsNot) {
   const TransitionLibrary library(std::vector{Swaying(30, 0.05)});
   EXPECT_THAT(RefusalOf([&] { library.Make(0, 0, 0, 1, {.choice = "?"}); }), HasSubstr("choice '?'; allowed: fuzzy-"));
   EXPECT_THAT(RefusalOf([&] { library.Make(0, 0, 0, 1, {.join = "?"}); }), HasSubstr("join '?'; allowed: cut"));
-  EXPECT_THAT(RefusalOf([&] { library.Make(0, 0, 0, 1, {.threshold = std::nan("")}); }), HasSubstr("threshold nan"));
+  EXPECT_THAT(RefusalOf([&] { library.Make(0, 0, 0, 1, {.threshold = std::nan("")}); }), HasSubstr("threshold is nan"));
 }
 
 }  // namespace

@@ -36,7 +36,7 @@ TEST(ApiCameras, RefusesWhatDeterminesNoCamera) {
   EXPECT_THAT(Refusal([&] { Calibrate(few, 640, 480); }), Not(::testing::IsEmpty()));
   EXPECT_THAT(Refusal([&] { Calibrate(few, 0, 480); }), HasSubstr("allowed"));
   const std::vector<NamedCamera> two(2);
-  EXPECT_THAT(Refusal([&] { Triangulate(two, {}); }), HasSubstr("0 pixels"));
+  EXPECT_THAT(Refusal([&] { Triangulate(two, {}); }), HasSubstr("0 entries for 2 cameras"));
   const std::vector<SeenPeople> none(2);
   EXPECT_THAT(Refusal([&] { Capture(two, none); }), HasSubstr("0 frames"));
 }

@@ -100,7 +100,7 @@ TEST(RowClock, TimesInOtherUnitsGetTheirRate) {
       ASSERT_OK(laid, LayOnClock(RowsCounted(rate, unit_s), "a"));
       EXPECT_NEAR(laid->rate_hz, rate, 1e-3 * rate) << name;
       EXPECT_EQ(laid->frames.size(), 120u);
-      EXPECT_THAT(laid->remark, HasSubstr(fmt::format("taken as {}:", name)));
+      EXPECT_THAT(laid->remark, HasSubstr(fmt::format("taken as {}, because", name)));
       EXPECT_THAT(laid->remark, HasSubstr(fmt::format("the rate is {:.4g} Hz", rate)));
     }
   }

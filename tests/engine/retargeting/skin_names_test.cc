@@ -210,8 +210,8 @@ TEST(SkinMarkers, HaveTheirOwnSizeInMessagesAboutTheUnit) {
     for (auto& place : frame) *place *= 0.001;
   }
   EXPECT_THAT(FindMarkerBodies(take, "a.c3d")->front().Note(),
-              HasSubstr(fmt::format("in the file's unit the body would be {:.3g} m tall: all lengths are taken to be "
-                                    "1000 times as long",
+              HasSubstr(fmt::format("in the file's unit the body would be {:.3g} m tall: all lengths are "
+                                    "multiplied by 1000",
                                     stature / 1000)));
   EXPECT_THAT(testing::Refusal(FindMarkerBodies(take, "a.c3d", {.metres_per_unit = 0.001})),
               HasSubstr(fmt::format("the body is {:.3g} m tall", stature / 1000)));

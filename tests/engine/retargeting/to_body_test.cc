@@ -89,7 +89,7 @@ TEST(ToBodyMotion, ChildrenKeepTheirStatureIfTheFileStatesMetres) {
   }
   // Inches in a file that states centimetres: 0.69 m, with an adult's long legs.
   ASSERT_OK(body, convert(adult_m / 2.54, true));
-  EXPECT_THAT(body->doubts, ::testing::ElementsAre(HasSubstr("legs are as long for that height as an adult's")));
+  EXPECT_THAT(body->doubts, ::testing::ElementsAre(HasSubstr("its legs are an adult's share of that height")));
 }
 
 TEST(ToBodyMotion, DropsATPoseThatTheMotionJumpsAwayFrom) {
@@ -488,10 +488,11 @@ Clip StiffWalk(double root_factor) {
 
 TEST(ToBodyMotion, SaysThatTheRootTravelsInAnotherUnit) {
   EXPECT_THAT(Convert(StiffWalk(1))->doubts, ::testing::IsEmpty());
-  for (const auto& [factor, said] : {std::pair(0.01, "100 times"), {1 / 2.54, "2.54 times"}, {1 / 17.72, "17.72 times"},
-                                     {1 / 5.644, "5.644 times"}, {100.0, "0.01 times"}}) {
+  for (const auto& [factor, said] :
+       {std::pair(0.01, "100:"), {1 / 2.54, "2.54:"}, {1 / 17.72, "17.72:"}, {1 / 5.644, "5.644:"}, {100.0, "0.01:"}}) {
     ASSERT_OK(body, Convert(StiffWalk(factor)));
-    EXPECT_THAT(body->doubts, ::testing::ElementsAre(HasSubstr(fmt::format("the root's positions are {}", said))));
+    EXPECT_THAT(body->doubts,
+                ::testing::ElementsAre(HasSubstr(fmt::format("the root's positions are multiplied by {}", said))));
   }
   // A gliding statue is no reason for doubt, except at a hundred metres a second.
   Clip glides = AtRest(testing::PersonSkeleton(), 60);

@@ -302,7 +302,7 @@ TEST(FbxTakes, LayersAndSpansOfBinaryFilesChangeInPlace) {
   for (const std::uint32_t version : {7400u, 7700u}) {
     std::string changed;
     const auto remarks = PrepareTakes(TwoLayers(version, kSecond, 3 * kSecond, 1), changed);
-    EXPECT_THAT(remarks, testing::ElementsAre(HasSubstr("'Base' is used, and left out are: 'Fix'")));
+    EXPECT_THAT(remarks, testing::ElementsAre(HasSubstr("'Base' is used; other layers are left out: 'Fix'")));
     EXPECT_TRUE(changed == TwoLayers(version, kSecond - margin, 3 * kSecond + margin, 0)) << version;
     EXPECT_TRUE(PrepareTakes(TwoLayers(version, 0, kSecond, 0), changed).empty()) << "the control: one layer";
     EXPECT_TRUE(changed == TwoLayers(version, -margin, kSecond + margin, 0));

@@ -149,7 +149,7 @@ TEST(SeatedSegmenter, AnAnswerThatIsNoMaskOfThePictureIsRefusedAndNothingMoreIsA
   EXPECT_THAT(refused(mask({480, 640}, {307199, 2})), HasSubstr("mask.counts[1]: 2; allowed: 0…1"));
   EXPECT_THAT(refused(mask({480, 640}, {-1, 307201})), HasSubstr("mask.counts[0]: -1; allowed: 0…307200"));
   EXPECT_THAT(refused(mask({480, 640}, {0.5, 307199.5})), HasSubstr("mask.counts[0]: 0.5 is not a whole number"));
-  EXPECT_THAT(refused(mask({480, 640}, Json::array())), HasSubstr("mask.counts: 0 entries"));
+  EXPECT_THAT(refused(mask({480, 640}, Json::array())), HasSubstr("mask.counts: found 0 entries"));
 }
 
 TEST(SeatedSegmenter, IsAskedNoMoreOnceItHasFailed) {
