@@ -15,7 +15,7 @@ from independent import transition
 DOMAINS = [ik, tracking, capture, transition, support, body, pose_distance, detection, coach, evaluation, plausibility]
 METRICS = {name: function for domain in DOMAINS for name, function in domain.METRICS.items()}
 NEWER = {"natural_share": 3, "solved_practical": 2, "solved_tight": 2, "iterations_par2": 2, "fk_evaluations_par2": 2,
-         "frames_solved": 2, "frames_solved_tight": 2, "skipped_s": 2,
+         "frames_solved": 2, "frames_solved_tight": 2, "skipped_s": 2, "seen_share": 2,
          # a flight needs a possible take-off
          "unsupported_frames": 4, "supported_share": 4, "clean_share": 5, "zmp_off_cm": 2, "slip_mps2": 2,
          "glide_cm": 2, "balance_cm": 3,
