@@ -371,7 +371,7 @@ STRANGERS = {
     "matrices of Blender": (altered_toml(lambda name, R, T, K: (name, (FLIP @ R).T, -R.T @ T, K)), None,
                             "and the cameras look along -z"),
     "calibrated at twice the size, which is not told": (altered_size(2), None, "pictures of 1280 x 960 pixels are assumed"),
-    "calibrated at half of the size, which is not told": (altered_size(0.5), None, "pictures of 320 x 240 pixels are assumed"),
+    "calibrated at half of the size, which is not told": (altered_size(0.5), None, "320 x 240 pixels, which are assumed"),
     "keypoints of halved pictures": ("Pose2Sim", lambda p: (p + 0.5) / 2 - 0.5, "corrected: keypoints are of pictures 0.5 times as large"),
     "shares of a padded square": ("Pose2Sim", lambda p: np.array([(p[0] + 0.5) / WIDTH, (p[1] + 0.5 + PADDED) / WIDTH]),
                                   "corrected: keypoints are relative to a square around the picture"),

@@ -290,7 +290,7 @@ class Capture(EtudeCase):
 
         small = self.refusal(*self.capture("-o", out, films=film("small", "160x120", RATE, FRAMES)))
         self.assertIn("160 x 120 pixels, but the rig's camera has 320 x 240; state how they were fitted (--fit letterbox, stretch or crop)", small)
-        self.assertIn("30 frames per second", self.refusal(*self.capture("-o", out, films=film("slow", "320x240", 25, FRAMES))))
+        self.assertIn("at 30 Hz", self.refusal(*self.capture("-o", out, films=film("slow", "320x240", 25, FRAMES))))
         self.assertIn("20 frames", self.refusal(*self.capture("-o", out, films=film("short", "320x240", RATE, 18))))
         (self.keypoints / "left_json" / "left_19.json").unlink()
         self.assertRegex(self.refusal(*self.capture("-o", out)),
