@@ -211,7 +211,7 @@ TEST_F(SupervisorTest, AWorkerWhoseAnswersCannotBeWrittenEnds) {
 class MeasuringSupervisorTest : public SupervisorTest {
  protected:
   MeasuringSupervisorTest()
-      : SupervisorTest("{time_s: 60, memory_mb: 4096}\nmetrics: [{name: judged, exec: [/bin/true]}]") {}
+      : SupervisorTest("{time_s: 60, memory_mb: 4096}\nmetrics: [{name: graded, exec: [/bin/true]}]") {}
 
   std::string LineOf(std::size_t cell, bool is_measured) const {
     FinishedCell finished;
