@@ -63,7 +63,7 @@ for line in sys.stdin:
 
 
 VECTOR = "{cell: {tracks: [{name: solution, rate_hz: 30, frames: 1, joints_m: {hip_centre: [[0.25, 0, 0]]}}]}, "
-BAD = {"absent": "its program: hips hid", "silent": "null without a 'reason'", "text": '"much" is not a number',
+BAD = {"absent": "its program: hips hid", "silent": "null without a 'reason'", "text": '"much" is neither a number nor null',
        "falls": "about to fall"}
 
 
