@@ -173,8 +173,12 @@ class Recognise(EtudeCase):
         self.assertEqual(len(self.events(self.write("nan.txt", "\n".join(gaps)), "--moves", moves)), 1)
         fewer = self.write("fewer.txt", "\n".join(" ".join(row.split()[:-3]) for row in rows))
         self.assertIn("57 numbers in its first row", self.refusal("recognise", fewer, "--moves", moves))
-        self.assertIn("standard input:41:1: value 1: 'x'", self.refusal(
-            "recognise", "-", "--moves", moves, stdin="\n".join(rows[:40] + ["x " * 60])))
+        # A damaged row of a live stream costs only itself.
+        damaged = subprocess.run([ETUDE, "recognise", "-", "--moves", moves, "--recogniser", "key-pose"], text=True, timeout=120,
+                                 capture_output=True, input="\n".join(rows[:40] + ["x " * 60] + rows[40:]) + "\n")
+        self.assertEqual((damaged.returncode, len(damaged.stdout.splitlines())), (0, 1), damaged.stderr)
+        self.assertIn("value 1: 'x'", damaged.stderr)
+        self.assertIn("the row is left out", damaged.stderr)
         self.assertIn("none.txt: no such recording", self.refusal("recognise", "none.txt", "--moves", moves))
         self.assertIn("--moves: is missing", self.refusal("recognise", half))
         self.assertIn("no such file", self.refusal("recognise", half, "--moves", self.folder / "none.yaml"))
