@@ -195,7 +195,7 @@ class Metrics(PythonCase):
                            ("metrics: [x,\n  y]\n", f"metrics: [x,\n  y, {added}]\n"),
                            ("a: 1\n", f"a: 1\nmetrics: [{added}]\n")):
             self.assertEqual(commands._with_metrics("s.yaml", text, [entry]), then)
-        with self.assertRaisesRegex(etude.EtudeError, "is not one list in brackets"):
+        with self.assertRaisesRegex(etude.EtudeError, "can only be added to one list"):
             commands._with_metrics("s.yaml", "metrics:\n  - x\n", [entry])
         kept = []
 
