@@ -38,8 +38,8 @@ std::vector<std::string> GateSentences(const GateReport& report);
 /// Returns one line for each answer whose verdict became worse since the baseline. If `only_flipped` is true, returns
 /// only the answers that changed from better to worse, which fail the gate.
 std::vector<std::string> FallenLines(const GateReport& report, bool only_flipped = false);
-/// Returns one line for each method and reason whose values cannot be compared: "evaluate, -, mine: not judged alike:
-/// …" and the metrics. Such changes are undecided.
+/// Returns one line for each method and reason why values cannot be compared: "evaluate, -, mine: not judged alike: …",
+/// with the metrics. These changes are undecided.
 std::vector<std::string> NotAlikeLines(const SnapshotComparison& comparison);
 /// Returns the number of metrics with each outcome: "170 comparisons: 2 worse, 3 better, 165 same".
 std::string CompareSentence(const SnapshotComparison& comparison);

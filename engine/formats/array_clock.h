@@ -23,8 +23,8 @@ struct ArrayClock {
 /// values.
 Result<ArrayClock> ClockOfArrays(const Npz& arrays, std::size_t frames, const std::string& file);
 
-/// Places positions on frames by the clock's times; without times, only sets the rate, if it is stated. Fails if a rate
-/// is not 0.1 to 10,000 Hz, if no two times differ and there is no rate, and like LayOnClock of MarkerRows.
+/// Places positions on frames by the clock's times; without times, only sets the rate, if it is stated. Fails if the
+/// rate is not 0.1 to 10,000 Hz, if all times are equal and no rate is stated, or if LayOnClock of MarkerRows fails.
 Result<MarkerMotion> LayOnClock(MarkerMotion markers, ArrayClock clock, const std::string& file);
 
 /// Returns the rate of a motion of rotations; nullopt if the arrays state neither rate nor times. Times overrule the

@@ -67,9 +67,9 @@ std::optional<double> LengthOf(std::span<const glm::dvec3> positions, const Join
   return lengths.empty() ? std::nullopt : std::optional(UpperMedian(std::move(lengths)));
 }
 
-/// Returns the largest logarithm of a ratio of lengths that people have equal: left and right limbs, upper arm and
-/// forearm, thigh and shank (whose ratio may be 1.35). A hand is at most as long as the forearm. Lengths that are not
-/// known count as `unknown`.
+/// Returns the worst misfit of the layout's lengths to a person's, as the logarithm of a ratio. Left and right limbs
+/// should be equally long. Upper arm and forearm, and thigh and shank, may differ by a factor of 1.35. A hand should be
+/// no longer than the forearm. Lengths that are not known have the misfit `unknown`.
 double MisfitOf(std::span<const glm::dvec3> positions, const JointLayout& layout, double unknown) {
   using enum Role;
   constexpr double kProportion = 0.3;  // the logarithm of 1.35
