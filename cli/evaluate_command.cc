@@ -256,8 +256,8 @@ Result<int> EvaluateCommand(const EvaluateOptions& options) {
     if (options.by_joint) PrintJoints(ErrorsByJoint(data));
     PrintPairNotes(notes);
   }
-  fmt::print("{} of {} cells are ok; all {} metrics are in {}\nNext: etude report {}\n", outcome->cells_ok,
-             outcome->cells, FindTaskKind(summary.task)->metrics.size(), folder, folder);
+  fmt::print("{} of {} cells ok; all {} metrics are in {}\nNext: etude report {}\n", outcome->cells_ok, outcome->cells,
+             FindTaskKind(summary.task)->metrics.size(), folder, folder);
   return code;
 }
 

@@ -22,7 +22,7 @@ void NoteKinds::Add(const std::string& method, const std::string& head, const st
 std::vector<std::string> NoteKinds::Lines() const {
   std::vector<std::string> lines;
   for (const auto& [line, count] : kinds_) {
-    lines.push_back(count == 1 ? line : fmt::format("{} (and {} similar notes)", line, count - 1));
+    lines.push_back(count == 1 ? line : fmt::format("{} (and {} similar)", line, count - 1));
   }
   return lines;
 }

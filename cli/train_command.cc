@@ -267,8 +267,7 @@ struct Trained {
 constexpr const char* kHeader =
     "# The model of the recogniser `{}`, made by `etude train --{} --sessions {} --seed {}` of\n"
     "#   {}\n"
-    "# Trees: the measure and limit of each question, then the values that its answers add to the log-odds of "
-    "\"right\".\n";
+    "# Trees: measure and limit of each question, then what the answers add to the log-odds of \"right\".\n";
 
 Result<Trained> TrainLearnt(const TrainOptions& options) {
   ASSIGN_OR_RETURN(const auto references, ExpandReferences(options.clips));

@@ -49,8 +49,7 @@ Result<int> TransitionCommand(TransitionCommandOptions asked) {
   // Report the transition. The choice "unbroken" joins nothing, and never plays the second clip.
   const bool is_unbroken = made.branch == Branch::kUnbroken;
   if (is_unbroken && asked.has_join) {
-    fmt::print(stderr, "--join {} has no effect, because --choice {} does not join clips\n", options.join,
-               options.choice);
+    fmt::print(stderr, "--join {} has no effect, because --choice {} joins no clips\n", options.join, options.choice);
   }
   if (asked.as_json) {
     RETURN_IF_ERROR(PrintFacts("transition", {{"from", options.from},

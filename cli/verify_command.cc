@@ -68,11 +68,11 @@ std::string SampleInWords(const CellChoice& choice) {
   for (const MissedForgery& one : WhatIsMissed(choice)) {
     const std::string share = ShareInWords(one.chance);
     if (!one.method.empty()) {
-      missed.push_back(fmt::format("{} of the forgeries that change half of the cells of {} ({} cells)", share,
-                                   one.method, one.forged));
+      missed.push_back(
+          fmt::format("{0} of the forgeries that change {2} of the cells of {1}", share, one.method, one.forged));
     } else if (missed.empty()) {
       missed.push_back(
-          fmt::format("{} of the forgeries that change 5 % of the {} cells ({} cells)", share, one.cells, one.forged));
+          fmt::format("{0} of the forgeries that change {2} of the {1} cells", share, one.cells, one.forged));
     } else {
       missed.push_back(fmt::format("{} of the forgeries that change a single cell", share));
     }

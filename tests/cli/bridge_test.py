@@ -110,14 +110,14 @@ class Bridge(EtudeCase):
     def test_a_check_accepts_what_was_written_and_finds_what_was_changed(self):
         self.works(*FEW, "-o", self.tags, "--threshold", "0.3")
         self.assertIn("valid", self.works("--check", self.tags))
-        self.assertIn("fits the clips", self.works("--check", self.tags, *FEW))
+        self.assertIn("matches the clips", self.works("--check", self.tags, *FEW))
         self.refuses("--check", self.tags, *FEW[:3], says=["does not fit"])
         self.tags.write_text(self.tags.read_text().replace('RH="down"', 'RH="dwn"', 1))
         self.refuses("--check", self.tags, says=["tags.xml:", "dwn", "down"])
 
     def test_a_check_sees_another_fuzzy_system(self):
         self.works(*FEW, "-o", self.tags, "--fuzzy", "builtin:gaussian")
-        self.assertIn("fits the clips", self.works("--check", self.tags, *FEW))
+        self.assertIn("matches the clips", self.works("--check", self.tags, *FEW))
         self.refuses("--check", self.tags, *FEW, "--fuzzy", "builtin:paper", says=["does not fit", "fuzzy system"])
 
     def test_it_takes_files_of_motion_capture(self):
@@ -129,7 +129,7 @@ class Bridge(EtudeCase):
         said = self.works(FEW[0], "-o", self.tags)
         self.assertIn("the only clip", said)
         self.assertNotIn("directly", said)
-        self.assertIn("fits the clips", self.works("--check", self.tags, FEW[0]))
+        self.assertIn("matches the clips", self.works("--check", self.tags, FEW[0]))
 
     def test_bad_input_is_one_line_and_leaves_nothing(self):
         self.refuses("-o", self.tags, says=["needs clips"])

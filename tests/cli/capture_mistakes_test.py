@@ -737,8 +737,8 @@ class Mistakes(EtudeCase):
         small = ["capture", "--rig", self.folder / named, *(self.folder / f"{name}.mp4" for name in cams), "--silhouettes", "--rooms", rooms,
                  "--stature", "0.7", "-o", self.folder / "small.csv", *arguments]
         refused = self.ends(1, *small, "--json")
-        self.assertRegex(refused.stderr, r"etude: in \d+ % of \w+'s frames, body and outline overlap by less than half; nothing was written "
-                                         r"\(--accept-doubtful writes the motion nevertheless\)\n$")
+        self.assertRegex(refused.stderr, r"etude: in \d+ % of \w+'s frames, body and outline overlap by less than half; Etude wrote no motion "
+                                         r"\(--accept-doubtful writes it nevertheless\)\n$")
         facts = json.loads(refused.stdout)
         self.assertIsNone(facts["output"])
         self.assertIn("overlap by less than half", facts["doubt"])

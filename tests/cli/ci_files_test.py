@@ -117,7 +117,7 @@ class CiFiles(EtudeCase):
     def test_what_is_missing_is_told_in_the_summary(self):
         summary, right = self.folder / "summary", {"SUITE": "quick/ik", "METHOD": "{name: ours, exec: [python3, solver.py]}",
                                                    "BASELINE": "no.json", "ARGUMENTS": "--trials 1"}
-        for wrong, complaint in [({}, "no.json: does not exist; --update makes it from this run"),
+        for wrong, complaint in [({}, "no.json: does not exist; --update writes this baseline from the run"),
                                  ({"SUITE": "quick/ikk"}, "did you mean 'quick/ik'?"),
                                  ({"SUITE": "quick"}, "SUITE quick is not one scenario"),
                                  ({"SUITE": "solver.py"}, "solver.py is here: write METHOD into it"),

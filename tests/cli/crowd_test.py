@@ -15,7 +15,7 @@ class Crowd(EtudeCase):
         lines = result.stdout.splitlines()
         self.assertEqual(len(lines), 3, result.stdout)
         self.assertIn("12 characters, 12 frames at 60 Hz", lines[0])
-        met = float(re.match(r"([\d.]+) % of all poses meet their targets", lines[1])[1])
+        met = float(re.match(r"([\d.]+) % of all poses reach their targets", lines[1])[1])
         self.assertGreater(met, 50)
         self.assertLessEqual(met, 100)
         times = [float(time) for time in re.findall(r"(?:median|p99|largest) ([\d.]+)", lines[2])]

@@ -56,7 +56,7 @@ class Sensor(EtudeCase):
                              "--simulate", "v1", "--worlds", "2").stdout
         self.assertIn("480 frames at 60 Hz", beside)
         self.assertRegex(beside, r"error of hands +mm +\d+\.\d\d +\d+\.\d\d +x\d")
-        self.assertRegex(beside, r"\d+ of \d+ statistics are within 30 %")
+        self.assertRegex(beside, r"\d+ of \d+ statistics differ from the recording's by at most 30 %")
 
     def test_tells_programs_the_same(self):
         kinect, reference = self.folder / "kinect.txt", self.folder / "targets.txt"

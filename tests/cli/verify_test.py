@@ -64,8 +64,8 @@ class Verify(EtudeCase):
                      "summary.json: the same when computed again from 24 rows",
                      "20 of 20 cells and 4 that left a recording, run again", "report: "):
             self.assertRegex(text, f"(?m)^agrees   .*{re.escape(said)}")
-        self.assertRegex(text, r"10 of 10 agree")
-        self.assertIn("Every cell that can be run again was run again.", text)
+        self.assertRegex(text, r"10 of 10 checks agree")
+        self.assertIn("Etude ran every cell again that can be run again.", text)
         self.assertNotIn("run again:", self.verify("--sample", 0, expect=0))
 
     def test_a_change_without_a_new_seal_is_told_of_and_the_rest_all_the_same(self):
@@ -157,10 +157,10 @@ class Verify(EtudeCase):
             self.assertEqual((missed["method"], missed["forged"], missed["cells"]), (method, forged, cells))
             self.assertAlmostEqual(missed["chance"], math.comb(20 - forged, 7) / math.comb(20, 7), 12)
         said = self.verify("--sample", 7, "--sample-seed", 5, expect=0)
-        self.assertIn("65 % of the forgers who change 5 % of the 20 cells (1), 1 in 12 of the forgers who change half of ik/fixed (5)", said)
-        self.assertIn("--sample-seed 5 draws this sample again", said)
+        self.assertIn("65 % of the forgeries that change 1 of the 20 cells, 1 in 12 of the forgeries that change 5 of the cells of ik/fixed", said)
+        self.assertIn("--sample-seed 5 draws the same sample again", said)
         self.assertEqual(self.facts("verify", self.out, "--sample", "all")["sample"]["missed"], [])
-        self.assertIn("'some' is not a sample; allowed: 0 to 10000000, or 'all'", self.verify("--sample", "some", expect=2))
+        self.assertIn("'some' is not a sample size; allowed: 0 to 10000000, or 'all'", self.verify("--sample", "some", expect=2))
 
     def test_a_seal_says_nothing_else(self):
         forge(self.out / "seal.json", '"version"', '"ours":"best","version"')
@@ -306,7 +306,7 @@ class Forgers(EtudeCase):
         reseal(self.out)
         found = self.ends(1, "verify", self.out, "-j", 1, "--sample", "all")
         self.assertIn("row 1 is ik/joint_noise_deg=2/000/least-squares; expected ik/joint_noise_deg=2/000/fixed", found.stdout)
-        self.assertIn("0 of 16 cells came out the same", self.ends(1, "replay", self.out).stdout)
+        self.assertIn("0 of 16 cells are identical to the run", self.ends(1, "replay", self.out).stdout)
 
     def test_cannot_change_what_worlds_were_drawn_from(self):
         scenario = self.write("t.yaml", "scenario: t\nquestion: q\ntask: tracking\nclips: ['builtin:clap', 'builtin:sway']\n"
