@@ -92,7 +92,7 @@ class Bridge(EtudeCase):
         self.assertEqual({clip["leads_into"] for clip in summary["clips"]}, {None})
         self.assertEqual([clip["any"]["frame_share"] for clip in summary["clips"][:301]], [1] * 301)
         self.assertEqual([way["into"] for way in summary["corrective"]], ["builtin:wave"])
-        self.assertIn("Pairs of clips were not compared; --pairs compares them.", self.etude("bridge", *clips).stdout)
+        self.assertIn("Pairs of clips were not compared; use --pairs to compare all pairs.", self.etude("bridge", *clips).stdout)
 
     def test_the_summary_for_people_names_clips_without_a_way(self):
         text = self.works(*FEW, "--to", "builtin:head_shake", "--threshold", "0.05")

@@ -221,7 +221,7 @@ class Render(Clips):
         path = self.folder / "a.png"
         for arguments, says in (
                 ((NO_BODY, "-o", path), "no joint found"),
-                ((WALK, "-o", path, "--character", "own"), "has no figure of its own"),
+                ((WALK, "-o", path, "--character", "own"), "the file contains no figure (meshes)"),
                 ((WALK, "-o", path, "--size", "9x9"), "--size: '9x9' is not a size"),
                 ((WALK, "-o", path, "--frames", "1000", "--columns", "100"), "the sheet would have"),
                 ((WALK, "-o", self.folder / "a.gif"), "allowed: .png (a contact sheet), .mp4 (a film)")):
