@@ -109,7 +109,7 @@ Triage TriageOf(const RunData& run) {
 
 void PrintTriage(const Triage& triage) {
   fmt::print("{} of {} without a fault{}\n", triage.fault_free, Plural(static_cast<long long>(triage.clips), "clip"),
-             triage.not_judged.empty() ? "" : fmt::format(", {} more not judged", triage.not_judged.size()));
+             triage.not_judged.empty() ? "" : fmt::format(", {} more could not be judged", triage.not_judged.size()));
   for (const auto& [kind, clips] : triage.kinds) fmt::print("  {:<10}  {:>6}\n", kind, clips);
   if (!triage.kinds.empty()) fmt::print("  `etude list faults` explains each fault\n");
   if (triage.has_limits) PrintLines("beyond the limits", triage.beyond_limits);

@@ -264,7 +264,7 @@ class Capture(EtudeCase):
         rooms.mkdir()
         for camera in PLACES:
             (rooms / f"{camera}.ppm").write_bytes(b"P6\n4 3\n255\n" + bytes(36))
-        self.assertIn("a picture of 4 x 3 pixels", self.refusal(*alone, "--rooms", rooms))
+        self.assertIn("the picture has 4 x 3 pixels", self.refusal(*alone, "--rooms", rooms))
         self.assertFalse((self.folder / "m.bvh").exists(), "nothing is written")
 
     def test_draws_the_skeleton_over_the_films(self):

@@ -89,7 +89,7 @@ class Streams(EtudeCase):
         self.assertEqual(json.loads((self.out / "summary.json").read_text())["scenarios"][0]["unit"], "person")
         self.ends(0, "report", self.out, "--no-video")
         page = (self.out / "report" / "index.html").read_text()
-        self.assertIn("the moves that nearest named instead of the danced moves", page)
+        self.assertIn("that nearest recognised as another move", page)
         # The run is repeated from its manifest and in shards, with the same results. The replay of a packed cell
         # needs no recording.
         again = self.folder / "again"

@@ -107,22 +107,22 @@ class Triage(EtudeCase):
         torn = self.folder / "torn"
         said = self.triage(self.folder / "m", "--limits", "recorded", code=1, out=torn)
         for words in ("1 beyond the limits:", "1 with faults that are within the limits:\n  m, popping: left_hand pops", "1 not judged:",
-                      "0 of 2 clips without a fault, 1 more not judged\n"):
+                      "0 of 2 clips without a fault, 1 more could not be judged\n"):
             self.assertIn(words, said)
         self.ends(0, "report", torn, "--no-video")
         self.assertEqual(self.failed(torn), ["m, floating", "m, torn"])
         summary = (torn / "report" / "summary.md").read_text()
-        for words in ("0 of 2 clips without a fault, 1 beyond the limits, 1 more not judged.",
+        for words in ("0 of 2 clips without a fault, 1 beyond the limits, 1 more could not be judged.",
                       "| popping | m | 1 |  | left\\_hand pops by 50 cm", "| floating | m | 1 | beyond |"):
             self.assertIn(words, summary)
         # The summary starts with the number of measured cells and the clips with faults; it does not mention
         # comparisons.
-        self.assertTrue(summary.startswith("# evaluate\n\n2 of 3 cells were measured, 1 broke.\n\n\n## Clips with faults"))
-        for words in "undecided", "expectation", "nothing to compare", "Holm":
+        self.assertTrue(summary.startswith("# evaluate\n\n2 of 3 cells were measured, 1 could not be measured.\n\n\n## Clips with faults"))
+        for words in "undecided", "expectation", "no comparison", "Holm":
             self.assertNotIn(words, summary)
         page = (torn / "report" / "index.html").read_text()
         self.assertLess(page.index("<h2>Clips with faults</h2>"), page.index('aria-label="Answers"'))
-        self.assertNotIn("nothing to compare", page)
+        self.assertNotIn("no comparison", page)
 
     def test_motions_that_are_kept_are_shown_with_the_time_of_each_fault(self):
         self.triage(self.popping("m/popping.csv"), "--keep", "motions")

@@ -183,7 +183,7 @@ TEST_F(ReadMasksTest, SayWhatLooksWrong) {
   Add("2.png", two);
   ASSERT_EQ(Reason(), "accepted");
   ASSERT_EQ(told_.lines.size(), 2u);
-  EXPECT_EQ(told_.lines[0], "masks of cam1: 1 of 2 are empty");
+  EXPECT_EQ(told_.lines[0], "masks of cam1: 1 of 2 masks are empty");
   EXPECT_THAT(told_.lines[1], HasSubstr("doubtful: masks of cam1: 1 of 2 have several large regions"));
   for (const char* name : {"1.png", "2.png"}) {
     Image<std::uint8_t> inverted = Rectangle(20, 40, 255);
