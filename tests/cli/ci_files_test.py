@@ -119,8 +119,8 @@ class CiFiles(EtudeCase):
                                                    "BASELINE": "no.json", "ARGUMENTS": "--trials 1"}
         for wrong, complaint in [({}, "no.json: does not exist; --update writes this baseline from the run"),
                                  ({"SUITE": "quick/ikk"}, "did you mean 'quick/ik'?"),
-                                 ({"SUITE": "quick"}, "SUITE quick is not one scenario"),
-                                 ({"SUITE": "solver.py"}, "solver.py is here: write METHOD into it"),
+                                 ({"SUITE": "quick"}, "SUITE quick is not exactly one scenario"),
+                                 ({"SUITE": "solver.py"}, "solver.py of this repository; write the method into this scenario"),
                                  ({"BASELINE": ""}, "SUITE and BASELINE must be set")]:
             with self.subTest(complaint):
                 self.assertEqual(self.bash(str(CI / "gate"), right | wrong | {"GITHUB_STEP_SUMMARY": str(summary)}).returncode, 2)
