@@ -370,7 +370,7 @@ STRANGERS = {
                       "corrected: the rig's cameras look along -z"),
     "matrices of Blender": (altered_toml(lambda name, R, T, K: (name, (FLIP @ R).T, -R.T @ T, K)), None,
                             "and the cameras look along -z"),
-    "calibrated at twice the size, which is not told": (altered_size(2), None, "pictures of 1280 x 960 pixels are assumed"),
+    "calibrated at twice the size, which is not told": (altered_size(2), None, "1280 x 960 pixels, so Etude assumes this size"),
     "calibrated at half of the size, which is not told": (altered_size(0.5), None, "320 x 240 pixels, so Etude assumes this size"),
     "keypoints of halved pictures": ("Pose2Sim", lambda p: (p + 0.5) / 2 - 0.5, "corrected: keypoints are of pictures 0.5 times as large"),
     "shares of a padded square": ("Pose2Sim", lambda p: np.array([(p[0] + 0.5) / WIDTH, (p[1] + 0.5 + PADDED) / WIDTH]),

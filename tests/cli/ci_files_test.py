@@ -110,7 +110,7 @@ class CiFiles(EtudeCase):
         solver = self.repository / "solver.py"
         solver.write_text(solver.read_text().replace("DAMPING = 1e-3", "DAMPING = 1.0"))
         failed, summary, verdict = self.run_action()
-        self.assertEqual((failed, verdict), ("Run and gate", "regression"))
+        self.assertEqual((failed, verdict), ("Run the suite and compare it with the baseline", "regression"))
         self.assertRegex(summary, r"\*\*worse\*\* \| ik-weights \| joint\\_noise\\_deg=5 \| ours \| effector position error \|")
         self.assertIn("72 same", summary)  # the other clips are unchanged
 

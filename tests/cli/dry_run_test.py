@@ -43,7 +43,7 @@ class DryRun(EtudeCase):
         self.assertEqual((whole["shard"], [part["shard"] for part in parts]), (None, ["1/3", "2/3", "3/3"]))
         self.assertEqual(sum(part["cells"] for part in parts), whole["cells"])
         said = self.etude("run", "quick/ik", "--trials", 8, "--dry-run", "--shard", "2/3").stdout
-        self.assertIn(f"Shard 2/3: {parts[1]['cells']} of {whole['cells']} cells.\n{parts[1]['cells']} cells, about ", said)
+        self.assertIn(f"Shard 2/3: {parts[1]['cells']} of {whole['cells']} cells.\n{parts[1]['cells']} cells; the run takes about ", said)
 
     def test_says_that_two_clips_carry_nothing(self):
         self.assertIn("verdicts about other clips: not possible with 2 clips; at least 6 are needed", self.tell(["builtin:clap", "builtin:boxing"]))

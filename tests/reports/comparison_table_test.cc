@@ -35,9 +35,10 @@ TEST(ComparisonTable, ShowsPairsDifferencePEffectVerdictAndWhatToMind) {
 TEST(ComparisonTable, CountsTheComparisonsOfEachCorrection) {
   ScenarioSummary scenario = ExampleRun().scenarios[0];
   scenario.conditions[0].rivals.assign(3, scenario.conditions[0].comparisons[0]);
-  EXPECT_THAT(ComparisonTableHtml(scenario),
-              HasSubstr("(Holm) over the 2 comparisons with baselines, and separately over the 3 comparisons with "
-                        "the strongest"));
+  EXPECT_THAT(
+      ComparisonTableHtml(scenario),
+      HasSubstr("Holm’s correction over the 2 comparisons with baselines, and separately over the 3 comparisons with "
+                "the strongest"));
 }
 
 TEST(ComparisonTable, SaysWhyAVerdictIsOpenAndMarksAnIntervalThatIsNoBca) {

@@ -172,7 +172,7 @@ TEST(Findings, NeverCallWhatWasMeasuredReached) {
   EXPECT_EQ(FindingsOf(one).sentence, "The only cell was measured.");
   run.rows.front().result.status = Status::kUnsolved;
   EXPECT_THAT(FindingsOf(run).sentence,
-              HasSubstr(" cells were measured, 1 of them unsolved (no answer, or one that missed the goal)."));
+              HasSubstr(" cells were measured, 1 of them unsolved (no answer, or an answer that missed the goal)."));
 }
 
 TEST(Findings, GiveSuccessItsOwnShareWhateverTheStatus) {
