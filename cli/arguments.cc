@@ -279,7 +279,8 @@ std::array<CLI::Option*, 9> AddWorldOptions(CLI::App& command, std::optional<std
       AddUp(command, "clips", clip_facts),
       command
           .add_option_function<std::string>("--rate", tell("rate"),
-                                            "Frames per second of the clips (default: their own rate)")
+                                            "Frames per second of the clips (default: the rate that each clip "
+                                            "states)")
           ->check(NumberWithin(1, 1000, "rate in Hz")),
       command.add_flag_callback(
           "--keep-floor", [&clip_facts] { clip_facts += "keep_floor: true\n"; },

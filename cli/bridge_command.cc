@@ -123,7 +123,7 @@ void DefineBridge(CLI::App& app, Action& action) {
                                          "Find and tag the frames at which a transition from one clip to another is "
                                          "possible");
   // Define the inputs and outputs.
-  command->add_option("clips", options->clips, "The clips of one library");
+  command->add_option("clips", options->clips, "The clips of the library to analyse");
   CLI::Option* output = command->add_option("-o,--output", options->output, "The tags file to write (XML)");
   // --check excludes most other options, because the tags file states the rules.
   CLI::Option* check = command->add_option("--check", options->check,
@@ -141,7 +141,7 @@ void DefineBridge(CLI::App& app, Action& action) {
                        "Two frames match if their fuzzy distance is below "
                        "this value")
           ->check(NumberWithin(1e-6, 6, "threshold")));
-  add(command->add_flag("--within-class", options->within_class, "Compare only frames with the same ten tags"));
+  add(command->add_flag("--within-class", options->within_class, "Match only frames whose ten tags are all equal"));
   add(command
           ->add_option("--min-clips", options->min_clips,
                        "Minimum number of clips in which the tags of a bridge frame must occur")

@@ -97,7 +97,8 @@ void DefineCheckMethod(CLI::App& app, Action& action) {
   CLI::App* command = app.add_subcommand("check-method",
                                          "Test whether a program correctly implements Etude's "
                                          "protocol for outside methods");
-  command->add_option("command", options->command, "The program and its arguments, after --")->required();
+  command->add_option("command", options->command, "The program and the arguments of the program, after `--`")
+      ->required();
   // List the allowed tasks and seats (a seat is the program's part in a loop).
   std::vector<std::string> tasks, seats;
   for (const TaskKind& kind : AllTaskKinds()) {

@@ -222,7 +222,7 @@ void DefineCoach(CLI::App& app, Action& action) {
   command->add_flag("--timing", options->timing, "Print the processing times of frames at the end");
   command->add_option("--format", options->format, "Format of the stream (default: detected from the content)")
       ->check(OneOf(StreamFormatNames()));
-  command->add_option("--rate", options->rate_hz, "Frame rate of a stream without a clock, Hz (default: 30)")
+  command->add_option("--rate", options->rate_hz, "Frame rate of a stream without times, in Hz (default: 30)")
       ->check(NumberWithin(1, 1000, "rate in Hz"));
   command->add_flag("--reflect", options->reflect, "Negate X, for a mirrored stream");
   AddOverwrite(*command, options->overwrite);

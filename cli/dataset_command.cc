@@ -27,10 +27,10 @@ void PrintFaults(const char* what, const std::vector<std::string>& faults) {
 }
 
 int ComplainOfFaults(const ScoreOptions& options, const PredictionFaults& faults) {
-  PrintFaults("missing:", faults.missing);
+  PrintFaults("missing answers:", faults.missing);
   PrintFaults("extra answers, because no problem has this name:", faults.extra);
   PrintFaults("problems with more than one answer:", faults.duplicate);
-  PrintFaults("broken:", faults.broken);
+  PrintFaults("broken answers:", faults.broken);
   const bool only_missing = faults.extra.empty() && faults.duplicate.empty() && faults.broken.empty();
   return Complain(
       {{options.predictions, 0, 0},

@@ -264,7 +264,7 @@ void DefineOptionTree(CLI::App& app, Action& action) {
   });
   CLI::App* manual = app.add_subcommand("man", "Write the manual pages into a folder")->group("")->require_option(1);
   manual->add_option("folder", *folder);
-  manual->add_flag("--markdown", *as_page, "Print all of them as a page instead");
+  manual->add_flag("--markdown", *as_page, "Print all manual pages as a single page instead");
   manual->callback([=, &action] {
     action = [=]() -> int {
       if (!*as_page) return Finish(WriteManual(*program, *folder));

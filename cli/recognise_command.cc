@@ -170,7 +170,7 @@ Result<void> Print(const LabelScores& scores, bool as_json) {
                Percent(RocAuc(performances)));
   }
   if (!scores.Points().empty()) {
-    fmt::print(stderr, "{} action points: F-score {} within {:.0f} ms, averaged over the moves\n",
+    fmt::print(stderr, "{} action points: mean F-score over moves {}, with a tolerance of {:.0f} ms\n",
                scores.Points().size(), Percent(scores.PointFScore()), 1000 * kActionPointTolerance);
   }
   fmt::print(stderr, "{:.2f} false alarms per minute\n", scores.FalseAlarmsAMinute());
@@ -257,7 +257,7 @@ Result<int> RecogniseLeavingOneOut(const RecogniseCommandOptions& options) {
     fmt::print("  {} performances count as errors, because no other person performed the move\n",
                out.untaught_performances);
   if (!out.points.empty()) {
-    fmt::print("F-score of {} action points within {:.0f} ms, averaged over the moves: {}\n", out.points.size(),
+    fmt::print("mean F-score over moves, for {} action points with a tolerance of {:.0f} ms: {}\n", out.points.size(),
                1000 * kActionPointTolerance, Percent(f_score));
   }
   people.End();

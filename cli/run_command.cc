@@ -310,7 +310,8 @@ void DefineRun(CLI::App& app, const std::string& command_line, Action& action) {
                       "Scenario files, folders of scenario files, or names of scenarios that come with Etude "
                       "(quick, full/ik_weights)");
   command->add_option("-o,--output", options->output,
-                      "Result folder (default: out/<suite>-<seed>; for secret worlds, out/<suite>-<digest>)");
+                      "Result folder (default: out/<suite>-<seed>; with a secret key, out/<suite>-<digest of the "
+                      "key>)");
   AddJobs(*command, options->jobs);
   const auto world_options = AddWorldOptions(*command, options->seed, options->trials, options->clips,
                                              options->joint_map, options->clip_facts);
@@ -331,9 +332,9 @@ void DefineRun(CLI::App& app, const std::string& command_line, Action& action) {
   command->add_option("--shard", *shard,
                       "Run only part i of n, given as i/n; `etude merge` combines all parts into "
                       "one run");
-  CLI::Option* overwrite = AddOverwrite(*command, options->overwrite, "Replace the run in this folder");
+  CLI::Option* overwrite = AddOverwrite(*command, options->overwrite, "Replace the run in the result folder");
   CLI::Option* resume =
-      command->add_flag("--resume", options->resume, "Continue the run in this folder")->excludes(overwrite);
+      command->add_flag("--resume", options->resume, "Continue the run in the result folder")->excludes(overwrite);
   AddOtherLibraries(*command, options->other_libraries);
   AddOutsideRules(*command, options->outside);
   command
@@ -411,7 +412,7 @@ void DefineMerge(CLI::App& app, const std::string& command_line, Action& action)
   CLI::App* command = app.add_subcommand("merge", "Merge the shards of a run into one run");
   command->add_option("folders", options->folders, "The folders of all shards, in any order")->required();
   command->add_option("-o,--output", options->output, "Result folder")->required();
-  AddOverwrite(*command, options->overwrite, "Replace the run in this folder");
+  AddOverwrite(*command, options->overwrite, "Replace the run in the result folder");
   AddOtherLibraries(*command, options->other_libraries);
   const Action act = WithSecretKey(*command, nullptr, options->key, [=] { return MergeCommand(*options); });
   command->callback([=, &action] { action = act; });

@@ -59,9 +59,9 @@ Result<RealRecording> LoadRealRecording(const std::string& path, const SensorRea
                    ReadTwinMotion(text, reading.reference, reading.reference_rate, recording.DurationSeconds()));
   auto real = MakeRealRecording(std::move(recording), std::move(twin));
   const std::string mismatch = real ? DescribeMismatch(*real) : "";
-  if (!mismatch.empty()) return Fail({reading.reference}, "does not show the motion of {}: {}", path, mismatch);
+  if (!mismatch.empty()) return Fail({reading.reference}, "shows another motion than {}: {}", path, mismatch);
   if (real) return *std::move(real);
-  return Fail({path}, "cannot be compared with {}: both must show at least three common joints for at least a second",
+  return Fail({path}, "cannot be compared with {}; both need at least three common joints for at least one second",
               reading.reference);
 }
 
@@ -93,9 +93,9 @@ std::string DescribeTurn(const JointRecording& recording) {
 }
 
 std::string DescribeRecording(const JointRecording& recording) {
-  return fmt::format("{} frames at {:g} Hz, {:.1f} s; {:.1f} % of the joints are missing{}", recording.frames.size(),
-                     recording.rate_hz, recording.DurationSeconds(), 100 * MissingShare(recording),
-                     DescribeTurn(recording));
+  return fmt::format("{} frames at {:g} Hz, {:.1f} s; {:.1f} % of the joint positions are missing{}",
+                     recording.frames.size(), recording.rate_hz, recording.DurationSeconds(),
+                     100 * MissingShare(recording), DescribeTurn(recording));
 }
 
 Json FactsOf(const std::string& file, const JointRecording& recording) {

@@ -144,9 +144,9 @@ std::string ScoreLine(const char* what, ClipFrames clips, const FuzzySystem& sys
   if (clips.size() < 2) return fmt::format("{:<9} (needs two clips)", what);
   const SystemScore score = ScoreSystem(clips, system);
   const MatchScore& matches = score.at_threshold;
-  return fmt::format("{:<9} F1 {:.3f}, AUC {}; {} pairs matched, {} close, {} both", what, matches.F1(),
-                     score.auc ? fmt::format("{:.3f}", *score.auc) : "none", matches.matched, matches.close,
-                     matches.close_matched);
+  return fmt::format("{:<9} F1 {:.3f}, AUC {}; {} pairs match, {} pairs are close, {} pairs match and are close", what,
+                     matches.F1(), score.auc ? fmt::format("{:.3f}", *score.auc) : "none", matches.matched,
+                     matches.close, matches.close_matched);
 }
 
 /// Scores paper A's system and the tuned system: for each, one line for the learnt clips and one for the held-out

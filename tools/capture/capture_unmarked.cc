@@ -206,13 +206,15 @@ std::string TellUnmarked(const CaptureFilmsOptions& options, const std::vector<F
   told.Tell(fmt::format("stature: {:.2f} m{}; {}", person.stature_m,
                         options.stature_m > 0 ? "" : ", estimated from the outlines", OutlinesText(views, person)));
   if (person.held > 0) {
-    told.Tell(fmt::format("doubtful: {} frames show the person in fewer than two cameras and repeat the last pose",
-                          person.held));
+    told.Tell(
+        fmt::format("doubtful: in {} frames, fewer than two cameras show the person, so these frames repeat "
+                    "the last pose",
+                    person.held));
   }
   constexpr double kMaxApart = 0.5, kDoubtfulShare = 0.1, kWrongShare = 0.5;
   std::string wrong;
   if (static_cast<double>(person.held) > kWrongShare * static_cast<double>(person.motion.poses.size())) {
-    wrong = fmt::format("{} of {} frames show the person in fewer than two cameras", person.held,
+    wrong = fmt::format("in {} of {} frames, fewer than two cameras show the person", person.held,
                         person.motion.poses.size());
   }
   // Report the cameras in which body and outline disagree.

@@ -392,8 +392,11 @@ Result<RigForecast> ForecastRig(const ForecastOptions& asked) {
   RETURN_IF_ERROR(AddJoints(cameras, options, forecast));
   AddWorths(cameras, options, forecast);
   options.listener.print(
-      fmt::format("{}{} cameras around x {:.2f}, z {:.2f}, in a volume of {:g} m along x, {:g} m along z, {:g} m "
-                  "high\n{}\n{}\n{}{}",
+      fmt::format("{}{} cameras; the middle of the volume is at x {:.2f}, z {:.2f}, and the volume is {:g} m along "
+                  "x, {:g} m along z, {:g} m high\n"
+                  "{}\n"
+                  "{}\n"
+                  "{}{}",
                   CamerasText(forecast), cameras.size(), forecast.middle_m.x, forecast.middle_m.y, options.size_m.x,
                   options.size_m.z, options.size_m.y, AssumedWords(forecast, options), FoundWords(forecast),
                   JointsText(forecast), WorthsText(forecast)));
