@@ -48,7 +48,7 @@ class Crowd(EtudeCase):
 
     def test_refuses_in_one_line(self):
         for arguments, says in ((("--characters", "0"), "--characters"),
-                                (("--seconds", "0.05"), "--seconds: 0.05 s at 60 Hz are 3 frames; allowed: 4 or more"),
+                                (("--seconds", "0.05"), "--seconds: 0.05 s at 60 Hz give 3 frames; allowed: 4 frames or more"),
                                 (("--seconds", "nan"), "--seconds"),
                                 (("-o", self.folder / "crowd.gif"), "has the wrong ending; allowed: .mp4")):
             self.refusal("crowd", *arguments, says=says)
