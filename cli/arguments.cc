@@ -200,16 +200,17 @@ CLI::Option* AddSeed(CLI::App& command, std::optional<std::uint64_t>& seed, cons
 CLI::Option* AddSeedFile(CLI::App& command, std::string& file) {
   CLI::Option* option = command.add_option(
       "--seed-file", file,
-      "Key of secret worlds: a file of 64 hexadecimal digits or 32 bytes; or set ETUDE_SEED_KEY to the digits");
+      "A file with a secret key from which all worlds are drawn: 64 hexadecimal digits or 32 bytes. The environment "
+      "variable ETUDE_SEED_KEY can contain the digits instead");
   if (CLI::Option* seed = command.get_option_no_throw("--seed")) option->excludes(seed);
   return option;
 }
 
 Result<std::optional<SecretKey>> TakeSecretKey(const std::string& file, bool has_seed) {
   ASSIGN_OR_RETURN(auto key, FindSecretKey(file));
-  if (key && has_seed) return Fail({kKeyVariable}, "is set together with --seed; leave out one of them");
+  if (key && has_seed) return Fail({kKeyVariable}, "and --seed are both set; use only one of them");
   if (struct stat status{}; key && ::stat(key->file.c_str(), &status) == 0 && (status.st_mode & S_IROTH) != 0) {
-    Complain({{file}, "can be read by other users; chmod 600 protects the key"});
+    Complain({{file}, "can be read by other users; `chmod 600` protects the key"});
   }
   return key;
 }
@@ -227,12 +228,15 @@ Action WithSecretKey(CLI::App& command, const std::optional<std::uint64_t>* seed
 }
 
 void AddReuseKey(CLI::App& command, bool& reuse_key) {
-  command.add_flag("--reuse-key", reuse_key, "Accept a key that was used before, whose worlds may be known")
+  command
+      .add_flag("--reuse-key", reuse_key,
+                "Accept a key that was used before, although its worlds may no longer "
+                "be secret")
       ->needs(command.get_option("--seed-file"));
 }
 
 CLI::Option* AddJobs(CLI::App& command, int& jobs) {
-  return command.add_option("-j,--jobs", jobs, "Worker processes (default: one per processor)")
+  return command.add_option("-j,--jobs", jobs, "Number of worker processes (default: one per processor)")
       ->check(CLI::Range(1, 1024));
 }
 
@@ -243,14 +247,14 @@ CLI::Option* AddOverwrite(CLI::App& command, bool& overwrite, const std::string&
 CLI::Option* AddUnit(CLI::App& command, const std::string& of, std::string& clip_facts) {
   return command.add_option_function<std::string>(
       "--unit", [&clip_facts](const std::string& value) { clip_facts += "unit: " + value + "\n"; },
-      "Unit of the " + of + ": m, cm, mm, in, ft, cmu, or metres per unit (default: found)");
+      "Unit of the " + of + ": m, cm, mm, in, ft, cmu, or a number of metres per unit (default: estimated)");
 }
 
 CLI::Option* AddUp(CLI::App& command, const std::string& of, std::string& clip_facts) {
   return command
       .add_option_function<std::string>(
           "--up", [&clip_facts](const std::string& value) { clip_facts += "up: " + value + "\n"; },
-          "Axis of the " + of + " that points up (default: found)")
+          "Axis of the " + of + " that points up (default: estimated)")
       ->check(OneOf({"y", "z"}));
 }
 
@@ -262,36 +266,45 @@ std::array<CLI::Option*, 9> AddWorldOptions(CLI::App& command, std::optional<std
   };
   // These options have defaults that come from scenarios or clips; the help of each option names the default.
   return {
-      AddSeed(command, seed, "Seed of all worlds (default: the scenario's, else 1)"),
-      command.add_option("--trials", trials, "Trials per condition (default: the scenario's)")
+      AddSeed(command, seed, "Seed of the random numbers of all worlds (default: the scenario's seed, otherwise 1)"),
+      command.add_option("--trials", trials, "Number of trials per condition (default: the scenario's number)")
           ->check(CLI::Range(1, 1000000)),
-      command.add_option("--clips", clips, "Clips instead of the scenarios' own: builtin:NAME, motion files, patterns"),
+      command.add_option("--clips", clips,
+                         "Clips that replace the clips of the scenarios: builtin:NAME, motion "
+                         "files, or patterns of file names"),
       command.add_option(kJointMapOption, joint_map,
-                         "Joint map: which joints of the clips play which roles (etude clip map writes one)"),
+                         "A joint map: a file that assigns joints of the clips to roles (`etude clip map` writes "
+                         "such a file)"),
       AddUnit(command, "clips", clip_facts),
       AddUp(command, "clips", clip_facts),
       command
           .add_option_function<std::string>("--rate", tell("rate"),
-                                            "Frames per second of the clips (default: their own rate)")
+                                            "Frames per second of the clips (default: the rate that each clip "
+                                            "states)")
           ->check(NumberWithin(1, 1000, "rate in Hz")),
       command.add_flag_callback(
           "--keep-floor", [&clip_facts] { clip_facts += "keep_floor: true\n"; },
-          "Keep the heights of the clips: do not put bodies on the floor"),
+          "Keep the heights of the clips, instead of placing the bodies on the floor"),
       command
           .add_option_function<std::string>("--marker-set", tell("marker_set"),
-                                            "Which set of markers is used (default: the best that the clips contain)")
+                                            "The marker set of the clips (default: the most suitable set that the "
+                                            "clips contain)")
           ->check(OneOf(MarkerSetKeys()))};
 }
 
 void AddUnsealed(CLI::App& command, Sealing& sealing) {
   command.add_flag_callback(
       "--unsealed", [&sealing] { sealing = Sealing::kIgnored; },
-      "Read a run or baseline even if it was changed, with a warning");
+      "Read a run or baseline even if its files were changed, and print a warning");
 }
 
 void AddOutsideRules(CLI::App& command, OutsideRules& rules) {
-  command.add_flag("!--no-fence", rules.is_fenced, "Run outside methods without a fence, to debug them");
-  command.add_flag("--allow-exec", rules.allow_exec, "Allow running programs that a manifest, a run or a pack names");
+  command.add_flag("!--no-fence", rules.is_fenced,
+                   "Run outside methods without their sandbox (the fence), to debug "
+                   "them");
+  command.add_flag("--allow-exec", rules.allow_exec,
+                   "Allow Etude to run programs that a manifest, a run or a "
+                   "packed cell specifies");
 }
 
 CLI::Validator OneOf(const std::vector<std::string>& names) {

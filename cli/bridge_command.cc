@@ -32,9 +32,12 @@ struct BridgeCommandOptions {
 };
 
 constexpr const char* kBridgeText =
-    "\nA bridge frame is suitable for a transition: its pose occurs in several clips, and the head is still. Two\n"
-    "bridge frames match when their fuzzy distance is below the threshold. Clips are named as in etude clip --help;\n"
-    "docs/bridge-frames.md explains more.";
+    "\n"
+    "A bridge frame is a frame that suits a transition: its pose occurs in several clips, and the head is still. "
+    "Two\n"
+    "bridge frames match if their fuzzy distance is below the threshold. `etude clip --help` explains how to "
+    "specify\n"
+    "clips; docs/bridge-frames.md explains bridge frames.";
 
 Result<BridgeLibrary> LoadLibrary(const BridgeCommandOptions& options) {
   BridgeLibraryOptions bridge{.clips = options.clips,
@@ -66,7 +69,9 @@ BridgeCommandOptions OptionsOf(const BridgeTags& tags, BridgeCommandOptions opti
 
 Result<int> CheckTags(const BridgeCommandOptions& options) {
   if (options.clips.empty() && !options.fuzzy.empty()) {
-    return Fail({"--fuzzy"}, "has no effect on --check without clips; name the clips that the tags file belongs to");
+    return Fail({"--fuzzy"},
+                "has no effect on --check if there are no clips; add the clips that the tags file "
+                "describes");
   }
   ASSIGN_OR_RETURN(const auto text, ReadWholeFile(options.check));
   ASSIGN_OR_RETURN(const auto tags, ReadTagsFile(text, options.check));
@@ -82,16 +87,16 @@ Result<int> CheckTags(const BridgeCommandOptions& options) {
   if (!comparison.differences.empty()) {
     const std::size_t count = comparison.differences.size();
     const std::string rest = count == 1 ? "" : fmt::format("; {} differences in all", count);
-    return Fail({options.check}, "does not fit the clips: {}{}", comparison.differences.front(), rest);
+    return Fail({options.check}, "does not match the clips: {}{}", comparison.differences.front(), rest);
   }
-  fmt::print("{}: {} clips, {} bridge frames, {} key poses; valid, and fits the clips\n", options.check,
+  fmt::print("{}: {} clips, {} bridge frames, {} key poses; valid, and matches the clips\n", options.check,
              comparison.clips, comparison.bridge_frames, tags.keys.size());
   return kSuccess;
 }
 
 Result<int> BridgeCommand(const BridgeCommandOptions& options) {
   if (!options.check.empty()) return CheckTags(options);
-  if (options.clips.empty()) return Fail({}, "etude bridge needs clips, or --check with a tags file");
+  if (options.clips.empty()) return Fail({}, "`etude bridge` needs clips, or the option --check with a tags file");
   RETURN_IF_ERROR(CheckOutput(options.output, options.overwrite));
   ASSIGN_OR_RETURN(const auto loaded, LoadLibrary(options));
   if (!options.output.empty()) RETURN_IF_ERROR(WriteTags(loaded, options.output));
@@ -114,35 +119,40 @@ Result<int> BridgeCommand(const BridgeCommandOptions& options) {
 
 void DefineBridge(CLI::App& app, Action& action) {
   auto options = std::make_shared<BridgeCommandOptions>();
-  CLI::App* command =
-      app.add_subcommand("bridge", "Find and tag the frames at which one clip can lead into another");
+  CLI::App* command = app.add_subcommand("bridge",
+                                         "Find and tag the frames at which a transition from one clip to another is "
+                                         "possible");
   // Define the inputs and outputs.
-  command->add_option("clips", options->clips, "The clips of one library");
+  command->add_option("clips", options->clips, "The clips of the library to analyse");
   CLI::Option* output = command->add_option("-o,--output", options->output, "The tags file to write (XML)");
   // --check excludes most other options, because the tags file states the rules.
   CLI::Option* check = command->add_option("--check", options->check,
-                                           "Check this tags file; if clips are named, also check that it fits them");
+                                           "Check this tags file; if clips are given, also check that the file "
+                                           "matches the clips");
   check->excludes(output);
   const auto add = [&](CLI::Option* option) { check->excludes(option); };
   add(command->add_option(
       "--to", options->to,
-      "Clips that every other clip must lead into; they are added to the library (default: head_shake,\n"
+      "Clips that must be reachable from every other clip; they are added to the library (default: head_shake,\n"
       "wave, puzzled and slow demonstrations, if they are among the clips)"));
   // Define the rules of matching and tagging.
-  add(command->add_option("--threshold", options->threshold, "Fuzzy distance below which two frames match")
+  add(command
+          ->add_option("--threshold", options->threshold,
+                       "Two frames match if their fuzzy distance is below "
+                       "this value")
           ->check(NumberWithin(1e-6, 6, "threshold")));
-  add(command->add_flag("--within-class", options->within_class, "Compare only frames with the same ten tags"));
+  add(command->add_flag("--within-class", options->within_class, "Match only frames whose ten tags are all equal"));
   add(command
           ->add_option("--min-clips", options->min_clips,
-                       "Minimum number of clips in which a bridge frame's tags must occur")
+                       "Minimum number of clips in which the tags of a bridge frame must occur")
           ->check(CLI::Range(1, 1000)));
   add(command
           ->add_option(
               "--most-per-class", options->most_per_class,
-              "Maximum number of bridge frames per clip and pose; those most like other clips' frames are kept "
-              "(0: all)")
+              "Maximum number of bridge frames per clip and pose; the frames most similar to frames of other clips "
+              "are kept (0: all)")
           ->check(CLI::Range(0, 1000000)));
-  add(command->add_option("--wait", options->wait_s, "Longest wait for a transition, seconds")
+  add(command->add_option("--wait", options->wait_s, "Longest wait for a transition, in seconds")
           ->check(NumberWithin(0, 3600, "time in seconds")));
   command->add_option("--fuzzy", options->fuzzy, "Fuzzy system: builtin:NAME or a file (default: builtin:paper)");
   add(command->add_flag(

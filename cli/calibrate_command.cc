@@ -59,8 +59,9 @@ Result<int> CalibrateCommand(const CalibrateCommandOptions& asked) {
   }
   if (options.inputs.empty())
     return Fail({},
-                "no input is named; allowed: a file of point pairs; or for each camera a folder of pictures or a film");
-  if (options.output.empty()) return Fail({}, "-o RIG.yaml is missing: it names the file for the rig");
+                "the input is missing; allowed: a file of point pairs; or, for each camera, a folder of pictures or "
+                "a film");
+  if (options.output.empty()) return Fail({}, "the option -o RIG.yaml is missing; it sets the file that Etude writes");
   RETURN_IF_ERROR(CheckOutput(options.output, asked.overwrite));
   RETURN_IF_ERROR(CheckOutput(options.picture, asked.overwrite, ".png"));
   StdoutToStderr aside(asked.as_json);
@@ -73,24 +74,34 @@ Result<int> CalibrateCommand(const CalibrateCommandOptions& asked) {
 }
 
 constexpr const char* kCalibrateText =
-    "\nA rig describes the cameras of `etude capture`: focal lengths, principal points, lens distortion and poses. It "
-    "can\nbe found in two ways.\n\n"
-    "From point pairs: at least six points, not all in one plane (use two or three walls), measured in metres, Y up,\n"
-    "and the pixels that show them. CSV with the heading camera,x,y,z,u,v (and --size), or YAML:\n"
+    "\n"
+    "A rig describes the cameras of `etude capture`: focal lengths, principal points, lens distortion and poses. "
+    "There are\n"
+    "two ways to calibrate a rig.\n\n"
+    "From point pairs: measure at least six points in metres, Y up, and the pixels that show these points. The "
+    "points must\n"
+    "not all be in one plane; use two or three walls. The file is a CSV with the heading camera,x,y,z,u,v (add "
+    "--size), or\n"
+    "YAML:\n"
     "  left:  {size: [1920, 1080], pairs: [[0.0, 0.0, 0.0, 812.4, 903.1], ...]}\n"
     "  right: {size: [1920, 1080], pairs: ...}\n"
-    "--method refined (the default) finds focal lengths, principal point, lens and pose by least squares of\nthe "
-    "reprojection error; dlt and dlt-normalised only solve for the matrix H, as paper B does.\n\n"
-    "From pictures of a board: print one (--print), glue it to something flat, and measure a square. Take ten or "
-    "more\npictures with every camera: tilt the board in all directions, and fill the picture's corners, too. Pictures "
-    "of the same\nmoment need the same name in every folder, and some moments must show the board to two cameras at "
-    "once. The\nfirst picture determines the world: lay the board on the floor for it (--world floor). A film can "
-    "replace a folder.\nIf films of a moving board did not begin at the same moment, the delay of each is found, "
-    "corrected and reported.\n\n"
-    "The file that is written is YAML that OpenCV reads, too: "
-    "cv::FileStorage(\"rig.yaml\")[\"left\"][\"camera_matrix\"].\n"
-    "`etude capture` also takes calibrations of OpenCV, Pose2Sim, Anipose, FreeMoCap, Caliscope, Qualisys, EasyMocap "
-    "and COLMAP.";
+    "--method refined (the default) finds focal lengths, principal point, lens and pose by least squares of\n"
+    "the reprojection error. The methods dlt and dlt-normalised only solve for the matrix H, as paper B does.\n\n"
+    "From pictures of a board: print a board (--print), glue it to something flat, and measure the side of a "
+    "square. Take\n"
+    "ten or more pictures with every camera. Tilt the board in all directions, and place it also in the picture's "
+    "corners.\n"
+    "Pictures of the same moment need the same name in every folder. At some moments two cameras must see the "
+    "board. The\n"
+    "board in the first picture determines the world coordinates: put it on the floor (--world floor). A film can "
+    "replace a\n"
+    "folder. If films of a moving board did not begin at the same moment, Etude finds, corrects and reports the "
+    "delay of\n"
+    "each film.\n\n"
+    "The written file is YAML. OpenCV can read it: cv::FileStorage(\"rig.yaml\")[\"left\"][\"camera_matrix\"].\n"
+    "`etude capture` also reads calibrations of OpenCV, Pose2Sim, Anipose, FreeMoCap, Caliscope, Qualisys, "
+    "EasyMocap and\n"
+    "COLMAP.";
 
 }  // namespace
 
@@ -102,42 +113,46 @@ void DefineCalibrate(CLI::App& app, Action& action) {
       app.add_subcommand("calibrate", "Calibrate the cameras of a rig from measured points or pictures of boards");
   // Define the inputs, the output, and the board.
   command->add_option("inputs", options->inputs,
-                      "A file of point pairs; or for each camera a folder of pictures or a film");
-  command->add_option("-o,--output", options->output, "The rig to write (YAML)");
+                      "A file of point pairs; or, for each camera, a folder of pictures or a film");
+  command->add_option("-o,--output", options->output, "The rig file to write (YAML)");
   command->add_option(
       "--board", options->boards,
-      "COLUMNSxROWSxSQUARE: the numbers of squares, and a square's side in metres; @FIRST_CODE gives a second "
-      "board other codes. Or a board of OpenCV: chess:9x6x0.025, charuco:5x7x0.04 (dictionary, colours and layout "
-      "are found)");
+      "The board as COLUMNSxROWSxSQUARE: the numbers of squares, and the side of a square in metres. Append "
+      "@FIRST_CODE to give a second board different codes. Or a board of OpenCV: chess:9x6x0.025, charuco:5x7x0.04 "
+      "(Etude finds its dictionary, colours and layout)");
   // Define what is estimated, and in which world frame.
-  command->add_option("--method", options->method, "How cameras are computed from point pairs")
+  command->add_option("--method", options->method, "Method that computes cameras from point pairs")
       ->check(OneOf(CalibrationNames()));
   command
-      ->add_option("--lens", options->lens, "Lens parameters to find: none; radial2 (k1, k2, p1, p2); radial3 (and k3)")
+      ->add_option("--lens", options->lens,
+                   "Lens parameters to estimate: none; radial2 (k1, k2, p1, p2); radial3 "
+                   "(k1, k2, k3, p1, p2)")
       ->check(OneOf({"none", "radial2", "radial3"}));
   command->add_flag(
       "--skew", options->skew,
-      "Also find the angle between the picture's axes (as paper B does; that of today's sensors is 90 degrees)");
-  command->add_option("--size", options->size, "Size of the pictures, for point pairs as CSV: 1920x1080");
+      "Also estimate the angle between the picture's axes, as paper B does (90 degrees in modern sensors)");
+  command->add_option("--size", options->size,
+                      "If the input is point pairs as CSV: the size of the pictures, such "
+                      "as 1920x1080");
   command->add_option("--world", options->world, "Where the board is in the first picture: on the floor or on a wall")
       ->check(OneOf({"floor", "wall"}));
   command
       ->add_option("--every", options->every,
-                   "Use every n-th frame of a film (0: every 30th; for a board of OpenCV's, at most 200 frames in all)")
+                   "Use every n-th frame of a film (0: every 30th; for a board of OpenCV, at most 200 frames in "
+                   "total)")
       ->check(CLI::Range(0, 100000));
   command
       ->add_option("--sync", options->sync_s,
-                   "Largest delay of a film that is searched for, s; the delay is found from the board (0: twice the "
-                   "time between the pictures that are used)")
+                   "Largest delay of a film, in s; Etude finds the delay from the motion of the board (0: twice the "
+                   "time between two used frames)")
       ->check(NumberWithin(0, 60, "time in s"));
   // Define further outputs and comparisons.
-  command->add_option("--picture", options->picture,
-                      "Also draw the corners that were found, and their residuals (.png)");
+  command->add_option("--picture", options->picture, "Also draw the detected corners and their residuals (.png)");
   command->add_option("--beside", options->beside,
-                      "Another calibration of these cameras, for a comparison of focal lengths, distances and "
-                      "residuals; or opencv, for OpenCV's calibrateCamera on each camera alone");
+                      "Compare focal lengths, distances and residuals with another calibration of these cameras; or "
+                      "`opencv`: compare with OpenCV's calibrateCamera for each camera separately");
   CLI::Option* print =
-      command->add_option("--print", options->print, "Only write the board as a picture (.png) for printing");
+      command->add_option("--print", options->print, "Only write a picture of the board (.png) for printing");
   AddOverwrite(*command, asked->overwrite);
   AddJson(*command, asked->as_json)->excludes(print);
   command->footer(kCalibrateText);

@@ -79,7 +79,7 @@ int CheckMethodCommand(OutsideOptions options, const std::string& seat, const Re
     return *all_passed ? kSuccess : kNothingWorked;
   }
   fmt::print("{} of {} checks passed{}\n", passed, checks,
-             *all_passed ? "" : "; docs/outside-methods.md explains the protocol");
+             *all_passed ? "" : "; docs/outside-methods.md describes the protocol");
   return *all_passed ? kSuccess : kNothingWorked;
 }
 
@@ -94,34 +94,41 @@ void DefineCheckMethod(CLI::App& app, Action& action) {
     bool is_fenced = true, as_json = false;
   };
   auto options = std::make_shared<Options>();
-  CLI::App* command = app.add_subcommand("check-method", "Test whether a program speaks the protocol of methods");
-  command->add_option("command", options->command, "The program and its arguments, after --")->required();
+  CLI::App* command = app.add_subcommand("check-method",
+                                         "Test whether a program correctly implements Etude's "
+                                         "protocol for outside methods");
+  command->add_option("command", options->command, "The program and the arguments of the program, after `--`")
+      ->required();
   // List the allowed tasks and seats (a seat is the program's part in a loop).
   std::vector<std::string> tasks, seats;
   for (const TaskKind& kind : AllTaskKinds()) {
     tasks.push_back(kind.name);
-    if (!kind.seats.empty()) seats.push_back(fmt::format("of task {}: {}", kind.name, Join(kind.seats)));
+    if (!kind.seats.empty()) seats.push_back(fmt::format("for task {}: {}", kind.name, Join(kind.seats)));
   }
   command->add_option("--task", options->task, "One of: " + Join(tasks))->required();
-  command->add_option("--seat", options->seat, "The program's place in a loop: " + Join(seats, "; "));
+  command->add_option("--seat", options->seat,
+                      "The part of the task's loop that the program replaces (its seat): " + Join(seats, "; "));
   // Define recordings of people, for tasks that can use them.
   CLI::Option* streams = command->add_option("--streams", options->people.streams,
-                                             "Recordings of people for the problems, as in `etude run --streams`");
+                                             "Recordings of people from which problems are made, as in `etude run "
+                                             "--streams`");
   streams->allow_extra_args(false);
   command
       ->add_option("--labels", options->people.labels,
-                   "Labels of the recordings (who did what when): a file, or a folder of tag streams")
+                   "Labels of the recordings (which person performed which move, and when): a file, or a folder of "
+                   "tag streams")
       ->needs(streams);
   AddStreamReading(*command, options->people.reading);
   // Define limits, and the fence.
-  command->add_option("--time", options->time_s, "Time limit per problem, or per step of a session, seconds")
+  command->add_option("--time", options->time_s, "Time limit per problem, or per step of a session, in seconds")
       ->check(NumberWithin(0.001, 1e6, "time in seconds"));
-  command->add_option("--memory", options->memory_mb, "Memory limit, MB")->check(NumberWithin(1, 1e6, "size in MB"));
+  command->add_option("--memory", options->memory_mb, "Memory limit, in MB")->check(NumberWithin(1, 1e6, "size in MB"));
   command
       ->add_option("--files", options->files,
-                   "Files and folders that the program can read inside the fence (default: its own folder)")
+                   "Files and folders that the program can read inside its sandbox, the fence (default: the "
+                   "program's own folder)")
       ->allow_extra_args(false);
-  command->add_flag("!--no-fence", options->is_fenced, "Run the program without a fence, to debug it");
+  command->add_flag("!--no-fence", options->is_fenced, "Run the program without its sandbox (the fence), to debug it");
   AddJson(*command, options->as_json);
   command->callback([=, &action] {
     action = [=] {

@@ -25,10 +25,11 @@ namespace etude {
 namespace {
 
 constexpr const char* kClipText =
-    "\nA clip is a BVH or DeepMimic file, an animation of a glTF file (dance.glb#Jump; without # all of them), a "
-    "pattern of files\n"
-    "('mocap/*.bvh'), or builtin:NAME (builtin:* all moves, builtin:acts, builtin:songs). docs/clips.md explains "
-    "more.";
+    "\n"
+    "A clip is a BVH or DeepMimic file, an animation of a glTF file (dance.glb#Jump; dance.glb is all its "
+    "animations),\n"
+    "a pattern of file names ('mocap/*.bvh'), or builtin:NAME (builtin:* all moves, builtin:acts, builtin:songs).\n"
+    "docs/clips.md explains more.";
 
 struct ClipInfoOptions {
   std::vector<std::string> clips;
@@ -105,7 +106,7 @@ Result<int> ClipConvertCommand(const ClipConvertOptions& given) {
   ASSIGN_OR_RETURN(const auto trim, ReadTrim(given.trim));
   ASSIGN_OR_RETURN(const auto references, ExpandReferences({given.input}));
   if (references.size() > 1) {
-    return Fail({}, "'{}' matches {} clips; only one can be converted at a time", given.input, references.size());
+    return Fail({}, "'{}' matches {} clips; allowed: one clip", given.input, references.size());
   }
   ASSIGN_OR_RETURN(auto clips, ReadClips(references.front(), reading));
 
@@ -141,35 +142,47 @@ Result<int> ClipConvertCommand(const ClipConvertOptions& given) {
 
 void DefineConvert(CLI::App& clip, Action& action) {
   auto options = std::make_shared<ClipConvertOptions>();
-  CLI::App* command = clip.add_subcommand("convert", "Convert a clip to BVH, GLB, TRC, CSV, C3D, NPZ, MOT or Motion-BIDS");
+  CLI::App* command = clip.add_subcommand("convert",
+                                          "Convert a clip to BVH, GLB, TRC, CSV, C3D, NPZ, MOT or "
+                                          "Motion-BIDS");
   command->add_option("input", options->input, "A clip")->required();
   command
       ->add_option(
           "output", options->output,
-          "The file to write: .bvh, .glb, .trc (OpenSim's markers), .mot (its angles), .csv, .c3d, .npz (NumPy); or a "
-          "folder, for Motion-BIDS: data/")
+          "The file to write: .bvh, .glb, .trc (OpenSim markers), .mot (OpenSim joint angles), .csv, .c3d, .npz "
+          "(NumPy); or, for Motion-BIDS, a folder such as data/")
       ->required();
   // Define the part of the clip that is converted, and the changes to the clip.
-  command->add_option("--trim", options->trim, "Only the part FROM:TO in seconds, such as 1.5:4 or 2:");
+  command->add_option("--trim", options->trim,
+                      "Convert only the part FROM:TO, in seconds: 1.5:4, or 2: for the "
+                      "part from 2 s to the end");
   command
       ->add_option("--rate", options->rate_hz,
-                   "Frames per second (default: the clip's rate; for a body of twenty joints, 30)")
+                   "Frames per second of the output (default: the clip's rate, or 30 for a body of twenty joints)")
       ->check(NumberWithin(1, 1000, "rate in Hz"));
   command->add_flag("--mirror", options->mirror, "Mirror the motion: left becomes right");
-  command->add_flag("--ground", options->ground, "Write a body: twenty joints, metres, Y up, feet on the floor");
-  command->add_flag("--retarget", options->retarget, "Write a body of the canonical proportions, 1.70 m tall");
+  command->add_flag("--ground", options->ground,
+                    "Write Etude's body of twenty joints, in metres, with Y up and the "
+                    "feet on the floor");
+  command->add_flag("--retarget", options->retarget,
+                    "Write Etude's body of twenty joints with canonical "
+                    "proportions, 1.70 m tall");
   command
       ->add_option("--character", options->character,
-                   "Retarget to the bear or the mannequin (GLB only); none leaves out the file's meshes")
+                   "GLB only: retarget the motion to the bear or the mannequin; none: leave out the meshes of the "
+                   "file")
       ->check(OneOf({"bear", "mannequin", "none"}));
   // Define how files are written and read.
   AddOverwrite(*command, options->overwrite);
   AddJson(*command, options->as_json);
   AddClipReading(*command, options->reading, "--file-rate");
   command->footer(
-      "\nWithout --ground, --retarget or --character a file keeps its own skeleton, unit and axes (GLB: metres, Y "
-      "up).\n"
-      "TRC, CSV, C3D, NPZ and Motion-BIDS hold the twenty joints of the body, MOT the angles between its limbs.");
+      "\n"
+      "Without --ground, --retarget or --character, the output keeps the skeleton, unit and axes of the input (GLB: "
+      "metres,\n"
+      "Y up). TRC, CSV, C3D, NPZ and Motion-BIDS contain the twenty joints of Etude's body. MOT contains the angles "
+      "between\n"
+      "its limbs.");
   command->callback([=, &action] { action = [=] { return Finish(ClipConvertCommand(*options)); }; });
 }
 
@@ -185,8 +198,7 @@ Result<int> ClipContactsCommand(const ClipContactsOptions& options) {
   ASSIGN_OR_RETURN(const auto reading, ReadOptions(options.reading));
   ASSIGN_OR_RETURN(const auto clips, LoadClips({options.clip}, {}, reading));
   if (clips.clips.size() != 1) {
-    return Fail({}, "'{}' matches {} clips; the contacts of only one can be drawn at a time", options.clip,
-                clips.clips.size());
+    return Fail({}, "'{}' matches {} clips; allowed: one clip", options.clip, clips.clips.size());
   }
   RETURN_IF_ERROR(WriteFileAtomically(options.output, ContactIndexSvg(clips.clips[0].name, clips.clips[0].motion)));
   TellWritten(options.output);
@@ -196,7 +208,7 @@ Result<int> ClipContactsCommand(const ClipContactsOptions& options) {
 void DefineContacts(CLI::App& clip, Action& action) {
   auto options = std::make_shared<ClipContactsOptions>();
   CLI::App* command =
-      clip.add_subcommand("contacts", "Draw when the feet stand: their heights, speeds and contacts (SVG)");
+      clip.add_subcommand("contacts", "Plot the heights, speeds and floor contacts of the feet over time (SVG)");
   command->add_option("clip", options->clip, "A clip")->required();
   command->add_option("-o,--output", options->output, "The picture: .svg")->required();
   AddOverwrite(*command, options->overwrite);
@@ -215,8 +227,9 @@ struct ClipMapOptions {
 void PrintRoles(const Skeleton& skeleton, const JointMap& map) {
   for (const Role role : AllRoles()) {
     const bool composed = std::ranges::find(map.composed, role) != map.composed.end();
-    fmt::print("{:<16} {}{}\n", RoleName(role), Quote(skeleton.joints[map[role].joint].name),
-               composed ? " (composed: no joint has this role; a point fixed to this joint plays it)" : "");
+    fmt::print(
+        "{:<16} {}{}\n", RoleName(role), Quote(skeleton.joints[map[role].joint].name),
+        composed ? " (composed: no joint has this role, so Etude uses a point that is fixed to this joint)" : "");
   }
 }
 
@@ -246,19 +259,20 @@ Json RolesAsJson(const Skeleton& skeleton, const JointMap& map, const MadeBody& 
 std::string UnfinishedMapFile(const Skeleton& skeleton) {
   const PartialRoles roles = FindPartialRoles(skeleton);
   std::string text =
-      "# Write the joint behind each role that is missing. Hands, feet, spine and head may be left out.\nroles:\n";
+      "# Each role needs a joint: write its name after the colon. Hands, feet, spine and head may be left "
+      "out.\nroles:\n";
   for (const Role role : AllRoles()) {
     const int found = roles.found[Index(role)], proposed = roles.proposed[Index(role)];
     if (found >= 0) {
       text += fmt::format("  {}: {}\n", RoleName(role), QuotedInYaml(skeleton.joints[found].name));
     } else if (proposed >= 0) {
-      text += fmt::format("  # {}: {}  # by the skeleton's shape, confidence {:.2f}\n", RoleName(role),
+      text += fmt::format("  # {}: {}  # proposed because of the skeleton's shape, confidence {:.2f}\n", RoleName(role),
                           QuotedInYaml(skeleton.joints[proposed].name), roles.confidence);
     } else {
       text += fmt::format("  # {}:\n", RoleName(role));
     }
   }
-  text += "# The joints of the file:\n";
+  text += "# All joints of the file:\n";
   for (const Joint& joint : skeleton.joints) text += fmt::format("#   {}\n", QuotedInYaml(joint.name));
   return text;
 }
@@ -318,7 +332,7 @@ Result<int> ClipMapCommand(const ClipMapOptions& options) {
     if (options.joint_map.empty() && writes) {
       RETURN_IF_ERROR(WriteFileAtomically(options.output, UnfinishedMapFile(skeleton)));
       TellWritten(options.output);
-      fmt::print("Next: fill in this file, then use it with --joint-map {}\n", options.output);
+      fmt::print("Next: assign joints to the missing roles in this file, then use --joint-map {}\n", options.output);
     }
     return tl::unexpected(chosen.error());
   }
@@ -341,12 +355,14 @@ Result<int> ClipMapCommand(const ClipMapOptions& options) {
 
 void DefineMap(CLI::App& clip, Action& action) {
   auto options = std::make_shared<ClipMapOptions>();
-  CLI::App* command = clip.add_subcommand("map", "Show which joint plays which role");
+  CLI::App* command = clip.add_subcommand("map", "Show which joint of the skeleton has which role");
   command->add_option("clip", options->clip, "A BVH or glTF file")->required();
   command->add_option("-o,--output", options->output,
-                      "Write a joint-map file that you can edit, even if roles are missing");
-  command->add_option("--preview", options->preview, "Draw the skeleton with names and roles (.png)");
-  command->add_option(kJointMapOption, options->joint_map, "Roles that you have already assigned");
+                      "Write a joint-map file that you can edit, even if some roles have no joint");
+  command->add_option("--preview", options->preview, "Draw the skeleton with joint names and roles (.png)");
+  command->add_option(kJointMapOption, options->joint_map,
+                      "A joint map with the roles that you have already "
+                      "assigned");
   AddJson(*command, options->as_json);
   AddOverwrite(*command, options->overwrite);
   command->callback([=, &action] { action = [=] { return Finish(ClipMapCommand(*options)); }; });
@@ -355,7 +371,7 @@ void DefineMap(CLI::App& clip, Action& action) {
 }  // namespace
 
 void DefineClip(CLI::App& app, Action& action) {
-  CLI::App* clip = app.add_subcommand("clip", "Look at motion clips, convert and render them");
+  CLI::App* clip = app.add_subcommand("clip", "Inspect, convert and render motion clips");
   clip->footer(kClipText);
   clip->require_subcommand(1);
   DefineInfo(*clip, action);

@@ -62,7 +62,7 @@ std::string PoseShares(const FuzzyMotion& motion, const RuleBase& rules) {
 
 void PrintSimilarities(const ClipLibrary& clips, const std::vector<FuzzyMotion>& motions,
                        const FeatureWeights& weights) {
-  fmt::print("\nfuzzy similarity of whole motions, 1 = alike, 0.5 = {} apart on average:\n", kPaperThreshold);
+  fmt::print("\nfuzzy similarity of whole motions: 1 = equal; 0.5 = a mean fuzzy distance of {}:\n", kPaperThreshold);
   for (std::size_t a = 0; a < motions.size(); ++a) {
     for (std::size_t b = a + 1; b < motions.size(); ++b) {
       const auto similarity = ComputeMotionSimilarity(motions[a].grades, motions[b].grades, {.weights = weights});
@@ -93,7 +93,7 @@ Result<int> ClipGradesCommand(const ClipGradesOptions& options) {
   ASSIGN_OR_RETURN(const auto reading, ReadOptions(options.reading));
   ASSIGN_OR_RETURN(const auto clips, LoadClips(options.clips, {}, reading));
   if (!options.output.empty() && clips.clips.size() != 1) {
-    return Fail({options.output}, "can only hold the grades of one clip, found {}", clips.clips.size());
+    return Fail({options.output}, "can only contain the grades of one clip; found {} clips", clips.clips.size());
   }
   std::vector<FuzzyMotion> motions;
   for (const LibraryClip& clip : clips.clips) {
@@ -118,9 +118,9 @@ Result<int> ClipGradesCommand(const ClipGradesOptions& options) {
 void DefineGrades(CLI::App& clip, Action& action) {
   auto options = std::make_shared<ClipGradesOptions>();
   CLI::App* command = clip.add_subcommand(
-      "grades", "Show fuzzy features, grades, tags and poses of every frame, and how similar clips are");
+      "grades", "Show fuzzy features, grades, tags and poses of every frame, and the similarity of clips");
   command->add_option("clips", options->clips, "Clips")->required();
-  command->add_option("-o,--output", options->output, "A table (.csv) of one clip, one line per frame");
+  command->add_option("-o,--output", options->output, "Write a table of one clip with one line per frame (.csv)");
   command->add_option("--fuzzy", options->fuzzy, "Fuzzy system: builtin:NAME or a file");
   AddOverwrite(*command, options->overwrite);
   AddJson(*command, options->as_json);

@@ -12,18 +12,21 @@ namespace etude {
 
 void AddClipReading(CLI::App& command, ClipReading& reading, const std::string& rate) {
   command.add_option(kJointMapOption, reading.joint_map,
-                     "Joint map: which joints play which roles (etude clip map writes one)");
+                     "A joint map: a file that assigns joints to roles (`etude clip map` writes such a file)");
   command.add_option("--unit", reading.unit,
-                     "Unit of the file: m, cm, mm, in, ft, cmu, or metres per unit (default: found by the stature)");
-  command.add_option("--up", reading.up, "Axis of the file that points up: y or z (default: found)")
+                     "Unit of the file: m, cm, mm, in, ft, cmu, or a number of metres per unit (default: estimated "
+                     "from the body height)");
+  command.add_option("--up", reading.up, "Axis of the file that points up: y or z (default: estimated)")
       ->check(OneOf({"y", "z"}));
-  command.add_flag("--keep-floor", reading.keep_floor, "Leave the body at the height of the file");
+  command.add_flag("--keep-floor", reading.keep_floor,
+                   "Keep the body at its height in the file, instead of placing "
+                   "it on the floor");
   command
       .add_option("--marker-set", reading.marker_set,
-                  "Which set of markers is used (default: the best that the file contains)")
+                  "The marker set of the file (default: the most suitable set that the file contains)")
       ->check(OneOf(MarkerSetKeys()));
   if (rate.empty()) return;
-  command.add_option(rate, reading.rate_hz, "Frames per second of the file (default: its own rate)")
+  command.add_option(rate, reading.rate_hz, "Frames per second of the file (default: the rate that the file states)")
       ->check(NumberWithin(1, 1000, "rate in Hz"));
 }
 

@@ -96,12 +96,14 @@ Result<void> WriteSheet(const ClipRenderOptions& options) {
 Result<bool> WriteFilm(const ClipRenderOptions& options) {
   ASSIGN_OR_RETURN(const auto size, ReadSize(options.size, {720, 720}));
   if (size.width % 2 != 0 || size.height % 2 != 0) {
-    return Fail({}, "--size: {}x{} has an odd side; allowed for films: even numbers of pixels", size.width,
-                size.height);
+    return Fail({}, "--size: found {}x{}; allowed for films: even numbers of pixels", size.width, size.height);
   }
   ASSIGN_OR_RETURN(auto actors, Cast(options));
   if (actors.size() > 1) {
-    return Fail({}, "a film shows one clip, found {}; a contact sheet (.png) shows all of them", actors.size());
+    return Fail({},
+                "found {} clips; a film can show only one clip, but a contact sheet (.png) can show several "
+                "clips",
+                actors.size());
   }
   ASSIGN_OR_RETURN(auto* const renderer, SharedRenderer());
   const Interrupt interrupt;
@@ -112,8 +114,7 @@ Result<bool> WriteFilm(const ClipRenderOptions& options) {
 Result<int> ClipRenderCommand(const ClipRenderOptions& options) {
   const std::string extension = std::filesystem::path(options.output).extension().string();
   if (extension != ".png" && extension != ".mp4") {
-    return Fail({options.output},
-                "is not the name of a picture or film; allowed: .png (a contact sheet), .mp4 (a film)");
+    return Fail({options.output}, "has the wrong ending; allowed: .png (a contact sheet), .mp4 (a film)");
   }
   RETURN_IF_ERROR(CheckOutput(options.output, options.overwrite));
   if (extension == ".png") {
@@ -132,24 +133,31 @@ void DefineRender(CLI::App& clip, Action& action) {
   auto options = std::make_shared<ClipRenderOptions>();
   CLI::App* command = clip.add_subcommand("render", "Draw a contact sheet (PNG) of clips, or a film (MP4) of one clip");
   command->add_option("clips", options->clips, "Clips")->required();
-  command->add_option("-o,--output", options->output, "The picture: .png or .mp4")->required();
+  command->add_option("-o,--output", options->output, "The output file: .png (a contact sheet) or .mp4 (a film)")
+      ->required();
   command
       ->add_option("--character", options->character,
-                   "The figure: own (the file's meshes), mannequin, bear, or body (capsules, left blue and right "
-                   "orange)\n(default: own if the file has meshes, otherwise mannequin; bear for built-in clips)")
+                   "The figure to draw: own (the meshes of the file), mannequin, bear, or body (capsules; left "
+                   "blue, right orange)\n"
+                   "(default: own if the file has meshes, bear for built-in clips, otherwise mannequin)")
       ->check(OneOf({"own", "mannequin", "bear", "body"}));
-  command->add_option("--view", options->view, "View of the first pose: front, three-quarter or side")
+  command
+      ->add_option("--view", options->view,
+                   "Direction of view relative to the first pose: front, three-quarter "
+                   "or side")
       ->check(OneOf({"front", "three-quarter", "side"}));
   command->add_option("--size", options->size,
-                      "Size of the film, or of each picture of a sheet (default: 720x720, 200x260)");
+                      "Size of the film (default: 720x720), or of each picture of a contact sheet (default: 200x260)");
   command
       ->add_option("--frames", options->frames,
-                   "Sheet: number of pictures of each clip (default: 12 for one clip, 8 for several)")
+                   "For a contact sheet: number of pictures per clip (default: 12 for one clip, 8 for several clips)")
       ->check(CLI::Range(1, 1000));
-  command->add_option("--columns", options->columns, "Sheet: number of pictures in a row")
+  command->add_option("--columns", options->columns, "For a contact sheet: number of pictures in a row")
       ->check(CLI::Range(1, 100))
       ->default_str("");
-  command->add_option("--trim", options->trim, "Only the part FROM:TO in seconds, such as 1.5:4 or 2:");
+  command->add_option("--trim", options->trim,
+                      "Render only the part FROM:TO, in seconds: 1.5:4, or 2: for the part "
+                      "from 2 s to the end");
   AddJobs(*command, options->jobs);
   AddOverwrite(*command, options->overwrite);
   AddClipReading(*command, options->reading);

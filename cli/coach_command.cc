@@ -55,14 +55,23 @@ struct CoachCommandOptions {
 };
 
 constexpr const char* kCoachText =
-    "\nReads a device's skeletons line by line, and writes line by line, as JSON, what a screen should show: first the "
-    "song, its\n"
-    "moves and their key poses, then an object for each frame (docs/coach.md explains all keys). The coach waits for\n"
-    "a clap, dances, judges every performance, and interrupts by the rule --policy: it shakes its head, waves or "
-    "is\npuzzled, shows the move slowly, and returns to the dance. Scenarios of `task: coach` judge this program.\n\n"
-    "Rows are what `etude clip convert` writes as CSV, or a Kinect's (docs/streams.md). You play the music: a\nframe's "
-    "\"music\" states from where to play it, and when to stop. A line '#music 12.34' in the stream tells the coach\n"
-    "where the music is, so that it can slow down or speed up its moves.";
+    "\n"
+    "Reads a device's skeletons line by line, and writes, as one JSON object per line, what a screen should show. "
+    "The first\n"
+    "object describes the song, its moves and their key poses; then each frame has an object (docs/coach.md "
+    "explains all\n"
+    "keys). The coach waits for a clap, dances, and judges every performance. The option --policy sets when the "
+    "coach\n"
+    "interrupts the dance: it shakes its head, waves or is puzzled, shows the move slowly, and returns to the "
+    "dance.\n"
+    "Scenarios with `task: coach` test this coach.\n\n"
+    "The input rows have the CSV format that `etude clip convert` writes, or a Kinect's format (docs/streams.md). "
+    "Your own\n"
+    "program plays the music: the key \"music\" of a frame states from which time to play it, and when to stop. A "
+    "line\n"
+    "'#music 12.34' in the input tells the coach the current time of the music, in seconds. The coach then dances "
+    "slower or\n"
+    "faster to stay with the music.";
 
 /// A dance, and its moves in the form in which recognisers learn them, in the order of the dance.
 struct Lesson {
@@ -86,7 +95,7 @@ Result<void> TeachMoves(const std::string& path, std::vector<TaughtMove>& taught
     if (danced == taught.end()) {
       std::string names;
       for (const TaughtMove& known : taught) names += (names.empty() ? "" : ", ") + known.name;
-      return Fail({path}, "teaches '{}', which this song does not contain; the song contains: {}", move.name, names);
+      return Fail({path}, "found the move '{}', which is not in this song; allowed: {}", move.name, names);
     }
     *danced = std::move(move);
   }
@@ -179,40 +188,41 @@ Result<int> CoachCommand(const CoachCommandOptions& options) {
 
 void DefineCoach(CLI::App& app, Action& action) {
   auto options = std::make_shared<CoachCommandOptions>();
-  CLI::App* command = app.add_subcommand("coach", "Coach a dance live, from skeletons");
+  CLI::App* command = app.add_subcommand("coach", "Coach a dancing person live, from a stream of skeletons");
   // Define the song, the stream, and the facts about the music.
-  command->add_option("song", options->song, "A song: a built-in one (etude list clips), or a file (.yaml)")
+  command->add_option("song", options->song, "A built-in song (see `etude list clips`), or a song file (.yaml)")
       ->required();
-  command->add_option("--stream", options->stream, "A file of skeleton rows; -: standard input, live")->required();
+  command->add_option("--stream", options->stream, "A file of skeleton rows; -: live from standard input")->required();
   command->add_option("--moves", options->moves,
-                      "A moves file (etude teach) with right performances of the song's moves");
+                      "A moves file with correct performances of the song's moves (`etude teach` writes such a file)");
   command->add_option("--beats", options->beats,
-                      "Times of the music's beats: a text file with one time in seconds per line");
-  command->add_option("--click", options->click, "Also write a click for every beat (.wav)");
+                      "A text file with the times of the music's beats, in seconds, one per line");
+  command->add_option("--click", options->click, "Also write an audio file with a click for every beat (.wav)");
   // Define how performances are judged, and how the coach reacts.
   command
       ->add_option("--recogniser", options->recogniser,
-                   "How performances are recognised (default: coached; key-pose if a move has no example)")
+                   "The recogniser that judges performances (default: coached; key-pose if a move has no example)")
       ->check(OneOf(RecogniserNames()));
   command
       ->add_option("--right-from", options->right_from,
-                   "Lowest evidence that counts as a right performance (default: the recogniser's own)")
+                   "Lowest evidence at which a performance counts as right (default: the recogniser's value)")
       ->check(NumberWithin(0.001, 1, "level of evidence"));
   command->add_option("--policy", options->policy, "When the coach interrupts")->check(OneOf(LivePolicyNames()));
-  command->add_option("--choice", options->choice, "How the frames of a transition are chosen")
+  command->add_option("--choice", options->choice, "The rule that chooses the frames of a transition")
       ->check(OneOf(ChoiceNames()));
-  command->add_option("--join", options->join, "How the two clips are joined at these frames")
+  command->add_option("--join", options->join, "The method that joins the two clips at these frames")
       ->check(OneOf(JoinNames()));
   command->add_option("--filter", options->filter, "Filter that smooths the skeletons")->check(OneOf(FilterNames()));
   // Define how players dance, and how frames are read and printed.
   command->add_flag("--mirror", options->mirror,
-                    "Players mirror the coach: they move their right when it moves its left");
-  command->add_flag("--now", options->now, "Dance at once, without a clap");
-  command->add_flag("--brief", options->brief, "Leave out all bodies, and the frames without decisions");
-  command->add_flag("--timing", options->timing, "Print at the end how long frames took");
-  command->add_option("--format", options->format, "Format of the stream (default: found from the content)")
+                    "Expect people to mirror the coach: they move their right side when the coach moves its left "
+                    "side");
+  command->add_flag("--now", options->now, "Start the dance at once, without waiting for a clap");
+  command->add_flag("--brief", options->brief, "Write no body poses, and no frames without a decision");
+  command->add_flag("--timing", options->timing, "Print the processing times of frames at the end");
+  command->add_option("--format", options->format, "Format of the stream (default: detected from the content)")
       ->check(OneOf(StreamFormatNames()));
-  command->add_option("--rate", options->rate_hz, "Frame rate of a stream without a clock, Hz (default: 30)")
+  command->add_option("--rate", options->rate_hz, "Frame rate of a stream without times, in Hz (default: 30)")
       ->check(NumberWithin(1, 1000, "rate in Hz"));
   command->add_flag("--reflect", options->reflect, "Negate X, for a mirrored stream");
   AddOverwrite(*command, options->overwrite);

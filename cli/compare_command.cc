@@ -33,7 +33,7 @@ std::string ScopeSentence(const FinishedRun& run) {
     const std::string_view other = OtherUnits(scenario.study.unit);
     if (std::ranges::find(others, other) == others.end()) others.push_back(other);
   }
-  return fmt::format("All verdicts are about these worlds only; none is about {}.", fmt::join(others, ", "));
+  return fmt::format("All verdicts are about these worlds only, and not about {}.", fmt::join(others, ", "));
 }
 
 Result<int> CompareCommand(const std::string& a, const std::string& b, Sealing sealing, bool as_json) {
@@ -53,10 +53,10 @@ Result<int> CompareCommand(const std::string& a, const std::string& b, Sealing s
   }
   // Print the comparison as text: changed metrics, unmatched cells, and a summary.
   PrintMoves(comparison, "A", "B", comparison.moves.size());
-  PrintList("Undecided, because values cannot be compared:", NotAlikeLines(comparison));
+  PrintList("Undecided, because the values cannot be compared:", NotAlikeLines(comparison));
   PrintList("Only in A:", comparison.only_before);
   PrintList("Only in B:", comparison.only_after);
-  PrintList("Not comparable because the worlds differ:", incomparable);
+  PrintList("Not compared, because the worlds differ:", incomparable);
   PrintList("Methods whose settings differ:", comparison.settings_changed);
   fmt::print("{}\n", CompareSentence(comparison));
   for (const std::string& line : systems) fmt::print("{}\n", line);

@@ -53,7 +53,7 @@ Json Tell(const CrowdCommandOptions& options, Timings timings) {
   const double count = static_cast<double>(options.crowd.characters) * options.crowd.frames;
   fmt::print("{} characters, {} frames at {:g} Hz, gauss-newton in batches of {}\n", options.crowd.characters,
              options.crowd.frames, options.crowd.rate_hz, options.in_float ? "floats" : "doubles");
-  fmt::print("{:.2f} % of all poses meet their targets, after {:.2f} steps on average\n",
+  fmt::print("{:.2f} % of all poses reach their targets; the mean number of solver steps is {:.2f}\n",
              100 * static_cast<double>(timings.met) / count, static_cast<double>(timings.steps) / count);
   const double first = timings.times_ms.front();
   std::sort(timings.times_ms.begin() + 1, timings.times_ms.end());
@@ -61,8 +61,8 @@ Json Tell(const CrowdCommandOptions& options, Timings timings) {
     return timings.times_ms[1 + static_cast<std::size_t>(share * static_cast<double>(timings.times_ms.size() - 2))];
   };
   fmt::print(
-      "ms per frame on one core (the rate allows {:.1f}): median {:.2f}, p99 {:.2f}, largest {:.2f}; the first frame, "
-      "from the standing pose, {:.2f}\n",
+      "ms per frame on one core (the frame rate allows {:.1f}): median {:.2f}, p99 {:.2f}, largest {:.2f}; the "
+      "first frame starts from the standing pose and takes {:.2f}\n",
       1000 / options.crowd.rate_hz, at(0.5), at(0.99), timings.times_ms.back(), first);
   return {{"characters", options.crowd.characters},
           {"frames", options.crowd.frames},
@@ -132,10 +132,11 @@ Result<bool> FilmCrowd(const CrowdCommandOptions& options, FollowedCrowd& follow
     std::vector<Character> characters(count);
     std::memcpy(characters.data(), fed.data(), fed.size());
     const auto met = std::ranges::count(characters, false, &Character::stands_out);
-    return stage.Draw(characters,
-                      fmt::format("{} characters followed at {:g} Hz, each within its joints' limits", count, rate_hz),
-                      fmt::format("{:.2f} s: {} meet the targets of hands and feet; those that do not are pale",
-                                  frame * every / rate_hz, met));
+    return stage.Draw(
+        characters,
+        fmt::format("{} characters follow their targets at {:g} Hz, within their joint limits", count, rate_hz),
+        fmt::format("{:.2f} s: {} characters reach the targets of hands and feet; the others are pale",
+                    frame * every / rate_hz, met));
   };
   return EncodeFedFrames(options.output, frames, std::max(1, static_cast<int>(std::lround(rate_hz / every))),
                          {count * sizeof(Character), fill}, draw, watch);
@@ -163,7 +164,7 @@ Result<int> CrowdCommand(const CrowdCommandOptions& given) {
   CrowdCommandOptions options = given;
   options.crowd.frames = static_cast<int>(std::lround(options.seconds * options.crowd.rate_hz));
   if (options.crowd.frames < kMinTrackedFrames) {
-    return Fail({}, "--seconds: {:g} s at {:g} Hz are {} frames; allowed: {} or more", options.seconds,
+    return Fail({}, "--seconds: {:g} s at {:g} Hz give {} frames; allowed: {} frames or more", options.seconds,
                 options.crowd.rate_hz, options.crowd.frames, kMinTrackedFrames);
   }
   RETURN_IF_ERROR(CheckOutput(options.output, options.overwrite, ".mp4"));
@@ -181,17 +182,17 @@ Result<int> CrowdCommand(const CrowdCommandOptions& given) {
 void DefineCrowd(CLI::App& app, Action& action) {
   auto options = std::make_shared<CrowdCommandOptions>();
   CLI::App* command =
-      app.add_subcommand("crowd", "Solve the poses of a whole crowd frame by frame, and draw a film of it");
+      app.add_subcommand("crowd", "Solve the poses of a crowd frame by frame, and make a film of the crowd");
   command->add_option("--characters", options->crowd.characters, "Number of characters; each has its own motion")
       ->check(CLI::Range(1, 10'000));
   command->add_option("--seconds", options->seconds, "Duration, seconds")->check(NumberWithin(0.01, 60, "time in s"));
   command->add_option("--rate", options->crowd.rate_hz, "Frames per second")
       ->check(NumberWithin(1, 1000, "rate in Hz"));
-  command->add_option("--steps", options->steps, "Maximum gauss-newton steps per character and frame")
+  command->add_option("--steps", options->steps, "Maximum number of Gauss–Newton steps per character and frame")
       ->check(CLI::Range(1, 10'000));
   AddSeed(*command, options->crowd.seed, "Seed of the motions");
-  command->add_flag("--float", options->in_float, "Solve in floats, not in doubles");
-  command->add_option("-o,--output", options->output, "A film of the crowd (.mp4)");
+  command->add_flag("--float", options->in_float, "Solve in single precision (float), not in double precision");
+  command->add_option("-o,--output", options->output, "Write a film of the crowd (.mp4)");
   AddJobs(*command, options->jobs);
   AddOverwrite(*command, options->overwrite);
   AddJson(*command, options->as_json);

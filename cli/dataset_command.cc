@@ -27,26 +27,29 @@ void PrintFaults(const char* what, const std::vector<std::string>& faults) {
 }
 
 int ComplainOfFaults(const ScoreOptions& options, const PredictionFaults& faults) {
-  PrintFaults("missing:", faults.missing);
-  PrintFaults("extra, because there is no such problem:", faults.extra);
-  PrintFaults("more than one answer to a problem:", faults.duplicate);
-  PrintFaults("broken:", faults.broken);
+  PrintFaults("missing answers:", faults.missing);
+  PrintFaults("extra answers, because no problem has this name:", faults.extra);
+  PrintFaults("problems with more than one answer:", faults.duplicate);
+  PrintFaults("broken answers:", faults.broken);
   const bool only_missing = faults.extra.empty() && faults.duplicate.empty() && faults.broken.empty();
   return Complain(
       {{options.predictions, 0, 0},
-       fmt::format("nothing was scored: {} answers are missing, {} extra, {} duplicate, {} broken{}",
+       fmt::format("nothing was scored: {} answers are missing, {} are extra, {} are duplicates, {} are broken{}",
                    faults.missing.size(), faults.extra.size(), faults.duplicate.size(), faults.broken.size(),
                    only_missing ? "; --allow-missing counts a missing answer as a failure" : "")});
 }
 
 int ExportAll(const ExportOptions& options) {
   const auto outcome =
-      ExportSuite(options, ProgressOf("parts of worlds (problem made, problem written, truth written)"));
+      ExportSuite(options, ProgressOf("steps (three per world: make the problem, write the problem, write the truth)"));
   if (!outcome) return Complain(outcome.error());
-  fmt::print("{} problems in {}{}\nNext: give {}/inputs to the methods, then etude score {} PREDICTIONS -o RESULT\n",
-             outcome->problems, options.output,
-             outcome->skipped > 0 ? fmt::format(" ({} worlds skipped, see inputs/index.csv)", outcome->skipped) : "",
-             options.output, options.output);
+  fmt::print(
+      "{} problems in {}{}\nNext: give {}/inputs to your method, then run `etude score {} PREDICTIONS -o "
+      "RESULT`\n",
+      outcome->problems, options.output,
+      outcome->skipped > 0 ? fmt::format(" ({} worlds were skipped; inputs/index.csv states why)", outcome->skipped)
+                           : "",
+      options.output, options.output);
   return kSuccess;
 }
 
@@ -72,11 +75,18 @@ void DefineExport(CLI::App& app, Action& action) {
   auto options = std::make_shared<ExportOptions>();
   options->program_version = ETUDE_VERSION;
   CLI::App* command =
-      app.add_subcommand("export", "Write the problems of scenarios as files, and the truth into a separate folder");
-  command->add_option("scenarios", options->scenarios, "Scenario files, folders of them, or names of shipped scenarios")
+      app.add_subcommand("export",
+                         "Write the problems of scenarios as files for other programs, and the truth into "
+                         "a separate folder");
+  command
+      ->add_option("scenarios", options->scenarios,
+                   "Scenario files, folders of scenario files, or names of "
+                   "scenarios that come with Etude")
       ->required();
-  command->add_option("-o,--output", options->output, "Folder of the data set")->required();
-  command->add_flag("--depth", options->depth, "Also write depth, labels and normals of every picture of a take (EXR)");
+  command->add_option("-o,--output", options->output, "The folder of the data set to write")->required();
+  command->add_flag("--depth", options->depth,
+                    "For capture scenarios: also write depth, labels and normals of "
+                    "every picture (EXR)");
   AddWorldOptions(*command, options->seed, options->trials, options->clips, options->joint_map, options->clip_facts);
   const Action act = WithSecretKey(*command, &options->seed, options->key, [=] {
     std::ranges::for_each(WhichIsMeant(options->scenarios), Complain);
@@ -90,14 +100,20 @@ void DefineScore(CLI::App& app, const std::string& command_line, Action& action)
   auto options = std::make_shared<ScoreOptions>();
   options->program_version = ETUDE_VERSION;
   options->command_line = command_line;
-  CLI::App* command = app.add_subcommand("score", "Score a folder of answers, and write a result folder");
-  command->add_option("target", options->target, "An exported data set, or its scenario files")->required();
+  CLI::App* command = app.add_subcommand("score",
+                                         "Score a folder of answers that another program made, and write a "
+                                         "result folder");
+  command
+      ->add_option("target", options->target,
+                   "A data set that `etude export` wrote, or the scenario files of "
+                   "the data set")
+      ->required();
   command->add_option("predictions", options->predictions, "Folder of answers")->required();
   command->add_option("-o,--output", options->output, "Result folder")->required();
   command->add_option("--name", options->name, "Name of the method");
   AddOutsideRules(*command, options->outside);
-  command->add_flag("--alone", options->alone, "Do not run the scenarios' own methods");
-  command->add_flag("--allow-missing", options->allow_missing, "Count a world without answer as a failed cell");
+  command->add_flag("--alone", options->alone, "Do not run the methods of the scenarios for comparison");
+  command->add_flag("--allow-missing", options->allow_missing, "Count each world without an answer as a failed cell");
   AddJobs(*command, options->jobs);
   AddWorldOptions(*command, options->seed, options->trials, options->clips, options->joint_map, options->clip_facts);
   const Action act = WithSecretKey(*command, &options->seed, options->key, [=] { return ScoreCommand(*options); });

@@ -40,7 +40,7 @@ std::string InUnit(const ScenarioForecast& one, double deviations) {
   const MetricInfo* metric = FindMetric(one.metric);
   if (metric == nullptr || one.spread <= 0) return "";
   const MetricWords words = WordsFor(one.metric);
-  return fmt::format(", about {} of {} (a difference of {:g}{} matters)",
+  return fmt::format(", about {} of {} (in practice, a difference of {:g}{} or more matters)",
                      ShortDifference(deviations * one.spread, words), words.label, metric->practical * words.scale,
                      words.is_share ? " pp" : words.difference_suffix);
 }
@@ -50,37 +50,41 @@ bool Print(const ScenarioForecast& one) {
   fmt::print("{} ({}): {} × {} × {} = {} cells, {:.2g} s a world{}\n", one.name, one.task,
              CountOf(one.conditions, "condition"), CountOf(one.worlds, "world"), CountOf(one.methods, "method"),
              one.conditions * one.worlds * one.methods, one.seconds_per_world,
-             one.is_kept ? "" : ", measured on the first worlds");
+             one.is_kept ? "" : ", measured just now on the first worlds");
   if (one.comparisons == 0) return false;
   const int worlds = static_cast<int>(one.worlds);
   const SamplingUnit world = one.unit == SamplingUnit::kPerson ? one.unit : SamplingUnit::kWorld;
   const std::string among = one.comparisons == 1 ? "1 comparison" : fmt::format("{} comparisons", one.comparisons);
-  const std::string_view shows = one.comparisons == 1 ? "shows" : "show";
+  const std::string_view shows = one.comparisons == 1 ? "detects" : "detect";
   const int for_values = PairsNeeded(one.comparisons, kAlpha);
   if (worlds < one.needed) {
-    fmt::print("  on these worlds: to judge a method better or worse, at least {} are needed; there are {}\n",
-               CountUnits(one.needed, world), worlds);
+    fmt::print(
+        "  verdicts about these worlds: at least {} are needed to judge a method better or worse; the run "
+        "has {}\n",
+        CountUnits(one.needed, world), worlds);
   } else if (worlds < for_values) {
     fmt::print(
-        "  on these worlds: at least {} are needed to judge by metric values in {}; with fewer, only successes or "
-        "the worst worlds can decide\n",
+        "  verdicts about these worlds: at least {} are needed to judge metric values in {}; with fewer, only "
+        "success rates or the worst worlds can decide a verdict\n",
         CountUnits(for_values, world), among);
   } else {
     const double least = MinDetectableDifference(worlds, one.comparisons);
     fmt::print(
-        "  on these worlds: {} {} a mean difference of {:.2f} or more standard deviations of the worlds' "
-        "differences{}\n",
+        "  verdicts about these worlds: {} {} a mean difference of at least {:.2f} standard deviations of the "
+        "per-world differences{}\n",
         among, shows, least, InUnit(one, least));
   }
   if (WorldsAreUnits(one.unit)) return worlds >= for_values;
   if (one.units < kMinUnits) {
-    fmt::print("  for {}: no verdict is possible with {}; at least {} are needed\n", OtherUnits(one.unit),
+    fmt::print("  verdicts about {}: not possible with {}; at least {} are needed\n", OtherUnits(one.unit),
                CountUnits(one.units, one.unit), kMinUnits);
     return worlds >= for_values;
   }
-  fmt::print("  for {}: {} {} a difference of {:.2f} or more standard deviations of the mean differences of {}\n",
-             OtherUnits(one.unit), among, shows, MinDetectableDifference(one.units, one.comparisons),
-             CountUnits(one.units, one.unit));
+  fmt::print(
+      "  verdicts about {}: {} {} a difference of at least {:.2f} standard deviations of the mean "
+      "differences of {}\n",
+      OtherUnits(one.unit), among, shows, MinDetectableDifference(one.units, one.comparisons),
+      CountUnits(one.units, one.unit));
   return true;
 }
 
@@ -128,12 +132,14 @@ int DryRunCommand(const RunOptions& options, bool as_json) {
   }
   if (!options.shard.IsWhole())
     fmt::print("Shard {}: {} of {} cells.\n", ToString(options.shard), forecast->cells, all);
-  fmt::print("{} cells, about {} on {}.{} Nothing was written.\n", forecast->cells, Duration(forecast->seconds),
-             CountOf(static_cast<std::size_t>(forecast->workers), "worker"),
-             shows_differences ? " The differences above are found with a probability of 80 %." : "");
+  fmt::print("{} cells; the run takes about {} on {}.{} Nothing was written.\n", forecast->cells,
+             Duration(forecast->seconds), CountOf(static_cast<std::size_t>(forecast->workers), "worker"),
+             shows_differences ? " The probability of detecting these differences is 80 %." : "");
   if (!guessed.empty()) {
-    fmt::print("The time is an estimate: the costs of {} are not known, so the first worlds were measured just now.\n",
-               Join(guessed, ", "));
+    fmt::print(
+        "The time is an estimate: the costs of {} are unknown, so Etude measured their first worlds just "
+        "now.\n",
+        Join(guessed, ", "));
   }
   return kSuccess;
 }

@@ -33,7 +33,7 @@ Result<std::map<std::string, double>> ReadLimitsFile(const std::string& name) {
     for (const auto& entry : fs::directory_iterator(folder, none)) known.push_back(entry.path().stem().string());
     std::ranges::sort(known);
     if (std::ranges::find(known, name) == known.end()) {
-      return Fail({"--limits"}, "there is no such file; {}, or a file of limits",
+      return Fail({"--limits"}, "there is no such file of limits; {}, or the path of a file",
                   UnknownName("name of limits", name, known));
     }
     file = shipped;
@@ -44,7 +44,9 @@ Result<std::map<std::string, double>> ReadLimitsFile(const std::string& name) {
   auto limits = ReadLimits(fields);
   RETURN_IF_ERROR(fields.Finish());
   if (limits.empty())
-    return Fail({file.string()}, "sets no limit; allowed: one metric per line, such as skates_share: 0.02");
+    return Fail({file.string()},
+                "contains no limit; allowed: one metric and its limit per line, such as "
+                "skates_share: 0.02");
   return limits;
 }
 
@@ -60,7 +62,7 @@ void PrintLines(std::string_view heading, const std::vector<std::string>& lines)
   constexpr std::size_t kMaxLines = 20;
   fmt::print("{} {}{}\n", lines.size(), heading, lines.empty() ? "" : ":");
   for (const std::string& line : std::span(lines).first(std::min(lines.size(), kMaxLines))) fmt::print("  {}\n", line);
-  if (lines.size() > kMaxLines) fmt::print("  and {} more; etude rows prints all\n", lines.size() - kMaxLines);
+  if (lines.size() > kMaxLines) fmt::print("  and {} more; `etude rows` prints all cells\n", lines.size() - kMaxLines);
 }
 
 }  // namespace
@@ -107,12 +109,12 @@ Triage TriageOf(const RunData& run) {
 
 void PrintTriage(const Triage& triage) {
   fmt::print("{} of {} without a fault{}\n", triage.fault_free, Plural(static_cast<long long>(triage.clips), "clip"),
-             triage.not_judged.empty() ? "" : fmt::format(", {} more not judged", triage.not_judged.size()));
+             triage.not_judged.empty() ? "" : fmt::format(", {} more could not be judged", triage.not_judged.size()));
   for (const auto& [kind, clips] : triage.kinds) fmt::print("  {:<10}  {:>6}\n", kind, clips);
-  if (!triage.kinds.empty()) fmt::print("  etude list faults: states what each fault is\n");
+  if (!triage.kinds.empty()) fmt::print("  `etude list faults` explains each fault\n");
   if (triage.has_limits) PrintLines("beyond the limits", triage.beyond_limits);
   if (!triage.faulty.empty())
-    PrintLines(triage.has_limits ? "with faults, within the limits" : "with faults", triage.faulty);
+    PrintLines(triage.has_limits ? "with faults that are within the limits" : "with faults", triage.faulty);
   if (!triage.not_judged.empty()) PrintLines("not judged", triage.not_judged);
 }
 

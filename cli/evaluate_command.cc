@@ -57,7 +57,10 @@ Result<std::vector<NamedResult>> ReadColumns(const std::string& file) {
     }
     results.push_back({column, {}});
   }
-  if (results.empty()) return Fail({file, 1, 0}, "has no column of a method; allowed: a heading such as truth,mine");
+  if (results.empty())
+    return Fail({file, 1, 0},
+                "the heading has no column for a method; allowed: a heading such "
+                "as truth,mine");
   return results;
 }
 
@@ -65,8 +68,9 @@ Result<std::vector<NamedResult>> ReadColumns(const std::string& file) {
 Result<std::string> ScenarioOfPairs(const EvaluateOptions& options) {
   const bool has_pairs = !options.pairs.empty();
   if (has_pairs != options.files.empty() || options.files.size() == 1) {
-    return Fail(
-        {}, "etude evaluate needs a truth and results, or --pairs FILE.csv, or, without a truth, motions and --alone");
+    return Fail({},
+                "`etude evaluate` needs a truth and results; or --pairs FILE.csv; or --alone and motions, if there is "
+                "no truth");
   }
   ASSIGN_OR_RETURN(const auto results,
                    has_pairs ? ReadColumns(options.pairs) : ReadResults(std::span(options.files).subspan(1)));
@@ -89,10 +93,18 @@ Result<std::string> ScenarioOf(const EvaluateOptions& options) {
                                     {"--joints", &options.joints},
                                     {"--lag", &options.lag},
                                     {"--statistics", &options.statistics}}) {
-    if (alone.is_alone && !value->empty()) return Fail({}, "{} has no use with --alone: there is no truth", name);
+    if (alone.is_alone && !value->empty())
+      return Fail({},
+                  "{} cannot be combined with --alone, because --alone "
+                  "uses no truth",
+                  name);
   }
-  if (alone.is_alone && options.by_joint) return Fail({}, "--by-joint has no use with --alone: there is no truth");
-  if (!alone.is_alone && (alone.floor_m || !alone.limits.empty())) return Fail({}, "--floor and --limits need --alone");
+  if (alone.is_alone && options.by_joint)
+    return Fail({},
+                "--by-joint cannot be combined with --alone, because "
+                "--alone uses no truth");
+  if (!alone.is_alone && (alone.floor_m || !alone.limits.empty()))
+    return Fail({}, "--floor and --limits can only be used with --alone");
   ASSIGN_OR_RETURN(auto text,
                    alone.is_alone ? ScenarioOfMotions(options.files, alone, options.people) : ScenarioOfPairs(options));
   if (options.metrics.empty()) return text;
@@ -244,7 +256,7 @@ Result<int> EvaluateCommand(const EvaluateOptions& options) {
     if (options.by_joint) PrintJoints(ErrorsByJoint(data));
     PrintPairNotes(notes);
   }
-  fmt::print("{} of {} cells ok, all {} metrics in {}\nNext: etude report {}\n", outcome->cells_ok, outcome->cells,
+  fmt::print("{} of {} cells ok; all {} metrics are in {}\nNext: etude report {}\n", outcome->cells_ok, outcome->cells,
              FindTaskKind(summary.task)->metrics.size(), folder, folder);
   return code;
 }
@@ -256,50 +268,53 @@ void DefineEvaluate(CLI::App& app, const std::string& command_line, Action& acti
   options->command_line = command_line;
   CLI::App* command = app.add_subcommand(
       "evaluate",
-      "Compare motion files with their truths, or find faults in motions without a truth; exit code 1: a pair, or "
-      "all results of a method, could not be judged");
+      "Compare motion files with their true motions, or find faults in motions without a truth. Exit code 1: a "
+      "pair, or all results of a method, could not be judged");
   command->add_option("files", options->files,
-                      "The truth, then results: each a file, a folder or a pattern in quotes; several results need "
-                      "names: NAME=PATTERN");
+                      "The truth, then one or more results. Each is a file, a folder or a pattern in quotes. "
+                      "Several results need names: NAME=PATTERN");
   command->add_flag(
       "--alone", options->alone.is_alone,
-      "Judge motions without a truth: find what no person does (arguments: FILE, FILE#CLIP, folders, patterns)");
+      "Judge motions without a truth: find faults that no human motion has (arguments: FILE, FILE#CLIP, folders, "
+      "patterns)");
   command->add_option(
       "--floor", options->alone.floor_m,
-      "With --alone: height of the floor, metres (default: 0; found from the feet if the motion is far from 0)");
+      "With --alone: height of the floor, in metres (default: 0; estimated from the feet if the motion is far from "
+      "0)");
   command->add_option("--limits", options->alone.limits,
-                      "With --alone: a file of the largest allowed values, or 'recorded' for the file that comes with "
-                      "etude; exit code 1 if a clip exceeds one of them or cannot be judged");
+                      "With --alone: a file of the largest allowed values of metrics, or 'recorded' for the file "
+                      "that comes with Etude. Exit code 1: a clip exceeds a limit or could not be judged");
   command->add_option("--pairs", options->pairs,
-                      "Instead of files: a CSV table of pairs with a column truth, a column for each method and, "
-                      "optionally, a column name");
+                      "Instead of files: a CSV table of pairs. Its columns are `truth`, one per method, and "
+                      "optionally `name`");
   command->add_option("--joints", options->joints,
-                      "Which joints are compared: roles (those with the same role; the default), same (the same name), "
-                      "or a set (etude list keys)");
+                      "Which joints are compared: roles (joints with the same role; the default), same (joints with "
+                      "the same name), or a joint set (see `etude list keys`)");
   command->add_option("--people", options->people,
                       "A pattern of file names in which {person} stands for the person's name, such as '{person}_*'");
   command
       ->add_option("--lag", options->lag,
-                   "find: judge a second time, after the time shift between truth and result was found and removed")
+                   "find: also estimate and remove the time shift between truth and result, and judge the results a "
+                   "second time")
       ->check(OneOf({"none", "find"}));
   command->add_option("--statistics", options->statistics,
-                      "A CSV of means and standard deviations of joints, for the metric L2P");
+                      "For the metric L2P: a CSV with means and standard deviations of joints");
   command->add_option("--music-beats", options->music_beats,
-                      "A file of the times of the music's beats, in seconds, one per line, for beat alignment");
+                      "For beat alignment: a file with the times of the music's beats, in seconds, one per line");
   command->add_option("--metric", options->metrics,
-                      "A metric to show in the table; all are measured (etude list metrics)");
-  command->add_flag("--by-joint", options->by_joint, "Also list the mean errors of each joint, the largest first");
+                      "A metric to show in the table (see `etude list metrics`). All metrics are always measured");
+  command->add_flag("--by-joint", options->by_joint, "Also list the mean error of each joint, in descending order");
   command->add_option(kJointMapOption, options->joint_map,
-                      "A file that states which joints play which roles, the unit and the up axis");
+                      "A joint-map file: it assigns joints to roles, and can state the unit and the up axis");
   AddUnit(*command, "files", options->clip_facts);
   AddUp(*command, "files", options->clip_facts);
   // Define the outputs.
   command->add_option("-o,--output", options->output, "Result folder (default: out/evaluate-1)");
-  AddOverwrite(*command, options->overwrite, "Replace a folder that already holds a run");
+  AddOverwrite(*command, options->overwrite, "Replace a folder that already contains a run");
   command
       ->add_option_function<std::string>(
           "--keep", [options](const std::string&) { options->keeps_motions = true; },
-          "motions: record the motions, for the page's pictures and its viewer")
+          "motions: record the motions, so that the report page can show pictures and a viewer of them")
       ->check(OneOf({"motions"}));
   AddJobs(*command, options->jobs);
   AddJson(*command, options->as_json);

@@ -16,28 +16,33 @@ namespace etude {
 namespace {
 
 constexpr const char* kForecastNotes =
-    "\nBefore you film: how far triangulated joints will be from the truth, computed from the rig alone. Errors are "
+    "\n"
+    "This command forecasts, before you film, the errors of triangulated joints. It uses only the rig. Errors are "
     "root mean\n"
-    "squares, to first order: the errors of keypoints (--noise-px) and cameras (--calibration) are propagated through "
-    "the\n"
-    "triangulation, and, for a body, through the fit of its joint angles (bone lengths count as known). --films with\n"
-    "--keypoints measures --noise-px by how well the cameras agree on the person's joints. Enter a person who\n"
-    "hides joints from a camera as --dropout. If keypoints err in the same way in all pictures, the true errors are "
-    "larger.\n\n"
-    "Triangulated: each joint by itself. Fitted: the same joint of a body that is fitted to all joints at once. Limb: "
-    "the\n"
-    "direction of the limb that ends in the joint, in degrees. \"What would help\" compares changed rigs with this "
-    "one, at the\n"
-    "places that this one sees. --table has a row for each place: x_m, height_m, z_m; cameras: how many have it in "
-    "their\n"
-    "pictures; lost_share: the probability that fewer than two of them give a keypoint; error_mm: empty if fewer "
-    "than two\n"
-    "cameras see the place.\n\n"
-    "The volume is a box on the floor around the point that the cameras look at (--middle, --size); errors are "
+    "squares to first order: Etude propagates the errors of keypoints (--noise-px) and of cameras (--calibration) "
+    "through\n"
+    "the triangulation. For a body, it also propagates them through the fit of joint angles; bone lengths count as "
+    "known.\n"
+    "--films with --keypoints measures --noise-px in films, from how well the cameras agree on the person's joints. "
+    "Set\n"
+    "--dropout if the person's body often hides joints from a camera. If keypoints have the same error in all "
+    "pictures, the\n"
+    "true errors are larger.\n\n"
+    "Columns of the tables:\n"
+    "  Triangulated: the error of each joint on its own.\n"
+    "  Fitted: the error of the same joint, if a body is fitted to all joints at once.\n"
+    "  Limb: the error of the direction of the limb that ends in the joint, in degrees.\n"
+    "\"What would help\" compares changed rigs with the present rig, at the places that the present rig sees.\n"
+    "--table has one row per place. x_m, height_m, z_m: the place. cameras: the number of cameras that see the "
+    "place.\n"
+    "lost_share: the probability that fewer than two of these cameras give a keypoint. error_mm: the error, empty "
+    "if fewer\n"
+    "than two cameras see the place.\n\n"
+    "The volume is a box on the floor around the point that the cameras look at (--middle, --size). Errors are "
     "computed at\n"
-    "20 x 20 places at each of ten heights. `etude calibrate --json` prints the deviation of focal lengths. The added "
-    "camera\n"
-    "has the first camera's lens, and stands at the best of 324 positions within --room.";
+    "20 x 20 places at each of ten heights. `etude calibrate --json` prints the deviation of focal lengths for\n"
+    "--calibration. The added camera has the lens of the first camera, and is at the best of 324 positions within "
+    "--room.";
 
 struct ForecastCommandOptions {
   ForecastOptions forecast;
@@ -115,39 +120,47 @@ void DefineForecast(CLI::App& app, const std::string& command_line, Action& acti
   options->command_line = command_line;
   options->version = ETUDE_VERSION;
   options->listener = TerminalListener();
-  CLI::App* command = app.add_subcommand("forecast", "Forecast the errors of a rig of cameras before you film");
-  command->add_option("rig", options->rig, "A file of the calibrated cameras, as for `etude capture`")->required();
+  CLI::App* command = app.add_subcommand("forecast",
+                                         "Forecast the errors of captures with a camera rig before you "
+                                         "film");
+  command->add_option("rig", options->rig, "The rig file with the calibrated cameras, as for `etude capture`")
+      ->required();
   command->add_option(
       "--rig-unit", options->place.unit,
-      fmt::format("The rig's unit of length: {}, metres in one unit, or auto (that of its format)", RigUnits()));
-  command->add_option("--rig-up", options->place.up, "The rig's axis that points up: x, y, z, -x, -y, -z, or auto");
+      fmt::format("Unit of length of the rig: {}, a number of metres per unit, or auto (the usual unit of the rig's "
+                  "file format)",
+                  RigUnits()));
+  command->add_option("--rig-up", options->place.up, "Axis of the rig that points up: x, y, z, -x, -y, -z, or auto");
   command->add_option("--floor", options->place.floor,
-                      "What becomes height 0: a height in m, or auto (the rig's own height 0)");
+                      "The height that becomes 0: a height in m, or auto (the rig's height 0)");
   // Define the volume in which people move.
-  command->add_option("--size", asked->size, "Width (x), height and depth (z) of the volume, m")
+  command->add_option("--size", asked->size, "Width (x), height and depth (z) of the volume, in m")
       ->delimiter(',')
       ->expected(3)
       ->check(NumberWithin(0.1, 100, "length in m"));
   command
       ->add_option("--middle", asked->middle,
-                   "Middle of the volume on the floor: x,z in m (default: where the cameras look)")
+                   "Middle of the volume on the floor: x,z in m (default: the point that the cameras look at)")
       ->delimiter(',')
       ->expected(2)
       ->check(NumberWithin(-1000, 1000, "place in m"));
   command
       ->add_option("--room", asked->room,
-                   "Width (x), height and depth (z) of the room around --middle in which one more camera may stand, m "
-                   "(default: the smallest box with the cameras and the volume)")
+                   "Width (x), height and depth (z) of the room around --middle in which an additional camera may "
+                   "be, in m (default: the smallest box that contains the cameras and the volume)")
       ->delimiter(',')
       ->expected(3)
       ->check(NumberWithin(0.1, 100, "length in m"));
   // Define the errors of keypoints (given, or measured in films) and of the calibration.
-  auto* noise =
-      command->add_option("--noise-px", options->errors.noise_px, "Standard deviation of keypoints along each axis, px")
-          ->check(NumberWithin(0.001, 1000, "deviation in px"));
+  auto* noise = command
+                    ->add_option("--noise-px", options->errors.noise_px,
+                                 "Standard deviation of the keypoint error along "
+                                 "each picture axis, in px")
+                    ->check(NumberWithin(0.001, 1000, "deviation in px"));
   auto* films =
       command->add_option("--films", options->take.films,
-                          "Films of any take with this rig: measure the keypoints' deviation (--noise-px) in them");
+                          "Films of any recording with this rig: measure the keypoint error (--noise-px) in these "
+                          "films");
   auto* keypoints = command
                         ->add_option("--keypoints", options->take.keypoints,
                                      "With --films: a folder with keypoints for each film, as for `etude capture`")
@@ -156,27 +169,34 @@ void DefineForecast(CLI::App& app, const std::string& command_line, Action& acti
   films->needs(keypoints);
   command
       ->add_option("--layout", options->take.layout,
-                   "With --films: the order of the keypoints, if their number does not determine it")
+                   "With --films: the order of the keypoints, if the number of keypoints does not determine it")
       ->check(OneOf(KeypointLayoutNames()))
       ->needs(keypoints);
   command
       ->add_option("--fit", options->take.fit,
-                   "With --films: how the rig's pictures were changed into films of another size")
+                   "With --films: how the pictures were changed, if a film's size differs from the rig's picture "
+                   "size")
       ->check(OneOf({"none", "letterbox", "stretch", "crop"}))
       ->needs(keypoints);
-  command->add_option("--dropout", options->errors.dropout, "Share of a camera's pictures that give no keypoint")
+  command
+      ->add_option("--dropout", options->errors.dropout,
+                   "Share of a camera's pictures in which a joint has no "
+                   "keypoint")
       ->check(NumberWithin(0, 0.9, "share"));
   command
       ->add_option("--calibration", asked->calibration,
-                   "Standard deviations of each camera: place in mm, direction in degrees, focal length in per cent")
+                   "Standard deviations of each camera's errors: position in mm, direction in degrees, focal length "
+                   "in per cent")
       ->delimiter(',')
       ->expected(3)
       ->check(NumberWithin(0, 1000, "deviation"));
   // Define the outputs.
   command->add_option("--picture", options->picture,
-                      "Also draw the errors at each height as a heat map, and the cameras from above (.png)");
-  command->add_option("--table", options->table, "Also write the error at every place (.csv; its columns: below)");
-  command->add_option("--report", options->report, "Also write a page with the picture and all tables (.html)");
+                      "Also draw a heat map of the errors at each height, and the cameras from above (.png)");
+  command->add_option("--table", options->table,
+                      "Also write a table of the error at every place (.csv; the columns "
+                      "are explained below)");
+  command->add_option("--report", options->report, "Also write an HTML page with the picture and all tables (.html)");
   AddOverwrite(*command, asked->overwrite, "Replace existing files");
   AddJson(*command, asked->as_json);
   command->footer(kForecastNotes);

@@ -61,7 +61,7 @@ void PrintWorlds(const std::string& title, const std::vector<TailLine>& lines) {
 }
 
 void PrintReport(const GateReport& report) {
-  PrintList("Answers that became worse:", FallenLines(report));
+  PrintList("Verdicts that became worse:", FallenLines(report));
   PrintMoves(report.comparison, "baseline", "now", kMaxRows);
   for (const TailGroup group : {TailGroup::kFailing, TailGroup::kTooFew, TailGroup::kNotJudged}) {
     PrintWorlds(std::string(TailHeading(group)), TailLines(report, group, kMaxWorldsEach, kMaxWorlds));
@@ -74,16 +74,16 @@ void PrintReport(const GateReport& report) {
     fmt::print("{}: {}: {} [{}]\n", ClaimOutcomeName(ratio.outcome), ratio.scenario, RatioClaim(ratio),
                RatioDetail(ratio));
   }
-  PrintList("Undecided, because values cannot be compared:", NotAlikeLines(report.comparison));
+  PrintList("Undecided, because the values cannot be compared:", NotAlikeLines(report.comparison));
   PrintList("New, not in the baseline:", report.comparison.only_after);
-  PrintList("Settings of the method changed in the scenario:", report.comparison.settings_changed);
-  PrintList("Methods without an answer:", report.silent);
+  PrintList("Methods whose settings in the scenario changed:", report.comparison.settings_changed);
+  PrintList("Methods without an answer in any cell:", report.silent);
   PrintList("Incomplete:", report.incomplete);
   for (const std::string& sentence : GateSentences(report)) fmt::print("{}\n", sentence);
   const std::vector<std::string> reversed = FallenLines(report, true);
   fmt::print("Gate: {}{}{}\n", GateVerdictWords(GateVerdictOf(report)),
              reversed.empty() ? "" : ": " + Join(reversed, "; "),
-             report.baseline_file.empty() ? ", without a baseline (--baseline FILE --update makes one)" : "");
+             report.baseline_file.empty() ? ", without a baseline (--baseline FILE --update writes a baseline)" : "");
 }
 
 Json FactsOf(const GateReport& report) {
@@ -113,7 +113,7 @@ Result<int> Judge(const GateOptions& options, const FinishedRun& run) {
   std::optional<Snapshot> baseline;
   if (!options.baseline.empty()) {
     if (std::error_code none; !fs::exists(options.baseline, none)) {
-      return Fail({options.baseline, 0, 0}, "does not exist; --update makes it from this run");
+      return Fail({options.baseline, 0, 0}, "does not exist; --update writes this baseline from the run");
     }
     ASSIGN_OR_RETURN(baseline, TakeBaseline(options.baseline, options.sealing));
   }
@@ -133,21 +133,21 @@ Result<int> Judge(const GateOptions& options, const FinishedRun& run) {
 
 /// Prints the metrics that changed between two baselines, for the worlds that are in both baselines.
 void PrintDifference(Snapshot before, Snapshot after, const FinishedRun& run) {
-  PrintList("Made anew:", DropIncomparable(before, after));
+  PrintList("Not compared with the old baseline:", DropIncomparable(before, after));
   const SnapshotComparison comparison = CompareSnapshots(before, after, ExactScenarios(run), TailRulesOf(run));
   PrintMoves(comparison, "was", "is", kMaxRows);
-  PrintList("Gone:", comparison.only_before);
-  PrintList("New:", comparison.only_after);
+  PrintList("Removed from the baseline:", comparison.only_before);
+  PrintList("Added to the baseline:", comparison.only_after);
 }
 
 Result<int> Update(const GateOptions& options, const FinishedRun& run) {
   // Refuse to make a baseline from an incomplete run, or from a run that has a method without answers.
   if (const auto incomplete = WhyIncomplete(run); !incomplete.empty()) {
-    PrintList("No baseline is made from an incomplete run:", incomplete);
+    PrintList("No baseline was written, because the run is incomplete:", incomplete);
     return kIncompleteRun;
   }
   if (const auto silent = DescribeSilentMethods(run); !silent.empty()) {
-    PrintList("No baseline is made, because a method has no answer, so that no later run could be worse:", silent);
+    PrintList("No baseline was written. A method has no answer, and a later run could not be worse than that:", silent);
     return kRegression;
   }
   // Check that the new baseline can be read back, before the old baseline is replaced.
@@ -175,7 +175,7 @@ std::string RateText(const Rate& rate) {
 const char* PromiseSentence(const SelfTestReport& report) {
   if (!report.Holds()) return "The gate exceeds its error limits.";
   if (report.false_alarms.high > kFalseAlarmLimit) {
-    return "The gate may keep its error limits; more repetitions are needed to confirm this.";
+    return "The gate seems to keep its error limits. More repetitions are needed to confirm this.";
   }
   return "The gate keeps its error limits.";
 }
@@ -186,15 +186,16 @@ Result<int> SelfTest(const GateOptions& options) {
                    RunSelfTest([&](std::uint64_t seed) { return RunInProcess(rehearsal, seed); }, options.repetitions));
   fmt::print("{} ({}), {} worlds per condition, {} comparisons per gate\n\n", rehearsal.setup.name,
              rehearsal.setup.file, rehearsal.setup.trials, report.comparisons);
-  fmt::print("Alarms although nothing changed\n");
-  fmt::print("  reruns of the same seed, rule exact: {}\n", RateText(report.rerun_alarms));
-  fmt::print("  reruns of the same seed, tail rule:  {}\n", RateText(report.tail_rerun_alarms));
-  fmt::print("  gates between two seeds:             {}; at most {:.0f} % by design\n", RateText(report.false_alarms),
-             100 * kFalseAlarmLimit);
-  fmt::print("  single comparisons of these gates:   {}\n", RateText(report.false_alarm_comparisons));
+  fmt::print("False alarms (nothing had changed)\n");
+  fmt::print("  reruns with the same seed, rule `exact`:   {}\n", RateText(report.rerun_alarms));
+  fmt::print("  reruns with the same seed, tail rule:      {}\n", RateText(report.tail_rerun_alarms));
+  fmt::print("  gates between two seeds:                   {}; at most {:.0f} % by design\n",
+             RateText(report.false_alarms), 100 * kFalseAlarmLimit);
+  fmt::print("  single comparisons of these gates:         {}\n", RateText(report.false_alarm_comparisons));
   for (const auto& [title, results] :
-       {std::pair{"Injected differences found", &report.injected}, std::pair{"Far worse worlds found", &report.tails},
-        std::pair{"Real changes found", &report.real}}) {
+       {std::pair{"Detected differences (of differences that the self-test added)", &report.injected},
+        std::pair{"Detected worlds that are far worse", &report.tails},
+        std::pair{"Detected changes of real settings", &report.real}}) {
     if (!results->empty()) fmt::print("{}\n", title);
     for (const PowerResult& result : *results) fmt::print("  {}: {}\n", result.change, RateText(result.found));
   }
@@ -203,7 +204,7 @@ Result<int> SelfTest(const GateOptions& options) {
 }
 
 Result<int> GateCommand(const GateOptions& options) {
-  if (options.target.empty() && !options.self_test) return Fail({}, "etude gate needs a result folder");
+  if (options.target.empty() && !options.self_test) return Fail({}, "`etude gate` needs a result folder");
   if (options.self_test) return SelfTest(options);
   ASSIGN_OR_RETURN(const auto run, LoadFinishedRun(options.target, options.sealing));
   TellUnsealed(run.data.unsealed);
@@ -214,13 +215,15 @@ Result<int> GateCommand(const GateOptions& options) {
 
 void DefineGate(CLI::App& app, Action& action) {
   auto options = std::make_shared<GateOptions>();
-  CLI::App* command = app.add_subcommand("gate", "Compare a run with a baseline: pass or fail, for a CI server");
-  command->add_option("folder", options->target, "A result folder (with --self-test: a scenario file, or nothing)");
+  CLI::App* command = app.add_subcommand("gate", "Compare a run with a baseline, and pass or fail, for a CI server");
+  command->add_option("folder", options->target, "A result folder. With --self-test: a scenario file, or nothing");
   CLI::Option* baseline = command->add_option("--baseline", options->baseline,
-                                              "The baseline that the run is compared with (without one, only the run's "
-                                              "own expectations and time rules are judged)");
-  CLI::Option* update =
-      command->add_flag("--update", options->update, "Write the baseline from this run, and show what changed");
+                                              "The baseline file that the run is compared with. Without a baseline, "
+                                              "the gate judges only the expectations and time rules of the run's "
+                                              "scenarios");
+  CLI::Option* update = command->add_flag("--update", options->update,
+                                          "Write the baseline file from this run, and print what changed "
+                                          "in it");
   update->needs(baseline);
   CLI::Option* self_test = command
                                ->add_flag("--self-test", options->self_test,
@@ -229,7 +232,10 @@ void DefineGate(CLI::App& app, Action& action) {
   command->add_option("--repetitions", options->repetitions, "Self-test: number of pairs of seeds")
       ->check(CLI::Range(1, 100000))
       ->needs(self_test);
-  command->add_option("--trials", options->trials, "Self-test: worlds per condition (default: the scenario's)")
+  command
+      ->add_option("--trials", options->trials,
+                   "Self-test: number of worlds per condition (default: the "
+                   "scenario's number)")
       ->check(CLI::Range(1, 1000000))
       ->needs(self_test);
   AddUnsealed(*command, options->sealing);

@@ -25,7 +25,7 @@ void RequestStop(int signal) {
 
 /// Ends the program at once. Only system calls are safe in a signal handler.
 void End(int) {
-  constexpr std::string_view kLine = "etude: stopped; no partial result is kept\n";
+  constexpr std::string_view kLine = "etude: stopped; no partial result was kept\n";
   [[maybe_unused]] const ssize_t written = ::write(STDERR_FILENO, kLine.data(), kLine.size());
   ::_exit(kInterrupted);
 }
@@ -65,7 +65,7 @@ int DoInterruptibly(const std::function<int()>& work, const std::function<void()
   if (WIFEXITED(*status)) return WEXITSTATUS(*status);
   clean_up();
   if (*interrupt.requested()) return TellStopped();
-  Complain({{}, "stopped by " + std::string(::strsignal(WTERMSIG(*status))) + "; nothing is kept"});
+  Complain({{}, "stopped by " + std::string(::strsignal(WTERMSIG(*status))) + "; no result was kept"});
   return kIncompleteRun;
 }
 

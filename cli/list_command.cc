@@ -80,14 +80,14 @@ Result<int> ListClips() {
   fmt::print("Moves (builtin:*):\n");
   for (const std::string& name : BuiltinMoveNames()) {
     ASSIGN_OR_RETURN(const auto move, LoadBuiltinMove(name));
-    fmt::print("  builtin:{:<14} {:g} beats at {:g} ({:g}…{:g}) per minute, {:.1f} s, {} key poses\n", name, move.beats,
-               move.tempo_bpm, move.slowest_bpm, move.fastest_bpm, move.motion.DurationSeconds(),
+    fmt::print("  builtin:{:<14} {:g} beats at {:g} (range {:g}…{:g}) per minute, {:.1f} s, {} key poses\n", name,
+               move.beats, move.tempo_bpm, move.slowest_bpm, move.fastest_bpm, move.motion.DurationSeconds(),
                move.key_poses.size());
   }
-  fmt::print("The coach's acts (builtin:acts); builtin:slow_MOVE shows a move slowly:\n");
+  fmt::print("Gestures of the coach (builtin:acts); builtin:slow_MOVE shows a move slowly:\n");
   for (const std::string& name : BuiltinActNames()) {
     ASSIGN_OR_RETURN(const auto act, LoadBuiltinMove(name));
-    fmt::print("  builtin:{:<14} {:.1f} s{}\n", name, act.motion.DurationSeconds(), act.loops ? "" : ", once");
+    fmt::print("  builtin:{:<14} {:.1f} s{}\n", name, act.motion.DurationSeconds(), act.loops ? "" : ", played once");
   }
   fmt::print("Songs (builtin:songs):\n");
   for (const std::string& name : BuiltinSongNames()) {
@@ -96,7 +96,8 @@ Result<int> ListClips() {
                static_cast<double>(song.CountFrames()) / kJudgedRateHz);
   }
   fmt::print(
-      "Your own: motion files (docs/clips.md has the formats), 'dance.glb#Jump', patterns such as '~/mocap/*.bvh'.\n");
+      "Your own clips: motion files (docs/clips.md lists the formats), 'dance.glb#Jump', patterns such as "
+      "'~/mocap/*.bvh'.\n");
   return kSuccess;
 }
 
@@ -132,7 +133,9 @@ Result<Json> ScenariosAsJson(const std::string& folder) {
 Result<int> ListShippedScenarios() {
   const std::vector<std::string> names = ShippedScenarios();
   if (names.empty())
-    return Fail({}, "this program was installed without scenarios; etude list scenarios FOLDER lists your own");
+    return Fail({},
+                "this program was installed without scenarios; `etude list scenarios FOLDER` lists your own "
+                "scenarios");
   for (const std::string& name : names) {
     SourceTexts texts;
     ASSIGN_OR_RETURN(const auto scenarios, ReadScenarios(FindShipped(name).string(), texts));
@@ -141,8 +144,10 @@ Result<int> ListShippedScenarios() {
     }
   }
   fmt::print(
-      "\nSuites: quick (a minute), paper (what the papers claim), full (minutes to an hour each). etude run quick; "
-      "etude scenario copy full/ik_weights .\n");
+      "\n"
+      "Suites: quick (takes a minute), paper (tests the claims of the papers), full (minutes to an hour per "
+      "scenario).\n"
+      "Examples: etude run quick; etude scenario copy full/ik_weights .\n");
   return kSuccess;
 }
 
@@ -156,7 +161,7 @@ Result<int> ListScenarios(const std::string& folder) {
     for (const Scenario& scenario : scenarios) {
       const bool is_of_files = FindTaskKind(scenario.task)->find_files != nullptr;
       fmt::print("  {} ({}): {}\n  {} × {} × methods {}\n", scenario.name, scenario.task, scenario.question,
-                 is_of_files ? "a trial for each file" : CountOf(scenario.trials, "trial"),
+                 is_of_files ? "one trial per file" : CountOf(scenario.trials, "trial"),
                  CountOf(static_cast<int>(scenario.conditions.size()), "condition"), Join(MethodNames(scenario)));
     }
   }
@@ -214,7 +219,9 @@ int ListKeysCommand(KeysFormat format) {
     }
     fmt::print("\n");
   }
-  fmt::print("Methods, metrics and clips: etude list methods, etude list metrics, etude list clips.\n");
+  fmt::print(
+      "For methods, metrics and clips, see `etude list methods`, `etude list metrics` and `etude list "
+      "clips`.\n");
   return kSuccess;
 }
 
@@ -245,7 +252,7 @@ Result<int> ListMetricsCommand(MetricsFormat format) {
 }  // namespace
 
 void DefineList(CLI::App& app, Action& action) {
-  CLI::App* command = app.add_subcommand("list", "List what can be named in a scenario");
+  CLI::App* command = app.add_subcommand("list", "List methods, metrics, clips, keys and scenarios");
   command->require_subcommand(1);
   // Define the lists that have no further options.
   const auto list = [&](const char* name, const char* help, Listing what) {
@@ -255,17 +262,18 @@ void DefineList(CLI::App& app, Action& action) {
     listing->callback(
         [=, &action] { action = [=] { return Finish(*as_json ? ListAsJson(what, "") : ListCommand(what, "")); }; });
   };
-  list("methods", "Tasks, the keys of their methods, and solvers", Listing::kMethods);
-  list("clips", "Built-in clips", Listing::kClips);
-  list("recordings", "Print docs/reference/recordings.md: what recordings contain besides motions",
+  list("methods", "List tasks, the scenario keys of their methods, and solvers of inverse kinematics",
+       Listing::kMethods);
+  list("clips", "List built-in clips", Listing::kClips);
+  list("recordings", "Print the page docs/reference/recordings.md: which data recordings contain besides motions",
        Listing::kRecordings);
-  list("faults", "The faults that `etude evaluate --alone` finds, with their thresholds", Listing::kFaults);
+  list("faults", "List the faults that `etude evaluate --alone` finds, with their thresholds", Listing::kFaults);
   // Define the list of metrics: text, JSON or Markdown.
   auto json = std::make_shared<bool>(false), markdown = std::make_shared<bool>(false);
-  CLI::App* metrics = command->add_subcommand("metrics", "Metrics with their definitions");
+  CLI::App* metrics = command->add_subcommand("metrics", "List metrics with their definitions");
   CLI::Option* as_json =
       metrics->add_flag("--json", *json, "Print JSON with the test vectors (docs/schemas/metrics.schema.json)");
-  metrics->add_flag("--markdown", *markdown, "Print docs/reference/metrics.md")->excludes(as_json);
+  metrics->add_flag("--markdown", *markdown, "Print the page docs/reference/metrics.md")->excludes(as_json);
   metrics->callback([=, &action] {
     const MetricsFormat format = *json       ? MetricsFormat::kJson
                                  : *markdown ? MetricsFormat::kMarkdown
@@ -274,9 +282,11 @@ void DefineList(CLI::App& app, Action& action) {
   });
   // Define the list of keys of scenario files: text, Markdown or JSON Schema.
   auto as_page = std::make_shared<bool>(false), as_schema = std::make_shared<bool>(false);
-  CLI::App* keys = command->add_subcommand("keys", "Every key of a scenario file");
-  CLI::Option* page = keys->add_flag("--markdown", *as_page, "Print docs/reference/keys.md");
-  keys->add_flag("--schema", *as_schema, "Print the JSON Schema docs/schemas/scenario.schema.json, for editors")
+  CLI::App* keys = command->add_subcommand("keys", "List all keys of scenario files");
+  CLI::Option* page = keys->add_flag("--markdown", *as_page, "Print the page docs/reference/keys.md");
+  keys->add_flag("--schema", *as_schema,
+                 "Print the JSON Schema of scenario files "
+                 "(docs/schemas/scenario.schema.json), for editors")
       ->excludes(page);
   keys->callback([=, &action] {
     const KeysFormat format = *as_schema ? KeysFormat::kSchema : *as_page ? KeysFormat::kMarkdown : KeysFormat::kText;
@@ -284,8 +294,12 @@ void DefineList(CLI::App& app, Action& action) {
   });
   // Define the list of scenarios: the scenarios of the program, or the scenarios in a folder.
   auto folder = std::make_shared<std::string>();
-  CLI::App* scenarios = command->add_subcommand("scenarios", "Scenarios that come with etude, or those of a folder");
-  scenarios->add_option("folder", *folder, "A folder, a file, or a name such as quick");
+  CLI::App* scenarios = command->add_subcommand("scenarios",
+                                                "List the scenarios that come with Etude, or the "
+                                                "scenarios in a folder");
+  scenarios->add_option("folder", *folder,
+                        "A folder, a file, or the name of a scenario or suite that comes with "
+                        "Etude, such as quick");
   auto scenarios_json = std::make_shared<bool>(false);
   AddJson(*scenarios, *scenarios_json);
   scenarios->callback([=, &action] {

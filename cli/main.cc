@@ -34,27 +34,34 @@ namespace etude {
 namespace {
 
 constexpr const char* kAbout =
-    "Etude is a simulator and benchmark for interactive human motion: it makes worlds whose truth is known,\n"
-    "lets methods solve them, and states which method is better, by how much, and with what confidence.\n";
+    "Etude is a simulator and benchmark for interactive human motion. It simulates scenes (\"worlds\") with known "
+    "truth, runs\n"
+    "methods on them, and reports which method is better, by how much, and with what confidence.\n";
 
 constexpr const char* kExamples =
-    "\nTry:\n"
-    "  etude run quick                                the quick suite, into out/quick-1\n"
-    "  etude run quick --clips '~/mocap/*.bvh'        on your own motion capture\n"
-    "  etude report out/quick-1                       a page, tables, JUnit and a video of it\n"
-    "  etude run quick --resume                       continue after a crash, a kill, a power cut\n"
-    "  etude gate out/quick-1 --baseline FILE         pass or fail, for a CI server\n"
-    "  etude run paper                                what the papers claim, in their own tables and situations\n"
-    "  etude list methods                             what can be named in a scenario; also keys, metrics, clips\n"
-    "  etude clip render '~/mocap/*.bvh' -o mocap.png      what is in these clips; also info, convert, map\n"
-    "  etude bridge '~/mocap/*.bvh' -o tags.xml       where these clips can lead into each other, and how well\n"
-    "  etude train 'builtin:*' -o mine.yaml           a fuzzy system learnt from clips, for a scenario's fuzzy: key\n"
-    "  etude teach takes/*.txt --labels labels.csv -o moves.yaml      moves learnt from recordings of real people\n"
-    "  etude recognise new.txt --moves moves.yaml     which of these moves a recording or a device shows\n"
-    "  etude calibrate left/ right/ -o rig.yaml       cameras from pictures of a board, or from measured points\n"
-    "  etude capture --rig rig.yaml left.mp4 right.mp4 --keypoints json/ -o motion.bvh     a motion from films\n\n"
-    "Exit codes: 0 fine, 1 a method has no answer (gate: regression; replay, verify: a difference), 2 bad input\n"
-    "(nothing is written), 3 incomplete or prevented by this machine, 130 interrupted.";
+    "\n"
+    "Try:\n"
+    "  etude run quick                                run the quick suite; the result folder is out/quick-1\n"
+    "  etude run quick --clips '~/mocap/*.bvh'        run the quick suite on your own motion capture\n"
+    "  etude report out/quick-1                       write a page, tables, a JUnit file and a video of a run\n"
+    "  etude run quick --resume                       continue a run that was interrupted\n"
+    "  etude gate out/quick-1 --baseline FILE         compare a run with a baseline, for a CI server\n"
+    "  etude run paper                                test the claims of the papers in the situations of the "
+    "papers\n"
+    "  etude list methods                             list methods; likewise keys, metrics, clips, scenarios\n"
+    "  etude clip render '~/mocap/*.bvh' -o mocap.png      draw clips; see also clip info, clip convert, clip map\n"
+    "  etude bridge '~/mocap/*.bvh' -o tags.xml       find the frames that suit transitions between these clips\n"
+    "  etude train 'builtin:*' -o mine.yaml           learn a fuzzy system from clips, for the key `fuzzy` of a "
+    "scenario\n"
+    "  etude teach takes/*.txt --labels labels.csv -o moves.yaml      learn moves from recordings of people\n"
+    "  etude recognise new.txt --moves moves.yaml     recognise these moves in a recording or a live stream\n"
+    "  etude calibrate left/ right/ -o rig.yaml       calibrate cameras from pictures of a board or measured "
+    "points\n"
+    "  etude capture --rig rig.yaml left.mp4 right.mp4 --keypoints json/ -o motion.bvh     recover a motion from "
+    "films\n\n"
+    "Exit codes: 0 success; 1 a method has no answer (gate: a regression; replay, verify: a difference); 2 invalid "
+    "input,\n"
+    "nothing is written; 3 the run is incomplete, or this machine prevented the command; 130 interrupted.";
 
 /// Lists the options and subcommands that may be used in place of a wrong word.
 std::vector<std::string> KnownWords(const CLI::App& app) {
@@ -144,7 +151,7 @@ Result<void> CheckNames(std::span<char*> arguments) {
   std::error_code error;
   const std::string here = std::filesystem::current_path(error).string();
   if (!CheckUtf8(here, ""))
-    return Fail({}, "the name of the working folder is not UTF-8 text; start in another folder");
+    return Fail({}, "the name of the working folder is not UTF-8 text; start Etude in another folder");
   return {};
 }
 
@@ -168,8 +175,8 @@ Result<void> TakeStack() {
   limit.rlim_cur = std::min(limit.rlim_max, kUsualStack);
   ::setrlimit(RLIMIT_STACK, &limit);
   if (limit.rlim_cur >= kMinStack) return {};
-  return FailOfMachine("the stack size is limited to {} KiB; at least {} are needed (ulimit -s)", limit.rlim_cur >> 10,
-                       kMinStack >> 10);
+  return FailOfMachine("the stack size is limited to {} KiB; Etude needs at least {} KiB (set it with `ulimit -s`)",
+                       limit.rlim_cur >> 10, kMinStack >> 10);
 }
 
 int Main(int argc, char** argv) {

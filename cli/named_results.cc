@@ -35,7 +35,9 @@ std::optional<NamedResult> ReadNamed(const std::string& argument) {
 }
 
 tl::unexpected<Error> NeedsName(const std::string& argument) {
-  return Fail({}, "{}: several results need names, NAME=PATTERN, with the pattern in quotes if it has a '*'",
+  return Fail({},
+              "{} has no name; allowed if there are several results: NAME=PATTERN, in quotes if the pattern "
+              "contains '*'",
               Quote(argument));
 }
 
@@ -52,7 +54,7 @@ Result<std::vector<NamedResult>> ReadResults(std::span<const std::string> argume
 }
 
 Result<std::vector<NamedResult>> ReadMotions(std::span<const std::string> arguments) {
-  if (arguments.empty()) return Fail({}, "etude evaluate --alone needs motions: files, folders, patterns");
+  if (arguments.empty()) return Fail({}, "`etude evaluate --alone` needs motions: files, folders or patterns");
   std::vector<NamedResult> named;
   NamedResult unnamed{arguments.size() == 1 ? NameFor(arguments.front()) : "motions", {}};
   for (const std::string& argument : arguments) {

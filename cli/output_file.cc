@@ -15,13 +15,13 @@ Result<void> CheckOutput(const std::string& path, bool overwrite, std::string_vi
   std::error_code ignored;
   const fs::file_status there = fs::symlink_status(path, ignored);
   if (!fs::exists(there)) return {};
-  if (fs::is_directory(path, ignored)) return Fail({path, 0, 0}, "is a folder; the name of a file is needed");
+  if (fs::is_directory(path, ignored)) return Fail({path, 0, 0}, "is a folder; allowed: a file name");
   // Refuse devices and pipes: WriteFileAtomically would replace a device instead of sending data to it.
   if (!fs::is_regular_file(there) && !fs::is_symlink(there)) {
-    return Fail({path, 0, 0}, "is a device, pipe or socket; the name of a file is needed");
+    return Fail({path, 0, 0}, "is a device, pipe or socket; allowed: the name of an ordinary file");
   }
   if (overwrite) return {};
-  return Fail({path, 0, 0}, "already exists; --overwrite replaces it");
+  return Fail({path, 0, 0}, "already exists; use --overwrite to replace this file");
 }
 
 void TellWritten(const std::string& path, std::FILE* stream) { fmt::print(stream, "written: {}\n", Visible(path)); }

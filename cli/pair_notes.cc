@@ -22,7 +22,7 @@ void NoteKinds::Add(const std::string& method, const std::string& head, const st
 std::vector<std::string> NoteKinds::Lines() const {
   std::vector<std::string> lines;
   for (const auto& [line, count] : kinds_) {
-    lines.push_back(count == 1 ? line : fmt::format("{} (and {} more like it)", line, count - 1));
+    lines.push_back(count == 1 ? line : fmt::format("{} (and {} similar)", line, count - 1));
   }
   return lines;
 }
@@ -48,7 +48,7 @@ void PrintPairNotes(const PairNotes& notes) {
     for (const std::string& line : std::span(lines).first(std::min(lines.size(), kMaxLines)))
       fmt::print("  {}\n", line);
     if (lines.size() > kMaxLines)
-      fmt::print("  and {} more kinds of notes; etude rows prints all\n", lines.size() - kMaxLines);
+      fmt::print("  and {} other notes; `etude rows` prints all cells with their notes\n", lines.size() - kMaxLines);
   };
   print(notes.judged.Lines());
   if (!notes.every_not_judged.empty()) fmt::print("{} not judged:\n", notes.every_not_judged.size());

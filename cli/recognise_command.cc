@@ -38,13 +38,15 @@ struct RecogniseCommandOptions {
 
 constexpr const char* kRecogniseText =
     "\n"
-    "Prints each move as soon as it is spotted, as a line of JSON. With labels it also prints the accuracy: "
-    "performances\n"
-    "called right or wrong, action points within 333 ms. With --leave-one-person-out the recordings of all other "
-    "people\n"
-    "teach the recogniser of each person. Recordings and devices: Kinect v1 and v2 rows, MSRC-12, UTKinect, NTU, Azure "
-    "Kinect, CSV, TRC; rows and CSV\n"
-    "also live (docs/streams.md).\n";
+    "Prints a line of JSON as soon as a move is recognised. With --labels, the command also scores the recogniser: "
+    "for\n"
+    "performances, whether it judges them right or wrong as the labels do; for action points, whether it finds a "
+    "move\n"
+    "within 333 ms. With --leave-one-person-out, each person's moves are recognised by a recogniser that learnt "
+    "from all\n"
+    "other people. Formats of recordings: rows of Kinect v1 and v2, MSRC-12, UTKinect, NTU, Azure Kinect, CSV, TRC. "
+    "Rows\n"
+    "and CSV can also be read live from standard input (docs/streams.md).\n";
 
 /// Reads settings such as "tolerance_scale=1.2"; all other settings keep their defaults. Fails for unknown settings and
 /// values out of range.
@@ -78,7 +80,9 @@ Result<WatchOptions> OptionsOf(const RecogniseCommandOptions& options, const Rec
   WatchOptions watch;
   watch.recogniser.kind = options.recogniser.empty() ? &recommended : FindRecogniser(options.recogniser);
   if (options.recogniser.empty()) {
-    fmt::print(stderr, "recogniser {}, recommended for these moves; --recogniser selects another one\n",
+    fmt::print(stderr,
+               "using the recogniser {}, which is recommended for these moves; --recogniser selects another "
+               "recogniser\n",
                recommended.name);
   }
   ASSIGN_OR_RETURN(watch.recogniser.settings, ReadSettings(*watch.recogniser.kind, options.settings));
@@ -111,7 +115,7 @@ void PrintSpotting(const Spotting& spotting, const Taught& taught, double rate_h
   std::fflush(stdout);
 }
 
-void TellNothing() { fmt::print(stderr, "no move was spotted\n"); }
+void TellNothing() { fmt::print(stderr, "no move was recognised\n"); }
 
 /// Recognises moves in the skeletons that standard input delivers line by line, until the input ends.
 Result<int> RecogniseLive(const RecogniseCommandOptions& options, const Taught& taught) {
@@ -153,12 +157,12 @@ Result<void> Print(const LabelScores& scores, bool as_json) {
   const std::vector<JudgedEvent>& performances = scores.Performances();
   const Confusion confusion = CountConfusion(performances);
   if (scores.Untaught() > 0)
-    fmt::print(stderr, "{} labels name moves that were not taught; they were not scored\n", scores.Untaught());
+    fmt::print(stderr, "{} labels have moves that were not taught; these labels were not scored\n", scores.Untaught());
   const auto right = std::ranges::count_if(performances, &JudgedEvent::is_right);
   const auto called = std::ranges::count_if(performances, &JudgedEvent::called_right);
   if (right == 0 || right == std::ssize(performances)) {
     // Without right or without wrong performances, F1, precision and AUC say nothing.
-    fmt::print(stderr, "{} performances; by the labels, {} are right; the recogniser called {} right\n",
+    fmt::print(stderr, "{} performances; according to the labels, {} are right; the recogniser judged {} right\n",
                performances.size(), right == 0 ? "none" : "all", called);
   } else {
     fmt::print(stderr, "{} performances: F1 {}, precision {}, recall {}, AUC {}\n", performances.size(),
@@ -166,10 +170,10 @@ Result<void> Print(const LabelScores& scores, bool as_json) {
                Percent(RocAuc(performances)));
   }
   if (!scores.Points().empty()) {
-    fmt::print(stderr, "{} action points: F-score {} within {:.0f} ms, averaged over the moves\n",
+    fmt::print(stderr, "{} action points: mean F-score over moves {}, with a tolerance of {:.0f} ms\n",
                scores.Points().size(), Percent(scores.PointFScore()), 1000 * kActionPointTolerance);
   }
-  fmt::print(stderr, "{:.2f} false alarms a minute\n", scores.FalseAlarmsAMinute());
+  fmt::print(stderr, "{:.2f} false alarms per minute\n", scores.FalseAlarmsAMinute());
   return as_json ? PrintFacts("recognise", FactsOf(scores)) : Result<void>();
 }
 
@@ -221,7 +225,7 @@ void PrintMistakes(std::span<const Classified> verdicts) {
   constexpr std::size_t kShown = 8;
   for (std::size_t i = 0; i < std::min(kShown, sorted.size()); ++i) {
     const auto& [pair, count] = sorted[i];
-    fmt::print("  {:4} {} taken for {}\n", count, pair.first, pair.second.empty() ? "nothing" : pair.second);
+    fmt::print("  {:4} {} recognised as {}\n", count, pair.first, pair.second.empty() ? "nothing" : pair.second);
   }
 }
 
@@ -240,16 +244,20 @@ Result<int> RecogniseLeavingOneOut(const RecogniseCommandOptions& options) {
   const auto accuracy = Accuracy(out.verdicts), nearest = Accuracy(out.nearest);
   const auto f_score = MeanFScore(out.points, out.detections, kActionPointTolerance);
   if (!out.verdicts.empty()) {
-    fmt::print("accuracy of {} performances, one person left out\n  {:<28} {}\n  {:<28} {}\n", out.verdicts.size(),
-               watch.recogniser.kind->name, Percent(accuracy), "nearest whole performance", Percent(nearest));
-    if (accuracy <= nearest) fmt::print("  so this recogniser names moves no better than one nearest neighbour does\n");
+    fmt::print("accuracy over {} performances, leaving one person out at a time\n  {:<28} {}\n  {:<28} {}\n",
+               out.verdicts.size(), watch.recogniser.kind->name, Percent(accuracy), "1-nearest-neighbour",
+               Percent(nearest));
+    if (accuracy <= nearest)
+      fmt::print(
+          "  this recogniser is not more accurate than the nearest-neighbour "
+          "classifier\n");
     PrintMistakes(out.verdicts);
   }
   if (out.untaught_performances > 0)
-    fmt::print("  {} performances are of moves that nobody else performed; they count as errors\n",
+    fmt::print("  {} performances count as errors, because no other person performed the move\n",
                out.untaught_performances);
   if (!out.points.empty()) {
-    fmt::print("F-score of {} action points within {:.0f} ms, averaged over the moves: {}\n", out.points.size(),
+    fmt::print("mean F-score over moves, for {} action points with a tolerance of {:.0f} ms: {}\n", out.points.size(),
                1000 * kActionPointTolerance, Percent(f_score));
   }
   people.End();
@@ -259,11 +267,14 @@ Result<int> RecogniseLeavingOneOut(const RecogniseCommandOptions& options) {
 
 Result<int> RecogniseCommand(const RecogniseCommandOptions& options) {
   if (options.leave_one_person_out) return RecogniseLeavingOneOut(options);
-  if (options.moves.empty()) return Fail({"--moves"}, "is missing; it names the moves file (etude teach writes one)");
+  if (options.moves.empty())
+    return Fail({"--moves"},
+                "is missing; allowed: a moves file, such as `etude teach` "
+                "writes");
   ASSIGN_OR_RETURN(const auto taught, LoadTaught(options));
   const bool is_live = std::ranges::find(options.streams, "-") != options.streams.end();
   if (is_live && (options.streams.size() > 1 || !options.labels.empty())) {
-    return Fail({"-"}, "standard input cannot be combined with other recordings or labels");
+    return Fail({"-"}, "standard input cannot be combined with other recordings or with labels");
   }
   return is_live ? RecogniseLive(options, taught) : RecogniseFiles(options, taught);
 }
@@ -274,33 +285,40 @@ void DefineRecognise(CLI::App& app, Action& action) {
   auto options = std::make_shared<RecogniseCommandOptions>();
   CLI::App* command = app.add_subcommand("recognise", "Recognise moves in a recording or a live stream");
   // Define the inputs: recordings, taught moves, labels.
-  command->add_option("streams", options->streams, "Recordings, patterns, folders; - is standard input, live")
+  command
+      ->add_option("streams", options->streams,
+                   "Recordings, patterns of file names, or folders; -: live from "
+                   "standard input")
       ->required();
-  auto* moves = command->add_option("--moves", options->moves, "The taught moves (etude teach)");
-  auto* labels =
-      command->add_option("--labels", options->labels, "Labels to score by: a file, or a folder of tag streams");
+  auto* moves = command->add_option("--moves", options->moves,
+                                    "The moves file with the taught moves (`etude teach` "
+                                    "writes such a file)");
+  auto* labels = command->add_option("--labels", options->labels,
+                                     "Labels with which the recogniser is scored: a file, or a "
+                                     "folder of tag streams");
   command
       ->add_flag("--leave-one-person-out", options->leave_one_person_out,
-                 "Recognise each person with moves taught by the labels of all other people")
+                 "Recognise each person's moves with a recogniser that learnt from all other people")
       ->excludes(moves);
   // Define the recogniser and the recogniser's settings.
   command
       ->add_option(
           "--recogniser", options->recogniser,
-          "The recogniser (default: key-pose if a move has no example; whole-body if each move has three, or with "
-          "--leave-one-person-out; otherwise learnt)")
+          "The recogniser (default: key-pose if a move has no example; whole-body if each move has three examples, "
+          "or with --leave-one-person-out; otherwise learnt)")
       ->check(OneOf(RecogniserNames()));
   command->add_option("--filter", options->filter, "Filter that smooths the joints before recognition")
       ->check(OneOf(FilterNames()));
   command
       ->add_option("--weights", options->weights,
-                   "Weights of the angles: all equal (fixed), or by how well they are seen (adaptive)")
+                   "Weights of the angles: fixed (all equal), or adaptive (higher for angles that the sensor sees "
+                   "better)")
       ->check(OneOf({"fixed", "adaptive"}));
   command
       ->add_option("--threshold", options->threshold,
-                   "Lowest evidence at which a move counts as performed (default: the recogniser's)")
+                   "Lowest evidence at which a move counts as performed (default: the recogniser's value)")
       ->check(NumberWithin(0.001, 1, "threshold"));
-  command->add_option("--set", options->settings, "A setting of the recogniser: tolerance_scale=1.2")
+  command->add_option("--set", options->settings, "A setting of the recogniser, such as tolerance_scale=1.2")
       ->allow_extra_args(false);
   command->add_flag("--json", options->as_json, "Also print the scores as JSON (docs/schemas/facts.schema.json)")
       ->needs(labels);

@@ -33,7 +33,8 @@ struct ReplayCommandOptions {
 };
 
 void PrintDifference(const CellCheck& check) {
-  fmt::print("differs: {}\n  first at {}: {} in the run, {} now\n", check.cell, check.stage, check.then, check.now);
+  fmt::print("differs: {}\n  the first difference is in stage {}: {} in the run, {} now\n", check.cell, check.stage,
+             check.then, check.now);
 }
 
 /// A metric's value in a baseline, and the metric's present value in the same cell.
@@ -85,7 +86,7 @@ Json FactsOf(const std::vector<CellCheck>& checks, const Snapshot* baseline) {
 Result<int> ReplayFile(const std::string& file, const OutsideRules& outside, const std::optional<SecretKey>& key,
                        bool as_json, const Interrupt& interrupt) {
   ASSIGN_OR_RETURN(const auto check, ReplayPack(file, outside, key, interrupt.requested()));
-  if (!check) return TellStopped({{}, "stopped; the cell was not run again"});
+  if (!check) return TellStopped({{}, "stopped before the cell was run again"});
   if (as_json) {
     RETURN_IF_ERROR(PrintFacts("replay", FactsOf({*check}, nullptr)));
     return check->same ? kSuccess : kNothingWorked;
@@ -94,16 +95,16 @@ Result<int> ReplayFile(const std::string& file, const OutsideRules& outside, con
     PrintDifference(*check);
     return kNothingWorked;
   }
-  fmt::print("{}: all stages are the same\n", check->cell);
+  fmt::print("{}: all stages are identical\n", check->cell);
   return kSuccess;
 }
 
 Result<int> Pack(const ReplayCommandOptions& options) {
-  if (options.cells.size() != 1) return Fail({}, "--pack packs one cell: name it with --cell");
+  if (options.cells.size() != 1) return Fail({}, "--pack packs exactly one cell; select this cell with --cell");
   RETURN_IF_ERROR(CheckOutput(options.pack_file, options.overwrite));
   RETURN_IF_ERROR(PackCell(options.target, options.cells.front(), options.pack_file, options.sealing));
   TellWritten(options.pack_file);
-  fmt::print("Next, anywhere: etude replay {}\n", options.pack_file);
+  fmt::print("Next, on any machine: etude replay {}\n", options.pack_file);
   return kSuccess;
 }
 
@@ -114,7 +115,7 @@ Result<int> ReplayCommand(const ReplayCommandOptions& options) {
   std::error_code error;
   if (!std::filesystem::is_directory(options.target, error)) {
     if (!options.cells.empty() || !options.pack_file.empty() || options.sample) {
-      return Fail({options.target}, "is not a result folder; --cell, --sample and --pack need one");
+      return Fail({options.target}, "is not a result folder, which --cell, --sample and --pack need");
     }
     return ReplayFile(options.target, options.outside, key, options.as_json, interrupt);
   }
@@ -122,7 +123,7 @@ Result<int> ReplayCommand(const ReplayCommandOptions& options) {
   if (!options.pack_file.empty()) return Pack(options);
   std::optional<Snapshot> baseline;
   if (!options.baseline.empty()) {
-    if (options.cells.empty()) return Fail({}, "--baseline needs cells: name them with --cell");
+    if (options.cells.empty()) return Fail({}, "--baseline needs cells; select cells with --cell");
     // Loading the run registers the metrics that the run's scenarios define.
     RETURN_IF_ERROR(LoadRunOutline(options.target, options.sealing));
     ASSIGN_OR_RETURN(baseline, TakeBaseline(options.baseline, options.sealing));
@@ -147,10 +148,10 @@ Result<int> ReplayCommand(const ReplayCommandOptions& options) {
     if (check.same) fmt::print("{}\n", check.cell);
     PrintBaseline(options.baseline, ValuesOf(*baseline, *check.row));
   }
-  if (!options.as_json) fmt::print("{} of {} cells came out the same\n", same, checks.size());
+  if (!options.as_json) fmt::print("{} of {} cells are identical to the run\n", same, checks.size());
   if (*interrupt.requested()) {
     std::fflush(stdout);
-    return TellStopped({{}, "stopped; the other cells were not run again"});
+    return TellStopped({{}, "stopped; the remaining cells were not run again"});
   }
   return static_cast<std::size_t>(same) == checks.size() ? kSuccess : kNothingWorked;
 }
@@ -159,18 +160,27 @@ Result<int> ReplayCommand(const ReplayCommandOptions& options) {
 
 void DefineReplay(CLI::App& app, Action& action) {
   auto options = std::make_shared<ReplayCommandOptions>();
-  CLI::App* command = app.add_subcommand("replay", "Run cells again and compare them stage by stage");
-  command->add_option("target", options->target, "A result folder, or a file that --pack has written")->required();
-  CLI::Option* cell = command->add_option("--cell", options->cells, "Run these cells, named as in cells.jsonl");
-  command->add_option("--sample", options->sample, "Number of cells to run, drawn by the run's seed (default: all)")
+  CLI::App* command = app.add_subcommand("replay",
+                                         "Run cells again and compare the results with the run, stage by "
+                                         "stage");
+  command->add_option("target", options->target, "A result folder, or a packed cell that --pack wrote")->required();
+  CLI::Option* cell = command->add_option("--cell", options->cells, "Names of the cells to run, as in cells.jsonl");
+  command
+      ->add_option("--sample", options->sample,
+                   "Number of cells to run; the run's seed determines the random "
+                   "sample (default: all cells)")
       ->check(CLI::Range(1, 10'000'000))
       ->excludes(cell);
   AddUnsealed(*command, options->sealing);
   AddOutsideRules(*command, options->outside);
   AddSeedFile(*command, options->key_file);
-  command->add_option("--pack", options->pack_file, "Write the cell, with its scenario and clips, into this file");
+  command->add_option("--pack", options->pack_file,
+                      "Instead of running the cell, write the cell with its scenario "
+                      "and clips into this file");
   AddOverwrite(*command, options->overwrite);
-  command->add_option("--baseline", options->baseline, "Also print each --cell's values in this baseline file");
+  command->add_option("--baseline", options->baseline,
+                      "Also print the values that each --cell has in this baseline "
+                      "file");
   AddJson(*command, options->as_json);
   AddJobs(*command, options->jobs);
   command->callback([=, &action] { action = [=] { return Finish(ReplayCommand(*options)); }; });

@@ -40,7 +40,7 @@ Result<int> ReportCommand(const std::string& folder, const std::vector<std::stri
   const Interrupt interrupt;
   options.watch = WatchFilms(interrupt, jobs);
   ASSIGN_OR_RETURN(const bool is_whole, WriteReport(run, folder, options));
-  if (!is_whole) return TellStopped({{folder, 0, 0}, "stopped; the tables were written, but not the page"});
+  if (!is_whole) return TellStopped({{folder, 0, 0}, "stopped; Etude wrote the tables, but not the page"});
   ASSIGN_OR_RETURN(const int code, UnlessReplaced(folder, run, kSuccess));
   if (code == kSuccess) TellWritten(folder + "/report/index.html");
   return code;
@@ -57,7 +57,7 @@ Result<void> CheckBlindMethods(const RunData& run, std::span<const std::string> 
   for (auto name = methods.begin(); name != methods.end(); ++name) {
     if (!std::ranges::binary_search(known, *name)) return Fail({"--blind"}, "{}", UnknownName("method", *name, known));
     if (std::find(methods.begin(), name, *name) != name) {
-      return Fail({"--blind"}, "method '{}' is named twice; allowed: each method once", *name);
+      return Fail({"--blind"}, "found the method '{}' twice; allowed: each method once", *name);
     }
   }
   return {};
@@ -80,7 +80,8 @@ Result<int> BlindPageCommand(const std::string& folder, BlindOptions options, Se
   RETURN_IF_ERROR(WriteFileAtomically(key_file, WriteBlindKey(key)));
   RETURN_IF_ERROR(WriteFileAtomically(page, page_html));
   fmt::print(
-      "{} of {} recorded worlds; {} left out, because a method made no transition there. Do not show raters the key.\n",
+      "{} of films, from {} recorded worlds; {} worlds were left out, because a method made no transition there. Do "
+      "not show the key file to raters.\n",
       Plural(static_cast<long long>(key.pairs.size()), "pair"), key.worlds, key.left_out);
   TellWritten(page.string());
   TellWritten(key_file.string());
@@ -89,7 +90,7 @@ Result<int> BlindPageCommand(const std::string& folder, BlindOptions options, Se
 
 Result<int> RowsCommand(const std::string& folder, const std::string& file, bool overwrite, Sealing sealing) {
   if (file.empty()) {
-    if (OutputWasClosed()) return Fail({"standard output"}, "was closed; -o writes the rows into a file");
+    if (OutputWasClosed()) return Fail({"standard output"}, "was closed; use -o to write the rows into a file");
     RETURN_IF_ERROR(WriteRows(folder, sealing, [](std::string_view line) -> Result<void> {
       if (std::fwrite(line.data(), 1, line.size(), stdout) == line.size()) return {};
       return CannotWrite("standard output", "cannot be written", errno);
@@ -110,13 +111,17 @@ void DefineReport(CLI::App& app, Action& action) {
   auto folder = std::make_shared<std::string>();
   auto no_video = std::make_shared<bool>(false);
   auto whole_sessions = std::make_shared<bool>(false);
-  CLI::App* command = app.add_subcommand("report", "Write a run's page, tables, JUnit file and video");
+  CLI::App* command = app.add_subcommand("report",
+                                         "Write the report of a run: an HTML page, tables, a JUnit file "
+                                         "and videos");
   command->add_option("folder", *folder, "A result folder")->required();
-  command->add_flag("--no-video", *no_video, "Leave the video out");
+  command->add_flag("--no-video", *no_video, "Make no videos");
   command->add_flag("--whole-sessions", *whole_sessions,
-                    "Show whole coached sessions in films, not only the time around a correction");
+                    "Show whole coaching sessions in films, instead of only the time around a correction");
   auto real = std::make_shared<std::vector<std::string>>();
-  command->add_option("--real", *real, "Add results on real films: files that `etude capture --distances` wrote");
+  command->add_option("--real", *real,
+                      "Add results of captures of real films, from files that `etude capture "
+                      "--distances` wrote");
   auto sealing = std::make_shared<Sealing>();
   AddUnsealed(*command, *sealing);
   auto jobs = std::make_shared<int>(0);
@@ -125,14 +130,15 @@ void DefineReport(CLI::App& app, Action& action) {
   CLI::Option* methods =
       command
           ->add_option("--blind", blind->methods,
-                       "Instead, write two files into DIR/blind: a page on which people compare films of these "
-                       "methods' transitions without knowing which method made them, and a key that tells it")
+                       "Instead of the report, write two files for a blind test into DIR/blind: a page on which "
+                       "people compare films of transitions by these methods, without knowing the method, and a key "
+                       "file that states the method of each film")
           ->expected(2, 16)
           ->excludes("--no-video", "--whole-sessions", "--real");
-  command->add_option("--pairs", blind->pairs, "With --blind: the largest number of pairs")
+  command->add_option("--pairs", blind->pairs, "With --blind: the largest number of pairs of films")
       ->needs(methods)
       ->check(NumberWithin(1, 1000, "number of pairs"));
-  AddSeed(*command, blind->seed, "With --blind: seed of the random numbers that choose worlds, order and sides")
+  AddSeed(*command, blind->seed, "With --blind: seed of the random numbers that determine worlds, order and sides")
       ->needs(methods);
   command->callback([=, &action] {
     action = [=] {
@@ -145,8 +151,9 @@ void DefineReport(CLI::App& app, Action& action) {
 
 void DefineRows(CLI::App& app, Action& action) {
   auto folder = std::make_shared<std::string>(), file = std::make_shared<std::string>();
-  CLI::App* command = app.add_subcommand("rows", "Print the rows of a run as in cells.jsonl");
-  command->add_option("folder", *folder, "A result folder, of rows or columns")->required();
+  CLI::App* command = app.add_subcommand("rows", "Print the rows of a run in the format of cells.jsonl");
+  command->add_option("folder", *folder, "A result folder; its results may be stored as rows or as columns")
+      ->required();
   command->add_option("-o,--output", *file, "Write into this file (default: standard output)");
   auto sealing = std::make_shared<Sealing>();
   AddUnsealed(*command, *sealing);

@@ -112,7 +112,7 @@ std::string UnsolvedInWords(const RunData& run) {
       }
     }
   }
-  return unsolved == 0 ? "" : fmt::format(", {} unsolved (no answer, or one that missed the goal)", unsolved);
+  return unsolved == 0 ? "" : fmt::format(", {} unsolved (no answer, or an answer that missed the goal)", unsolved);
 }
 
 void PrintSummary(const RunData& run) {
@@ -185,7 +185,7 @@ int ShowOutcome(const RunOutcome& outcome) {
     PrintList("\nMethods without an answer:", DescribeSilentMethods(*finished));
   }
   PrintAnswers(*run);
-  fmt::print("\n{} of {} cells ok{} in {:.1f} s: {}\nNext: etude report {}\n", outcome.cells_ok, outcome.cells,
+  fmt::print("\n{} of {} cells ok{} in {:.1f} s; results: {}\nNext: etude report {}\n", outcome.cells_ok, outcome.cells,
              UnsolvedInWords(*run), outcome.seconds, folder, folder);
   return outcome.cells_ok > 0 && !has_silent ? kSuccess : kNothingWorked;
 }
@@ -196,7 +196,8 @@ namespace {
 void TellUnlocked(const RunOutcome& outcome) {
   if (outcome.why_unlocked.empty()) return;
   Complain({{outcome.folder.string(), 0, 0},
-            fmt::format("could not be locked ({}); make sure that no other run writes into it", outcome.why_unlocked)});
+            fmt::format("could not be locked ({}); make sure that no other run writes into this folder",
+                        outcome.why_unlocked)});
 }
 
 /// Prints the changes that were made to the content of the clips' files, one per line. Prints at most the first 40
@@ -207,7 +208,7 @@ void TellChanges(const std::vector<LoadedChange>& changes) {
     fmt::print("{}: {}\n", changes[i].clip, changes[i].change);
   }
   if (changes.size() > kShown)
-    fmt::print("… and {} more changes of clips, see manifest.json\n", changes.size() - kShown);
+    fmt::print("… and {} more changes of clips; manifest.json lists all of them\n", changes.size() - kShown);
 }
 
 /// Prints the facts of a run as JSON. Returns `code`, or the code of a failure to print.
@@ -234,19 +235,21 @@ Result<std::optional<RunOutcome>> RunWithProgress(RunOptions options) {
   // Report a folder without a lock, and what was changed, left out or ignored.
   TellUnlocked(outcome);
   TellChanges(outcome.changes);
-  for (const RefusedClip& one : outcome.refused) Complain({{one.clip}, "left out: " + one.why});
+  for (const RefusedClip& one : outcome.refused) Complain({{one.clip}, "was left out: " + one.why});
   const std::string folder = outcome.folder.string();
   for (const int line : outcome.damaged_lines) {
     Complain({{(outcome.folder / kJournalFile).string(), line, 0},
-              "this line is ignored: it is damaged, or another line holds the same cell"});
+              "Etude ignored this line, because it is damaged or another line contains the same cell"});
   }
-  if (outcome.fence.starts_with("none")) Complain({{}, "outside methods ran without a fence: " + outcome.fence});
+  if (outcome.fence.starts_with("none"))
+    Complain({{}, "outside methods ran without a sandbox (fence): " + outcome.fence});
   // If the run was stopped, say that the finished cells are kept for --resume.
   if (!outcome.stopped) return std::optional(std::move(outcome));
   const std::size_t kept = outcome.cells + outcome.cells_answered;
   TellStopped({{},
-               kept == 0 ? "stopped before any cell ended; nothing is kept"
-                         : fmt::format("stopped; cells kept in {1}: {0}; --resume continues", kept, folder)});
+               kept == 0 ? "stopped before any cell ended; no result was kept"
+                         : fmt::format("stopped; {0} finished cells were kept in {1}; use --resume to continue", kept,
+                                       folder)});
   return std::optional<RunOutcome>();
 }
 
@@ -260,8 +263,10 @@ int RunCommand(const RunOptions& options, bool as_json) {
   const RunOutcome& outcome = **finished;
   // A shard has no tables; the merge of all shards makes the tables.
   if (!options.shard.IsWhole()) {
-    fmt::print("Shard {}: {} of {} cells ok in {:.1f} s: {}\nNext, when all shards are done: etude merge DIR… -o DIR\n",
-               ToString(options.shard), outcome.cells_ok, outcome.cells, outcome.seconds, outcome.folder.string());
+    fmt::print(
+        "Shard {}: {} of {} cells ok in {:.1f} s; results: {}\nNext, when all shards are finished: etude "
+        "merge DIR… -o DIR\n",
+        ToString(options.shard), outcome.cells_ok, outcome.cells, outcome.seconds, outcome.folder.string());
     aside.End();
     const int code = outcome.cells_ok > 0 || outcome.cells == 0 ? kSuccess : kNothingWorked;
     return as_json ? PrintOutcome(outcome, options.shard, code) : code;
@@ -283,12 +288,13 @@ int MergeCommand(const MergeOptions& given) {
   if (!outcome) return Complain(outcome.error());
   TellUnlocked(*outcome);
   if (!outcome->stopped) return ShowOutcome(*outcome);
-  return TellStopped({{}, "stopped; the shards are unchanged, and there is no merged run"});
+  return TellStopped({{}, "stopped; Etude wrote no merged run, and the shards are unchanged"});
 }
 
 void AddOtherLibraries(CLI::App& command, bool& other_libraries) {
   command.add_flag("--other-libraries", other_libraries,
-                   "Accept that libraries have changed since the run began (other_libraries.json records which ones)");
+                   "Continue even if software libraries have changed since the run began (other_libraries.json "
+                   "lists the changes)");
 }
 
 }  // namespace
@@ -299,20 +305,23 @@ void DefineRun(CLI::App& app, const std::string& command_line, Action& action) {
   auto shard = std::make_shared<std::string>();
   options->program_version = ETUDE_VERSION;
   options->command_line = command_line;
-  CLI::App* command = app.add_subcommand("run", "Run scenarios into a result folder");
+  CLI::App* command = app.add_subcommand("run", "Run scenarios and write the results into a folder");
   command->add_option("scenarios", options->scenarios,
-                      "Scenario files, folders of them, or names of shipped scenarios (quick, full/ik_weights)");
+                      "Scenario files, folders of scenario files, or names of scenarios that come with Etude "
+                      "(quick, full/ik_weights)");
   command->add_option("-o,--output", options->output,
-                      "Result folder (default: out/<suite>-<seed>; for secret worlds, out/<suite>-<digest>)");
+                      "Result folder (default: out/<suite>-<seed>; with a secret key, out/<suite>-<digest of the "
+                      "key>)");
   AddJobs(*command, options->jobs);
   const auto world_options = AddWorldOptions(*command, options->seed, options->trials, options->clips,
                                              options->joint_map, options->clip_facts);
   CLI::Option* skip_refused = command->add_flag("--skip-refused", options->skip_refused,
-                                                "Leave out clips that cannot be read; the manifest names them");
+                                                "Leave out clips that cannot be read; the manifest lists these clips");
   CLI::Option* keep = command
                           ->add_option_function<std::string>(
                               "--keep", [options](const std::string&) { options->keeps_motions = true; },
-                              "motions: record the motions of every cell (a scenario's key `video` does so for some)")
+                              "motions: record the motions of every cell (the scenario key `video` records some "
+                              "cells)")
                           ->check(OneOf({"motions"}));
   auto dry_run = std::make_shared<bool>(false), as_json = std::make_shared<bool>(false);
   const Action act = WithSecretKey(*command, &options->seed, options->key, [=] {
@@ -320,18 +329,27 @@ void DefineRun(CLI::App& app, const std::string& command_line, Action& action) {
   });
   AddReuseKey(*command, options->reuse_key);
   // Define the options for parts of a run, and for continuing a run.
-  command->add_option("--shard", *shard, "Run part i of n, given as i/n; etude merge makes one run of all parts");
-  CLI::Option* overwrite = AddOverwrite(*command, options->overwrite, "Replace the run in this folder");
+  command->add_option("--shard", *shard,
+                      "Run only part i of n, given as i/n; `etude merge` combines all parts into "
+                      "one run");
+  CLI::Option* overwrite = AddOverwrite(*command, options->overwrite, "Replace the run in the result folder");
   CLI::Option* resume =
-      command->add_flag("--resume", options->resume, "Continue the run in this folder")->excludes(overwrite);
+      command->add_flag("--resume", options->resume, "Continue the run in the result folder")->excludes(overwrite);
   AddOtherLibraries(*command, options->other_libraries);
   AddOutsideRules(*command, options->outside);
-  command->add_option("--sync-seconds", options->sync.seconds, "Longest time until a finished cell is on the disk, s")
+  command
+      ->add_option("--sync-seconds", options->sync.seconds,
+                   "Longest time until a finished cell is written to "
+                   "disk, in s")
       ->check(NumberWithin(0, 3600, "time in s"));
-  command->add_option("--sync-mebibytes", options->sync.mebibytes, "Largest amount of results not yet on the disk, MiB")
+  command
+      ->add_option("--sync-mebibytes", options->sync.mebibytes,
+                   "Largest amount of results that are not yet "
+                   "written to disk, in MiB")
       ->check(NumberWithin(0, 1024, "size in MiB"));
-  CLI::Option* dry =
-      command->add_flag("--dry-run", *dry_run, "Only estimate the run's time, and the differences that it could show");
+  CLI::Option* dry = command->add_flag("--dry-run", *dry_run,
+                                       "Only estimate the time of the run, and the smallest differences "
+                                       "that the run could detect");
   dry->excludes(overwrite, resume);
   AddJson(*command, *as_json);
   // --from repeats a run from its manifest, so it excludes all options whose values are in the manifest.
@@ -339,19 +357,22 @@ void DefineRun(CLI::App& app, const std::string& command_line, Action& action) {
   for (CLI::Option* option : world_options) from->excludes(option);
   from->excludes(skip_refused, keep);
   from->excludes(command->add_option("--library", options->libraries,
-                                     "NAME=CLIPS: a further library, for which every condition is run once more"));
+                                     "NAME=CLIPS: an additional clip library; every condition is also run with "
+                                     "these clips"));
   CLI::Option* streams = command->add_option(
       "--streams", options->streams,
-      "Recordings of skeletons that replace simulated people: files, patterns, folders (docs/streams.md)");
+      "Recordings of skeletons that replace simulated people: files, patterns of file names, or folders "
+      "(docs/streams.md)");
   streams->excludes(from, world_options[2]);
   from->excludes(command->add_option(
       "--labels", options->labels,
-      "Labels of --streams or --clips (who did which move when): a file, or a folder of tag streams"));
+      "Labels of --streams or --clips (which person performed which move, and when): a file, or a folder of tag "
+      "streams"));
   // Check combinations that CLI11 cannot express, and start the run.
   command->callback([=, &action] {
     action = [=] {
       if (options->scenarios.empty() == options->from.empty()) {
-        return Complain({{}, "etude run needs either scenario files or folders, or --from with a manifest.json"});
+        return Complain({{}, "`etude run` needs scenario files or folders, or the option --from with a manifest.json"});
       }
       if (!shard->empty()) {
         const auto part = ParseShard(*shard);
@@ -366,12 +387,14 @@ void DefineRun(CLI::App& app, const std::string& command_line, Action& action) {
 
 void DefineScenario(CLI::App& app, Action& action) {
   auto name = std::make_shared<std::string>(), folder = std::make_shared<std::string>();
-  CLI::App* command = app.add_subcommand("scenario", "Work with the scenarios that are part of etude");
-  CLI::App* copy = command->add_subcommand("copy", "Copy a scenario or a suite so that you can edit it");
+  CLI::App* command = app.add_subcommand("scenario", "Copy scenarios that come with Etude");
+  CLI::App* copy = command->add_subcommand("copy", "Copy a scenario or a suite, so that you can edit the copy");
   command->require_subcommand(1);
-  copy->add_option("scenario", *name, "Its name, such as full/ik_weights or quick (see etude list scenarios)")
+  copy->add_option("scenario", *name,
+                   "The name of the scenario or suite, such as full/ik_weights or quick (see "
+                   "`etude list scenarios`)")
       ->required();
-  copy->add_option("folder", *folder, "Where to")->required();
+  copy->add_option("folder", *folder, "The folder into which the files are copied")->required();
   copy->callback([=, &action] {
     action = [=] {
       const auto written = CopyShipped(*name, *folder);
@@ -389,7 +412,7 @@ void DefineMerge(CLI::App& app, const std::string& command_line, Action& action)
   CLI::App* command = app.add_subcommand("merge", "Merge the shards of a run into one run");
   command->add_option("folders", options->folders, "The folders of all shards, in any order")->required();
   command->add_option("-o,--output", options->output, "Result folder")->required();
-  AddOverwrite(*command, options->overwrite, "Replace the run in this folder");
+  AddOverwrite(*command, options->overwrite, "Replace the run in the result folder");
   AddOtherLibraries(*command, options->other_libraries);
   const Action act = WithSecretKey(*command, nullptr, options->key, [=] { return MergeCommand(*options); });
   command->callback([=, &action] { action = act; });

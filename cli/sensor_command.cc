@@ -21,11 +21,12 @@ namespace etude {
 namespace {
 
 constexpr const char* kSensorText =
-    "\nA recording is a Kinect v2's text (25 joints a line: x y z, or x y z and a quaternion) or joint CSV (etude "
-    "clip\n"
-    "convert writes such files). A reference is the same motion from a trusted system: text with 17 rigid targets of "
-    "an\n"
-    "optical system per line, or joint CSV. docs/sensor.md explains the formats and each statistic.";
+    "\n"
+    "A recording is a text of a Kinect v2 (25 joints per line: x y z, or x y z and a quaternion), or a joint CSV, "
+    "such as\n"
+    "`etude clip convert` writes. A reference is a recording of the same motion by a trusted system: a text with 17 "
+    "rigid\n"
+    "targets of an optical system per line, or a joint CSV. docs/sensor.md explains the formats and each statistic.";
 
 /// Options with facts about recordings that the recordings' files do not state.
 struct SensorReading {
@@ -37,12 +38,12 @@ struct SensorReading {
 void AddSensorReading(CLI::App& command, SensorReading& reading) {
   command
       .add_option("--rate", reading.rate_hz,
-                  "Frame rate of the recording (default: from its own times; if it has none, 30 Hz)")
+                  "Frame rate of the recording, in Hz (default: from the recording's times; without times, 30 Hz)")
       ->check(NumberWithin(1, 1000, "rate in Hz"));
   command
       .add_option("--reference-rate", reading.reference_rate,
-                  "Frame rate of the reference (default: from its own times; if it has none, the usual rate at which "
-                  "it lasts as long as the recording)")
+                  "Frame rate of the reference, in Hz (default: from the reference's times; without times, the "
+                  "usual rate at which the reference lasts as long as the recording)")
       ->check(NumberWithin(1, 10000, "rate in Hz"));
 }
 
@@ -58,9 +59,9 @@ Result<RealRecording> LoadRealRecording(const std::string& path, const SensorRea
                    ReadTwinMotion(text, reading.reference, reading.reference_rate, recording.DurationSeconds()));
   auto real = MakeRealRecording(std::move(recording), std::move(twin));
   const std::string mismatch = real ? DescribeMismatch(*real) : "";
-  if (!mismatch.empty()) return Fail({reading.reference}, "does not show the motion of {}: {}", path, mismatch);
+  if (!mismatch.empty()) return Fail({reading.reference}, "shows another motion than {}: {}", path, mismatch);
   if (real) return *std::move(real);
-  return Fail({path}, "cannot be compared with {}: both must show at least three common joints for at least a second",
+  return Fail({path}, "cannot be compared with {}; both need at least three common joints for at least one second",
               reading.reference);
 }
 
@@ -87,13 +88,14 @@ std::string DescribeTurn(const JointRecording& recording) {
   const StreamLevel level = recording.sensor_at ? EstimateLevel(frames, recording.rate_hz) : StreamLevel{};
   if (level.turn_deg != 0) return fmt::format("; the sensor is rotated by {} degrees", level.turn_deg);
   if (level.trunk_deg == 0) return "";
-  return fmt::format("; trunks are {:.0f} degrees from vertical: a lying person, or a tilted sensor", level.trunk_deg);
+  return fmt::format("; the trunk is {:.0f} degrees from vertical, so the person lies or the sensor is tilted",
+                     level.trunk_deg);
 }
 
 std::string DescribeRecording(const JointRecording& recording) {
-  return fmt::format("{} frames at {:g} Hz, {:.1f} s; {:.1f} % of the joints are missing{}", recording.frames.size(),
-                     recording.rate_hz, recording.DurationSeconds(), 100 * MissingShare(recording),
-                     DescribeTurn(recording));
+  return fmt::format("{} frames at {:g} Hz, {:.1f} s; {:.1f} % of the joint positions are missing{}",
+                     recording.frames.size(), recording.rate_hz, recording.DurationSeconds(),
+                     100 * MissingShare(recording), DescribeTurn(recording));
 }
 
 Json FactsOf(const std::string& file, const JointRecording& recording) {
@@ -113,8 +115,7 @@ Json FactsOf(const Agreement& agreement) { return {{"within", agreement.within},
 std::string DescribeMatch(const RealRecording& real) {
   const TwinAlignment& alignment = real.match.alignment;
   return fmt::format(
-      "{} frames at {:g} Hz, {:.1f} s; begins {:+.3f} s after the recording; {:.1f} mm RMS apart "
-      "after alignment",
+      "{} frames at {:g} Hz, {:.1f} s; begins {:+.3f} s after the recording; RMS distance {:.1f} mm after alignment",
       real.twin.frames.size(), real.twin.rate_hz, real.twin.DurationSeconds(), -alignment.shift_s,
       1000 * alignment.rms_m);
 }
@@ -163,7 +164,7 @@ Result<Columns> PlainColumns(const SensorStatsOptions& options, Json& facts) {
 Result<Columns> ComparedColumns(const SensorStatsOptions& options, Json& facts) {
   const std::string& file = options.files.front();
   if (options.files.size() > 1) {
-    return Fail({"--reference", 0, 0}, "needs exactly one recording, found {}", options.files.size());
+    return Fail({"--reference", 0, 0}, "found {} recordings; --reference needs exactly one", options.files.size());
   }
   ASSIGN_OR_RETURN(const auto real, LoadRealRecording(file, options.reading));
   fmt::print("{}: {}\n", file, DescribeRecording(real.recording));
@@ -184,7 +185,9 @@ Result<Columns> ComparedColumns(const SensorStatsOptions& options, Json& facts) 
 Result<int> SensorStatsCommand(const SensorStatsOptions& options) {
   const bool compares = !options.reading.reference.empty();
   if (!compares && !options.simulate.empty()) {
-    return Fail({"--simulate"}, "needs --reference: the simulated sensor sees the reference's motion");
+    return Fail({"--simulate"},
+                "needs --reference, because the simulated sensor measures the motion of the "
+                "reference");
   }
   StdoutToStderr aside(options.as_json);
   Json facts = {{"recordings", Json::array()}, {"match", nullptr}};
@@ -201,7 +204,8 @@ Result<int> SensorStatsCommand(const SensorStatsOptions& options) {
   fmt::print("\n{}", StatisticsTable(columns, compares));
   if (!has_simulated) return kSuccess;
   fmt::print(
-      "\n{} of {} statistics are within {:.0f} % of the recording's (correlations: {:.2f}); ! marks the others\n",
+      "\n{} of {} statistics differ from the recording's by at most {:.0f} % (correlations: {:.2f}); "
+      "! marks larger differences\n",
       agreement.within, agreement.compared, 100 * kSizeTolerance, kCorrelationTolerance);
   return kSuccess;
 }
@@ -210,8 +214,10 @@ void DefineStats(CLI::App& sensor, Action& action) {
   auto options = std::make_shared<SensorStatsOptions>();
   CLI::App* command = sensor.add_subcommand("stats", "Compute statistics of a sensor's recordings");
   command->add_option("files", options->files, "Recordings")->required();
-  command->add_option("--reference", options->reading.reference, "The same motion from a trusted system");
-  command->add_option("--simulate", options->simulate, "Also simulate this sensor: v1, v2 or a sensor file");
+  command->add_option("--reference", options->reading.reference, "A recording of the same motion by a trusted system");
+  command->add_option("--simulate", options->simulate,
+                      "Also simulate this sensor, and compare it with the "
+                      "recording: v1, v2 or a sensor file");
   command->add_option("--worlds", options->worlds, "Number of simulated recordings")->check(CLI::Range(1, 10000));
   AddSensorReading(*command, options->reading);
   AddJson(*command, options->as_json);
@@ -238,8 +244,9 @@ Json PrintComparison(const char* title, const char* real_name, const RealRecordi
   const SensorStatistics simulated = SimulatedStatistics(real, sensor, kCheckWorlds, worlds).mean;
   const Agreement agreement = AgreementOf(measured, simulated);
   fmt::print("\n{}\n{}", title, StatisticsTable({{real_name, measured}, {"simulated", simulated}}, true));
-  fmt::print("{} of {} statistics are within {:.0f} % of the recording's (correlations: {:.2f})\n", agreement.within,
-             agreement.compared, 100 * kSizeTolerance, kCorrelationTolerance);
+  fmt::print(
+      "{} of {} statistics differ from the recording's by at most {:.0f} % (correlations: {:.2f})\n",
+      agreement.within, agreement.compared, 100 * kSizeTolerance, kCorrelationTolerance);
   Json check = FactsOf(agreement);
   check["of"] = real_name;
   return check;
@@ -252,15 +259,15 @@ void PrintHalves(const RealRecording& real, const SensorFitOptions& options, Jso
   const auto first = MakeRealRecording(Excerpt(real.recording, 0, frames / 2), real.twin);
   const auto second = MakeRealRecording(Excerpt(real.recording, frames / 2, frames), real.twin);
   if (!first || !second) {
-    fmt::print("\nThe halves are too short to be fitted separately.\n");
+    fmt::print("\nThe halves of the recording are too short to be fitted separately.\n");
     return;
   }
-  fmt::print("\nHow the halves of the recording differ:\n{}",
+  fmt::print("\nThe two halves of the recording, compared:\n{}",
              StatisticsTable({{"first half", StatisticsOf(*first)}, {"second half", StatisticsOf(*second)}}, true));
-  checks.push_back(PrintComparison("Fitted to the first half, compared on the second:", "second half", *second,
-                                   FitSensor(*first, options)));
-  checks.push_back(PrintComparison("Fitted to the second half, compared on the first:", "first half", *first,
-                                   FitSensor(*second, options)));
+  checks.push_back(PrintComparison("Sensor fitted to the first half, compared with the second half:", "second half",
+                                   *second, FitSensor(*first, options)));
+  checks.push_back(PrintComparison("Sensor fitted to the second half, compared with the first half:", "first half",
+                                   *first, FitSensor(*second, options)));
 }
 
 Result<int> SensorFitCommand(const SensorFitCommandOptions& options) {
@@ -282,7 +289,7 @@ Result<int> SensorFitCommand(const SensorFitCommandOptions& options) {
   // Compare the fitted sensor with the recording, and the fit of each half with the other half.
   Json checks = Json::array();
   checks.push_back(PrintComparison(
-      "Fitted to the whole recording, compared with a simulation by other random numbers:", "real", real, sensor));
+      "Sensor fitted to the whole recording, compared with the recording (new random numbers):", "real", real, sensor));
   PrintHalves(real, fit, checks);
   fmt::print("\n");
   TellWritten(options.output);
@@ -297,14 +304,20 @@ Result<int> SensorFitCommand(const SensorFitCommandOptions& options) {
 
 void DefineFit(CLI::App& sensor, Action& action) {
   auto options = std::make_shared<SensorFitCommandOptions>();
-  CLI::App* command = sensor.add_subcommand("fit", "Fit a sensor file for scenarios to a recording");
+  CLI::App* command = sensor.add_subcommand("fit",
+                                            "Fit a simulated sensor to a recording, and write a sensor file "
+                                            "for scenarios");
   command->add_option("file", options->file, "A recording")->required();
-  command->add_option("--reference", options->reading.reference, "The same motion from a trusted system")->required();
+  command->add_option("--reference", options->reading.reference, "A recording of the same motion by a trusted system")
+      ->required();
   command->add_option("-o,--output", options->output, "The sensor file to write (YAML)")->required();
   command->add_option("--base", options->base,
-                      "The sensor that gives all values that are not fitted: v1, v2 or a sensor file");
+                      "The sensor from which all values are taken that are not fitted: v1, v2 or a sensor file");
   command->add_option("--worlds", options->worlds, "Simulated recordings per step")->check(CLI::Range(1, 10000));
-  command->add_option("--steps", options->steps, "Number of steps; each step simulates, compares and corrects")
+  command
+      ->add_option("--steps", options->steps,
+                   "Number of steps; each step simulates recordings, compares "
+                   "statistics and corrects the sensor")
       ->check(CLI::Range(1, 1000));
   AddOverwrite(*command, options->overwrite);
   AddSensorReading(*command, options->reading);
@@ -315,7 +328,9 @@ void DefineFit(CLI::App& sensor, Action& action) {
 }  // namespace
 
 void DefineSensor(CLI::App& app, Action& action) {
-  CLI::App* sensor = app.add_subcommand("sensor", "Compute statistics of sensors, and fit sensors to recordings");
+  CLI::App* sensor = app.add_subcommand("sensor",
+                                        "Compute statistics of sensor recordings, and fit simulated "
+                                        "sensors to recordings");
   sensor->require_subcommand(1);
   sensor->footer(kSensorText);
   DefineStats(*sensor, action);

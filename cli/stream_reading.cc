@@ -9,19 +9,23 @@
 namespace etude {
 
 void AddStreamReading(CLI::App& command, StreamArguments& reading) {
-  command.add_option("--format", reading.format, "Format of the recordings (default: found from the content)")
+  command.add_option("--format", reading.format, "Format of the recordings (default: detected from the content)")
       ->check(OneOf(StreamFormatNames()));
   command
       .add_option("--rate", reading.rate_hz,
-                  "Frame rate of recordings without a clock, Hz (default: 30); for clips, it replaces their own rate")
+                  "Frame rate, in Hz: of recordings without times (default: 30), or of clips (default: the rate of "
+                  "the clip)")
       ->check(NumberWithin(1, 1000, "rate in Hz"));
-  command.add_option("--body", reading.body, "Which of several bodies is read, counted by first appearance from 0")
+  command
+      .add_option("--body", reading.body,
+                  "Which body to read if a recording contains several: 0 is the body "
+                  "that appears first")
       ->check(CLI::Range(0, 1000));
   command
       .add_option("--level", reading.level,
-                  "Up axis and floor: auto estimates them from the body, none takes the file's")
+                  "Up axis and floor: auto (estimated from the body) or none (as in the file)")
       ->check(OneOf({"auto", "none"}));
-  command.add_flag("--reflect", reading.reflect, "Negate X, for mirrored recordings");
+  command.add_flag("--reflect", reading.reflect, "Negate X, because the recording is mirrored");
   AddClipReading(command, reading.clips, "");
 }
 

@@ -29,10 +29,13 @@ struct TeachCommandOptions {
 };
 
 constexpr const char* kTeachText =
-    "\nFinds what recognisers need to know about a move: key poses with tolerances, and the performances "
-    "themselves.\nWithout labels each file is one move with the file's name. Labels are a CSV "
-    "(clip,from_s,to_s,move,truth and,\noptionally, person), MSRC-12's tag streams or UTKinect's action labels: "
-    "docs/streams.md.";
+    "\n"
+    "Writes a moves file, which a recogniser needs: for each move, key poses with tolerances, and the recorded\n"
+    "performances. Without labels, each file is one performance of a move, and the file's name is the move's name. "
+    "Labels\n"
+    "are a CSV (clip,from_s,to_s,move,truth and optionally person), tag streams of MSRC-12, or action labels of "
+    "UTKinect;\n"
+    "docs/streams.md explains these formats.";
 
 Result<std::vector<TaughtMove>> Teach(const TeachCommandOptions& options) {
   ASSIGN_OR_RETURN(const auto clips, options.reading.ClipOptions());
@@ -113,10 +116,14 @@ Result<int> TeachCommand(const TeachCommandOptions& options) {
 
 void DefineTeach(CLI::App& app, Action& action) {
   auto options = std::make_shared<TeachCommandOptions>();
-  CLI::App* command = app.add_subcommand("teach", "Learn moves from recordings and clips");
-  command->add_option("streams", options->streams, "Recordings, clips, patterns, folders")->required();
-  command->add_option("--labels", options->labels, "Labels (who did what when): a file, or a folder of tag streams");
-  command->add_option("--without", options->without, "Leave this move out")->allow_extra_args(false);
+  CLI::App* command = app.add_subcommand("teach",
+                                         "Learn moves from recordings and clips, for `etude recognise` and "
+                                         "`etude coach`");
+  command->add_option("streams", options->streams, "Recordings, clips, patterns of file names, or folders")->required();
+  command->add_option("--labels", options->labels,
+                      "Labels (which person performed which move, and when): a file, "
+                      "or a folder of tag streams");
+  command->add_option("--without", options->without, "A move to leave out")->allow_extra_args(false);
   command->add_option("-o,--output", options->output, "The moves file to write (YAML)")->required();
   AddOverwrite(*command, options->overwrite);
   AddJson(*command, options->as_json);

@@ -52,16 +52,23 @@ struct TrainOptions {
 };
 
 constexpr const char* kTrainText =
-    "\nPaper A's distance says that two frames match when d < 0.4. The weights of its ten features (S) and the\n"
-    "corners of its membership functions were chosen by hand. This command learns them from pairs of frames, one\nfrom "
-    "each of two clips. A pair is close if all joints differ by less than 15 cm, after one pose is aligned with "
-    "the\nother "
-    "on the floor. The command searches for the system whose d < 0.4 finds the close pairs best. Clips that are\nheld "
-    "out only judge the result.\n\n"
-    "A scenario uses the file by `fuzzy: tuned.yaml`; docs/fuzzy-system.md explains it.\n\n"
-    "With --recogniser it learns the model of the recogniser `learnt` (docs/detection.md): simulated people dance the\n"
-    "labelled clips, right and wrong, and the model learns to tell them apart. With --coached it learns the model of\n"
-    "`coached`: people dance songs along with a coach (docs/coach.md).";
+    "\n"
+    "In paper A, two frames match if their fuzzy distance d is below 0.4. The authors chose the weights of the ten "
+    "features\n"
+    "and the corners of the membership functions by hand. This command learns these numbers from pairs of frames of "
+    "two\n"
+    "different clips. A pair is close if every joint differs by less than 15 cm, after one pose was aligned with "
+    "the other\n"
+    "on the floor. The command searches for the fuzzy system with which the rule d < 0.4 finds the close pairs "
+    "best. Clips\n"
+    "that are held out are only used to test the result.\n\n"
+    "To use the file in a scenario, write `fuzzy: tuned.yaml`; docs/fuzzy-system.md explains fuzzy systems.\n\n"
+    "With --recogniser, the command learns the model of the recogniser `learnt` (docs/detection.md): simulated "
+    "people\n"
+    "perform the labelled clips, right and wrong, and the model learns to distinguish right from wrong "
+    "performances. With\n"
+    "--coached, it learns the model of the recogniser `coached`: simulated people dance songs with a coach "
+    "(docs/coach.md).";
 
 constexpr std::size_t kMaxTrainingClips = 150;
 
@@ -80,10 +87,10 @@ Result<std::vector<bool>> ChooseHeldOut(const std::vector<std::string>& names, c
       held_out[i] = fnmatch(options.hold_out.c_str(), names[i].c_str(), 0) == 0;
     }
     if (std::find(held_out.begin(), held_out.end(), true) != held_out.end()) return held_out;
-    return Fail({"--hold-out", 0, 0}, "no clip is called {}; known clips: {}", Quote(options.hold_out), Join(names));
+    return Fail({"--hold-out", 0, 0}, "no clip has the name {}; allowed: {}", Quote(options.hold_out), Join(names));
   }
   if (!(*share >= 0 && *share < 1)) {
-    return Fail({"--hold-out", 0, 0}, "{} is neither a pattern of names nor a share; allowed shares: 0 up to below 1",
+    return Fail({"--hold-out", 0, 0}, "found {}; allowed: a pattern of clip names, or a share from 0 to below 1",
                 options.hold_out);
   }
   RandomStream dice({.suite_seed = options.seed, .scenario = "training"}, "hold-out");
@@ -111,7 +118,8 @@ Result<Split> LoadSplit(const TrainOptions& options) {
   if (names.size() > kMaxTrainingClips) {
     return Fail(
         {},
-        "found {} clips; allowed: at most {}, because the number of pairs grows with the square of the number of clips",
+        "found {} clips; allowed: at most {}, because the number of pairs grows with the square of the number of "
+        "clips",
         names.size(), kMaxTrainingClips);
   }
   ASSIGN_OR_RETURN(const auto held_out, ChooseHeldOut(names, options));
@@ -127,7 +135,8 @@ Result<Split> LoadSplit(const TrainOptions& options) {
   if (split.learnt.size() >= 2) return split;
   return Fail(
       {},
-      "{} left to learn from, {} held out; at least two must be left, because each pair of frames comes from two clips",
+      "{} left for learning, and {} are held out; learning needs two clips or more, because each pair of frames "
+      "comes from two clips",
       split.learnt.size() == 1 ? "one clip is" : "no clip is", split.held_out.size());
 }
 
@@ -135,9 +144,9 @@ std::string ScoreLine(const char* what, ClipFrames clips, const FuzzySystem& sys
   if (clips.size() < 2) return fmt::format("{:<9} (needs two clips)", what);
   const SystemScore score = ScoreSystem(clips, system);
   const MatchScore& matches = score.at_threshold;
-  return fmt::format("{:<9} F1 {:.3f}, AUC {}; {} pairs matched, {} close, {} both", what, matches.F1(),
-                     score.auc ? fmt::format("{:.3f}", *score.auc) : "none", matches.matched, matches.close,
-                     matches.close_matched);
+  return fmt::format("{:<9} F1 {:.3f}, AUC {}; {} pairs match, {} pairs are close, {} pairs match and are close", what,
+                     matches.F1(), score.auc ? fmt::format("{:.3f}", *score.auc) : "none", matches.matched,
+                     matches.close, matches.close_matched);
 }
 
 /// Scores paper A's system and the tuned system: for each, one line for the learnt clips and one for the held-out
@@ -178,7 +187,7 @@ std::string HeaderOf(const TrainOptions& options, const Split& split, const Tune
   text += fmt::format("\n# from {} pairs of frames, {} of them close, of\n#   {}\n# held out:\n#   {}\n", tuned.pairs,
                       tuned.close_pairs, Join(split.learnt_names),
                       split.held_out_names.empty() ? "none" : Join(split.held_out_names));
-  text += "# How well d < 0.4 finds the close pairs:\n";
+  text += "# How well the rule d < 0.4 finds the close pairs:\n";
   for (const std::string& line : comparison) text += "#   " + line + "\n";
   return text;
 }
@@ -202,7 +211,9 @@ GeneticOptions GeneticOptionsOf(const TrainOptions& options) {
 
 Result<void> CheckOptions(const TrainOptions& options) {
   if (options.memberships && options.method != "genetic") {
-    return Fail({"--memberships", 0, 0}, "the method '{}' only learns weights; allowed with: --method genetic",
+    return Fail({"--memberships", 0, 0},
+                "cannot be combined with --method {}, which learns only weights; allowed: "
+                "--method genetic",
                 options.method);
   }
   if (options.method == "genetic") RETURN_IF_ERROR(LoadGeneticSearch());
@@ -212,7 +223,7 @@ Result<void> CheckOptions(const TrainOptions& options) {
 std::string WhyNothing(WeightFitStatus status) {
   switch (status) {
     case WeightFitStatus::kOneClassOnly:
-      return "the pairs of frames of two clips are all close, or none is: there is nothing to distinguish";
+      return "all pairs of frames of two clips are close, or no pair is, so there is nothing to distinguish";
     case WeightFitStatus::kNothingCounts:
       return "no feature distinguishes the close pairs";
     default:
@@ -237,8 +248,10 @@ Result<int> TrainCommand(const TrainOptions& options) {
                                          {"output", options.output}}));
     return kSuccess;
   }
-  fmt::print("{} clips learnt from, {} held out; how well d < 0.4 finds pairs of frames that look alike:\n",
-             split.learnt.size(), split.held_out.size());
+  fmt::print(
+      "{} clips were used for learning, {} were held out; how well the rule d < 0.4 finds close pairs of "
+      "frames:\n",
+      split.learnt.size(), split.held_out.size());
   for (const std::string& line : comparison) fmt::print("{}\n", line);
   TellWritten(options.output);
   return kSuccess;
@@ -252,7 +265,8 @@ struct Trained {
 };
 
 constexpr const char* kHeader =
-    "# The model of the recogniser `{}`, made by `etude train --{} --sessions {} --seed {}` of\n#   {}\n"
+    "# The model of the recogniser `{}`, made by `etude train --{} --sessions {} --seed {}` of\n"
+    "#   {}\n"
     "# Trees: measure and limit of each question, then what the answers add to the log-odds of \"right\".\n";
 
 Result<Trained> TrainLearnt(const TrainOptions& options) {
@@ -261,7 +275,7 @@ Result<Trained> TrainLearnt(const TrainOptions& options) {
   ASSIGN_OR_RETURN(const ClipLibrary library, LoadClips(references, {}, reading, ProgressOf("clips read")));
   const Repertoire repertoire = RepertoireOf(library);
   if (repertoire.taught.size() < 2) {
-    return Fail({}, "{} labelled clips; a recogniser learns from at least two", repertoire.taught.size());
+    return Fail({}, "found {} labelled clips; a recogniser needs at least two to learn", repertoire.taught.size());
   }
   RecogniserTraining training{.seed = options.seed, .progress = ProgressOf("sessions")};
   training.sessions = options.sessions.value_or(training.sessions);
@@ -299,24 +313,29 @@ void DefineTrain(CLI::App& app, Action& action) {
   auto options = std::make_shared<TrainOptions>();
   CLI::App* command = app.add_subcommand("train", "Learn a fuzzy system or a recogniser from clips");
   // Define the inputs and outputs; then the options of fuzzy systems.
-  command->add_option("clips", options->clips, "Clips to learn from and to judge the result")->required();
+  command->add_option("clips", options->clips, "Clips for learning and for testing the result")->required();
   command->add_option("-o,--output", options->output, "The file to write (YAML)")->required();
   command->add_option("--method", options->method, "Learning method")->check(OneOf({"adaptive", "genetic"}));
-  command->add_flag("--memberships", options->memberships, "Also tune the membership functions (genetic)");
+  command->add_flag("--memberships", options->memberships,
+                    "Also learn the membership functions (only with --method "
+                    "genetic)");
   command->add_option("--hold-out", options->hold_out,
-                      "Clips that are not learnt from but used to judge: a share drawn by the seed (0: none), or a "
-                      "pattern of names");
+                      "Clips that are used only for testing the result: a share of all clips, drawn at random (0: "
+                      "none), or a pattern of clip names");
   AddSeed(*command, options->seed, "Seed");
   command->add_option("--population", options->population, "Genomes per generation")->check(CLI::Range(5, 1000));
   command->add_option("--generations", options->generations, "Number of generations")->check(CLI::Range(1, 10000));
   // Define the options of recognisers.
-  command->add_flag("--recogniser", options->recogniser, "Learn the recogniser `learnt`");
-  command->add_flag("--coached", options->coached, "Learn the recogniser `coached`: CLIPS are built-in songs")
+  command->add_flag("--recogniser", options->recogniser, "Learn the model of the recogniser `learnt`");
+  command
+      ->add_flag("--coached", options->coached,
+                 "Learn the model of the recogniser `coached`; CLIPS are built-in "
+                 "songs")
       ->excludes("--recogniser");
   command
       ->add_option("--sessions", options->sessions,
-                   "Number of sessions of simulated people: 16 performances each (--recogniser: 400), or three minutes "
-                   "with a coach (--coached: 300)")
+                   "Number of sessions with simulated people. With --recogniser, a session has 16 performances "
+                   "(default: 400 sessions); with --coached, three minutes with a coach (300 sessions)")
       ->check(CLI::Range(10, 10000));
   // Options of the fuzzy system do not apply to recognisers.
   for (const char* other : {"--method", "--memberships", "--hold-out", "--population", "--generations"}) {

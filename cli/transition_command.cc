@@ -16,15 +16,16 @@ namespace etude {
 namespace {
 
 constexpr const char* kTransitionNotes =
-    "\nThe file shows FROM from its start until a frame at or after --at, then the join, then TO until its end, moved "
-    "to the\n"
-    "place where FROM was left. The default method is the recommended one; `etude list methods` describes all of them. "
-    "The\n"
-    "clips are joined as a body of twenty joints, so the file has these joints, with FROM's proportions, at 30 Hz, and "
-    "not\n"
-    "FROM's own skeleton. From a body that lies, sits or kneels, a transition needs a clip that stands up: name such "
-    "clips by\n"
-    "--library.";
+    "\n"
+    "The written motion is FROM from its start until a frame at or after --at, then the transition, then TO until "
+    "its end.\n"
+    "TO is moved to the position where FROM ends. The default --choice and --join are the recommended method; "
+    "`etude list\n"
+    "methods` describes all methods. The written motion has Etude's twenty joints with the proportions of FROM, at "
+    "30 Hz. It\n"
+    "does not have the skeleton of FROM. If the body lies, sits or kneels, a transition needs a clip in which a "
+    "body stands\n"
+    "up: give such clips with --library.";
 
 struct TransitionCommandOptions {
   TransitionFileOptions transition;
@@ -41,7 +42,7 @@ Result<int> TransitionCommand(TransitionCommandOptions asked) {
   ASSIGN_OR_RETURN(const TransitionFile made, WriteTransition(options));
   if (made.branch == Branch::kNone) {
     Complain({{},
-              fmt::format("no transition from {} to {} within {:g} s: {}; nothing was written", options.from,
+              fmt::format("found no transition from {} to {} within {:g} s: {}; Etude wrote no file", options.from,
                           options.to, options.budget_s, made.why)});
     return kNothingWorked;
   }
@@ -68,10 +69,11 @@ Result<int> TransitionCommand(TransitionCommandOptions asked) {
     fmt::print("{}; {} is not played\n  written as a body of twenty joints at 30 Hz, {:.2f} s long\n", made.why,
                options.to, made.duration_s);
   } else {
-    fmt::print("{} plays until {:.2f} s, {:.2f} s after the request{}; then {} plays from its {:.2f} s on\n",
-               options.from, made.left_s, made.wait_s,
-               made.through.empty() ? "" : fmt::format(", and {} in between", made.through), options.to,
-               made.entered_s);
+    fmt::print(
+        "{} plays until {:.2f} s, {:.2f} s after the request{}; then {} plays, starting at its time {:.2f} "
+        "s\n",
+        options.from, made.left_s, made.wait_s,
+        made.through.empty() ? "" : fmt::format("; {} plays in between", made.through), options.to, made.entered_s);
     fmt::print("  {}\n  written as a body of twenty joints at 30 Hz, {:.2f} s long, joined at", made.why,
                made.duration_s);
     for (const double point : made.points_s) fmt::print(" {:.2f} s", point);
@@ -87,25 +89,28 @@ void DefineTransition(CLI::App& app, Action& action) {
   auto asked = std::make_shared<TransitionCommandOptions>();
   TransitionFileOptions* options = &asked->transition;
   CLI::App* command =
-      app.add_subcommand("transition", "Write a transition from one clip into another as a motion file");
+      app.add_subcommand("transition", "Write a motion file with a transition from one clip to another");
   // Define the clips, the time of the request, and the output.
   command->add_option("from", options->from, "The clip that plays first")->required();
   command->add_option("to", options->to, "The clip that plays afterwards")->required();
-  command->add_option("--at", options->at_s, "Time in the first clip at which the second clip is requested, s")
+  command->add_option("--at", options->at_s, "Time in the first clip at which the transition is requested, in s")
       ->check(NumberWithin(0, 36000, "time in s"))
       ->required();
   command->add_option("-o,--output", options->output, "The motion to write: .bvh, .glb, .trc, .csv, .c3d, .npz or .mot")
       ->required();
   // Define how the transition is chosen and made.
-  command->add_option("--wait", options->budget_s, "Longest time from the request until the second clip plays, s")
+  command->add_option("--wait", options->budget_s, "Longest time from the request until the second clip plays, in s")
       ->check(NumberWithin(0, 3600, "time in s"));
   command
       ->add_option("--choice", options->choice,
-                   "How the frame that leaves the first clip and the frame that enters the second are chosen")
+                   "The rule that chooses the frame at which the transition leaves the first clip, and the frame at "
+                   "which it enters the second clip")
       ->check(OneOf(ChoiceNames()));
-  command->add_option("--join", options->join, "How the two clips are joined at these frames")
+  command->add_option("--join", options->join, "The method that joins the two clips at these frames")
       ->check(OneOf(JoinNames()));
-  command->add_option("--library", options->library, "Further clips; one of them may be played in between");
+  command->add_option("--library", options->library,
+                      "Additional clips; the transition may play one of these clips "
+                      "in between");
   AddOverwrite(*command, asked->overwrite);
   AddJson(*command, asked->as_json);
   AddClipReading(*command, asked->reading);

@@ -45,7 +45,7 @@ std::optional<std::size_t> ReadSample(const std::string& text) { return ParseNum
 std::string CheckSample(const std::string& text) {
   if (text == kWholeSample) return "";
   if (const auto number = ParseNumber<std::size_t>(text); number && *number <= kMaxSample) return "";
-  return fmt::format("'{}' is not a sample; allowed: 0 to {}, or '{}'", text, kMaxSample, kWholeSample);
+  return fmt::format("'{}' is not a sample size; allowed: 0 to {}, or '{}'", text, kMaxSample, kWholeSample);
 }
 
 /// Draws an unpredictable seed. It has 53 bits, because JSON readers that use doubles keep such a number exactly.
@@ -68,17 +68,19 @@ std::string SampleInWords(const CellChoice& choice) {
   for (const MissedForgery& one : WhatIsMissed(choice)) {
     const std::string share = ShareInWords(one.chance);
     if (!one.method.empty()) {
-      missed.push_back(fmt::format("{} of the forgers who change half of {} ({})", share, one.method, one.forged));
+      missed.push_back(
+          fmt::format("{0} of the forgeries that change {2} of the cells of {1}", share, one.method, one.forged));
     } else if (missed.empty()) {
       missed.push_back(
-          fmt::format("{} of the forgers who change 5 % of the {} cells ({})", share, one.cells, one.forged));
+          fmt::format("{0} of the forgeries that change {2} of the {1} cells", share, one.cells, one.forged));
     } else {
-      missed.push_back(fmt::format("{} of the forgers who change one cell", share));
+      missed.push_back(fmt::format("{} of the forgeries that change a single cell", share));
     }
   }
-  if (missed.empty()) return "Every cell that can be run again was run again.";
+  if (missed.empty()) return "Etude ran every cell again that can be run again.";
   return fmt::format(
-      "The sample misses {}. --sample all detects every forger; --sample-seed {} draws this sample again.",
+      "A sample of this size misses {}. --sample all detects every forgery; --sample-seed {} draws the same sample "
+      "again.",
       Join(missed), choice.dice);
 }
 
@@ -91,9 +93,9 @@ std::vector<std::string> NotVerified(const CellChoice& choice) {
       lines.push_back(fmt::format("{}: all {} cells: {}", name, method.rows, method.why_not));
     for (const auto& [status, rows] : method.by_machine) {
       lines.push_back(
-          fmt::format("{}: {} of {} cells ended with {} on the run's machine; on another machine they may end in "
-                      "another way", name,
-                      rows, method.rows, status));
+          fmt::format("{}: {} of {} cells ended with the status {} on the run's machine; on another machine, these "
+                      "cells may end with another status",
+                      name, rows, method.rows, status));
     }
   }
   return lines;
@@ -128,7 +130,8 @@ Result<void> AddReport(const std::string& folder, std::vector<Verified>& all, st
   std::ranges::move(gate.not_compared, std::back_inserter(check.not_compared));
   std::ranges::move(check.not_compared, std::back_inserter(not_verified));
   if (check.files > 0 || !check.differences.empty()) {
-    all.push_back({fmt::format("report: {} files, which were made again", check.files), std::move(check.differences)});
+    all.push_back({fmt::format("report: {} files, compared with a new report of the run", check.files),
+                   std::move(check.differences)});
   }
   return {};
 }
@@ -151,8 +154,8 @@ Result<int> VerifyCommand(VerifyCommandOptions options) {
   std::vector<Verified> all;
   std::vector<std::string> not_verified;
   if (options.check.empty() && Exists(Inside(replay.folder) / kSignatureFile)) {
-    not_verified.push_back(
-        fmt::format("{}: the signature was not checked, because no public key was given (--check)", kSignatureFile));
+    not_verified.push_back(fmt::format(
+        "{}: the signature was not checked, because the option --check with a public key is missing", kSignatureFile));
   } else if (!options.check.empty()) {
     const auto signed_by = CheckSignature(replay.folder, options.check);
     if (!signed_by && signed_by.error().place.file == options.check) return tl::unexpected(signed_by.error());
@@ -163,7 +166,7 @@ Result<int> VerifyCommand(VerifyCommandOptions options) {
   std::ranges::move(verified.checks, std::back_inserter(all));
   if (verified.choice) std::ranges::move(NotVerified(*verified.choice), std::back_inserter(not_verified));
   RETURN_IF_ERROR(AddReport(replay.folder, all, not_verified));
-  if (*interrupt.requested()) return TellStopped({{}, "stopped; nothing was verified"});
+  if (*interrupt.requested()) return TellStopped({{}, "stopped before the verification was complete"});
   // Print the checks that agree and the checks that differ.
   std::size_t agree = 0;
   Json checks = Json::array();
@@ -182,8 +185,8 @@ Result<int> VerifyCommand(VerifyCommandOptions options) {
                                           {"not_verified", not_verified}}));
   } else {
     PrintList("Not verified:", not_verified);
-    fmt::print("{}\n", choice ? SampleInWords(*choice) : "No cell was run again.");
-    fmt::print("{} of {} agree. Times and the machine cannot be verified.\n", agree, all.size());
+    fmt::print("{}\n", choice ? SampleInWords(*choice) : "Etude ran no cell again.");
+    fmt::print("{} of {} checks agree. Times and the machine cannot be verified.\n", agree, all.size());
   }
   // Sign the run only if everything agrees.
   if (agree < all.size()) return kNothingWorked;
@@ -198,18 +201,23 @@ Result<int> VerifyCommand(VerifyCommandOptions options) {
 void DefineVerify(CLI::App& app, Action& action) {
   auto options = std::make_shared<VerifyCommandOptions>();
   CLI::App* command =
-      app.add_subcommand("verify", "Check that a run agrees with its cells, and that they can be reproduced");
+      app.add_subcommand("verify",
+                         "Check that the files of a run agree with each other, and that its cells can be "
+                         "reproduced");
   command->add_option("folder", options->replay.folder, "A result folder")->required();
   command
       ->add_option("--sample", options->sample,
-                   "Number of cells to run again, in addition to all with a recording; 0: none, all: every cell")
+                   "Number of cells to run again at random, in addition to all cells with a recording. 0: run no "
+                   "cell; all: run every cell")
       ->check(CheckSample);
   command->add_option("--sample-seed", options->replay.dice,
-                      "Seed of the sample, to repeat a check; a forger must not know it (default: random)");
+                      "Seed of the sample, to repeat a check. Keep it secret from the author of the run (default: "
+                      "random)");
   command->add_option("--sign", options->sign,
                       "Sign the run with this secret key if everything agrees (minisign -G -W)");
   command->add_option("--check", options->check,
-                      "Check the run's signature with this public key, or with a file that holds the key (minisign)");
+                      "Check the run's signature with this public key, or with a file that contains the key "
+                      "(minisign)");
   AddSeedFile(*command, options->key_file);
   AddOutsideRules(*command, options->replay.outside);
   AddJobs(*command, options->replay.jobs);

@@ -113,10 +113,10 @@ std::string PageOf(const RunData& run, const std::string& digest, const std::str
   return WriteToolPage(
       {.kind = "comparison",
        .title = "Which body moves more naturally?",
-       .verdict = "In each film both bodies change from one motion to another. A side is empty where its "
-                  "motion begins later or ends earlier. Watch the film to the end at least once, then "
-                  "choose the more natural side. Save your answers at the end, and send the file to "
-                  "whoever gave you this page.",
+       .verdict = "In each film, both bodies change from one motion to another. A side of the film is empty while "
+                  "its motion has not begun or has already ended. Watch each film to the end at least once, then "
+                  "choose the side with the more natural motion. At the end, save your answers, and send the file "
+                  "to the person who gave you this page.",
        .version = run.program_version,
        .command = "",
        .script = BlindJs()},
@@ -152,8 +152,8 @@ Result<std::optional<BlindTrial>> MakeBlindTrial(const RunData& run, const Blind
   }
   if (shown.empty()) {
     return Fail({},
-                "no world has recorded motions of two of these methods: {}; etude run --keep motions, or the "
-                "key 'video', records them",
+                "no world has recorded motions of two of these methods: {}. Use `etude run --keep motions` or the "
+                "scenario key 'video' to record motions",
                 fmt::join(options.methods, ", "));
   }
   // Film the pairs. In `trial.key`, name the method that each side of a film shows.

@@ -100,10 +100,10 @@ std::string Legend(const ScenarioSummary& scenario) {
   std::size_t rivals = 0;
   for (const ConditionSummary& condition : scenario.conditions) rivals += condition.rivals.size();
   const std::string with_baselines = Plural(scenario.family, "comparison") + " with baselines";
-  if (rivals == 0) return fmt::format("p is corrected over the {} (Holm).", with_baselines);
+  if (rivals == 0) return fmt::format("p-values have Holm’s correction over the {}.", with_baselines);
   return fmt::format(
-      "p is corrected (Holm) over the {}, and separately over the {} comparisons with the strongest other method. A "
-      "pair of methods that is in both groups is listed once.",
+      "p-values have Holm’s correction over the {}, and separately over the {} comparisons with the strongest other "
+      "method. A pair of methods that is in both groups is listed only once.",
       with_baselines, FormatCount(static_cast<long long>(rivals)));
 }
 
@@ -153,8 +153,8 @@ std::string ShownHtml(const ScenarioSummary& scenario, std::span<const Shown> sh
   };
   table.columns.insert(table.columns.end(), {number("Difference", false),
                                              number("95 % interval", false),
-                                             {fmt::format("On {}", TheseUnits(scenario.unit))},
-                                             {fmt::format("For {}", OtherUnits(scenario.unit))},
+                                             {fmt::format("Verdict on {}", TheseUnits(scenario.unit))},
+                                             {fmt::format("Verdict for {}", OtherUnits(scenario.unit))},
                                              number("Worlds", true),
                                              number("p (Holm)", true),
                                              number("Effect", true),
@@ -175,17 +175,17 @@ std::string ShownHtml(const ScenarioSummary& scenario, std::span<const Shown> sh
 }
 
 /// Returns "holds" if all conditions have the same verdict. Otherwise returns how the verdicts differ: for example
-/// "better under some, worse under others".
+/// "better under some values, worse under others".
 std::string WhatHolds(const AcrossVerdict& across) {
   if (across.Holds()) return "holds";
   std::vector<Verdict> said;
   for (const AcrossVerdict::Each& each : across.each) {
     if (std::ranges::find(said, each.verdict) == said.end()) said.push_back(each.verdict);
   }
-  if (said.size() == 1) return "undecided everywhere";
+  if (said.size() == 1) return "undecided under all values";
   const auto says = [&](Verdict verdict) { return std::ranges::find(said, verdict) != said.end(); };
-  return says(Verdict::kBetter) && says(Verdict::kWorse) ? "better under some, worse under others"
-                                                         : "does not hold everywhere";
+  return says(Verdict::kBetter) && says(Verdict::kWorse) ? "better under some values, worse under others"
+                                                         : "does not hold under all values";
 }
 
 std::string MethodsOf(const AcrossVerdict& across) { return across.method + " − " + across.baseline; }
@@ -201,7 +201,7 @@ Table AcrossTable(const ScenarioSummary& scenario) {
   Table table{
       .label = "Verdicts under all assumptions", .style = "data", .columns = {{"metric"}, {"methods"}, {"condition"}}};
   for (const AcrossVerdict::Each& each : scenario.across.front().each) table.columns.push_back({each.value});
-  table.columns.push_back({"under all"});
+  table.columns.push_back({"under all values"});
   for (const AcrossVerdict& across : scenario.across) {
     std::vector<TableCell> cells = {across.metric, MethodsOf(across), ConditionLabel(across.condition)};
     for (const AcrossVerdict::Each& each : across.each) cells.emplace_back(EachText(across, each));
@@ -237,8 +237,8 @@ std::string ComparisonTableHtml(const ScenarioSummary& scenario) {
   std::size_t left = kMaxTableRows;
   std::string html = ShownHtml(scenario, lead, left);
   if (!rest.empty() && left > 0) {
-    html += fmt::format("<details><summary>and {} more, by the other metrics</summary>{}</details>", rest.size(),
-                        ShownHtml(scenario, rest, left));
+    html += fmt::format("<details><summary>{} more comparisons, by the other metrics</summary>{}</details>",
+                        rest.size(), ShownHtml(scenario, rest, left));
   }
   return html + LeftOutHtml(all.size(), kMaxTableRows, "comparisons", kAllComparisons) +
          fmt::format("<p class=\"quiet legend\">{}</p>", EscapeMarkup(Legend(scenario)));
@@ -251,8 +251,8 @@ std::string ComparisonTableMarkdown(const ScenarioSummary& scenario) {
                           {"methods"},
                           {"condition"},
                           {"difference (95 % interval)"},
-                          {fmt::format("on {}", TheseUnits(scenario.unit))},
-                          {fmt::format("for {}", OtherUnits(scenario.unit))},
+                          {fmt::format("verdict on {}", TheseUnits(scenario.unit))},
+                          {fmt::format("verdict for {}", OtherUnits(scenario.unit))},
                           {"worlds"},
                           {"p (Holm)"},
                           {"effect"},
@@ -265,7 +265,7 @@ std::string ComparisonTableMarkdown(const ScenarioSummary& scenario) {
                            VerdictName(c.verdict), line.beyond, line.pairs, line.p, line.effect, line.notes}});
   }
   const std::string rest = LeftOutWords(all.size(), kMaxTableRows, "comparisons", kAllComparisons);
-  return fmt::format("\n<details><summary>Every comparison ({})</summary>\n{}{}\n{}\n\n</details>\n", all.size(),
+  return fmt::format("\n<details><summary>All comparisons ({})</summary>\n{}{}\n{}\n\n</details>\n", all.size(),
                      TableMarkdown(table), rest.empty() ? "" : fmt::format("\n{}\n", EscapeMarkdown(rest)),
                      EscapeMarkdown(Legend(scenario)));
 }
@@ -330,15 +330,16 @@ std::string ComparisonTableCsv(const ScenarioSummary& scenario) {
 
 std::string AcrossTableHtml(const ScenarioSummary& scenario) {
   if (scenario.across.empty()) return "";
-  return "<p class=\"quiet legend\">Verdicts under each value of the assumptions (key <code>across</code>). A verdict "
-         "counts only if it is the same under all values:</p>" +
+  return "<p class=\"quiet legend\">Verdicts under each value of the parameters in the scenario key "
+         "<code>across</code>. A verdict holds only if it is the same under all values:</p>" +
          TableHtml(AcrossTable(scenario));
 }
 
 std::string AcrossTableMarkdown(const ScenarioSummary& scenario) {
   if (scenario.across.empty()) return "";
-  return "\nVerdicts under each value of the assumptions (key `across`). A verdict counts only if it is the same under "
-         "all values:\n" +
+  return "\n"
+         "Verdicts under each value of the parameters in the scenario key `across`. A verdict holds only if it is "
+         "the same under all values:\n" +
          TableMarkdown(AcrossTable(scenario));
 }
 

@@ -50,15 +50,15 @@ FaultyClips FaultyClipsOf(const RunData& run, std::size_t most) {
   found.sentence = fmt::format("{} of {} without a fault", judged - beyond.size() - others.size(),
                                Plural(static_cast<long long>(judged), "clip"));
   count(beyond.size(), "beyond the limits");
-  count(unjudged.size(), "more not judged");
-  found.sentence += ". etude list faults states what each fault is.";
+  count(unjudged.size(), "more could not be judged");
+  found.sentence += ". The command “etude list faults” explains each fault.";
   // Write the table with at most `most` rows.
   found.table = {.label = "Clips with faults",
                  .columns = {{.head = "Clip", .is_row_head = true},
                              {"Method"},
                              {.head = "Faults", .is_number = true, .is_sortable = true},
                              {"Limits"},
-                             {"What, when, and in which file"}}};
+                             {"Fault, time and file"}}};
   for (std::vector<TableRow>* rows : {&beyond, &others, &unjudged}) {
     for (TableRow& row : *rows) {
       if (found.table.rows.size() < most) found.table.rows.push_back(std::move(row));

@@ -18,7 +18,7 @@ namespace {
 
 MetricWords GateWordsFor(const std::string& metric) {
   if (metric != kOkShare) return WordsFor(metric);
-  return {.label = "cells that ended ok",
+  return {.label = "cells with status ok",
           .suffix = " %",
           .difference_suffix = " percentage points",
           .scale = 100,
@@ -124,15 +124,16 @@ std::vector<GateTableRow> MovedRows(const SnapshotComparison& comparison) {
 }
 
 std::string RatioClaim(const RatioResult& ratio) {
-  return fmt::format("processor time of {} over {} at most {}", ratio.rule.of, ratio.rule.over, ratio.rule.at_most);
+  return fmt::format("processor time of {} divided by that of {}: at most {}", ratio.rule.of, ratio.rule.over,
+                     ratio.rule.at_most);
 }
 
 std::string RatioDetail(const RatioResult& ratio) {
-  if (!ratio.median) return "no world has the times of both methods";
+  if (!ratio.median) return "no world has times of both methods";
   const std::string median = "median " + FormatNumber(*ratio.median);
   const std::string worlds = Plural(ratio.pairs, "world");
-  if (!ratio.ci_low) return fmt::format("{} on {}, too few for an interval", median, worlds);
-  return fmt::format("{} (95 % interval {}) on {}", median, FormatInterval(ratio.ci_low, ratio.ci_high, {}), worlds);
+  if (!ratio.ci_low) return fmt::format("{} over {}, which are too few for an interval", median, worlds);
+  return fmt::format("{} (95 % interval {}) over {}", median, FormatInterval(ratio.ci_low, ratio.ci_high, {}), worlds);
 }
 
 std::string_view GateVerdictWords(GateVerdict verdict) {
@@ -157,7 +158,7 @@ std::vector<std::string> NotAlikeLines(const SnapshotComparison& comparison) {
 }
 
 std::string CompareSentence(const SnapshotComparison& comparison) {
-  if (comparison.moves.empty()) return "nothing to compare";
+  if (comparison.moves.empty()) return "there is nothing to compare";
   return Plural(static_cast<long long>(comparison.moves.size()), "comparison") + ": " +
          MovementCounts(comparison.moves);
 }
@@ -169,12 +170,12 @@ std::vector<std::string> GateSentences(const GateReport& report) {
   if (report.baseline_file.empty()) {
     const bool has_own = !report.expectations.empty() || !report.ratios.empty();
     sentences.push_back(fmt::format(
-        "no baseline was given, so nothing was compared: {}",
-        has_own ? "only the run’s own expectations and time rules were judged"
-                : "the scenarios have no expectations either, so only this was judged: every cell has a row, and every "
-                  "method an answer"));
+        "nothing was compared, because there is no baseline: {}",
+        has_own ? "the gate only judged the expectations and time rules of the run’s scenarios"
+                : "the scenarios have no expectations, so the gate only checked that every cell has a row and every "
+                  "method has an answer"));
   } else if (!report.comparison.moves.empty()) {
-    sentences.push_back("against the baseline, " + CompareSentence(report.comparison));
+    sentences.push_back("compared with the baseline: " + CompareSentence(report.comparison));
   }
   std::erase(sentences, "");
   return sentences;
@@ -226,13 +227,14 @@ std::vector<TailLine> TailLines(const std::vector<const MetricMove*>& moves, con
 std::string_view TailHeading(TailGroup group) {
   switch (group) {
     case TailGroup::kFailing:
-      return "Worlds that are far worse:";
+      return "Worlds in which a method became far worse:";
     case TailGroup::kTooFew:
-      return "Single worlds that are far worse, but too few to fail:";
+      return "Single worlds in which a method became far worse, but too few to fail the gate:";
     case TailGroup::kNotJudged:
       break;
   }
-  return "Single worlds that are far worse, but not judged, because the scenario turned the tail rule off:";
+  return "Single worlds in which a method became far worse; not judged, because the scenario turned off the tail "
+         "rule:";
 }
 
 std::vector<TailLine> TailLines(const GateReport& report, TailGroup group, std::size_t most_each, std::size_t most) {
@@ -280,7 +282,8 @@ std::string MoveTable(const std::vector<GateTableRow>& rows) {
     table.rows.back().cells.front().is_strong = row.fails;
   }
   std::string text = TableMarkdown(table);
-  if (rows.size() > kMaxRows) text += fmt::format("\n… and {} more rows, in gate.xml.\n", rows.size() - kMaxRows);
+  if (rows.size() > kMaxRows)
+    text += fmt::format("\n… and {} more rows; gate.xml contains all rows.\n", rows.size() - kMaxRows);
   return text;
 }
 
@@ -366,10 +369,10 @@ std::string WriteGateMarkdown(const GateReport& report) {
                   GateVerdictWords(GateVerdictOf(report)), report.baseline_file.empty() ? ", without a baseline" : "");
   // Write how many expectations and comparisons were judged, and how many failed.
   for (const std::string& sentence : GateSentences(report)) text += "- " + EscapeMarkdown(sentence) + "\n";
-  text += List("**Incomplete**, so there is no overall verdict:", report.incomplete);
-  text += List("**Methods without an answer:**", report.silent);
-  text += List("**Not met:**", ClaimsThatAre(report, ClaimOutcome::kUnmet));
-  text += List("**Answers that became worse** (a change from better to worse is a regression):", FallenLines(report));
+  text += List("**The run is incomplete**, so there is no overall verdict:", report.incomplete);
+  text += List("**Methods without an answer in any cell:**", report.silent);
+  text += List("**Expectations and time rules that are not met:**", ClaimsThatAre(report, ClaimOutcome::kUnmet));
+  text += List("**Verdicts that became worse** (a change from better to worse is a regression):", FallenLines(report));
   // Write the changed metrics. Changes that fail the gate are visible; all other changes are collapsed.
   std::vector<GateTableRow> failing, others;
   for (GateTableRow& row : MovedRows(report.comparison)) (row.fails ? failing : others).push_back(std::move(row));
@@ -381,21 +384,23 @@ std::string WriteGateMarkdown(const GateReport& report) {
   };
   text += worlds(TailGroup::kFailing);
   if (!others.empty()) {
-    text += FoldedAway(fmt::format("What else changed ({})", others.size()),
+    text += FoldedAway(fmt::format("Other changes ({})", others.size()),
                        MoveTable(others) + worlds(TailGroup::kTooFew) + worlds(TailGroup::kNotJudged));
   }
   // Write the undecided claims (which pass), the run's own answers, the entries that could not be compared, and the
   // methods with changed settings.
   const std::vector<std::string> undecided = ClaimsThatAre(report, ClaimOutcome::kUndecided);
-  text += FoldedAway(fmt::format("Could not be decided ({})", undecided.size()), List("These pass:", undecided));
-  text += FoldedAway(fmt::format("Answers of this run ({})", report.answers.size()), AnswerTable(report.answers));
-  text += List("Undecided, because values cannot be compared:", NotAlikeLines(report.comparison));
-  text += List("New, not in the baseline (`--update` adds it):", report.comparison.only_after);
-  text += List("Settings of the method changed in the scenario:", report.comparison.settings_changed);
+  text += FoldedAway(fmt::format("Undecided expectations and time rules ({})", undecided.size()),
+                     List("These do not fail the gate:", undecided));
+  text += FoldedAway(fmt::format("Verdicts of this run ({})", report.answers.size()), AnswerTable(report.answers));
+  text += List("Undecided, because the values cannot be compared:", NotAlikeLines(report.comparison));
+  text += List("New, not in the baseline (`--update` adds these):", report.comparison.only_after);
+  text += List("Methods whose settings in the scenario changed:", report.comparison.settings_changed);
   if (!report.baseline_file.empty()) {
     text += fmt::format(
-        "\nBaseline {} (Etude {}), run by Etude {}. p: after Holm's correction. Worlds: number of worlds in which the "
-        "values differ, of those compared.\n",
+        "\n"
+        "Baseline {} (Etude {}), run by Etude {}. p: p-value after Holm's correction. Worlds: the number of worlds "
+        "in which the values differ, out of all compared worlds.\n",
         EscapeMarkdown(report.baseline_file), EscapeMarkdown(report.baseline_version),
         EscapeMarkdown(report.program_version));
   }
@@ -410,7 +415,7 @@ std::string WriteGateJunit(const GateReport& report) {
   std::vector<JunitSuite> suites = {
       {"gate",
        {empty("every cell can be judged", report.incomplete), empty("every method has an answer", report.silent),
-        empty("no answer changed from better to worse", FallenLines(report, true))}}};
+        empty("no verdict changed from better to worse", FallenLines(report, true))}}};
   std::map<std::string, std::size_t> places;
   const auto suite_of = [&](const std::string& scenario) -> JunitSuite& {
     const auto [place, is_new] = places.emplace(scenario, suites.size());

@@ -40,9 +40,9 @@ JunitCase EveryCellHasARow(const RunData& run, const ScenarioSummary& scenario) 
     worlds.emplace(ConditionLabel(row.condition), row.trial);
   }
   const std::size_t wanted = worlds.size() * scenario.methods.size();
-  return {
-      "every cell has a row", MetWhen(ids.size() == wanted && wanted > 0),
-      fmt::format("{} rows of {} ({} worlds, {} methods)", ids.size(), wanted, worlds.size(), scenario.methods.size())};
+  return {"every cell has a row", MetWhen(ids.size() == wanted && wanted > 0),
+          fmt::format("found {} of {} rows ({} worlds, {} methods)", ids.size(), wanted, worlds.size(),
+                      scenario.methods.size())};
 }
 
 JunitCase NoCellBroke(const ScenarioFindings& findings) {
@@ -55,7 +55,7 @@ JunitCase NoCellBroke(const ScenarioFindings& findings) {
     detail +=
         fmt::format("{} x {} in {}: {}\n", reason.cells, StatusName(reason.status), reason.method, reason.Words());
   }
-  return {"no cell broke", MetWhen(broken == 0), std::move(detail)};
+  return {"every attempted cell was measured", MetWhen(broken == 0), std::move(detail)};
 }
 
 /// Returns a case that always passes and shows the scenario's answer to readers of CI.

@@ -145,7 +145,7 @@ Table OverviewTable(const ScenarioSummary& scenario, std::span<const std::string
   const std::size_t shown = TableMetrics(scenario).size();
   const bool has_rivals =
       std::ranges::any_of(scenario.conditions, [](const ConditionSummary& c) { return !c.rivals.empty(); });
-  Table table{.label = "Every method by every metric",
+  Table table{.label = "All metrics of all methods",
               .style = "data glance",
               .columns = {{.head = std::string(method_head), .is_row_head = true}}};
   if (swept) table.columns.push_back({std::string(condition_head)});
@@ -185,7 +185,7 @@ std::string MissingHtml(const RunData& run, const ScenarioSummary& scenario) {
     }
   }
   if (metrics_of.empty()) return "";
-  std::string html = "<details><summary>Missing values, and why</summary><ul class=\"reasons\">";
+  std::string html = "<details><summary>Missing values and their reasons</summary><ul class=\"reasons\">";
   std::size_t count = 0;
   for (const auto& [why, metrics] : metrics_of) {
     if (++count > kMaxListed) break;
@@ -198,9 +198,9 @@ std::string MissingHtml(const RunData& run, const ScenarioSummary& scenario) {
 }
 
 constexpr std::string_view kLegend =
-    "Apart: the distance of the worst joint after headings and hips are aligned. ✗: called alike although a joint is "
-    "more than 20 cm off. Beside “alike” or “apart” is the distance that the method measured: the fuzzy distance, or "
-    "centimetres.";
+    "“Apart” is the distance of the worst joint after headings and hips are aligned. ✗ marks a pair that the method "
+    "called alike, although a joint is more than 20 cm away. The number after “alike” or “apart” is the distance "
+    "that the method measured: a fuzzy distance, or centimetres.";
 
 std::string VerdictOf(const Row& row) {
   const auto alike = ValueOf(row, "called_alike");

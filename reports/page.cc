@@ -102,24 +102,26 @@ std::string Answers(const RunData& run, const std::vector<ScenarioFindings>& fin
 }
 
 constexpr std::string_view kHowToRead =
-    R"(<p>A <b>world</b> is one simulated trial whose truth is known; every method gets the same worlds, so
-differences are computed world by world. In pictures a dot is a world, a thick line the median (for shares the mean),
+    R"(<p>A <b>world</b> is one simulated trial whose truth is known. Every method gets the same worlds, so
+methods are compared world by world. In pictures, a dot is a world, a thick line is the median (for shares, the mean),
 and a box covers the middle half of the worlds. <b>Better</b> and <b>worse</b> mean that the interval of the
-difference excludes zero and that the difference matters in practice; <b>no difference</b>, that the interval contains
-only differences that do not matter; <b>undecided</b>, that the data do not decide, which never means that there is
-no difference.</p>
-<p>An <b>answer</b> first compares <b>success</b>: which method solves, finds or recovers more. A difference of 5
-percentage points matters, and a failure counts as no success. If success does not decide, the first headline metric
-decides. If that does not decide either, the <b>tail</b> does: the worlds in which a method is far better or far
-worse. A method <b>loses</b> a world if it is worse there by a difference that matters.</p>
-<p>Each comparison has two verdicts. <b>On these worlds</b> (these clips, these people): the differences that were
-measured. <b>For others</b> (other clips, other people): each clip counts once, however many worlds were drawn from
-it, and with fewer than six clips there is no such verdict. The verdict is about the <b>pseudo-median</b> of the clips'
-differences (the median of the means of all pairs of clips), which a single unusual clip hardly changes; the mean must
-have the same sign. A sign in brackets, such as (=), is a verdict on these worlds only.</p>
-<p>Status <b>ok</b> means that a cell was measured, not that it reached its goal: success is reported separately.
-<b>Unsolved</b>: the method answered, but missed its goal. Every failure is counted and named; a missing value is
-shown as —, never as zero.</p>
+difference excludes zero and that the difference matters in practice. <b>No difference</b> means that the interval
+contains only differences that do not matter. <b>Undecided</b> means that the data do not settle the question; it does
+not mean that there is no difference.</p>
+<p>An <b>answer</b> states which of two methods is better. It first compares <b>success</b>: which method solves, finds
+or recovers more. A difference of 5 percentage points matters, and a failure counts as no success. If success does not
+decide, the first headline metric decides. If this metric does not decide either, the <b>tail</b> decides: the worlds
+in which a method is far better or far worse. A method <b>loses</b> a world if it is worse there by a difference that
+matters.</p>
+<p>Each comparison has two verdicts. The verdict <b>on these worlds</b> (these clips, these people) is about the
+measured differences. The verdict <b>for others</b> (other clips, other people) counts each clip once, however many
+worlds were drawn from the clip. With fewer than six clips, there is no such verdict. It is about the
+<b>pseudo-median</b> of the clips' differences: the median of the means of all pairs of clips, which a single unusual
+clip hardly changes. The mean must have the same sign. A sign in brackets, such as (=), is a verdict on these worlds
+only.</p>
+<p>The status <b>ok</b> means that a cell was measured, even if the method missed its goal: success is reported
+separately. <b>Unsolved</b> means that the method ended without reaching its goal. Every failure is
+counted and has a reason. A missing value is shown as —, never as zero.</p>
 )";
 
 std::string HowToRead() {
@@ -131,19 +133,19 @@ std::string HowToRead() {
 std::string LeftOutSentence(const RunData& run) {
   if (!run.source) return "";
   return fmt::format(
-      " Figures and verdicts use all cells; dots, curves and the reasons for missing values use {} of them: all cells "
-      "of every n-th world.",
+      " Numbers and verdicts use all cells. Dots, curves and the reasons for missing values use only {} cells: all "
+      "cells of every n-th world.",
       FormatCount(static_cast<long long>(run.rows.size())));
 }
 
 std::string Footer(const RunData& run) {
-  std::string html = "<footer><details><summary>How it was run</summary><dl>";
+  std::string html = "<footer><details><summary>About this run</summary><dl>";
   const auto entry = [&](std::string_view name, const std::string& value) {
     if (!value.empty()) html += fmt::format("<div><dt>{}</dt><dd>{}</dd></div>", name, EscapeMarkup(value));
   };
   entry("Etude", run.program_version);
   entry("Worlds", DescribeWorlds(run));
-  entry("Took", run.wall_seconds > 0 ? FormatNumber(run.wall_seconds) + " s" : "");
+  entry("Duration", run.wall_seconds > 0 ? FormatNumber(run.wall_seconds) + " s" : "");
   entry("Machine", run.host);
   entry("Command", run.command_line);
   html += "</dl></details><p>";
@@ -158,12 +160,13 @@ std::string Footer(const RunData& run) {
 std::string RealTakesSection(const RunData& run, std::span<const RealTake> takes) {
   if (takes.empty()) return "";
   const std::string html =
-      "<section class=\"card\"><h2>On real films</h2><p>How far captures of real films are from a reference "
-      "(<code>etude capture --reference</code>), beside the simulated takes of this run. For a real take: median and "
-      "95th percentile over joints and frames. <b>Error</b> is error as far as the reference itself is right; a result "
-      "from keypoints is only <b>agreement</b> if the reference was made from the same keypoints. For simulated takes: "
-      "the median over takes of the mean distance from the true joints, over joints and frames.</p>";
-  Table table{.label = "On real films",
+      "<section class=\"card\"><h2>On real films</h2><p>Distances between captures of real films and a reference "
+      "(<code>etude capture --reference</code>), beside the simulated takes of this run. The rows of a real take "
+      "show the median and the 95th percentile over joints and frames. <b>Error</b> is the true error only if the "
+      "reference is right. <b>Agreement</b> is not an error, because the reference may be made from the same "
+      "keypoints. The rows of simulated takes show the mean distance from the true joints, over joints and frames, "
+      "as a median over takes.</p>";
+  Table table{.label = "Captures of real films",
               .columns = {{"Takes"},
                           {"Recovery"},
                           {"Cameras"},

@@ -23,7 +23,8 @@ namespace fs = std::filesystem;
 
 constexpr const char *kReportFolder = "report", *kFilmsFolder = "video", *kPicturesFolder = "pictures";
 constexpr const char* kPage = "index.html";
-constexpr const char *kStranger = " belongs to no report of this run", *kOtherwise = " differs from what the run gives";
+constexpr const char *kStranger = " is not a file of this run's report",
+                     *kOtherwise = " differs from a new report of this run";
 
 /// A text file of a report; `path` is relative to `report`.
 struct ReportText {
@@ -78,7 +79,7 @@ Result<bool> WriteReport(const RunData& run, const std::filesystem::path& run_fo
                       {.whole_sessions = options.whole_sessions, .watch = options.watch});
     if (options.watch.IsStopped()) return false;
   } else {
-    media.film.why_not = "There is no film, because none was requested.";
+    media.film.why_not = "There is no film, because this report was made without films.";
   }
   RETURN_IF_ERROR(WriteFileAtomically(folder / kPage, WritePage(run, media, options.real)));
   return true;
@@ -124,7 +125,7 @@ Result<ReportCheck> CheckReport(const RunData& run, const std::filesystem::path&
   }
   if (has_media || !filmed.empty()) {
     check.not_compared.push_back(
-        "report/ and video/: pictures and films, with their captions; etude report makes them");
+        "report/ and video/: pictures and films with their captions; `etude report` makes new ones");
   }
   return check;
 }
@@ -141,7 +142,8 @@ Result<ReportCheck> CheckGate(const FinishedRun& run, const std::filesystem::pat
     has_baseline = has_baseline || found.find("\nBaseline ") != std::string::npos;
     if (has_baseline) {
       check.not_compared.push_back((folder / name).string() +
-                                   ": the result of a gate with a baseline; the baseline is not in the run");
+                                   ": the result of a gate with a baseline, because the run does not contain the "
+                                   "baseline");
       continue;
     }
     ++check.files;

@@ -126,7 +126,7 @@ std::string Failures(const RunData& run, const ScenarioSummary& scenario, const 
   }
   const std::string title = others == 0
                                 ? fmt::format("{} ok", Plural(findings.cells, "cell"))
-                                : fmt::format("Fails: {} of {}", FormatCount(others), Plural(findings.cells, "cell"));
+                                : fmt::format("Not ok: {} of {}", FormatCount(others), Plural(findings.cells, "cell"));
   return Folded(title, "<div class=\"status\">" + html + "</div>");
 }
 
@@ -150,9 +150,10 @@ std::string AnswerHtml(const MethodFinding& finding, std::string_view begin) {
 std::string AnswerBlock(const ScenarioFindings& findings) {
   const std::string html = AnswerHtml(findings.answer, VerdictBadges(findings.answer) + " ");
   if (!HasOtherRival(findings)) return html;
-  return html + fmt::format("<details class=\"rival\"><summary>Strongest other, {}: {}</summary>{}</details>",
-                            EscapeMarkup(findings.rival.others), VerdictBadges(findings.rival),
-                            AnswerHtml(findings.rival, ""));
+  return html + fmt::format(
+                    "<details class=\"rival\"><summary>Compared with the strongest other method, {}: "
+                    "{}</summary>{}</details>",
+                    EscapeMarkup(findings.rival.others), VerdictBadges(findings.rival), AnswerHtml(findings.rival, ""));
 }
 
 std::string FiguresHtml(const KeyFigures& figures) {
@@ -170,8 +171,8 @@ std::string Files(const RunData& run, const ScenarioSummary& scenario, std::size
   };
   link(tables + ".csv", "all numbers");
   link(tables + "-comparisons.csv", "all comparisons");
-  link(tables + ".tex", "both for LaTeX");
-  link("../manifest.json", "the scenario’s text, and everything needed to repeat the run");
+  link(tables + ".tex", "numbers and comparisons as LaTeX tables");
+  link("../manifest.json", "the text of the scenario, and all data that are needed to repeat the run");
   std::size_t motions = 0;
   for (const auto& [row, recorded] : RecordedRows(run)) {
     if (row->scenario != scenario.name || row->task != "capture" || ++motions > kMaxListed) continue;
@@ -241,7 +242,8 @@ std::string WriteScenarioCard(const RunData& run, std::size_t index, const Scena
                       EscapeMarkup(scenario.question.empty() ? scenario.name : scenario.question));
   html += "<div class=\"lead\"><div>" + AnswerBlock(findings) + FiguresHtml(findings.figures) + "</div>";
   const std::string picture = LeadPictureHtml(run, scenario);
-  html += picture.empty() ? "<p class=\"quiet\">No cell has a value that can be drawn.</p></div>" : picture + "</div>";
+  html += picture.empty() ? "<p class=\"quiet\">There is no picture, because no cell has a value.</p></div>"
+                          : picture + "</div>";
   html += WatchHtml(run, index);
   const std::string stills = Strip(scenario, media) + Plates(scenario, media);
   html += kMediaBegin;

@@ -19,7 +19,7 @@ namespace {
 constexpr std::size_t kRowsPerFloat = 50;  // the number of rows that fit on a page of A4
 
 constexpr std::string_view kHead =
-    "% Needs \\usepackage{booktabs}. The same figures with all their digits: the CSV files beside this one.\n";
+    "% Needs \\usepackage{booktabs}. The CSV files in this folder contain the same numbers with all digits.\n";
 
 using Group = std::vector<TableRow>;
 
@@ -40,7 +40,7 @@ std::string CountText(int present, int attempted) {
 
 Group EndedOk(const ScenarioSummary& scenario, const ConditionSummary& condition) {
   const MetricWords share{.label = "", .suffix = " %", .difference_suffix = "", .scale = 100, .is_share = true};
-  Group group = {{.group = "cells that ended ok"}};
+  Group group = {{.group = "cells with status ok"}};
   for (const MethodSummary& method : condition.methods) {
     if (method.attempted == 0) continue;
     group.push_back({{MethodLabel(scenario, method.method), FormatCount(method.attempted),
@@ -107,11 +107,11 @@ std::string Caption(const ScenarioSummary& scenario, const ConditionSummary& con
     if (found.is_compared) answer = fmt::format(" {} ({})", found.sentence, found.BothVerdicts()) + ".";
   }
   return fmt::format(
-      "{}{}{} Medians (for shares, means) with their 95 % intervals; n: number of cells that have the value, of those "
-      "attempted. Difference: method − baseline in the same world, its median (for shares and penalised costs, its "
-      "mean) with its 95 % interval; a second row compares with the strongest other method. The last columns contain "
-      "the verdict on {} and the verdict for {} (--: none, with fewer than 6 of them). p is Holm-corrected over this "
-      "scenario’s {}: ",
+      "{}{}{} Value: the median (for shares, the mean) with its 95 % interval. n: the number of cells with a value, "
+      "out of all attempted cells. Difference: method − baseline in the same world; the median (for shares and "
+      "penalised costs, the mean) with its 95 % interval. A second row compares the method with the strongest other "
+      "method. The last columns contain the verdict on {} and the verdict for {} (--: no verdict, because there are "
+      "fewer than 6 of them). p has Holm’s correction over this scenario’s {}: ",
       title, label.empty() ? "" : fmt::format(" ({})", label), answer, TheseUnits(scenario.unit),
       OtherUnits(scenario.unit), Plural(scenario.family, "comparison"));
 }

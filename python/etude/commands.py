@@ -41,7 +41,7 @@ def run(scenario, *, methods=(), metrics=(), trials=None, output=None, seed=None
     next_ = re.search(r"^Next: etude report (.*)$", printed, re.MULTILINE)
     folder = output if output is not None else next_ and next_[1].strip("'\"")
     if folder is None:
-        raise EtudeError("the run printed no result folder; give one by output=", code, printed + said)
+        raise EtudeError("the run printed no result folder; set the folder with output=", code, printed + said)
     found = load(folder, program=program)
     return _judged(found, code, printed, said)
 
@@ -111,8 +111,8 @@ def _with_methods(name, text, entries):
     """Returns `text`, the text of a scenario, with `entries` added at the end of its list of methods. The rest of the
     text stays unchanged."""
     if re.search(r"^include:", text, re.MULTILINE):
-        raise EtudeError(f"{name}: includes another file, which its copy would not find; write the methods into the "
-                         "scenario")
+        raise EtudeError(f"{name}: the scenario includes another file, which a copy of the scenario would not "
+                         "find; write the methods into the scenario")
     if not entries:
         return text
     lines = text.splitlines(keepends=True)
@@ -139,7 +139,7 @@ def _with_methods(name, text, entries):
 
 def _metric(each):
     if spec_of(each).task != "metric":
-        raise TypeError(f"'{spec_of(each).name}' is not a metric: write @etude.metric(…) above it")
+        raise TypeError(f"'{spec_of(each).name}' is not a metric; write @etude.metric(…) above the function")
     return ship(each)
 
 
@@ -231,10 +231,10 @@ def _answer_all(target, method, answers, progress):
     from etude.messages import to_json_text
     player, spec, inputs = Player(method), spec_of(method), target / "inputs"
     if not inputs.is_dir():
-        raise EtudeError(f"{target}: is not a data set that `etude export` wrote: it has no folder 'inputs'")
+        raise EtudeError(f"{target}: is not a data set that `etude export` wrote, because there is no folder 'inputs'")
     settings = [path for path in sorted(inputs.rglob("setting.json")) if _task_of(inputs, path) == spec.task]
     if not settings:
-        raise EtudeError(f"{target}: has no problem of task '{spec.task}'")
+        raise EtudeError(f"{target}: the data set has no problem of task '{spec.task}'")
     for done, path in enumerate(settings):
         player.set(json.loads(path.read_text()), spec.options, str(path.parent))
         own = path.parent / "problem.json"  # a recorded person's problem has its own setting, in the same folder

@@ -41,17 +41,17 @@ def method(task, seat="", *, name=None, version="1", options=None, time_s=None, 
     the method's entry in a scenario, for etude.run. Raises ValueError for an unknown task or seat.
     """
     if task not in TASKS:
-        raise ValueError(f"no task {task!r}; there are {', '.join(TASKS)}")
+        raise ValueError(f"there is no task {task!r}; allowed: {', '.join(TASKS)}")
     if seat not in TASKS[task]:
-        raise ValueError(f"task {task!r} has no seat {seat!r}; it has {', '.join(repr(s) for s in TASKS[task])}")
+        raise ValueError(f"task {task!r} has no seat {seat!r}; allowed: {', '.join(repr(s) for s in TASKS[task])}")
     if batch and seat:
-        raise ValueError("a seat is asked step by step, so batch= has no use")
+        raise ValueError("batch= is not allowed with seat=, because a seat answers step by step")
 
     def mark(what):
         if not seat and inspect.isclass(what) and not hasattr(what, "answer"):
-            raise ValueError(f"class {what.__name__} has no answer(self, problem)")
+            raise ValueError(f"class {what.__name__} needs a method answer(self, problem)")
         if seat and not hasattr(what, "step"):
-            raise ValueError(f"{what.__name__} has no step(self, seen): a seat needs a class")
+            raise ValueError(f"{what.__name__} needs a method step(self, seen), because a seat is a class")
         what.__etude__ = Spec(task, seat, name or what.__name__.replace("_", "-").lower(), version,
                               dict(options or {}), time_s, [str(file) for file in files], batch)
         return what
@@ -86,14 +86,14 @@ def metric(id, unit="", direction="lower", version=1, vectors=(), *, practical=N
     ValueError for an unknown direction.
     """
     if direction not in ("lower", "higher", "neither"):
-        raise ValueError(f"no direction {direction!r}; there are lower, higher, neither")
+        raise ValueError(f"there is no direction {direction!r}; allowed: lower, higher, neither")
     told = [each if isinstance(each, dict) else {"cell": each[0], "expected": each[1]} for each in vectors]
     facts = {"unit": unit, "direction": direction, "version": version, "practical": practical, "aggregate": aggregate,
              "reads": reads, "label": label, "definition": definition, "vectors": told or None}
 
     def mark(what):
         if inspect.isclass(what):
-            raise ValueError(f"{what.__name__} is a class; a metric is a function of one cell")
+            raise ValueError(f"{what.__name__} is a class; allowed: a function of one cell")
         what.__etude__ = MetricSpec(id, str(version), dict(options or {}), time_s, [str(file) for file in files],
                                     {key: value for key, value in facts.items() if value not in (None, "")})
         return what
@@ -105,8 +105,8 @@ def spec_of(what):
     """Returns the arguments that @method or @metric stored. Raises TypeError if neither was applied."""
     spec = getattr(what, "__etude__", None)
     if spec is None:
-        raise TypeError(f"{getattr(what, '__name__', what)!r} is neither a method nor a metric: write "
-                        "@etude.method(task=…) or @etude.metric(…) above it")
+        raise TypeError(f"{getattr(what, '__name__', what)!r} is neither a method nor a metric; write "
+                        "@etude.method(task=…) or @etude.metric(…) above the definition")
     return spec
 
 
@@ -161,7 +161,7 @@ class Player:
         if self.spec.batch:
             answers = list(_call(self._function(), (asked,), **{**self._offered, "files": files}))
             if len(answers) != len(asked):
-                raise ValueError(f"{self.spec.name} gave {len(answers)} answers to {len(asked)} problems")
+                raise ValueError(f"{self.spec.name} returned {len(answers)} answers to {len(asked)} problems")
             return [self._told(answer) for answer in answers]
         found = []
         for problem, folder in zip(asked, files):
@@ -186,7 +186,7 @@ class Player:
             return answer
         needed = [name for name, field in self._answer_class.__dataclass_fields__.items() if _is_needed(field)]
         if answer is None or len(needed) != 1:
-            raise TypeError(f"{self.spec.name} answered {type(answer).__name__}; an answer is a dict or an "
+            raise TypeError(f"{self.spec.name} returned {type(answer).__name__}; allowed: a dict or an "
                             f"etude.{self._answer_class.__name__}")
         return {needed[0]: plain(answer) if hasattr(answer, "tolist") else answer}
 

@@ -4,5 +4,5 @@ try:
 except ImportError as error:
     if error.name != "etude_engine":
         raise  # it is installed, but one of its own imports is missing
-    raise ImportError("the module etude_engine is not installed: python3 -m build --wheel --no-isolation python/engine "
-                      "makes its wheel, for pip install") from error
+    raise ImportError("the module etude_engine is not installed; build a wheel for pip by `python3 -m build --wheel "
+                      "--no-isolation python/engine`") from error

@@ -35,9 +35,9 @@ def evaluate(truth=None, *, names=None, rate_hz=None, pairs=None, joints=None, p
     """
     output = _free_folder(overwrite) if output is None else pathlib.Path(output)
     if alone and (truth is not None or pairs is not None or not answers):
-        raise TypeError("evaluate(alone=True) needs motions by name, and no truth")
+        raise TypeError("evaluate(alone=True) needs motions as keyword arguments, and no truth")
     if not alone and ((truth is None) != (pairs is not None) or (pairs is None) != bool(answers)):
-        raise TypeError("evaluate needs either a truth and answers by name, or pairs")
+        raise TypeError("evaluate needs a truth and answers as keyword arguments, or pairs")
 
     arrays = {}
     names = names if names is None or isinstance(names, str) else list(names)
@@ -72,7 +72,7 @@ def evaluate(truth=None, *, names=None, rate_hz=None, pairs=None, joints=None, p
         arguments += ["--metric", metric]
     arguments += ["-o", str(output)] + ["--overwrite"] * overwrite
     if arrays and not overwrite and (output / "manifest.json").exists():  # do not replace the arrays of an earlier run
-        raise EtudeError(f"{output} exists already; overwrite=True replaces it", 2)
+        raise EtudeError(f"{output} already exists; use overwrite=True to replace it", 2)
     for path, content in arrays.items():
         path.parent.mkdir(parents=True, exist_ok=True)
         path.write_bytes(content)
@@ -116,14 +116,14 @@ def _npz(positions, names, rate_hz, said, title):
         positions = positions.astype(float).filled(math.nan)
     if not len(positions) or any(len(frame) != len(names) or any(len(point) != 3 for point in frame) for frame in positions):
         shape = getattr(positions, "shape", None) or _shape(positions)
-        raise ValueError(f"the array of {title} must be frames × {len(names)} joints (the number of names) × 3, not "
-                         + " × ".join(map(str, shape)))
+        raise ValueError(f"the array of {title} must have the shape frames × {len(names)} joints (the number of names) "
+                         "× 3, not " + " × ".join(map(str, shape)))
     frames = len(positions)
     try:
         numbers = array.array("d", (x for frame in positions for point in frame for x in point))
     except TypeError as error:
-        raise TypeError(f"the array of {title} has values that are no numbers ({error}); NaN stands for a joint that was "
-                        "not seen") from None
+        raise TypeError(f"the array of {title} contains values that are not numbers ({error}); use NaN for a joint "
+                        "that was not seen") from None
     texts = []
     for key, words in [("names", names), *((key, [str(word)]) for key, word in said.items() if word is not None)]:
         width = max(map(len, words))

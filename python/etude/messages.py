@@ -55,7 +55,7 @@ class Cell(Message):
         for track in self.tracks:
             if track.name == name:
                 return track
-        raise KeyError(f"no track '{name}'; there are {', '.join(track.name for track in self.tracks)}")
+        raise KeyError(f"there is no track '{name}'; allowed: {', '.join(track.name for track in self.tracks)}")
 
     def motion(self, name):
         """Returns a motion's positions, frames × joints × 3 in metres: an array if numpy is installed, else lists."""
@@ -89,7 +89,7 @@ def plain(value):
         return value.to_json()
     if hasattr(value, "tolist"):
         return value.tolist()
-    raise TypeError(f"{type(value).__name__} is not a type of JSON")
+    raise TypeError(f"{type(value).__name__} cannot be written as JSON")
 
 
 def to_json_text(value):

@@ -122,7 +122,7 @@ def error_budget(run, *, scenario=None, condition=None, method=None):
             for budget in of.get("error_budgets", ()):
                 if condition in (None, condition_text(of["condition"])) and method in (None, budget["method"]):
                     return _waterfall(budget, run.metrics.get(budget["metric"]))
-    raise EtudeError("no error budget: it needs methods that differ in their `oracle` alone")
+    raise EtudeError("there is no error budget; an error budget needs methods that differ only in the key `oracle`")
 
 
 def _waterfall(budget, metric):

@@ -50,8 +50,8 @@ def find_program(program=None):
     for path in [shutil.which("etude"), *beside]:
         if path and os.access(path, os.X_OK) and os.path.isfile(path):
             return os.fspath(path)
-    raise EtudeError(f"no program 'etude': not in PATH, not beside the package ({', '.join(map(str, beside))}), and "
-                     "ETUDE in the environment names none")
+    raise EtudeError(f"found no program 'etude': it is not in PATH, not beside the package "
+                     f"({', '.join(map(str, beside))}), and the environment variable ETUDE is not set")
 
 
 def call(*arguments, program=None, progress=False, allowed=(0,)):
@@ -111,8 +111,9 @@ def needed(module):
     except ModuleNotFoundError as error:
         if error.name != name:
             raise
-        raise ModuleNotFoundError(f"this needs {name}: pip install {name}, or Debian's python3-{name}, which virtual "
-                                  "environments see if python3 -m venv --system-site-packages made them", name=name) from None
+        raise ModuleNotFoundError(f"this function needs {name}; install it with pip install {name}, or install Debian's "
+                                  f"python3-{name}. A virtual environment sees Debian's package if python3 -m venv "
+                                  "--system-site-packages made it", name=name) from None
 
 
 def _tell(line, progress):

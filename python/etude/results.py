@@ -21,9 +21,9 @@ def load(folder, *, unsealed=False, program=None):
     """
     folder = pathlib.Path(folder)
     if not (folder / "manifest.json").is_file():
-        raise EtudeError(f"{folder}: is not a result folder: it has no manifest.json", 2)
+        raise EtudeError(f"{folder}: is not a result folder, because there is no manifest.json", 2)
     if not (folder / "summary.json").is_file():
-        raise EtudeError(f"{folder}: the run did not finish; etude.run(…, resume=True) continues it", 3)
+        raise EtudeError(f"{folder}: the run did not finish; use etude.run(…, resume=True) to continue the run", 3)
     if not unsealed:
         call("cite", folder, program=program)
     return Run(folder, catalogue.metrics(program), catalogue.joints(program))
@@ -223,7 +223,7 @@ class Run:
             both = [name for name, each in self._scenarios.items() if {method, baseline} <= set(each["methods"])]
             if len(both) != 1:
                 raise EtudeError(f"{'no scenario has' if not both else 'several scenarios have'} both '{method}' and "
-                                 f"'{baseline}': name one by scenario=; there are "
+                                 f"'{baseline}'; select a scenario with scenario=; there are "
                                  + ", ".join(f"{name} ({', '.join(each['methods'])})"
                                              for name, each in self._scenarios.items()))
             scenario = both[0]
@@ -232,11 +232,11 @@ class Run:
         # Check that the two methods and the condition exist.
         for name in (method, baseline):
             if name not in summary["methods"]:
-                raise EtudeError(f"{scenario}: no method '{name}'{nearest(name, summary['methods'])}; there are "
-                                 f"{', '.join(summary['methods'])}")
+                raise EtudeError(f"{scenario}: there is no method '{name}'{nearest(name, summary['methods'])}; "
+                                 f"there are {', '.join(summary['methods'])}")
         conditions = [condition_text(each["condition"]) for each in summary["conditions"]]
         if condition is not None and condition not in conditions:
-            raise EtudeError(f"{scenario}: no condition '{condition}'; there are {', '.join(conditions)}")
+            raise EtudeError(f"{scenario}: there is no condition '{condition}'; allowed: {', '.join(conditions)}")
         metric = metric or summary["headline_metrics"][0]
         # Collect, for each world, the values of the two methods.
         values, methods = list(table[metric]), list(table["method"])
@@ -278,13 +278,13 @@ class Run:
         if name in methods and name != own:
             cell, own = f"{world}/{name}", name
         if cell not in recorded:
-            raise EtudeError(f"cell '{cell}' left no recording: the scenario's key `video`, or --keep motions, says which "
-                             f"cells leave one{nearest(cell, recorded)}; there are {', '.join(recorded) or 'none'}")
+            raise EtudeError(f"cell '{cell}' has no recording; the scenario's key `video`, or --keep motions, selects "
+                             f"the cells to record{nearest(cell, recorded)}; recorded cells: {', '.join(recorded) or 'none'}")
         path = self.folder / "recordings" / (cell.replace("/", "~") + ".json")
         told = json.loads(path.read_text(encoding="utf-8"))
         if told.get("recording") != 2:
-            raise EtudeError(f"{path}: a recording of version {told.get('recording', 1)}; this package reads version 2, "
-                             "which names its joints: repeat the run")
+            raise EtudeError(f"{path}: the recording has version {told.get('recording', 1)}, but this package reads "
+                             "version 2, which contains the names of the joints; repeat the run")
         tracks = {track["name"]: track for track in told["tracks"]}
         joints = [(joint, dict(self._joints)[joint]) for joint in told["joints"]]
         extras = told.get("extras") or {}
@@ -296,7 +296,7 @@ class Run:
         if name == own:
             name = next((each for each in ("recovered", "solution", "coach", "sensed", "answer") if each in tracks), name)
         if name not in tracks:
-            raise EtudeError(f"cell '{cell}' recorded no '{name}'{nearest(name, tracks)}; there are "
+            raise EtudeError(f"the recording of cell '{cell}' has no track '{name}'{nearest(name, tracks)}; there are "
                              f"{', '.join(tracks)}")
         return _motion(cell, tracks[name], joints)
 
@@ -314,14 +314,15 @@ class Run:
                     unit = metric.unit if metric else _unit_of(told)
                     yield Series(cell, of, trial_of, by, told["name"], told["axis"], unit, values, told.get("names"))
         if name is not None and name not in known:
-            raise EtudeError(f"no curve '{name}'{nearest(name, known)}; there are {', '.join(sorted(known)) or 'none'}")
+            raise EtudeError(f"there is no curve '{name}'{nearest(name, known)}; "
+                             f"there are {', '.join(sorted(known)) or 'none'}")
 
     def _named(self, scenario):
         if scenario is None and len(self._scenarios) == 1:
             return next(iter(self._scenarios))
         if scenario not in self._scenarios:
-            raise EtudeError(f"{self.folder}: no scenario '{scenario}'{nearest(scenario, self._scenarios)}; there are "
-                             f"{', '.join(self._scenarios)}")
+            raise EtudeError(f"{self.folder}: there is no scenario '{scenario}'{nearest(scenario, self._scenarios)}; "
+                             f"there are {', '.join(self._scenarios)}")
         return scenario
 
     def __repr__(self):

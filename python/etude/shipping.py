@@ -120,12 +120,12 @@ class _Pieces:
         """Adds a function or class of a notebook, after adding all that it uses."""
         name = thing.__name__
         if name == "<lambda>":
-            raise ValueError(f"{whose} is a lambda, which has no source of its own: write it with def")
+            raise ValueError(f"{whose} is a lambda, whose source cannot be found; write a function with def")
         try:
             source = _source_of(thing)
         except (OSError, TypeError, SyntaxError):
-            raise ValueError(f"{whose} cannot be sent: the source of '{name}' is not known (it was typed where no "
-                             "source is kept; put it into a file)") from None
+            raise ValueError(f"{whose} cannot be sent to etude, because the source of '{name}' is unknown; write "
+                             f"'{name}' into a file") from None
         self._seen[name] = thing
         for used in _names_used(source, whose):
             if used != name:
@@ -139,7 +139,7 @@ class _Pieces:
             raise ValueError(f"{whose} uses '{name}', which is not defined")
         if name in self._seen:
             if self._seen[name] is not value:
-                raise ValueError(f"{whose} uses '{name}', which means something else elsewhere in it; rename one")
+                raise ValueError(f"{whose} uses '{name}', which has two different meanings there; rename one of them")
             return
         # Modules are imported; functions and classes of a notebook are sent as source, values as arrays or literals.
         if isinstance(value, types.ModuleType):
@@ -162,13 +162,14 @@ class _Pieces:
         elif _is_plain(value):
             text = pprint.pformat(value, width=120, compact=True, sort_dicts=False)
             if len(text) > MAX_LITERAL_LENGTH:
-                raise ValueError(f"{whose} uses '{name}', a {type(value).__name__} too large to be sent; read it from "
-                                 "a file that its `files` lists")
+                raise ValueError(f"{whose} uses '{name}', a {type(value).__name__} which is too large to be sent to "
+                                 "etude; read it from a file, and list the file in `files`")
             self._seen[name] = value
             self._lines.append(f"{name} = {text}\n")
         else:
-            raise ValueError(f"{whose} uses '{name}', of type {type(value).__name__}, which cannot be sent: make it "
-                             "within the method, or in a class's __init__, or read it from a file that its `files` lists")
+            raise ValueError(f"{whose} uses '{name}', of type {type(value).__name__}, which cannot be sent to "
+                             "etude; create it in the method or in __init__ of a class, or read it from a file that is "
+                             "listed in `files`")
 
     def _import(self, module, line):
         """Adds an import line, and the module's folder if the module does not come with Python."""
@@ -208,16 +209,16 @@ def _names_used(source, whose):
             elif symbol.is_global() and symbol.is_referenced():
                 found[symbol.get_name()] = None
             elif symbol.is_declared_global() and symbol.is_assigned():
-                raise ValueError(f"{whose} sets the global '{symbol.get_name()}', which it would not keep: remember "
-                                 "it in a class")
+                raise ValueError(f"{whose} sets the global variable '{symbol.get_name()}', whose value would be lost; "
+                                 "keep the value in an attribute of a class")
         for child in table.get_children():
             look(child)
 
     try:
         look(symtable.symtable(source, "method", "exec"))
     except SyntaxError as error:  # `nonlocal` names a variable outside the source
-        raise ValueError(f"{whose} cannot be sent by its source: {error}. It changes a variable of the function around "
-                         "it: remember it in a class") from None
+        raise ValueError(f"{whose} cannot be sent to etude as source: {error}. A variable of the enclosing function is "
+                         "changed; keep the variable in an attribute of a class") from None
     found.pop("__class__", None)
     return list(found)
 
@@ -254,8 +255,8 @@ def _find(thing, name, whose):
         except ValueError:
             return False, None
         if isinstance(value, (list, dict, set, bytearray)):
-            raise ValueError(f"{whose} uses '{name}', a {type(value).__name__} of the function around it, which cannot "
-                             "be sent: its changes would be lost. Use a tuple, or remember it in a class")
+            raise ValueError(f"{whose} uses '{name}', a {type(value).__name__} of the enclosing function, which cannot "
+                             "be sent to etude, because changes would be lost. Use a tuple, or an attribute of a class")
         return True, value
     around = vars(sys.modules[thing.__module__]) if thing.__module__ in sys.modules else {}
     for function in _functions_of(thing):

@@ -81,7 +81,7 @@ class Table:
         if name not in self._readers:
             if name in self.null_columns:
                 raise EtudeError(f"{self.scenario}: '{name}' has no value in any cell: {self.null_columns[name]}")
-            raise EtudeError(f"{self.scenario}: no column '{name}'{nearest(name, self._readers)}; there are "
+            raise EtudeError(f"{self.scenario}: there is no column '{name}'{nearest(name, self._readers)}; there are "
                              f"{', '.join(self.columns)}")
         if name not in self._read:
             self._read[name] = Column(name, self._readers[name](), self._metrics.get(name))
@@ -108,8 +108,8 @@ class Table:
             is_choice = name in ("method", "condition") or name not in IDENTITY and name not in self._metrics
             if is_choice and value not in values and value not in list(self._whole[name]):
                 known = list(dict.fromkeys(map(str, self._whole[name])))
-                raise EtudeError(f"{self.scenario}: no {name} '{value}'{nearest(str(value), known)}; there are "
-                                 + ", ".join(known[:20]) + ", …" * (len(known) > 20))
+                raise EtudeError(f"{self.scenario}: there is no {name} '{value}'{nearest(str(value), known)}; "
+                                 "there are " + ", ".join(known[:20]) + ", …" * (len(known) > 20))
             kept = [i for i in kept if values[i] == value]
         readers = {name: (lambda name=name: _take(self[name].values, kept)) for name in self._readers}
         digests = [name for name in self._readers if name not in self.columns]
@@ -216,7 +216,7 @@ def read_npy(path):
         head = file.read(length).decode("latin-1")
         kind = re.search(r"'descr': '([^']+)'", head)
         if not length or kind is None or kind[1] not in _TYPES:
-            raise EtudeError(f"{path}: is not a column of numbers")
+            raise EtudeError(f"{path}: the file is not a column of numbers")
         numpy = numpy_or_none()
         if numpy:
             return numpy.memmap(path, dtype=kind[1], mode="r", offset=10 + length)

@@ -133,7 +133,10 @@ Result<CapturePanel> CapturePanel::Make(const RunData& run, const ShownCell& cel
   bool fits =
       frames > 0 && recovered->poses.size() == frames && extras.brightness.size() == frames && !extras.views.empty();
   for (const auto& view : extras.views) fits = fits && view.masks.size() == frames;
-  if (!fits) return Fail(place, "the recording's tracks, masks and brightness differ in length, or it has no camera");
+  if (!fits)
+    return Fail(place,
+                "the tracks, masks and brightness of the recording differ in length, or the "
+                "recording has no camera");
 
   // Rebuild the room in which the person moved, and find the crop of each camera's pictures.
   CapturePanel panel;
@@ -176,7 +179,7 @@ std::string CapturePanel::Title() const { return clip_.empty() ? method_ : fmt::
 
 std::string CapturePanel::ErrorWords(int frame) const {
   std::string words;
-  if (!errors_mm_.empty()) words = fmt::format("{:.0f} mm now", errors_mm_[static_cast<std::size_t>(frame)]);
+  if (!errors_mm_.empty()) words = fmt::format("error {:.0f} mm now", errors_mm_[static_cast<std::size_t>(frame)]);
   if (error_mm_) words += fmt::format("{}{:.0f} mm on average", words.empty() ? "" : ", ", *error_mm_);
   return words;
 }

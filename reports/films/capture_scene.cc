@@ -85,12 +85,13 @@ void DrawMoment(const CapturePanel& capture, Renderer& renderer, const CaptureEx
   };
   over_picture("the person, separated from the background",
                [&](Canvas& canvas) { canvas.DrawMask(Inverse(capture.MaskOf(camera, frame)), panel, kBackdrop); });
-  over_picture("hands, feet, head and limbs, marked", [&](Canvas& canvas) {
+  over_picture("marks of hands, feet, head and limbs", [&](Canvas& canvas) {
     canvas.FillBox({0, 0, kPictureWidth, kPictureHeight}, kVeil);
     DrawStrokes(canvas, moment.marks[camera], seen_by, panel);
   });
-  over_picture("limb lengths fixed", [&](Canvas& canvas) { DrawSkeleton(canvas, moment.fixed, seen_by, panel); });
-  over_picture("after inverse kinematics",
+  over_picture("skeleton with fixed limb lengths",
+               [&](Canvas& canvas) { DrawSkeleton(canvas, moment.fixed, seen_by, panel); });
+  over_picture("skeleton after inverse kinematics",
                [&](Canvas& canvas) { DrawSkeleton(canvas, capture.Recovered(frame), seen_by, panel); });
 }
 
@@ -163,7 +164,7 @@ std::optional<Picture> DrawPlate(const CapturePanel& capture, Renderer& renderer
     }
   }
   // Draw one row of recovered skeletons at the frames of the rows above.
-  PlateRow row = begin_row("The whole sequence, its skeletons");
+  PlateRow row = begin_row("The skeletons of the whole sequence");
   for (const int frame : sequence) {
     Canvas picture(kPictureWidth, kPictureHeight);
     picture.FillBox({0, 0, kPictureWidth, kPictureHeight}, kVeil);
@@ -171,7 +172,7 @@ std::optional<Picture> DrawPlate(const CapturePanel& capture, Renderer& renderer
     row.Add(picture, fmt::format("T = {}", frame + 1));
   }
   return PictureOf(plate,
-                   fmt::format("{}, stage by stage, in the layout of paper B's figures 5.3 to 5.15", capture.Title()));
+                   fmt::format("The stages of {}, in the layout of paper B's figures 5.3 to 5.15", capture.Title()));
 }
 
 namespace {
@@ -273,8 +274,9 @@ std::string CaptureScene::Methods() const {
 std::string CaptureScene::Words() const {
   const CapturePanel& first = captures_.front();
   return fmt::format(
-      "Left: {} as two cameras saw it; the pixels taken for the person are tinted, and the skeleton of {} is drawn "
-      "over them. Right: the truth (grey) and the skeleton that {} recovered, coloured by error.",
+      "Left: {} in the pictures of two cameras. The pixels that were recognised as the person are tinted, and the "
+      "skeleton of {} is drawn over the pictures. Right: the true skeleton (grey) and the skeleton that {} "
+      "recovered, coloured by error.",
       first.Clip().empty() ? "a performer" : first.Clip(), first.Method(), Methods());
 }
 
@@ -316,7 +318,7 @@ void CaptureScene::DrawSkeletons(Canvas& canvas, const CapturePanel& capture, co
 
 Canvas CaptureScene::Draw(int frame) {
   const CapturePanel& first = captures_.front();
-  Canvas canvas = BeginFrame(fmt::format("{}{:.1f} s · two cameras, and the motion recovered from their pictures",
+  Canvas canvas = BeginFrame(fmt::format("{}{:.1f} s · pictures of two cameras, and the motion recovered from them",
                                          first.Clip().empty() ? "" : first.Clip() + " · ", frame / first.RateHz()));
   DrawSeen(canvas, frame);
   canvas.FillBox(kSkeletonsBox, kGround, kPanelRadius);

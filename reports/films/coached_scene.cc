@@ -46,12 +46,15 @@ Result<CoachedSessionFacts> ReadCoachedSession(const ShownCell& cell) {
     *motion = *track;
   }
   if (facts.learner.poses.size() != facts.coach.poses.size() || facts.sensed.poses.size() != facts.coach.poses.size()) {
-    return Fail(place, "its tracks 'coach', 'truth' and 'sensed' differ in length");
+    return Fail(place, "the tracks 'coach', 'truth' and 'sensed' differ in length");
   }
-  if (!extras) return Fail(place, "its extras are not those of a coached session: {}", extras.error().message);
+  if (!extras) return Fail(place, "the extras are not those of a coached session: {}", extras.error().message);
   static_cast<CoachExtras&>(facts) = *std::move(extras);
   KeepWithin(facts);
-  if (facts.modes.empty() || facts.words.empty()) return Fail(place, "its extras contain no mode or words");
+  if (facts.modes.empty() || facts.words.empty())
+    return Fail(place,
+                "the extras contain no mode or no words of the "
+                "coach");
   return facts;
 }
 
@@ -222,10 +225,10 @@ int CoachedScene::PosterFrame() const {
 
 std::string CoachedScene::Words() const {
   return fmt::format(
-      "A coached session, seconds {} to {} of {}: the coach in its forest, beside it the learner's true motion, and at "
-      "the lower right this motion as the sensor saw it. The bands of the timeline: what the coach does; whether each "
-      "performance was truly right; how the coach judged it. {} corrections in the whole session. A click for every "
-      "beat of the music.",
+      "A coached session, seconds {} to {} of {}. Left: the coach in a forest. Right: the learner's true motion. "
+      "Lower right: the learner's motion as the sensor measured it. The bands of the timeline show the coach's "
+      "action, whether each performance was truly right, and the coach's judgement. The whole session has {} "
+      "corrections. The film has a click for every beat of the music.",
       FormatFixed(first_ / kJudgedRateHz, 0), FormatFixed(last_ / kJudgedRateHz, 0),
       FormatFixed(facts_.Frames() / kJudgedRateHz, 0), facts_.corrections.size());
 }
@@ -280,7 +283,7 @@ void CoachedScene::DrawStage(Canvas& canvas, int frame) {
 void CoachedScene::DrawSkeletonInset(Canvas& canvas, int frame) const {
   canvas.FillBox(kInset, {0.05, 0.06, 0.07, 0.78}, kPanelRadius);
   DrawStickFigure(canvas, facts_.sensed.poses[static_cast<std::size_t>(frame)], kInset, 2.3, kWarm);
-  canvas.DrawText({kInset.x + 10, kInset.y + 18}, "as the sensor saw it", 15, kSoftInk, kInset.width - 20);
+  canvas.DrawText({kInset.x + 10, kInset.y + 18}, "as measured by the sensor", 15, kSoftInk, kInset.width - 20);
 }
 
 void CoachedScene::DrawHint(Canvas& canvas, int frame) const {

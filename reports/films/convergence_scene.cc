@@ -209,7 +209,7 @@ ErrorPlot PlotOf(const IkRace& race, std::vector<double> IkPath::*values, std::s
     if (!IsAskedFor(path.*values)) continue;
     curves.push_back({path.iterations, path.*values, MethodPaint(path.method_index)});
   }
-  if (curves.empty()) title += ": not asked for";
+  if (curves.empty()) title += ": no target";
   return {std::move(title), std::move(suffix), goal, std::move(curves), clock};
 }
 
@@ -294,7 +294,7 @@ void ConvergencePanel::Draw(Canvas& canvas, const Box& panel, Renderer& renderer
   const auto error = [&](double y, const std::string& label, const std::vector<double>& errors, double goal,
                          const std::string& suffix) {
     const double now = errors[entry];
-    if (!IsAskedFor(errors)) return figure(y, label, "not asked", kSoftInk);
+    if (!IsAskedFor(errors)) return figure(y, label, "no target", kSoftInk);
     figure(y, label, ShortNumber(now) + suffix, now < goal ? kGood : kInk);
   };
   canvas.DrawText({x, panel.y + 36}, path_.method, 25, colour_, panel.width - 36, true);
@@ -336,14 +336,15 @@ std::string ConvergenceScene::Words() const {
                           : fmt::format("{}: {}", path.ending, path.reason);
   };
   return fmt::format(
-      "The same start under two methods, {} on the left ({}), {} on the right ({}), in {}, {}. Grey: the true pose{}. "
-      "Below: worst errors by iteration, both axes logarithmic. The same clock runs for both methods.",
+      "Two methods from the same start pose: {} on the left ({}), {} on the right ({}). The world is {}, {}. Grey: "
+      "the true pose{}. Below: the worst errors at each iteration, on two logarithmic axes. Both methods show the "
+      "same iteration at the same time.",
       left.method, ending(left), right.method, ending(right), race_.world, race_.choice,
       HasTargets() ? "; rings: the targets of right foot, hands and head; dots: their positions" : "");
 }
 
 Canvas ConvergenceScene::Draw(int frame) {
-  Canvas canvas = BeginFrame(fmt::format("{}, {} · grey: the true pose{} · same start, same clock", scenario_,
+  Canvas canvas = BeginFrame(fmt::format("{}, {} · grey: the true pose{} · same start pose, same iteration", scenario_,
                                          race_.world, HasTargets() ? ", rings: targets of foot, hands and head" : ""));
   const double iteration = clock_.IterationAt(frame);
   for (std::size_t i = 0; i < panels_.size(); ++i) panels_[i].Draw(canvas, kPanels[i], renderer_, iteration);

@@ -62,13 +62,13 @@ Result<IkExtras> ExtrasOf(const Row& row, const Recording& recording) {
   const std::size_t count = motion->poses.size();
   const std::vector<int>& iterations = extras->iterations;
   if (iterations.size() != count || iterations.front() != 0 || !std::ranges::is_sorted(iterations)) {
-    return Fail(place, "'iterations' in its extras is not a list of {} increasing whole numbers from 0, one per pose",
+    return Fail(place, "'iterations' in the extras is not a list of {} increasing whole numbers from 0, one per pose",
                 count);
   }
   for (const auto& [key, errors] : {std::pair{"position_error_max_cm", &extras->position_error_max_cm},
                                     std::pair{"axis_error_max_deg", &extras->axis_error_max_deg}}) {
     if (AreErrors(*errors, count)) continue;
-    return Fail(place, "'{}' in its extras is not a list of {} numbers of at least 0, one per pose", key, count);
+    return Fail(place, "'{}' in the extras is not a list of {} numbers of at least 0, one per pose", key, count);
   }
   return extras;
 }
@@ -115,7 +115,9 @@ Result<IkRace> MakeRace(const std::array<RecordedCell, 2>& cells) {
     race.paths[i] = PathOf(*cells[i].row, *cells[i].recording, std::move(extras));
   }
   if (targets.size() != race.targets.size()) {
-    return Fail({.file = "recording " + cells[0].row->Id()}, "'targets_m' in its extras is not a list of {} positions",
+    return Fail({.file = "recording " + cells[0].row->Id()},
+                "'targets_m' in the extras is not a list of {} "
+                "positions",
                 race.targets.size());
   }
   std::ranges::copy(targets, race.targets.begin());
@@ -149,9 +151,13 @@ Result<IkRace> FindIkRace(const RunData& run, const ScenarioSummary& scenario) {
   const std::vector<std::string> methods = MethodsOf(cells, scenario);
   // Check that two methods have recordings.
   if (methods.empty())
-    return Fail(nowhere, "this run kept no recordings of this scenario (the scenario's key 'video' selects them)");
+    return Fail(nowhere,
+                "this run kept no recordings of this scenario (the scenario key 'video' selects cells to "
+                "record)");
   if (methods.size() == 1) {
-    return Fail(nowhere, "this run kept recordings of only one method; two in the same world are needed");
+    return Fail(nowhere,
+                "this run kept recordings of only one method; the film needs recordings of two methods in "
+                "the same world");
   }
   // Find the first world that both methods recorded, and note the earlier worlds that only one of the two methods
   // recorded.
@@ -169,14 +175,14 @@ Result<IkRace> FindIkRace(const RunData& run, const ScenarioSummary& scenario) {
     auto race = is_first ? MakeRace({cell, *partner}) : MakeRace({*partner, cell});
     if (!race) return race;
     for (IkPath& path : race->paths) path.method_index = IndexOf(scenario, path.method);
-    race->choice = "the first world that kept recordings of both";
+    race->choice = "the first world with recordings of both methods";
     if (!passed_over.empty()) {
-      race->choice += fmt::format("; before it, {} had recordings of only one of them, the first: {}",
+      race->choice += fmt::format("; before this world, {} had recordings of only one method, the first of them {}",
                                   Plural(static_cast<long long>(passed_over.size()), "world"), passed_over.front());
     }
     return race;
   }
-  return Fail(nowhere, "no world kept recordings of both {} and {}", methods[0], methods[1]);
+  return Fail(nowhere, "no world has recordings of both {} and {}", methods[0], methods[1]);
 }
 
 }  // namespace etude

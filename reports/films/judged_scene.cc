@@ -26,14 +26,14 @@ TrackingState StateOf(char letter) {
 
 Result<SkeletonStream> StreamOf(const BodyMotion& motion, const std::vector<std::string>& states, const Place& place) {
   if (states.size() < motion.poses.size()) {
-    return Fail(place, "its extras do not fit a judged session: 'joint_states' has {} frames, the motion {}",
+    return Fail(place, "the extras do not fit the session: 'joint_states' has {} frames, but the motion has {}",
                 states.size(), motion.poses.size());
   }
   SkeletonStream stream{.rate_hz = motion.rate_hz, .frames = {}};
   for (std::size_t frame = 0; frame < motion.poses.size(); ++frame) {
     const std::string& letters = states[frame];
     if (letters.size() < kRoleCount) {
-      return Fail(place, "its extras do not fit a judged session: 'joint_states[{}]' has {} joints, not {}", frame,
+      return Fail(place, "the extras do not fit the session: 'joint_states[{}]' has {} joints, but must have {}", frame,
                   letters.size(), kRoleCount);
     }
     SensedFrame& sensed = stream.frames.emplace_back();
@@ -91,7 +91,7 @@ Facts::Judge JudgeIn(const DetectionExtras& extras, const std::string& method) {
 
 Result<DetectionExtras> ExtrasOf(const Recording& recording, const Place& place) {
   auto extras = ReadExtras<DetectionExtras>(recording.extras_json);
-  if (!extras) return Fail(place, "its extras do not fit a judged session: {}", extras.error().message);
+  if (!extras) return Fail(place, "the extras do not fit the session: {}", extras.error().message);
   return extras;
 }
 
@@ -121,7 +121,7 @@ Result<JudgedSessionFacts> ReadJudgedSession(const RunData& run, const ShownCell
     return Fail(place, "has no tracks 'truth' and 'sensed'");
   }
   if (truth->poses.size() != sensed->poses.size())
-    return Fail(place, "its tracks 'truth' and 'sensed' differ in length");
+    return Fail(place, "the tracks 'truth' and 'sensed' differ in length");
   ASSIGN_OR_RETURN(const auto extras, ExtrasOf(*cell.recording, place));
   ASSIGN_OR_RETURN(const auto stream, StreamOf(*sensed, extras.joint_states, place));
   // Read the session as the sensor recorded it, the performances, and the method's verdicts.
@@ -221,10 +221,10 @@ int JudgedScene::PosterFrame() const {
 
 std::string JudgedScene::Words() const {
   return fmt::format(
-      "A session in front of the sensor, seconds {} to {} of {}: the skeleton as the sensor saw it, over the true body "
-      "(pale); the angles of the key poses asked for, where a tick marks a pose that paper A's rule has seen; the "
-      "evidence of {}. The bands of the timeline: whether each performance was truly right, how it was judged, and "
-      "false alarms.",
+      "A session in front of the sensor, seconds {} to {} of {}. The skeleton that the sensor measured is drawn "
+      "over the true body (pale). The curves show the angles of the requested key poses, where a tick marks a pose "
+      "that paper A's rule has recognised, and the evidence of {}. The bands of the timeline show whether each "
+      "performance was truly right, the judgement of each performance, and false alarms.",
       FormatFixed(first_ / kJudgedRateHz, 0), FormatFixed(last_ / kJudgedRateHz, 0),
       FormatFixed(facts_.Frames() / kJudgedRateHz, 0), facts_.judges.front().method);
 }
@@ -245,9 +245,9 @@ void JudgedScene::DrawSkeleton(Canvas& canvas, int now) const {
                      state == TrackingState::kInferred ? kWarm : kWrongPaint);
     }
   }
-  DrawTag(canvas, kSeenPanel, sensed.body_seen ? "Seen by the sensor" : "The sensor sees nobody");
+  DrawTag(canvas, kSeenPanel, sensed.body_seen ? "Measured by the sensor" : "The sensor sees nobody");
   canvas.DrawText({kSeenPanel.x + 16, kSeenPanel.y + kSeenPanel.height - 16},
-                  "pale: as danced · orange: guessed joint · red: not seen", 16, kSoftInk, kSeenPanel.width - 32);
+                  "pale: true pose · orange: guessed joint · red: missing joint", 16, kSoftInk, kSeenPanel.width - 32);
 }
 
 void JudgedScene::DrawAngles(Canvas& canvas, int now) const {
@@ -258,10 +258,10 @@ void JudgedScene::DrawAngles(Canvas& canvas, int now) const {
   const bool is_open = now >= asked.begin_frame && now < asked.end_frame;
   const double left = kAnglesPanel.x + 16;
   canvas.DrawText({left, kAnglesPanel.y + 28},
-                  fmt::format("{}: {}", is_open ? "asked for" : "asked for last", PlainName(asked.move)), 20, kInk, 300,
+                  fmt::format("{}: {}", is_open ? "requested" : "last request", PlainName(asked.move)), 20, kInk, 300,
                   true);
   const std::string called = CalledAt(0, current, now);
-  const std::string verdict = called.empty() ? "not yet judged" : "called " + called;
+  const std::string verdict = called.empty() ? "not yet judged" : "judged " + called;
   canvas.DrawText({left, kAnglesPanel.y + 53}, fmt::format("{}: {}", facts_.judges.front().method, verdict), 17,
                   called.empty() ? kSoftInk : PaintOfWord(called), 300, true);
   canvas.DrawText({left, kAnglesPanel.y + 77}, TruthWords(asked), 17, PaintOfWord(asked.truth), 300);

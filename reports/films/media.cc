@@ -38,7 +38,9 @@ void MakeStageFilm(const RunData& run, const MediaPaths& paths, const FilmWatch&
   const auto compares = [&](const ScenarioSummary& scenario) { return FindTransitionRace(run, scenario).has_value(); };
   if (!capture_cell && std::ranges::any_of(run.scenarios, compares)) return;
   if (!coach_cell && !capture_cell) {
-    why = "There is no film of coach or cameras: this run kept no recordings of a coach or a capture.";
+    why =
+        "There is no film of a coach or of cameras, because this run kept no recordings of transitions or "
+        "captures.";
     return;
   }
   const auto renderer = SharedRenderer();
@@ -58,13 +60,13 @@ void MakeStageFilm(const RunData& run, const MediaPaths& paths, const FilmWatch&
   if (coach_cell) {
     auto made = CoachPanel::Make(*coach_cell, StageScene::kLongest);
     if (made) return shoot(StageScene(**renderer, std::move(*made)));
-    return Note(why, "The coach cannot be shown: " + ToString(made.error()));
+    return Note(why, "The film does not show the coach: " + ToString(made.error()));
   }
   // Film a capture, and make the capture's strip, stills and EXR files.
   const auto typical = CapturePanel::Make(run, *capture_cell);
   auto captures = FindCaptures(run, *capture_cell);
   if (!typical || !captures) {
-    return Note(why, "The capture cannot be shown: " + ToString(typical ? captures.error() : typical.error()));
+    return Note(why, "The film does not show the capture: " + ToString(typical ? captures.error() : typical.error()));
   }
   media.strip = DrawStrip(*typical, **renderer);
   media.stills = typical->Stills();
@@ -120,7 +122,7 @@ std::string FilmName(const RunData& run, std::size_t index, std::string_view wha
 /// impossible, the returned film states the reason.
 Film MakeSessionFilm(const std::optional<ShownCell>& cell, const std::string& which, const FilePath& path,
                      const MediaOptions& options) {
-  if (!cell) return NoFilm(path, "There is no film of a session: this run kept no recording of one.");
+  if (!cell) return NoFilm(path, "There is no film of a session, because this run kept no recordings of sessions.");
   auto facts = ReadCoachedSession(*cell);
   const auto renderer = facts ? SharedRenderer() : Result<Renderer*>(nullptr);
   if (!facts || !renderer) {

@@ -71,7 +71,7 @@ Result<CoachPanel> CoachPanel::Make(const ShownCell& cell, int longest) {
   ASSIGN_OR_RETURN(auto facts, ReadTransitionFacts(*cell.recording, cell.row->Id()));
   if (facts.transition_frames.empty()) {
     return Fail({.file = "recording " + cell.row->Id()},
-                "its extras lack a 'transition_frame' that is a whole number within the motion");
+                "the extras have no 'transition_frame' that is a whole number within the motion");
   }
   CoachPanel panel;
   panel.bear_ = BearCharacter();
@@ -172,7 +172,7 @@ int StageScene::PosterFrame() const { return std::min(coach_.FirstPoint() + 4, F
 std::string StageScene::Words() const { return fmt::format("The coach changes moves ({}).", coach_.Title()); }
 
 Canvas StageScene::Draw(int frame) {
-  Canvas canvas = BeginFrame("one coach; every distance is measured");
+  Canvas canvas = BeginFrame("a coach changes moves; bars show the distances of the joined frames");
   const Shown shown = ShownAt(frame, coach_.Frames());
   coach_.Draw(canvas, kCoachBox, renderer_, shown.frame, shown.before);
   return canvas;

@@ -160,7 +160,7 @@ void DrawDistanceBars(Canvas& canvas, const Box& box, const TransitionFacts& fac
   const bool known = point && *point < facts.points.size();
   const std::optional<PerFeature> partials = known ? facts.points[*point].partials : std::nullopt;
   const std::string heading = !known      ? "no transition yet"
-                              : !partials ? PointWords(facts, *point) + " · no distances recorded"
+                              : !partials ? PointWords(facts, *point) + " · distances were not recorded"
                                           : PointWords(facts, *point);
   canvas.DrawText({box.x + kBarMargin, box.y + 18}, heading, kHeadingSize, known ? kInk : kSoftInk, inner, known);
   const double full = partials ? FullBar(facts, *partials) : 0;

@@ -86,11 +86,12 @@ Result<TransitionRace> FindTransitionRace(const RunData& run, const ScenarioSumm
   }
   if (worlds.empty()) {
     return Fail({},
-                "this run kept no recordings of this scenario's transitions (the scenario's key 'video' selects them)");
+                "this run kept no recordings of this scenario's transitions (the scenario key 'video' selects cells "
+                "to record)");
   }
-  if (shown < 2) return Fail({}, "no world has recordings of two methods with a transition");
+  if (shown < 2) return Fail({}, "no world has recordings of transitions by two methods");
   TransitionRace race = RaceIn(*best, scenario, scenario.methods);
-  race.choice = fmt::format("the first of the worlds in which the most methods have a transition, out of {}",
+  race.choice = fmt::format("the first of the worlds with transitions by the largest number of methods, among {}",
                             Plural(static_cast<long long>(worlds.size()), "recorded world"));
   return race;
 }

@@ -135,9 +135,9 @@ std::string FigureHtml(const PaperAFigure& figure, const FuzzySystem& system, bo
 
 std::string RoundTripHtml(const FuzzySystem& system) {
   const std::string_view legend =
-      "Each method of defuzzification computes a value back from its grades. The table shows the mean difference "
-      "between the two values over the whole axis.";
-  Table table{.label = fmt::format("Back from the grades of {}", system.name),
+      "Defuzzification computes a value from its membership grades. For each method of defuzzification, the table "
+      "shows the mean difference between the original value and the computed value, over the whole axis.";
+  Table table{.label = fmt::format("Defuzzification with the membership functions of {}", system.name),
               .style = "printed",
               .columns = {{.head = "feature", .is_row_head = true}}};
   for (Defuzzification method : AllDefuzzifications()) {
@@ -172,8 +172,8 @@ Table PaperTerms() {
 }
 
 constexpr std::string_view kMisprints =
-    "Repaired misprints: equation 9 (printed as a second “sit”; “stand” is meant); the distance is equation 1 (the "
-    "text says 7); “hands (RF, LF, RFK, LFK)” are RH, LH, RHE, LHE.";
+    "Etude corrects these misprints: equation 9 is printed as a second “sit”, but means “stand”; the distance is "
+    "equation 1, but the text says 7; “hands (RF, LF, RFK, LFK)” means RH, LH, RHE, LHE.";
 
 }  // namespace
 
@@ -186,21 +186,16 @@ const std::vector<PaperAFigure>& PaperAFigures() {
        "elbow bent",
        "degrees between upper arm and forearm",
        {5, 6},
-       "The grades do not sum to 1; they are as printed."},
+       "The grades do not sum to 1, as in the paper."},
       {7,
        kPosture,
        "lying to jumping",
        "height of the body's centre, standing = 80",
        {7, 8, 9, 10},
-       "Equation 9 is printed as a second “sit”; “stand” is meant."},
-      {8,
-       kTrunk,
-       "trunk bent",
-       "180 degrees minus the lean",
-       {12, 11},
-       "The grades do not sum to 1; they are as printed."},
+       "Equation 9 is printed as a second “sit”, but means “stand”."},
+      {8, kTrunk, "trunk bent", "180 degrees minus the lean", {12, 11}, "The grades do not sum to 1, as in the paper."},
       {9, kRF, "leg spread", "degrees between the thigh and straight down", {13, 14}, ""},
-      {10, kRFK, "knee bent", "degrees inside the knee", {16, 15}, "The grades do not sum to 1; they are as printed."},
+      {10, kRFK, "knee bent", "degrees inside the knee", {16, 15}, "The grades do not sum to 1, as in the paper."},
   };
   return figures;
 }
@@ -249,8 +244,8 @@ std::string PaperAHtml(const ScenarioSummary& scenario) {
     const bool is_paper = html.empty();
     html += fmt::format("<details{}><summary>{}</summary><p class=\"quiet legend\">{}</p><div class=\"memberships\">",
                         is_paper ? " open" : "",
-                        is_paper ? "Paper A’s figures 5 to 10: the grade with which a pose belongs to a term"
-                                 : fmt::format("The same features in the system {}", EscapeMarkup(system.name)),
+                        is_paper ? "Paper A’s figures 5 to 10: membership grades of poses in each term"
+                                 : fmt::format("The same features in the fuzzy system {}", EscapeMarkup(system.name)),
                         is_paper ? EscapeMarkup(std::string(kMisprints)) : "");
     for (const PaperAFigure& figure : PaperAFigures()) html += FigureHtml(figure, system, is_paper);
     html += "</div>" + RoundTripHtml(system) + "</details>";

@@ -93,12 +93,16 @@ std::string Figure(const std::vector<Panel>& panels, const ScenarioSummary& scen
       panels, [](const Panel& panel) { return std::ranges::any_of(panel.curves, &PlotCurve::faint); });
   const std::string trials =
       has_medians ? fmt::format(
-                        "Thin: trial {}, until its solver stopped. Thick: the median of all trials; a trial whose "
-                        "solver has stopped keeps its last value. At most the first 200 iterations.",
+                        "Thin lines: trial {}, until its solver stopped. Thick lines: the median of all trials, "
+                        "where a trial whose solver has stopped keeps its last value. The plots show at most the "
+                        "first 200 iterations.",
                         trial)
-                  : fmt::format("Trial {}, until its solver stopped, at most the first 200 iterations.", trial);
+                  : fmt::format(
+                        "The lines show trial {}, until its solver stopped, and at most the first 200 "
+                        "iterations.",
+                        trial);
   std::string html =
-      CurveLegend(scenario.methods, "Errors of each end effector along the iterations, logarithmic. " + trials) +
+      CurveLegend(scenario.methods, "Error of each end effector at each iteration, on a logarithmic axis. " + trials) +
       "<div class=\"strip\">";
   for (const Panel& panel : panels) {
     html += fmt::format(
@@ -135,7 +139,7 @@ std::string SetHtml(const PaperBCondition& condition, const PaperBSet& set, bool
                                  TableName(set), EscapeMarkup(set.title), EscapeMarkup(Under(condition)));
   html += fmt::format("<p class=\"quiet legend\">{}", EscapeMarkup(Note(set)));
   if (!set.replay.empty()) {
-    html += fmt::format(" The trial again: <code>{}</code>", EscapeMarkup(set.replay));
+    html += fmt::format(" This command runs the trial again: <code>{}</code>", EscapeMarkup(set.replay));
   }
   html += "</p>" + TablesHtml(set.errors, "wide") + "<ul class=\"reasons\">";
   for (const std::string& outcome : set.outcomes) html += fmt::format("<li>{}</li>", EscapeMarkup(outcome));
@@ -143,8 +147,9 @@ std::string SetHtml(const PaperBCondition& condition, const PaperBSet& set, bool
 }
 
 constexpr std::string_view kPrinted =
-    "Paper B's printed results for its only simulated pose, which it does not specify: compare magnitudes, not digits. "
-    "In 5.2 (d), the elbow and the wrist of the right arm have the same value, as printed.";
+    "These results of paper B are for a single simulated pose, which the paper does not specify, so compare only "
+    "orders of magnitude. In table 5.2 (d), the elbow and the wrist of the right arm have the same value, as in the "
+    "paper.";
 
 std::string PrintedHtml(bool with_angles) {
   std::string html = fmt::format(
@@ -225,7 +230,8 @@ std::string PaperBMarkdown(const RunData& run, const ScenarioSummary& scenario) 
     for (const PaperBSet& set : condition.sets) {
       text += fmt::format("\n<details><summary>Paper B's {}: {}{}</summary>\n\n{}\n", TableName(set),
                           EscapeMarkup(set.title), EscapeMarkup(Under(condition)), EscapeMarkdown(Note(set)));
-      if (!set.replay.empty()) text += fmt::format("\nThe trial again: {}\n", EscapeMarkdown(set.replay));
+      if (!set.replay.empty())
+        text += fmt::format("\nThis command runs the trial again: {}\n", EscapeMarkdown(set.replay));
       for (const PaperTable& table : set.errors) text += TableMarkdown(TableOf(table));
       text += '\n';
       for (const std::string& outcome : set.outcomes) text += fmt::format("- {}\n", EscapeMarkdown(outcome));

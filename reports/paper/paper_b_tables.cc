@@ -182,16 +182,15 @@ class Study {
     PaperBSet set;
     set.title = fmt::format("trial {}", trial);
     set.error_note =
-        "Position errors: effector − target along the world’s axes. Orientation errors: between each of the "
-        "effector’s own axes and its target.";
+        "Position errors: end effector − target, along the world’s axes. Orientation errors: the angle between each "
+        "axis of the end effector and the target of this axis.";
     set.replay = fmt::format("etude replay RUN --cell '{}'", rows.front()->Id());
     Fill(rows, First, "", set);
     AddAngles(
-        rows, "angle_change_deg", "the rotation of each joint from the start",
+        rows, "angle_change_deg", "the rotation of each joint since the start",
         [](std::vector<double> values) { return std::abs(values.front()); }, set);
     if (!set.angles.empty()) {
-      set.angle_note =
-          fmt::format("Hidden angles: the rotation of each joint from the start, without sign; {}", kNoAxis);
+      set.angle_note = fmt::format("Hidden angles: the absolute rotation of each joint since the start; {}", kNoAxis);
     }
     return set;
   }
@@ -199,16 +198,16 @@ class Study {
   PaperBSet AllTrials() const {
     PaperBSet set;
     set.title = fmt::format("all {}", Plural(TrialCount(), "trial"));
-    set.error_note = "Position and orientation errors: the median of their absolute values over the trials.";
+    set.error_note = "Position and orientation errors: the median of the absolute values over the trials.";
     Fill(rows_, MedianSize, ", median", set);
-    AddAngles(rows_, "angle_change_deg", "the rotation of each joint from the start, root mean square", RootMeanSquare,
+    AddAngles(rows_, "angle_change_deg", "the rotation of each joint since the start, root mean square", RootMeanSquare,
               set);
     AddAngles(rows_, "angle_error_deg", "the final difference of each joint from the truth, root mean square",
               RootMeanSquare, set);
     if (!set.angles.empty()) {
       set.angle_note = fmt::format(
-          "Hidden angles: root mean square over the trials of the rotation from the start and of the difference from "
-          "the truth; {}",
+          "Hidden angles: the rotation since the start, and the difference from the truth, as root mean squares "
+          "over the trials; {}",
           kNoAxis);
     }
     return set;
@@ -302,14 +301,14 @@ class Study {
       const auto ok = std::ranges::count(rows, Status::kOk, [](const Row* row) { return row->result.status; });
       text = fmt::format("{}: {} of {} ok", method, FormatCount(ok), FormatCount(std::ssize(rows)));
       const auto with = std::ranges::count_if(rows, [&](const Row* row) { return HasErrors(*row); });
-      if (with < std::ssize(rows)) text += fmt::format(", figures for only {} of them", FormatCount(with));
+      if (with < std::ssize(rows)) text += fmt::format("; only {} of them have results", FormatCount(with));
     }
     const std::string_view median = rows.size() == 1 ? "" : "median ";
     if (const auto iterations = MetricOver(rows, "iterations")) {
       text += fmt::format("; {}{} iterations", median, FormatNumber(*iterations));
     }
     if (const auto change = MetricOver(rows, "hidden_angle_change_deg")) {
-      text += fmt::format("; hidden angles {}{}° from the start", median, FormatNumber(*change));
+      text += fmt::format("; hidden angles rotated by {}{}° since the start", median, FormatNumber(*change));
     }
     if (const auto error = MetricOver(rows, "hidden_angle_error_deg")) {
       text += fmt::format(", {}{}° from the truth", median, FormatNumber(*error));

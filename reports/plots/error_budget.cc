@@ -34,7 +34,7 @@ std::vector<Bar> BarsOf(const ErrorBudget& budget, double scale) {
 }
 
 std::string Describe(const ErrorBudget& budget, const MetricWords& words) {
-  std::string text = fmt::format("“{}”: {}{}, mean of {} worlds.", budget.method,
+  std::string text = fmt::format("“{}”: {}{}, the mean of {} worlds.", budget.method,
                                  FormatNumber(budget.total * words.scale), words.suffix, budget.worlds);
   for (const BudgetShare& share : budget.shares) {
     text += fmt::format(" {}: {}", share.stage, FormatNumber(share.mean * words.scale));
@@ -85,13 +85,14 @@ std::string ErrorBudgetHtml(const ErrorBudget& budget, const std::string& condit
     svg += BarSvg(bar, y, axis, words.scale);
     y += kBarStep;
   }
-  const std::string order = budget.is_shapley ? "Shapley values: the error that each stage saves if it is replaced by "
-                                                "the truth, averaged over all orders of the stages"
-                                              : "stages are replaced by the truth one after the other, from the top; "
-                                                "another order may divide the error differently";
+  const std::string order = budget.is_shapley ? "the bars are Shapley values, which are the error that is saved if "
+                                                "the stage is replaced by the truth, averaged over all orders of "
+                                                "the stages"
+                                              : "the stages are replaced by the truth one after the other, from top "
+                                                "to bottom; another order may give other values";
   return fmt::format(
-      "<figure><figcaption>What each stage costs in {}{}{}: {}. Means of {} worlds; lines are 95 % "
-      "intervals.</figcaption>{}</svg></figure>",
+      "<figure><figcaption>Contribution of each stage to the {}{}{}: {}. Values are means of {} worlds; lines are "
+      "95 % intervals.</figcaption>{}</svg></figure>",
       EscapeMarkup(words.label), condition.empty() ? "" : ", ", EscapeMarkup(condition), order, budget.worlds, svg);
 }
 

@@ -150,7 +150,7 @@ std::string ErrorCurvesHtml(const RunData& run, const ScenarioSummary& scenario)
                      EscapeMarkup(caption), BeginPanel(kErrorsHeight, described), VerticalAxisGrid(axes.up),
                      HorizontalAxisGrid(axes.across, kErrorsTop, kErrorsBottom), lines,
                      Readings(curves, axes.across, scenario, axis, words.suffix),
-                     CurveLegend(labels, "Point at the plot to read the values."));
+                     CurveLegend(labels, "Move the pointer over the plot to read the values."));
 }
 
 }  // namespace etude

@@ -187,7 +187,8 @@ std::string Caption(const Judged& judged, const PairedDots& pairs) {
   std::string text = fmt::format("“{}” against “{}”{}{}: {}{}{}", c.method, c.baseline, condition.empty() ? "" : ", ",
                                  condition, words.plain_label, unit.empty() ? "" : ", ", unit);
   if (pairs.worlds.size() < pairs.total) {
-    text += fmt::format(" ({} of {} drawn, at equal steps)", FormatCount(static_cast<long long>(pairs.worlds.size())),
+    text += fmt::format(" ({} of {} worlds are drawn, at equal steps)",
+                        FormatCount(static_cast<long long>(pairs.worlds.size())),
                         FormatCount(static_cast<long long>(pairs.total)));
   }
   return text;
@@ -220,9 +221,9 @@ std::string WhatItDoes(const Beyond& beyond, const LeftOut& extreme, double prac
   const bool still = std::abs(extreme.difference) >= practical && (extreme.difference < 0) == (all < 0);
   if (matters && !still) return fmt::format("the difference depends on this {}", OneOf(unit));
   if (!matters && std::abs(extreme.difference) >= practical) {
-    return fmt::format("this {} hides a difference that matters", OneOf(unit));
+    return fmt::format("without this {}, the difference would matter", OneOf(unit));
   }
-  return fmt::format("no single {} decides whether it matters", OneOf(unit));
+  return fmt::format("no single {} decides whether the difference matters", OneOf(unit));
 }
 
 double PracticalOf(const Comparison& c) {
@@ -285,13 +286,14 @@ std::string EstimationHtml(const ScenarioSummary& scenario, const Judged& judged
 std::string EstimationLegend(const ScenarioSummary& scenario, const std::string& metric) {
   const MetricWords words = WordsFor(metric);
   const MetricInfo* info = FindMetric(metric);
-  std::string text =
-      fmt::format("Left: both methods, one dot per world, coloured by {}. Right: their differences with 95 % intervals",
-                  WorldsAreUnits(scenario.unit)              ? "method"
-                  : scenario.unit == SamplingUnit::kClipPair ? "the clip that is left"
-                                                             : "its source");
+  std::string text = fmt::format(
+      "Left: the values of both methods, with one dot per world, coloured by {}. Right: the differences "
+      "between the methods, with 95 % intervals",
+      WorldsAreUnits(scenario.unit)              ? "method"
+      : scenario.unit == SamplingUnit::kClipPair ? "the first clip of the transition"
+                                                 : "the source of the world");
   if (info != nullptr) {
-    text += fmt::format("; shaded: differences of less than {:g}{}, which do not matter", info->practical * words.scale,
+    text += fmt::format(". Shaded: differences of less than {:g}{}, which do not matter", info->practical * words.scale,
                         words.difference_suffix);
   }
   return text + ".";
@@ -314,7 +316,8 @@ std::string WithoutEachUnit(const Comparison& c, SamplingUnit unit) {
   const auto [low, high] = std::ranges::minmax_element(beyond.left_out, {}, &LeftOut::difference);
   const LeftOut& extreme = Extreme(beyond, PracticalOf(c));
   return fmt::format(
-      "“{}” against “{}”, mean difference if each {} in turn is left out: {} to {}. Without “{}” it is {}: {}.",
+      "“{}” against “{}”: if each {} in turn is left out, the mean difference is from {} to {}. Without “{}”, the "
+      "mean difference is {}: {}.",
       c.method, c.baseline, OneOf(unit), Amount(low->difference, words), Amount(high->difference, words), extreme.unit,
       Amount(extreme.difference, words), WhatItDoes(beyond, extreme, PracticalOf(c), unit));
 }

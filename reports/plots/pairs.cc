@@ -86,7 +86,7 @@ std::string CurvesSvg(const Pair& pair, const CellSeriesIndex& series, const Sce
   up.from = kLower, up.to = kUpper, across.from = kPanelLeft, across.to = kPanelRight;
   const std::string caption =
       fmt::format("{}, {}, {}", WordsFor(metric).label, UnitOf(WordsFor(metric)),
-                  stretch == 1 ? "by frame" : fmt::format("the largest of every {} frames", stretch));
+                  stretch == 1 ? "by frame" : fmt::format("maximum of every {} frames", stretch));
   std::string svg = BeginPanel(kTall, caption, kPanelWidth, "panel") + VerticalAxisGrid(up) +
                     HorizontalAxisGrid(across, kUpper, kLower);
   for (const PlotCurve& curve : curves) svg += CurveLine(curve, across, up);
@@ -177,8 +177,8 @@ std::string PairsHtml(const RunData& run, const ScenarioSummary& scenario) {
   if (pairs.empty()) return "";
   std::string html =
       CurveLegend(scenario.methods,
-                  "Grey bodies show the truth. Only recorded cells have pictures and motions "
-                  "(<code>--keep motions</code>).");
+                  "Grey bodies show the truth. Pictures and motions exist only for recorded cells (option "
+                  "<code>--keep motions</code>).");
   for (std::size_t i = 0; i < std::min(pairs.size(), kMaxPairs); ++i) {
     const Pair& pair = pairs[i];
     std::string curves, frames;
@@ -187,10 +187,11 @@ std::string PairsHtml(const RunData& run, const ScenarioSummary& scenario) {
       frames += WorstFramesHtml(*cell, series.Find(*cell, kCurves[0]), kept.Find(cell->Id()),
                                 IndexOf(scenario, cell->method));
     }
-    html +=
-        fmt::format("<details{}><summary>{}: at worst {} mm ({})</summary><div class=\"panels\">{}</div>{}</details>",
-                    i == 0 ? " open" : "", EscapeMarkup(pair.name), FormatNumber(pair.worst_mm),
-                    WordsFor(kCurves[0]).label, curves, frames);
+    html += fmt::format(
+        "<details{}><summary>{}: largest error {} mm ({})</summary><div "
+        "class=\"panels\">{}</div>{}</details>",
+        i == 0 ? " open" : "", EscapeMarkup(pair.name), FormatNumber(pair.worst_mm), WordsFor(kCurves[0]).label, curves,
+        frames);
   }
   return html + LeftOutHtml(pairs.size(), kMaxPairs, "pairs", "series/");
 }

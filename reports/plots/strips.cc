@@ -91,7 +91,7 @@ std::string Caption(const ConditionSummary& condition, const MetricWords& words,
   const std::string_view direction = DirectionWords(words.direction);
   if (!direction.empty()) text += fmt::format("; {}", direction);
   const bool is_thinned = std::ranges::any_of(rows, [](const StripRow& row) { return row.dots.size() < row.total; });
-  return text + (is_thinned ? fmt::format(" (at most {} dots in a row are drawn, at equal steps)", kMaxDots) : "");
+  return text + (is_thinned ? fmt::format(" (each row shows at most {} dots, at equal steps)", kMaxDots) : "");
 }
 
 }  // namespace

@@ -97,7 +97,7 @@ std::string PanelOf(const RunData& run, const ScenarioSummary& scenario, const C
   const std::string condition_label = ConditionLabel(condition.condition);
   const MetricWords words = WordsFor(std::string(rule.metric));
   return fmt::format(
-      "<figure><figcaption>{}{}: {}, per cent, by {}{}. {} stay in the "
+      "<figure><figcaption>{}{}: {}, per cent, by {}{}. {} count in the "
       "denominator.</figcaption>{}{}{}{}</svg></figure>",
       EscapeMarkup(condition_label), condition_label.empty() ? "How long it takes" : "", rule.share,
       EscapeMarkup(words.plain_label), words.suffix.empty() ? "" : " (" + words.suffix.substr(1) + ")", rule.never,

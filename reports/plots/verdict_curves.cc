@@ -156,17 +156,18 @@ void AddMethod(const ScenarioSummary& scenario, std::size_t method, const Method
   if (const auto at = OperatedAt(events)) {
     curves.operated[method] = *at;
     told += fmt::format(
-        "; calls right {:.0f} % of the right and {:.0f} % of the wrong performances; best F1 of any threshold {:.2f}",
+        "; judges {:.0f} % of the right performances and {:.0f} % of the wrong performances as right; best F1 over "
+        "all thresholds {:.2f}",
         100 * at->second, 100 * at->first, *BestF1(events));
   }
   if (const SharePoints by_severity = FoundBySeverity(verdicts.performances); by_severity.size() > 1) {
     curves.found[method] = by_severity;
     if (const auto half = HalfFoundAt(by_severity))
-      told += fmt::format("; half of the faults are found from severity {:.2f} on", *half);
+      told += fmt::format("; finds half of the faults with a severity of {:.2f} or more", *half);
     curves.found_words += fmt::format("{}: {:.0f} % of the worst faults. ", name, 100 * by_severity.back().second);
   }
   if (SharePoints waiting = SurvivalCurve(verdicts.waits); waiting.size() > 1) {
-    curves.wait_words += fmt::format("{}: {:.0f} % are never called right. ", name, 100 * waiting.back().second);
+    curves.wait_words += fmt::format("{}: {:.0f} % are never judged right. ", name, 100 * waiting.back().second);
     curves.waiting[method] = std::move(waiting);
   }
   if (!told.empty()) curves.keys += VerdictKey(scenario, method, told);
@@ -183,22 +184,25 @@ std::string VerdictPanels(const RunData& run, const ScenarioSummary& scenario, c
   std::string html;
   if (!curves.rocs.empty()) {
     html += SharePanel(prefix +
-                           "share of right performances called right, against the share of wrong ones called right, "
-                           "for all thresholds and all people together; the mark is the method's own threshold",
+                           "share of right performances that are judged right, against the share of wrong "
+                           "performances that are judged right, for all thresholds and all people together; the "
+                           "mark shows the threshold that the method uses",
                        curves.words, curves.rocs, curves.operated);
     html += DetPanel(
         prefix +
-            "the same errors on scales of normal deviates: right performances missed, against wrong ones called right",
+            "the same errors on scales of normal deviates (DET curve): right performances that are judged wrong, "
+            "against wrong performances that are judged right",
         curves.words, curves.rocs, curves.operated);
   }
   if (!curves.found.empty()) {
-    html += SharePanel(prefix + "faulty performances not called right, by the severity of the fault",
+    html += SharePanel(prefix + "share of faulty performances that are judged wrong, by the severity of the fault",
                        curves.found_words, curves.found);
   }
   if (!curves.waiting.empty()) {
     html += WaitPanel(prefix +
-                          "right performances not yet called right, by seconds since they were truly right; those "
-                          "never called right are censored when their window closes",
+                          "share of right performances that are not yet judged right, by the time in s since the "
+                          "performance was truly right; a performance that is never judged right is censored when "
+                          "its time window ends",
                       curves.wait_words, curves.waiting);
   }
   if (html.empty()) return "";

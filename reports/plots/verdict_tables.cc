@@ -61,7 +61,9 @@ std::string FaultTable(const ScenarioSummary& scenario, const std::string& prefi
     body += "</tr>";
   }
   return Framed(
-      prefix + "faulty performances not called right, per cent, by their worst fault: slight (severity to 0.5) · bad",
+      prefix +
+          "percentage of faulty performances that are judged wrong, by the worst fault: slight (severity up to "
+          "0.5) · bad",
       head, body);
 }
 
@@ -87,9 +89,9 @@ std::string SessionTable(const RunData& run, const ScenarioSummary& scenario, co
                         EscapeMarkup(SessionName(run, scenario, session.person)), session.missed, session.right,
                         session.praised, session.wrong);
   }
-  return Framed(fmt::format("{}the sessions in which {} made the most errors", prefix, scenario.methods[method->first]),
-                Head("session", false) + Head("right performances missed") + Head("wrong performances called right"),
-                body);
+  return Framed(
+      fmt::format("{}the sessions with the most errors of {}", prefix, scenario.methods[method->first]),
+      Head("session", false) + Head("right performances judged wrong") + Head("wrong performances judged right"), body);
 }
 
 std::string ConfusionTable(const std::string& caption, const MoveConfusion& confusion) {
@@ -123,12 +125,13 @@ std::string Confusions(const ScenarioSummary& scenario, const std::string& prefi
     if (confusion.counts.empty() || confusion.moves.size() > kMaxMoves || method >= kMaxMethods) continue;
     const std::string& name = scenario.methods[method];
     std::string& html = name == asked || asked.empty() ? open : folded;
-    html += ConfusionTable(fmt::format("{}the moves that {} named instead of the danced moves, per cent", prefix, name),
+    html += ConfusionTable(fmt::format("{}percentage of each danced move (rows) that {} recognised as another move "
+                                       "(columns)",
+                                       prefix, name),
                            confusion);
   }
   if (folded.empty()) return open;
-  return open + "<details><summary>The moves that the other methods named instead of the danced moves</summary>" +
-         folded + "</details>";
+  return open + "<details><summary>Confused moves of the other methods</summary>" + folded + "</details>";
 }
 
 }  // namespace
@@ -194,7 +197,7 @@ std::string VerdictTablesHtml(const RunData& run, const ScenarioSummary& scenari
             Confusions(scenario, prefix, verdicts);
   }
   if (html.empty()) return "";
-  return "<details><summary>Which faults are found, the worst sessions, which moves are confused</summary>" + html +
+  return "<details><summary>Faults that were found, worst sessions, confused moves</summary>" + html +
          LeftOutHtml(count, kMaxTabled, "conditions", "series/") + "</details>";
 }
 

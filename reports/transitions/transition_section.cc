@@ -81,7 +81,7 @@ std::string WaitOf(const TransitionFacts& facts) {
 }
 
 std::string WaysTable(const RecordedRequest& world) {
-  Table table{.label = "How each method made the transition",
+  Table table{.label = "The transition by each method",
               .columns = {{"Method"},
                           {"Branch"},
                           {"Frames, left → entered"},
@@ -137,8 +137,10 @@ TableRow CandidateRow(const CandidateFacts& candidate, const TransitionFacts& fa
 std::string HowMany(const TransitionFacts& facts) {
   const auto listed = static_cast<long long>(facts.candidates.size());
   if (!facts.pairs_seen || *facts.pairs_seen <= listed) return "";
-  return fmt::format("<p class=\"quiet legend\">{} of {} pairs of frames: the pair taken, and the best others.</p>",
-                     FormatCount(listed), FormatCount(*facts.pairs_seen));
+  return fmt::format(
+      "<p class=\"quiet legend\">{} of {} pairs of frames are listed: the chosen pair and the best "
+      "other pairs.</p>",
+      FormatCount(listed), FormatCount(*facts.pairs_seen));
 }
 
 std::string CandidatesTable(const std::string& methods, const TransitionFacts& facts) {
@@ -149,11 +151,11 @@ std::string CandidatesTable(const std::string& methods, const TransitionFacts& f
   if (has_costs) {
     table.columns.push_back(NumberColumn(facts.cost_unit.empty() ? "Cost" : fmt::format("Cost ({})", facts.cost_unit)));
   }
-  table.columns.push_back({"largest part of d²"});
+  table.columns.push_back({"largest contributions to d²"});
   const std::size_t shown = std::min(facts.candidates.size(), kMaxCandidates);
   for (std::size_t i = 0; i < shown; ++i) table.rows.push_back(CandidateRow(facts.candidates[i], facts, has_costs));
-  return fmt::format("<h4>What {} looked at</h4>{}{}{}", EscapeMarkup(methods), HowMany(facts), TableHtml(table),
-                     LeftOutHtml(facts.candidates.size(), shown, "candidates", "the recording"));
+  return fmt::format("<h4>Candidates that {} considered</h4>{}{}{}", EscapeMarkup(methods), HowMany(facts),
+                     TableHtml(table), LeftOutHtml(facts.candidates.size(), shown, "candidates", "the recording"));
 }
 
 /// Writes the candidate pairs of frames of all methods. Methods that differ only in how they join the frames have the
@@ -173,22 +175,27 @@ std::string AllCandidates(const RecordedRequest& world) {
   }
   if (html.empty()) return html;
   return html +
-         "<p class=\"quiet legend\">Too far: the pair's d is not below the threshold. Later: the pair matches, but an "
-         "earlier match is taken. Worse: the pair matches, but another pair ranks higher.</p>";
+         "<p class=\"quiet legend\">Too far: the distance d of the pair is not below the threshold. Later: the pair "
+         "matches, but the method chose an earlier match. Worse: the pair matches, but another pair ranks "
+         "higher.</p>";
 }
 
 std::string WorldHtml(const RecordedRequest& world) {
   std::string html =
-      fmt::format("<details class=\"transitions\"><summary>Why each transition took its frames: {}, {}</summary>",
+      fmt::format("<details class=\"transitions\"><summary>Why each method chose its frames: {}, {}</summary>",
                   EscapeMarkup(world.Request()), EscapeMarkup(world.Name()));
   html += WaysTable(world) + Distances(world) + AllCandidates(world);
   return html + LeftOutHtml(world.transitions.size(), kMaxMethods, "methods", "the folder recordings") + "</details>";
 }
 
 std::string WorldMarkdown(const RecordedRequest& world) {
-  Table table{
-      .columns = {
-          {"method"}, {"branch"}, {"frames, left → entered"}, {"wait"}, {"d"}, {"largest part of d²"}, {"why"}}};
+  Table table{.columns = {{"method"},
+                          {"branch"},
+                          {"frames, left → entered"},
+                          {"wait"},
+                          {"d"},
+                          {"largest contributions to d²"},
+                          {"why"}}};
   for (const RecordedTransition& taken : Shown(world)) {
     const TransitionFacts& facts = taken.facts;
     const auto worst =
@@ -245,8 +252,8 @@ std::string DistanceTable::Html() const {
   }
   return TableHtml(table) +
          fmt::format(
-             "<p class=\"quiet legend\">The bars of a row sum to d². If a bar is full, this feature alone reaches the "
-             "threshold; if there is no threshold, the largest bar of each row is full. {}</p>",
+             "<p class=\"quiet legend\">The bars of a row sum to d². A full bar means that this feature alone "
+             "reaches the threshold; without a threshold, the largest bar of each row is full. {}</p>",
              EscapeMarkup(kFeatureLegend));
 }
 
@@ -272,7 +279,7 @@ std::string TransitionsHtml(const std::vector<RecordedRequest>& worlds) {
 
 std::string TransitionsMarkdown(const std::vector<RecordedRequest>& worlds) {
   if (worlds.empty()) return "";
-  std::string text = "\n<details><summary>Why each transition took its frames</summary>\n";
+  std::string text = "\n<details><summary>Why each method chose its frames</summary>\n";
   for (std::size_t i = 0; i < std::min(worlds.size(), kMaxWorlds); ++i) text += WorldMarkdown(worlds[i]);
   const std::string rest = LeftOutWords(worlds.size(), kMaxWorlds, "requests", "the folder recordings");
   return text + (rest.empty() ? "" : "\n" + rest + "\n") + "\n</details>\n";

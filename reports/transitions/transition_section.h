@@ -15,8 +15,9 @@ constexpr double kMinShownPartial = 0.0005;
 
 /// Explains paper A's abbreviations of the ten features.
 constexpr std::string_view kFeatureLegend =
-    "RH, LH: angles by which the right and the left arm are raised; RHE, LHE: their elbows; Posture: from lying to "
-    "jumping; Trunk: its lean; RF, LF: angles by which the legs are spread; RFK, LFK: their knees.";
+    "RH, LH: angles by which the right and left arms are raised; RHE, LHE: angles of the right and left elbows; "
+    "Posture: from lying to jumping; Trunk: lean of the trunk; RF, LF: angles by which the right and left legs are "
+    "spread; RFK, LFK: angles of the right and left knees.";
 
 /// A table of the ten partial distances of transition points, one row per point, with a bar for each partial distance.
 /// A partial distance of the squared threshold fills its bar; without a threshold, the row's largest one does. The

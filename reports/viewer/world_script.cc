@@ -230,7 +230,8 @@ class Writer {
     wanted_ = 0;
     const auto add = [&](const auto& extras) {
       if (extras) return Add(method, *extras);
-      json_["notes"].push_back(fmt::format("The marks of {} cannot be read: {}", method, extras.error().message));
+      json_["notes"].push_back(
+          fmt::format("The timeline marks of {} cannot be read: {}", method, extras.error().message));
       return 0;
     };
     if (task_ == "evaluation" || task_ == "inbetween") return add(ReadEvaluationExtras(recording.extras_json));
@@ -267,7 +268,7 @@ class Writer {
   int Add(const std::string& method, const TransitionFacts& extras) {
     const std::vector<int>& frames = extras.transition_frames;
     const int begin = -extras.request_frame.value_or(frames.empty() ? 0 : frames.front());
-    if (extras.request_frame) Mark("request", 0, 0, "request", "the next clip is asked for");
+    if (extras.request_frame) Mark("request", 0, 0, "request", "the next clip is requested");
     for (std::size_t i = 0; i < frames.size(); ++i) {
       std::string text = fmt::format("{} → {}", extras.from, extras.to);
       if (i < extras.points.size()) {
@@ -299,7 +300,7 @@ class Writer {
       Mark("danced", event.begin_frame, event.end_frame, event.truth, Performed(event.move, event.truth, event.fault));
       MarkJudgement(method, event.called_frame.value_or(event.end_frame), event.truth, event.called_right,
                     fmt::format("{}: {}, score {:.2f}", event.move,
-                                event.called_right ? "called right" : "called wrong", event.score));
+                                event.called_right ? "judged right" : "judged wrong", event.score));
     }
     for (const DetectionExtras::Alarm& alarm : extras.alarms) {
       Mark(method, alarm.frame, alarm.frame, "miss", "false alarm: " + alarm.move);
@@ -315,7 +316,7 @@ class Writer {
            Performed(danced.move, danced.truth, danced.faults));
       if (danced.called == "unjudged") continue;
       MarkJudgement("judged" + lane, danced.end_frame, danced.truth, danced.called == "right",
-                    fmt::format("{}: called {}", danced.move, danced.called));
+                    fmt::format("{}: judged {}", danced.move, danced.called));
     }
     // Add marks for corrections with their reasons, for transitions, and for spoken words.
     for (const int frame : extras.corrections) {

@@ -36,11 +36,11 @@ std::string SentenceFor(const Judged& judged, const std::string& other, const Me
   const Comparison& c = *judged.comparison;
   const Verdict verdict = judged.Here();
   if (c.pairs == 0 || !c.difference) {
-    return fmt::format("“{}” could not be compared with {} by {}: no world has values of both methods", c.method, other,
-                       words.label);
+    return fmt::format("“{}” could not be compared with {} by {}, because no world has values of both methods",
+                       c.method, other, words.label);
   }
   if (!c.ci_low) {
-    return fmt::format("“{}” and {} both have a value in {} only: too few to judge the {}", c.method, other,
+    return fmt::format("“{}” and {} both have a value in only {}, which is too few to judge the {}", c.method, other,
                        Plural(c.pairs, "world"), words.label);
   }
   // Write the difference. Also write the mean difference if it lies outside the interval and the verdict is undecided
@@ -148,7 +148,7 @@ std::string UnpairedWords(const std::vector<Judged>& judged) {
   add(fmt::format("“{}”", first.method), only_method);
   return text.empty()
              ? ""
-             : fmt::format(" Not included in this difference, because one of the two has no value there: {}.", text);
+             : fmt::format(" The difference does not include worlds in which only one method has a value: {}.", text);
 }
 
 /// Returns the numbers from which the generalised verdict follows: the typical (pseudo-median) difference over sampling

@@ -20,11 +20,11 @@ std::string ExpectationsSentence(const RunFindings& f) {
   if (all == 0) return "";
   std::string text;
   if (f.met == all) {
-    text = all == 1 ? "The one expectation was met" : fmt::format("All {} expectations were met", all);
+    text = all == 1 ? "The only expectation was met" : fmt::format("All {} expectations were met", all);
   } else {
     text = fmt::format("{} of {} were met", f.met, Plural(all, "expectation"));
-    if (f.unmet > 0) text += fmt::format(", {} not", f.unmet);
-    if (f.undecided > 0) text += fmt::format(", {} could not be decided", f.undecided);
+    if (f.unmet > 0) text += fmt::format(", {} were not met", f.unmet);
+    if (f.undecided > 0) text += fmt::format(", {} are undecided", f.undecided);
   }
   return text + ". ";
 }
@@ -33,14 +33,15 @@ std::string ExpectationsSentence(const RunFindings& f) {
 std::string MeasuredSentence(const RunFindings& f) {
   if (f.cells == 0) return "No cell ran.";
   const int measured = f.ok + f.unsolved;
-  std::string text = f.cells == 1 ? fmt::format("The one cell was{} measured", measured == 1 ? "" : " not")
+  std::string text = f.cells == 1 ? fmt::format("The only cell was{} measured", measured == 1 ? "" : " not")
                      : measured == f.cells
                          ? fmt::format("All {} cells were measured", FormatCount(f.cells))
                          : fmt::format("{} of {} cells were measured", FormatCount(measured), FormatCount(f.cells));
   if (f.unsolved > 0)
-    text += fmt::format(", {} of them unsolved (no answer, or one that missed the goal)", FormatCount(f.unsolved));
-  if (f.skipped > 0) text += fmt::format(", {} did not apply", FormatCount(f.skipped));
-  if (f.broken > 0) text += fmt::format(", {} broke", FormatCount(f.broken));
+    text +=
+        fmt::format(", {} of them unsolved (no answer, or an answer that missed the goal)", FormatCount(f.unsolved));
+  if (f.skipped > 0) text += fmt::format(", {} were skipped", FormatCount(f.skipped));
+  if (f.broken > 0) text += fmt::format(", {} could not be measured", FormatCount(f.broken));
   return text + ".";
 }
 
@@ -181,7 +182,7 @@ KeyFigures KeyFiguresOf(const ScenarioSummary& scenario, const std::string& aske
   };
   add(WordsFor(metric).label, [&](const std::string& method) { return ValuesOf(scenario, method, metric); });
   if (findings.successes.empty() || findings.successes.front().metric != metric) {
-    add(findings.successes.empty() ? "ended ok" : WordsFor(findings.successes.front().metric).plain_label,
+    add(findings.successes.empty() ? "cells with status ok" : WordsFor(findings.successes.front().metric).plain_label,
         [&](const std::string& method) { return SuccessOf(findings, scenario, method); });
   }
   if (times.MedianOf(asked)) {
@@ -233,7 +234,7 @@ ScenarioFindings FindingsOf(const RunData& run, const ScenarioSummary& scenario)
     findings.answer.verdict = Verdict::kUndecided;
     // A search for faults needs no second method.
     if (scenario.task != "plausibility")
-      findings.answer.sentence = "Only one method ran, so there is nothing to compare it with.";
+      findings.answer.sentence = "There is no comparison, because only one method ran.";
   } else {
     findings.headline = HeadlineOf(scenario, asked, findings.metric);
     findings.answer = CompareInWords(scenario, asked, findings.metric, Against::kBaseline);

@@ -49,7 +49,8 @@ std::string VerdictPhrase(const std::vector<Judged>& judged) {
   const std::string others = OthersOf(judged);
   const auto verdict = CommonVerdict(judged);
   if (!verdict)
-    return fmt::format("against {} it depends: {}", others, CountVerdicts(VerdictsOf(judged), judged.size()));
+    return fmt::format("compared with {}, the verdict depends on the condition: {}", others,
+                       CountVerdicts(VerdictsOf(judged), judged.size()));
   switch (*verdict) {
     case Verdict::kBetter:
       return "better than " + others;

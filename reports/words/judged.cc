@@ -249,7 +249,7 @@ BeyondFinding BeyondInWords(const std::vector<Judged>& judged, SamplingUnit unit
   if (std::ranges::all_of(verdicts, [&](Verdict v) { return v == verdicts.front(); })) finding.verdict = verdicts[0];
   finding.as_on_these = verdicts == VerdictsOf(judged);
   finding.words = WorldsAreUnits(unit) && finding.as_on_these
-                      ? fmt::format("for {} of the same kind: the same", OtherUnits(unit))
+                      ? fmt::format("for {} of the same kind: the same verdict", OtherUnits(unit))
                       : fmt::format("for {}: {}", OtherUnits(unit), VerdictsInWords(judged, verdicts, unit));
   return finding;
 }

@@ -91,7 +91,7 @@ class Blind(EtudeCase):
 
     def test_methods_that_cannot_be_compared_are_refused(self):
         for methods, words in [(["abrupt-one", "faded-one", "fadedone"], "unknown method 'fadedone'; did you mean 'faded-one'?"),
-                               (["abrupt-one", "faded-one", "abrupt-one"], "'abrupt-one' is named twice; allowed: each")]:
+                               (["abrupt-one", "faded-one", "abrupt-one"], "found the method 'abrupt-one' twice; allowed: each")]:
             self.refusal("report", self.run_folder, "--blind", *methods, says=["--blind", words])
 
     def test_a_run_without_recordings_is_refused(self):

@@ -92,12 +92,12 @@ class Bridge(EtudeCase):
         self.assertEqual({clip["leads_into"] for clip in summary["clips"]}, {None})
         self.assertEqual([clip["any"]["frame_share"] for clip in summary["clips"][:301]], [1] * 301)
         self.assertEqual([way["into"] for way in summary["corrective"]], ["builtin:wave"])
-        self.assertIn("Pairs of clips were not compared; --pairs compares them.", self.etude("bridge", *clips).stdout)
+        self.assertIn("Pairs of clips were not compared; use --pairs to compare all pairs.", self.etude("bridge", *clips).stdout)
 
     def test_the_summary_for_people_names_clips_without_a_way(self):
         text = self.works(*FEW, "--to", "builtin:head_shake", "--threshold", "0.05")
         self.assertIn("into builtin:head_shake", text)
-        self.assertIn("through an in-between", text)
+        self.assertIn("need an in-between clip", text)
         self.assertEqual(len([line for line in text.splitlines() if "builtin:head_shake" in line]), 3)
 
     def test_looser_rules_never_reach_less(self):
@@ -110,15 +110,15 @@ class Bridge(EtudeCase):
     def test_a_check_accepts_what_was_written_and_finds_what_was_changed(self):
         self.works(*FEW, "-o", self.tags, "--threshold", "0.3")
         self.assertIn("valid", self.works("--check", self.tags))
-        self.assertIn("fits the clips", self.works("--check", self.tags, *FEW))
-        self.refuses("--check", self.tags, *FEW[:3], says=["does not fit"])
+        self.assertIn("matches the clips", self.works("--check", self.tags, *FEW))
+        self.refuses("--check", self.tags, *FEW[:3], says=["does not match"])
         self.tags.write_text(self.tags.read_text().replace('RH="down"', 'RH="dwn"', 1))
         self.refuses("--check", self.tags, says=["tags.xml:", "dwn", "down"])
 
     def test_a_check_sees_another_fuzzy_system(self):
         self.works(*FEW, "-o", self.tags, "--fuzzy", "builtin:gaussian")
-        self.assertIn("fits the clips", self.works("--check", self.tags, *FEW))
-        self.refuses("--check", self.tags, *FEW, "--fuzzy", "builtin:paper", says=["does not fit", "fuzzy system"])
+        self.assertIn("matches the clips", self.works("--check", self.tags, *FEW))
+        self.refuses("--check", self.tags, *FEW, "--fuzzy", "builtin:paper", says=["does not match", "fuzzy system"])
 
     def test_it_takes_files_of_motion_capture(self):
         if not WALK.exists():
@@ -127,9 +127,9 @@ class Bridge(EtudeCase):
 
     def test_one_clip_has_no_other_to_lead_into(self):
         said = self.works(FEW[0], "-o", self.tags)
-        self.assertIn("the only clip", said)
+        self.assertIn("has only one clip", said)
         self.assertNotIn("directly", said)
-        self.assertIn("fits the clips", self.works("--check", self.tags, FEW[0]))
+        self.assertIn("matches the clips", self.works("--check", self.tags, FEW[0]))
 
     def test_bad_input_is_one_line_and_leaves_nothing(self):
         self.refuses("-o", self.tags, says=["needs clips"])
@@ -139,7 +139,7 @@ class Bridge(EtudeCase):
         self.refuses(*FEW, "-o", self.tags, "--fuzzy", "builtin:none", says=["none"])
         self.refuses(*FEW, "-o", self.tags, "--check", self.tags, says=["check"])
         self.refuses("--check", self.tags, says=["tags.xml"])
-        self.refuses("--check", self.tags, "--fuzzy", "builtin:paper", says=["--fuzzy", "name the clips"])
+        self.refuses("--check", self.tags, "--fuzzy", "builtin:paper", says=["--fuzzy", "add the clips"])
         self.assertFalse(self.tags.exists())
         self.tags.write_text("mine")
         self.refuses(*FEW, "-o", self.tags, says=["already exists"])

@@ -338,8 +338,8 @@ KEYPOINTS = ["OpenPose, 26", "normalised", "COCO results", "AlphaPose", "MMPose"
 MISTAKES = {"none": None, "sides swapped in 20 frames": "cam2: left and right were exchanged, frames 21 to 40",
             "sides swapped for ever": "cam2: left and right were exchanged, frames 1 to 60",
             "legs swapped in 20 frames": "cam2: left and right of hips and legs were exchanged, frames 21 to 40",
-            "late by 3 frames": "cam2: its frames are 3.0", "late by 0.4 frames": "cam2: its frames are 0.4",
-            "rate off by 2 %": "and its rate is 29.41", "turned by 180": "cam2: pictures turned by 180",
+            "late by 3 frames": "cam2: the film is 3.0", "late by 0.4 frames": "cam2: the film is 0.4",
+            "rate off by 2 %": "and its frame rate is 29.41", "turned by 180": "cam2: pictures turned by 180",
             "turned by 90": "cam2: pictures turned by 90", "mirrored": "cam2: pictures mirrored",
             "two people, identities cross": None}
 
@@ -370,8 +370,8 @@ STRANGERS = {
                       "corrected: the rig's cameras look along -z"),
     "matrices of Blender": (altered_toml(lambda name, R, T, K: (name, (FLIP @ R).T, -R.T @ T, K)), None,
                             "and the cameras look along -z"),
-    "calibrated at twice the size, which is not told": (altered_size(2), None, "pictures of 1280 x 960 pixels are assumed"),
-    "calibrated at half of the size, which is not told": (altered_size(0.5), None, "320 x 240 pixels, which are assumed"),
+    "calibrated at twice the size, which is not told": (altered_size(2), None, "1280 x 960 pixels, so Etude assumes this size"),
+    "calibrated at half of the size, which is not told": (altered_size(0.5), None, "320 x 240 pixels, so Etude assumes this size"),
     "keypoints of halved pictures": ("Pose2Sim", lambda p: (p + 0.5) / 2 - 0.5, "corrected: keypoints are of pictures 0.5 times as large"),
     "shares of a padded square": ("Pose2Sim", lambda p: np.array([(p[0] + 0.5) / WIDTH, (p[1] + 0.5 + PADDED) / WIDTH]),
                                   "corrected: keypoints are relative to a square around the picture"),
@@ -525,7 +525,7 @@ class Mistakes(EtudeCase):
     # The times of the pictures lay them on even frames, whichever film lacks some.
     def test_films_of_uneven_rate(self):
         low_light = [k for k in range(FRAMES) if k < 30 or k % 2 == 0]
-        for name, kept, words in (("cam1", [k for k in range(FRAMES) if not 30 <= k < 36], "missing: frames 31 to 36"),
+        for name, kept, words in (("cam1", [k for k in range(FRAMES) if not 30 <= k < 36], "missing frames: 31 to 36"),
                                   ("cam2", low_light, "14 of 59 frames are missing")):
             with self.subTest(name):
                 folder, rig, films, _ = self.take(cameras=3, lens=Lens())
@@ -557,10 +557,10 @@ class Mistakes(EtudeCase):
         folder, rig, films, _ = self.take(cameras=2, lens=Lens())
         self.remade(folder, "cam2", "", [k / RATE for k in range(FRAMES + 1)])
         told = self.etude("capture", "--rig", rig, *films, "--keypoints", folder / "keypoints", "-o", folder / "m.csv")
-        self.assertIn("cam2: the film has 61 frames, but cam1 has 60; both are assumed to begin at the same moment", told.stdout)
+        self.assertIn("cam2: the film has 61 frames, but cam1 has 60; Etude assumes that both begin at the same moment", told.stdout)
         self.remade(folder, "cam2", "", [k / RATE for k in range(FRAMES + 2)])
         told = self.etude("capture", "--rig", rig, *films, "--keypoints", folder / "keypoints", "-o", folder / "n.csv")
-        self.assertIn("cut both so that they begin and end at the same moments", told.stderr)
+        self.assertIn("Cut both films so that they begin and end at the same moments", told.stderr)
 
     # With errors of 8 px no mistake may be reported, but exchanged cameras must still be found.
     def test_imprecise_keypoints_are_no_mistake_of_the_session(self):
@@ -648,13 +648,13 @@ class Mistakes(EtudeCase):
     def test_a_camera_that_fits_nobody_is_named(self):
         elsewhere = altered_toml(lambda name, R, T, K: (name, R, 1000 * T if name == "cam2" else T, K))
         told, errors, _ = self.capture(elsewhere)
-        self.check(told, errors, words="doubtful: cam2: nobody in its film fits the person in the other films")
+        self.check(told, errors, words="doubtful: cam2: nobody in this film fits the person in the other films")
 
     def test_films_and_references_of_other_rates(self):
         reference = self.folder / "reference.trc"
         write_trc(reference, 60, 2 * FRAMES, figure)
         told, errors, _ = self.capture(mistake=SLOW, cameras=2, more=("--reference", reference))
-        self.check(told, errors, words="cam2: the film has 25 frames per second, but the others have 30; its keypoints are resampled")
+        self.check(told, errors, words="cam2: the film has 25 frames per second, but the first film has 30; Etude resamples the keypoints")
         self.assertIn("reference: resampled from 60 to 30 Hz", told)
         self.assertLess(float(re.search(r"^all\s+([\d.]+)", told, re.M)[1]), 1, told)
 
@@ -662,22 +662,22 @@ class Mistakes(EtudeCase):
         reference = self.folder / "reference.trc"
         write_trc(reference, 29.97, FRAMES - 10, figure)
         told, errors, _ = self.capture(mistake=NTSC, cameras=2, more=("--reference", reference))
-        self.check(told, errors, words="cam2: the film has 29.97 frames per second, but the others have 30; they are assumed to have the same rate")
-        film = re.search(r"cam2: the measured drift is ([+-][\d.]+) frames over the film, but the stated rates give \+0\.06;|"
-                         r"cam2: its frames are .*, which adds ([\d.]+) frames over the film; corrected", told)
+        self.check(told, errors, words="cam2: the film has 29.97 frames per second, but the first film has 30; Etude assumes that both have the same rate")
+        film = re.search(r"cam2: the measured clock drift is ([+-][\d.]+) frames over the film, but the frame rates of the files give \+0\.06 frames|"
+                         r"cam2: the film is .*, which adds ([\d.]+) frames of delay over the film; corrected", told)
         self.assertIsNotNone(film, told)
         self.assertAlmostEqual(float(film[1] or film[2]), 0.06, delta=0.02)
-        drift = re.search(r"reference: it has 29.97 frames per second, but the films have 30; they are assumed to have the same rate; "
-                          r"measured: a drift of ([+-][\d.]+) frames", told)
+        drift = re.search(r"the reference has 29.97 frames per second, but the films have 30; Etude assumes that both have the same rate; "
+                          r"the measured clock drift is ([+-][\d.]+) frames", told)
         self.assertAlmostEqual(float(drift[1]), -0.06, delta=0.03, msg=told)
-        self.assertIn("reference: 50 frames, but 60 in the films; the first 50 are compared", told)
+        self.assertIn("the reference has 50 frames, but the films have 60; only the first 50 frames are compared", told)
 
     # Errors of 2 px hide the delay from the automatic correction, but the report still doubts the clock.
     def test_a_late_film_of_keypoints_that_err_is_doubted_and_can_be_set(self):
         told, errors, _ = self.capture(mistake=LATE_AND_NOISY, cameras=2)
-        self.assertRegex(told, r"doubtful: cam2: its frames seem to be (2\.[89]|3\.[012]) frames later than cam1's; --sync 0\.2 would correct this")
+        self.assertRegex(told, r"doubtful: cam2: the film seems to be (2\.[89]|3\.[012]) frames later than cam1; use --sync 0\.2 to correct this")
         asked, by_sync, _ = self.capture(mistake=LATE_AND_NOISY, cameras=2, more=("--sync", "0.2"))
-        self.assertNotIn("doubtful: cam2: its frames", asked)
+        self.assertNotIn("doubtful: cam2: the film", asked)
         self.assertLess(np.median(by_sync), 0.85 * np.median(errors))
 
     def test_the_page_tells_films_residuals_and_mends(self):
@@ -721,7 +721,7 @@ class Mistakes(EtudeCase):
         result = self.ends(0, "capture", "--rig", self.folder / named, *(self.folder / f"{name}.mp4" for name in cams), "--silhouettes",
                             "--rooms", rooms, "--stature", "1.7", "-o", self.folder / "m.csv", "--report", page, *arguments)
         self.assertNotIn("doubtful", result.stdout)
-        self.assertIn("cam3: the film has 30 frames per second, but the others have 15; for each moment the nearest of its pictures is "
+        self.assertIn("cam3: the film has 30 frames per second, but the first film has 15; Etude uses the picture that is nearest "
                       "used, which is up to 17 ms away", result.stdout)
         text = page.read_text()
         self.assertIn("stature: 1.70 m", text)
@@ -730,15 +730,15 @@ class Mistakes(EtudeCase):
             row = re.search(rf"<td>{camera}</td><td class=\"n\">(\d+)</td><td class=\"n\">([\d.]+)</td>", text)
             self.assertEqual(int(row[1]), frames)
             self.assertLess(float(row[2]), 20)  # per cent; the flesh is thicker than an average adult's
-        self.assertNotIn("Keypoints left out", text)
+        self.assertNotIn("Outliers among keypoints", text)
         self.assertRegex(text, r"nothing is doubtful\.")
 
         # A body of half the size does not fit: nothing is written unless it is accepted.
         small = ["capture", "--rig", self.folder / named, *(self.folder / f"{name}.mp4" for name in cams), "--silhouettes", "--rooms", rooms,
                  "--stature", "0.7", "-o", self.folder / "small.csv", *arguments]
         refused = self.ends(1, *small, "--json")
-        self.assertRegex(refused.stderr, r"etude: in \d+ % of \w+'s frames, body and outline overlap by less than half; nothing was written "
-                                         r"\(--accept-doubtful writes the motion nevertheless\)\n$")
+        self.assertRegex(refused.stderr, r"etude: in \d+ % of the frames of \w+, body and outline overlap by less than half; Etude wrote no motion "
+                                         r"\(--accept-doubtful writes it nevertheless\)\n$")
         facts = json.loads(refused.stdout)
         self.assertIsNone(facts["output"])
         self.assertIn("overlap by less than half", facts["doubt"])
@@ -755,11 +755,11 @@ class Mistakes(EtudeCase):
         both = self.ends(0, "capture", "--rig", self.folder / named, *(self.folder / f"{name}.mp4" for name in cams), "--silhouettes",
                           "--rooms", rooms, "--keypoints", self.folder / "keypoints", "-o", self.folder / "both.csv", "--reference",
                           self.folder / "truth.trc", "--report", self.folder / "both.html", *arguments)
-        self.assertIn("the joints follow from keypoints and outlines together", both.stdout)
+        self.assertIn("the joints are fitted to keypoints and outlines together", both.stdout)
         self.assertLess(float(re.search(r"^all, median\s+([\d.]+)", both.stdout, re.M)[1]), 10, both.stdout)
         text = (self.folder / "both.html").read_text()
         self.assertEqual(re.findall(r"Median, (px|%)", text), ["px", "%"])
-        self.assertRegex(text, r"px off the keypoints in the median; body and outlines differ by \d+ % in the median; ")
+        self.assertRegex(text, r"with a median residual of [\d.]+ px; the median difference between body and outlines is \d+ %; ")
 
     def test_what_is_no_person_is_refused_with_the_factor(self):
         told, errors, _ = self.capture("Pose2Sim", more=("--rig-unit", "cm"))

@@ -104,7 +104,7 @@ class Capture(EtudeCase):
     def test_calibrates_by_measured_points(self):
         told = self.calibrated
         self.assertIn("middle: reprojection error 0.000 px RMS over 30 points", told)
-        self.assertIn("stands at        0.300, 2.200, 3.900 m", told)
+        self.assertIn("position         0.300, 2.200, 3.900 m", told)
         self.assertRegex(told, r"focal lengths    260\.00 ± 0\.00, 260\.00")
         again = self.etude("calibrate", self.pairs, "--size", f"{WIDTH}x{HEIGHT}", "--method", "dlt", "-o", self.rig,
                            "--overwrite")
@@ -114,14 +114,14 @@ class Capture(EtudeCase):
 
     def test_refuses_what_is_no_calibration(self):
         self.rig.unlink()
-        self.assertIn("--size '': not a size", self.refusal("calibrate", self.pairs, "-o", self.rig))
+        self.assertIn("--size '': point pairs as CSV need", self.refusal("calibrate", self.pairs, "-o", self.rig))
         five = self.write("five.csv", "camera,x,y,z,u,v\n" + "a,1,2,3,4,5\n" * 5)
         self.assertIn("camera a: cannot calibrate a camera: 5 point pairs; at least 6",
                       self.refusal("calibrate", five, "--size", "640x480", "-o", self.rig))
         words = self.write("words.csv", "camera,x,y,z,u,v\na,1,2,three,4,5\n")
         self.assertIn("words.csv:2: 'three' is not a number",
                       self.refusal("calibrate", words, "--size", "640x480", "-o", self.rig))
-        self.assertIn("--board 2x2x1: not a board; allowed: 3 to 16 squares", self.refusal("calibrate", "x", "--board", "2x2x1", "-o", self.rig))
+        self.assertIn("--board 2x2x1: allowed: 3 to 16 squares", self.refusal("calibrate", "x", "--board", "2x2x1", "-o", self.rig))
         self.assertIn("no such file", self.refusal("calibrate", "nothing.mp4", "-o", self.rig))
         self.assertFalse((self.folder / "rig.yaml").exists(), "nothing is written")
 
@@ -147,11 +147,11 @@ class Capture(EtudeCase):
         self.assertAlmostEqual(found["middle"]["error_px"], 12, delta=2)
         self.assertLess(found["middle"]["rms_without_px"], .6)
         said = self.ends(0, "calibrate", written(bad), "--size", size, "--lens", "none", "--overwrite", "-o", self.rig).stdout
-        self.assertRegex(said, r"pair 5 disagrees with the others: they project its point \(.*\) 1[0-4]\.\d px from its pixel")
+        self.assertRegex(said, r"pair 5 disagrees with the other pairs. A calibration without this pair projects the point \(.*\)\n  1[0-4]\.\d px away from the pixel")
         millimetres = self.ends(0, "calibrate", written(noisy, 1000), "--size", size, "--lens", "none", "--overwrite", "-o", self.rig).stdout
-        self.assertRegex(millimetres, r"middle: the camera is \d{4} m from its first point; points must be in metres: are they in millimetres\?")
+        self.assertRegex(millimetres, r"middle: the camera is \d{4} m from the first point of its pairs; points must be in metres, and may be in millimetres here")
         self.assertRegex(self.refusal("calibrate", self.pairs, "--size", "160x120", "--overwrite", "-o", self.rig),
-                         r"camera left: the pixel \(.*\) is outside of its picture of 160x120; is the size right\?")
+                         r"camera left: the pixel \(.*\) is outside the picture of 160x120 pixels; check the pixel and the picture size")
 
     def test_tells_programs_what_was_calibrated(self):
         told = self.facts("calibrate", self.pairs, "--size", f"{WIDTH}x{HEIGHT}", "--lens", "none", "--overwrite", "-o", self.rig)
@@ -177,8 +177,8 @@ class Capture(EtudeCase):
 
     def test_a_film_without_the_board_that_was_meant_names_the_option(self):
         told = self.refusal("calibrate", *self.films, "-o", self.folder / "new.yaml")
-        self.assertRegex(told, r"left.mp4: no picture shows the board 5x7x0.034 \(\d+ tried\); give your board by --board: ")
-        self.assertIn("a ChArUco board as charuco:5x7x0.04", told)
+        self.assertRegex(told, r"left.mp4: found no board 5x7x0.034 in \d+ pictures; describe your board with --board: ")
+        self.assertIn("charuco:5x7x0.04 (ChArUco)", told)
 
     def test_captures_a_motion_into_every_format(self):
         trc = self.folder / "points.trc"
@@ -210,7 +210,7 @@ class Capture(EtudeCase):
         self.assertRegex(joints, r"left_wrist +0\.0 +")
         strange = self.folder / "strange.trc"
         strange.write_text(re.sub(r"\b(left|right|hip|shoulder|head|spine)\w*\b", "marker", (self.folder / "m.trc").read_text()))
-        self.assertIn("has the name of a keypoint or a joint; allowed: LShoulder, … and left_shoulder, …",
+        self.assertIn("has the name of a keypoint (LShoulder, …) or of a joint (left_shoulder, …)",
                       self.refusal(*self.capture("-o", self.folder / "s.csv", "--reference", strange)))
         self.assertFalse((self.folder / "s.csv").exists())
         told = json.loads(distances.read_text())
@@ -235,11 +235,11 @@ class Capture(EtudeCase):
             (late / f"right_{k}.json").unlink()
         make_film(self.films[2], frames=FRAMES - 2)
         out = self.folder / "m.csv"
-        self.assertIn("use keypoints to find the delay (--sync)", self.refusal(*self.capture("-o", out)))
-        self.assertIn("--sync: outlines do not show the time", self.refusal(
+        self.assertIn("use --sync to find the delay from keypoints", self.refusal(*self.capture("-o", out)))
+        self.assertIn("--sync: outlines cannot determine the delay", self.refusal(
             "capture", "--rig", self.rig, *self.films, "--silhouettes", "--sync", "1", "-o", out))
         told = self.etude(*self.capture("-o", out, "--sync", "0.3", "--film", self.folder / "m.mp4")).stdout
-        clocks = re.search(r"clocks, after left's: middle ([+-][0-9.]+) frames .*, right ([+-][0-9.]+) frames", told)
+        clocks = re.search(r"delays relative to left: middle ([+-][0-9.]+) frames .*, right ([+-][0-9.]+) frames", told)
         self.assertIsNotNone(clocks, told)
         self.assertAlmostEqual(float(clocks[1]), 0, delta=0.2)
         self.assertAlmostEqual(float(clocks[2]), 4, delta=0.2)
@@ -264,7 +264,7 @@ class Capture(EtudeCase):
         rooms.mkdir()
         for camera in PLACES:
             (rooms / f"{camera}.ppm").write_bytes(b"P6\n4 3\n255\n" + bytes(36))
-        self.assertIn("a picture of 4 x 3 pixels", self.refusal(*alone, "--rooms", rooms))
+        self.assertIn("the picture has 4 x 3 pixels", self.refusal(*alone, "--rooms", rooms))
         self.assertFalse((self.folder / "m.bvh").exists(), "nothing is written")
 
     def test_draws_the_skeleton_over_the_films(self):
@@ -294,7 +294,7 @@ class Capture(EtudeCase):
         self.assertIn("20 frames", self.refusal(*self.capture("-o", out, films=film("short", "320x240", RATE, 18))))
         (self.keypoints / "left_json" / "left_19.json").unlink()
         self.assertRegex(self.refusal(*self.capture("-o", out)),
-                         r"keypoints of 19 frames, but the film .* has 20; allowed: an entry or a file for each frame")
+                         r"keypoints of 19 frames, but the film .* has 20 frames; allowed: an entry or a file for each frame")
         (self.keypoints / "left_json" / "left_4.json").write_text('{"people": [{"pose_keypoints_2d": [1, 2]}]}')
         self.assertIn("left_4.json: not a list of keypoints", self.refusal(*self.capture("-o", out)))
         self.assertFalse(out.exists(), "nothing is written")

@@ -110,17 +110,17 @@ class CiFiles(EtudeCase):
         solver = self.repository / "solver.py"
         solver.write_text(solver.read_text().replace("DAMPING = 1e-3", "DAMPING = 1.0"))
         failed, summary, verdict = self.run_action()
-        self.assertEqual((failed, verdict), ("Run and gate", "regression"))
+        self.assertEqual((failed, verdict), ("Run the suite and compare it with the baseline", "regression"))
         self.assertRegex(summary, r"\*\*worse\*\* \| ik-weights \| joint\\_noise\\_deg=5 \| ours \| effector position error \|")
         self.assertIn("72 same", summary)  # the other clips are unchanged
 
     def test_what_is_missing_is_told_in_the_summary(self):
         summary, right = self.folder / "summary", {"SUITE": "quick/ik", "METHOD": "{name: ours, exec: [python3, solver.py]}",
                                                    "BASELINE": "no.json", "ARGUMENTS": "--trials 1"}
-        for wrong, complaint in [({}, "no.json: does not exist; --update makes it from this run"),
+        for wrong, complaint in [({}, "no.json: does not exist; --update writes this baseline from the run"),
                                  ({"SUITE": "quick/ikk"}, "did you mean 'quick/ik'?"),
-                                 ({"SUITE": "quick"}, "SUITE quick is not one scenario"),
-                                 ({"SUITE": "solver.py"}, "solver.py is here: write METHOD into it"),
+                                 ({"SUITE": "quick"}, "SUITE quick is not exactly one scenario"),
+                                 ({"SUITE": "solver.py"}, "solver.py of this repository; write the method into this scenario"),
                                  ({"BASELINE": ""}, "SUITE and BASELINE must be set")]:
             with self.subTest(complaint):
                 self.assertEqual(self.bash(str(CI / "gate"), right | wrong | {"GITHUB_STEP_SUMMARY": str(summary)}).returncode, 2)

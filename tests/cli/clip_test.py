@@ -165,7 +165,7 @@ class Convert(Clips):
     def test_nothing_is_replaced_or_half_written(self):
         path = self.folder / "there.bvh"
         path.write_text("mine")
-        self.refuses("convert", WALK, path, says=["there.bvh: already exists; --overwrite replaces it"])
+        self.refuses("convert", WALK, path, says=["there.bvh: already exists; use --overwrite to replace this file"])
         self.assertEqual(path.read_text(), "mine")
         self.refuses("convert", WALK, self.folder, says=["is a folder"])
         for name, make in (("pipe.bvh", os.mkfifo), ("link.bvh", lambda link: os.symlink("nowhere.bvh", link))):
@@ -178,7 +178,7 @@ class Convert(Clips):
         self.refuses("convert", WALK, self.folder / "new.fbx", says=[".bvh, .glb, .trc, .csv"])
         self.refuses("convert", WALK, fresh, "--character", "bear", says=["only GLB holds a character"], leaves=fresh)
         self.refuses("convert", NO_ANIMATION, fresh, says=["holds no animation"], leaves=fresh)
-        self.refuses("convert", "builtin:*", fresh, says=[" clips; only one can be converted at a time"], leaves=fresh)
+        self.refuses("convert", "builtin:*", fresh, says=[" clips; allowed: one clip"], leaves=fresh)
         limited = subprocess.run(["sh", "-c", 'ulimit -f 8; trap "" XFSZ; exec "$0" clip convert "$1" "$2"', ETUDE, WALK,
                                   fresh], capture_output=True, text=True, timeout=600)
         self.assertEqual(limited.returncode, 3, limited.stderr)
@@ -214,14 +214,14 @@ class Render(Clips):
         data = film.read_bytes()
         self.assertEqual(data[4:8], b"ftyp")
         self.assertIn(b"moov", data)
-        self.refuses("render", "builtin:*", "-o", self.folder / "b.mp4", says=["a film shows one clip"],
+        self.refuses("render", "builtin:*", "-o", self.folder / "b.mp4", says=["a film can show only one clip"],
                      leaves=self.folder / "b.mp4")
 
     def test_what_cannot_be_drawn(self):
         path = self.folder / "a.png"
         for arguments, says in (
                 ((NO_BODY, "-o", path), "no joint found"),
-                ((WALK, "-o", path, "--character", "own"), "has no figure of its own"),
+                ((WALK, "-o", path, "--character", "own"), "the file contains no figure (meshes)"),
                 ((WALK, "-o", path, "--size", "9x9"), "--size: '9x9' is not a size"),
                 ((WALK, "-o", path, "--frames", "1000", "--columns", "100"), "the sheet would have"),
                 ((WALK, "-o", self.folder / "a.gif"), "allowed: .png (a contact sheet), .mp4 (a film)")):

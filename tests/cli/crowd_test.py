@@ -15,7 +15,7 @@ class Crowd(EtudeCase):
         lines = result.stdout.splitlines()
         self.assertEqual(len(lines), 3, result.stdout)
         self.assertIn("12 characters, 12 frames at 60 Hz", lines[0])
-        met = float(re.match(r"([\d.]+) % of all poses meet their targets", lines[1])[1])
+        met = float(re.match(r"([\d.]+) % of all poses reach their targets", lines[1])[1])
         self.assertGreater(met, 50)
         self.assertLessEqual(met, 100)
         times = [float(time) for time in re.findall(r"(?:median|p99|largest) ([\d.]+)", lines[2])]
@@ -48,7 +48,7 @@ class Crowd(EtudeCase):
 
     def test_refuses_in_one_line(self):
         for arguments, says in ((("--characters", "0"), "--characters"),
-                                (("--seconds", "0.05"), "--seconds: 0.05 s at 60 Hz are 3 frames; allowed: 4 or more"),
+                                (("--seconds", "0.05"), "--seconds: 0.05 s at 60 Hz give 3 frames; allowed: 4 frames or more"),
                                 (("--seconds", "nan"), "--seconds"),
                                 (("-o", self.folder / "crowd.gif"), "has the wrong ending; allowed: .mp4")):
             self.refusal("crowd", *arguments, says=says)

@@ -118,7 +118,7 @@ class DataSets(EtudeCase):
         self.assertEqual(self.etude("compare", self.out, self.out).returncode, 0)
         replayed = self.etude("replay", self.out)
         self.assertEqual(replayed.returncode, 0, replayed.stderr)
-        self.assertIn(f"{len(rows) - 8} of {len(rows) - 8} cells came out the same", replayed.stdout)
+        self.assertIn(f"{len(rows) - 8} of {len(rows) - 8} cells are identical to the run", replayed.stdout)
         for arguments in (["run", "--from", self.out / "manifest.json"],
                           ["run", "--from", self.out / "manifest.json", "--dry-run"],
                           ["replay", self.out, "--cell", "ik/joint_noise_deg=2/000/oracle"]):

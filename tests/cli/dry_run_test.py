@@ -31,11 +31,11 @@ class DryRun(EtudeCase):
     def test_counts_cells_and_what_could_be_shown(self):
         clips = ["builtin:clap", "builtin:boxing", "builtin:robot", "builtin:sway", "builtin:stretch", "builtin:side_kick"]
         told = self.tell(clips)
-        self.assertTrue(told.endswith("The time is an estimate: the costs of s are not known, so the first worlds were measured just now.\n"))
+        self.assertTrue(told.endswith("The time is an estimate: the costs of s are unknown, so Etude measured their first worlds just now.\n"))
         self.assertIn("1 condition × 8 worlds × 2 methods = 16 cells", told)
         # For 8 pairs, (t(0.975) + t(0.8)) / √8 = 1.15, where t has 7 degrees of freedom; likewise for 6 clips.
-        self.assertIn("1 comparison shows a mean difference of 1.15 or more standard deviations of the worlds' differences", told)
-        self.assertIn("a difference of 1.42 or more standard deviations of the mean differences of 6 clips", told)
+        self.assertIn("1 comparison detects a mean difference of at least 1.15 standard deviations of the per-world differences", told)
+        self.assertIn("a difference of at least 1.42 standard deviations of the mean differences of 6 clips", told)
 
     def test_of_a_shard_tells_its_own_cells_and_time(self):
         whole = self.facts("quick/ik", "--trials", 8)
@@ -43,10 +43,10 @@ class DryRun(EtudeCase):
         self.assertEqual((whole["shard"], [part["shard"] for part in parts]), (None, ["1/3", "2/3", "3/3"]))
         self.assertEqual(sum(part["cells"] for part in parts), whole["cells"])
         said = self.etude("run", "quick/ik", "--trials", 8, "--dry-run", "--shard", "2/3").stdout
-        self.assertIn(f"Shard 2/3: {parts[1]['cells']} of {whole['cells']} cells.\n{parts[1]['cells']} cells, about ", said)
+        self.assertIn(f"Shard 2/3: {parts[1]['cells']} of {whole['cells']} cells.\n{parts[1]['cells']} cells; the run takes about ", said)
 
     def test_says_that_two_clips_carry_nothing(self):
-        self.assertIn("for other clips: no verdict is possible with 2 clips; at least 6 are needed", self.tell(["builtin:clap", "builtin:boxing"]))
+        self.assertIn("verdicts about other clips: not possible with 2 clips; at least 6 are needed", self.tell(["builtin:clap", "builtin:boxing"]))
 
     def facts(self, *arguments):
         told = self.ends(0, "run", *arguments, "--dry-run", "--json")
@@ -100,20 +100,20 @@ class DryRun(EtudeCase):
     def test_tells_the_least_difference_in_the_unit_of_the_metric(self):
         spread = self.facts("quick/ik", "--trials", 14)["scenarios"][0]["spread"]
         told = self.etude("run", "quick/ik", "--trials", 14, "--dry-run").stdout
-        self.assertIn("of 1.36 or more standard deviations of the worlds' differences, about ", told)
-        amount, = re.findall(r", about ([\d.]+)° of effector orientation error \(a difference of 0\.1° matters\)", told)
+        self.assertIn("of at least 1.36 standard deviations of the per-world differences, about ", told)
+        amount, = re.findall(r", about ([\d.]+)° of effector orientation error \(in practice, a difference of 0\.1° or more matters\)", told)
         self.assertAlmostEqual(float(amount), 1.364 * spread, delta=0.01 * spread)
 
     def test_promises_nothing_where_no_p_can_reach_the_level(self):
         # Success decides ten answers. With n worlds the smallest mid-p is 1 / 2ⁿ, so 1 / 2ⁿ ≤ 0.05 / 10 needs 8 worlds.
         told = self.etude("run", "quick/ik", "--trials", 7, "--dry-run").stdout
-        self.assertIn("to judge a method better or worse, at least 8 worlds are needed; there are 7", told)
+        self.assertIn("at least 8 worlds are needed to judge a method better or worse; the run has 7", told)
         self.assertNotIn("standard deviations", told)
         self.assertNotIn("80 %", told)
         self.assertEqual(self.facts("quick/ik", "--trials", 7)["scenarios"][0]["worlds_needed"], 8)
         # The control: 14 worlds are enough for each of 50 comparisons, because 2 / 2ⁿ ≤ 0.05 / 50 needs 11 worlds.
         self.assertNotIn("to judge a method better or worse", self.etude("run", "quick/ik", "--trials", 14, "--dry-run").stdout)
-        self.assertIn("at least 11 worlds are needed to judge by metric values in 50 ",
+        self.assertIn("at least 11 worlds are needed to judge metric values in 50 ",
                       self.etude("run", "quick/ik", "--trials", 9, "--dry-run").stdout)
 
 

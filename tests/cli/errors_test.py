@@ -47,7 +47,7 @@ class Errors(EtudeCase):
         self.refuses("run", path, "--jobs", "0", "-o", self.out, says=["--jobs"])
         self.refuses("run", path, "--seed", "-1", "-o", self.out, says=["--seed"])
         self.refuses("clip", "render", path, "-o", self.out, "--view", "fornt", says=["--view: unknown value 'fornt'; did you mean 'front'? Allowed: front, "])
-        self.refuses("forecast", path, "--size", "4,5", says=["--size", "received 2: Width (x), height and depth (z) of the volume, m"])
+        self.refuses("forecast", path, "--size", "4,5", says=["--size", "received 2: Width (x), height and depth (z) of the volume, in m"])
         self.refuses("rnu", says=["unknown argument 'rnu'; did you mean 'run'?"])
         self.refuses(says=["--help explains"])
 

@@ -345,7 +345,7 @@ class Evaluate(EtudeCase):
                                             for frame in take])
         said = self.evaluate(self.folder / "t", f"m={self.folder}/m").stdout
         self.assertIn("m, a: 20 joints, root hip_centre", said)
-        self.assertEqual(said.count("(and 1 more like it)"), 1, said)
+        self.assertEqual(said.count("(and 1 similar)"), 1, said)
         self.assertIn("m, b: 20 joints, root hip_centre, head 100 mm away from the truth in all frames", said)
         # The same holds for pairs that are not judged; programs get every line.
         for name in "abc":
@@ -355,7 +355,7 @@ class Evaluate(EtudeCase):
         self.assertEqual([line.split(":")[0] for line in facts["not_judged"]], ["m, a", "m, b", "m, c"])
         said = self.evaluate(self.folder / "t", f"m={self.folder}/m", "--overwrite", code=1).stdout
         self.assertIn("3 not judged:\n  m, a: ", said)
-        self.assertIn("(and 2 more like it)", said)
+        self.assertIn("(and 2 similar)", said)
         self.assertNotIn("m, b:", said)
 
     def test_a_unit_is_that_of_all_files(self):
@@ -451,7 +451,7 @@ class Evaluate(EtudeCase):
         pathlib.Path(keys).chmod(0o600)
         for arguments, words in [
                 (["evaluate", a], "needs a truth and results"),
-                (["evaluate", a, a, a], "several results need names"),
+                (["evaluate", a, a, a], "allowed if there are several results"),
                 (["evaluate", self.folder / "none*", a], "the truth: no clip matches"),
                 (["evaluate", a, self.folder / "none*"], "the results: no clip matches"),
                 (["evaluate", a, a, "--people", "x"], "--people: 'x' does not fit"),
@@ -460,7 +460,7 @@ class Evaluate(EtudeCase):
                 (["evaluate", a, a, "--statistics", self.write("s.csv", "x\n1\n2\n"), "-o", self.out], "s.csv:1"),
                 (["evaluate", a, a, "--music-beats", self.write("b.txt", "2\n1\n"), "-o", self.out], "b.txt:2"),
                 (["evaluate", a, a, "--metric", "mpjpe"], "unknown metric of task evaluation 'mpjpe'"),
-                (["evaluate", "--pairs", self.write("p.csv", "truth\n"), "-o", self.out], "no column of a method"),
+                (["evaluate", "--pairs", self.write("p.csv", "truth\n"), "-o", self.out], "has no column for a method"),
                 (["export", scenario, "-o", self.out], "there are no problems to export"),
                 (["score", scenario, self.folder, "--name", "x", "-o", self.out], "there are no problems to export"),
                 (["run", scenario, "--seed-file", keys], "uses no random numbers, because it judges files"),

@@ -21,7 +21,7 @@ class Film(EtudeCase):
         film = self.film(self.out)
         page = (self.out / "report" / "index.html").read_text()
         self.assertIn("data:video/mp4;base64," + base64.b64encode(film).decode(), page)
-        self.assertIn("joint_noise_deg=2, trial 1, the first world that kept recordings of both", page)
+        self.assertIn("joint_noise_deg=2, trial 1, the first world with recordings of both methods", page)
         probe = subprocess.run(["ffprobe", "-v", "error", "-of", "json", "-show_entries",
                                 "stream=width,height,r_frame_rate,nb_frames", self.out / "video" / "convergence.mp4"],
                                capture_output=True, text=True, timeout=600, check=True)
@@ -34,7 +34,7 @@ class Film(EtudeCase):
     def test_without_recordings_of_two_the_page_says_why(self):
         self.run_suite(self.write("ik.yaml", FILMED.replace("fixed, least-squares]", "fixed]")))
         self.ends(0, "report", self.out)
-        self.assertIn("this run kept recordings of only one method; two in the same world are needed", (self.out / "report" / "index.html").read_text())
+        self.assertIn("this run kept recordings of only one method; the film needs recordings of two methods in the same world", (self.out / "report" / "index.html").read_text())
         self.assertFalse((self.out / "video").exists())
 
 

@@ -76,7 +76,7 @@ class Forecast(EtudeCase):
         said = self.etude("forecast", path).stdout
         self.assertIn("OpenCV's YAML: lengths in m; up is y, as in the format\n  cam0           x 3.00, z 3.00, 1.50 m high\n", said)
         self.assertIn("OpenCV&#39;s YAML: lengths in m", page)
-        self.assertIn(f"A point errs by {told['median_mm']:.1f} mm in the median", said)
+        self.assertIn(f"The error of a point is {told['median_mm']:.1f} mm in the median", said)
         self.assertEqual(self.etude("forecast", path, "--picture", names["map.png"]).returncode, 2)
 
     def test_refuses_what_it_cannot_answer(self):
@@ -85,7 +85,7 @@ class Forecast(EtudeCase):
                 ([self.write("one.yaml", rig(CORNERS[:1]))], "1 camera; allowed: 2 to 32"),
                 ([self.write("many.yaml", rig(3 * CORNERS)), "--dropout", "0.1"], "12 cameras; allowed: 2 to 10 with --dropout"),
                 ([four, "--noise-px", "nan"], "'nan' is not a deviation in px"),
-                ([four, "--middle", "90,0"], "no place within 3 x 3 m around x 90.00, z 0.00"),
+                ([four, "--middle", "90,0"], "two cameras see no common place within 3 x 3 m around x 90.00, z 0.00"),
                 ([four, "--calibration", "5,0.1"], "--calibration"),
                 ([self.write("rig.txt", "cameras?")], "rig.txt: not a calibration"),
                 ([self.write("mm.yaml", rig([[1000 * x for x in place] for place in CORNERS]))], "m apart; allowed: 0.03 to 100 m, or give the unit by --rig-unit"),

@@ -119,7 +119,7 @@ class Gate(EtudeCase):
         self.baseline.write_text(json.dumps(baseline))
         text = self.gate(self.out, "--baseline", self.baseline, "--unsealed", expect=0)
         self.assertIn("4 far worse", text)
-        self.assertIn("not judged, because the scenario turned the tail rule off:\n", text)
+        self.assertIn("not judged, because the scenario turned off the tail rule:\n", text)
         self.assertNotIn("too few to fail", text + (self.out / "report" / "gate.md").read_text())
 
     def test_an_update_shows_what_moved_and_is_the_new_standard(self):
@@ -188,7 +188,7 @@ class Gate(EtudeCase):
         self.assertIn("none of the 24", (self.now / "report" / "gate.md").read_text())
         self.assertIn("none of the 24", (self.now / "report" / "gate.xml").read_text())
         text = self.gate(self.now, "--baseline", self.baseline, "--update", expect=1)
-        self.assertIn("No baseline is made, because a method has no answer", text)
+        self.assertIn("No baseline was written. A method has no answer", text)
         self.assertFalse(self.baseline.exists())
 
     def test_a_reversed_answer_is_said_first_and_last(self):
@@ -204,7 +204,7 @@ class Gate(EtudeCase):
         reversed_answer = "ik: own against fixed: better before, now worse"
         lines = self.gate(self.now, "--baseline", self.baseline, expect=1).splitlines()
         self.assertEqual([lines[0], lines[1].strip(), lines[-1]],
-                         ["Answers that became worse:", reversed_answer, f"Gate: regression: {reversed_answer}"])
+                         ["Verdicts that became worse:", reversed_answer, f"Gate: regression: {reversed_answer}"])
         # The control: the unchanged run passes.
         self.assertTrue(self.gate(self.out, "--baseline", self.baseline, expect=0).endswith("Gate: pass\n"))
 
@@ -232,8 +232,8 @@ class Gate(EtudeCase):
     def test_an_unmet_expectation_fails_without_a_baseline(self):
         self.make_baseline()
         said = self.gate(self.out, expect=0)
-        self.assertIn("no baseline was given, so nothing was compared: the scenarios have no expectations either", said)
-        self.assertIn("Gate: pass, without a baseline (--baseline FILE --update makes one)", said)
+        self.assertIn("nothing was compared, because there is no baseline: the scenarios have no expectations", said)
+        self.assertIn("Gate: pass, without a baseline (--baseline FILE --update writes a baseline)", said)
         self.run_now(SCENARIO + "expect: [{metric: iterations, of: fixed, at_most: 0}]\n")
         self.assertIn("unmet: ik: ", self.gate(self.now, expect=1))
 
@@ -267,7 +267,7 @@ class Gate(EtudeCase):
         self.assertIn("no such folder", self.gate(self.folder / "none", expect=2))
         self.make_baseline()
         whole = self.baseline.read_text()
-        self.assertIn("does not exist; --update makes it from this run", self.gate(self.out, "--baseline", self.folder / "none.json", expect=2))
+        self.assertIn("does not exist; --update writes this baseline from the run", self.gate(self.out, "--baseline", self.folder / "none.json", expect=2))
         for broken in "", "{}", whole[:len(whole) // 2], whole.replace('"schema":2', '"schema":7'), \
                 whole.replace('"seed":1', '"seed":1,"seed":1'), whole.replace('"trials":12', '"trials":null'), \
                 re.sub('"cells":"[a-z]+"', '"cells":"' + 12 * "f" + '"', whole), \
@@ -287,7 +287,7 @@ class Gate(EtudeCase):
         self.run_now(SCENARIO.replace("[2, 5]", "[2, 7]"))
         same = self.etude("compare", self.out, self.out)
         self.assertEqual(same.returncode, 0, same.stderr)
-        self.assertRegex(same.stdout, r"^\d+ comparisons: \d+ same\nAll verdicts are about these worlds only; none is about other worlds.\n$")
+        self.assertRegex(same.stdout, r"^\d+ comparisons: \d+ same\nAll verdicts are about these worlds only, and not about other worlds.\n$")
         result = self.etude("compare", self.out, self.now)
         self.assertEqual(result.returncode, 0, result.stderr)
         self.assertIn("Only in A:\n  ik, joint_noise_deg=5, fixed\n  ik, joint_noise_deg=5, least-squares", result.stdout)
@@ -307,9 +307,9 @@ class Gate(EtudeCase):
             self.assertGreaterEqual(int(match.group(2)), repetitions)
             return int(match.group(1)) / int(match.group(2))
 
-        self.assertEqual(share("reruns of the same seed, rule exact"), 0)
+        self.assertEqual(share("reruns with the same seed, rule `exact`"), 0)
         self.assertEqual(share("worse by 4 × the difference that matters"), 1)
-        self.assertEqual(share("reruns of the same seed, tail rule"), 0)
+        self.assertEqual(share("reruns with the same seed, tail rule"), 0)
         self.assertEqual(share("in 5 of 30 worlds worse by 40 × the difference that matters"), 1)
         self.assertEqual(share("lost in 1 of 30 worlds"), 1)
         self.assertGreaterEqual(share("within-30-deg in place of reference"), 0.8)

@@ -12,7 +12,7 @@ import unittest
 from etude_case import ETUDE, IK, EtudeCase, heavy
 
 WALK = "/usr/share/assimp/models/BVH/01_01.bvh"
-AT_ONCE = "etude: stopped; no partial result is kept\n"
+AT_ONCE = "etude: stopped; no partial result was kept\n"
 
 
 # One world whose pictures take minutes.
@@ -66,7 +66,7 @@ class Interrupts(EtudeCase):
         def is_filming(_):
             return list(video.glob("*.partial.mp4")) if video.exists() else []
 
-        self.assertIn("stopped; the tables were written, but not the page", self.interrupt(["report", self.out], is_filming))
+        self.assertIn("stopped; Etude wrote the tables, but not the page", self.interrupt(["report", self.out], is_filming))
         self.assertFalse(page.exists())
         self.assertEqual((self.left(), list(video.iterdir())), ([], []))
         self.ends(0, "report", self.out)
@@ -108,7 +108,7 @@ class Interrupts(EtudeCase):
         def works(program):
             return pathlib.Path(f"/proc/{program.pid}/task/{program.pid}/children").read_text()
 
-        self.assertEqual(self.interrupt(["replay", self.out], works), "etude: stopped; the other cells were not run again\n")
+        self.assertEqual(self.interrupt(["replay", self.out], works), "etude: stopped; the remaining cells were not run again\n")
 
     @heavy
     def test_a_run_interrupted_in_its_last_writing_goes_on_to_the_same_bytes(self):
@@ -117,7 +117,7 @@ class Interrupts(EtudeCase):
         whole = self.folder / "whole"
         self.run_suite(many, out=whole)
         said = self.interrupt(["run", many, "-o", self.out], lambda _: (self.out / "cells.partial.jsonl").exists())
-        self.assertIn(f"stopped; cells kept in {self.out}: 6000;", said)
+        self.assertIn(f"stopped; 6000 finished cells were kept in {self.out};", said)
         self.assertFalse((self.out / "cells.jsonl").exists())
         self.run_suite(many, "--resume")
         self.assert_same_results(whole, self.out)

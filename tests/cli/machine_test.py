@@ -114,7 +114,7 @@ class Machine(EtudeCase):
         for kib in (64, 256):
             refused = self.run_here(scenario, "-o", self.out, before=limit(resource.RLIMIT_STACK, kib << 10))
             self.assertEqual((refused.returncode, refused.stderr.count("\n")), (3, 1), refused.stderr)
-            self.assertIn(f"this machine: the stack size is limited to {kib} KiB; at least 1024 are needed (ulimit -s)", refused.stderr)
+            self.assertIn(f"this machine: the stack size is limited to {kib} KiB; Etude needs at least 1024 KiB (set it with `ulimit -s`)", refused.stderr)
         self.assertFalse(self.out.exists())
         hard = resource.getrlimit(resource.RLIMIT_STACK)[1]
         larger = self.run_here(self.capture, "-o", self.out,

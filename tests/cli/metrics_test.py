@@ -205,7 +205,7 @@ class OwnMetrics(EtudeCase):
         stopped.send_signal(2)
         said = stopped.communicate()[1]
         self.assertEqual(stopped.returncode, 130, said)
-        self.assertIn(f"stopped; cells kept in {self.out}: 6;", said)
+        self.assertIn(f"stopped; 6 finished cells were kept in {self.out};", said)
         self.assertEqual(len(self.run_suite(scenario, "--resume")), 6)
 
     def test_it_is_versioned_asked_again_by_replay_and_verify_and_only_where_that_is_allowed(self):

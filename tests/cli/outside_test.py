@@ -100,7 +100,7 @@ class OutsideMethods(EtudeCase):
             run = subprocess.run([ETUDE, "run", suite, "-o", self.out, "--overwrite"], capture_output=True, text=True,
                                  env=os.environ | {"PATH": str(nothing)})
             self.assertEqual(run.returncode, 0, run.stderr)
-            self.assertIn(f"outside methods ran without a fence: none ({words})", run.stderr)
+            self.assertIn(f"outside methods ran without a sandbox (fence): none ({words})", run.stderr)
             self.assertEqual(json.loads((self.out / "host.json").read_text())["fence"], f"none ({words})")
 
     def test_programs_that_a_manifest_a_run_or_a_pack_names_need_leave(self):

@@ -55,7 +55,7 @@ class Recognise(EtudeCase):
         for still, stdin in ((self.folder / "half.txt", None), ("-", kinect(arms(40)))):
             silent = subprocess.run([ETUDE, "recognise", still, "--moves", moves, "--recogniser", "key-pose"],
                                     capture_output=True, text=True, timeout=120, input=stdin)
-            self.assertIn("no move was spotted\n", silent.stderr)
+            self.assertIn("no move was recognised\n", silent.stderr)
         self.assertNotIn("no move", self.etude("recognise", take, "--moves", moves, "--recogniser", "key-pose").stderr)
 
     def test_live_says_the_same_as_recorded(self):
@@ -73,7 +73,7 @@ class Recognise(EtudeCase):
             return self.etude("recognise", take, "--moves", *arguments)
         default, learnt = told(moves), told(moves, "--recogniser", "learnt")
         self.assertEqual((default.returncode, default.stdout), (0, learnt.stdout))
-        self.assertIn("recogniser learnt, recommended for these moves; --recogniser selects another one\n", default.stderr)
+        self.assertIn("using the recogniser learnt, which is recommended for these moves; --recogniser selects another recogniser\n", default.stderr)
         self.assertNotIn("recommended", learnt.stderr)
         # Three examples of each move show how people differ.
         several = self.teach(self.write("three.txt", kinect(3 * arms(100))), "--labels",
@@ -136,7 +136,7 @@ class Recognise(EtudeCase):
             path = self.write("some.csv", "clip,from_s,to_s,move,truth\n" + rows)
             return self.ends(0, "recognise", take, "--moves", moves, "--labels", path, "--recogniser", "key-pose").stderr
         right = "take,0,3,raise,right\ntake,3,6,left,right\n"
-        self.assertIn("\n2 performances; by the labels, all are right; the recogniser called 2 right\n", told(right))
+        self.assertIn("\n2 performances; according to the labels, all are right; the recogniser judged 2 right\n", told(right))
         self.assertNotIn("F1", told(right), "without a wrong performance it would say nothing")
         mixed = told(right + "take,9,12,raise,rihgt\ntaek,0,1,left,right\n")
         self.assertIn("F1 100.0 %, precision 100.0 %, recall 100.0 %, AUC 100.0 %", mixed)

@@ -138,7 +138,7 @@ methods: [{name: hue}]
         for words, file in ((["rows", self.out, "-o", text], text),
                             (["replay", self.out, "--cell", rows[0]["cell"], "--pack", pack], pack)):
             file.write_text("mine")
-            self.assertIn("already exists; --overwrite replaces it", self.ends(2, *words).stderr)
+            self.assertIn("already exists; use --overwrite to replace this file", self.ends(2, *words).stderr)
             self.assertEqual(file.read_text(), "mine")
             self.assertIn(f"written: {file}\n", self.ends(0, *words, "--overwrite").stdout)
         self.assertEqual(text.read_bytes(), (self.out / "cells.jsonl").read_bytes())

@@ -88,7 +88,7 @@ class SecretWorlds(EtudeCase):
         refused = subprocess.run([ETUDE, "run", scenario, "--seed", "3", "-o", self.folder / "no"], capture_output=True,
                                  text=True, env={**os.environ, "ETUDE_SEED_KEY": KEY})
         self.assertEqual(refused.returncode, 2)
-        self.assertIn("ETUDE_SEED_KEY: is set together with --seed", refused.stderr)
+        self.assertIn("ETUDE_SEED_KEY: and --seed are both set", refused.stderr)
 
     def test_the_folder_is_named_by_the_digest(self):
         run = subprocess.run([ETUDE, "run", self.scenario, "--trials", "1", "--seed-file", self.key, "--reuse-key"],
@@ -121,7 +121,7 @@ class SecretWorlds(EtudeCase):
             self.assertIn("its worlds belong to the key with digest " + self.digest[:16],
                           self.refuse(*command, "--seed-file", self.other))
         replayed = self.etude("replay", self.out, "--seed-file", self.key)
-        self.assertEqual(replayed.stdout, "8 of 8 cells came out the same\n", replayed.stderr)
+        self.assertEqual(replayed.stdout, "8 of 8 cells are identical to the run\n", replayed.stderr)
         self.assertIn("leave out --seed-file", self.refuse("replay", self.folder / "plain", "--seed-file", self.key))
         cell = json.loads((self.out / "cells.jsonl").read_text().splitlines()[3])["cell"]
         pack = self.folder / "cell.pack"

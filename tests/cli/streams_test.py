@@ -89,7 +89,7 @@ class Streams(EtudeCase):
         self.assertEqual(json.loads((self.out / "summary.json").read_text())["scenarios"][0]["unit"], "person")
         self.ends(0, "report", self.out, "--no-video")
         page = (self.out / "report" / "index.html").read_text()
-        self.assertIn("the moves that nearest named instead of the danced moves", page)
+        self.assertIn("that nearest recognised as another move", page)
         # The run is repeated from its manifest and in shards, with the same results. The replay of a packed cell
         # needs no recording.
         again = self.folder / "again"
@@ -140,7 +140,7 @@ class Streams(EtudeCase):
         # A take of a folder that cannot be read is left out; the run reports it and its manifest keeps it.
         (takes / "eve.txt").write_text("\n".join((takes / "anna.txt").read_text().splitlines()[:9] + ["0 1 left"]) + "\n")
         told = self.ends(0, "run", half, "-o", self.folder / "told")
-        self.assertIn("eve.txt: left out: ", told.stderr)
+        self.assertIn("eve.txt: was left out: ", told.stderr)
         manifest = json.loads((self.folder / "told" / "manifest.json").read_text())
         self.assertEqual([one["clip"] for one in manifest["scenarios"][0]["refused"]], [str(takes / "eve.txt")])
         self.assertEqual((self.folder / "told" / "cells.jsonl").read_bytes(), (self.folder / "half" / "cells.jsonl").read_bytes())

@@ -194,7 +194,7 @@ class Survival(EtudeCase):
         merge.send_signal(signal.SIGINT)
         said = merge.communicate(timeout=600)[1]
         self.assertEqual(merge.returncode, 130, said)
-        self.assertIn("stopped; the shards are unchanged", said)
+        self.assertIn("and the shards are unchanged", said)
         self.assertFalse(self.out.exists())
         self.assertIn("100 %  merged", self.ends(0, "merge", *shards, "-o", self.out).stderr)
 
@@ -240,7 +240,7 @@ class Survival(EtudeCase):
                          r"clip 2 of scenario t was walk \w+ \(.*\) then and is walk \w+ \(.*\) now")
 
     def test_cells_replay_to_the_same_stages(self):
-        self.assertIn("10 of 10 cells came out the same", self.ends(0, "replay", self.whole, "--sample", 10).stdout)
+        self.assertIn("10 of 10 cells are identical to the run", self.ends(0, "replay", self.whole, "--sample", 10).stdout)
 
     def test_a_cell_that_was_tampered_with_is_found_with_its_stage(self):
         cells = self.whole / "cells.jsonl"
@@ -249,8 +249,8 @@ class Survival(EtudeCase):
         cells.write_text("".join(json.dumps(row) + "\n" for row in rows))
         self.assertIn("cells.jsonl: was changed after the run wrote it", self.etude("replay", self.whole).stderr)
         result = self.ends(1, "replay", self.whole, "--unsealed")
-        self.assertIn(f"differs: {rows[7]['cell']}\n  first at solution: 0123456789abcdef in the run,", result.stdout)
-        self.assertIn("159 of 160 cells came out the same", result.stdout)
+        self.assertIn(f"differs: {rows[7]['cell']}\n  the first difference is in stage solution: 0123456789abcdef in the run,", result.stdout)
+        self.assertIn("159 of 160 cells are identical to the run", result.stdout)
 
     @heavy
     def test_a_packed_cell_replays_without_anything_else(self):
@@ -275,7 +275,7 @@ class Survival(EtudeCase):
         shutil.rmtree(self.out)
         replayed = subprocess.run([ETUDE, "replay", pack], cwd="/", capture_output=True, text=True, timeout=600)
         self.assertEqual(replayed.returncode, 0, replayed.stderr)
-        self.assertIn(f"{cell}: all stages are the same", replayed.stdout)
+        self.assertIn(f"{cell}: all stages are identical", replayed.stdout)
         pack.write_bytes(pack.read_bytes()[:-20])
         self.assertIn("not a packed cell", self.ends(2, "replay", pack).stderr)
 

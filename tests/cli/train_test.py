@@ -27,7 +27,7 @@ class Train(EtudeCase):
         for method in (["--method", "adaptive"], [], ["--memberships"]):
             with self.subTest(method):
                 result = self.train(*MOVES, "--hold-out", "builtin:b*", *QUICK, "--overwrite", *method)
-                self.assertIn("3 clips learnt from, 2 held out", result.stdout)
+                self.assertIn("3 clips were used for learning, 2 were held out", result.stdout)
                 self.assertEqual(result.stdout.count("held out  F1"), 2)
                 text = (self.folder / "tuned.yaml").read_text()
                 self.assertIn("# Learnt by `etude train", text)
@@ -48,8 +48,8 @@ class Train(EtudeCase):
         self.assertNotEqual(files[0].split(b"features:")[1], files[2].split(b"features:")[1])
 
     def test_bad_input_is_refused_and_nothing_written(self):
-        for arguments, word in (([MOVES[0]], "two clips"), ([*MOVES, "--hold-out", "zzz*"], "no clip is called"),
-                                ([*MOVES, "--hold-out", "1.5"], "nor a share"),
+        for arguments, word in (([MOVES[0]], "two clips"), ([*MOVES, "--hold-out", "zzz*"], "no clip has the name"),
+                                ([*MOVES, "--hold-out", "1.5"], "or a share from 0"),
                                 ([*MOVES, "--method", "adaptive", "--memberships"], "--method genetic"),
                                 ([*MOVES, "--generations", "0"], "--generations"), ([*MOVES, "--seed", "-1"], "--seed"),
                                 (["builtin:nothing"], "nothing")):

@@ -106,23 +106,23 @@ class Triage(EtudeCase):
         self.popping("m/popping.csv")
         torn = self.folder / "torn"
         said = self.triage(self.folder / "m", "--limits", "recorded", code=1, out=torn)
-        for words in ("1 beyond the limits:", "1 with faults, within the limits:\n  m, popping: left_hand pops", "1 not judged:",
-                      "0 of 2 clips without a fault, 1 more not judged\n"):
+        for words in ("1 beyond the limits:", "1 with faults that are within the limits:\n  m, popping: left_hand pops", "1 not judged:",
+                      "0 of 2 clips without a fault, 1 more could not be judged\n"):
             self.assertIn(words, said)
         self.ends(0, "report", torn, "--no-video")
         self.assertEqual(self.failed(torn), ["m, floating", "m, torn"])
         summary = (torn / "report" / "summary.md").read_text()
-        for words in ("0 of 2 clips without a fault, 1 beyond the limits, 1 more not judged.",
+        for words in ("0 of 2 clips without a fault, 1 beyond the limits, 1 more could not be judged.",
                       "| popping | m | 1 |  | left\\_hand pops by 50 cm", "| floating | m | 1 | beyond |"):
             self.assertIn(words, summary)
         # The summary starts with the number of measured cells and the clips with faults; it does not mention
         # comparisons.
-        self.assertTrue(summary.startswith("# evaluate\n\n2 of 3 cells were measured, 1 broke.\n\n\n## Clips with faults"))
-        for words in "undecided", "expectation", "nothing to compare", "Holm":
+        self.assertTrue(summary.startswith("# evaluate\n\n2 of 3 cells were measured, 1 could not be measured.\n\n\n## Clips with faults"))
+        for words in "undecided", "expectation", "no comparison", "Holm":
             self.assertNotIn(words, summary)
         page = (torn / "report" / "index.html").read_text()
         self.assertLess(page.index("<h2>Clips with faults</h2>"), page.index('aria-label="Answers"'))
-        self.assertNotIn("nothing to compare", page)
+        self.assertNotIn("no comparison", page)
 
     def test_motions_that_are_kept_are_shown_with_the_time_of_each_fault(self):
         self.triage(self.popping("m/popping.csv"), "--keep", "motions")
@@ -179,18 +179,18 @@ class Triage(EtudeCase):
         for arguments, words in [
                 ([], "needs motions"),
                 ([self.folder / "none*"], "no clip matches"),
-                ([clap, f"a={clap}"], "several results need names"),
-                ([clap, "--joints", "same"], "no use with --alone"),
+                ([clap, f"a={clap}"], "allowed if there are several results"),
+                ([clap, "--joints", "same"], "cannot be combined with --alone"),
                 ([clap, "--limits", "none.yaml"], "none.yaml"),
                 ([clap, "--limits", "recoded"], "did you mean 'recorded'"),
                 ([clap, "--metric", "jumpz"], "--metric: unknown metric"),
                 ([clap, "--floor", "1e9"], "--floor: "),
                 ([clap, "--limits", self.write("l.yaml", "popps: 1\n")], "did you mean 'pops'"),
-                ([clap, "--limits", self.write("m.yaml", "{}\n")], "sets no limit"),
+                ([clap, "--limits", self.write("m.yaml", "{}\n")], "contains no limit"),
                 ([clap, "--metric", "mpjpe_root_mm"], "unknown metric of task plausibility")]:
             with self.subTest(words):
                 self.refusal("evaluate", "--alone", *arguments, "-o", self.out, says=words)
-        self.assertIn("--floor and --limits need --alone", self.etude("evaluate", clap, clap, "--limits", "recorded").stderr)
+        self.assertIn("--floor and --limits can only be used with --alone", self.etude("evaluate", clap, clap, "--limits", "recorded").stderr)
 
 
 if __name__ == "__main__":

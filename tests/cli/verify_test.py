@@ -64,8 +64,8 @@ class Verify(EtudeCase):
                      "summary.json: the same when computed again from 24 rows",
                      "20 of 20 cells and 4 that left a recording, run again", "report: "):
             self.assertRegex(text, f"(?m)^agrees   .*{re.escape(said)}")
-        self.assertRegex(text, r"10 of 10 agree")
-        self.assertIn("Every cell that can be run again was run again.", text)
+        self.assertRegex(text, r"10 of 10 checks agree")
+        self.assertIn("Etude ran every cell again that can be run again.", text)
         self.assertNotIn("run again:", self.verify("--sample", 0, expect=0))
 
     def test_a_change_without_a_new_seal_is_told_of_and_the_rest_all_the_same(self):
@@ -103,7 +103,7 @@ class Verify(EtudeCase):
             ("pages and films more", lambda: [(self.out / "report" / "final.html").write_text("ours is best"),
                                               (self.out / "video").mkdir(exist_ok=True),
                                               (self.out / "video" / "best.mp4").write_bytes(b"")], "report",
-             "final.html belongs to no report.*best.mp4 belongs to no report"),
+             "final.html is not a file of this run.*best.mp4 is not a file of this run"),
             ("what only others read", lambda: [
                 forge(manifest, '"schema":', '"suite":"x","schema":'),
                 forge(self.out / "cells.jsonl", '"trial":0', '"our_error":0,"trial":0'),
@@ -111,13 +111,13 @@ class Verify(EtudeCase):
              "'suite' appears twice.*cells.jsonl:1 differs from the text that a run writes.*ik.jsonl:25 differs from the text that a run writes"),
             ("a page", lambda: forge(self.out / "report" / "index.html", "Is it true?", "Is it so?"), "report", "index.html"),
             ("a style", lambda: forge(self.out / "report" / "index.html", "</body>", "<style>main{display:none}</style></body>"), "report",
-             "index.html differs from what the run gives"),
+             "index.html differs from a new report of this run"),
             ("a style among films", lambda: forge(self.out / "report" / "index.html", "<!--/media-->", "<style>main{display:none}</style>"
-                                                  "<!--/media-->"), "report", "index.html differs from what the run gives"),
+                                                  "<!--/media-->"), "report", "index.html differs from a new report of this run"),
             ("another verdict", lambda: forge(self.out / "report" / "index.html", '<p class="verdict">', '<p class="verdict">Ours is best. '),
-             "report", "index.html differs from what the run gives"),
+             "report", "index.html differs from a new report of this run"),
             ("a gate", lambda: [self.etude("gate", self.out, "--unsealed"), forge(self.out / "report" / "gate.md", "gate of", "gate that passed of")],
-             "report", "gate.md differs from what the run gives"),
+             "report", "gate.md differs from a new report of this run"),
             ("a key of the manifest", lambda: forge(manifest, '"metrics":{', '"metrics":{"ours":7,'), "manifest.json", "metrics.ours was 7"),
             ("a metric", lambda: forge(manifest, '"packages":', f'"own_metrics":[{json.dumps(metric, separators=(",", ":"))}],"packages":'),
              "manifest.json", "own_metrics: no scenario has 'ours'"),
@@ -157,10 +157,10 @@ class Verify(EtudeCase):
             self.assertEqual((missed["method"], missed["forged"], missed["cells"]), (method, forged, cells))
             self.assertAlmostEqual(missed["chance"], math.comb(20 - forged, 7) / math.comb(20, 7), 12)
         said = self.verify("--sample", 7, "--sample-seed", 5, expect=0)
-        self.assertIn("65 % of the forgers who change 5 % of the 20 cells (1), 1 in 12 of the forgers who change half of ik/fixed (5)", said)
-        self.assertIn("--sample-seed 5 draws this sample again", said)
+        self.assertIn("65 % of the forgeries that change 1 of the 20 cells, 1 in 12 of the forgeries that change 5 of the cells of ik/fixed", said)
+        self.assertIn("--sample-seed 5 draws the same sample again", said)
         self.assertEqual(self.facts("verify", self.out, "--sample", "all")["sample"]["missed"], [])
-        self.assertIn("'some' is not a sample; allowed: 0 to 10000000, or 'all'", self.verify("--sample", "some", expect=2))
+        self.assertIn("'some' is not a sample size; allowed: 0 to 10000000, or 'all'", self.verify("--sample", "some", expect=2))
 
     def test_a_seal_says_nothing_else(self):
         forge(self.out / "seal.json", '"version"', '"ours":"best","version"')
@@ -306,7 +306,7 @@ class Forgers(EtudeCase):
         reseal(self.out)
         found = self.ends(1, "verify", self.out, "-j", 1, "--sample", "all")
         self.assertIn("row 1 is ik/joint_noise_deg=2/000/least-squares; expected ik/joint_noise_deg=2/000/fixed", found.stdout)
-        self.assertIn("0 of 16 cells came out the same", self.ends(1, "replay", self.out).stdout)
+        self.assertIn("0 of 16 cells are identical to the run", self.ends(1, "replay", self.out).stdout)
 
     def test_cannot_change_what_worlds_were_drawn_from(self):
         scenario = self.write("t.yaml", "scenario: t\nquestion: q\ntask: tracking\nclips: ['builtin:clap', 'builtin:sway']\n"

@@ -94,13 +94,13 @@ class Findings(unittest.TestCase):
         self.assertEqual((self.root / "docs/figures/transition-acts.json").read_text(), before)
 
     def test_probe_the_stages_of_the_first_world(self):
-        self.assertIn("stored without digests of stages", self.findings("--probe", "transition-acts")[1])
+        self.assertIn("the stored run has no digests of stages", self.findings("--probe", "transition-acts")[1])
         self.findings("transition-acts")
         self.assertEqual(self.findings("--probe", "transition-acts")[0], 0)
         self.let(stage="another")
         code, output = self.findings("--probe", "transition-acts")
         self.assertEqual(code, 1)
-        self.assertIn("transition-acts: transition-acts: its stages have other digests", output)
+        self.assertIn("transition-acts: transition-acts: the digests of the stages differ", output)
 
     def test_list_tables_and_refuse_unknown_ones(self):
         code, output = self.findings("--list", "transition-acts")

@@ -39,15 +39,15 @@ class Evaluate(PythonCase):
         self.assertEqual(list(self.folder.rglob("mine*")), [])
         etude.evaluate(**given, mine=standing(3), overwrite=True)  # replaces the truth that the failed call left
         kept = (self.folder / "run.motions" / "mine.npz").read_bytes()
-        with self.assertRaisesRegex(etude.EtudeError, "run exists already; overwrite=True replaces it"):
+        with self.assertRaisesRegex(etude.EtudeError, "run already exists; use overwrite=True to replace it"):
             etude.evaluate(**given, mine=standing(3, across=1))
         self.assertEqual((self.folder / "run.motions" / "mine.npz").read_bytes(), kept)
 
     def test_a_refused_array_leaves_nothing_behind(self):
         given = {"names": NAMES, "rate_hz": 30, "output": self.folder / "run", "progress": False}
-        wrong = [(ValueError, "mine must be frames", {"mine": [frame[1:] for frame in standing(3)]}),
+        wrong = [(ValueError, "mine must have the shape frames", {"mine": [frame[1:] for frame in standing(3)]}),
                  (TypeError, "mine is None", {"mine": None}),
-                 (TypeError, "mine has values that are no numbers", {"mine": [[[None] * 3] * len(NAMES)]}),
+                 (TypeError, "mine contains values that are not numbers", {"mine": [[[None] * 3] * len(NAMES)]}),
                  (TypeError, "rate_hz is '30'", {"mine": standing(3), "rate_hz": "30"}),
                  (TypeError, "names must be a list", {"mine": standing(3), "names": "abc"})]
         for kind, text, arguments in wrong:

@@ -70,7 +70,7 @@ class Shapes(PythonCase):
 
     def test_a_decorator_refuses_what_cannot_be_asked(self):
         for arguments, says in (({"task": "kinematics"}, "no task"), ({"task": "ik", "seat": "policy"}, "no seat"),
-                                ({"task": "coach", "seat": "policy"}, "no step")):
+                                ({"task": "coach", "seat": "policy"}, r"a method step\(self, seen\)")):
             with self.assertRaisesRegex(ValueError, says):
                 etude.method(**arguments)(lambda problem: None)
 
@@ -121,7 +121,7 @@ class Shipped(PythonCase):
         appends, counts, _ = make([], 1.0)
         lambdas = etude.method(task="ik")(lambda problem: problem.start_angles_deg)
         for method, says in ((reads, "uses 'opened', of type TextIOWrapper"), (appends, "uses 'kept', a list"),
-                             (counts, "nonlocal 'count'.*remember it in a class"),
+                             (counts, "nonlocal 'count'.*keep the variable in an attribute of a class"),
                              (misses, "'not_there', which is not def"),
                              (lambdas, "is a lambda")):
             with self.assertRaisesRegex(ValueError, says):

@@ -149,7 +149,7 @@ class Results(PythonCase):
                           (lambda: self.run_["ik"].where(method="adaptve"), "no method 'adaptve'; did you mean 'adaptive'?"),
                           (lambda: self.run_["ik"].where(joint_noise_deg=16), "no joint_noise_deg '16'; there are 5"),
                           (lambda: self.run_.pairs("adaptive", "fixd"), "no scenario has both"),
-                          (lambda: self.run_.pairs("adaptive", "fixed", condition="x=1"), "there are joint_noise_deg=5"),
+                          (lambda: self.run_.pairs("adaptive", "fixed", condition="x=1"), "allowed: joint_noise_deg=5"),
                           (lambda: self.run_.motion("ik/joint_noise_deg=15/001/fixed"), "the scenario's key `video`"),
                           (lambda: list(self.run_.series("mpjpe_mm")), "no curve 'mpjpe_mm'"),
                           (lambda: etude.load(self.folder), "is not a result folder")):
@@ -183,7 +183,7 @@ class Results(PythonCase):
         for module, ask in (("pandas", lambda: self.run_["ik"].to_pandas()), ("xarray", lambda: self.run_["ik"].to_xarray()),
                             ("pandas", lambda: self.run_.pairs("adaptive", "fixed").to_pandas())):
             with mock.patch.dict(sys.modules, {module: None}), self.assertRaisesRegex(
-                    ModuleNotFoundError, f"pip install {module}, or Debian's python3-{module}, .*--system-site-packages"):
+                    ModuleNotFoundError, f"pip install {module}, or install Debian's python3-{module}. .*--system-site-packages"):
                 ask()
         code = "import sys; sys.modules['matplotlib'] = None; import etude; etude.plot"
         self.assertIn("python3-matplotlib", subprocess.run([sys.executable, "-c", code], capture_output=True, text=True).stderr)

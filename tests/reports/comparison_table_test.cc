@@ -29,15 +29,16 @@ TEST(ComparisonTable, ShowsPairsDifferencePEffectVerdictAndWhatToMind) {
   EXPECT_THAT(html, HasSubstr("<tr data-ids=\"transition/-/000/fuzzy-bridge\ntransition/-/000/now\">"));
   EXPECT_THAT(html, HasSubstr("2 of 12 worlds have no pair &lt;script&gt;"));
   EXPECT_THAT(html, Not(HasSubstr("<script>")));
-  EXPECT_THAT(html, HasSubstr("over the 2 comparisons with baselines (Holm)"));
+  EXPECT_THAT(html, HasSubstr("Holm’s correction over the 2 comparisons with baselines"));
 }
 
 TEST(ComparisonTable, CountsTheComparisonsOfEachCorrection) {
   ScenarioSummary scenario = ExampleRun().scenarios[0];
   scenario.conditions[0].rivals.assign(3, scenario.conditions[0].comparisons[0]);
-  EXPECT_THAT(ComparisonTableHtml(scenario),
-              HasSubstr("(Holm) over the 2 comparisons with baselines, and separately over the 3 comparisons with "
-                        "the strongest"));
+  EXPECT_THAT(
+      ComparisonTableHtml(scenario),
+      HasSubstr("Holm’s correction over the 2 comparisons with baselines, and separately over the 3 comparisons with "
+                "the strongest"));
 }
 
 TEST(ComparisonTable, SaysWhyAVerdictIsOpenAndMarksAnIntervalThatIsNoBca) {
@@ -88,7 +89,8 @@ TEST(FormatP, NeverSaysZero) {
 TEST(ComparisonTable, GivesBothVerdictsAndTheStrongestOtherMethod) {
   const RunData run = UnitRun();
   const std::string html = ComparisonTableHtml(run.scenarios[3]);
-  EXPECT_THAT(html, HasSubstr("<th scope=\"col\">On these clips</th><th scope=\"col\">For other clips</th>"));
+  EXPECT_THAT(html,
+              HasSubstr("<th scope=\"col\">Verdict on these clips</th><th scope=\"col\">Verdict for other clips</th>"));
   EXPECT_THAT(html, HasSubstr("<td>—<small>4 clips, 6 are needed</small></td>"));
   const std::string csv = ComparisonTableCsv(run.scenarios[0]);
   EXPECT_THAT(csv, HasSubstr(",rival,clip-pair,8,"));
@@ -110,7 +112,7 @@ TEST(ComparisonTable, TellsOfNoPairTwice) {
   EXPECT_EQ(CountComparisons(scenario), all + 1);
   const std::string html = ComparisonTableHtml(scenario);
   EXPECT_EQ(CountOf(html, "<tr data-ids="), static_cast<int>(all) + 1);
-  EXPECT_THAT(html, HasSubstr(" more, by the other metrics</summary>"));
+  EXPECT_THAT(html, HasSubstr(" more comparisons, by the other metrics</summary>"));
 }
 
 /// Returns one comparison's verdicts under two laws, and the common verdict.
@@ -139,9 +141,10 @@ TEST(AcrossTable, TellsWhatHoldsAndElseWhyNot) {
   };
   EXPECT_THAT(text(kBetter, kBetter, kBetter), HasSubstr("better: holds |"));
   EXPECT_THAT(text(kNoDifference, kNoDifference, kNoDifference), HasSubstr("no difference: holds |"));
-  EXPECT_THAT(text(kBetter, kWorse, kUndecided), HasSubstr("undecided: better under some, worse under others |"));
-  EXPECT_THAT(text(kBetter, kUndecided, kUndecided), HasSubstr("undecided: does not hold everywhere |"));
-  EXPECT_THAT(text(kUndecided, kUndecided, kUndecided), HasSubstr("undecided everywhere |"));
+  EXPECT_THAT(text(kBetter, kWorse, kUndecided),
+              HasSubstr("undecided: better under some values, worse under others |"));
+  EXPECT_THAT(text(kBetter, kUndecided, kUndecided), HasSubstr("undecided: does not hold under all values |"));
+  EXPECT_THAT(text(kUndecided, kUndecided, kUndecided), HasSubstr("undecided under all values |"));
 }
 
 TEST(AcrossTable, NamesEveryLawWithItsDifferenceWhereThereIsOne) {

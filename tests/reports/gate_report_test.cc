@@ -44,7 +44,7 @@ GateReport Nothing() {
 TEST(GateMarkdown, ShowsAReviewerWhatFailsBeforeWhatElseMoved) {
   const std::string text = WriteGateMarkdown(Example());
   EXPECT_THAT(text, HasSubstr("## Etude gate of quick: regression\n"));
-  EXPECT_THAT(text, HasSubstr("- against the baseline, 4 comparisons: 1 worse, 1 better, 1 undecided, 1 same\n"));
+  EXPECT_THAT(text, HasSubstr("- compared with the baseline: 4 comparisons: 1 worse, 1 better, 1 undecided, 1 same\n"));
   EXPECT_THAT(text, HasSubstr("- 2 expectations: 1 unmet, 1 met\n"));
   EXPECT_THAT(text, HasSubstr("- ik-weights: b below c (0.3 too much)\n"));
   EXPECT_THAT(text,
@@ -74,10 +74,12 @@ TEST(GateMarkdown, NamesEveryFarWorseWorldWithBothValuesAndItsReplayCommand) {
   const std::string text = WriteGateMarkdown(report);
   EXPECT_THAT(text, HasSubstr("| **worse in 5 worlds** |"));
   EXPECT_THAT(text, HasSubstr("12 of 60, 5 far worse |"));
-  EXPECT_THAT(text,
-              HasSubstr("**Worlds that are far worse:**\n\n- ik-weights, joint\\_noise\\_deg=5, trial 7, adaptive: "
-                        "effector orientation error 0.0500° → no value (failed): `etude replay 'out/my run' "
-                        "--cell ik-weights/joint_noise_deg=5/007/adaptive --baseline quick.json`\n"));
+  EXPECT_THAT(
+      text,
+      HasSubstr(
+          "**Worlds in which a method became far worse:**\n\n- ik-weights, joint\\_noise\\_deg=5, trial 7, adaptive: "
+          "effector orientation error 0.0500° → no value (failed): `etude replay 'out/my run' "
+          "--cell ik-weights/joint_noise_deg=5/007/adaptive --baseline quick.json`\n"));
   EXPECT_THAT(text, HasSubstr("trial 3, adaptive: effector orientation error 0.0500° → 60.0°: `"));
   EXPECT_THAT(text, Not(HasSubstr("… and")));
 }
@@ -111,14 +113,15 @@ TEST(GateMarkdown, ShowsFarWorseWorldsThatAreTooFewToFailAmongWhatElseMoved) {
   GateReport report = Example();
   report.comparison.moves = {TailMove(Movement::kUndecided)};
   const std::string text = WriteGateMarkdown(report);
-  EXPECT_THAT(text, Not(HasSubstr("**Worlds that are far worse:**")));
-  EXPECT_LT(text.find("<details>"), text.find("Single worlds that are far worse, but too few to fail:"));
+  EXPECT_THAT(text, Not(HasSubstr("**Worlds in which a method became far worse:**")));
+  EXPECT_LT(text.find("<details>"),
+            text.find("Single worlds in which a method became far worse, but too few to fail the gate:"));
   EXPECT_LT(text.find("trial 7, adaptive"), text.find("</details>"));
   // With the tail rule off, no number of worlds would fail.
   report.comparison.moves.front().is_tail_judged = false;
   const std::string off = WriteGateMarkdown(report);
   EXPECT_THAT(off, Not(HasSubstr("too few to fail")));
-  EXPECT_THAT(off, HasSubstr("but not judged, because the scenario turned the tail rule off:"));
+  EXPECT_THAT(off, HasSubstr("not judged, because the scenario turned off the tail rule:"));
   EXPECT_LT(off.find("trial 7, adaptive"), off.find("</details>"));
 }
 
@@ -154,11 +157,13 @@ TEST(GateMarkdown, FoldsAwayWhatIsUndecidedAndShowsTheAnswersOfTheRun) {
   report.answers = {{"ik", "noise=5", {.method = "a", .baseline = "b", .decided_by = AnswerStep::kSuccess}}};
   report.answers.front().answer.verdict = Verdict::kWorse;
   const std::string text = WriteGateMarkdown(report);
-  EXPECT_THAT(text, HasSubstr("Could not be decided (1)</summary>\n\nThese pass:\n\n- ik: a below b (few)\n"));
+  EXPECT_THAT(text, HasSubstr("Undecided expectations and time rules (1)</summary>\n\nThese do not fail the gate:\n\n- "
+                              "ik: a below b (few)\n"));
   EXPECT_THAT(text, HasSubstr("| ik | noise=5 | a | b | worse | success |\n"));
-  EXPECT_THAT(text,
-              HasSubstr("quick: pass, without a baseline\n\n- 1 expectation: 1 undecided\n- no baseline was given, so "
-                        "nothing was compared: only the run’s own"))
+  EXPECT_THAT(
+      text,
+      HasSubstr("quick: pass, without a baseline\n\n- 1 expectation: 1 undecided\n- nothing was compared, because "
+                "there is no baseline: the gate only judged the expectations"))
       << "answers decide nothing here";
 }
 
@@ -166,8 +171,8 @@ TEST(GateMarkdown, SaysThatNothingWasComparedWithoutABaseline) {
   EXPECT_THAT(
       WriteGateMarkdown(Nothing()),
       HasSubstr(
-          "quick: pass, without a baseline\n\n- no baseline was given, so nothing was compared: the scenarios have "
-          "no expectations either"));
+          "quick: pass, without a baseline\n\n- nothing was compared, because there is no baseline: the scenarios "
+          "have no expectations"));
 }
 
 TEST(GateMarkdown, SaysWhyThereIsNoVerdict) {
@@ -193,7 +198,7 @@ TEST(GateJunit, HasACaseForAllThatWasJudged) {
               HasSubstr("<testsuites name=\"quick gate\" tests=\"10\" failures=\"2\" errors=\"0\" skipped=\"1\">"));
   EXPECT_THAT(xml, HasSubstr("name=\"every cell can be judged\"/>"));
   EXPECT_THAT(xml, HasSubstr("name=\"joint_noise_deg=5, adaptive: effector orientation error\"><failure"));
-  EXPECT_THAT(xml, HasSubstr("name=\"processor time of adaptive over fixed at most 1.5\"/>"));
+  EXPECT_THAT(xml, HasSubstr("name=\"processor time of adaptive divided by that of fixed: at most 1.5\"/>"));
 }
 
 TEST(GateJunit, FailsOneCaseOfAnIncompleteRunAndEscapesWhatItSays) {

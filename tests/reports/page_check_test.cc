@@ -29,7 +29,7 @@ TEST(CheckPage, APageIsTheRunsOwnButForPicturesAndFilms) {
       "poster=\"data:image/png;base64,AA==\" src=\"data:video/mp4;base64,AA==\" aria-label=\"x\"></video></figure>";
   for (const std::string& media :
        {kPicture, film, "<details><summary>Film, stills</summary><div class=\"strip\">" + kPicture + "</div></details>",
-        "<p class=\"quiet\">There is no film, because none was requested.</p>"s}) {
+        "<p class=\"quiet\">There is no film, because this report was made without films.</p>"s}) {
     const PageCheck check = CheckPage(With("", media), kBare);
     EXPECT_TRUE(check.same) << media;
     EXPECT_TRUE(check.has_media) << media;

@@ -54,7 +54,7 @@ std::vector<std::string> IslandsOf(const std::string& page) {
 }
 
 TEST(Page, ShowsRealTakesBesideSimulatedOnes) {
-  EXPECT_THAT(WritePage(ExampleRun(), {}), Not(HasSubstr("On real films")));
+  EXPECT_THAT(WritePage(ExampleRun(), {}), Not(HasSubstr("Captures of real films")));
   const std::vector<RealTake> real = {
       {.name = "beam <1>",
        .recovery = "silhouettes",
@@ -70,7 +70,7 @@ TEST(Page, ShowsRealTakesBesideSimulatedOnes) {
   condition.methods.front().metrics.front().id = "mpjpe_mm";
   condition.methods.front().metrics.front().median = 19.5;
   const std::string page = WritePage(run, {}, real);
-  const std::size_t section = page.find("On real films");
+  const std::size_t section = page.find("Captures of real films");
   ASSERT_NE(section, std::string::npos);
   const std::string shown = page.substr(section, page.find("</section>", section) - section);
   EXPECT_THAT(shown, HasSubstr("<td>real: beam &lt;1&gt;, 100 frames</td><td>silhouettes (error)</td><td>all 3</td>"
@@ -194,7 +194,7 @@ TEST(Page, ExplainsRecordedSwitches) {
   EXPECT_THAT(WritePage(run, {}), Not(HasSubstr("Partial distances")));
   AddTransitions(run);
   const std::string page = WritePage(run, {});
-  EXPECT_THAT(page, HasSubstr("Why each transition took its frames: clap → side kick, trial 7"));
+  EXPECT_THAT(page, HasSubstr("Why each method chose its frames: clap → side kick, trial 7"));
   EXPECT_THAT(page, HasSubstr(".partials"));
 }
 

@@ -48,7 +48,8 @@ Result<RefinedRig> CalibrateWithoutOutliers(const BoardViews& search, const Cali
     if (search.Told().empty() || kept.size() == views.size() || round == kMaxRounds) {
       if (views.size() < all) {
         options.listener.print(
-            fmt::format("{} of {} pictures of boards were left out: their residuals exceed three times the median\n",
+            fmt::format("{} of {} pictures of boards were left out, because the residual of each is larger than "
+                        "three times the median\n",
                         all - views.size(), all));
       }
       return rig;
@@ -86,20 +87,20 @@ Result<std::vector<TargetView>> SynchroniseFilms(const CalibrateOptions& options
     if (delay_s == 0) continue;
     constexpr double kMs = 1000;
     options.listener.print(
-        fmt::format("{}: its frames are {:.0f} ms ({:.2f} frames) {} than those of {}; corrected: corners are "
-                    "interpolated between frames\n",
+        fmt::format("{}: this film is {:.0f} ms ({:.2f} frames) {} than {}; corrected by interpolating corners "
+                    "between frames\n",
                     seen[i].name, kMs * std::abs(delay_s), std::abs(delay_s) / seen[i].period_s * seen[i].every,
                     delay_s > 0 ? "later" : "earlier", seen.front().name));
     if (std::abs(delay_s) > max_delay_s - 0.5 * period_s.front()) {
       options.listener.print(
-          fmt::format("doubtful: this delay is at the end of the searched range; --sync {:.1f} searches further\n",
+          fmt::format("doubtful: this delay is at the end of the searched range; use --sync {:.1f} to search a "
+                      "larger range\n",
                       2 * max_delay_s + 0.1));
     }
   }
   if (steps.after_px < steps.before_px) {
-    options.listener.print(
-        fmt::format("residual of all films without delays {:.3f} px, with these delays {:.3f} px\n",
-                    steps.before_px, steps.after_px));
+    options.listener.print(fmt::format("residual of all films: {:.3f} px without delays, {:.3f} px with these delays\n",
+                                       steps.before_px, steps.after_px));
   }
   return SynchronisedViews(search.sightings(), period_s, steps.delay_s);
 }
@@ -126,9 +127,10 @@ void TellResiduals(const RefinedRig& rig, const CalibrateOptions& options, std::
   }
   if (!do_disagree) return;
   options.listener.print(
-      fmt::format("doubtful: each camera alone fits its boards far better than all cameras together. Films may not "
-                  "be synchronised{}, a\ncamera may have moved, or the board may bend.\n",
-                  seen.front().every > 1 ? " (--every 1 would show it)" : ""));
+      fmt::format("doubtful: each camera calibrated alone has a far smaller residual than all cameras together. The "
+                  "films may not be\n"
+                  "synchronised{}, a camera may have moved, or the board may be bent.\n",
+                  seen.front().every > 1 ? " (use --every 1 to find delays)" : ""));
 }
 
 /// Returns the digits at the end of a name: "0" for cam_0; "" if there are none.
@@ -146,7 +148,7 @@ constexpr const char* kOpenCv = "opencv";
 Result<void> CompareWithOpenCv(const CalibrateOptions& options, std::span<const PictureSize> sizes,
                                std::span<const TargetView> views, const std::vector<CameraBoards>& seen) {
   options.listener.print(
-      fmt::format("\ncompared with OpenCV's calibrateCamera on the same corners, each camera alone:\n"));
+      fmt::format("\nComparison with OpenCV's calibrateCamera on the same corners, for each camera alone:\n"));
   constexpr double kPercent = 100;
   for (std::size_t camera = 0; camera < seen.size(); ++camera) {
     const std::vector<TargetView> own = ViewsOf(camera, views);
@@ -180,24 +182,25 @@ Result<void> CompareBeside(const CalibrateOptions& options, const RefinedRig& ri
     if (same == theirs.end() && !NumberAtEnd(own.name).empty()) {
       same = std::ranges::find(theirs, NumberAtEnd(own.name), [](const NamedCamera& c) { return NumberAtEnd(c.name); });
     }
-    if (same == theirs.end()) return Fail({file}, "has no camera {}, neither by name nor by number", own.name);
+    if (same == theirs.end()) return Fail({file}, "has no camera with the name or number of {}", own.name);
     cameras.push_back(same->camera);
   }
   // Find the boards' poses with the other calibration, then compare intrinsics, residuals and distances of cameras.
   const auto placed = LocateBoards(cameras, views);
   if (!placed) return Fail({file}, "{}", placed.error().message);
-  options.listener.print(fmt::format("\ncompared with {}, on the same corners:\n", file));
+  options.listener.print(fmt::format("\nComparison with {} on the same corners:\n", file));
   constexpr double kPercent = 100;
   for (std::size_t i = 0; i < cameras.size(); ++i) {
     const Intrinsics &a = rig.cameras[i].intrinsics, &b = cameras[i].intrinsics;
     options.listener.print(fmt::format(
-        "  {:<14} focal lengths {:.1f}, {:.1f} px, the other's {:.1f}, {:.1f} ({:+.1f}, {:+.1f} %); residual {:.3f} "
-        "px, the other's {:.3f}\n",
+        "  {:<14} focal lengths {:.1f}, {:.1f} px, in the other rig {:.1f}, {:.1f} ({:+.1f}, {:+.1f} %); residual "
+        "{:.3f} px, in the other rig {:.3f}\n",
         seen[i].name, a.fx, a.fy, b.fx, b.fy, kPercent * (a.fx / b.fx - 1), kPercent * (a.fy / b.fy - 1),
         rig.camera_rms_px[i], placed->camera_rms_px[i]));
     if (i == 0) continue;
-    options.listener.print(fmt::format("  {:<14} {:.3f} m from {}, the other's {:.3f}\n", "", glm::distance(rig.cameras[i].p_WC, rig.cameras[0].p_WC),
-               seen.front().name, glm::distance(cameras[i].p_WC, cameras[0].p_WC)));
+    options.listener.print(fmt::format("  {:<14} {:.3f} m from {}, in the other rig {:.3f}\n", "",
+                                       glm::distance(rig.cameras[i].p_WC, rig.cameras[0].p_WC), seen.front().name,
+                                       glm::distance(cameras[i].p_WC, cameras[0].p_WC)));
   }
   return {};
 }
@@ -235,8 +238,8 @@ std::string PictureOfBoards(const RefinedRig& rig, std::span<const TargetView> v
       }
     }
     DrawTag(canvas, panel,
-            fmt::format("{}: board in {} of {} pictures, {:.2f} px; errors x 20", s.name, s.with_board, s.looked,
-                        rig.camera_rms_px[camera]));
+            fmt::format("{}: board in {} of {} pictures, {:.2f} px RMS; errors drawn 20 times larger", s.name,
+                        s.with_board, s.looked, rig.camera_rms_px[camera]));
     top += panel.height + kGap;
   }
   return canvas.Png();
@@ -250,15 +253,15 @@ Result<Calibrated> CalibrateFromPictures(const CalibrateOptions& options) {
   for (std::size_t camera = 0; camera < options.inputs.size(); ++camera) {
     ASSIGN_OR_RETURN(seen.emplace_back(), SearchInput(camera, options, search));
     const CameraBoards& own = seen.back();
-    options.listener.print(fmt::format("{}: {} pictures, {} of them with a board, {} corners\n", options.inputs[camera], own.looked,
-               own.with_board, own.corners));
+    options.listener.print(fmt::format("{}: {} pictures; {} pictures show a board, with {} corners\n",
+                                       options.inputs[camera], own.looked, own.with_board, own.corners));
   }
-  if (!search.Told().empty()) options.listener.print(fmt::format("the board: {}\n", search.Told()));
+  if (!search.Told().empty()) options.listener.print(fmt::format("the board is {}\n", search.Told()));
   for (std::size_t camera = 0; camera < seen.size(); ++camera) {
     if (seen[camera].corners > 0) continue;
     return Fail({options.inputs[camera]},
-                "no picture shows the board {} ({} tried); give your board by --board: Etude's own as 5x7x0.034, a "
-                "ChArUco board as charuco:5x7x0.04, a chessboard as chess:9x6x0.025",
+                "found no board {} in {} pictures; describe your board with --board: 5x7x0.034 (a board printed by "
+                "Etude), charuco:5x7x0.04 (ChArUco), chess:9x6x0.025 (chessboard)",
                 Join(options.boards), seen[camera].looked);
   }
   // Synchronise the films, calibrate, and report the residuals.

@@ -50,8 +50,8 @@ Result<Board> ReadCodedBoard(const std::string& text) {
                         IsWholeWithin(first->front(), 0, kCodeCount);
   if (!is_board) {
     return Fail({},
-                "--board {}: not a board; allowed: 3 to {} squares along each side, and a square's side in metres, "
-                "such as 8x8x0.2 or 8x8x0.2@32",
+                "--board {}: allowed: 3 to {} squares along each side of the board, and the side of a square in "
+                "metres, such as 8x8x0.2 or 8x8x0.2@32",
                 text, kMaxSquares);
   }
   const Board board{.columns = static_cast<int>((*numbers)[0]),
@@ -59,7 +59,7 @@ Result<Board> ReadCodedBoard(const std::string& text) {
                     .square = (*numbers)[2],
                     .first_code = static_cast<int>(first->front())};
   if (board.first_code + CountCodes(board) > kCodeCount) {
-    return Fail({}, "--board {}: it takes codes {} to {}; allowed: codes below {}", text, board.first_code,
+    return Fail({}, "--board {}: the board needs codes {} to {}; allowed: codes below {}", text, board.first_code,
                 board.first_code + CountCodes(board) - 1, kCodeCount);
   }
   return board;
@@ -80,9 +80,7 @@ Result<void> SetSize(const std::string& text, std::vector<CameraPairs>& cameras)
     if (camera.width > 0) continue;
     const auto size = NumbersByX(text);
     if (!size || size->size() != 2 || !IsWholeWithin((*size)[0], 1, 65536) || !IsWholeWithin((*size)[1], 1, 65536)) {
-      return Fail({},
-                  "--size '{}': not a size; point pairs as CSV need the pictures' width and height, such as "
-                  "1920x1080",
+      return Fail({}, "--size '{}': point pairs as CSV need the width and height of the pictures, such as 1920x1080",
                   text);
     }
     camera.width = static_cast<int>((*size)[0]);
@@ -97,7 +95,9 @@ Result<void> CheckPixels(const CameraPairs& of, const std::string& file) {
     const glm::dvec2& p = pair.pixel;
     const bool is_inside = p.x >= -0.5 && p.y >= -0.5 && p.x <= of.width - 0.5 && p.y <= of.height - 0.5;
     if (is_inside) continue;
-    return Fail({file}, "camera {}: the pixel ({:g}, {:g}) is outside of its picture of {}x{}; is the size right?",
+    return Fail({file},
+                "camera {}: the pixel ({:g}, {:g}) is outside the picture of {}x{} pixels; check the pixel "
+                "and the picture size",
                 of.name, p.x, p.y, of.width, of.height);
   }
   return {};
@@ -170,8 +170,8 @@ Result<Calibrated> FromPairs(const CalibrateOptions& options) {
     constexpr double kFar_m = 500;
     if (distance > kFar_m) {
       options.listener.print(
-          fmt::format("{}: the camera is {:.0f} m from its first point; points must be in metres: are they in "
-                      "millimetres?\n",
+          fmt::format("{}: the camera is {:.0f} m from the first point of its pairs; points must be in metres, and "
+                      "may be in millimetres here\n",
                       of.name, distance));
     }
   }
@@ -203,15 +203,15 @@ std::string TextOf(const Calibrated& rig) {
     if (i < rig.disagreeing.size() && rig.disagreeing[i]) {
       const DisagreeingPair& pair = *rig.disagreeing[i];
       text += fmt::format(
-          "  pair {} disagrees with the others: they project its point ({:g}, {:g}, {:g}) {:.1f} px from its pixel "
-          "({:g}, {:g}).\n"
-          "  Without this pair the reprojection error is {:.3f} px RMS\n",
+          "  pair {} disagrees with the other pairs. A calibration without this pair projects the point ({:g}, "
+          "{:g}, {:g})\n"
+          "  {:.1f} px away from the pixel ({:g}, {:g}), and has a reprojection error of {:.3f} px RMS\n",
           pair.index + 1, pair.pair.world.x, pair.pair.world.y, pair.pair.world.z, pair.error_px, pair.pair.pixel.x,
           pair.pair.pixel.y, pair.rms_without_px);
     }
-    text += fmt::format("  stands at        {:.3f}, {:.3f}, {:.3f} m\n", camera.p_WC.x, camera.p_WC.y, camera.p_WC.z);
-    text += fmt::format("  paper B's        f {:.2f}  du {:.5f}  dv {:g}  pu {:.2f}  pv {:.2f}  theta {:.3f} deg\n",
-               p.focal_length, p.delta_u, p.delta_v, p.principal_u, p.principal_v, Degrees(p.skew));
+    text += fmt::format("  position         {:.3f}, {:.3f}, {:.3f} m\n", camera.p_WC.x, camera.p_WC.y, camera.p_WC.z);
+    text += fmt::format("  as in paper B    f {:.2f}  du {:.5f}  dv {:g}  pu {:.2f}  pv {:.2f}  theta {:.3f} deg\n",
+                        p.focal_length, p.delta_u, p.delta_v, p.principal_u, p.principal_v, Degrees(p.skew));
     text += fmt::format("                   omega {:.3f}  phi {:.3f}  kappa {:.3f} deg   t {:.4f}, {:.4f}, {:.4f} m\n",
                Degrees(p.omega), Degrees(p.phi), Degrees(p.kappa), p.t.x, p.t.y, p.t.z);
   }
@@ -234,7 +234,7 @@ std::string PaperFor(const Board& board) {
   for (const Paper& paper : kPapers) {
     if (narrow + kMargins <= paper.narrow_mm && wide + kMargins <= paper.wide_mm) return paper.name;
   }
-  return "larger than A0 paper, only for a poster printer; --board 5x7x0.034 is smaller";
+  return "larger than A0 paper, so it needs a poster printer; --board 5x7x0.034 is smaller";
 }
 
 }  // namespace
@@ -254,8 +254,8 @@ Result<void> PrintBoard(const CalibrateOptions& options) {
   TellWritten(options.listener, options.print);
   constexpr double kMm = 1000;
   options.listener.print(
-      fmt::format("{} x {} squares, {:.0f} x {:.0f} mm: {}; print it at 100 %, so that a square is {:g} mm; glue it "
-                  "onto something flat, then measure a square\n",
+      fmt::format("{} x {} squares, {:.0f} x {:.0f} mm: {}. Print the board at 100 %, so that the side of a square "
+                  "is {:g} mm. Glue the board onto something flat, then measure the side of a square\n",
                   board.columns, board.rows, kMm * board.columns * board.square, kMm * board.rows * board.square,
                   PaperFor(board), kMm * board.square));
   return {};
@@ -265,7 +265,7 @@ Result<Calibrated> CalibrateRig(const CalibrateOptions& options) {
   const std::string ending = fs::path(options.inputs.front()).extension().string();
   const bool is_pairs = options.inputs.size() == 1 && (ending == ".csv" || ending == ".yaml" || ending == ".yml");
   if (is_pairs && !(options.picture + options.beside).empty())
-    return Fail({}, "--picture and --beside need pictures of boards; {} has point pairs", options.inputs.front());
+    return Fail({}, "--picture and --beside need pictures of boards; {} contains point pairs", options.inputs.front());
   ASSIGN_OR_RETURN(Calibrated rig, is_pairs ? FromPairs(options) : CalibrateFromPictures(options));
   options.listener.print(TextOf(rig));
   for (const std::string& doubt : RigDoubts(rig.cameras)) options.listener.print("doubtful: " + doubt + "\n");

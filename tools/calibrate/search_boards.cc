@@ -23,7 +23,7 @@ Result<std::vector<Board>> ReadBoards(const std::vector<std::string>& texts) {
     for (const Board& other : boards) {
       if (board.first_code < other.first_code + CountCodes(other) &&
           other.first_code < board.first_code + CountCodes(board)) {
-        return Fail({}, "--board {}: another board uses the same codes; allowed: a first code from @{} on", text,
+        return Fail({}, "--board {}: another board uses the same codes; allowed: @{} or a larger first code", text,
                     other.first_code + CountCodes(other));
       }
     }
@@ -42,7 +42,7 @@ Result<std::vector<fs::path>> PicturesIn(const fs::path& folder) {
     if (ending == ".png" || ending == ".jpg" || ending == ".jpeg") files.push_back(entry.path());
   }
   if (error) return Fail({folder.string()}, "{}", error.message());
-  if (files.empty()) return Fail({folder.string()}, "no picture in it; allowed: PNG and JPG");
+  if (files.empty()) return Fail({folder.string()}, "the folder contains no picture; allowed: PNG and JPG");
   std::ranges::sort(files);
   return files;
 }
@@ -119,12 +119,12 @@ Result<BoardViews> SearchFor(const CalibrateOptions& options) {
   }
   ASSIGN_OR_RETURN(const PrintedBoard board, *printed);
   if (options.boards.size() > 1)
-    return Fail({}, "--board: found {} boards; allowed: one, if it is a chessboard or ChArUco board",
+    return Fail({}, "--board: found {} boards; allowed: only one board, if a board is a chessboard or ChArUco board",
                 options.boards.size());
   if (!board.is_charuco && (board.columns + board.rows) % 2 == 0 && options.inputs.size() > 1) {
     return Fail({},
-                "--board {}: it looks the same when turned by 180°, so two cameras cannot be related; allowed: an odd "
-                "sum of columns and rows",
+                "--board {}: this board looks the same after a rotation by 180°, so the poses of two cameras would "
+                "be ambiguous; allowed: an odd sum of columns and rows",
                 options.boards.front());
   }
   ASSIGN_OR_RETURN(auto finder, MakePrintedBoardFinder(board));

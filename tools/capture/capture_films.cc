@@ -23,7 +23,9 @@ Result<void> CheckReference(const MarkerMotion& reference, const std::string& fi
   if (std::ranges::any_of(reference.names, is_known)) return {};
   constexpr std::size_t kShown = 4;
   const std::span<const std::string> shown(reference.names.data(), std::min(kShown, reference.names.size()));
-  return Fail({file}, "none of the {} markers ({}{}) has the name of a keypoint or a joint; allowed: {}, … and {}, …",
+  return Fail({file},
+              "no marker can be compared: none of the {} markers ({}{}) has the name of a keypoint ({}, …) "
+              "or of a joint ({}, …)",
               reference.names.size(), Join(shown), reference.names.size() > kShown ? ", …" : "",
               LandmarkName(Landmark::kLeftShoulder), RoleName(Role::kLeftShoulder));
 }
@@ -34,7 +36,9 @@ Result<CapturedFilms> CaptureFilms(const CaptureFilmsOptions& options) {
   // Check the options that exclude each other, and read the reference.
   RETURN_IF_ERROR(FormatOfName(options.output));
   if (options.keypoints.empty() && options.marks.empty() && !options.silhouettes) {
-    return Fail({}, "nothing shows where the person is; allowed: --keypoints DIR, --marks DIR or --silhouettes");
+    return Fail({},
+                "the source of the person's position is missing; allowed: --keypoints DIR, --marks DIR or "
+                "--silhouettes");
   }
   std::optional<MarkerMotion> reference;
   if (!options.reference.empty()) {
@@ -43,9 +47,11 @@ Result<CapturedFilms> CaptureFilms(const CaptureFilmsOptions& options) {
     RETURN_IF_ERROR(CheckReference(*reference, options.reference));
   }
   if (options.silhouettes && options.sync_s > 0)
-    return Fail({}, "--sync: outlines do not show the time; cut the films so that they begin at the same moment");
+    return Fail({},
+                "--sync: outlines cannot determine the delay between films; cut the films so that all begin at "
+                "the same moment");
   if (options.silhouettes && !options.keypoints.empty() && options.stature_m > 0) {
-    return Fail({}, "--stature: the keypoints already determine how tall the person is");
+    return Fail({}, "--stature: not allowed with --keypoints, because the keypoints determine the person's height");
   }
   RETURN_IF_ERROR(CheckPlace(options.place));
   // Open the films, and resample the reference to the films' frame rate.
@@ -54,8 +60,10 @@ Result<CapturedFilms> CaptureFilms(const CaptureFilmsOptions& options) {
   options.listener.print(
       fmt::format("{} films, {} frames at {:g} Hz\n", session.views.size(), facts.EvenFrames(), facts.rate_hz));
   if (reference && std::abs(reference->rate_hz - facts.rate_hz) > kSameRateTolerance * facts.rate_hz) {
-    options.listener.print(fmt::format("reference: resampled from {:g} to {:g} Hz, linearly between its frames\n",
-                                       reference->rate_hz, facts.rate_hz));
+    options.listener.print(
+        fmt::format("reference: resampled from {:g} to {:g} Hz by linear interpolation between "
+                    "frames\n",
+                    reference->rate_hz, facts.rate_hz));
     reference = AtRate(std::move(*reference), facts.rate_hz);
   }
   // Begin the JSON of findings.
@@ -77,7 +85,7 @@ Result<CapturedFilms> CaptureFilms(const CaptureFilmsOptions& options) {
     for (FilmedView& view : session.views) {
       if (view.fit.quarter_turns != 0) {
         return Fail({view.path.string()},
-                    "its pictures are rotated, and outlines do not show in which direction; rotate the film");
+                    "the pictures are rotated, and outlines cannot determine in which direction; rotate the film");
       }
       view.camera.camera = Placed(*place, view.camera.camera);
     }

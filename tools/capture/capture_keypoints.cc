@@ -55,11 +55,13 @@ std::string PeopleText(const RecoveredPerson& person, const std::vector<FilmedVi
       const auto frames = std::ranges::count_if(one.seen[i], [](const auto& seen) { return seen.has_value(); });
       if (frames > 0) by += fmt::format("{}{} ({} frames)", by.empty() ? "" : ", ", views[i].camera.name, frames);
     }
-    text += fmt::format("person {}: seen by {}; rays miss each other by {:.1f} % of the height\n", ++number, by,
-                        100 * one.error);
+    text += fmt::format(
+        "person {}: seen by {}; the median distance between rays is {:.1f} % of the person's "
+        "height\n",
+        ++number, by, 100 * one.error);
   }
   if (alone > 0) {
-    text += fmt::format("{} track{} that only one camera saw: other people, or errors\n", alone, alone == 1 ? "" : "s");
+    text += fmt::format("{} track{} seen by only one camera: other people, or errors\n", alone, alone == 1 ? "" : "s");
   }
   return text;
 }
@@ -67,10 +69,12 @@ std::string PeopleText(const RecoveredPerson& person, const std::vector<FilmedVi
 std::string ReportText(const RecoveredPerson& person, const std::vector<FilmedView>& views) {
   std::string text;
   text += fmt::format(
-      "points: {:.1f} % found, {:.1f} px off the keypoints (median); keypoints more than {:.1f} px off are outliers",
+      "points: {:.1f} % triangulated, with a median residual of {:.1f} px; keypoints with more than {:.1f} px are "
+      "outliers",
       100 * person.report.found, person.report.residual_px, person.outlier_px);
   for (std::size_t i = 0; i < views.size(); ++i) {
-    text += fmt::format("{} {} {:.1f} %", i == 0 ? "; left out:" : ",", views[i].camera.name, 100 * person.report.rejected[i]);
+    text += fmt::format("{} {} {:.1f} %", i == 0 ? "; share of outliers:" : ",", views[i].camera.name,
+                        100 * person.report.rejected[i]);
   }
   std::vector<std::string> lengths;
   constexpr double kCmPerMetre = 100;
@@ -81,10 +85,11 @@ std::string ReportText(const RecoveredPerson& person, const std::vector<FilmedVi
   const bool has_top = std::ranges::any_of(
       person.landmarks, [](const LandmarkPositions& at) { return at[Index(Landmark::kHead)].has_value(); });
   if (has_top)
-    lengths.push_back(fmt::format("neck to the top of the head {:.1f}", kCmPerMetre * person.body.lengths.neck));
-  text += fmt::format("\nlengths, cm: {}\n", Join(lengths));
+    lengths.push_back(
+        fmt::format("from the neck to the top of the head {:.1f}", kCmPerMetre * person.body.lengths.neck));
+  text += fmt::format("\nlimb lengths, cm: {}\n", Join(lengths));
   const auto held = std::ranges::count(person.is_held, true);
-  if (held > 0) text += fmt::format("{} frames show too little and repeat the last pose\n", held);
+  if (held > 0) text += fmt::format("{} frames show too few keypoints and repeat the last pose\n", held);
   return text;
 }
 
@@ -122,8 +127,8 @@ std::string FitText(const RecoveredPerson& person) {
   const MarkerMotion points = JointMarkers(person.landmarks, person.motion.rate_hz);
   std::vector<MarkerAgreement> rows = CompareMarkers(skeleton, points);
   rows.push_back(CompareAllMarkers(skeleton, points));
-  text += fmt::format("\nDistance of the skeleton's joints to the triangulated points, mm:\n{:<16}{:>8}{:>8}\n", "", "median",
-             "p95");
+  text += fmt::format("\nDistance from the skeleton's joints to the triangulated points, mm:\n{:<16}{:>8}{:>8}\n", "",
+                      "median", "p95");
   for (const MarkerAgreement& row : rows) {
     if (row.frames > 0) text += fmt::format("{:<16}{:>8.1f}{:>8.1f}\n", row.name, row.median_mm, row.p95_mm);
   }
@@ -276,7 +281,7 @@ Result<KeypointNoise> MeasureFilmedNoise(const CaptureFilmsOptions& options) {
   TellMends(person, chosen, session.views, films.told);
   const auto noise =
       MeasureKeypointNoise(films.cameras, person.people[chosen], recover.triangulate.min_confidence, person.outlier_px);
-  if (!noise) return Fail({options.keypoints}, "no keypoint is seen by two cameras that agree on it");
+  if (!noise) return Fail({options.keypoints}, "no keypoint is seen by two cameras that agree on its position");
   return *noise;
 }
 
@@ -318,7 +323,9 @@ Result<bool> CaptureKeypoints(const CaptureFilmsOptions& options, FilmedSession 
   const std::size_t chosen = IndexOfPerson(person, recover.person).value_or(0);
   if (options.poses == "bundle" && options.smooth_hz == 0) {
     if (!AdjustPerson(films.cameras, person.people[chosen], AdjustOf(recover), person)) {
-      films.told.Tell("doubtful: no motion fits all keypoints at once; every frame was fitted separately");
+      films.told.Tell(
+          "doubtful: found no motion that fits all keypoints at once, so every frame was fitted "
+          "separately");
     }
   }
   // Report the people, the repairs, the doubts and the residuals.
@@ -329,8 +336,8 @@ Result<bool> CaptureKeypoints(const CaptureFilmsOptions& options, FilmedSession 
   for (const LandmarkPositions& frame : person.landmarks) joints.push_back(JointsOf(frame));
   if (HangsMirrored(person, views.size())) {
     films.told.Tell(
-        "doubtful: the person is upside down, and left and right are exchanged in all cameras: are the pictures of all "
-        "films turned by 180°, against the rig's?");
+        "doubtful: the person is upside down, and left and right are exchanged in all cameras. The pictures of all "
+        "films may be rotated by 180° relative to the rig");
   }
   const std::string exchanged = DescribeExchangedJoints(joints, recover.rate_hz);
   if (!exchanged.empty()) films.told.Tell("doubtful: " + exchanged);
@@ -345,10 +352,11 @@ Result<bool> CaptureKeypoints(const CaptureFilmsOptions& options, FilmedSession 
     facts["silhouettes"] = {{"stature_m", both->stature_m}, {"cost", both->cost}, {"held_frames", both->held}};
     if (JoinOutlines(films.cameras, person.people[chosen], both->motion, AdjustOf(recover), person)) {
       films.told.Tell(
-          fmt::format("{}; the joints follow from keypoints and outlines together", OutlinesText(views, *both)));
+          fmt::format("{}; the joints are fitted to keypoints and outlines together", OutlinesText(views, *both)));
     } else {
       films.told.Tell(
-          "doubtful: no motion fits keypoints and outlines at once; the joints follow from the keypoints alone");
+          "doubtful: found no motion that fits keypoints and outlines at once, so the joints are fitted to the "
+          "keypoints alone");
     }
   }
   // Write the motion and the points.
@@ -361,7 +369,7 @@ Result<bool> CaptureKeypoints(const CaptureFilmsOptions& options, FilmedSession 
   // If there is a reference, compare the motion with the reference.
   if (reference) {
     const std::string what =
-        fmt::format("Distance of the {} to {}, median, mm.",
+        fmt::format("Median distance between the {} and {}, mm.",
                     both || !HasLandmarks(*reference) ? "joints" : "triangulated keypoints", options.reference);
     const MarkerMotion in_time =
         SynchroniseWith(ComparedOf(person, *reference, recover.rate_hz), *reference, films.told);
@@ -371,7 +379,8 @@ Result<bool> CaptureKeypoints(const CaptureFilmsOptions& options, FilmedSession 
     } else {
       columns = CompareWithReference(in_time, person, films, recover);
     }
-    RETURN_IF_ERROR(TellColumns(what + " If it was made from the same keypoints,\nthis is agreement, not error.",
+    RETURN_IF_ERROR(TellColumns(what + " If the reference was made from the same\nkeypoints, the distance shows "
+                                       "agreement, not error.",
                                 columns, views, options));
   }
   // Write the film and the page.

@@ -76,8 +76,8 @@ std::string FilmHtml(const CapturePage& page) {
     return page.still.png.empty() ? ""
                                   : fmt::format(
                                         "<figure class=\"film\"><img width=\"{}\" height=\"{}\" src=\"{}\" "
-                                        "alt=\"{}\"><figcaption>{} The film is too long for a page{}.</figcaption>"
-                                        "</figure>",
+                                        "alt=\"{}\"><figcaption>{} The film is too large for this "
+                                        "page{}.</figcaption></figure>",
                                         page.still.width, page.still.height, poster, caption, caption,
                                         page.film.empty() ? "" : ": " + EscapeMarkup(page.film));
   }
@@ -89,7 +89,7 @@ std::string FilmHtml(const CapturePage& page) {
 
 std::string ToldHtml(const CapturePage& page) {
   if (page.told.empty()) return "";
-  std::string html = "<section class=\"card\"><h2>What was found and corrected</h2><ul>";
+  std::string html = "<section class=\"card\"><h2>Findings and corrections</h2><ul>";
   for (const std::string& line : page.told) {
     const bool is_doubt = line.starts_with("doubtful");
     html += fmt::format("<li>{}{}</li>", is_doubt ? "<span class=\"badge open\">doubtful</span> " : "",
@@ -106,7 +106,7 @@ std::string ResidualsHtml(const CameraResiduals& residuals, double rate_hz) {
   std::vector<std::string> heads = {"Camera", "Frames", "Median, " + residuals.unit, "95 %, " + residuals.unit};
   const bool has_keypoints =
       std::ranges::any_of(residuals.cameras, [](const auto& camera) { return camera.left_out.has_value(); });
-  if (has_keypoints) heads.emplace_back("Keypoints left out");
+  if (has_keypoints) heads.emplace_back("Outliers among keypoints");
   for (const CapturedCamera& camera : residuals.cameras) {
     curves.push_back(camera.residual);
     std::vector<double> values = KnownOf(camera.residual.values);
@@ -123,7 +123,7 @@ std::string ResidualsHtml(const CameraResiduals& residuals, double rate_hz) {
 }
 
 std::string CamerasHtml(const CapturePage& page) {
-  std::string html = "<section class=\"card\"><h2>How well the cameras agree</h2>";
+  std::string html = "<section class=\"card\"><h2>Agreement of the cameras</h2>";
   for (const CameraResiduals& residuals : page.residuals) html += ResidualsHtml(residuals, page.rate_hz);
   return html + "</section>\n";
 }
@@ -135,11 +135,11 @@ std::string BodyHtml(const CapturePage& page) {
     fit.push_back({name, fmt::format("{:.1f}", mm[0]), fmt::format("{:.1f}", mm[1])});
   return "<section class=\"card\"><h2>Feet and floor</h2>" +
          CurvesHtml(page.feet_cm, page.rate_hz,
-                    "Height of each foot's lowest joint above the floor, cm, over seconds") +
+                    "Height of each foot's lowest joint above the floor, in cm, over time in s") +
          "</section>\n<section class=\"card\"><h2>The body</h2><p>" + EscapeMarkup(page.limbs) + "</p>" +
          NumbersHtml({"Limb", "Length, cm"}, lengths) +
          (fit.empty() ? ""
-                      : "<p>The skeleton's joints, from the points that they were fitted to:</p>" +
+                      : "<p>Distance from each joint of the skeleton to the point that the joint was fitted to:</p>" +
                             NumbersHtml({"Joint", "Median, mm", "95 %, mm"}, fit)) +
          "</section>\n";
 }

@@ -41,8 +41,8 @@ std::vector<TakeCurve> FeetOf(const BodyMotion& motion) {
 CameraResiduals ResidualsOf(const std::vector<FilmedView>& views, const RecoveredPerson& person, std::size_t chosen,
                             const SeenFilms& films) {
   CameraResiduals residuals{.caption =
-                                "The median distance of a camera's keypoints from the points that are triangulated "
-                                "from all cameras, in each frame (px)",
+                                "Residual of each camera in each frame: the median distance, in px, between the "
+                                "camera's keypoints and the points that are triangulated from all cameras",
                             .unit = "px",
                             .cameras = {}};
   for (std::size_t i = 0; i < views.size(); ++i) {
@@ -66,7 +66,8 @@ CapturePage PageOf(const CaptureFilmsOptions& options, const std::vector<FilmedV
   // Write the verdict: points found, residuals, and doubts.
   CapturePage page = BeginPage(options, person.motion, person.body.lengths, films.told.lines);
   page.verdict = fmt::format(
-      "{} cameras, {} frames at {:g} Hz: {:.1f} % of the points found, {:.1f} px off the keypoints in the median",
+      "{} cameras, {} frames at {:g} Hz: {:.1f} % of the points were triangulated, with a median residual of {:.1f} "
+      "px",
       views.size(), person.motion.poses.size(), person.motion.rate_hz, kPercent * person.report.found,
       person.report.residual_px);
   page.residuals.push_back(ResidualsOf(views, person, chosen, films));
@@ -77,15 +78,15 @@ CapturePage PageOf(const CaptureFilmsOptions& options, const std::vector<FilmedV
   page.verdict += fmt::format("; {}.", DoubtsOf(films.told.lines));
   // Write the limb lengths and the fit of the skeleton.
   page.limbs = options.poses == "bundle" && options.smooth_hz == 0
-                   ? "The lengths of the limbs are those that fit all keypoints best."
-                   : "The lengths of the limbs are the medians of those seen.";
+                   ? "The lengths of the limbs were fitted to all keypoints."
+                   : "The lengths of the limbs are medians over the frames.";
   const MarkerMotion points = JointMarkers(person.landmarks, person.motion.rate_hz);
   for (const MarkerAgreement& row : CompareMarkers(JointMarkers(person.motion), points)) {
     if (row.frames > 0) page.fit.emplace_back(row.name, std::array{row.median_mm, row.p95_mm});
   }
   page.still.caption =
-      "The skeleton as each camera would show it (lines; left blue, right orange), and the keypoints it was made of "
-      "(green).";
+      "The skeleton projected into each camera (lines; left blue, right orange), and the keypoints that it was made "
+      "from (green).";
   return page;
 }
 
@@ -119,8 +120,8 @@ CapturePage BeginPage(const CaptureFilmsOptions& options, const BodyMotion& moti
 CameraResiduals ResidualsOfOutlines(const std::vector<FilmedView>& views, const UnmarkedMotion& person) {
   constexpr double kPercent = 100;
   CameraResiduals residuals{.caption =
-                                "The difference between body and outline in a camera's picture, in each frame: the "
-                                "area that only one of the two covers, in % of the area of both together",
+                                "Difference between the body and the outline in each frame of a camera: the area "
+                                "that only one of them covers, in % of the area that at least one of them covers",
                             .unit = "%",
                             .cameras = {}};
   for (std::size_t i = 0; i < views.size(); ++i) {
@@ -143,13 +144,13 @@ double MedianOf(const CameraResiduals& residuals) {
 }
 
 std::string OutlinesText(const std::vector<FilmedView>& views, const UnmarkedMotion& person) {
-  return fmt::format("body and outlines differ by {:.0f} % in the median",
+  return fmt::format("the median difference between body and outlines is {:.0f} %",
                      MedianOf(ResidualsOfOutlines(views, person)));
 }
 
 std::string DoubtsOf(const std::vector<std::string>& told) {
   const auto doubts = std::ranges::count_if(told, [](const std::string& s) { return s.starts_with("doubtful"); });
-  return doubts == 0 ? "nothing is doubtful" : fmt::format("marked as doubtful below: {}", doubts);
+  return doubts == 0 ? "nothing is doubtful" : fmt::format("doubtful findings, listed below: {}", doubts);
 }
 
 Result<bool> WritePage(const CaptureFilmsOptions& options, CapturePage page, const std::vector<OverlayView>& overlays,

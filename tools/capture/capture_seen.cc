@@ -51,8 +51,8 @@ Result<SeenPeople> TakePeople(const CaptureFilmsOptions& options, PeopleOfFilm f
   if (film.frames.size() != static_cast<std::size_t>(view.facts.frames)) {
     return Fail(
         {entry.string()},
-        "keypoints of {} frames, but the film {} has {}; allowed: an entry or a file for each frame, even if it "
-        "shows nobody, or frame numbers (frame_id, image_id, or at the end of file names)",
+        "contains keypoints of {} frames, but the film {} has {} frames; allowed: an entry or a file for each "
+        "frame, even for frames that show nobody, or frame numbers (frame_id, image_id, or at the end of file names)",
         film.frames.size(), view.path.string(), view.facts.frames);
   }
   const bool is_turned = film.width == view.facts.height && film.height == view.facts.width;
@@ -73,7 +73,7 @@ Result<SeenPeople> TakePeople(const CaptureFilmsOptions& options, PeopleOfFilm f
   }
   constexpr double kMaxUnsure = 0.25;
   if (static_cast<double>(unsure) > kMaxUnsure * static_cast<double>(seen)) {
-    told.Tell(fmt::format("{}: {:.0f} % of its keypoints have a score below {:g} and are not used",
+    told.Tell(fmt::format("{}: {:.0f} % of the keypoints have a score below {:g} and are not used",
                           entry.filename().string(), 100.0 * static_cast<double>(unsure) / static_cast<double>(seen),
                           min_confidence));
   }
@@ -150,7 +150,7 @@ void Synchronise(const CaptureFilmsOptions& options, const std::vector<FilmedVie
     if (!found[i].is_told) {
       untold += (untold.empty() ? "" : ", ") + views[i].camera.name;
     } else if (told.empty()) {
-      told = fmt::format("clocks, after {}'s:", views[i].camera.name);
+      told = fmt::format("delays relative to {}:", views[i].camera.name);
     } else {
       told += fmt::format("{} {} {:+.2f} frames ({:+.0f} ms)", told.ends_with(':') ? "" : ",", views[i].camera.name,
                           films.clocks[i].offset, kMsPerSecond * films.clocks[i].offset / rate);
@@ -159,8 +159,8 @@ void Synchronise(const CaptureFilmsOptions& options, const std::vector<FilmedVie
   if (!told.ends_with(':')) films.told.Tell(told);
   if (untold.empty()) return;
   films.told.Tell(
-      fmt::format("the keypoints do not show the delay of {}, so no delay is assumed: people hardly move, the delay is "
-                  "more than --sync {:g}, or a camera is not where the rig says",
+      fmt::format("the keypoints do not determine the delay of {}, so Etude assumes no delay. Possible causes: "
+                  "people hardly move; the delay is more than --sync {:g}; a camera's pose differs from the rig",
                   untold, options.sync_s));
 }
 
@@ -172,15 +172,17 @@ void ClocksOfRates(const std::vector<FilmedView>& views, SeenFilms& films) {
     if (own == rate) continue;
     const bool is_one = std::abs(own - rate) <= kSameRateTolerance * rate;
     if (!is_one) films.clocks[i].drift = rate / own - 1;
-    films.told.Tell(fmt::format(
-        "{}: the film has {:g} frames per second, but the others have {:g}; {}", views[i].camera.name, own, rate,
-        is_one ? "they are assumed to have the same rate" : "its keypoints are resampled by cubic interpolation"));
+    films.told.Tell(fmt::format("{}: the film has {:g} frames per second, but the first film has {:g}; {}",
+                                views[i].camera.name, own, rate,
+                                is_one ? "Etude assumes that both have the same rate"
+                                       : "Etude resamples the keypoints by cubic "
+                                         "interpolation"));
   }
 }
 
 /// Returns a camera's name in front of "'s": with more than two cameras, a delay is one against all others.
 std::string OthersOf(const std::vector<FilmedView>& views) {
-  return views.size() > 2 ? "the other cameras'" : views.front().camera.name + "'s";
+  return views.size() > 2 ? "the other cameras" : views.front().camera.name;
 }
 
 /// Reports the films whose keypoints fit the other films' at no delay, although the other films agree with each other.
@@ -194,8 +196,8 @@ void WarnOfMisfits(const std::vector<FilmedView>& views, const std::vector<Clock
   for (std::size_t i = 0; most > 0 && i < views.size(); ++i) {
     if (found[i].is_told || found[i].misfit < kMuchMore * std::max(kMinPx, most)) continue;
     films.told.Tell(fmt::format(
-        "doubtful: {}: its keypoints do not fit {} with any delay up to {} frames; --sync {:.1f} searches further, "
-        "or the camera is not where the rig says",
+        "doubtful: {}: the keypoints do not fit the keypoints of {} with any delay up to {} frames. Use --sync "
+        "{:.1f} to search larger delays, or check the camera's pose in the rig",
         views[i].camera.name, OthersOf(views), max_frames, std::ceil(4 * max_frames / rate_hz)));
   }
 }
@@ -216,7 +218,7 @@ void WarnOfDelays(const std::vector<FilmedView>& views, const RecoverPersonOptio
     const double frames = guessed[i].frames - usual;
     if (!guessed[i].is_told || std::abs(frames) < 1) continue;
     films.told.Tell(
-        fmt::format("doubtful: {}: its frames seem to be {:.1f} frames {} than {}; --sync {:.1f} would correct this",
+        fmt::format("doubtful: {}: the film seems to be {:.1f} frames {} than {}; use --sync {:.1f} to correct this",
                     views[i].camera.name, std::abs(frames), frames > 0 ? "later" : "earlier", OthersOf(views),
                     std::ceil(10 * (std::abs(frames) + 2) / recover.rate_hz) / 10));
   }
@@ -230,9 +232,9 @@ void WarnOfDrifts(const std::vector<FilmedView>& views, const RecoverPersonOptio
   const double half = 0.5 * static_cast<double>(films.people.front().size());
   for (const ClockDrift& drift : FindDrifts(films.cameras, films.people, {clocks, recover.match.follow})) {
     films.told.Tell(fmt::format(
-        "doubtful: {}: its clock drifts: compared with {}, its frames are {:.1f} frames {} in the film's second "
-        "half than in the first, as if its rate were {:.2f} Hz instead of {:g} Hz; not corrected (residual {:.2f} "
-        "px with one delay, {:.2f} px with one for each quarter)",
+        "doubtful: {}: the clock of this film drifts. Compared with {}, its delay is {:.1f} frames {} in the second "
+        "half of the film than in the first half, as if the frame rate were {:.2f} Hz instead of {:g} Hz. Not "
+        "corrected (residual {:.2f} px with one delay, {:.2f} px with a delay for each quarter)",
         views[drift.film].camera.name, OthersOf(views), std::abs(drift.frames), drift.frames > 0 ? "later" : "earlier",
         recover.rate_hz / (1 + drift.frames / half), recover.rate_hz, drift.constant_px, drift.changing_px));
   }
@@ -246,8 +248,8 @@ void TellDrift(const std::vector<FilmedView>& views, std::size_t film, const Fil
   if (own == rate || std::abs(own - rate) > kSameRateTolerance * rate) return;
   const auto over_film = [&](double drift) { return drift * static_cast<double>(frames); };
   films.told.Tell(
-      fmt::format("{}: the measured drift is {:+.2f} frames over the film, but the stated rates give {:+.2f}; the "
-                  "evidence is too weak for a correction",
+      fmt::format("{}: the measured clock drift is {:+.2f} frames over the film, but the frame rates of the files "
+                  "give {:+.2f} frames. The evidence is too weak for a correction",
                   views[film].camera.name, over_film(nearest.drift - taken.drift), over_film(rate / own - 1)));
 }
 
@@ -275,13 +277,14 @@ void CorrectClocks(const std::vector<FilmedView>& views, const RecoverPersonOpti
     const double late = now.offset - before.offset + (now.drift - before.drift) * half;
     const double drift = (now.drift - before.drift) * static_cast<double>(frames);
     std::string told =
-        fmt::format("its frames are {:.2f} frames ({:.0f} ms) {} than those of {}", std::abs(late),
+        fmt::format("the film is {:.2f} frames ({:.0f} ms) {} than {}", std::abs(late),
                     kMsPerSecond * std::abs(late) / rate, late > 0 ? "later" : "earlier", views.front().camera.name);
     constexpr double kHardly = 0.02;
     if (std::abs(drift) > kHardly) {
-      told +=
-          fmt::format(" in the middle of the film, and its rate is {:.4f} Hz, which adds {:.2f} frames over the film",
-                      rate / (1 + now.drift), std::abs(drift));
+      told += fmt::format(
+          " in the middle of the film, and its frame rate is {:.4f} Hz, which adds {:.2f} frames of "
+          "delay over the film",
+          rate / (1 + now.drift), std::abs(drift));
     }
     films.told.Tell(fmt::format("{}: {}; corrected (loss {:.2f} to {:.3f})", views[i].camera.name, told,
                                 found[i].before, found[i].after));
@@ -344,7 +347,7 @@ constexpr Named<Mend::Kind> kMends[] = {
     {"left and right of face and arms were exchanged", Mend::Kind::kSwappedArms},
     {"left and right of hips and legs were exchanged", Mend::Kind::kSwappedLegs},
     {"keypoints of another person were replaced by the person's own", Mend::Kind::kOtherPerson},
-    {"keypoints that are not this person's were left out", Mend::Kind::kNobody}};
+    {"keypoints of another person were left out", Mend::Kind::kNobody}};
 
 void TellMends(const RecoveredPerson& person, std::size_t chosen, const std::vector<FilmedView>& views,
                MessageLog& told) {
@@ -353,8 +356,8 @@ void TellMends(const RecoveredPerson& person, std::size_t chosen, const std::vec
     const auto is_seen = [](const auto& seen) { return seen.has_value(); };
     if (std::ranges::any_of(person.people[chosen].seen[i], is_seen)) continue;
     told.Tell(
-        fmt::format("doubtful: {}: nobody in its film fits the person in the other films; check the film, and its "
-                    "camera in the rig. It was left out",
+        fmt::format("doubtful: {}: nobody in this film fits the person in the other films, so the film was left "
+                    "out. Check the film, and the film's camera in the rig",
                     views[i].camera.name));
   }
   // Report repairs: exchanged sides and exchanged people.
@@ -366,14 +369,17 @@ void TellMends(const RecoveredPerson& person, std::size_t chosen, const std::vec
   constexpr double kDoubtful = 0.1;
   for (std::size_t i = 0; i < views.size(); ++i) {
     if (person.report.rejected[i] <= kDoubtful) continue;
-    told.Tell(fmt::format("doubtful: {}: {:.0f} % of its keypoints disagree with the other cameras'",
-                           views[i].camera.name, 100 * person.report.rejected[i]));
+    told.Tell(
+        fmt::format("doubtful: {}: {:.0f} % of this camera's keypoints disagree with the keypoints of the "
+                    "other cameras",
+                    views[i].camera.name, 100 * person.report.rejected[i]));
   }
   constexpr double kDoubtfulError = 0.03;
   for (const MatchedPerson& one : person.people) {
     if (one.cameras < 2 || one.error <= kDoubtfulError) continue;
     told.Tell(fmt::format(
-        "doubtful: rays miss each other by {:.1f} % of a person's height; the usual error of estimators is 1 to 2 %",
+        "doubtful: the median distance between rays is {:.1f} % of a person's height; with usual pose estimators, "
+        "it is 1 to 2 %",
         100 * one.error));
     break;
   }

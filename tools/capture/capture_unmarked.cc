@@ -25,12 +25,12 @@ Result<ColourImage> ReadRoom(const std::string& folder, const FilmedView& view) 
   ASSIGN_OR_RETURN(const fs::path entry, EntryOfFilm(folder, view.path.stem().string()));
   ASSIGN_OR_RETURN(const FilmFacts facts, ProbeFilm(entry));
   if (facts.width != view.facts.width || facts.height != view.facts.height) {
-    return Fail({entry.string()}, "a picture of {} x {} pixels, but the film {} has {} x {}", facts.width, facts.height,
-                view.path.string(), view.facts.width, view.facts.height);
+    return Fail({entry.string()}, "the picture has {} x {} pixels, but the film {} has {} x {}", facts.width,
+                facts.height, view.path.string(), view.facts.width, view.facts.height);
   }
   ASSIGN_OR_RETURN(auto pictures,
                    ReadReduced(entry, facts, view.camera.camera, view.fit, UnmarkedTake::kPictureSide, 1));
-  if (pictures.empty()) return Fail({entry.string()}, "no picture in it");
+  if (pictures.empty()) return Fail({entry.string()}, "the file contains no picture");
   return std::move(pictures.front());
 }
 
@@ -46,14 +46,13 @@ std::vector<FilmClock> ClocksByRates(const std::vector<FilmedView>& views, Messa
     const double seconds = first.EvenFrames() / rate;
     const bool is_one = std::abs(own - rate) <= kSameRateTolerance * rate;
     if (!is_one) clocks.back().drift = rate / own - 1;
-    told.Tell(fmt::format("{}: the film has {:g} frames per second, but the others have {:g}; ", view.camera.name, own,
-                          rate) +
-              (is_one
-                   ? fmt::format("they are assumed to have the same rate; if both rates were right, the error at the "
-                                 "end would be {:.0f} ms",
-                                 kMs * seconds * std::abs(own / rate - 1))
-                   : fmt::format("for each moment the nearest of its pictures is used, which is up to {:.0f} ms away",
-                                 0.5 * kMs / own)));
+    told.Tell(fmt::format("{}: the film has {:g} frames per second, but the first film has {:g}; ", view.camera.name,
+                          own, rate) +
+              (is_one ? fmt::format("Etude assumes that both have the same rate; if both stated rates were right, the "
+                                    "error at the end would be {:.0f} ms",
+                                    kMs * seconds * std::abs(own / rate - 1))
+                      : fmt::format("Etude uses the picture that is nearest in time, which is up to {:.0f} ms away",
+                                    0.5 * kMs / own)));
   }
   return clocks;
 }
@@ -81,7 +80,7 @@ Result<ReducedTake> ReadTake(const CaptureFilmsOptions& options, const std::vect
   if (pictures > kMaxPictures) {
     return Fail(
         {views.front().path.string()},
-        "{} films have {} frames in all; allowed: at most {} pictures in memory, that is {} frames of each film",
+        "{} films have {} frames in total; allowed: at most {} pictures in memory, which are {} frames of each film",
         views.size(), pictures, kMaxPictures, kMaxPictures / views.size());
   }
   ReducedTake take;
@@ -98,7 +97,8 @@ Result<ReducedTake> ReadTake(const CaptureFilmsOptions& options, const std::vect
     ASSIGN_OR_RETURN(auto film, ReadReduced(view.path, view.facts, view.camera.camera, view.fit,
                                             UnmarkedTake::kPictureSide, view.facts.frames));
     if (film.empty() || film.size() != static_cast<std::size_t>(view.facts.frames)) {
-      return Fail({view.path.string()}, "{} frames, although its header states {}", film.size(), view.facts.frames);
+      return Fail({view.path.string()}, "found {} frames, but the film's header states {}", film.size(),
+                  view.facts.frames);
     }
     take.pictures.push_back(NearestInTime(std::move(film), view.facts, clock, views.front().facts.EvenFrames()));
     if (options.rooms.empty()) continue;
@@ -204,15 +204,17 @@ std::string TellUnmarked(const CaptureFilmsOptions& options, const std::vector<F
                          const UnmarkedMotion& person, MessageLog& told) {
   // Report the stature and the frames without a pose of their own.
   told.Tell(fmt::format("stature: {:.2f} m{}; {}", person.stature_m,
-                        options.stature_m > 0 ? "" : ", found from the outlines", OutlinesText(views, person)));
+                        options.stature_m > 0 ? "" : ", estimated from the outlines", OutlinesText(views, person)));
   if (person.held > 0) {
-    told.Tell(fmt::format("doubtful: {} frames show the person in fewer than two cameras and repeat the last pose",
-                          person.held));
+    told.Tell(
+        fmt::format("doubtful: in {} frames, fewer than two cameras show the person, so these frames repeat "
+                    "the last pose",
+                    person.held));
   }
   constexpr double kMaxApart = 0.5, kDoubtfulShare = 0.1, kWrongShare = 0.5;
   std::string wrong;
   if (static_cast<double>(person.held) > kWrongShare * static_cast<double>(person.motion.poses.size())) {
-    wrong = fmt::format("{} of {} frames show the person in fewer than two cameras", person.held,
+    wrong = fmt::format("in {} of {} frames, fewer than two cameras show the person", person.held,
                         person.motion.poses.size());
   }
   // Report the cameras in which body and outline disagree.
@@ -221,15 +223,16 @@ std::string TellUnmarked(const CaptureFilmsOptions& options, const std::vector<F
     const auto far = std::ranges::count_if(apart, [](double share) { return share > kMaxApart; });
     const double share = static_cast<double>(far) / static_cast<double>(std::max<std::size_t>(1, apart.size()));
     if (share <= kDoubtfulShare) continue;
-    told.Tell(fmt::format("doubtful: {}: in {:.0f} % of its frames, body and outline overlap by less than half",
+    told.Tell(fmt::format("doubtful: {}: in {:.0f} % of the frames, body and outline overlap by less than half",
                           views[i].camera.name, kPercent * share));
     if (share <= kWrongShare || !wrong.empty()) continue;
-    wrong = fmt::format("in {:.0f} % of {}'s frames, body and outline overlap by less than half", kPercent * share,
+    wrong = fmt::format("in {:.0f} % of the frames of {}, body and outline overlap by less than half", kPercent * share,
                         views[i].camera.name);
   }
   if (wrong.empty() || !options.rooms.empty() || !options.masks.empty()) return wrong;
   return wrong +
-         "; a person who stays in one place cannot be distinguished from the room: film each room empty (--rooms)";
+         ". A person who stays in one place cannot be distinguished from the room, so use pictures of the empty "
+         "rooms (--rooms)";
 }
 
 Result<bool> WriteUnmarkedReport(const CaptureFilmsOptions& options, const std::vector<FilmedView>& views,
@@ -239,8 +242,8 @@ Result<bool> WriteUnmarkedReport(const CaptureFilmsOptions& options, const std::
   page.residuals.push_back(ResidualsOfOutlines(views, person));
   page.verdict = fmt::format("{} cameras, {} frames at {:g} Hz: {}; {}.", views.size(), person.motion.poses.size(),
                              person.motion.rate_hz, OutlinesText(views, person), DoubtsOf(told));
-  page.limbs = "Limbs are an adult's, scaled to the stature.";
-  page.still.caption = "The skeleton as each camera would show it (lines; left blue, right orange).";
+  page.limbs = "The limb lengths are those of a standard adult, scaled to the person's height.";
+  page.still.caption = "The skeleton projected into each camera (lines; left blue, right orange).";
   return WritePage(options, std::move(page), OverlaysOf(views, clocks, person.motion.poses.size()), person.motion);
 }
 
@@ -248,7 +251,10 @@ Result<bool> WriteUnmarkedReport(const CaptureFilmsOptions& options, const std::
 
 Result<bool> CaptureUnmarked(const CaptureFilmsOptions& options, const FilmedSession& session,
                              const std::optional<MarkerMotion>& reference, Json& facts) {
-  if (!options.points.empty()) return Fail({}, "--points: with --silhouettes there are no keypoints to write");
+  if (!options.points.empty())
+    return Fail({},
+                "--points: not allowed with --silhouettes alone, because there are "
+                "no keypoints to write");
   const std::vector<FilmedView>& views = session.views;
   // Recover the motion from the silhouettes.
   MessageLog told{options.listener.print};
@@ -268,7 +274,8 @@ Result<bool> CaptureUnmarked(const CaptureFilmsOptions& options, const FilmedSes
     ASSIGN_OR_RETURN(const auto columns, CompareWithReference(*reference, person, take, options, told));
     RETURN_IF_ERROR(TellColumns(
         fmt::format(
-            "Distance of the joints from {}, median, mm. It is the error only if the reference itself is right.",
+            "Median distance between the joints and {}, mm. This distance is the error only if the reference is "
+            "right.",
             options.reference),
         columns, views, options));
   }

@@ -46,9 +46,10 @@ Result<NamedCamera> CameraOfFilm(const CaptureFilmsOptions& options, const std::
   for (const NamedCamera& camera : rig) {
     if (Bare(camera.name) == Bare(wanted)) return camera;
   }
-  if (!options.cameras.empty()) return Fail({options.rig}, "has no camera {}; it has {}", wanted, NamesOf(rig));
+  if (!options.cameras.empty()) return Fail({options.rig}, "has no camera {}; allowed: {}", wanted, NamesOf(rig));
   return Fail({options.films[film]},
-              "the rig has no camera with the film's name; it has {}. Name the cameras by --cameras", NamesOf(rig));
+              "the rig has no camera with the film's name; the rig has {}. Use --cameras to assign cameras to films",
+              NamesOf(rig));
 }
 
 /// The files of a rig: one file, or two files that belong together, in one folder.
@@ -65,14 +66,14 @@ Result<RigPaths> RigPathsOf(const fs::path& path) {
     const bool is_named = path.filename() == inside || path.filename() == outside;
     if (!is_named && !(is_folder && fs::exists(folder / inside))) continue;
     if (!fs::exists(folder / inside) || !fs::exists(folder / outside)) {
-      return Fail({path.string()}, "{} and {} are both needed, in one folder", inside, outside);
+      return Fail({path.string()}, "this rig needs the two files {} and {} in one folder", inside, outside);
     }
     return RigPaths{folder / inside, folder / outside};
   }
   if (is_folder) {
     return Fail({path.string()},
-                "the folder contains no rig; allowed: the rig's file, or a folder with intri.yml and extri.yml, "
-                "intrinsics.yml and extrinsics.yml, or cameras.txt and images.txt");
+                "the folder contains no rig; allowed: a rig file, or a folder that contains intri.yml and "
+                "extri.yml, intrinsics.yml and extrinsics.yml, or cameras.txt and images.txt");
   }
   return RigPaths{path, {}};
 }
@@ -102,8 +103,8 @@ void FindSize(FilmedView& view, std::vector<std::string>& told) {
   // Report a size that differs from the film's size.
   if (best != film) {
     told.push_back(
-        fmt::format("{}: the rig states no picture size; its principal point ({:.0f}, {:.0f}) suggests {:.0f} x "
-                    "{:.0f} pixels, which are assumed, but the film has {:.0f} x {:.0f}",
+        fmt::format("{}: the rig states no picture size. The principal point ({:.0f}, {:.0f}) suggests {:.0f} x "
+                    "{:.0f} pixels, so Etude assumes this size, although the film has {:.0f} x {:.0f}",
                     view.camera.name, in.cx, in.cy, best.x, best.y, film.x, film.y));
   }
   for (double* length : {&in.fx, &in.fy, &in.cx, &in.cy, &in.skew}) *length /= scale;
@@ -119,7 +120,7 @@ Result<void> CheckTogether(const std::vector<FilmedView>& views, bool may_differ
   for (const FilmedView& view : views) {
     const FilmFacts& film = view.facts;
     if (!(film.rate_hz > 0)) {
-      return Fail({view.path.string()}, "does not state its frame rate");
+      return Fail({view.path.string()}, "the film file does not state a frame rate");
     }
     if (may_differ_in_time) continue;
     const bool is_one_rate = std::abs(film.rate_hz - first.rate_hz) <= kSameRateTolerance * first.rate_hz;
@@ -128,15 +129,15 @@ Result<void> CheckTogether(const std::vector<FilmedView>& views, bool may_differ
     constexpr double kFrames = 1.5;
     if (std::abs(seconds - wanted) > kFrames / std::min(film.rate_hz, first.rate_hz)) {
       return Fail({view.path.string()},
-                  "the film has {} frames, that is {:.4g} s at {:g} Hz, but {} has {}, that is {:.4g} s at {:g} Hz; "
-                  "cut both so "
-                  "that they begin and end at the same moments, or use keypoints to find the delay (--sync)",
+                  "the film has {} frames ({:.4g} s at {:g} Hz), but {} has {} frames ({:.4g} s at {:g} Hz). Cut "
+                  "both films so that they begin and end at the same moments, or use --sync to find the delay from "
+                  "keypoints",
                   film.EvenFrames(), seconds, film.rate_hz, views.front().path.string(), first.EvenFrames(), wanted,
                   first.rate_hz);
     }
     if (!is_one_rate) continue;
     told.push_back(
-        fmt::format("{}: the film has {} frames, but {} has {}; both are assumed to begin at the same moment",
+        fmt::format("{}: the film has {} frames, but {} has {}; Etude assumes that both begin at the same moment",
                     view.camera.name, film.EvenFrames(), views.front().camera.name, first.EvenFrames()));
   }
   return {};
@@ -182,11 +183,11 @@ Result<FilmedSession> OpenFilms(const CaptureFilmsOptions& options) {
   // Check the numbers of films and cameras.
   constexpr std::size_t kMaxFilms = 64;
   if (options.films.size() < 2 || options.films.size() > kMaxFilms) {
-    return Fail({}, "{} film{}; allowed: 2 to {}, one of each camera", options.films.size(),
+    return Fail({}, "found {} film{}; allowed: 2 to {} films, one for each camera", options.films.size(),
                 options.films.size() == 1 ? "" : "s", kMaxFilms);
   }
   if (!options.cameras.empty() && options.cameras.size() != options.films.size()) {
-    return Fail({}, "--cameras names {} cameras, but there are {} films; allowed: one camera for each film",
+    return Fail({}, "--cameras: found {} cameras, but there are {} films; allowed: one camera for each film",
                 options.cameras.size(), options.films.size());
   }
   std::vector<FilmedView> views;
@@ -226,7 +227,7 @@ Result<FilmedSession> OpenFilms(const CaptureFilmsOptions& options) {
       if (view.facts.pictures[i] < 0) missing.push_back(i);
     }
     told.push_back(fmt::format("{}: {}{}", view.camera.name, view.facts.remark,
-                               missing.empty() ? "" : fmt::format("; missing: frames {}", FramesText(missing))));
+                               missing.empty() ? "" : fmt::format("; missing frames: {}", FramesText(missing))));
   }
   RETURN_IF_ERROR(CheckTogether(views, options.sync_s > 0, told));
   return FilmedSession{std::move(views), std::move(rig_file), std::move(told)};
@@ -255,7 +256,7 @@ ComparedColumn CompareColumn(std::string heading, const MarkerMotion& markers, c
 MarkerMotion SynchroniseWith(const MarkerMotion& motion, MarkerMotion reference, MessageLog& told) {
   const std::size_t frames = motion.frames.size();
   if (reference.frames.size() != frames) {
-    told.Tell(fmt::format("reference: {} frames, but {} in the films; the first {} are compared",
+    told.Tell(fmt::format("the reference has {} frames, but the films have {}; only the first {} frames are compared",
                           reference.frames.size(), frames, std::min(reference.frames.size(), frames)));
   }
   const double own_rate = reference.rate_hz;
@@ -265,15 +266,17 @@ MarkerMotion SynchroniseWith(const MarkerMotion& motion, MarkerMotion reference,
   if (std::abs(own_rate - motion.rate_hz) > kWritten * own_rate) {
     const auto clock = MeasureClock(motion, reference);
     const bool is_mended = clock && clock->after < 0.5 * clock->before;
-    std::string said = "; no common marker shows how the clocks drift apart";
+    std::string said = "; no common marker determines the clock drift between them";
     if (clock) {
-      said =
-          fmt::format("; measured: a drift of {:+.2f} frames over the films, and a shift of {:+.2f} in their middle{}",
-                      clock->DriftOver(frames), clock->at + 0.5 * clock->DriftOver(frames),
-                      is_mended ? "; corrected" : "; too little to correct");
+      said = fmt::format(
+          "; the measured clock drift is {:+.2f} frames over the films, and the shift in the middle of "
+          "the films is {:+.2f} frames{}",
+          clock->DriftOver(frames), clock->at + 0.5 * clock->DriftOver(frames),
+          is_mended ? "; corrected" : "; too little to correct");
     }
     told.Tell(fmt::format(
-        "reference: it has {:g} frames per second, but the films have {:g}; they are assumed to have the same rate{}",
+        "the reference has {:g} frames per second, but the films have {:g}; Etude assumes that both have the same "
+        "rate{}",
         own_rate, motion.rate_hz, said));
     if (is_mended) reference = AtClock(reference, *clock, frames, motion.rate_hz);
   }

@@ -124,12 +124,11 @@ Result<std::vector<Mask>> ReadMasks(const std::string& folder, std::optional<int
   const MaskVisit visit = [&](const MaskPicture& mask, const std::string& file) -> Result<void> {
     const Image<std::uint16_t>& values = mask.values;
     if (values.width != view.facts.width || values.height != view.facts.height) {
-      return Fail({file}, "a mask of {} x {} pixels, but the film {} has {} x {}", values.width, values.height,
+      return Fail({file}, "the mask has {} x {} pixels, but the film {} has {} x {}", values.width, values.height,
                   view.path.string(), view.facts.width, view.facts.height);
     }
     if (numbers.size() == frames) {
-      return Fail({entry.string()}, "there are more masks than the film {} has frames ({})", view.path.string(),
-                  frames);
+      return Fail({entry.string()}, "found more masks than the film {} has frames ({})", view.path.string(), frames);
     }
     is_indexed |= mask.is_indexed;
     has_16_bits |= mask.has_16_bits;
@@ -148,7 +147,9 @@ Result<std::vector<Mask>> ReadMasks(const std::string& folder, std::optional<int
   };
   RETURN_IF_ERROR(fs::is_directory(entry) ? VisitFolder(entry, visit) : VisitFilm(entry, visit));
   if (numbers.size() < frames) {
-    return Fail({entry.string()}, "{} masks, but the film {} has {} frames; allowed: a mask for each frame (PNG)",
+    return Fail({entry.string()},
+                "found {} masks, but the film {} has {} frames; allowed: a mask for each frame "
+                "(PNG)",
                 numbers.size(), view.path.string(), frames);
   }
   // Choose the interpretation.
@@ -162,14 +163,17 @@ Result<std::vector<Mask>> ReadMasks(const std::string& folder, std::optional<int
   const bool are_numbers = id || is_indexed || largest <= kMaxNumber || AreFew({found.begin() + 1, found.end()});
   const bool are_cut_outs = has_alpha && !id;
   if (!id && !are_cut_outs && are_numbers && ids.size() > 1) {
-    return Fail({entry.string()}, "masks of several people or things: {}; choose one by --mask-id", ListOf(ids));
+    return Fail({entry.string()},
+                "the masks have several values: {}; use --mask-id to select the value of the "
+                "person",
+                ListOf(ids));
   }
   const bool has_8_bits = has_16_bits && largest < 256 && shades_of_8_bits.size() == shades.size();
   std::vector<Mask>& masks = are_cut_outs ? cut_outs : are_numbers ? numbers : has_8_bits ? shades_of_8_bits : shades;
   if (has_alpha) {
-    told.Tell(fmt::format("masks of {}: pictures have transparent pixels; {}", view.camera.name,
-                          id ? "the transparency is ignored, because --mask-id chooses by values"
-                             : "opaque pixels are taken as the person, whatever their colour"));
+    told.Tell(fmt::format("masks of {}: the pictures have transparent pixels; {}", view.camera.name,
+                          id ? "Etude ignores the transparency, because --mask-id selects the person by pixel value"
+                             : "Etude takes all opaque pixels as the person, whatever their colour"));
   }
   const auto empty = std::ranges::count_if(masks, IsEmpty);
   if (static_cast<std::size_t>(empty) == masks.size()) {
@@ -182,17 +186,21 @@ Result<std::vector<Mask>> ReadMasks(const std::string& folder, std::optional<int
   }
   // Report suspicious masks.
   if (empty > 0) {
-    told.Tell(fmt::format("masks of {}: {} of {} are empty", view.camera.name, empty, masks.size()));
+    told.Tell(fmt::format("masks of {}: {} of {} masks are empty", view.camera.name, empty, masks.size()));
   }
   const auto covering = std::ranges::count_if(masks, CoversMost);
   if (2 * static_cast<std::size_t>(covering) > masks.size()) {
-    told.Tell(fmt::format("doubtful: masks of {}: {} of {} cover most of the picture; is the person black in them?",
-                          view.camera.name, covering, masks.size()));
+    told.Tell(
+        fmt::format("doubtful: masks of {}: {} of {} masks cover most of the picture; the person may be black "
+                    "instead of white",
+                    view.camera.name, covering, masks.size()));
   }
   const auto several = std::ranges::count_if(masks, HasSeveral);
   if (several > 0) {
-    told.Tell(fmt::format("doubtful: masks of {}: {} of {} have several large regions: more than one person?",
-                          view.camera.name, several, masks.size()));
+    told.Tell(
+        fmt::format("doubtful: masks of {}: {} of {} masks have several large regions, and may show more than "
+                    "one person",
+                    view.camera.name, several, masks.size()));
   }
   return std::move(masks);
 }

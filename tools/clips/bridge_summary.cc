@@ -107,12 +107,14 @@ std::string ClipsAsText(const BridgeLibrary& loaded, const Coverage& coverage, c
                         100 * clip.in_between_share);
   }
   text += fmt::format(
-      "\nposes: different sets of ten tags. frames with a match: share of frames with d < {} to some frame of {}.\n"
-      "worst wait: longest time until a bridge frame leads into {}; the clip starts over at its end.\n"
-      "in-between: how often a transition within {} s needs one.{}\n",
+      "\n"
+      "poses: number of different sets of ten tags. frames with a match: share of frames with a distance d < {} to "
+      "a frame of {}.\n"
+      "worst wait: longest time until a bridge frame with a match in {}; the clip is repeated.\n"
+      "in-between: share of frames from which a transition within {} s needs an in-between clip.{}\n",
       loaded.match_rules.threshold, has_pairs ? "another clip" : "any other clip",
-      has_pairs ? "the other clip, over all clips reached" : "any other clip", wait_s,
-      has_pairs ? " Matches and in-betweens are means over the other clips." : "");
+      has_pairs ? "the other clip, maximum over all reachable clips" : "any other clip", wait_s,
+      has_pairs ? " The shares of matches and in-betweens are means over the other clips." : "");
   return text;
 }
 
@@ -122,8 +124,9 @@ std::string MatrixAsText(const BridgeLibrary& loaded, const Coverage& coverage) 
   std::string text;
   const int count = coverage.ClipCount(), width = NameWidth(loaded.library);
   text += fmt::format(
-      "\nHow many bridge frames of a row's clip match a bridge frame of a column's clip, per cent:\n     {:{}}", "",
-      width);
+      "\nPercentage of the bridge frames of the clip in a row that match a bridge frame of the clip in a "
+      "column:\n     {:{}}",
+      "", width);
   for (int to = 0; to < count; ++to) text += fmt::format(" {:>3}", to + 1);
   text += "\n";
   for (int from = 0; from < count; ++from) {
@@ -144,13 +147,15 @@ std::string WaysAsText(const BridgeLibrary& loaded, const Coverage& coverage) {
     const std::vector<std::string> without = NamesOf(coverage.WithoutWayInto(wanted), loaded.library);
     const std::string& name = loaded.library.names[wanted];
     if (without.empty()) {
-      text += fmt::format("Every clip has a bridge frame into {}.\n", name);
+      text += fmt::format("Every clip has a bridge frame that leads into {}.\n", name);
     } else {
-      text += fmt::format("No bridge frame leads into {} from these clips: {}.\n", name, Join(without));
+      text += fmt::format("These clips have no bridge frame that leads into {}: {}.\n", name, Join(without));
     }
   }
   if (loaded.corrective.empty())
-    text += "No corrective clip was named (--to), so bridge frames into such clips were not searched for.\n";
+    text +=
+        "No corrective clip is in the library or in --to, so Etude did not search bridge frames that lead into "
+        "corrective clips.\n";
   return text;
 }
 
@@ -160,24 +165,25 @@ std::string BridgeSummaryAsText(const BridgeLibrary& loaded, const Coverage& cov
   std::string text;
   const std::vector<ClipSummary> clips = SummarizeAll(loaded, coverage);
   const ClipSummary total = Total(clips);
-  text +=
-      fmt::format("{} clips, {} frames, {} bridge frames ({:.0f} %); fuzzy system {}, threshold {}{}\n", clips.size(),
-                  total.frames, total.bridge_frames, Percent(total.bridge_frames, total.frames), loaded.system.name,
-                  loaded.match_rules.threshold, loaded.match_rules.within_class ? ", matches only within a class" : "");
+  text += fmt::format("{} clips, {} frames, {} bridge frames ({:.0f} %); fuzzy system {}, threshold {}{}\n",
+                      clips.size(), total.frames, total.bridge_frames, Percent(total.bridge_frames, total.frames),
+                      loaded.system.name, loaded.match_rules.threshold,
+                      loaded.match_rules.within_class ? ", matches only between frames with the same tags" : "");
   text += ClipsAsText(loaded, coverage, clips, wait_s);
   if (!coverage.HasPairs()) {
-    text += "\nPairs of clips were not compared; --pairs compares them.\n";
+    text += "\nPairs of clips were not compared; use --pairs to compare all pairs.\n";
   } else if (coverage.ClipCount() <= kMaxMatrixClips) {
     text += MatrixAsText(loaded, coverage);
   } else {
-    text += fmt::format("\nThe matrix of {} × {} clips is in --json.\n", clips.size(), clips.size());
+    text += fmt::format("\nThe matrix of {} × {} clips is too large for this text; --json prints it.\n", clips.size(),
+                        clips.size());
   }
   text += WaysAsText(loaded, coverage);
-  if (coverage.ClipCount() == 1) return text + "It is the only clip: there is no other to lead into.\n";
+  if (coverage.ClipCount() == 1) return text + "The library has only one clip, so there are no transitions.\n";
   text += fmt::format(
-      "From any frame into {} other clip within {} s: {:.0f} % directly, {:.0f} % through an in-between, made of {} "
-      "key\n"
-      "poses; an in-between takes at most {:.1f} s.\n",
+      "Transitions from all frames into {} other clip within {} s: {:.0f} % lead directly, {:.0f} % need an "
+      "in-between clip. In-between\n"
+      "clips are made from {} key poses and take at most {:.1f} s.\n",
       coverage.HasPairs() ? "any" : "some", wait_s, 100 * (1 - total.in_between_share), 100 * total.in_between_share,
       loaded.library.in_betweens.keys.size(), LongestInBetween(loaded.library.in_betweens.tween, kJudgedRateHz));
   return text;

@@ -208,9 +208,9 @@ std::string DescribeEvidence(const UpFinding& up) {
 std::string BodyLines(const BodyFacts& body) {
   const MotionStatistics& motion = body.motion;
   const FootSlide& slide = motion.foot_slide;
-  std::string feet = "no foot ever stands";
+  std::string feet = "no foot is ever on the floor";
   if (slide.mean) {
-    feet = "standing feet slide " + CmPerSecond(slide.mean);
+    feet = "feet on the floor slide " + CmPerSecond(slide.mean);
     if (slide.of_foot[0] && slide.of_foot[1]) {
       feet += fmt::format(" (left {}, right {})", CmPerSecond(slide.of_foot[0]), CmPerSecond(slide.of_foot[1]));
     }
@@ -220,11 +220,12 @@ std::string BodyLines(const BodyFacts& body) {
   // The first change (the unit or the marker set) is printed beside the stature; every other change gets its own line.
   std::string changes;
   for (std::size_t i = 1; i < body.changes.size(); ++i) changes += Line("changed", body.changes[i]);
-  return Line("body", fmt::format("{:.2f} m tall along its joints; {}; {} up ({})", motion.stature_m,
+  return Line("body", fmt::format("height {:.2f} m, measured along the joints; {}; {} up ({})", motion.stature_m,
                                   body.changes.front(), AxisName(body.up.axis), DescribeEvidence(body.up))) +
          changes +
          Line("motion",
-              fmt::format("travels {:.1f} m; fastest joint: median {:.2f}, 95 % {:.2f}, peak {:.2f} m/s ({}); {}",
+              fmt::format("travels {:.1f} m; speed of the fastest joint: median {:.2f}, 95th percentile {:.2f}, "
+                          "peak {:.2f} m/s ({}); {}",
                           motion.travelled_m, motion.speed_median_m_s, motion.speed_p95_m_s, motion.speed_peak_m_s,
                           RoleName(motion.fastest), feet)) +
          remarks;

@@ -63,7 +63,7 @@ Result<ClipActor> ClipActor::Make(OpenedClip clip, std::optional<ActorKind> kind
     kind = has_own ? ActorKind::kOwn : is_builtin ? ActorKind::kBear : ActorKind::kMannequin;
   }
   if (*kind == ActorKind::kOwn && !has_own) {
-    return Fail({clip.source.source, 0, 0}, "has no figure of its own; allowed: bear, mannequin, body");
+    return Fail({clip.source.source, 0, 0}, "the file contains no figure (meshes); allowed: bear, mannequin, body");
   }
   return ClipActor(std::move(clip), *kind);
 }

@@ -120,7 +120,7 @@ std::string ContactIndexSvg(const std::string& name, const BodyMotion& motion) {
     picture.Add(speed);
     picture.AddBars(contacts[side]);
     const auto standing = static_cast<double>(std::ranges::count(contacts[side], true));
-    title += fmt::format("{} {} stands {:.0f} % of the time", side == 0 ? ":" : ",", label,
+    title += fmt::format("{} {} is on the floor for {:.0f} % of the time", side == 0 ? ":" : ",", label,
                          100 * standing / static_cast<double>(motion.poses.size()));
   }
   return picture.Svg(title);

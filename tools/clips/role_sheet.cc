@@ -97,7 +97,7 @@ std::string MissingRoles(const std::array<RoleOnSheet, kRoleCount>& roles) {
   for (const Role role : AllRoles()) {
     if (roles[Index(role)].joint < 0) missing.emplace_back(RoleName(role));
   }
-  return missing.empty() ? "every role has a joint" : "no joint for: " + Join(missing);
+  return missing.empty() ? "every role has a joint" : "roles without a joint: " + Join(missing);
 }
 
 }  // namespace
@@ -114,7 +114,10 @@ Result<std::string> DrawRoleSheet(const Clip& clip, const std::array<RoleOnSheet
     low = glm::min(low, joints[i].at), high = glm::max(high, joints[i].at);
   }
   const double size = std::max(high.x - low.x, high.y - low.y);
-  if (!std::isfinite(size) || size <= 0) return Fail({}, "the skeleton has no size, so it cannot be drawn");
+  if (!std::isfinite(size) || size <= 0)
+    return Fail({},
+                "all joints of the skeleton are at the same position, so "
+                "the skeleton cannot be drawn");
   // Label the joints with names and roles, and put each label on the joint's side of the picture.
   Label(roles, joints);
 
@@ -126,7 +129,7 @@ Result<std::string> DrawRoleSheet(const Clip& clip, const std::array<RoleOnSheet
   }
   const double lines = static_cast<double>(std::max(columns[0].size(), columns[1].size()));
   const double height = std::max<double>(kMinHeight, kTop + kLine * (lines + 1) + kFoot);
-  if (height > kMaxSheetSide) return Fail({}, "{} joints: too many for one picture", joints.size());
+  if (height > kMaxSheetSide) return Fail({}, "found {} joints, which are too many for one picture", joints.size());
 
   Canvas canvas(kSheetWidth, static_cast<int>(height));
   canvas.FillBox({0, 0, kSheetWidth, height}, kBackdrop);
@@ -150,7 +153,8 @@ Result<std::string> DrawRoleSheet(const Clip& clip, const std::array<RoleOnSheet
   canvas.DrawText({kEdge, height - 32}, MissingRoles(roles), kLabelSize, kInk, kSheetWidth - 2 * kEdge, true);
   canvas.DrawText(
       {kEdge, height - 12},
-      "blue: found by the joint's name or its parent's name; orange: found by the skeleton's shape; white: has no role",
+      "blue: role found from the name of the joint or its parent; orange: role found from the skeleton's shape; "
+      "white: no role",
       kLabelSize, kSoftInk, kSheetWidth - 2 * kEdge);
   return canvas.Png();
 }

@@ -30,7 +30,7 @@ Result<TimedBody> OpenBody(const std::string& reference, const OpenOptions& read
   const double rate_hz = source.clip.rate_hz;
   ASSIGN_OR_RETURN(auto opened, UnderstandClip(std::move(source), reading));
   if (opened.body.motion.poses.size() < 2)
-    return Fail({reference}, "the clip has only one frame at 30 Hz; a transition needs two or more");
+    return Fail({reference}, "the clip has only one frame at 30 Hz; a transition needs two frames or more");
   return TimedBody{opened.source.name, std::move(opened.body.motion),
                    static_cast<double>(opened.body.dropped_frames) / rate_hz};
 }
@@ -60,9 +60,9 @@ Result<TransitionFile> WriteTransition(const TransitionFileOptions& options) {
   const auto frames = static_cast<double>(from.motion.poses.size());
   const double frame = std::round((options.at_s - from.begin_s) * kJudgedRateHz);
   if (!(frame >= 0 && frame < frames)) {
-    return Fail({}, "--at {:g}: {} plays from {:.2f} to {:.2f} s{}", options.at_s, from.name, from.begin_s,
-                from.begin_s + (frames - 1) / kJudgedRateHz,
-                from.begin_s > 0 ? ", after a T-pose that is left out" : "");
+    return Fail({}, "--at {:g}: outside the clip {}; allowed: {:.2f} to {:.2f} s{}", options.at_s, from.name,
+                from.begin_s, from.begin_s + (frames - 1) / kJudgedRateHz,
+                from.begin_s > 0 ? " (Etude leaves out the T-pose at the start)" : "");
   }
   // The body of the first clip performs all clips.
   const BodyPose& first = from.motion.poses.front();

@@ -162,9 +162,9 @@ void DrawScale(Canvas& canvas, const Scale& scale) {
   canvas.DrawText({kMargin + kLong - 50, kTop + 30}, fmt::format("{:.1f} or more", scale.high), kTextSize, kSoftInk,
                   140);
   canvas.FillBox({kMargin, kTop + 44, kThick, kThick}, kUnseen);
-  canvas.DrawText({kMargin + 22, kTop + 56}, "seen by fewer than two cameras", kTextSize, kSoftInk, kPlanSize);
+  canvas.DrawText({kMargin + 22, kTop + 56}, "fewer than two cameras see this place", kTextSize, kSoftInk, kPlanSize);
   canvas.DrawRing({kMargin + 7, kTop + 76}, 6, 2, kInk);
-  canvas.DrawText({kMargin + 22, kTop + 81}, "the worst place", kTextSize, kSoftInk, kPlanSize);
+  canvas.DrawText({kMargin + 22, kTop + 81}, "place of the largest error", kTextSize, kSoftInk, kPlanSize);
 }
 
 std::string CamerasHtml(const RigForecast& forecast) {
@@ -180,7 +180,7 @@ std::string CamerasHtml(const RigForecast& forecast) {
 }
 
 std::string JointsHtml(const RigForecast& forecast) {
-  if (forecast.joints.empty()) return "<p>At no place do two cameras see all joints of a standing body.</p>";
+  if (forecast.joints.empty()) return "<p>There is no place where two cameras see all joints of a standing body.</p>";
   Table table{.label = "Joints", .columns = {{.head = "Joint", .is_row_head = true}}};
   for (const char* head :
        {"Keypoints, px", "Triangulated, mm", "Fitted, mm", "Limb triangulated, degrees", "Limb fitted, degrees"})
@@ -195,10 +195,10 @@ std::string JointsHtml(const RigForecast& forecast) {
           degrees(joint.body_deg)}});
   }
   return fmt::format(
-             "<p>Errors of a standing person, root mean square, mean over the {:.0f} % of the floor where two cameras "
-             "see "
-             "every joint. Triangulated: each joint by itself. Fitted: the same joint of a body that is fitted to all "
-             "joints at once. Limb: the direction of the limb that ends in the joint.</p>",
+             "<p>Root mean square errors of a standing person, over the {:.0f} % of the floor where two cameras see "
+             "every joint. Triangulated: the error of each joint on its own. Fitted: the error of the same joint, "
+             "if a body is fitted to all joints at once. Limb: the error of the direction of the limb that ends in "
+             "the joint.</p>",
              100 * forecast.bodies) +
          TableHtml(table);
 }
@@ -207,13 +207,13 @@ std::string WorthsHtml(const RigForecast& forecast) {
   Table table{.label = "Changes",
               .columns = {{.head = "The rig", .is_row_head = true},
                           {.head = "Median error, mm", .is_number = true},
-                          {.head = "Places seen", .is_number = true}}};
+                          {.head = "Visible places", .is_number = true}}};
   for (const RigWorth& worth : forecast.worths) {
     table.rows.push_back(
         {{worth.change, fmt::format("{:.1f}", worth.median_mm), fmt::format("{:.0f} %", 100 * worth.seen)}});
   }
-  return "<p>The median error of a triangulated point at the places that two cameras of the present rig see, and the "
-         "share of all places that two cameras of the changed rig see.</p>" +
+  return "<p>Median error: of a triangulated point, over the places that two cameras of the present rig see. "
+         "Visible places: the share of all places that two cameras of the changed rig see.</p>" +
          TableHtml(table);
 }
 
@@ -245,9 +245,9 @@ std::string ForecastPage(const RigForecast& forecast, const ForecastOptions& opt
                         .verdict = FoundWords(forecast) + ".",
                         .version = options.version,
                         .command = options.command_line},
-                       fmt::format("<p>{}.</p>{}<section class=\"card\"><h2>What would help</h2>{}</section>\n<section "
-                                   "class=\"card\"><h2>A person there</h2>{}</section>\n<section "
-                                   "class=\"card\"><h2>The cameras</h2>{}</section>\n",
+                       fmt::format("<p>{}.</p>{}<section class=\"card\"><h2>What would help</h2>{}</section>\n"
+                                   "<section class=\"card\"><h2>Errors of a person in the volume</h2>{}</section>\n"
+                                   "<section class=\"card\"><h2>The cameras</h2>{}</section>\n",
                                    EscapeMarkup(AssumedWords(forecast, options)), picture, WorthsHtml(forecast),
                                    JointsHtml(forecast), CamerasHtml(forecast)));
 }

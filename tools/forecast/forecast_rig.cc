@@ -45,10 +45,13 @@ Result<void> AddCameras(const ForecastOptions& options, RigForecast& forecast) {
     in.width = static_cast<int>(std::lround(2 * in.cx));
     in.height = static_cast<int>(std::lround(2 * in.cy));
     if (in.width <= 0 || in.height <= 0)
-      return Fail({options.rig}, "camera {}: the rig states no picture size, and none follows from the principal point",
+      return Fail({options.rig},
+                  "camera {}: the rig states no picture size, and the principal point does not "
+                  "determine a picture size",
                   named.name);
     options.listener.print(
-        fmt::format("{}: the rig states no picture size; {} x {} pixels are assumed, twice the principal point\n",
+        fmt::format("{}: the rig states no picture size, so Etude assumes {} x {} pixels, which are twice the "
+                    "principal point\n",
                     named.name, in.width, in.height));
   }
   for (const std::string& doubt : RigDoubts(forecast.cameras)) forecast.doubts.push_back("doubtful: " + doubt);
@@ -71,8 +74,8 @@ Result<glm::dvec2> MiddleOf(const std::vector<NamedCamera>& cameras, const std::
   constexpr double kParallel = 1e-3;
   if (!(glm::determinant(normal) > kParallel * std::pow(static_cast<double>(cameras.size()), 3))) {
     return Fail({file},
-                "the cameras look in parallel directions, which do not determine the middle of the volume; give it "
-                "by --middle X,Z in m");
+                "the cameras look in parallel directions, which do not determine the middle of the volume; use "
+                "--middle X,Z, in m, to set the middle");
   }
   const glm::dvec3 middle = glm::inverse(normal) * right;
   return glm::round(kMmPerM * glm::dvec2(middle.x, middle.z)) / kMmPerM;
@@ -114,7 +117,7 @@ void AddBlindCameras(const ForecastOptions& options, RigForecast& forecast) {
       return pixel && pixel->x >= 0 && pixel->y >= 0 && pixel->x <= in.width && pixel->y <= in.height;
     });
     if (!is_blind) continue;
-    forecast.doubts.push_back(fmt::format("doubtful: {}: no place of the volume is in its picture", name));
+    forecast.doubts.push_back(fmt::format("doubtful: {}: this camera sees no place of the volume", name));
     options.listener.print(forecast.doubts.back() + "\n");
   }
 }
@@ -294,12 +297,14 @@ std::string CamerasText(const RigForecast& forecast) {
 }
 
 std::string JointsText(const RigForecast& forecast) {
-  if (forecast.joints.empty()) return "At no place do two cameras see all joints of a standing body.\n";
+  if (forecast.joints.empty()) return "There is no place where two cameras see all joints of a standing body.\n";
   std::string text = fmt::format(
-      "\nErrors of a standing body, root mean square, mean over the {:.0f} % of the floor where two cameras see every "
+      "\n"
+      "Root mean square errors of a standing body, over the {:.0f} % of the floor where two cameras see every "
       "joint.\n"
-      "Triangulated: each joint by itself. Fitted: the joint of a body that is fitted to all joints at once.\n"
-      "Limb: the direction of the limb that ends in the joint.\n"
+      "Triangulated: the error of each joint on its own. Fitted: the error of the same joint, if a body is fitted "
+      "to all\n"
+      "joints at once. Limb: the error of the direction of the limb that ends in the joint.\n"
       "{:<16}{:>15}{:>18}{:>12}{:>24}{:>18}\n",
       100 * forecast.bodies, "joint", "keypoints, px", "triangulated, mm", "fitted, mm", "limb triangulated, deg",
       "limb fitted, deg");
@@ -315,9 +320,12 @@ std::string JointsText(const RigForecast& forecast) {
 
 std::string WorthsText(const RigForecast& forecast) {
   std::string text = fmt::format(
-      "\nWhat would help: the median error of a point at the places that two cameras of the present rig see, and the\n"
-      "share of all places that two cameras of the changed rig see\n{:<52}{:>12}{:>13}\n",
-      "", "median, mm", "places seen");
+      "\n"
+      "What would help. Median: the median error of a point, over the places that two cameras of the present rig "
+      "see.\n"
+      "Visible: the share of all places that two cameras of the changed rig see.\n"
+      "{:<52}{:>12}{:>13}\n",
+      "", "median, mm", "visible");
   for (const RigWorth& worth : forecast.worths)
     text += fmt::format("{:<52}{:>12.1f}{:>11.0f} %\n", worth.change, worth.median_mm, 100 * worth.seen);
   return text;
@@ -330,12 +338,12 @@ std::string AssumedWords(const RigForecast& forecast, const ForecastOptions& opt
   const std::string measured =
       forecast.measured
           ? fmt::format(
-                "Measured (standard deviation): keypoints err by {:.1f} px along each axis ({} points). Assumed:",
+                "Measured: the standard deviation of keypoints is {:.1f} px along each axis ({} points). Assumed:",
                 forecast.measured->all_px, forecast.measured->points)
-          : fmt::format("Assumed (standard deviations): keypoints err by {:g} px along each axis,", errors.noise_px);
+          : fmt::format("Assumed: the standard deviation of keypoints is {:g} px along each axis;", errors.noise_px);
   return fmt::format(
-      "{} a camera gives no keypoint in {:g} % of its pictures; cameras err by {:g} mm, {:g} degrees, {:g} % of the "
-      "focal length",
+      "{} a joint has no keypoint in {:g} % of a camera's pictures; the standard deviations of cameras are {:g} mm, "
+      "{:g} degrees and {:g} % of the focal length",
       measured, 100 * errors.dropout, kMmPerM * errors.calibration.place_m, Degrees(errors.calibration.turn),
       100 * errors.calibration.focal);
 }
@@ -343,8 +351,8 @@ std::string AssumedWords(const RigForecast& forecast, const ForecastOptions& opt
 std::string FoundWords(const RigForecast& forecast) {
   const glm::dvec3& worst = forecast.worst.place_m;
   return fmt::format(
-      "A point errs by {:.1f} mm in the median and by {:.1f} mm at the 95th percentile, over the {:.0f} % of places "
-      "that two cameras see; worst: {:.1f} mm at x {:.2f}, z {:.2f}, {:.2f} m high",
+      "The error of a point is {:.1f} mm in the median and {:.1f} mm at the 95th percentile, over the {:.0f} % of "
+      "places that two cameras see. The largest error is {:.1f} mm at x {:.2f}, z {:.2f}, {:.2f} m high",
       forecast.median_mm, forecast.p95_mm, 100 * forecast.seen, *forecast.worst.error_mm, worst.x, worst.z, worst.y);
 }
 
@@ -368,11 +376,10 @@ Result<RigForecast> ForecastRig(const ForecastOptions& asked) {
   forecast.places = PlacesOf(cameras, forecast.middle_m, options, options.errors);
   forecast.seen = ShareSeen(forecast.places);
   if (forecast.seen == 0) {
-    return Fail(
-        {options.rig},
-        "no place within {:g} x {:g} m around x {:.2f}, z {:.2f} is in the pictures of two cameras; allowed: another "
-        "--middle, --size or --rig-unit",
-        options.size_m.x, options.size_m.z, forecast.middle_m.x, forecast.middle_m.y);
+    return Fail({options.rig},
+                "two cameras see no common place within {:g} x {:g} m around x {:.2f}, z {:.2f}; use another --middle, "
+                "--size or --rig-unit",
+                options.size_m.x, options.size_m.z, forecast.middle_m.x, forecast.middle_m.y);
   }
   AddBlindCameras(options, forecast);
   const std::vector<double> errors = ErrorsWhere(forecast.places, forecast.places);
@@ -385,8 +392,11 @@ Result<RigForecast> ForecastRig(const ForecastOptions& asked) {
   RETURN_IF_ERROR(AddJoints(cameras, options, forecast));
   AddWorths(cameras, options, forecast);
   options.listener.print(
-      fmt::format("{}{} cameras around x {:.2f}, z {:.2f}, in a volume of {:g} m along x, {:g} m along z, {:g} m "
-                  "high\n{}\n{}\n{}{}",
+      fmt::format("{}{} cameras; the middle of the volume is at x {:.2f}, z {:.2f}, and the volume is {:g} m along "
+                  "x, {:g} m along z, {:g} m high\n"
+                  "{}\n"
+                  "{}\n"
+                  "{}{}",
                   CamerasText(forecast), cameras.size(), forecast.middle_m.x, forecast.middle_m.y, options.size_m.x,
                   options.size_m.z, options.size_m.y, AssumedWords(forecast, options), FoundWords(forecast),
                   JointsText(forecast), WorthsText(forecast)));

@@ -177,7 +177,10 @@ std::string DescribeMismatch(const RealRecording& real) {
     return is_common[j] && carrier ? Places(carrier->position) : Places();
   });
   if (!(other <= kMaxRatio * own && own <= kMaxRatio * other)) {
-    return fmt::format("its body is {:.3g} times as large as the recording's; is its unit right?", other / own);
+    return fmt::format(
+        "the body in the reference is {:.3g} times as large as in the recording; the unit of one "
+        "file may be wrong",
+        other / own);
   }
   const double rms_m = match.alignment.rms_m;
   if (rms_m > kMinMirror_m) {
@@ -189,12 +192,17 @@ std::string DescribeMismatch(const RealRecording& real) {
     }
     const auto image = AlignTwin(mirrored, twin);
     if (image && image->alignment.rms_m < kMirror * rms_m) {
-      return fmt::format("{:.1f} mm RMS remain, but {:.1f} mm if it is mirrored; one of the two is a mirror image",
-                         1000 * rms_m, 1000 * image->alignment.rms_m);
+      return fmt::format(
+          "the RMS distance after alignment is {:.1f} mm, but {:.1f} mm if the recording is "
+          "mirrored, so one of the two files is a mirror image",
+          1000 * rms_m, 1000 * image->alignment.rms_m);
     }
   }
   if (rms_m <= kMax_m) return "";
-  return fmt::format("{:.1f} mm RMS remain; allowed: at most {:g} mm, as of one motion", 1000 * rms_m, 1000 * kMax_m);
+  return fmt::format(
+      "the RMS distance after alignment is {:.1f} mm; allowed for recordings of the same motion: at "
+      "most {:g} mm",
+      1000 * rms_m, 1000 * kMax_m);
 }
 
 SensorStatistics StatisticsOf(const RealRecording& real) { return StatisticsOf(real.recording, &real.match); }

@@ -98,7 +98,7 @@ TEST(CoachedSession, RefusesWhatIsNone) {
   recorded.recording.tracks[1].motion.poses.pop_back();
   auto facts = ReadCoachedSession(recorded.Cell());
   ASSERT_FALSE(facts.has_value());
-  EXPECT_THAT(ToString(facts.error()), HasSubstr("its tracks 'coach', 'truth' and 'sensed' differ in length"));
+  EXPECT_THAT(ToString(facts.error()), HasSubstr("the tracks 'coach', 'truth' and 'sensed' differ in length"));
   recorded.recording.tracks.pop_back();
   facts = ReadCoachedSession(recorded.Cell());
   ASSERT_FALSE(facts.has_value());

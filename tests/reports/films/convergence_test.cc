@@ -125,7 +125,7 @@ TEST_F(Convergence, TellsInWordsWhoSolvedItAndWhoDidNot) {
   const ConvergenceScene scene(race_, "race", *renderer_);
   EXPECT_THAT(scene.Words(), HasSubstr("early on the left (solved at iteration 6)"));
   EXPECT_THAT(scene.Words(), HasSubstr("late on the right (not solved: 12° after 60 sweeps)"));
-  EXPECT_THAT(scene.Words(), HasSubstr("trial 0, the first world that kept recordings of both"));
+  EXPECT_THAT(scene.Words(), HasSubstr("trial 0, the first world with recordings of both methods"));
   EXPECT_EQ(scene.PosterFrame(), scene.Frames() - 1);
 }
 

@@ -22,7 +22,7 @@ TEST(IkRace, IsTheFirstWorldThatRecordedBothWhoeverLooksBestLater) {
                                 {"slow", 1, 0.5, EveryIteration(15)},
                                 {"quick", 1, 1, EveryIteration(8)}})));
   EXPECT_EQ(race->world, "trial 0");
-  EXPECT_EQ(race->choice, "the first world that kept recordings of both");
+  EXPECT_EQ(race->choice, "the first world with recordings of both methods");
   EXPECT_EQ(race->paths[0].method, "slow");
   EXPECT_EQ(race->paths[1].method, "quick");
 }
@@ -34,7 +34,7 @@ TEST(IkRace, SaysWhichWorldItPassedOver) {
                                 {"quick", 1, 1, EveryIteration(8)}})));
   EXPECT_EQ(race->world, "trial 1");
   EXPECT_THAT(race->choice,
-              HasSubstr("1 world had recordings of only one of them, the first: trial 0 (quick: crashed)"));
+              HasSubstr("1 world had recordings of only one method, the first of them trial 0 (quick: crashed)"));
 }
 
 TEST(IkRace, TakesTheFirstTwoOfTheMethodsThatWereRecorded) {
@@ -53,7 +53,7 @@ TEST(IkRace, SaysWhyThereIsNone) {
                                {"b", 0, 1, {}, Status::kFailed},
                                {"a", 1, 1, {}, Status::kFailed},
                                {"b", 1, 1, EveryIteration(3)}})),
-              HasSubstr("no world kept recordings of both a and b"));
+              HasSubstr("no world has recordings of both a and b"));
   EXPECT_EQ(WhyNone(RaceRun({{"a", 0, 1, EveryIteration(3)}, {"b", 0, 1, EveryIteration(3)}})), "accepted");
 }
 
@@ -96,7 +96,7 @@ TEST(IkRace, KnowsWhereTheEndsShouldBeWhateverTheTruth) {
   EXPECT_EQ(race->targets[3], glm::dvec3(1));
   for (const char* bad : {"null", "[null, null, null]", "[null, null, null, 1]", "[null, null, null, [1, 2]]",
                           R"([null, null, null, [1, 2, "up"]])"}) {
-    EXPECT_THAT(testing::Refusal(with(bad)), HasSubstr("'targets_m' in its extras is not a list of 4 positions"))
+    EXPECT_THAT(testing::Refusal(with(bad)), HasSubstr("'targets_m' in the extras is not a list of 4 positions"))
         << bad;
   }
 }
@@ -116,19 +116,19 @@ TEST(IkRace, RefusesRecordingsThatDoNotSayWhatTheyShow) {
   const std::string errors = R"(, "position_error_max_cm": [3, 2, 1], "axis_error_max_deg": [3, 2, 1]})";
   EXPECT_EQ(complaint(R"({"iterations": [0, 1, 2])" + errors), "accepted");
   EXPECT_THAT(complaint("{}"),
-              HasSubstr("race/-/000/b: 'iterations' in its extras is not a list of 3 increasing whole numbers"));
+              HasSubstr("race/-/000/b: 'iterations' in the extras is not a list of 3 increasing whole numbers"));
   EXPECT_THAT(complaint("[]"), HasSubstr("not a JSON object"));
   EXPECT_THAT(complaint(R"({"iterations": [0, 1])" + errors),
-              HasSubstr("'iterations' in its extras is not a list of 3"));
+              HasSubstr("'iterations' in the extras is not a list of 3"));
   EXPECT_THAT(complaint(R"({"iterations": [0, 1, "2"])" + errors),
-              HasSubstr("'iterations' in its extras is not a list of 3"));
+              HasSubstr("'iterations' in the extras is not a list of 3"));
   for (const char* wrong : {"[0, 2, 1]", "[1, 2, 3]", "[0, 1, 1.5]", "[0, 1, 1e12]"}) {
     EXPECT_THAT(complaint(R"({"iterations": )" + std::string(wrong) + errors),
                 HasSubstr("increasing whole numbers from 0"))
         << wrong;
   }
   EXPECT_THAT(complaint(R"({"iterations": [0, 1, 2], "position_error_max_cm": [3, -2, 1]})"),
-              HasSubstr("'position_error_max_cm' in its extras is not a list of 3 numbers of at least 0"));
+              HasSubstr("'position_error_max_cm' in the extras is not a list of 3 numbers of at least 0"));
 }
 
 }  // namespace

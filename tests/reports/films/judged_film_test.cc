@@ -98,7 +98,7 @@ TEST(JudgedSession, RefusesWhatIsNone) {
   world.run.recordings[0].recording.extras_json = R"({"events": 3})";
   auto facts = ReadJudgedSession(world.run, world.Cell(0));
   ASSERT_FALSE(facts.has_value());
-  EXPECT_THAT(ToString(facts.error()), HasSubstr("its extras do not fit a judged session"));
+  EXPECT_THAT(ToString(facts.error()), HasSubstr("the extras do not fit the session"));
   world.run.recordings[0].recording.tracks.pop_back();
   facts = ReadJudgedSession(world.run, world.Cell(0));
   ASSERT_FALSE(facts.has_value());

@@ -63,7 +63,7 @@ TEST(PaperASection, ShowsSweptSystemsBesideIt) {
       {.condition = {{"fuzzy", "builtin:gaussian"}}, .methods = {}, .comparisons = {}, .rivals = {}}};
   const std::string html = PaperAHtml(scenario);
   EXPECT_EQ(CountOf(html, "<figure>"), 12);
-  EXPECT_THAT(html, HasSubstr("in the system gaussian"));
+  EXPECT_THAT(html, HasSubstr("in the fuzzy system gaussian"));
 }
 
 TEST(PaperASection, IsEmptyForOtherScenarios) {

@@ -144,7 +144,7 @@ TEST(PaperBTables, SayWhyAMethodHasNoTable) {
   ASSERT_EQ(condition.sets[0].errors.size(), 4u);
   EXPECT_EQ(condition.sets[0].errors[2].caption, "(c) after adaptive");
   EXPECT_EQ(condition.sets[0].outcomes[1], "fixed-tuned: timeout (took longer than 2 s)");
-  EXPECT_THAT(condition.sets[1].outcomes[1], HasSubstr("0 of 12 ok, figures for only 0 of them"));
+  EXPECT_THAT(condition.sets[1].outcomes[1], HasSubstr("0 of 12 ok; only 0 of them have results"));
 }
 
 TEST(PaperBTables, TakeASeriesThatIsTooShortForMissingValues) {

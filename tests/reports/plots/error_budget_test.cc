@@ -33,7 +33,7 @@ TEST(ErrorBudgetHtml, HasABarForTheErrorForEveryStageAndForWhatIsLeft) {
 
 TEST(ErrorBudgetHtml, SaysWhetherTheSharesDependOnAnOrder) {
   ErrorBudget budget = Budget();
-  EXPECT_THAT(ErrorBudgetHtml(budget, "scene = 0.5"), HasSubstr("another order may divide the error differently"));
+  EXPECT_THAT(ErrorBudgetHtml(budget, "scene = 0.5"), HasSubstr("another order may give other values"));
   EXPECT_THAT(ErrorBudgetHtml(budget, "scene = 0.5"), HasSubstr("scene = 0.5"));
   budget.is_shapley = true;
   EXPECT_THAT(ErrorBudgetHtml(budget, ""), HasSubstr("Shapley values"));

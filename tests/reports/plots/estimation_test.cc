@@ -65,7 +65,7 @@ TEST(Estimation, DrawsEveryWorldTwiceAndItsDifferenceOnce) {
   EXPECT_THAT(html, HasSubstr("<title>trial 5 · clip-1: "));
   EXPECT_THAT(html, HasSubstr("class=\"band\""));
   EXPECT_THAT(EstimationLegend(capture, "mpjpe_mm"),
-              HasSubstr("shaded: differences of less than 1 mm, which do not matter"));
+              HasSubstr("Shaded: differences of less than 1 mm, which do not matter"));
   EXPECT_THAT(html, HasSubstr("data-s=\"capture\" data-c=\"-\" data-a=\"before-ik\" data-b=\"ccd-adaptive\""));
   EXPECT_THAT(UnitLegendHtml(pairs), HasSubstr("clip-3"));
 }
@@ -160,26 +160,28 @@ Comparison Differing(double all, std::vector<double> without) {
 
 TEST(LeftOutStrip, NamesTheClipThatCarriesTheDifference) {
   EXPECT_EQ(WithoutEachUnit(Differing(-4, {-0.3, -5, -6.7}), SamplingUnit::kClip),
-            "“adaptive” against “fixed”, mean difference if each clip in turn is left out: −6.70 mm to −0.300 mm. "
-            "Without “a” it is −0.300 "
+            "“adaptive” against “fixed”: if each clip in turn is left out, the mean difference is from −6.70 mm to "
+            "−0.300 mm. "
+            "Without “a”, the mean difference is −0.300 "
             "mm: the difference depends on this clip.");
   // "a" is nearer to the whole than "c", but crosses the threshold, so "a" is named.
   EXPECT_THAT(WithoutEachUnit(Differing(2.4, {0.7, 2.2, 9}), SamplingUnit::kClip),
-              HasSubstr("Without “a” it is 0.700 mm"));
+              HasSubstr("Without “a”, the mean difference is 0.700 mm"));
   EXPECT_THAT(WithoutEachUnit(Differing(-2, {1.5, -3, -4}), SamplingUnit::kLibrary),
               EndsWith("the difference depends on this library."));
 }
 
 TEST(LeftOutStrip, SaysThatNoneCarriesIt) {
-  EXPECT_THAT(WithoutEachUnit(Differing(-4, {-3, -4, -5}), SamplingUnit::kClip),
-              EndsWith("Without “a” it is −3.00 mm: no single clip decides whether it matters."));
+  EXPECT_THAT(
+      WithoutEachUnit(Differing(-4, {-3, -4, -5}), SamplingUnit::kClip),
+      EndsWith("Without “a”, the mean difference is −3.00 mm: no single clip decides whether the difference matters."));
   EXPECT_THAT(WithoutEachUnit(Differing(0.2, {0.1, -0.3, 0.4}), SamplingUnit::kLibrary),
-              EndsWith("no single library decides whether it matters."));
+              EndsWith("no single library decides whether the difference matters."));
 }
 
 TEST(LeftOutStrip, NamesTheClipThatHidesOne) {
   EXPECT_THAT(WithoutEachUnit(Differing(0.2, {0.1, -3, 0.5}), SamplingUnit::kClip),
-              EndsWith("this clip hides a difference that matters."));
+              EndsWith("without this clip, the difference would matter."));
 }
 
 TEST(LeftOutStrip, DrawsAMarkPerClipAgainstWhatMatters) {

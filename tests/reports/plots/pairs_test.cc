@@ -39,7 +39,8 @@ RunData MakeRun() {
 TEST(PairsHtml, BeginsWithTheWorstPairAndEscapesNames) {
   const RunData run = MakeRun();
   const std::string html = PairsHtml(run, run.scenarios[0]);
-  const std::size_t wild = html.find("wild &lt;i&gt;: at worst 123 mm"), calm = html.find("calm: at worst 10");
+  const std::size_t wild = html.find("wild &lt;i&gt;: largest error 123 mm"),
+                    calm = html.find("calm: largest error 10");
   ASSERT_NE(wild, std::string::npos) << html;
   ASSERT_NE(calm, std::string::npos) << html;
   EXPECT_LT(wild, calm);
@@ -74,8 +75,8 @@ TEST(PairsHtml, NamesTheErrorOfItsTitleAndTheFramesOfAPoint) {
   std::vector<double> longer(200, 10.0);
   run.series[0].series = {{"mpjpe_unaligned_mm", "frame", longer}, {"mpjpe_root_mm", "frame", std::vector(200, 400.0)}};
   const std::string html = PairsHtml(run, run.scenarios[0]);
-  EXPECT_THAT(html, HasSubstr("calm: at worst 10.0 mm (joint error, unaligned)"));
-  EXPECT_THAT(html, HasSubstr("joint error, unaligned, mm, the largest of every 3 frames"));
+  EXPECT_THAT(html, HasSubstr("calm: largest error 10.0 mm (joint error, unaligned)"));
+  EXPECT_THAT(html, HasSubstr("joint error, unaligned, mm, maximum of every 3 frames"));
   EXPECT_THAT(html, HasSubstr("joint error, unaligned, mm, by frame")) << "of the pair with 20 frames";
   EXPECT_LT(html.find("wild"), html.find("calm")) << "pairs are ordered by the error of the title";
 }

@@ -61,7 +61,7 @@ TEST(TransitionSection, ShowsEqualCandidatesOnce) {
   Example example;
   example.run.recordings[0].recording.extras_json = example.run.recordings[2].recording.extras_json;
   const std::string html = TransitionsHtml(example.Worlds());
-  EXPECT_THAT(html, HasSubstr("What now, gate-inertialised looked at"));
+  EXPECT_THAT(html, HasSubstr("Candidates that now, gate-inertialised considered"));
   EXPECT_EQ(CountOf(html, "class=\"taken\""), 1);
 }
 

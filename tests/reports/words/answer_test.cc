@@ -183,8 +183,8 @@ TEST(Headline, ThatSuccessAndValueDecideUnderDifferentConditionsHasNoFigure) {
   scenario.conditions.push_back(scenario.conditions.front());
   scenario.conditions[1].rival_answers[0].decided_by = AnswerStep::kValue;
   scenario.conditions[1].rival_answers[0].verdict = Verdict::kBetter;
-  EXPECT_THAT(HeadlineOfSolvers(scenario),
-              HasSubstr("against “gauss-newton” it depends: better under 1 of 2, worse under 1 of 2"));
+  EXPECT_THAT(HeadlineOfSolvers(scenario), HasSubstr("compared with “gauss-newton”, the verdict depends on the "
+                                                     "condition: better under 1 of 2, worse under 1 of 2"));
 }
 
 TEST(Headline, NamesTheRatioWhereTheRivalIsBetterByTheQuestionsMetric) {

@@ -77,12 +77,12 @@ TEST(Answer, SaysWhyItIsOpen) {
 
 TEST(Answer, TellsOfTheWorldsThatOnlyOneSurvived) {
   Comparison lossy = Figures(40, -4.7, -6.0, -1.1, 0.9, Verdict::kBetter);
-  EXPECT_THAT(AnswerTo(lossy), Not(HasSubstr("Not in this difference")));
+  EXPECT_THAT(AnswerTo(lossy), Not(HasSubstr("The difference does not include")));
   lossy.only_baseline = 13;
   lossy.only_method = 1;
   EXPECT_THAT(
       AnswerTo(lossy),
-      HasSubstr("Not included in this difference, because one of the two has no value there: only “fixed” in 13 "
+      HasSubstr("The difference does not include worlds in which only one method has a value: only “fixed” in 13 "
                 "worlds, only “adaptive” in 1 world."));
 }
 
@@ -108,7 +108,7 @@ TEST(Answer, SaysThatItDependsWhenConditionsDisagree) {
 
 TEST(Answer, OfASingleMethodComparesNothing) {
   const auto scenario = OneComparison({}, {"fixed"});
-  EXPECT_THAT(FindingsOf(RunData{}, scenario).answer.sentence, HasSubstr("nothing to compare"));
+  EXPECT_THAT(FindingsOf(RunData{}, scenario).answer.sentence, HasSubstr("only one method ran"));
 }
 
 TEST(Findings, KeepEveryFailureWithItsReason) {
@@ -152,7 +152,7 @@ TEST(Findings, OfTheRunCountExpectationsAndCells) {
   EXPECT_EQ(findings.unmet, 1);
   EXPECT_EQ(findings.undecided, 1);
   EXPECT_LT(findings.ok, findings.cells);
-  EXPECT_THAT(findings.sentence, HasSubstr("3 of 5 expectations were met, 1 not, 1 could not be decided."));
+  EXPECT_THAT(findings.sentence, HasSubstr("3 of 5 expectations were met, 1 were not met, 1 are undecided."));
 }
 
 TEST(Findings, SayWhyAValueIsMissing) {
@@ -164,15 +164,15 @@ TEST(Findings, SayWhyAValueIsMissing) {
 TEST(Findings, NeverCallWhatWasMeasuredReached) {
   RunData run = ExampleRun();
   EXPECT_THAT(FindingsOf(run).sentence, Not(HasSubstr("reached")));
-  EXPECT_THAT(FindingsOf(run).sentence, HasSubstr("cells were measured, 6 broke."));
+  EXPECT_THAT(FindingsOf(run).sentence, HasSubstr("cells were measured, 6 could not be measured."));
   for (Row& row : run.rows) row.result.status = Status::kOk;
   EXPECT_THAT(FindingsOf(run).sentence, HasSubstr(" cells were measured."));
   RunData one;
   one.rows = {run.rows.front()};
-  EXPECT_EQ(FindingsOf(one).sentence, "The one cell was measured.");
+  EXPECT_EQ(FindingsOf(one).sentence, "The only cell was measured.");
   run.rows.front().result.status = Status::kUnsolved;
   EXPECT_THAT(FindingsOf(run).sentence,
-              HasSubstr(" cells were measured, 1 of them unsolved (no answer, or one that missed the goal)."));
+              HasSubstr(" cells were measured, 1 of them unsolved (no answer, or an answer that missed the goal)."));
 }
 
 TEST(Findings, GiveSuccessItsOwnShareWhateverTheStatus) {
@@ -207,9 +207,8 @@ TEST(Findings, GiveAFewFiguresOfTheMethodItsBaselineAndTheStrongestOther) {
   EXPECT_EQ(figures.methods[0].name, "wait-for-end");
   EXPECT_EQ(figures.methods[1].name, "now");
   EXPECT_EQ(figures.methods[2].name, "gate-inertialised");
-  EXPECT_EQ(figures.labels,
-            (std::vector<std::string>{"jump at the transition point", "ended ok", "processor time",
-                                      "worlds in which “wait-for-end” is better"}));
+  EXPECT_EQ(figures.labels, (std::vector<std::string>{"jump at the transition point", "cells with status ok",
+                                                      "processor time", "worlds in which “wait-for-end” is better"}));
   EXPECT_EQ(figures.methods[2].values[0], "6.40 cm");
   EXPECT_EQ(figures.methods[1].values[2], "250 ms");
   EXPECT_EQ(figures.methods[2].values[2], "2.00 s");

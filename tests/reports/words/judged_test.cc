@@ -79,7 +79,7 @@ TEST(Beyond, CountsConditions) {
 
 TEST(Beyond, SaysTheSameOnlyOnceWhereEveryWorldIsItsOwnUnit) {
   EXPECT_EQ(InWords({OnClips(Verdict::kWorse, Verdict::kWorse, 20)}, SamplingUnit::kWorld).words,
-            "for other worlds of the same kind: the same");
+            "for other worlds of the same kind: the same verdict");
   EXPECT_THAT(InWords({OnClips(Verdict::kWorse, Verdict::kUndecided, 20)}, SamplingUnit::kPerson).words,
               HasSubstr("for other people: undecided"));
 }

@@ -152,7 +152,8 @@ TEST_F(ReadMasksTest, OfCutOutsTakesTheOpacityAndSaysSo) {
   EXPECT_EQ((*masks)[0].At(25, 30), 1);
   ASSERT_EQ(told_.lines.size(), 1u);
   EXPECT_EQ(told_.lines[0],
-            "masks of cam1: pictures have transparent pixels; opaque pixels are taken as the person, whatever their "
+            "masks of cam1: the pictures have transparent pixels; Etude takes all opaque pixels as the person, "
+            "whatever their "
             "colour");
 }
 
@@ -161,7 +162,8 @@ TEST_F(ReadMasksTest, OfSeveralPeopleNeedTheNumberOfOne) {
   for (int y = 10; y < 50; ++y) both.At(60, y) = both.At(61, y) = 2;
   Add("1.png", both);
   Add("2.png", both);
-  EXPECT_THAT(Reason(), HasSubstr("masks of several people or things: 1, 2; choose one by --mask-id"));
+  EXPECT_THAT(Reason(),
+              HasSubstr("the masks have several values: 1, 2; use --mask-id to select the value of the person"));
   ASSERT_OK(second, Read(2));
   EXPECT_EQ(std::ranges::count((*second)[0].pixels, 1), 2 * 40);
   EXPECT_THAT(Reason(3), HasSubstr("no pixel has the value 3 of --mask-id; found: 1, 2"));
@@ -181,7 +183,7 @@ TEST_F(ReadMasksTest, SayWhatLooksWrong) {
   Add("2.png", two);
   ASSERT_EQ(Reason(), "accepted");
   ASSERT_EQ(told_.lines.size(), 2u);
-  EXPECT_EQ(told_.lines[0], "masks of cam1: 1 of 2 are empty");
+  EXPECT_EQ(told_.lines[0], "masks of cam1: 1 of 2 masks are empty");
   EXPECT_THAT(told_.lines[1], HasSubstr("doubtful: masks of cam1: 1 of 2 have several large regions"));
   for (const char* name : {"1.png", "2.png"}) {
     Image<std::uint8_t> inverted = Rectangle(20, 40, 255);
@@ -189,11 +191,12 @@ TEST_F(ReadMasksTest, SayWhatLooksWrong) {
     Add(name, inverted);
   }
   ASSERT_EQ(Reason(), "accepted");
-  EXPECT_EQ(told_.lines.front(),
-            "doubtful: masks of cam1: 2 of 2 cover most of the picture; is the person black in them?");
-  EXPECT_THAT(Reason({}, 1), HasSubstr("there are more masks than the film films/cam1.mp4 has frames (1)"));
+  EXPECT_EQ(
+      told_.lines.front(),
+      "doubtful: masks of cam1: 2 of 2 masks cover most of the picture; the person may be black instead of white");
+  EXPECT_THAT(Reason({}, 1), HasSubstr("found more masks than the film films/cam1.mp4 has frames (1)"));
   Add("2.png", Rectangle(20, 40, 255, 2 * kWidth));
-  EXPECT_THAT(Reason(), HasSubstr("2.png: a mask of 192 x 64 pixels, but the film films/cam1.mp4 has 96 x 64"));
+  EXPECT_THAT(Reason(), HasSubstr("2.png: the mask has 192 x 64 pixels, but the film films/cam1.mp4 has 96 x 64"));
   std::filesystem::rename(folder_.path() / "cam1_masks", folder_.path() / "cam2_masks");
   EXPECT_THAT(Reason(), HasSubstr("no file in it begins with the film's name cam1"));
 }
@@ -205,7 +208,8 @@ TEST_F(ReadMasksTest, AsksForOneOfSeveralGreysOrColours) {
   }
   Add("1.png", two);
   Add("2.png", two);
-  EXPECT_THAT(Reason(), HasSubstr("masks of several people or things: 100, 200; choose one by --mask-id"));
+  EXPECT_THAT(Reason(),
+              HasSubstr("the masks have several values: 100, 200; use --mask-id to select the value of the person"));
   // A soft rim is no second person.
   Image<std::uint8_t> soft = Rectangle(20, 40, 255);
   for (int y = 10; y < 50; ++y) soft.At(40, y) = 150;

@@ -67,7 +67,8 @@ TEST(ClipActorTest, WithoutAWishTheFigureFollowsFromTheClip) {
   EXPECT_TRUE(ClipActor::Make(Opened("builtin:clap"), std::nullopt)->FigureAt(0).shape.empty());
   const auto own = ClipActor::Make(Opened(kRealClip), ActorKind::kOwn);
   ASSERT_FALSE(own);
-  EXPECT_THAT(own.error().message, ::testing::HasSubstr("has no figure of its own; allowed: bear, mannequin, body"));
+  EXPECT_THAT(own.error().message,
+              ::testing::HasSubstr("the file contains no figure (meshes); allowed: bear, mannequin, body"));
 }
 
 TEST(ClipActorTest, TheBearKeepsItsProportionsAndTheMannequinTheActors) {

@@ -22,7 +22,8 @@ BodyMotion OnOneLeg() {
 
 TEST(ContactIndex, HasABarWhereAFootStands) {
   const std::string svg = ContactIndexSvg("a < b", OnOneLeg());
-  EXPECT_THAT(svg, HasSubstr("a &lt; b: left foot stands 100 % of the time, right foot stands 48 %"))
+  EXPECT_THAT(
+      svg, HasSubstr("a &lt; b: left foot is on the floor for 100 % of the time, right foot is on the floor for 48 %"))
       << "the frame before it leaves is fast already";
   EXPECT_EQ(CountOf(svg, "<polyline"), 4) << "height and speed of two feet";
   EXPECT_EQ(CountOf(svg, "<rect x="), 2);

@@ -18,7 +18,7 @@ TEST(ContactSheetTest, SheetsThatNobodyCouldOpenAreRefused) {
   ASSERT_OK(renderer, SharedRenderer());
   const SheetOptions huge{.width = 2000, .height = 2000, .frames = 40, .columns = 40};
   EXPECT_THAT(testing::Message(DrawContactSheet({ActorOf("builtin:clap", ActorKind::kBody)}, huge, **renderer)),
-              HasSubstr("allowed: at most 16000 a side"));
+              HasSubstr("allowed: at most 16000 pixels per side"));
 }
 
 TEST(ContactSheetTest, TheSameClipsGiveTheSameBytes) {

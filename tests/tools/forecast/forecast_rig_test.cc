@@ -53,7 +53,7 @@ TEST_F(ForecastRigTest, NamesCamerasThatLookAwayOrLieBelowTheFloor) {
   ForecastOptions options;
   options.middle_m = {1, -2};
   EXPECT_EQ(Of(cameras, options)->doubts,
-            std::vector<std::string>{"doubtful: cam3: no place of the volume is in its picture"});
+            std::vector<std::string>{"doubtful: cam3: this camera sees no place of the volume"});
   cameras = Around({-40, 40, 160});
   cameras[1].camera.p_WC.y = -0.5;
   ASSERT_OK(low, Of(cameras));
@@ -135,7 +135,7 @@ TEST_F(ForecastRigTest, RefusesWhatHasNoForecast) {
   ForecastOptions options;
   options.middle_m = glm::dvec2(50, 0);
   const std::string message = Of(Around({-40, 40}), options).error().message;
-  EXPECT_EQ(message.find("no place within 3 x 3 m around x 50.00, z 0.00"), 0u) << message;
+  EXPECT_EQ(message.find("two cameras see no common place within 3 x 3 m around x 50.00, z 0.00"), 0u) << message;
   std::vector<NamedCamera> parallel = Around({0, 0});
   parallel[1].camera.p_WC.x += 0.5;
   EXPECT_NE(Of(parallel).error().message.find("--middle X,Z"), std::string::npos);

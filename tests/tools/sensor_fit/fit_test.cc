@@ -59,14 +59,15 @@ TEST(DescribeMismatch, OfAnotherUnitAMirrorImageOrAnotherMotionIsToldAndOfATrueR
     }
   }
   ASSERT_OK(mirrored, MakeRealRecording(changed.recording, real->twin));
-  EXPECT_NE(DescribeMismatch(*mirrored).find("one of the two is a mirror image"), std::string::npos);
+  EXPECT_NE(DescribeMismatch(*mirrored).find("one of the two files is a mirror image"), std::string::npos);
   for (auto& frame : changed.twin.frames) {
     for (auto& carrier : frame) {
       if (carrier) carrier->position *= 1000.0;
     }
   }
   ASSERT_OK(large, MakeRealRecording(real->recording, changed.twin));
-  EXPECT_NE(DescribeMismatch(*large).find("times as large as the recording's; is its unit right?"), std::string::npos);
+  EXPECT_NE(DescribeMismatch(*large).find("times as large as in the recording; the unit of one file may be wrong"),
+            std::string::npos);
 }
 
 TEST(FitSensor, IsTheSameEveryTime) {
