@@ -295,7 +295,7 @@ void DefineEvaluate(CLI::App& app, const std::string& command_line, Action& acti
   AddUp(*command, "files", options->clip_facts);
   // Define the outputs.
   command->add_option("-o,--output", options->output, "Result folder (default: out/evaluate-1)");
-  AddOverwrite(*command, options->overwrite, "Replace a folder that already holds a run");
+  AddOverwrite(*command, options->overwrite, "Replace a folder that already contains a run");
   command
       ->add_option_function<std::string>(
           "--keep", [options](const std::string&) { options->keeps_motions = true; },

@@ -84,12 +84,15 @@ class NewFolder {
     const fs::path partial = PartialOf(path);
     RETURN_IF_ERROR(MakeFolder(Inside(partial.parent_path()) / partial.filename()));
     NewFolder folder(path, Lock(partial));
-    if (folder.lock_ < 0) return Fail(place, "another export is writing into it; choose another folder with -o");
+    if (folder.lock_ < 0)
+      return Fail(place,
+                  "another export is writing into this folder; choose another folder with "
+                  "-o");
     // Empty the folder that a killed export left. Refuse a folder with other contents.
     for (fs::directory_iterator entry(folder.partial_, error), end; !error && entry != end; entry.increment(error)) {
       if (IsOfExport(entry->path().filename())) continue;
       ::close(std::exchange(folder.lock_, -1));
-      return Fail({entry->path().string()}, "does not belong to an export; choose another folder with -o");
+      return Fail({entry->path().string()}, "is not a file of an export; choose another folder with -o");
     }
     for (fs::directory_iterator entry(folder.partial_, error), end; !error && entry != end; entry.increment(error)) {
       fs::remove_all(entry->path(), error);
@@ -113,7 +116,10 @@ class NewFolder {
   /// Syncs the folder's contents to disk, then renames the folder to its final name.
   Result<void> Finish() {
     RETURN_IF_ERROR(SyncTree(partial_));
-    if (!IsOurs(partial_)) return Fail({partial_.string()}, "was replaced by something else while it was filled");
+    if (!IsOurs(partial_))
+      return Fail({partial_.string()},
+                  "was replaced or removed by another program during the "
+                  "export");
     std::error_code error;
     fs::rename(partial_, path_, error);
     if (error) return CannotWrite(path_.string(), "cannot be written", error.value());

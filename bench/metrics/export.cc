@@ -134,11 +134,11 @@ std::string Section(const MetricInfo& metric) {
   text += fmt::format("- **Formula.** {}\n- **Null.** {}\n", metric.formula, metric.null_rule);
   text += fmt::format("- **Smallest difference that matters: {}.** {}\n", Amount(metric.practical, metric.unit),
                       metric.practical_reason);
-  text += fmt::format("- **Source.** {}\n- **Input of its vectors.**", metric.source);
+  text += fmt::format("- **Source.** {}\n- **Input of the test vectors.**", metric.source);
   for (const MetricInput& input : metric.inputs) {
     text += fmt::format("{} `{}`: {}", &input == &metric.inputs.front() ? "" : ";", input.key, input.meaning);
   }
-  text += ".\n\n| vector | value | where from |\n|---|---|---|\n";
+  text += ".\n\n| test vector | value | source of the value |\n|---|---|---|\n";
   for (const MetricVector& vector : metric.vectors) {
     text += fmt::format("| {} | {} | {} |\n", EscapeTableCell(vector.title), EscapeTableCell(ExpectedText(vector)),
                         EscapeTableCell(vector.source));
@@ -156,7 +156,7 @@ Json MetricsJson() {
 }
 
 std::string FaultsTable() {
-  std::string text = "| fault | unit of its size | shown when |\n|---|---|---|\n";
+  std::string text = "| fault | unit of the fault's size | reported when |\n|---|---|---|\n";
   for (const FaultRule& rule : FaultRules()) text += fmt::format("| {} | {} | {} |\n", rule.name, rule.unit, rule.rule);
   return text;
 }
@@ -203,7 +203,7 @@ Result<void> ReadAddedMetrics(const Json& list, const Place& place) {
       metric.definition = each.at("definition").get<std::string>();
       metric.domain = each.at("domain").get<std::string>();
     } catch (const Json::exception& error) {  // a missing key, a wrong type, or an unknown word
-      return Fail(place, "not the description of a metric that a scenario defines: {}", error.what());
+      return Fail(place, "is not the definition of a metric of a scenario: {}", error.what());
     }
     if (auto added = AddMetric(std::move(metric)); !added) return Fail(place, "{}", added.error().message);
   }

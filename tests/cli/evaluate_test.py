@@ -461,10 +461,10 @@ class Evaluate(EtudeCase):
                 (["evaluate", a, a, "--music-beats", self.write("b.txt", "2\n1\n"), "-o", self.out], "b.txt:2"),
                 (["evaluate", a, a, "--metric", "mpjpe"], "unknown metric of task evaluation 'mpjpe'"),
                 (["evaluate", "--pairs", self.write("p.csv", "truth\n"), "-o", self.out], "no column of a method"),
-                (["export", scenario, "-o", self.out], "there are no problems to export"),
-                (["score", scenario, self.folder, "--name", "x", "-o", self.out], "there are no problems to export"),
-                (["run", scenario, "--seed-file", keys], "uses no random numbers, because it judges files"),
-                (["run", outside], "task evaluation takes no programs, so 'exec' is not allowed"),
+                (["export", scenario, "-o", self.out], "so it has no problems to export"),
+                (["score", scenario, self.folder, "--name", "x", "-o", self.out], "so it has no problems to export"),
+                (["run", scenario, "--seed-file", keys], "judges files and uses no random numbers"),
+                (["run", outside], "'exec' is not allowed in task evaluation, because this task runs no programs"),
                 (["check-method", "--task", "evaluation", "--", "python3", self.write("x.py", "")],
                  "task evaluation takes no programs\n")]:
             with self.subTest(words=words, command=arguments[0]):

@@ -115,7 +115,7 @@ class Motions(MotionFileCase):
     def test_a_recording_that_names_no_joints_is_refused_with_the_reason(self):
         recording = self.recorded("capture/-/000/a")
         old = self.write("old.json", json.dumps({key: recording[key] for key in ("tracks", "extras")}, separators=(",", ":")))
-        self.assertIn("a recording of version 1, which does not name its joints", self.refusal("clip", "info", old))
+        self.assertIn("a recording of version 1, which does not list its joints", self.refusal("clip", "info", old))
         recording["joints"][:2] = reversed(recording["joints"][:2])
         turned = self.write("turned.json", json.dumps(recording, separators=(",", ":")))
         self.assertIn("'joints': ", self.refusal("clip", "info", turned))

@@ -158,7 +158,7 @@ class Streams(EtudeCase):
             return self.refusal("run", *arguments, "-o", self.out)
         self.assertIn("none: no such recording", refused(scenario, "--streams", "none"))
         self.assertIn("no such file", refused(scenario, "--streams", takes, "--labels", "none.csv"))
-        self.assertIn("no task of its scenarios makes worlds from recordings",
+        self.assertIn("no scenario has a task that makes worlds from recordings",
                       refused(self.write("ik.yaml", IK), "--streams", takes))
         noisy = self.write("noisy.yaml", SCENARIO + "noise: 2\n")
         self.assertIn("'noise' cannot be used here", refused(noisy, "--streams", takes, "--labels", labels))
