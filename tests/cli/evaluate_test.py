@@ -366,7 +366,7 @@ class Evaluate(EtudeCase):
     def test_a_heading_without_truth_is_refused_with_its_columns(self):
         table = self.write("pairs.csv", f"Truth,mine\n{self.shared}/clap.npz,{self.shared}/clap.bvh\n")
         self.refusal("evaluate", "--pairs", table, "-o", self.out,
-                     says=["has no column 'truth'; its columns are Truth, mine"])
+                     says=["has no column 'truth'; found the columns Truth, mine"])
 
     def test_markers_of_no_known_set_are_compared_by_their_names(self):
         odd = trc([f"Q{j}" for j in range(len(self.names))], self.frames, 30)

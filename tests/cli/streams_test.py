@@ -163,7 +163,7 @@ class Streams(EtudeCase):
         noisy = self.write("noisy.yaml", SCENARIO + "noise: 2\n")
         self.assertIn("'noise' cannot be used here", refused(noisy, "--streams", takes, "--labels", labels))
         alone = self.write("alone.csv", "clip,from_s,to_s,move,truth,person\nanna,0,3,raise,right,anna\n")
-        self.assertIn("only anna was recorded; to leave one person out, two people are needed",
+        self.assertIn("anna is the only recorded person; needed: at least two people",
                       refused(scenario, "--streams", takes / "anna.txt", "--labels", alone))
         both = self.write("both.yaml", SCENARIO + f"streams: ['{takes}']\nclips: ['builtin:*']\n")
         self.assertIn("'streams' replaces 'clips'", refused(both))
