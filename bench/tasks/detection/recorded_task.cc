@@ -119,7 +119,7 @@ DetectionWorld MakeRecordedWorld(const LabelledStreams& set, std::size_t person,
 Result<void> CheckRecordings(const LabelledStreams& set, bool are_taught) {
   if (!are_taught && !set.nobody.empty()) {
     return Fail({set.file},
-                "the person in {} is unknown; needed: a column 'person', file names of a known data set, or the key "
+                "the person in the recording {} is unknown; needed: a column 'person', file names of a known data set, or the key "
                 "'moves'",
                 set.nobody);
   }

@@ -196,7 +196,7 @@ TEST_F(RecordedPeopleTest, RefusesWhatHasNoUseOrCannotBeJudged) {
               HasSubstr("person-0 is the only recorded person; needed: at least two people"));
   LabelledStreams unnamed = set;
   unnamed.nobody = "take";
-  EXPECT_THAT(ComplaintAbout(method, unnamed), HasSubstr("the person in take is unknown"));
+  EXPECT_THAT(ComplaintAbout(method, unnamed), HasSubstr("the person in the recording take is unknown"));
   set.parts[1].begin = set.parts[0].begin;
   set.parts[1].line = 7;
   EXPECT_THAT(ComplaintAbout(method, set),
