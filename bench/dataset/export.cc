@@ -32,14 +32,14 @@ constexpr const char* kReadme =
     R"(# A data set of Etude
 
 - `inputs/` contains what a method may see. Share this folder.
-- `truth/` contains the truth for judging answers. Do not share it, nor `manifest.json`, from which Etude can make the
-  truth.
+- `truth/` contains the truth, which is needed to judge answers. Do not share this folder. Do not share `manifest.json`
+  either, because Etude can make the truth from the manifest.
 
-`inputs/index.csv` lists the problems. A problem is `SCENARIO/CONDITION/TRIAL/problem.json`, with its files in the
-same folder. `SCENARIO/CONDITION/setting.json` contains the data that the problems of a condition share; recorded
-people have a `setting.json` beside each problem. Etude's `docs/outside-methods.md` describes problems and answers of
+`inputs/index.csv` lists the problems. A problem is `SCENARIO/CONDITION/TRIAL/problem.json`, and its files are in the
+same folder. `SCENARIO/CONDITION/setting.json` contains the data that all problems of a condition share. For recorded
+people, each problem has its own `setting.json`. Etude's `docs/outside-methods.md` describes problems and answers of
 every task. A method's predictions are a folder of answers, one JSON object per problem, with the names
-`SCENARIO/CONDITION/TRIAL.json`. If pictures that `problem.json` names are missing, they are the frames of a film:
+`SCENARIO/CONDITION/TRIAL.json`. If pictures that `problem.json` lists are missing, extract them from the film:
 `ffmpeg -i camera-1.mkv -start_number 0 camera-1-%04d.png`. This command judges the answers:
 
     etude score THIS_FOLDER PREDICTIONS -o RESULT --name METHOD
