@@ -348,15 +348,15 @@ Result<std::vector<Specimen>> MakeSpecimens(const std::string& task, const std::
                                             const LabelledStreams* recordings) {
   const TaskKind* kind = FindTaskKind(task);
   if (kind == nullptr) return Fail({}, "{}", UnknownName("task", task, NamesOf(Recipes(), &Recipe::task)));
-  if (kind->seats.empty() && !seat.empty()) return Fail({}, "task {} has no seats", task);
-  if (!kind->has_problems && kind->seats.empty()) return Fail({}, "task {} takes no programs", task);
+  if (kind->seats.empty() && !seat.empty()) return Fail({}, "task {} has no seats for programs", task);
+  if (!kind->has_problems && kind->seats.empty()) return Fail({}, "task {} runs no programs", task);
   if (seat.empty() && !kind->has_problems) {
-    return Fail({}, "task {} needs a seat: {}", task, fmt::join(kind->seats, ", "));
+    return Fail({}, "task {} needs one of the seats {}", task, fmt::join(kind->seats, ", "));
   }
   if (!seat.empty() && std::ranges::find(kind->seats, seat) == kind->seats.end()) {
     return Fail({}, "{}", UnknownName("seat", seat, kind->seats));
   }
-  if (recordings != nullptr && !kind->uses_recordings) return Fail({}, "task {} takes no recordings", task);
+  if (recordings != nullptr && !kind->uses_recordings) return Fail({}, "task {} uses no recordings", task);
   std::vector<Specimen> specimens;
   for (const Recipe& plain : Recipes()) {
     if (plain.task != task) continue;

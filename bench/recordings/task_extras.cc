@@ -76,7 +76,7 @@ static void Describe(RecordFields& fields, TransitionExtras& extras) {
 }
 
 static void Describe(RecordFields& fields, DetectionExtras::Target& target) {
-  fields.Required("feature", target.feature, "one of paper A's ten");
+  fields.Required("feature", target.feature, "the name of one of paper A's ten features");
   fields.Required("degrees", target.degrees, "the wanted angle");
   fields.Required("tolerance_deg", target.tolerance_deg, "largest deviation that is accepted");
 }
@@ -137,7 +137,7 @@ static void Describe(RecordFields& fields, CoachExtras::Words& words) {
                   "first frame in which the words are shown; they stay until the "
                   "next words");
   fields.Required("say", words.say, "a short word to the learner");
-  fields.Required("hint", words.hint, "what to do better");
+  fields.Required("hint", words.hint, "what the learner should do better");
   fields.Optional("picture", words.picture,
                   "the key pose that the hint is about, as sixty numbers; absent if the hint is not about a key pose");
 }
@@ -158,7 +158,7 @@ static void Describe(RecordFields& fields, CoachExtras& extras) {
   fields.List("corrections", extras.corrections, "frames in which the policy decided on a correction");
   fields.List("transitions", extras.transitions, "the last frames before the coach changes clips");
   fields.List("beats_s", extras.beats_s, "times of the music's beats, in seconds from the first frame");
-  fields.List("joint_states", extras.joint_states, "as in `detection`");
+  fields.List("joint_states", extras.joint_states, "the same as `joint_states` of `detection`");
 }
 
 static void Describe(RecordFields& fields, PlausibilityExtras::Fault& fault) {

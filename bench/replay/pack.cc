@@ -156,7 +156,7 @@ Result<void> UnpackMotions(Pack& pack, const std::string& file, const fs::path& 
 Result<void> PackCell(const std::string& folder, const std::string& cell, const std::string& file, Sealing sealing) {
   ASSIGN_OR_RETURN(const auto run, LoadRun(folder, sealing));
   const auto place = FindRow(run, cell);
-  if (!place) return Fail({folder, 0, 0}, "holds no cell '{}'", cell);
+  if (!place) return Fail({folder, 0, 0}, "contains no cell '{}'", cell);
   const Row row = RowAt(run, *place);
   // Packing makes no worlds, so the key of secret worlds is needed only when the cell is replayed.
   const FilePath manifest = Inside(folder) / "manifest.json";

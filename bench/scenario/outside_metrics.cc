@@ -103,7 +103,10 @@ void ReadExpected(Fields& fields, MetricExample& example) {
 const FieldTable<MetricExample>& MetricExampleFields() {
   using Key = Field<MetricExample>;
   static const FieldTable<MetricExample> table{
-      {Key::Text("title", &MetricExample::title, "a text", "What the vector tests.").WhenAbsent("(none)"),
+      {Key::Text("title", &MetricExample::title, "a text",
+                 "A title that states what the vector "
+                 "tests.")
+           .WhenAbsent("(none)"),
        {{"cell",
          {"a mapping with a list `tracks` and, optionally, `extras`; each track has `name`, `rate_hz`, and either "
           "`poses` or both `frames` and `joints_m`",
@@ -150,7 +153,7 @@ const FieldTable<OutsideMetric>& OutsideMetricFields() {
                    {{"lower", Direction::kLowerIsBetter},
                     {"higher", Direction::kHigherIsBetter},
                     {"neither", Direction::kNeither}},
-                   "Which values are better."),
+                   "States which values are better."),
          Key::Number("version", info(&MetricInfo::version), {1, 1e6},
                      "Version of the metric. Increase it when you change the metric, because Etude never mixes values "
                      "of two versions."),

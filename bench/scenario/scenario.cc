@@ -103,7 +103,7 @@ const FieldTable<StreamSource>& ReadingFields() {
   for (const std::string& name : StreamFormatNames()) formats.emplace_back(name, FindStreamFormat(name));
   static const FieldTable<StreamSource> table{
       {Key::Name("format", Path(&StreamSource::reading, &StreamReading::format), formats, "Format of the files.")
-           .WhenAbsent("(found from the content)"),
+           .WhenAbsent("(detected from the content)"),
        Key::Number("rate_hz", Path(&StreamSource::reading, &StreamReading::rate_hz), {1, 1000},
                    "Frame rate of files without a clock, in Hz.")
            .WhenAbsent("30"),
@@ -181,7 +181,7 @@ const FieldTable<Scenario>& ScenarioFields() {
         [](Fields& fields, Scenario& s) { ReadNested(fields, "reading", ReadingFields(), s.streams); }},
        Key::Text("joint_map", &Scenario::joint_map, "a file",
                  "Assigns the clips' joints to roles. It is needed if the joints' names do not determine the roles.")
-           .WhenAbsent("(by the names)"),
+           .WhenAbsent("(roles by the joints' names)"),
        // The worlds and the conditions.
        Key::Number("trials", &Scenario::trials, {1, kTrials.highest}, "Number of worlds per condition."),
        Key::Number("seed", &Scenario::seed, {0, kMaxSeed}, "Seed of all worlds; `etude run --seed` overrides it.")

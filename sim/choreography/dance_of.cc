@@ -225,7 +225,7 @@ Result<Dance> ToBeats(Dance dance, const std::vector<double>& beats_s) {
   const double beats_per_s = dance.tempo_bpm / 60;
   const double last = static_cast<double>(dance.motion.poses.size() - 1) / kJudgedRateHz * beats_per_s;
   if (last > static_cast<double>(beats_s.size() - 1)) {
-    return Fail({}, "{} beats, but '{}' needs {:.0f}", beats_s.size(), dance.title, std::ceil(last) + 1);
+    return Fail({}, "found {} beats, but '{}' needs {:.0f}", beats_s.size(), dance.title, std::ceil(last) + 1);
   }
   for (MusicTag& tag : dance.tags) tag.music_s = MomentOf(tag.music_s * beats_per_s, beats_s);
   dance.beats_s = beats_s;

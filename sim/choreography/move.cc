@@ -75,7 +75,7 @@ Result<void> CheckList(const Node& list, std::string_view name) {
     return Fail(list.place, "'{}' must be a list of at least one pose, found {}", name, Describe(list));
   }
   if (list.items.size() > kMaxPoses) {
-    return Fail(list.place, "{} {}; allowed: at most {}", list.items.size(), name, kMaxPoses);
+    return Fail(list.place, "found {} {}; allowed: at most {}", list.items.size(), name, kMaxPoses);
   }
   return {};
 }

@@ -466,7 +466,7 @@ class Evaluate(EtudeCase):
                 (["run", scenario, "--seed-file", keys], "judges files and uses no random numbers"),
                 (["run", outside], "'exec' is not allowed in task evaluation, because this task runs no programs"),
                 (["check-method", "--task", "evaluation", "--", "python3", self.write("x.py", "")],
-                 "task evaluation takes no programs\n")]:
+                 "task evaluation runs no programs\n")]:
             with self.subTest(words=words, command=arguments[0]):
                 told = self.etude(*arguments)
                 self.assertEqual(told.returncode, 2, told.stdout + told.stderr)

@@ -69,7 +69,7 @@ class Streams(EtudeCase):
             self.assertEqual([example[:3] for example in one["taught"]["raise"]],
                              [[person, right, fault] for person in others for right, fault in ((True, ""), (False, "half"))])
             self.assertEqual([example[0] for example in one["taught"]["left"]], others)
-        self.assertIn("task ik takes no recordings",
+        self.assertIn("task ik uses no recordings",
                       self.etude("check-method", "--task", "ik", "--streams", takes, "--", "true").stderr)
 
     @heavy

@@ -93,7 +93,7 @@ FieldTable<StudioOptions> MakeConditionFields() {
            [](Fields& condition, Options&) { condition.Raw(kRigFileKey); }}
            .With("rig", {"file"}),
        Key::Numbers("camera_angles_deg", Path(&Options::rig, &RigOptions::angles_deg), {2, kMaxCameras},
-                    "two to eight of -180…180", {-180, 180},
+                    "two to eight numbers from -180 to 180", {-180, 180},
                     "Directions of the cameras, seen from the performer. 0 is in front, and positive angles are to the "
                     "performer's left.")
            .With("rig", {"angles"}),
@@ -104,7 +104,7 @@ FieldTable<StudioOptions> MakeConditionFields() {
                    "Number of cameras in the ring.")
            .With("rig", {"ring"}),
        Key::Numbers("camera_heights_m", Path(&Options::rig, &RigOptions::heights_m), {1, kMaxCameras},
-                    "one to eight of 0.2…5", {0.2, 5},
+                    "one to eight numbers from 0.2 to 5", {0.2, 5},
                     "Heights of the cameras above the floor. With `rig: angles`, the list has one height for each "
                     "camera. With `ring` or `corners`, the list is repeated until every camera has a height. With "
                     "`stereo`, both cameras have the first height."),
@@ -149,7 +149,7 @@ FieldTable<StudioOptions> MakeConditionFields() {
        Key::Number("mark_every", &Options::mark_every, {1, 300},
                    "The annotator marks every n-th frame. Marks in the frames between are interpolated."),
        Key::Numbers(
-           "moments", &Options::moments, {0, 12}, "up to twelve of 1…1800", {1, 1800},
+           "moments", &Options::moments, {0, 12}, "up to twelve numbers from 1 to 1800", {1, 1800},
            "Frames for which the report shows every stage, as figures 5.3 to 5.14 of paper B do. Frames are counted "
            "from 1.")},
       CheckStudio};

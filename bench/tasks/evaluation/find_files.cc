@@ -165,7 +165,7 @@ Result<std::vector<JudgedFiles>> ReadPairs(const std::string& text, const std::s
       continue;
     }
     const std::size_t width = rows.front().cells.size();
-    if (cells.size() != width) return Fail(place, "{} cells; the heading has {}", cells.size(), width);
+    if (cells.size() != width) return Fail(place, "found {} cells, but the heading has {}", cells.size(), width);
     JudgedFiles pair{.name = "", .unit = "", .truth = cells[columns->truth], .answers = {}};
     if (pair.truth.empty()) return Fail(place, "no truth");
     pair.name = columns->name ? cells[*columns->name] : NameOfReference(pair.truth);

@@ -163,7 +163,7 @@ TEST_F(FindFilesTest, WhatCannotBePairedIsRefused) {
   EXPECT_THAT(Complaint("pairs: p.csv", {"{name: m}"}, "truth,n\n"), HasSubstr("p.csv:1: unknown column 'n'"));
   EXPECT_THAT(Complaint("pairs: p.csv", {"{name: m}"}, "truth\n"), HasSubstr("has no column for method"));
   EXPECT_THAT(Complaint("pairs: p.csv", {"{name: m}"}, "truth,m\na\n"),
-              HasSubstr("p.csv:2: 1 cells; the heading has 2"));
+              HasSubstr("p.csv:2: found 1 cells, but the heading has 2"));
   EXPECT_THAT(Complaint("pairs: p.csv", {"{name: m}"}, "truth,m\nx/a.bvh,1\ny/a.bvh,2\n"),
               HasSubstr("two pairs have the name"));
   EXPECT_THAT(Complaint("pairs: p.csv", {"{name: m}"}, ""), HasSubstr("lists no pair"));
