@@ -91,10 +91,8 @@ Result<std::vector<std::string>> OnlyUnderstood(const std::vector<std::string>& 
     }
   }
   if (!references.empty() && understood.empty()) {
-    return Fail(place,
-                "--skip-refused: none of the {} clips can be read; the reason of the first clip: "
-                "{}",
-                refused.size(), refused.empty() ? "there is none" : refused.front().why);
+    return Fail(place, "--skip-refused: none of {} clips can be read; the first: {}", refused.size(),
+                refused.empty() ? "there is none" : refused.front().why);
   }
   return understood;
 }

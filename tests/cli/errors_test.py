@@ -66,7 +66,7 @@ class Errors(EtudeCase):
                          says=["m.json: 'trials' must be a whole number from 1 to 10000000, found " + json.dumps(trials)])
         manifest["scenarios"][0]["trials"] = 10_000_000
         self.refuses("run", "--from", self.write("m.json", json.dumps(manifest)), "-o", self.out,
-                     says=["makes more than 10000000 cells"])
+                     says=["the run has more than 10000000 cells"])
         manifest["scenarios"] = []
         self.refuses("run", "--from", self.write("m.json", json.dumps(manifest)), "-o", self.out,
                      says=["m.json: contains no scenario"])

@@ -109,7 +109,7 @@ class Motions(MotionFileCase):
         self.run_suite("--from", self.out / "manifest.json", out=self.folder / "again")
 
     def test_what_no_run_recorded_is_told(self):
-        self.assertIn("recorded no cell 'capture/-/007'", self.refusal("clip", "info", f"{self.run_folder}#capture/-/007@truth"))
+        self.assertIn("has no recording of the cell 'capture/-/007'", self.refusal("clip", "info", f"{self.run_folder}#capture/-/007@truth"))
         self.assertIn("animation 'nobody'", self.refusal("clip", "info", f"{self.run_folder}#capture/-/000/a@nobody"))
 
     def test_a_recording_that_names_no_joints_is_refused_with_the_reason(self):

@@ -208,7 +208,7 @@ class Survival(EtudeCase):
         run.wait()
         self.ends(0, "run", self.scenario, "-o", two, "--shard", "2/2")
         early = self.ends(2, "merge", one, two, "-o", self.out)
-        self.assertRegex(early.stderr, r"not all 2 shards exist and are finished .*: shard 1/2 in \S+ lacks \d+ of 80 cells \(the first is ik/")
+        self.assertRegex(early.stderr, r"not all 2 shards are finished .*: shard 1/2 in \S+ lacks \d+ of 80 cells; the first missing cell is ik/")
         self.assertFalse(self.out.exists())
         self.ends(0, "run", self.scenario, "-o", one, "--shard", "1/2", "--resume")
         self.ends(0, "merge", one, two, "-o", self.out)
@@ -219,7 +219,7 @@ class Survival(EtudeCase):
         other = self.folder / "other"
         self.etude("run", self.scenario, "-o", other, "--shard", "3/3", "--seed", "2")
         for shards, complaint in ((folders[:2], "not all 3 shards are finished ('etude run --shard i/3 --resume' continues a shard): shard 3/3 is missing"),
-                                  ([*folders[:2], folders[1]], "is shard 2/3, which"),
+                                  ([*folders[:2], folders[1]], "is shard 2/3, but"),
                                   ([*folders[:2], other], "belongs to a different run than"),
                                   ([*folders, self.whole], "is a whole run, not a shard"),
                                   ([*folders[:2], self.folder / "none"], "none contains no shard; shard 3/3 is missing")):
@@ -237,7 +237,7 @@ class Survival(EtudeCase):
         lines = clip.read_text().splitlines()
         clip.write_text("\n".join(lines[:-10] + [line.replace("1", "2") for line in lines[-10:]]) + "\n")
         self.assertRegex(self.refusal("run", "--from", self.out / "manifest.json", "-o", self.folder / "again"),
-                         r"clip 2 of scenario t was walk \w+ \(.*\) then and is walk \w+ \(.*\) now")
+                         r"clip 2 of scenario t was walk \w+ \(.*\) in the run and is walk \w+ \(.*\) now")
 
     def test_cells_replay_to_the_same_stages(self):
         self.assertIn("10 of 10 cells came out the same", self.ends(0, "replay", self.whole, "--sample", 10).stdout)

@@ -115,9 +115,7 @@ Result<std::unique_ptr<Task>> MakeCaptureTask(TaskInput& input) {
   RETURN_IF_ERROR(OpenOwnCameras(input, study.options));
   ASSIGN_OR_RETURN(auto methods, ReadMethods(input, "capture", SeatedCaptureMethodFields()));
   if (input.clips.clips.empty()) {
-    return Fail(input.condition.node().place,
-                "a scenario of task capture needs the key 'clips', such as clips: "
-                "['builtin:boxing']");
+    return Fail(input.condition.node().place, "a scenario of task capture needs 'clips', such as ['builtin:boxing']");
   }
   if (study.options.figure == PerformerFigure::kOwn) RETURN_IF_ERROR(CheckFigures(input));
   study.methods = std::move(methods);

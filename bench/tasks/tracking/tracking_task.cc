@@ -79,9 +79,7 @@ Result<std::unique_ptr<Task>> MakeTrackingTask(TaskInput& input) {
   start.options = study.options.common;
   ASSIGN_OR_RETURN(auto methods, ReadMethods(input, "tracking", TrackingMethodFields(), start));
   if (input.clips.clips.empty()) {
-    return Fail(input.condition.node().place,
-                "a scenario of task tracking needs the key 'clips', such as clips: "
-                "['builtin:boxing']");
+    return Fail(input.condition.node().place, "a scenario of task tracking needs 'clips', such as ['builtin:boxing']");
   }
   study.methods = std::move(methods);
   study.clips = input.clips;
