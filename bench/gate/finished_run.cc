@@ -33,7 +33,7 @@ Result<void> CheckRowsInOrder(const FinishedRun& run, const Place& place) {
   });
   if (wrong) return tl::unexpected(*wrong);
   if (next == wanted.size() && scenario == run.scenarios.size()) return {};
-  return Fail(place, "has {} rows, but the manifest requires more", CountRows(run.data));
+  return Fail(place, "contains {} rows, but the manifest requires more rows", CountRows(run.data));
 }
 
 class ScenarioTaker {

@@ -83,9 +83,9 @@ The JSON (`docs/schemas/metrics.schema.json`) contains every definition below wi
 - **Motions** are judged at 30 Hz as positions of twenty joints, in metres with Y up. A limb is the line from a joint to
   the joint's parent (`joints` of the JSON). In transitions, the hips of the standing body are at 0.90 m.
 - **A missing value** is null, never zero, and `null_reasons` contains the reason. A cell without an answer (failed,
-  timeout, crashed, out_of_memory, bad_output) has no values. Exceptions are metrics that give a failure a value: 0 for a
-  solved share, and twice the limit for PAR-2. With such a value, the cell stays in the denominator. A skipped cell has
-  no values at all.
+  timeout, crashed, out_of_memory, bad_output) has no values. Exceptions are metrics that give a failure a value: 0
+  for a solved share, and twice the limit for PAR-2. With such a value, the cell stays in the denominator. A skipped
+  cell has no values at all.
 - **A run** aggregates the values of the cells by the median or the mean, with a 95 % bootstrap interval. Each metric
   states its aggregate. Shares and 0/1 values are aggregated by the mean.
 - **The practical threshold** is the smallest difference that matters in practice. A smaller difference is never better
@@ -94,9 +94,9 @@ The JSON (`docs/schemas/metrics.schema.json`) contains every definition below wi
 
 ## Inputs of the test vectors
 
-- A motion: `{"rate_hz": 30, "frames": 3, "joints_m": {"left_hand": [[x, y, z], …]}}`. A joint has one
-  position per frame, or one position for all frames. A joint that is not listed stays at the origin. The default of
-  `rate_hz` is 30.
+- A motion: `{"rate_hz": 30, "frames": 3, "joints_m": {"left_hand": [[x, y, z], …]}}`. A joint has one position
+  per frame, or one position for all frames. A joint that is not listed stays at the origin. The default of `rate_hz`
+  is 30.
 - A pose: `{"left_hand": [x, y, z], …}`. A joint that is not listed is at the origin.
 - A computed value may differ from the expected value by at most the tolerance, in the metric's unit. `expected: null`
   means that the metric has no value.

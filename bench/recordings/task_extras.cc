@@ -56,14 +56,14 @@ static void Describe(RecordFields& fields, TransitionExtras& extras) {
                        "for each change of clip, the last frame of the recording before the change");
   fields.Tolerated("from", extras.from, "the clip that the motion leaves");
   fields.Tolerated("to", extras.to, "the wanted clip");
-  fields.Tolerated("branch", extras.branch, "how the transition was made: `front half`, `in-between`, …");
+  fields.Tolerated("branch", extras.branch, "the kind of the transition: `front half`, `in-between`, …");
   fields.Tolerated("why", extras.why, "one sentence that states why the transition was made in this way");
   fields.Tolerated("request_frame", extras.request_frame,
                    "frame of the request; negative if the request is before the recording");
   fields.Tolerated("wait_s", extras.wait_s, "time from the request until the wanted clip plays");
   fields.Tolerated("threshold", extras.threshold, "the threshold: frames match if their distance is below it");
   fields.Tolerated("natural_limit_cm", extras.natural_limit_cm, "the largest jump that counts as natural");
-  fields.Tolerated("distance", extras.distance, "distance of the worst transition point");
+  fields.Tolerated("distance", extras.distance, "fuzzy distance at the worst transition point");
   fields.Tolerated("weights", extras.weights, "the weight S_k of each feature");
   fields.Tolerated("partials", extras.partials, "partial distance of each feature at the worst transition point");
   fields.Tolerated("pairs_seen", extras.pairs_seen,
@@ -136,7 +136,7 @@ static void Describe(RecordFields& fields, CoachExtras::Words& words) {
   fields.Required("begin_frame", words.begin_frame,
                   "first frame in which the words are shown; they stay until the "
                   "next words");
-  fields.Required("say", words.say, "a short word to the learner");
+  fields.Required("say", words.say, "a short message to the learner");
   fields.Required("hint", words.hint, "what the learner should do better");
   fields.Optional("picture", words.picture,
                   "the key pose that the hint is about, as sixty numbers; absent if the hint is not about a key pose");
@@ -156,7 +156,9 @@ static void Describe(RecordFields& fields, CoachExtras& extras) {
   fields.List("words", extras.words, "the words on the screen, with one entry for each change");
   fields.List("decisions", extras.decisions, "decisions of the coach's policy");
   fields.List("corrections", extras.corrections, "frames in which the policy decided on a correction");
-  fields.List("transitions", extras.transitions, "the last frames before the coach changes clips");
+  fields.List("transitions", extras.transitions,
+              "for each change of clip by the coach, the last frame before the "
+              "change");
   fields.List("beats_s", extras.beats_s, "times of the music's beats, in seconds from the first frame");
   fields.List("joint_states", extras.joint_states, "the same as `joint_states` of `detection`");
 }

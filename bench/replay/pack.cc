@@ -171,7 +171,7 @@ Result<void> PackCell(const std::string& folder, const std::string& cell, const 
   if (prepared == scenarios.end()) return Fail({folder, 0, 0}, "contains no scenario '{}'", row.scenario);
   ASSIGN_OR_RETURN(auto clips, PackMotions(*prepared));
   if (suite.scored && row.method == suite.scored->name) {
-    return Fail({folder, 0, 0}, "'{}' cannot be packed: its answer was read from a file and scored", cell);
+    return Fail({folder, 0, 0}, "'{}' cannot be packed, because its answer was read from a file and scored", cell);
   }
   suite.scored.reset();
   suite.scenarios = {prepared->setup()};

@@ -153,9 +153,10 @@ Result<LeaveOneOut> LeaveOnePersonOut(const std::vector<NamedStream>& streams, c
   std::set<std::string> people;
   for (const LabelledPart& part : parts) {
     if (part.person.empty()) {
-      return Fail({file, part.line},
-                  "the person in the recording {} is unknown; needed: a column 'person', or file names of a known data set",
-                  streams[part.stream].name);
+      return Fail(
+          {file, part.line},
+          "the person in the recording {} is unknown; needed: a column 'person', or file names of a known data set",
+          streams[part.stream].name);
     }
     people.insert(part.person);
   }

@@ -119,7 +119,8 @@ DetectionWorld MakeRecordedWorld(const LabelledStreams& set, std::size_t person,
 Result<void> CheckRecordings(const LabelledStreams& set, bool are_taught) {
   if (!are_taught && !set.nobody.empty()) {
     return Fail({set.file},
-                "the person in the recording {} is unknown; needed: a column 'person', file names of a known data set, or the key "
+                "the person in the recording {} is unknown; needed: a column 'person', file names of a known data set, "
+                "or the key "
                 "'moves'",
                 set.nobody);
   }
@@ -131,7 +132,7 @@ Result<void> CheckRecordings(const LabelledStreams& set, bool are_taught) {
   for (const LabelledPart& part : set.parts) {
     if (part.is_action_point) continue;
     if (before != nullptr && before->stream == part.stream && before->begin == part.begin) {
-      return Fail({set.file, part.line}, "two performances of {} begin at the same time",
+      return Fail({set.file, part.line}, "two performances in the recording {} begin at the same time",
                   set.streams[part.stream].name);
     }
     before = &part;

@@ -47,8 +47,9 @@ TEST(LeaveOnePersonOut, RefusesOnePersonAndNobody) {
             "l.csv: the labels contain 1 person; needed: at least two people");
   recorded.parts[2].person.clear();
   recorded.parts[2].line = 7;
-  EXPECT_EQ(ToString(LeaveOnePersonOut(recorded.streams, recorded.parts, "l.csv", {}).error()).find("l.csv:7: the person in"),
-            0u);
+  EXPECT_EQ(
+      ToString(LeaveOnePersonOut(recorded.streams, recorded.parts, "l.csv", {}).error()).find("l.csv:7: the person in"),
+      0u);
 }
 
 TEST(Accuracy, IsTheShareTakenForWhatTheyWere) {

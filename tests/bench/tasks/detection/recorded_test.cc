@@ -200,7 +200,7 @@ TEST_F(RecordedPeopleTest, RefusesWhatHasNoUseOrCannotBeJudged) {
   set.parts[1].begin = set.parts[0].begin;
   set.parts[1].line = 7;
   EXPECT_THAT(ComplaintAbout(method, set),
-              HasSubstr("labels.csv:7: two performances of person-0 begin at the same time"));
+              HasSubstr("labels.csv:7: two performances in the recording person-0 begin at the same time"));
 }
 
 /// Returns an error-free recording of a built-in move, and its label.
