@@ -32,14 +32,14 @@ constexpr const char* kReadme =
     R"(# A data set of Etude
 
 - `inputs/` contains what a method may see. Share this folder.
-- `truth/` contains the truth for judging answers. Do not share it, nor `manifest.json`, from which Etude can make the
-  truth.
+- `truth/` contains the truth, which is needed to judge answers. Do not share this folder. Do not share `manifest.json`
+  either, because Etude can make the truth from the manifest.
 
-`inputs/index.csv` lists the problems. A problem is `SCENARIO/CONDITION/TRIAL/problem.json`, with its files in the
-same folder. `SCENARIO/CONDITION/setting.json` contains the data that the problems of a condition share; recorded
-people have a `setting.json` beside each problem. Etude's `docs/outside-methods.md` describes problems and answers of
+`inputs/index.csv` lists the problems. A problem is `SCENARIO/CONDITION/TRIAL/problem.json`, and its files are in the
+same folder. `SCENARIO/CONDITION/setting.json` contains the data that all problems of a condition share. For recorded
+people, each problem has its own `setting.json`. Etude's `docs/outside-methods.md` describes problems and answers of
 every task. A method's predictions are a folder of answers, one JSON object per problem, with the names
-`SCENARIO/CONDITION/TRIAL.json`. If pictures that `problem.json` names are missing, they are the frames of a film:
+`SCENARIO/CONDITION/TRIAL.json`. If pictures that `problem.json` lists are missing, extract them from the film:
 `ffmpeg -i camera-1.mkv -start_number 0 camera-1-%04d.png`. This command judges the answers:
 
     etude score THIS_FOLDER PREDICTIONS -o RESULT --name METHOD
@@ -84,12 +84,15 @@ class NewFolder {
     const fs::path partial = PartialOf(path);
     RETURN_IF_ERROR(MakeFolder(Inside(partial.parent_path()) / partial.filename()));
     NewFolder folder(path, Lock(partial));
-    if (folder.lock_ < 0) return Fail(place, "another export is writing into it; choose another folder with -o");
+    if (folder.lock_ < 0)
+      return Fail(place,
+                  "another export is writing into this folder; choose another folder with "
+                  "-o");
     // Empty the folder that a killed export left. Refuse a folder with other contents.
     for (fs::directory_iterator entry(folder.partial_, error), end; !error && entry != end; entry.increment(error)) {
       if (IsOfExport(entry->path().filename())) continue;
       ::close(std::exchange(folder.lock_, -1));
-      return Fail({entry->path().string()}, "does not belong to an export; choose another folder with -o");
+      return Fail({entry->path().string()}, "is not a file of an export; choose another folder with -o");
     }
     for (fs::directory_iterator entry(folder.partial_, error), end; !error && entry != end; entry.increment(error)) {
       fs::remove_all(entry->path(), error);
@@ -113,7 +116,10 @@ class NewFolder {
   /// Syncs the folder's contents to disk, then renames the folder to its final name.
   Result<void> Finish() {
     RETURN_IF_ERROR(SyncTree(partial_));
-    if (!IsOurs(partial_)) return Fail({partial_.string()}, "was replaced by something else while it was filled");
+    if (!IsOurs(partial_))
+      return Fail({partial_.string()},
+                  "was replaced or removed by another program during the "
+                  "export");
     std::error_code error;
     fs::rename(partial_, path_, error);
     if (error) return CannotWrite(path_.string(), "cannot be written", error.value());

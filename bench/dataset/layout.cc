@@ -41,7 +41,10 @@ std::optional<std::string> WorldOf(const fs::path& name) {
 Result<std::vector<fs::path>> AnswersBelow(const fs::path& folder, PredictionFaults& faults) {
   const Place place{folder.string(), 0, 0};
   std::error_code error;
-  if (!fs::is_directory(folder, error)) return Fail(place, "no such folder of predictions");
+  if (!fs::is_directory(folder, error))
+    return Fail(place,
+                "is not an existing folder; allowed: a folder of "
+                "predictions");
   std::vector<fs::path> files;
   for (fs::recursive_directory_iterator entry(folder, error), end; !error && entry != end; entry.increment(error)) {
     const fs::file_status status = entry->symlink_status(error);

@@ -26,7 +26,10 @@ Result<void> CheckVersion(const FilePath& manifest) {
   ASSIGN_OR_RETURN(const auto json, ReadJsonFile(manifest));
   const Json version = json.is_object() ? json.value("data_set", Json(1)) : Json(1);
   if (version.is_number_integer() && version >= 1 && version <= kDataSetVersion) return {};
-  return Fail({manifest.string()}, "a data set of version {}; allowed: 1 to {}", version.dump(), kDataSetVersion);
+  return Fail({manifest.string()},
+              "found a data set of version {}; allowed: versions 1 to "
+              "{}",
+              version.dump(), kDataSetVersion);
 }
 
 Result<SuiteSetup> ReadTarget(const ScoreOptions& options) {
@@ -46,7 +49,8 @@ Result<SuiteSetup> ReadTarget(const ScoreOptions& options) {
       !options.clip_facts.empty()) {
     return Fail(
         {manifest.string(), 0, 0},
-        "already sets seed, trials and clips; leave out --seed, --trials, --clips, --joint-map, --unit, --up, --rate");
+        "already sets the seed, the trials and the clips; leave out --seed, --trials, --clips, --joint-map, --unit, "
+        "--up, --rate");
   }
   RETURN_IF_ERROR(CheckVersion(manifest));
   ASSIGN_OR_RETURN(auto suite, ReadManifest(manifest));
@@ -197,7 +201,7 @@ Result<ScoreOutcome> ScorePredictions(const ScoreOptions& options,
   suite.scored = ScoredMethod{options.name, options.alone};
   ASSIGN_OR_RETURN(const auto state, LookAtFolder(options.output));
   if (state != FolderState::kFree) {
-    return Fail({options.output, 0, 0}, "already holds a run; choose another folder with -o");
+    return Fail({options.output, 0, 0}, "already contains a run; choose another folder with -o");
   }
   ASSIGN_OR_RETURN(const auto scenarios, PrepareTarget(suite, options));
 

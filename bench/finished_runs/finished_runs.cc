@@ -89,7 +89,7 @@ Result<void> CheckMetricVersions(const Json& manifest, const Place& place) {
   for (const auto& [id, version] : versions.items()) {
     const MetricInfo* metric = FindMetric(id);
     if (metric != nullptr && version != metric->version) {
-      return Fail(place, "was measured with version {} of {}, but this program has version {}: repeat the run",
+      return Fail(place, "contains values of version {} of {}, but this program measures version {}; repeat the run",
                   version.dump(), id, metric->version);
     }
   }
@@ -104,7 +104,7 @@ Result<NamedDigests> TruthsOf(const ScenarioSetup& setup, std::span<const std::s
   std::size_t at = 0;
   for (const JudgedFiles& world : setup.files) {
     const bool has_truth = !world.truth.empty();
-    if (at >= digests.size()) return Fail(place, "not a manifest: it lacks digests of files");
+    if (at >= digests.size()) return Fail(place, "is not a complete manifest: digests of files are missing");
     truths.emplace_back(world.name, has_truth ? digests[at] : "");
     at += (has_truth ? 1 : 0) + world.answers.size() - static_cast<std::size_t>(std::ranges::count(world.answers, ""));
   }
@@ -217,7 +217,10 @@ namespace {
 Result<FinishedRun> ReadFinishedRun(const fs::path& folder, Sealing sealing, Held held) {
   FinishedRun run;
   if (Exists(Inside(folder) / kJournalFile)) {
-    run.incomplete.push_back(fmt::format("the run was not finished, or is still running ({} exists)", kJournalFile));
+    run.incomplete.push_back(
+        fmt::format("the run was interrupted or is still running, because the file {} "
+                    "exists",
+                    kJournalFile));
     return run;
   }
   const auto load = held == Held::kAll ? LoadRun : LoadRunRowByRow;
@@ -227,7 +230,9 @@ Result<FinishedRun> ReadFinishedRun(const fs::path& folder, Sealing sealing, Hel
   RETURN_IF_ERROR(CheckRows(run, {(folder / "cells.jsonl").string(), 0, 0}));
   const bool has_times = CountRows(run.data) > 0 && CpuSecondsOf(run.data, RowAt(run.data, 0), 0).has_value();
   if (!has_times && std::any_of(run.scenarios.begin(), run.scenarios.end(), WantsTimes)) {
-    return Fail({(folder / "timings.jsonl").string(), 0, 0}, "contains no times, which a gate of this run needs");
+    return Fail({(folder / "timings.jsonl").string(), 0, 0},
+                "contains no processor times, but a rule of the "
+                "scenario's key 'gate' needs them");
   }
   return run;
 }

@@ -139,7 +139,7 @@ class BaselineReader {
       return slot.second.cells->statuses.find_first_of(kAnswers) != std::string::npos;
     };
     if (!std::ranges::any_of(slots_, has_answer)) {
-      return Fail(head.place(), "no cell is ok or unsolved, so no run could be worse");
+      return Fail(head.place(), "no cell has the status ok or unsolved, so no run could be worse than this baseline");
     }
     RETURN_IF_ERROR(CheckSeal(json, head));
     return std::move(snapshot_);
@@ -148,16 +148,18 @@ class BaselineReader {
  private:
   Result<void> CheckSeal(const Json& json, const JsonObject& head) {
     if (!head.Has("seal")) {
-      snapshot_.unsealed = file_ + ": has no seal because an older version wrote it; gate --update makes one";
+      snapshot_.unsealed = file_ +
+                           ": an older version of etude wrote this baseline without a seal; gate --update "
+                           "writes a baseline with a seal";
       if (seal_ == BaselineSeal::kMayBreak) return {};
-      return Fail({}, "{}; --unsealed reads it nevertheless", snapshot_.unsealed);
+      return Fail({}, "{}; --unsealed reads the baseline anyway", snapshot_.unsealed);
     }
     ASSIGN_OR_RETURN(const auto told, head.Text("seal"));
     ASSIGN_OR_RETURN(const auto found, SealOf(json));
     if (told == found) return {};
-    snapshot_.unsealed = file_ + ": was changed after gate --update wrote it: its seal does not match";
+    snapshot_.unsealed = file_ + ": the seal does not match, so this baseline was changed after gate --update wrote it";
     if (seal_ == BaselineSeal::kMayBreak) return {};
-    return Fail({}, "{}; --unsealed reads it nevertheless", snapshot_.unsealed);
+    return Fail({}, "{}; --unsealed reads the baseline anyway", snapshot_.unsealed);
   }
 
   Place PlaceOf(const std::string& list, std::size_t entry) const {
@@ -239,7 +241,9 @@ class BaselineReader {
     ASSIGN_OR_RETURN(const Json* statuses, head.List("statuses"));
     ASSIGN_OR_RETURN(const Json* values, head.List("values"));
     if (statuses->size() == cells && values->size() == lists) return {};
-    return Fail(head.place(), "contains {} lines of statuses and {} lines of values, but its scenarios need {} and {}",
+    return Fail(head.place(),
+                "contains {} lines of statuses and {} lines of values, but its scenarios need {} lines "
+                "of statuses and {} lines of values",
                 statuses->size(), values->size(), cells, lists);
   }
 
@@ -265,7 +269,7 @@ class BaselineReader {
     const std::string name = fmt::format("{}, {}, {}", scenario, condition, method);
     const auto slot = slots_.find(name);
     if (slot == slots_.end())
-      return Fail(line.place(), "contains {} of {}, but no scenario has these cells", what, name);
+      return Fail(line.place(), "contains {} for {}, but no scenario has these cells", what, name);
     return slot;
   }
 
@@ -278,15 +282,15 @@ class BaselineReader {
     if (!statuses.empty()) return Fail(place, "two lines contain the statuses of {}; allowed: one line", name);
     ASSIGN_OR_RETURN(statuses, line.Text("cells"));
     if (statuses.find_first_not_of(kLetters) != std::string::npos || statuses.size() != cells.trials) {
-      return Fail(place, "the statuses of {} are not {} letters of '{}'", name, cells.trials, kLetters);
+      return Fail(place, "the statuses of {} must be {} letters, each one of '{}'", name, cells.trials, kLetters);
     }
     if (line.Has("judged")) RETURN_IF_ERROR(ReadJudged(entry.at("judged"), place, name, cells));
     // A method whose cells were all skipped needs no answer.
     const bool skipped = statuses.find_first_not_of('s') == std::string::npos;
     if (skipped || statuses.find_first_of(kAnswers) != std::string::npos) return {};
     return Fail(place,
-                "all {} cells of {} failed, so no run could be worse; allowed: for each method, a cell that is ok "
-                "or unsolved, or only skipped cells",
+                "all {} cells of {} failed, so no run could be worse than this baseline; needed: at least one cell "
+                "with the status ok or unsolved, or only skipped cells",
                 cells.trials, name);
   }
 
@@ -300,11 +304,13 @@ class BaselineReader {
         judged = DecodeJudged(cell);
       }
     } catch (const Json::exception& error) {
-      return Fail(place, "'judged' of {} does not say what the cells were judged on: {}", name, error.what());
+      return Fail(place, "the key 'judged' of {} cannot be read: {}", name, error.what());
     }
     if (slot.cells->judged.size() == slot.trials) return {};
-    return Fail(place, "'judged' of {} has {} cells, but the scenario has {} trials", name, slot.cells->judged.size(),
-                slot.trials);
+    return Fail(place,
+                "the key 'judged' of {} describes {} cells, but the scenario has {} "
+                "trials",
+                name, slot.cells->judged.size(), slot.trials);
   }
 
   Result<void> ReadValues(const Json& entry, const Place& place) {
@@ -316,19 +322,21 @@ class BaselineReader {
     const auto& [name, cells] = *slot;
     const auto kept = std::ranges::find(cells.cells->metrics, metric, &SnapshotValues::metric);
     if (kept == cells.cells->metrics.end()) {
-      return Fail(place, "contains values of {} of {}, but the scenario does not list this metric", metric, name);
+      return Fail(place, "contains values of {} for {}, but the scenario does not list this metric", metric, name);
     }
     if (!kept->values.empty())
-      return Fail(place, "two lines contain the values of {} of {}; allowed: one line", metric, name);
+      return Fail(place, "two lines contain the values of {} for {}; allowed: one line", metric, name);
     ASSIGN_OR_RETURN(const Json* values, line.List("values"));
     if (values->size() != cells.trials) {
-      return Fail(place, "contains {} values of {} of {}, but the scenario has {} trials", values->size(), metric, name,
-                  cells.trials);
+      return Fail(place,
+                  "contains {} values of {} for {}, but the scenario has {} "
+                  "trials",
+                  values->size(), metric, name, cells.trials);
     }
     for (std::size_t trial = 0; trial < cells.trials; ++trial) {
       const Json& value = (*values)[trial];
       if (!value.is_null() && !value.is_number()) {
-        return Fail(place, "the value of {} of {} in trial {} is {}; allowed: a number or null", metric, name, trial,
+        return Fail(place, "the value of {} for {} in trial {} is {}; allowed: a number or null", metric, name, trial,
                     DescribeJson(value));
       }
       kept->values.push_back(value.is_null() ? std::nullopt : std::optional(value.get<double>()));
@@ -347,8 +355,9 @@ class BaselineReader {
     if (found == allowed) return {};
     const auto first = std::ranges::find(kept.values, std::optional<double>()) - kept.values.begin();
     return Fail(line.place(),
-                "{} values of {} of {} are null{}; allowed: {} (the line's 'nulls', or 0 without this key)", found,
-                kept.metric, name, found == 0 ? "" : fmt::format(", the first in trial {}", first), allowed);
+                "{} values of {} for {} are null{}; allowed: {}, the number in the key 'nulls' of this line (0 without "
+                "this key)",
+                found, kept.metric, name, found == 0 ? "" : fmt::format(", the first in trial {}", first), allowed);
   }
 
   std::string file_;

@@ -181,7 +181,8 @@ std::vector<std::string> WhyNotComparable(const SnapshotScenario& before, const 
     const std::string* other = FindDigest(after.worlds, condition);
     if (other == nullptr || *other == digest) continue;
     reasons.push_back(fmt::format(
-        "{}: the worlds of condition {} have other parameters, other clips or another version of secret worlds",
+        "{}: under condition {}, the two runs have different parameters, different clips or different versions of "
+        "secret worlds",
         before.name, condition));
   }
   for (const auto& metric : before.metrics) {

@@ -27,13 +27,13 @@ Result<void> CheckRowsInOrder(const FinishedRun& run, const Place& place) {
     }
     if (wrong) return;
     if (next == wanted.size() || wanted[next] != row.Id()) {
-      wrong = Error{place, "holds the cell " + row.Id() + " where the manifest has another"};
+      wrong = Error{place, "contains the cell " + row.Id() + " where the manifest has a different cell"};
     }
     ++next;
   });
   if (wrong) return tl::unexpected(*wrong);
   if (next == wanted.size() && scenario == run.scenarios.size()) return {};
-  return Fail(place, "has {} rows, but the manifest requires more", CountRows(run.data));
+  return Fail(place, "contains {} rows, but the manifest requires more rows", CountRows(run.data));
 }
 
 class ScenarioTaker {
@@ -116,10 +116,16 @@ Result<void> CheckRows(FinishedRun& run, const Place& place) {
       if (rows.erase(id) == 0) missing.push_back(id);
     }
     if (missing.empty()) continue;
-    run.incomplete.push_back(fmt::format("{}: {} of {} rows are missing, the first is {}", one.study.scenario,
-                                         missing.size(), wanted.size(), missing.front()));
+    run.incomplete.push_back(
+        fmt::format("{}: {} of {} rows are missing; the first missing row is "
+                    "{}",
+                    one.study.scenario, missing.size(), wanted.size(), missing.front()));
   }
-  if (!rows.empty()) return Fail(place, "contains the cell {}, which is in no scenario of the manifest", *rows.begin());
+  if (!rows.empty())
+    return Fail(place,
+                "contains the cell {}, but no scenario of the manifest has this "
+                "cell",
+                *rows.begin());
   return {};
 }
 

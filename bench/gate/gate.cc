@@ -56,7 +56,7 @@ Result<void> RequireComparable(const Snapshot& baseline, const Snapshot& now, co
   for (std::size_t i = 0; i < std::min(kMaxShownReasons, reasons.size()); ++i)
     text += (i == 0 ? "" : "; ") + reasons[i];
   if (reasons.size() > kMaxShownReasons) text += fmt::format("; and {} more", reasons.size() - kMaxShownReasons);
-  return Fail({file, 0, 0}, "the worlds of this baseline are not those of the run: {}; --update writes a new baseline",
+  return Fail({file, 0, 0}, "this baseline and the run have different worlds: {}; --update writes a new baseline",
               text);
 }
 
@@ -102,10 +102,16 @@ std::vector<std::string> WhyIncomplete(const FinishedRun& run) {
   });
   std::vector<std::string> sentences;
   for (const auto& [key, found] : ends) {
-    sentences.push_back(fmt::format("{}: {} × the status {}, which depends on the machine; the first is {}", key.first,
-                                    found.cells, key.second, found.first));
+    sentences.push_back(
+        fmt::format("{}: {} × status {}, a status that depends on the machine; the first such cell is "
+                    "{}",
+                    key.first, found.cells, key.second, found.first));
   }
-  if (all_skipped && !why_skipped.empty()) sentences.push_back("every cell was skipped; the first is " + why_skipped);
+  if (all_skipped && !why_skipped.empty())
+    sentences.push_back(
+        "every cell was skipped; the first cell "
+        "is " +
+        why_skipped);
   return sentences;
 }
 
@@ -133,8 +139,10 @@ std::vector<std::string> DescribeSilentMethods(const FinishedRun& run) {
   for (const auto& [name, cells] : methods) {
     if (cells.has_answer) continue;
     const std::vector<CountedReason> causes = cells.causes.MostFrequentFirst();
-    std::string text = fmt::format("{}: none of the {} cells of {} is ok or unsolved; the first has {}", name.first,
-                                   cells.attempted, name.second, cells.first);
+    std::string text = fmt::format(
+        "{}: none of the {} cells of {} has the status ok or unsolved; the first cell is "
+        "{}",
+        name.first, cells.attempted, name.second, cells.first);
     for (std::size_t i = 0; i < std::min(causes.size(), kMaxShownCauses); ++i) {
       text += fmt::format("; {} × {}", causes[i].cells, causes[i].Words());
     }
@@ -175,7 +183,7 @@ Result<GateReport> JudgeRun(const FinishedRun& run, const Snapshot* baseline, co
   report.comparison = CompareSnapshots(*baseline, now, ExactScenarios(run), TailRulesOf(run));
   report.fallen = FindFallenAnswers(run, *baseline, now, report.comparison.moves);
   for (const std::string& name : report.comparison.only_before) {
-    report.incomplete.push_back("the baseline contains rows that the run does not: " + name);
+    report.incomplete.push_back("the baseline contains rows that the run lacks: " + name);
   }
   return report;
 }

@@ -122,7 +122,9 @@ Result<SelfTestReport> RunSelfTest(const RunUnderSeed& run, int repetitions) {
       SnapshotValues* values = FindTarget(worse);
       if (values == nullptr)
         return Fail(
-            {}, "no metric of the gate is a median with a direction; add one to the list 'metrics' of the key 'gate'");
+            {},
+            "the self-test needs a metric that has a direction and is aggregated by its median; add such a metric "
+            "to the list 'metrics' of the key 'gate'");
       target = values->metric;
       Inject(*values, kSizes[k], first_seed);
       injected[k].Add(Alarms(CompareSnapshots(first, worse, {}, no_tails)));
@@ -173,14 +175,14 @@ void InjectedTails::Try(const Snapshot& first, const std::string& target, std::u
   if (needed > 0) counts.insert(needed);
   for (const int count : counts) {
     if (count > present) break;
-    Count(fmt::format("{} in {} of {} worlds worse by {} × the difference that matters", target, count, present,
+    Count(fmt::format("{} worse in {} of {} worlds by {} × the difference that matters", target, count, present,
                       kBeyondRule * rule.times),
           needed > 0 && count >= needed, compare(static_cast<std::size_t>(count), worse_by(kBeyondRule)));
   }
   // Make worlds worse by 0.9 × `rule.times` practical thresholds, which the gate must not report. Then remove a value,
   // which the gate must report if `rule.lost` is 1.
   if (needed > 0 && needed <= present) {
-    Count(fmt::format("{} in {} of {} worlds worse by {} × the difference that matters", target, needed, present,
+    Count(fmt::format("{} worse in {} of {} worlds by {} × the difference that matters", target, needed, present,
                       kWithinRule * rule.times),
           false, compare(static_cast<std::size_t>(needed), worse_by(kWithinRule)));
   }

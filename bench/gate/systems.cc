@@ -122,23 +122,26 @@ std::vector<std::string> CompareSystems(const RunSystem& a, const RunSystem& b, 
   std::vector<std::string> lines = {"A: " + Describe(a, of_a), "B: " + Describe(b, of_b)};
   if (of_a == nullptr || of_b == nullptr) {
     lines.emplace_back(
-        "Differences may be due to the systems: how much results differ between these two has not been measured.");
+        "Differences may be due to the systems. How much results differ between these two systems has not been "
+        "measured.");
     return lines;
   }
   const LargestDifferences measured = MeasuredBetween(*of_a, *of_b);
   const int cells = of_a->cells_that_differ + of_b->cells_that_differ;
   lines.push_back(
-      cells == 0
-          ? fmt::format("Measured between these systems: none of the quick suite's {} cells differs.", kQuickCells)
-          : fmt::format("Measured between these systems: at most {} of the quick suite's {} cells differ, {}.", cells,
-                        kQuickCells, InWords(measured)));
+      cells == 0 ? fmt::format("In a test of these two systems, none of the {} cells of the quick suite "
+                               "differed.",
+                               kQuickCells)
+                 : fmt::format("In a test of these two systems, at most {} of the {} cells of the quick suite differed "
+                               "(largest differences: {}).",
+                               cells, kQuickCells, InWords(measured)));
   LargestDifferences beyond = DifferencesOf(before, after);
   std::erase_if(beyond, [&](const auto& one) {
     const auto found = measured.find(one.first);
     return found != measured.end() && one.second <= found->second;
   });
   if (!beyond.empty())
-    lines.push_back(fmt::format("The differences here are larger than measured: {}.", InWords(beyond)));
+    lines.push_back(fmt::format("In this comparison, differences are larger than in that test: {}.", InWords(beyond)));
   return lines;
 }
 

@@ -29,7 +29,7 @@ void ReadNumbers(Fields& fields, const std::string& key, Count count, Range rang
   } else {
     const std::string wanted = count.fewest == count.most ? fmt::format("{}", count.fewest)
                                                           : fmt::format("{} to {}", count.fewest, count.most);
-    fields.Complain(node->place, fmt::format("'{}' has {} numbers; it needs {}", key, numbers.size(), wanted));
+    fields.Complain(node->place, fmt::format("'{}' has {} numbers; needed: {}", key, numbers.size(), wanted));
   }
 }
 

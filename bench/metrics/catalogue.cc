@@ -50,8 +50,10 @@ Result<void> AddMetric(MetricInfo metric) {
   if (is_new) return {};
   const std::string difference = FindDifference(known->second, metric);
   if (difference.empty()) return {};
-  return Fail({}, "the metric '{}' is defined in two ways: {}; values of two definitions are never mixed", metric.id,
-              difference);
+  return Fail({},
+              "the metric '{}' has two different definitions: {}; Etude never mixes values of two "
+              "definitions",
+              metric.id, difference);
 }
 
 const std::map<std::string, MetricInfo, std::less<>>& AddedMetrics() { return Added(); }

@@ -78,27 +78,29 @@ The JSON (`docs/schemas/metrics.schema.json`) contains every definition below wi
 
 ## All metrics
 
-- **Identity.** An id contains its unit. A changed definition has a higher version; values of two versions are not
-  comparable.
-- **Motions** are judged at 30 Hz, in metres, Y up, as positions of twenty joints; a limb is the line from a joint to its
-  parent (`joints` of the JSON). In transitions the hips of the standing body are at 0.90 m.
-- **A missing value** is null with its reason in `null_reasons`, never zero. A cell without an answer (failed, timeout,
-  crashed, out_of_memory, bad_output) has no values, except for metrics that give a failure a value (0 for a solved
-  share, twice the limit for PAR-2), so that it stays in the denominator. A skipped cell has no values at all.
-- **A run** aggregates the cells' values by the metric's aggregate, median or mean, with a 95 % bootstrap interval;
-  shares and 0/1 values are aggregated by the mean.
+- **Identity.** The id of a metric contains the unit. If a definition changes, the metric gets a higher version. Values
+  of two versions are not comparable.
+- **Motions** are judged at 30 Hz as positions of twenty joints, in metres with Y up. A limb is the line from a joint to
+  the joint's parent (`joints` of the JSON). In transitions, the hips of the standing body are at 0.90 m.
+- **A missing value** is null, never zero, and `null_reasons` contains the reason. A cell without an answer (failed,
+  timeout, crashed, out_of_memory, bad_output) has no values. Exceptions are metrics that give a failure a value: 0
+  for a solved share, and twice the limit for PAR-2. With such a value, the cell stays in the denominator. A skipped
+  cell has no values at all.
+- **A run** aggregates the values of the cells by the median or the mean, with a 95 % bootstrap interval. Each metric
+  states its aggregate. Shares and 0/1 values are aggregated by the mean.
 - **The practical threshold** is the smallest difference that matters in practice. A smaller difference is never better
   or worse.
-- **∠(u, v)** is atan2(‖u × v‖, u · v), 0 when a vector is zero.
+- **∠(u, v)** is atan2(‖u × v‖, u · v). It is 0 when one of the vectors is zero.
 
 ## Inputs of the test vectors
 
-- A motion: `{"rate_hz": 30, "frames": 3, "joints_m": {"left_hand": [[x, y, z], …]}}`: one position per frame, or one for
-  all frames. A joint that is not named stays at the origin; the default of `rate_hz` is 30.
-- A pose: `{"left_hand": [x, y, z], …}`. A joint that is not named is at the origin.
-- A computed value may differ from the expected value by the tolerance, in the metric's unit. `expected: null` means
-  that the metric has no value.
-- `derived:` values were derived from the definition by hand; `published:` values are from the work that is named.
+- A motion: `{"rate_hz": 30, "frames": 3, "joints_m": {"left_hand": [[x, y, z], …]}}`. A joint has one position
+  per frame, or one position for all frames. A joint that is not listed stays at the origin. The default of `rate_hz`
+  is 30.
+- A pose: `{"left_hand": [x, y, z], …}`. A joint that is not listed is at the origin.
+- A computed value may differ from the expected value by at most the tolerance, in the metric's unit. `expected: null`
+  means that the metric has no value.
+- `derived:` values were derived from the definition by hand. `published:` values come from the cited work.
 )";
 
 std::string Amount(double value, const std::string& unit) {
@@ -134,11 +136,11 @@ std::string Section(const MetricInfo& metric) {
   text += fmt::format("- **Formula.** {}\n- **Null.** {}\n", metric.formula, metric.null_rule);
   text += fmt::format("- **Smallest difference that matters: {}.** {}\n", Amount(metric.practical, metric.unit),
                       metric.practical_reason);
-  text += fmt::format("- **Source.** {}\n- **Input of its vectors.**", metric.source);
+  text += fmt::format("- **Source.** {}\n- **Input of the test vectors.**", metric.source);
   for (const MetricInput& input : metric.inputs) {
     text += fmt::format("{} `{}`: {}", &input == &metric.inputs.front() ? "" : ";", input.key, input.meaning);
   }
-  text += ".\n\n| vector | value | where from |\n|---|---|---|\n";
+  text += ".\n\n| test vector | value | source of the value |\n|---|---|---|\n";
   for (const MetricVector& vector : metric.vectors) {
     text += fmt::format("| {} | {} | {} |\n", EscapeTableCell(vector.title), EscapeTableCell(ExpectedText(vector)),
                         EscapeTableCell(vector.source));
@@ -156,7 +158,7 @@ Json MetricsJson() {
 }
 
 std::string FaultsTable() {
-  std::string text = "| fault | unit of its size | shown when |\n|---|---|---|\n";
+  std::string text = "| fault | unit of the fault's size | reported when |\n|---|---|---|\n";
   for (const FaultRule& rule : FaultRules()) text += fmt::format("| {} | {} | {} |\n", rule.name, rule.unit, rule.rule);
   return text;
 }
@@ -203,7 +205,7 @@ Result<void> ReadAddedMetrics(const Json& list, const Place& place) {
       metric.definition = each.at("definition").get<std::string>();
       metric.domain = each.at("domain").get<std::string>();
     } catch (const Json::exception& error) {  // a missing key, a wrong type, or an unknown word
-      return Fail(place, "not the description of a metric that a scenario defines: {}", error.what());
+      return Fail(place, "is not the definition of a metric of a scenario: {}", error.what());
     }
     if (auto added = AddMetric(std::move(metric)); !added) return Fail(place, "{}", added.error().message);
   }

@@ -14,7 +14,7 @@ std::string DescribeWorlds(const RunData& run) {
   const bool is_swept =
       std::ranges::any_of(run.scenarios, [](const auto& scenario) { return scenario.conditions.size() > 1; });
   return fmt::format("secret worlds, key {}…{}{}", run.key_digest.substr(0, 16),
-                     is_swept ? ", other worlds under every condition" : "",
+                     is_swept ? ", different worlds under each condition" : "",
                      is_unfenced ? ", programs ran without a fence" : "");
 }
 

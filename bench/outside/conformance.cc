@@ -161,10 +161,13 @@ class ConformanceTest {
     CheckSettings();
     CheckLongLines();
     Report("answers every question once", repeated_ == 0,
-           repeated_ == 0 ? "gives no answer twice" : fmt::format("{} answers were repeated", repeated_));
+           repeated_ == 0 ? "no answer was repeated" : fmt::format("{} answers were repeated", repeated_));
     const std::string end = method_.End(kMaxEndingMs);
     Report("ends when its input ends", end == "exit code 0",
-           end == "signal 9 (Killed)" ? fmt::format("it was still running {} s later", kMaxEndingMs / 1000) : end);
+           end == "signal 9 (Killed)" ? fmt::format("the program was still running {} s after its input "
+                                                    "ended",
+                                                    kMaxEndingMs / 1000)
+                                      : end);
     if (solves_nothing_ && specimens_[0].has_plain_method) CheckAgainstPlain();
     return all_passed_;
   }
@@ -238,8 +241,9 @@ class ConformanceTest {
       solved += attempt.status == Status::kOk ? 1 : 0;
     }
     Report("gives answers that can be scored", true,
-           fmt::format("{} of {} answers solve their problem; at most {:.3g} s (allowed: {:g} s) and {:.0f} MB", solved,
-                       first_.size(), slowest_s_, time_s_, peak_mb_));
+           fmt::format("{} of {} answers solve their problem; slowest answer: {:.3g} s (allowed: {:g} s), most memory: "
+                       "{:.0f} MB",
+                       solved, first_.size(), slowest_s_, time_s_, peak_mb_));
     solves_nothing_ = solved == 0;
     return {};
   }
@@ -257,12 +261,16 @@ class ConformanceTest {
       in_radians += judged && judged->status == Status::kOk ? 1 : 0;
     }
     if (plain == 0) return;
-    const std::string unit =
-        in_radians == 0
-            ? ""
-            : fmt::format("; read as radians, its angles solve {}, but angles must be in degrees", in_radians);
+    const std::string unit = in_radians == 0
+                                 ? ""
+                                 : fmt::format(
+                                       "; if its angles are read as radians, they solve {}, so convert the angles to "
+                                       "degrees",
+                                       in_radians);
     Report("solves the problems that a simple method solves", false,
-           fmt::format("solves none of {} problems; damped-least-squares solves {}{}", first_.size(), plain, unit));
+           fmt::format("the program solves none of {} problems; the built-in method damped-least-squares solves "
+                       "{}{}",
+                       first_.size(), plain, unit));
   }
 
   /// Compares a second attempt at problem `i` of the first setting with the first attempt. Returns the difference; ""
@@ -340,15 +348,15 @@ Result<std::vector<Specimen>> MakeSpecimens(const std::string& task, const std::
                                             const LabelledStreams* recordings) {
   const TaskKind* kind = FindTaskKind(task);
   if (kind == nullptr) return Fail({}, "{}", UnknownName("task", task, NamesOf(Recipes(), &Recipe::task)));
-  if (kind->seats.empty() && !seat.empty()) return Fail({}, "task {} has no seats", task);
-  if (!kind->has_problems && kind->seats.empty()) return Fail({}, "task {} takes no programs", task);
+  if (kind->seats.empty() && !seat.empty()) return Fail({}, "task {} has no seats for programs", task);
+  if (!kind->has_problems && kind->seats.empty()) return Fail({}, "task {} runs no programs", task);
   if (seat.empty() && !kind->has_problems) {
-    return Fail({}, "task {} needs a seat: {}", task, fmt::join(kind->seats, ", "));
+    return Fail({}, "task {} needs one of the seats {}", task, fmt::join(kind->seats, ", "));
   }
   if (!seat.empty() && std::ranges::find(kind->seats, seat) == kind->seats.end()) {
     return Fail({}, "{}", UnknownName("seat", seat, kind->seats));
   }
-  if (recordings != nullptr && !kind->uses_recordings) return Fail({}, "task {} takes no recordings", task);
+  if (recordings != nullptr && !kind->uses_recordings) return Fail({}, "task {} uses no recordings", task);
   std::vector<Specimen> specimens;
   for (const Recipe& plain : Recipes()) {
     if (plain.task != task) continue;

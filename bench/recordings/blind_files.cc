@@ -13,7 +13,7 @@ constexpr std::string_view kKeyFormat = "etude-blind-key";
 constexpr std::string_view kAnswersFormat = "etude-blind-answers";
 
 static void Describe(RecordFields& fields, BlindKey::Metric& metric) {
-  fields.Required("id", metric.id, "id of a metric whose higher or lower values are better");
+  fields.Required("id", metric.id, "the metric's id; the list contains only metrics with a direction");
   fields.Required("higher_is_better", metric.higher_is_better, "whether higher values are better");
   fields.Required("left", metric.left, "the metric's value for the film on the left; null if there is none");
   fields.Required("right", metric.right, "the metric's value for the film on the right; null if there is none");
@@ -22,9 +22,9 @@ static void Describe(RecordFields& fields, BlindKey::Metric& metric) {
 static void Describe(RecordFields& fields, BlindKey::Pair& pair) {
   fields.Required("scenario", pair.scenario, "the scenario of the world");
   fields.Required("world", pair.world, "the world's name");
-  fields.Required("left", pair.left, "the method on the left");
-  fields.Required("right", pair.right, "the method on the right");
-  fields.List("metrics", pair.metrics, "the metrics of both cells");
+  fields.Required("left", pair.left, "the method whose film is on the left");
+  fields.Required("right", pair.right, "the method whose film is on the right");
+  fields.List("metrics", pair.metrics, "the metrics of the two films");
 }
 
 static void Describe(RecordFields& fields, BlindKey& key) {
@@ -32,7 +32,9 @@ static void Describe(RecordFields& fields, BlindKey& key) {
   fields.Required("page", key.page, "digest of the page's content");
   fields.Required("seed", key.seed, "seed of the random numbers that chose worlds, order and sides");
   fields.Required("worlds", key.worlds, "number of worlds from which the pairs were drawn");
-  fields.Required("left_out", key.left_out, "number of worlds in which a method made no transition that can be shown");
+  fields.Required("left_out", key.left_out,
+                  "number of worlds without a pair, because a method made no transition that "
+                  "can be shown");
   fields.List("pairs", key.pairs, "the pairs in the page's order");
 }
 
@@ -70,12 +72,15 @@ Result<void> AddAnswers(BlindAnswers answers, const std::string& file, std::vect
     return Fail({file}, "preferred[{}]: '{}'; allowed: left, right, same, or an empty text", i, answers.preferred[i]);
   }
   const std::string rater = Compared(answers.rater);
-  if (rater.empty()) return Fail({file}, "rater: ''; allowed: the rater's name, the same in all files of this rater");
+  if (rater.empty())
+    return Fail({file},
+                "rater: the name is empty; needed: the rater's name, which must be the same "
+                "in all files of this rater");
   for (const BlindAnswers& other : all) {
     if (Compared(other.rater) != rater) continue;
     answers.rater = other.rater;
     if (other.page != answers.page) continue;
-    return Fail({file}, "is a second file with answers of '{}' to the page {}; allowed: one for each rater",
+    return Fail({file}, "is a second file with answers of '{}' to the page {}; allowed: one file for each rater",
                 answers.rater, answers.page);
   }
   all.push_back(std::move(answers));
@@ -89,7 +94,7 @@ Result<void> AddBlindFile(const std::string& text, const std::string& file, Blin
   if (json.is_object() && json.contains("format") && json["format"] == kKeyFormat) {
     ASSIGN_OR_RETURN(auto key, ReadRecord<BlindKey>(text, file));
     if (std::ranges::find(files.keys, key.page, &BlindKey::page) != files.keys.end()) {
-      return Fail({file}, "is a second key of the page {}; allowed: one key", key.page);
+      return Fail({file}, "is a second key for the page {}; allowed: one key", key.page);
     }
     files.keys.push_back(std::move(key));
     return {};
@@ -99,16 +104,20 @@ Result<void> AddBlindFile(const std::string& text, const std::string& file, Blin
 }
 
 Result<void> CheckBlindFiles(const BlindFiles& files) {
-  if (files.answers.empty()) return Fail({}, "no file of answers is given; raters save one in the page");
+  if (files.answers.empty())
+    return Fail({},
+                "no file with answers is given; raters save their answers at the end of "
+                "the page");
   for (const BlindAnswers& answers : files.answers) {
     const auto key = std::ranges::find(files.keys, answers.page, &BlindKey::page);
     if (key == files.keys.end()) {
-      return Fail(
-          {}, "'{}' answered the page {}, but its key is not given; add the file {}.key.json of the run's folder blind",
-          answers.rater, answers.page, answers.page);
+      return Fail({},
+                  "'{}' answered the page {}, but the key of this page is not given; add the file {}.key.json from the "
+                  "run's folder 'blind'",
+                  answers.rater, answers.page, answers.page);
     }
     if (answers.preferred.size() == key->pairs.size()) continue;
-    return Fail({}, "'{}' gave {} answers to the page {}; allowed: {}, one for each pair", answers.rater,
+    return Fail({}, "'{}' gave {} answers to the page {}; needed: {} answers, one for each pair", answers.rater,
                 answers.preferred.size(), answers.page, key->pairs.size());
   }
   return {};

@@ -85,7 +85,10 @@ Result<CaptureExtras::View> ToView(const SortedJson& json) {
   }
   if (json.contains("still")) {
     view.still_jpeg_base64 = json.at("still");
-    if (!IsBase64(view.still_jpeg_base64)) return Fail({}, "a capture recording whose 'still' is not base64");
+    if (!IsBase64(view.still_jpeg_base64))
+      return Fail({},
+                  "the picture 'still' in this capture recording is not "
+                  "base64 text");
   }
   const int width = json.at("mask_width"), height = json.at("mask_height");
   for (const SortedJson& text : json.at("masks")) {
@@ -97,7 +100,7 @@ Result<CaptureExtras::View> ToView(const SortedJson& json) {
 
 Result<CaptureExtras> ToExtras(const SortedJson& json) {
   if (json.at("format") != kFormat || json.at("version") != kVersion) {
-    return Fail({}, "a capture recording of format {} version {}; this program reads {} version {}",
+    return Fail({}, "found a capture recording of format {}, version {}; this program reads format {}, version {}",
                 json.at("format").dump(), json.at("version").dump(), kFormat, kVersion);
   }
   CaptureExtras extras;
@@ -121,7 +124,8 @@ Result<CaptureExtras> ToExtras(const SortedJson& json) {
     ASSIGN_OR_RETURN(auto view, ToView(camera));
     if (view.masks.size() != extras.brightness.size()) {
       return Fail({},
-                  "a capture recording has {} values of 'brightness', but {} masks of a camera; allowed: equal numbers",
+                  "found {} values of 'brightness' in a capture recording, but {} masks of a camera; allowed: equal "
+                  "numbers",
                   extras.brightness.size(), view.masks.size());
     }
     extras.views.push_back(std::move(view));
@@ -131,8 +135,9 @@ Result<CaptureExtras> ToExtras(const SortedJson& json) {
     extras.moments.push_back(ToMoment(json_moment));
     const CaptureExtras::Moment& moment = extras.moments.back();
     if (moment.frame >= extras.brightness.size() || moment.marks.size() != extras.views.size()) {
-      return Fail(
-          {}, "a capture recording has a moment whose frame does not exist, or whose marks do not match the cameras");
+      return Fail({},
+                  "in this capture recording, a moment has a frame that does not exist, or its marks do not match the "
+                  "cameras");
     }
   }
   extras.bvh = json.at("bvh");
@@ -166,11 +171,14 @@ std::string WriteCaptureExtras(const CaptureExtras& extras) {
 }
 
 Result<CaptureExtras> ReadCaptureExtras(std::string_view text) {
-  if (text.find('\0') != std::string_view::npos) return Fail({}, "not a readable capture recording: a zero byte");
+  if (text.find('\0') != std::string_view::npos)
+    return Fail({},
+                "this capture recording cannot be read: it contains a "
+                "zero byte");
   try {
     return ToExtras(SortedJson::parse(text));
   } catch (const SortedJson::exception& error) {
-    return Fail({}, "not a readable capture recording: {}", error.what());
+    return Fail({}, "this capture recording cannot be read: {}", error.what());
   }
 }
 
@@ -190,7 +198,7 @@ std::string EncodeMask(const Mask& mask) {
 
 Result<Mask> DecodeMask(std::string_view text, int width, int height) {
   if (width < 0 || height < 0 || width > kMaxSide || height > kMaxSide) {
-    return Fail({}, "a mask of {} × {} pixels; allowed: at most {} a side", width, height, kMaxSide);
+    return Fail({}, "found a mask of {} × {} pixels; allowed: at most {} pixels on each side", width, height, kMaxSide);
   }
   Mask mask(width, height);
   std::size_t at = 0;
@@ -201,7 +209,7 @@ Result<Mask> DecodeMask(std::string_view text, int width, int height) {
     std::size_t run = 0;
     const auto [rest, error] = std::from_chars(next, end, run);
     if (error != std::errc() || (rest != end && *rest != ' ') || run > mask.pixels.size() - at) {
-      return Fail({}, "a mask whose run lengths are not numbers or exceed {} × {} pixels", width, height);
+      return Fail({}, "the run lengths of a mask are not numbers, or their sum exceeds {} × {} pixels", width, height);
     }
     std::fill_n(mask.pixels.begin() + static_cast<std::ptrdiff_t>(at), run, static_cast<std::uint8_t>(value));
     at += run;

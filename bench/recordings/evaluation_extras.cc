@@ -22,7 +22,7 @@ Json FramesOf(const RawMotion& motion) {
 Result<void> ReadFrames(const Json& frames, RawMotion& motion) {
   for (const Json& numbers : frames) {
     if (numbers.size() != 3 * motion.joints.size()) {
-      return Fail({}, "a frame of {} numbers for {} joints; allowed: three for each", numbers.size(),
+      return Fail({}, "found a frame of {} numbers for {} joints; needed: three numbers for each joint", numbers.size(),
                   motion.joints.size());
     }
     for (std::size_t i = 0; i < numbers.size(); i += 3) {
@@ -44,18 +44,24 @@ Result<EvaluationExtras> ToExtras(const Json& json) {
   const auto joints = static_cast<int>(truth.joints.size());
   if (joints == 0 || truth.parents.size() != truth.joints.size() || !(truth.rate_hz > 0)) {
     return Fail({},
-                "{} joints, {} parents and a frame rate of {} Hz; allowed: at least one joint, one parent for each "
-                "joint, a rate above 0",
+                "found {} joints, {} parents and a frame rate of {} Hz; needed: at least one joint, one parent for "
+                "each joint, and a rate above 0",
                 joints, truth.parents.size(), truth.rate_hz);
   }
   for (const int parent : truth.parents) {
     if (parent < -1 || parent >= joints)
-      return Fail({}, "parent {} among {} joints; allowed: -1, or the index of a joint", parent, joints);
+      return Fail({},
+                  "found parent {}, but there are {} joints; allowed: the index of a joint, or -1 for a joint "
+                  "without a parent",
+                  parent, joints);
   }
   extras.answer = truth;
   RETURN_IF_ERROR(ReadFrames(json.at("truth"), truth));
   RETURN_IF_ERROR(ReadFrames(json.at("answer"), extras.answer));
-  if (truth.positions.size() != extras.answer.positions.size()) return Fail({}, "the two motions differ in length");
+  if (truth.positions.size() != extras.answer.positions.size())
+    return Fail({},
+                "the two motions have different "
+                "numbers of frames");
   return extras;
 }
 
@@ -75,7 +81,7 @@ Result<EvaluationExtras> ReadEvaluationExtras(std::string_view text) {
   try {
     return ToExtras(Json::parse(text));
   } catch (const Json::exception& error) {
-    return Fail({}, "not a readable recording of an evaluation: {}", error.what());
+    return Fail({}, "this recording of an evaluation cannot be read: {}", error.what());
   }
 }
 

@@ -58,14 +58,14 @@ Result<std::set<std::size_t>> FindCells(const ReplayOptions& options, const RunD
       const std::string advice = !nearest.empty() ? "; did you mean '" + nearest + "'?"
                                  : !known.empty() ? ", such as '" + known.front() + "'"
                                                   : "";
-      return Fail({options.folder, 0, 0}, "holds no cell '{}'{}", wanted, advice);
+      return Fail({options.folder, 0, 0}, "contains no cell '{}'{}", wanted, advice);
     }
     const MethodRows* const method = methods.Find(RowAt(run, *place));
     if (method == nullptr) {
-      return Fail({options.folder}, "contains the cell {}, which its manifest does not contain", wanted);
+      return Fail({options.folder}, "contains the cell {}, but its manifest does not contain this cell", wanted);
     }
     if (!method->why_not.empty()) {
-      return Fail({options.folder, 0, 0}, "cannot run cell '{}' and others of its method again: {}", wanted,
+      return Fail({options.folder, 0, 0}, "cannot run cell '{}' and the other cells of its method again: {}", wanted,
                   method->why_not);
     }
     places.insert(*place);
@@ -109,7 +109,7 @@ Result<CellChoice> ChooseCells(const ReplayOptions& options, const RunData& run,
     }
   });
   if (unexpected)
-    return Fail({options.folder}, "contains the cell {}, which its manifest does not contain", *unexpected);
+    return Fail({options.folder}, "contains the cell {}, but its manifest does not contain this cell", *unexpected);
   // Draw by selection sampling (Knuth, volume 2, algorithm S): take each row with probability (number still to draw) /
   // (number of rows left).
   choice.dice = options.dice.value_or(run.seed);

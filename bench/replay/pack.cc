@@ -37,7 +37,8 @@ Result<Json> PackClips(const ClipLibrary& library) {
       const std::size_t first = bytes.find_first_not_of(" \t\r\n");
       if (first != std::string::npos && bytes[first] == '{') {
         return Fail({reference.path, 0, 0},
-                    "a .gltf may need other files and is not packed; 'etude clip convert' makes a .glb of it");
+                    "a .gltf file cannot be packed, because it may need other files; 'etude clip convert' makes a .glb "
+                    "file of it");
       }
       files.push_back({{"name", fs::path(FileOf(reference.path)).filename().string()},
                        {"bytes", Json::binary({bytes.begin(), bytes.end()})}});
@@ -121,17 +122,20 @@ Result<void> UnpackMotions(const Json& motions, const fs::path& folder, Scenario
 Result<Pack> ReadPack(std::string_view bytes, const std::string& file) {
   const Place place{file, 0, 0};
   const auto is_no_pack = [&](std::string_view why) {
-    return Fail(place, "not a packed cell (etude replay DIR --cell ID --pack FILE writes one): {}", why);
+    return Fail(place, "is not a packed cell: {}; 'etude replay DIR --cell ID --pack FILE' writes a packed cell", why);
   };
   const auto json = ReadCbor(bytes, file);
   if (!json) return is_no_pack(json.error().message);
   try {
     if (json->at("etude_pack") != kPackVersion) {
-      return Fail(place, "a pack of version {}; this program reads {}", json->at("etude_pack").dump(), kPackVersion);
+      return Fail(place,
+                  "found a packed cell of version {}; this program reads version "
+                  "{}",
+                  json->at("etude_pack").dump(), kPackVersion);
     }
     ASSIGN_OR_RETURN(auto suite, DecodeSetup(json->at("setup"), place));
     if (suite.scenarios.size() != 1)
-      return Fail(place, "not a packed cell: {} scenarios; allowed: one", suite.scenarios.size());
+      return Fail(place, "is not a packed cell: found {} scenarios; allowed: one scenario", suite.scenarios.size());
     ASSIGN_OR_RETURN(auto row, DecodeRow(json->at("row"), place));
     return Pack{std::move(suite), std::move(row), std::make_unique<Json>(json->at("motions"))};
   } catch (const Json::exception& error) {
@@ -145,14 +149,14 @@ Result<void> UnpackMotions(Pack& pack, const std::string& file, const fs::path& 
     if (!unpacked) return Fail({file, 0, 0}, "{}", ToString(unpacked.error()));
     return {};
   } catch (const std::exception& error) {  // thrown by Json, or by at() for a file that is not in the pack
-    return Fail({file, 0, 0}, "a clip that cannot be read: {}", error.what());
+    return Fail({file, 0, 0}, "cannot read a clip of this packed cell: {}", error.what());
   }
 }
 
 Result<void> PackCell(const std::string& folder, const std::string& cell, const std::string& file, Sealing sealing) {
   ASSIGN_OR_RETURN(const auto run, LoadRun(folder, sealing));
   const auto place = FindRow(run, cell);
-  if (!place) return Fail({folder, 0, 0}, "holds no cell '{}'", cell);
+  if (!place) return Fail({folder, 0, 0}, "contains no cell '{}'", cell);
   const Row row = RowAt(run, *place);
   // Packing makes no worlds, so the key of secret worlds is needed only when the cell is replayed.
   const FilePath manifest = Inside(folder) / "manifest.json";
@@ -164,10 +168,10 @@ Result<void> PackCell(const std::string& folder, const std::string& cell, const 
   const auto prepared = std::find_if(scenarios.begin(), scenarios.end(), [&](const PreparedScenario& scenario) {
     return scenario.scenario().name == row.scenario;
   });
-  if (prepared == scenarios.end()) return Fail({folder, 0, 0}, "names no scenario '{}'", row.scenario);
+  if (prepared == scenarios.end()) return Fail({folder, 0, 0}, "contains no scenario '{}'", row.scenario);
   ASSIGN_OR_RETURN(auto clips, PackMotions(*prepared));
   if (suite.scored && row.method == suite.scored->name) {
-    return Fail({folder, 0, 0}, "'{}' cannot be packed: its answer was read from a file and scored", cell);
+    return Fail({folder, 0, 0}, "'{}' cannot be packed, because its answer was read from a file and scored", cell);
   }
   suite.scored.reset();
   suite.scenarios = {prepared->setup()};
@@ -194,8 +198,7 @@ Result<std::optional<CellCheck>> ReplayPack(const std::string& file, const Outsi
   const Plan plan(scenarios);
   std::size_t cell = 0;
   while (cell < plan.cell_count() && plan.IdentityOf(cell).Id() != pack.row.Id()) ++cell;
-  if (cell == plan.cell_count())
-    return Fail({file, 0, 0}, "the scenario of this file makes no cell '{}'", pack.row.Id());
+  if (cell == plan.cell_count()) return Fail({file, 0, 0}, "the scenario of this file has no cell '{}'", pack.row.Id());
   const std::size_t world = plan.WorldOf(cell);
   std::optional<CellCheck> check;
   // The folder for the programs' standard error, which the reason of a failure quotes.

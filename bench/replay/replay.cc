@@ -147,7 +147,7 @@ Result<ReplayOutcome> ReplayRun(const ReplayOptions& options) {
 Result<ReplayOutcome> ReplayPrepared(const ReplayOptions& options, const RunData& run, const PreparedRun& prepared) {
   const Plan plan(prepared.scenarios);
   if (CountRows(run) != plan.cell_count()) {
-    return Fail({options.folder, 0, 0}, "has {} rows, but its manifest describes {} cells", CountRows(run),
+    return Fail({options.folder, 0, 0}, "contains {} rows, but its manifest describes {} cells", CountRows(run),
                 plan.cell_count());
   }
   // Choose the cells, and check that their programs may be run.

@@ -49,7 +49,10 @@ Result<Json> SummaryOf(const FinishedRun& run, int jobs) {
 }
 
 Result<Verified> VerifySummary(const FilePath& folder, const FinishedRun& run, int jobs) {
-  Verified verified{fmt::format("summary.json: the same when computed again from {} rows", CountRows(run.data)), {}};
+  Verified verified{fmt::format("summary.json: equal to a summary computed again from {} "
+                                "rows",
+                                CountRows(run.data)),
+                    {}};
   ASSIGN_OR_RETURN(const auto then, ReadJsonFile(folder / "summary.json"));
   ASSIGN_OR_RETURN(const auto now, SummaryOf(run, jobs));
   ASSIGN_OR_RETURN(const auto text, WriteJson(now));
@@ -97,7 +100,7 @@ Result<std::set<fs::path>> FilesOfRun(const FilePath& folder, const FinishedRun&
 
 Result<Verified> VerifyFiles(const FilePath& folder, const FinishedRun& run) {
   ASSIGN_OR_RETURN(const auto allowed, FilesOfRun(folder, run));
-  Verified verified{"files: only those that a run of this manifest writes", {}};
+  Verified verified{"files: only files that a run of this manifest writes", {}};
   std::error_code error;
   for (fs::recursive_directory_iterator entry(folder.given(), error), end; !error && entry != end;
        entry.increment(error)) {
@@ -114,7 +117,7 @@ Result<Verified> VerifyFiles(const FilePath& folder, const FinishedRun& run) {
 }
 
 Verified VerifyRows(const FinishedRun& run) {
-  Verified verified{"rows: exactly those of the manifest, in its order", run.incomplete};
+  Verified verified{"rows: exactly the rows of the manifest, in its order", run.incomplete};
   if (!run.incomplete.empty()) return verified;
   std::vector<std::string> wanted;
   for (const FinishedScenario& scenario : run.scenarios)
@@ -236,7 +239,7 @@ Result<bool> AreSame(const FilePath& a, const FilePath& b) {
 /// Writes the columns again from the rows and compares the bytes. Without this check, a column could contain numbers
 /// that belong to no row, and other programs that read the column would use them.
 Result<Verified> VerifyColumns(const FilePath& folder, const FinishedRun& run) {
-  Verified verified{"columns: the same bytes as when made again from the rows", {}};
+  Verified verified{"columns: equal to columns made again from the rows, byte for byte", {}};
   std::size_t place = 0;
   for (const FinishedScenario& scenario : run.scenarios) {
     ASSIGN_OR_RETURN(const auto again, TemporaryFolder::Make("verify"));
@@ -278,7 +281,7 @@ bool IsOfMachine(const std::string& status) {
 
 Verified VerifyCells(const ReplayOutcome& replayed) {
   const CellChoice& choice = replayed.choice;
-  Verified verified{fmt::format("{} of {} cells and {} that left a recording, run again: {}", choice.drawn,
+  Verified verified{fmt::format("{} of {} cells, and {} cells with a recording, run again: {}", choice.drawn,
                                 choice.drawable, choice.recorded, "stages, metrics, curves, recordings"),
                     {}};
   for (const CellCheck& check : replayed.checks) {
@@ -286,7 +289,9 @@ Verified VerifyCells(const ReplayOutcome& replayed) {
     const bool is_of_machine = check.stage == "status" && (IsOfMachine(check.then) || IsOfMachine(check.now));
     verified.differences.push_back(
         fmt::format("{}: {} was {} and is {}{}", check.cell, check.stage, check.then, check.now,
-                    is_of_machine ? "; the machines differ, or the run was forged: this check cannot show which" : ""));
+                    is_of_machine ? "; either the machines differ, or the run was forged; this check cannot "
+                                    "distinguish the two"
+                                  : ""));
   }
   return verified;
 }

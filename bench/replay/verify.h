@@ -10,7 +10,7 @@ namespace etude {
 
 /// One check of a result folder, and the differences that it found.
 struct Verified {
-  /// The check and its extent, e.g. "summary.json: the same when computed again from 480 rows".
+  /// The check and its extent, e.g. "summary.json: equal to a summary computed again from 480 rows".
   std::string what;
   std::vector<std::string> differences;  ///< the differences found; empty if there are none
 };

@@ -77,7 +77,7 @@ Result<std::vector<Scenario>> ScenariosOf(const FilePath& folder) {
 
 Result<Verified> VerifyManifest(const FilePath& folder, const FinishedRun& run, const SuiteSetup& suite,
                                 std::span<const PreparedScenario> scenarios, const Json& programs) {
-  Verified verified{"manifest.json: the same as a run of its scenarios writes", {}};
+  Verified verified{"manifest.json: equal to the manifest that a run of its scenarios writes", {}};
   ASSIGN_OR_RETURN(const auto then, ReadJsonFile(folder / "manifest.json"));
   ASSIGN_OR_RETURN(auto now, MakeManifest(suite, scenarios, run.data.program_version));
   // Some values may differ: copy them from the old manifest to the new manifest.
@@ -99,7 +99,7 @@ Result<Verified> VerifyManifest(const FilePath& folder, const FinishedRun& run, 
     keep(told.at(s), scenario, "platform");
     if (!ProgramsIn(parsed.at(s)).empty()) {
       if (!told.at(s).contains("programs")) {
-        verified.what += ", except the versions of its programs, which the etude that wrote it did not record";
+        verified.what += ", except the versions of its programs, which the etude of that run did not record";
       } else {
         scenario["programs"] = (programs.is_null() ? told : programs.at("scenarios")).at(s).at("programs");
       }
@@ -118,7 +118,7 @@ Result<Verified> VerifyManifest(const FilePath& folder, const FinishedRun& run, 
   }
   for (const auto& [name, _] : suite.sources) {
     if (!IsNamed(name, suite))
-      verified.differences.push_back(fmt::format("sources: no scenario and no other source names '{}'", name));
+      verified.differences.push_back(fmt::format("sources: '{}' is used by no scenario and by no other source", name));
   }
   // The manifest's `own_metrics` are also in `now`, so the comparison above does not find superfluous ones. Report the
   // metrics that no scenario defines.
@@ -128,7 +128,7 @@ Result<Verified> VerifyManifest(const FilePath& folder, const FinishedRun& run, 
   }
   for (const Json& metric : then.value("own_metrics", Json::array())) {
     if (const std::string id = metric.at("id"); !own.contains(id)) {
-      verified.differences.push_back(fmt::format("own_metrics: no scenario has '{}'", id));
+      verified.differences.push_back(fmt::format("own_metrics: no scenario defines the metric '{}'", id));
     }
   }
   return verified;

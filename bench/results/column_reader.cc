@@ -146,10 +146,10 @@ class ScenarioColumns {
     const Place place{ColumnFile(folder, name).string()};
     const std::size_t found = file.template Numbers<Number>().size();
     if (found != index_.row_count())
-      return Fail(place, "has {} numbers, but its run has {} rows", found, index_.row_count());
+      return Fail(place, "contains {} numbers, but the run has {} rows", found, index_.row_count());
     // This reader does not need the shape, but NumPy does, so a wrong shape is an error.
     if (!file.HasShape(kNpyType<Number>, index_.shape()))
-      return Fail(place, "is not an array with the axes condition, trial, method");
+      return Fail(place, "does not have the shape (conditions, trials, methods) of the run");
     return file;
   }
 
@@ -167,17 +167,23 @@ class ScenarioColumns {
     // Kinds, statuses and texts must be valid indices.
     for (const std::uint32_t kind : kind_->Numbers<std::uint32_t>()) {
       if (kind >= kinds_.size())
-        return Fail(place, "kind.npy contains {}, but there are {} kinds", kind, kinds_.size());
+        return Fail(place, "kind.npy contains the index {}, but there are only {} kinds", kind, kinds_.size());
     }
     for (const std::uint8_t status : status_->Numbers<std::uint8_t>()) {
       if (status >= kStatuses.size())
-        return Fail(place, "status.npy contains {}, but there are {} statuses", status, kStatuses.size());
+        return Fail(place,
+                    "status.npy contains the index {}, but there are only {} "
+                    "statuses",
+                    status, kStatuses.size());
     }
     for (std::size_t i = 0; i < texts_.size(); ++i) {
       if (!texts_[i]) continue;
       for (const std::uint32_t text : texts_[i]->Numbers<std::uint32_t>()) {
         if (text >= index_.texts.size())
-          return Fail(place, "{}.npy contains {}, but there are {} texts", kTextColumns[i], text, index_.texts.size());
+          return Fail(place,
+                      "{}.npy contains the index {}, but there are only {} "
+                      "texts",
+                      kTextColumns[i], text, index_.texts.size());
       }
     }
     // The ends of the curves must ascend, and the last end must be the number of values.
@@ -186,7 +192,11 @@ class ScenarioColumns {
       const NpyFile& curve = curves_->at(name.substr(0, name.size() - std::string_view(kCurveEnds).size()));
       const std::array<std::size_t, 1> values = {curve.Numbers<double>().size()};
       for (const std::uint64_t end : ends.Numbers<std::uint64_t>()) {
-        if (end < last || end > values[0]) return Fail(place, "the curves of {} do not follow each other", name);
+        if (end < last || end > values[0])
+          return Fail(place,
+                      "the curves of {} are not stored one after the "
+                      "other",
+                      name);
         last = end;
       }
       if (last != values[0] || !curve.HasShape(kNpyType<double>, values)) {
@@ -222,7 +232,7 @@ class ScenarioColumns {
       try {
         judged_[text] = DecodeJudged(json);
       } catch (const Json::exception&) {
-        return Fail({folder.string()}, "'{}' does not say what was judged", index_.texts[text]);
+        return Fail({folder.string()}, "'{}' does not describe what a cell was judged on", index_.texts[text]);
       }
     }
     return {};

@@ -57,7 +57,7 @@ Result<ColumnIndex> Decode(const Json& json, const Place& place) {
   ColumnIndex index;
   try {
     if (const int version = json.at("version").get<int>(); version != kColumnsVersion) {
-      return Fail(place, "columns of version {}; this program reads {}", version, kColumnsVersion);
+      return Fail(place, "found columns of version {}; this program reads version {}", version, kColumnsVersion);
     }
     index.scenario = json.at("scenario").get<std::string>();
     index.task = json.at("task").get<std::string>();
@@ -76,11 +76,11 @@ Result<ColumnIndex> Decode(const Json& json, const Place& place) {
         kind.why.push_back(why.is_null() ? std::nullopt : std::optional(why.get<int>()));
         const int text = kind.why.back().value_or(0);
         if (text < ColumnIndex::kOwnReason || text >= static_cast<int>(index.texts.size())) {
-          return Fail(place, "names a text that does not exist");
+          return Fail(place, "refers to a text that does not exist");
         }
       }
       if (kind.why.size() != kind.metrics.size())
-        return Fail(place, "must state for every metric why its value is missing");
+        return Fail(place, "must state, for every metric, why the metric's value is missing");
       kind.stages = entry.at("stages").get<std::vector<std::string>>();
       for (const Json& curve : entry.at("series")) {
         kind.series.push_back({curve.at("name").get<std::string>(), curve.at("axis").get<std::string>(), {}, {}});
@@ -88,10 +88,10 @@ Result<ColumnIndex> Decode(const Json& json, const Place& place) {
       }
     }
   } catch (const Json::exception& error) {
-    return Fail(place, "not an index of columns: {}", error.what());
+    return Fail(place, "is not an index of columns: {}", error.what());
   }
   if (index.conditions.empty() || index.trials < 1 || index.methods.empty()) return Fail(place, "contains no cells");
-  if (index.texts.empty()) return Fail(place, "contains no texts; the first must be empty");
+  if (index.texts.empty()) return Fail(place, "contains no texts; needed: at least one text, the empty text");
   // Encode the result again and compare it with the input: keys that this program ignores must be right too, because
   // other programs may use them.
   if (nlohmann::json(Encode(index)) != nlohmann::json(json)) return Fail(place, "differs from what a run writes");
@@ -111,7 +111,7 @@ Result<std::uint64_t> DigestNumber(const std::string& stage, const std::string& 
   std::uint64_t number = 0;
   const auto [stop, status] = std::from_chars(hex.data(), hex.data() + hex.size(), number, 16);
   if (status == std::errc() && stop == hex.data() + hex.size() && hex.size() == 16) return number;
-  return Fail({}, "the digest of {} is '{}', not 16 hexadecimal digits", stage, hex);
+  return Fail({}, "the digest of {} is '{}'; allowed: 16 hexadecimal digits", stage, hex);
 }
 
 /// Returns a curve's identity: everything but its values.

@@ -220,22 +220,22 @@ Result<RunData> ReadOutline(const fs::path& path, Sealing sealing) {
   const Place place{path.string(), 0, 0};
   // Fail if the run has not finished.
   std::error_code error;
-  if (!fs::is_directory(path, error)) return Fail(place, "no such folder; a run writes one (etude run)");
+  if (!fs::is_directory(path, error)) return Fail(place, "no such folder; 'etude run' writes the folder of a run");
   if (Exists(folder / kJournalFile)) {
     return Fail(place,
-                "this run was not finished, is still running, or is a shard ({} exists); etude run --resume "
-                "continues it, etude merge makes a run of shards",
+                "this run was interrupted, is still running, or is a shard, because the file {} exists; 'etude run "
+                "--resume' continues a run, and 'etude merge' makes one run of shards",
                 kJournalFile);
   }
   if (!Exists(folder / "manifest.json")) {
-    return Fail(place, "is not a run, because it contains no manifest.json, which etude run writes");
+    return Fail(place, "is not a run, because it contains no manifest.json; 'etude run' writes this file");
   }
   // Read the manifest, and check the seal over all files.
   run.seal = SealText(folder);
   RETURN_IF_ERROR(LoadManifest(folder, run));
   if (auto sealed = CheckSeal(path); !sealed) {
     if (sealing == Sealing::kRequired) {
-      sealed.error().message += "; --unsealed reads the run nevertheless";
+      sealed.error().message += "; --unsealed reads the run anyway";
       return tl::unexpected(sealed.error());
     }
     run.unsealed = ToString(sealed.error());
@@ -255,7 +255,7 @@ Result<RunData> ReadOutline(const fs::path& path, Sealing sealing) {
 FolderBegun::FolderBegun(const fs::path& folder) : folder_(folder), number_(NumberOf(folder)) {}
 bool FolderBegun::IsThere() const { return NumberOf(folder_) == number_; }
 tl::unexpected<Error> FolderBegun::WasReplaced() const {
-  return Fail({folder_.string()}, "was replaced by another run while it was read");
+  return Fail({folder_.string()}, "was replaced by another run while etude read it");
 }
 
 Result<RunData> LoadRunOutline(const fs::path& path, Sealing sealing) {
@@ -265,7 +265,7 @@ Result<RunData> LoadRunOutline(const fs::path& path, Sealing sealing) {
 
 Result<void> CheckStillThere(const fs::path& folder, const RunData& run) {
   if (SealText(Inside(folder)) == run.seal) return {};
-  return Fail({folder.string()}, "was replaced by another run while it was read");
+  return Fail({folder.string()}, "was replaced by another run while etude read it");
 }
 
 namespace {
@@ -347,7 +347,7 @@ Result<void> CheckRowsAgainstSummary(const fs::path& folder, const RunData& run)
       }
     }
     if (found[scenario.name] != summed) {
-      return Fail(place, "has {} rows of scenario {}, but summary.json summarises {}", found[scenario.name],
+      return Fail(place, "contains {} rows of scenario {}, but summary.json summarises {} rows", found[scenario.name],
                   scenario.name, summed);
     }
   }

@@ -17,7 +17,7 @@ namespace {
 std::size_t SizeOf(std::string_view type) { return static_cast<std::size_t>(type.back() - '0'); }
 
 void EndAfterCutFile(int) {
-  constexpr std::string_view kComplaint = "etude: a file of a run was cut short while it was read\n";
+  constexpr std::string_view kComplaint = "etude: another program shortened a file of the run while etude read it\n";
   [[maybe_unused]] const ssize_t written = ::write(STDERR_FILENO, kComplaint.data(), kComplaint.size());
   ::_exit(3);  // the exit code for faults of the machine
 }

@@ -104,7 +104,7 @@ Result<Row> DecodeRow(const Json& json, const Place& place) {
       }
     }
   } catch (const Json::exception& error) {
-    return Fail(place, "not a row of cells.jsonl: {}", error.what());
+    return Fail(place, "is not a row of cells.jsonl: {}", error.what());
   }
   return row;
 }
@@ -142,16 +142,16 @@ Json JointNames() {
 Result<void> CheckRecordingHead(const Json& json, const Place& place) {
   if (!json.contains("recording") && json.contains("tracks")) {
     return Fail(place,
-                "a recording of version 1, which does not name its joints; this program reads version {}: repeat the "
-                "run (etude run --from its manifest.json)",
+                "found a recording of version 1, which does not list its joints; this program reads version {}; repeat "
+                "the run with 'etude run --from' and its manifest.json",
                 kRecordingVersion);
   }
   if (const Json& version = json.at("recording"); version != kRecordingVersion) {
-    return Fail(place, "a recording of version {}; this program reads version {}", ShowJson(version),
+    return Fail(place, "found a recording of version {}; this program reads version {}", ShowJson(version),
                 kRecordingVersion);
   }
   if (const Json& joints = json.at("joints"); joints != JointNames()) {
-    return Fail(place, "'joints': {}; allowed: the names of Etude's twenty joints, in their order (docs/clips.md)",
+    return Fail(place, "'joints': found {}; allowed: the names of Etude's twenty joints, in the order of docs/clips.md",
                 ShowJson(joints));
   }
   for (const auto& [key, allowed] : {std::pair{"unit", "m"}, {"up", "y"}}) {

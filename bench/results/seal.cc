@@ -38,7 +38,7 @@ Result<Digests> DigestsOf(const fs::path& folder) {
       RETURN_IF_ERROR(ReadInChunks(Inside(folder) / name, [&](std::string_view bytes) { digest.Add(bytes); }));
       digests[name.generic_string()] = digest.Hex();
     } else if (!fs::is_directory(status)) {
-      return Fail({entry->path().string()}, "is neither a file nor a folder; a run writes nothing else");
+      return Fail({entry->path().string()}, "is neither a file nor a folder; a run writes only files and folders");
     } else if (fs::is_empty(entry->path(), error)) {
       digests[name.generic_string() + "/"] = "empty";
     }
@@ -49,18 +49,23 @@ Result<Digests> DigestsOf(const fs::path& folder) {
 
 Result<Digests> ReadSeal(const FilePath& path) {
   if (!Exists(path)) {
-    return Fail({path.string()}, "is missing: an older program wrote this run, or its seal was removed");
+    return Fail({path.string()}, "is missing: either an older program wrote this run, or the seal was removed");
   }
   ASSIGN_OR_RETURN(const auto json, ReadJsonFile(path));
   try {
     if (json.at("version").get<int>() != kSealVersion) {
-      return Fail({path.string()}, "a seal of version {}; this program reads {}", json.at("version").dump(),
-                  kSealVersion);
+      return Fail({path.string()},
+                  "found a seal of version {}; this program reads version "
+                  "{}",
+                  json.at("version").dump(), kSealVersion);
     }
-    if (json.size() != 3) return Fail({path.string()}, "not a seal: it has keys other than format, version and files");
+    if (json.size() != 3)
+      return Fail({path.string()},
+                  "is not a seal; allowed: only the keys format, version and "
+                  "files");
     return json.at("files").get<Digests>();
   } catch (const Json::exception& error) {
-    return Fail({path.string()}, "not a seal: {}", error.what());
+    return Fail({path.string()}, "is not a seal: {}", error.what());
   }
 }
 

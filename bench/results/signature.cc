@@ -91,7 +91,7 @@ Result<std::string> DigestOfFile(const FilePath& path) {
 }
 
 Result<std::string> ListDigests(const fs::path& folder) {
-  if (sodium_init() < 0) return Fail({}, "libsodium cannot be used here");
+  if (sodium_init() < 0) return Fail({}, "the library libsodium does not work on this machine");
   ASSIGN_OR_RETURN(auto names, SealedNames(folder));
   names.insert(names.begin(), kSealFile);
   std::string text;
@@ -117,12 +117,12 @@ Result<void> SignRun(const fs::path& folder, const std::string& secret_key) {
   // Read the secret key.
   Bytes key = Decode(lines.size() < 2 ? "" : lines[1], kSecretSize);
   if (key.empty() || key[0] != 'E' || key[1] != 'd') {
-    return Fail({secret_key}, "is not a secret key of minisign; minisign -G -W makes one");
+    return Fail({secret_key}, "is not a secret key of minisign; 'minisign -G -W' makes a secret key");
   }
   if (key[2] != 0 || key[3] != 0) {
     return Fail({secret_key},
-                "is a secret key with a password, which this program cannot ask for; minisign -G -W makes one without "
-                "a password");
+                "is a secret key with a password, but this program cannot ask for a password; 'minisign -G -W' makes a "
+                "key without a password");
   }
   // Sign the digest of signed.b2, and then that signature together with the trusted comment.
   ASSIGN_OR_RETURN(const auto digests, ListDigests(folder));
@@ -155,7 +155,7 @@ Result<std::string> CheckSignature(const fs::path& folder, const std::string& pu
   }
   const Bytes key = Decode(key_text, kPublicSize);
   if (key.empty() || key[0] != 'E' || key[1] != 'd') {
-    return Fail({public_key}, "is neither a public key of minisign nor a file with one");
+    return Fail({public_key}, "is neither a public key of minisign nor a file with a public key");
   }
   // Read the signature. It must be a signature of this key.
   const FilePath path = Inside(folder) / kSignatureFile;
@@ -165,7 +165,7 @@ Result<std::string> CheckSignature(const fs::path& folder, const std::string& pu
   const Bytes over_all = Decode(lines.size() < 4 ? "" : lines[3], crypto_sign_BYTES);
   if (signature.empty() || over_all.empty() || !lines[2].starts_with(kTrusted) ||
       !std::ranges::equal(kHashed, std::span(signature).first(2))) {
-    return Fail({path.string()}, "is not a signature in the format of minisign 0.10 and later");
+    return Fail({path.string()}, "is not a signature in the format that minisign 0.10 and later versions write");
   }
   const std::span<const unsigned char> number = std::span(key).subspan(2, kNumber);
   if (!std::ranges::equal(number, std::span(signature).subspan(2, kNumber))) {

@@ -81,7 +81,7 @@ Result<std::map<std::string, KeptCost>> ReadKeptCosts() {
   ASSIGN_OR_RETURN(const Json json, ReadJsonFile(file));
   try {
     if (json.at("format") != kFormat || json.at("version") != kVersion) {
-      return Fail({file.string()}, "not a table of costs of version {}", kVersion);
+      return Fail({file.string()}, "is not a table of costs of version {}", kVersion);
     }
     for (const Json& one : json.at("scenarios")) {
       costs[one.at("work").get<std::string>()] = {one.at("once").get<double>(), one.at("trial").get<double>(),

@@ -32,7 +32,7 @@ Result<JournalHead> DecodeHead(const std::string& line, const Place& place) {
   try {
     const int version = json.at("journal").get<int>();
     if (version != kJournalVersion) {
-      return Fail(place, "a journal of version {}; this program reads {}", version, kJournalVersion);
+      return Fail(place, "found a journal of version {}; this program reads version {}", version, kJournalVersion);
     }
     head.manifest = json.at("manifest").get<std::string>();
     head.build = json.at("build").get<std::string>();
@@ -40,7 +40,7 @@ Result<JournalHead> DecodeHead(const std::string& line, const Place& place) {
     if (!shard) return Fail(place, "{}", shard.error().message);
     head.shard = *shard;
   } catch (const Json::exception& error) {
-    return Fail(place, "not the header of a journal: {}", error.what());
+    return Fail(place, "is not the header of a journal: {}", error.what());
   }
   return head;
 }
@@ -58,7 +58,7 @@ Result<bool> AddCell(const CellLineHead& head, const LineInFile& line, const Pla
                      const Shard& shard, CellTable& cells) {
   const std::size_t cell = head.cell;
   if (cell >= plan.cell_count() || !plan.IsIn(shard, plan.WorldOf(cell))) {
-    return Fail(place, "cell {} does not belong to this run's shard {}", cell, ToString(shard));
+    return Fail(place, "found cell {}, which does not belong to shard {} of this run", cell, ToString(shard));
   }
   if (cells.Has(cell)) return false;
   cells.Put(cell, line.file, line.offset, line.length);
@@ -105,7 +105,7 @@ Result<std::string_view> CellTable::ReadLine(std::size_t cell) {
     return place.offset >= source.begin && place.offset + place.length <= source.begin + source.part.size();
   };
   if (!has_line()) RETURN_IF_ERROR(ReadPart(source, place));
-  if (!has_line()) return Fail(PlaceOf(cell), "was shortened while it was read");
+  if (!has_line()) return Fail(PlaceOf(cell), "was shortened by another program while etude read it");
   return std::string_view(source.part).substr(place.offset - source.begin, place.length);
 }
 
@@ -204,8 +204,8 @@ Result<JournalHead> ReadHead(FileLines lines, const std::string& path) {
     ++read;
     if (HasRightSum(line)) return DecodeHead(line, {path, read, 0});
   }
-  if (read == 0) return Fail({path, 0, 0}, "cannot be read, or is empty");
-  return Fail({path, 1, 0}, "not the header of a journal, and no copy of a header follows");
+  if (read == 0) return Fail({path, 0, 0}, "is empty or cannot be read");
+  return Fail({path, 1, 0}, "neither the first line nor a later copy is the header of a journal");
 }
 
 }  // namespace

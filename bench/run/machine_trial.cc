@@ -31,7 +31,7 @@ Result<void> TryRendererInACopy() {
   const int status = copy.Wait();
   if (WIFEXITED(status) && WEXITSTATUS(status) == 0) return {};
   if (WIFEXITED(status) && WEXITSTATUS(status) == kNotLoaded) RETURN_IF_ERROR(LoadRenderer());
-  return Fail({}, "drawing is impossible: Mesa gets no memory, or provides no context");
+  return Fail({}, "cannot render: Mesa has too little memory, or provides no OpenGL context");
 }
 
 /// Fails if the sandbox (fence) could not be made because the machine has no more processes, memory or open files. Any
@@ -39,7 +39,7 @@ Result<void> TryRendererInACopy() {
 Result<void> CheckFence(const Fence& fence) {
   for (const int shortage : {EAGAIN, ENOMEM, EMFILE, ENFILE}) {
     if (!fence.IsUp() && fence.description().find(std::strerror(shortage)) != std::string::npos) {
-      return Fail({}, "no program can be run in the fence: {}", fence.description());
+      return Fail({}, "cannot run a program in the fence: {}", fence.description());
     }
   }
   return {};
@@ -61,7 +61,7 @@ Result<void> Try(std::span<const PreparedScenario> scenarios, const Fence& fence
       if (auto kept = WriteFileAtomically(folder.path() / "file", "a file of some bytes\n"); !kept) {
         // Keeps only the reason, because the path in the error is temporary.
         const std::string& said = kept.error().message;
-        return Fail({folder.path().parent_path().string()}, "no temporary files can be made in this folder: {}",
+        return Fail({folder.path().parent_path().string()}, "cannot create temporary files in this folder: {}",
                     said.substr(said.rfind(": ") + 2));
       }
     }

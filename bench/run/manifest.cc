@@ -132,7 +132,7 @@ Result<Json> DescribeLibraries(bool draws) {
 }
 
 constexpr const char* kUnknownPrograms =
-    "the versions of its outside programs are unknown: the etude that wrote it did not record them";
+    "the versions of the outside programs are unknown, because the etude of that run did not record the versions";
 
 /// Returns a part of `line` in quotes: about 60 bytes, beginning shortly before byte `at`.
 std::string ShowPart(const std::string& line, std::size_t at) {
@@ -195,7 +195,7 @@ Result<Json> ReadManifestJson(const FilePath& path) {
   if (!json) return json;
   const Json schema = json->is_object() ? json->value("schema", Json()) : Json();
   if (schema != kResultSchema) {
-    return Fail({path.string(), 0, 0}, "not a manifest of schema {} (found {})", kResultSchema, schema.dump());
+    return Fail({path.string(), 0, 0}, "is not a manifest of schema {}; found schema {}", kResultSchema, schema.dump());
   }
   return json;
 }
@@ -244,7 +244,7 @@ Result<void> CheckClips(const FilePath& path, std::span<const PreparedScenario> 
                                               clips[c].value("note", clips[c].value("source", "")))
                                 : "no clip";
       };
-      return Fail({path.string(), 0, 0}, "clip {} of scenario {} was {} then and is {} now", c + 1,
+      return Fail({path.string(), 0, 0}, "clip {} of scenario {} was {} in the run and is {} now", c + 1,
                   scenarios[s].scenario().name, name(then), name(now));
     }
   }
@@ -308,7 +308,7 @@ Result<std::vector<JsonDifference>> OtherLibrariesOf(const std::filesystem::path
   try {
     for (const Json& one : json) noted.push_back({one.at("path"), one.at("then"), one.at("now")});
   } catch (const Json::exception& error) {
-    return Fail({path.string()}, "not a list of libraries that changed: {}", error.what());
+    return Fail({path.string()}, "is not a list of changed libraries: {}", error.what());
   }
   return noted;
 }

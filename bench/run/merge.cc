@@ -33,16 +33,19 @@ Result<void> CheckManifest(const fs::path& folder, const JournalHead& head, bool
   ASSIGN_OR_RETURN(const auto now, ReadJsonFile(Inside(folder) / "manifest.json"));
   const std::vector<JsonDifference> found = CompareManifests(then, now);
   const Place place{folder.string()};
-  if (found.empty()) return Fail(place, "its manifest.json was changed after the shard began");
+  if (found.empty()) return Fail(place, "the shard's manifest.json was changed after the shard began");
   if (OfPrograms(found) == found) {
-    return Fail(place, "ran other versions of outside programs than the shards before: {}; run it again (--overwrite)",
+    return Fail(place,
+                "used different versions of outside programs than the shards before it: {}; run this shard "
+                "again with --overwrite",
                 InWords(found));
   }
   if (!AreOfLibraries(found))
-    return Fail(place, "is a shard of a different run than the shards before: {}", InWords(found));
+    return Fail(place, "belongs to a different run than the shards before it: {}", InWords(found));
   if (!other_libraries) {
     return Fail(place,
-                "ran with other libraries than the shards before: {}; --other-libraries merges anyway and records it",
+                "used different libraries than the shards before it: {}; --other-libraries merges the shards anyway "
+                "and records the differences",
                 InWords(found));
   }
   shards.other_libraries.insert(shards.other_libraries.end(), found.begin(), found.end());
@@ -52,7 +55,7 @@ Result<void> CheckManifest(const fs::path& folder, const JournalHead& head, bool
 Result<void> AddShard(const fs::path& folder, const std::string& build, bool other_libraries, Shards& shards) {
   const Place place{folder.string(), 0, 0};
   ASSIGN_OR_RETURN(const auto head, ReadJournalHead(folder));
-  if (head.build != build) return Fail(place, "was run by build {} of etude, this is build {}", head.build, build);
+  if (head.build != build) return Fail(place, "was run by build {} of etude, but this is build {}", head.build, build);
   if (shards.folders.empty()) {
     ASSIGN_OR_RETURN(auto manifest, ReadWholeFile(Inside(folder) / "manifest.json"));
     shards.manifest = std::move(manifest);
@@ -60,11 +63,15 @@ Result<void> AddShard(const fs::path& folder, const std::string& build, bool oth
   }
   RETURN_IF_ERROR(CheckManifest(folder, head, other_libraries, shards));
   if (head.shard.count != shards.count) {
-    return Fail(place, "is shard {}, but the shards before belong to a run of {} shards", ToString(head.shard),
+    return Fail(place, "is shard {}, but the shards before it belong to a run of {} shards", ToString(head.shard),
                 shards.count);
   }
   const auto [other, is_new] = shards.folders.emplace(head.shard.index, folder);
-  if (!is_new) return Fail(place, "is shard {}, which {} already is", ToString(head.shard), other->second.string());
+  if (!is_new)
+    return Fail(place,
+                "is shard {}, but {} is the same "
+                "shard",
+                ToString(head.shard), other->second.string());
   ASSIGN_OR_RETURN(const auto recorded, OtherLibrariesOf(folder));
   shards.other_libraries.insert(shards.other_libraries.end(), recorded.begin(), recorded.end());
   return {};
@@ -77,9 +84,9 @@ Result<Shards> FindShards(const std::vector<std::string>& folders, bool other_li
   Shards shards;
   for (const std::string& folder : folders) {
     ASSIGN_OR_RETURN(const auto state, LookAtFolder(folder));
-    if (state == FolderState::kFinished) return Fail({folder, 0, 0}, "is already a whole run, not a shard");
+    if (state == FolderState::kFinished) return Fail({folder, 0, 0}, "is a whole run, not a shard");
     if (state == FolderState::kFree) {
-      shards.missing.push_back(folder + " holds no shard");
+      shards.missing.push_back(folder + " contains no shard");
     } else if (auto added = AddShard(folder, build, other_libraries, shards); !added) {
       return tl::unexpected(added.error());
     }
@@ -103,8 +110,10 @@ std::string WhatLacks(const Plan& plan, const Shard& shard, const fs::path& fold
     if (++lacking == 1) first = plan.IdentityOf(cell).Id();
   }
   if (lacking == 0) return "";
-  return fmt::format("shard {} in {} lacks {} of {} cells (the first is {})", ToString(shard), folder.string(), lacking,
-                     wanted, first);
+  return fmt::format(
+      "shard {} in {} lacks {} of {} cells; the first missing cell is "
+      "{}",
+      ToString(shard), folder.string(), lacking, wanted, first);
 }
 
 }  // namespace
@@ -143,13 +152,15 @@ Result<RunOutcome> Merge(const MergeOptions& options, const std::function<void(d
     hosts.push_back(host);
   }
   if (!shards.missing.empty()) {
-    return Fail({}, "not all {} shards exist and are finished (etude run --shard i/{} --resume continues one): {}",
+    return Fail({}, "not all {} shards are finished ('etude run --shard i/{} --resume' continues a shard): {}",
                 shards.count, shards.count, Join(shards.missing, "; "));
   }
   // Write the whole run.
   ASSIGN_OR_RETURN(const auto state, LookAtFolder(options.output));
   if (state != FolderState::kFree && !options.overwrite) {
-    return Fail({options.output, 0, 0}, "already holds a run; --overwrite replaces it, -o chooses another folder");
+    return Fail({options.output, 0, 0},
+                "already contains a run; --overwrite replaces this run, -o chooses another "
+                "folder");
   }
   ASSIGN_OR_RETURN(auto claimed, RunFolder::Claim(options.output, false));
   outcome.why_unlocked = claimed.why_unlocked();

@@ -34,7 +34,7 @@ Result<void> CheckPrograms(const std::string& file, std::span<const PreparedScen
                            const OutsideRules& rules) {
   const std::vector<std::string> programs = ProgramsOf(scenarios);
   if (programs.empty() || rules.allow_exec) return {};
-  return Fail({file, 0, 0}, "would run programs, which needs --allow-exec: {}", fmt::join(programs, "; "));
+  return Fail({file, 0, 0}, "a run would start programs, but --allow-exec is missing: {}", fmt::join(programs, "; "));
 }
 
 OutsideOptions OptionsOf(const PreparedScenario& scenario, const ScenarioProgram& program,
@@ -179,7 +179,7 @@ Result<void> CheckShown(const PreparedScenario& scenario, const ScenarioProgram&
       if (path.empty() || !Holds(Canonical(shown), Canonical(path))) continue;
       return Fail({scenario.setup().file},
                   "{} '{}' could read '{}', which contains {} of the secret worlds ('{}'); list in the key 'files' "
-                  "only what this program needs",
+                  "only the files that this program needs",
                   program.role, program.entry->name, shown.string(), what, path.string());
     }
   }
@@ -193,12 +193,14 @@ Result<void> CheckFiles(const PreparedScenario& scenario, const ScenarioProgram&
     if (Fence::HoldsScratch(Canonical(file))) {
       return Fail(
           {scenario.setup().file},
-          "'files' of {} '{}': '{}' contains a folder to which programs write; allowed: files and other folders",
+          "'files' of {} '{}': '{}' contains a folder into which programs write; allowed: files and other folders",
           program.role, program.entry->name, file);
     }
     if (fs::exists(file, error)) continue;
-    return Fail({scenario.setup().file}, "'files' of {} '{}': '{}' is not a file or folder", program.role,
-                program.entry->name, file);
+    return Fail({scenario.setup().file},
+                "'files' of {} '{}': '{}' does not exist; allowed: files and "
+                "folders",
+                program.role, program.entry->name, file);
   }
   return {};
 }
@@ -239,8 +241,8 @@ Result<Fence> FenceFor(std::span<const PreparedScenario> scenarios, const Outsid
       if (!fence.IsUp()) {
         return Fail(
             {scenario.setup().file},
-            "its worlds are secret, but its outside programs cannot be fenced: {}; --no-fence runs them without a "
-            "fence, and the run's page then says so",
+            "this scenario has secret worlds, but its outside programs cannot run in a fence: {}; --no-fence runs the "
+            "programs without a fence, and the run's page reports this",
             fence.description());
       }
       RETURN_IF_ERROR(CheckShown(scenario, program, ViewOf(command, program.entry->files), folder, key));

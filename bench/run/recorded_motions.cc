@@ -97,7 +97,8 @@ class ResultFolders : public RecordedMotions {
     const std::vector<FilePath> files = RecordingsOf(run, cell);
     if (files.empty()) {
       return Fail({wanted.path},
-                  "recorded no cell {}; a scenario's key 'video' selects the cells whose motions a run writes into {}",
+                  "has no recording of the cell {}; the key 'video' of a scenario selects the cells whose motions a "
+                  "run writes into {}",
                   Quote(cell), (run / "recordings").string());
     }
     return ReferTo(files.front(), animation);

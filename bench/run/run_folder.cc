@@ -81,8 +81,7 @@ Result<FolderState> LookAtFolder(const fs::path& path) {
   for (fs::directory_iterator entry(path, error), end; !error && entry != end; entry.increment(error)) {
     const fs::path name = entry->path().filename();
     if (!IsPartOfRun(name)) {
-      return Fail(place, "holds something that is not part of a run ('{}'); choose another folder with -o",
-                  name.string());
+      return Fail(place, "contains '{}', which is not a part of a run; choose another folder with -o", name.string());
     }
   }
   if (error) return CannotRead(path.string(), "cannot be read", error.value());
@@ -202,8 +201,8 @@ Result<void> RunFolder::Lock() {
     if (lock_ < 0 && errno == EACCES && ::access(path_.c_str(), W_OK) == 0) {
       is_ours_ = false;
       return Fail({file.string()},
-                  "belongs to another user, whose run may be writing into the folder; choose another "
-                  "folder with -o, or delete the file if that run has ended");
+                  "belongs to another user, whose run may still be writing into this folder; choose another folder "
+                  "with -o, or delete the file if that run has ended");
     }
     if (lock_ < 0 && (errno == EROFS || errno == EACCES)) return {};
     if (lock_ < 0) return CannotWrite(file.string(), "cannot be made", errno);
@@ -215,7 +214,7 @@ Result<void> RunFolder::Lock() {
       }
       ::close(std::exchange(lock_, -1));
       is_ours_ = false;
-      return Fail({path_.string(), 0, 0}, "another run is writing into it; choose another folder with -o");
+      return Fail({path_.string(), 0, 0}, "another run is writing into this folder; choose another folder with -o");
     }
     // If the previous owner of the lock deleted the file before this process locked it, open a new file.
     struct stat locked {

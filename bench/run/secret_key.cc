@@ -32,10 +32,12 @@ Result<std::optional<SecretKey>> FindSecretKey(const std::string& file) {
   if (!file.empty()) {
     ASSIGN_OR_RETURN(const auto bytes, ReadWholeFile(file));
     const auto words = ParseKey(bytes);
-    if (!words) return Fail({file}, "{} bytes are not a key; allowed: {}", bytes.size(), kAllowed);
+    if (!words) return Fail({file}, "found {} bytes that are not a key; allowed: {}", bytes.size(), kAllowed);
     std::error_code error;
     if (std::filesystem::hard_link_count(file, error) > 1 && !error) {
-      return Fail({file}, "has another name (a hard link), by which a program could read it; allowed: a copy");
+      return Fail({file},
+                  "has a second name (a hard link), through which a program could read the key; allowed: a "
+                  "copy of the file");
     }
     return SecretKey{*words, std::filesystem::absolute(file, error).lexically_normal()};
   }
@@ -45,30 +47,30 @@ Result<std::optional<SecretKey>> FindSecretKey(const std::string& file) {
   // Erases the key, because other processes can read this process's environment.
   std::memset(text, '0', std::strlen(text));
   ::unsetenv(kKeyVariable);
-  if (!words) return Fail({kKeyVariable}, "holds no key; allowed: 64 hexadecimal digits");
+  if (!words) return Fail({kKeyVariable}, "contains no key; allowed: 64 hexadecimal digits");
   return SecretKey{*words, ""};
 }
 
 Result<void> CheckSecretWorlds(int version, const Place& place) {
   if (version == kSecretWorldsVersion) return {};
   return Fail(place,
-              "its secret worlds are of version {}, but this program makes version {} (separate random numbers for "
-              "each condition); use the program that made the worlds",
+              "contains secret worlds of version {}, but this program makes version {} (separate random numbers for "
+              "each condition); use the etude that made these worlds",
               version, kSecretWorldsVersion);
 }
 
 Result<void> OpenSeeds(const std::optional<SecretKey>& key, const Place& place, SuiteSetup& suite) {
   if (suite.seed.IsPlain()) {
     if (!key || key->file.empty()) return {};
-    return Fail(place, "has the plain seed {}; leave out --seed-file", suite.seed.number());
+    return Fail(place, "has the public seed {}; leave out --seed-file", suite.seed.number());
   }
-  if (!key)
-    return Fail(place, "its worlds are secret; give their key, whose digest is {}, with --seed-file",
-                Short(suite.seed));
+  if (!key) return Fail(place, "has secret worlds; give the key with the digest {} by --seed-file", Short(suite.seed));
   const Seed seed = Seed::Secret(key->words);
   if (seed.WithoutKey() != suite.seed.WithoutKey()) {
-    return Fail(place, "its worlds belong to the key with digest {}, not to the key with digest {}", Short(suite.seed),
-                Short(seed));
+    return Fail(place,
+                "has secret worlds of the key with digest {}, but the given key has digest "
+                "{}",
+                Short(suite.seed), Short(seed));
   }
   RETURN_IF_ERROR(CheckSecretWorlds(suite.secret_worlds, place));
   suite.seed = seed;

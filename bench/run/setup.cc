@@ -25,7 +25,7 @@ Result<std::map<std::string, std::string>> NamedTextsOf(const Condition& conditi
   for (const NamedFile& file : FilesNamedBy(condition, kind)) {
     const auto text = texts.find(file.node->scalar);
     if (text == texts.end())
-      return Fail(file.node->place, "the content of the file '{}' was not kept", file.node->scalar);
+      return Fail(file.node->place, "the content of the file '{}' is missing", file.node->scalar);
     named_texts[file.key] = text->second;
   }
   return named_texts;
@@ -154,14 +154,17 @@ Result<SuiteSetup> DecodeSetup(const Json& json, const Place& place) {
     setup.suite = json.at("suite").get<std::string>();
     ASSIGN_OR_RETURN(setup.seed, DecodeSeed(json.at("seed"), place));
     for (const auto& [file, text] : json.at("sources").items()) setup.sources[file] = text.get<std::string>();
-    if (json.at("scenarios").empty()) return Fail(place, "names no scenario");
+    if (json.at("scenarios").empty()) return Fail(place, "contains no scenario");
     // Decode each scenario. Either all seeds are plain, or all are the same secret seed.
     for (const Json& scenario : json.at("scenarios")) {
       ASSIGN_OR_RETURN(const int trials, TrialsOf(scenario, place));
       ASSIGN_OR_RETURN(const Seed seed, DecodeSeed(scenario.at("seed"), place));
-      if (!setup.seed.IsPlain() && seed != setup.seed) return Fail(place, "its scenarios have a different secret seed");
+      if (!setup.seed.IsPlain() && seed != setup.seed)
+        return Fail(place,
+                    "one of the scenarios has a different secret "
+                    "seed than the suite");
       if (setup.seed.IsPlain() && !seed.IsPlain())
-        return Fail(place, "some of its seeds are secret and others are not");
+        return Fail(place, "some of the seeds are secret and others are public");
       setup.scenarios.push_back({scenario.at("file").get<std::string>(), scenario.at("name").get<std::string>(), seed,
                                  trials, scenario.at("clips").get<std::vector<std::string>>(),
                                  scenario.value("joint_map", ""), scenario.at("digest").get<std::string>()});
@@ -188,7 +191,7 @@ Result<SuiteSetup> DecodeSetup(const Json& json, const Place& place) {
       setup.scored = ScoredMethod{scored.at("method").get<std::string>(), scored.at("alone").get<bool>()};
     }
   } catch (const Json::exception& error) {
-    return Fail(place, "not a suite's set-up: {}", error.what());
+    return Fail(place, "is not the set-up of a suite: {}", error.what());
   }
   return setup;
 }
@@ -198,8 +201,7 @@ Result<OpenOptions> OpenOptionsOf(const ScenarioSetup& setup, const SourceTexts&
   how.recorded = &MotionsOfRuns();
   if (setup.joint_map.empty()) return how;
   const auto text = texts.find(setup.joint_map);
-  if (text == texts.end())
-    return Fail({setup.file, 0, 0}, "the content of the file '{}' was not kept", setup.joint_map);
+  if (text == texts.end()) return Fail({setup.file, 0, 0}, "the content of the file '{}' is missing", setup.joint_map);
   ASSIGN_OR_RETURN(auto roles, ReadJointMapFile(text->second, setup.joint_map));
   how.roles = std::move(roles);
   return how;
@@ -214,7 +216,7 @@ Result<void> FindFiles(const Scenario& scenario, const SourceTexts& texts, Scena
     ASSIGN_OR_RETURN(auto of_condition, kind.find_files(condition.node, NodesInTask(scenario), named_texts));
     if (!found.worlds.empty() && of_condition.worlds != found.worlds) {
       return Fail(condition.node.place,
-                  "all conditions of task {} judge the same files; only keys that change the judgement can be swept",
+                  "in task {}, all conditions must judge the same files; sweep only keys that change the judgement",
                   kind.name);
     }
     found = std::move(of_condition);
@@ -239,7 +241,7 @@ Result<std::unique_ptr<LabelledStreams>> LoadRecordings(const ScenarioSetup& set
   LabelTexts labels;
   for (const std::string& file : setup.labels) {
     const auto text = texts.find(file);
-    if (text == texts.end()) return Fail({setup.file, 0, 0}, "the content of the file '{}' was not kept", file);
+    if (text == texts.end()) return Fail({setup.file, 0, 0}, "the content of the file '{}' is missing", file);
     labels[file] = text->second;
   }
   std::vector<NamedStream> streams = StreamsOf(clips);
@@ -254,7 +256,7 @@ Result<std::unique_ptr<LabelledStreams>> LoadRecordings(const ScenarioSetup& set
     // that a sensor has already measured.
     for (NamedStream& stream : streams) stream.motion.reset();
   }
-  if (streams.empty()) return Fail({setup.file, 0, 0}, "'labels' needs the 'streams' or 'clips' that it labels");
+  if (streams.empty()) return Fail({setup.file, 0, 0}, "'labels' is allowed only with 'streams' or 'clips'");
   ASSIGN_OR_RETURN(auto labelled, LabelStreams(std::move(streams), labels));
   return std::make_unique<LabelledStreams>(std::move(labelled));
 }
@@ -339,7 +341,11 @@ Result<std::vector<PreparedScenario>> PrepareAll(const SuiteSetup& suite) {
     ASSIGN_OR_RETURN(auto prepared, Prepare(suite, setup, std::move(found)));
     const Scenario& scenario = prepared.scenario();
     cells += scenario.conditions.size() * scenario.methods.size() * static_cast<std::size_t>(setup.trials);
-    if (cells > kMaxCells) return Fail({setup.file, 0, 0}, "makes more than {} cells in one run", kMaxCells);
+    if (cells > kMaxCells)
+      return Fail({setup.file, 0, 0},
+                  "with this scenario, the run has more than {} "
+                  "cells",
+                  kMaxCells);
     scenarios.push_back(std::move(prepared));
   }
   return scenarios;
@@ -366,7 +372,10 @@ Result<void> AddScoredMethod(const ScoredMethod& method, Scenario& scenario) {
   }
   const auto has_its_name = [&](const MethodEntry& other) { return other.name == method.name; };
   if (std::any_of(methods.begin(), methods.end(), has_its_name)) {
-    return Fail({scenario.file, 0, 0}, "scenario {} has a method named '{}' already", scenario.name, method.name);
+    return Fail({scenario.file, 0, 0},
+                "scenario {} already has a method with the name "
+                "'{}'",
+                scenario.name, method.name);
   }
   MethodEntry entry;
   entry.name = method.name;

@@ -76,7 +76,8 @@ tl::unexpected<Error> NotShipped(const std::string& path) {
   if (name.ends_with('/')) name.pop_back();
   const std::string nearest = NearestName(name, names);
   return Fail({path},
-              "no such scenario file or folder, and etude has no scenario of that name{} (etude list scenarios)",
+              "no such scenario file or folder, and etude has no scenario with this name{}; 'etude list scenarios' "
+              "lists the names",
               nearest.empty() ? "" : fmt::format("; did you mean '{}'?", nearest));
 }
 
@@ -97,8 +98,8 @@ std::vector<Error> WhichIsMeant(const std::vector<std::string>& paths) {
     if (shipped.empty() || !fs::exists(path, error) || fs::equivalent(path, shipped, error)) continue;
     told.push_back({{path},
                     FindScenario(path) == shipped
-                        ? "this folder contains no scenario (*.yaml); etude's own scenario of that name is used"
-                        : "this file or folder is used, not etude's own scenario of that name"});
+                        ? "this folder contains no scenario (*.yaml), so etude uses its own scenario with this name"
+                        : "etude uses this file or folder instead of its own scenario with the same name"});
   }
   return told;
 }

@@ -91,7 +91,7 @@ Result<std::vector<std::string>> OnlyUnderstood(const std::vector<std::string>& 
     }
   }
   if (!references.empty() && understood.empty()) {
-    return Fail(place, "--skip-refused: no clip can be read ({} tried); the first: {}", refused.size(),
+    return Fail(place, "--skip-refused: none of {} clips can be read; the first: {}", refused.size(),
                 refused.empty() ? "there is none" : refused.front().why);
   }
   return understood;
@@ -139,7 +139,7 @@ Result<std::vector<NamedClips>> ReadLibraryOptions(const std::vector<std::string
     const std::size_t equals = option.find('=');
     const std::string name = option.substr(0, equals);
     if (equals == std::string::npos || equals + 1 == option.size() || !IsPlainName(name)) {
-      return Fail({}, "--library '{}': allowed: NAME=CLIPS, such as dance='mocap/*.bvh'", option);
+      return Fail({}, "--library: found '{}'; allowed: NAME=CLIPS, such as dance='mocap/*.bvh'", option);
     }
     auto known = std::ranges::find(libraries, name, &NamedClips::name);
     if (known == libraries.end()) known = libraries.insert(known, {name, {}});
@@ -168,15 +168,21 @@ Result<ScenarioSetup> SetUp(Scenario& scenario, const std::string& file, const s
   if (uses_clips) users.clips.insert(file);
   const bool replaced = !options.clips.empty() && uses_clips;
   if (replaced && !scenario.libraries.empty()) {
-    return Fail({file, 0, 0}, "--clips: scenario {} uses libraries; --library NAME=CLIPS adds one", scenario.name);
+    return Fail({file, 0, 0},
+                "--clips: not allowed, because scenario {} uses libraries; --library NAME=CLIPS adds a "
+                "library",
+                scenario.name);
   }
   if (replaced && !scenario.streams.files.empty()) {
-    return Fail({file, 0, 0}, "--clips: scenario {} uses recordings; --streams names others", scenario.name);
+    return Fail({file, 0, 0},
+                "--clips: not allowed, because scenario {} uses recordings; --streams replaces the "
+                "recordings",
+                scenario.name);
   }
   const bool uses_recordings = FindTaskKind(scenario.task)->uses_recordings;
   const bool is_recorded = uses_recordings && !options.streams.empty();
   if (is_recorded && !scenario.libraries.empty()) {
-    return Fail({file, 0, 0}, "--streams: scenario {} uses libraries", scenario.name);
+    return Fail({file, 0, 0}, "--streams: not allowed, because scenario {} uses libraries", scenario.name);
   }
   if (uses_recordings) users.recordings.insert(file);
   if (is_recorded) scenario.streams.files = options.streams;
@@ -200,7 +206,7 @@ Result<ScenarioSetup> SetUp(Scenario& scenario, const std::string& file, const s
   RETURN_IF_ERROR(FindFiles(scenario, sources, setup));
   if (!setup.files.empty()) {  // each world made of files is one trial; --trials limits the number of these worlds
     if (options.key)
-      return Fail({file, 0, 0}, "--seed-file: scenario {} uses no random numbers, because it judges files",
+      return Fail({file, 0, 0}, "--seed-file: not allowed, because scenario {} judges files and uses no random numbers",
                   scenario.name);
     setup.trials = std::min(options.trials.value_or(static_cast<int>(kMaxCells)), static_cast<int>(setup.files.size()));
     setup.files.resize(static_cast<std::size_t>(setup.trials));
@@ -294,7 +300,9 @@ Result<SuiteSetup> ReadSuite(const RunOptions& options) {
       const int trials = options.trials.value_or(scenario.trials);
       cells += scenario.conditions.size() * scenario.methods.size() * static_cast<std::size_t>(trials);
       if (cells > kMaxCells) {
-        return Fail({file, 0, 0}, "{} conditions × {} methods × {} trials make more than {} cells in one run",
+        return Fail({file, 0, 0},
+                    "with this scenario ({} conditions × {} methods × {} trials), the run has more than "
+                    "{} cells",
                     scenario.conditions.size(), scenario.methods.size(), trials, kMaxCells);
       }
       ASSIGN_OR_RETURN(auto setup, SetUp(scenario, file, digest.Hex(), trials, options, suite.sources, users));
@@ -306,12 +314,12 @@ Result<SuiteSetup> ReadSuite(const RunOptions& options) {
   // Refuse options that no scenario of the suite can use.
   if (!options.clips.empty() || !options.libraries.empty()) {
     RETURN_IF_ERROR(CheckThatUsed(options.scenarios, users.clips,
-                                  "--clips or --library: no task of its scenarios takes clips; a task that judges "
-                                  "files takes them from the scenario's key 'truth'"));
+                                  "--clips or --library: no scenario has a task that takes clips; a task that judges "
+                                  "files finds its files by the scenario's key 'truth'"));
   }
   if (!options.streams.empty() || !options.labels.empty()) {
     RETURN_IF_ERROR(CheckThatUsed(options.scenarios, users.recordings,
-                                  "--streams or --labels: no task of its scenarios makes worlds from recordings"));
+                                  "--streams or --labels: no scenario has a task that makes worlds from recordings"));
   }
   return suite;
 }
@@ -320,7 +328,8 @@ Result<void> RefuseFiles(const SuiteSetup& suite) {
   for (const ScenarioSetup& setup : suite.scenarios) {
     if (setup.files.empty()) continue;
     return Fail({setup.file, 0, 0},
-                "scenario {} judges files: there are no problems to export or score; use etude run or etude evaluate",
+                "scenario {} judges files, so it has no problems to export or score; use 'etude run' or 'etude "
+                "evaluate'",
                 setup.name);
   }
   return {};
@@ -330,7 +339,9 @@ Result<SuiteSetup> ReadSuiteToRun(const RunOptions& options) {
   ASSIGN_OR_RETURN(auto suite, options.from.empty() ? ReadSuite(options) : ReadManifest(options.from));
   if (!options.from.empty()) RETURN_IF_ERROR(OpenSeeds(options.key, {options.from}, suite));
   if (!suite.scored) return suite;
-  return Fail({options.from, 0, 0}, "describes answers that were scored ('{}'), which cannot be run; use etude score",
+  return Fail({options.from, 0, 0},
+              "describes the scored answers of '{}', and etude cannot run answers; use 'etude "
+              "score'",
               suite.scored->name);
 }
 

@@ -90,10 +90,10 @@ class Copies {
         const int status = copies_[i].process.Wait();
         const bool went_well = WIFEXITED(status) && WEXITSTATUS(status) == 0;
         copies_.erase(copies_.begin() + static_cast<std::ptrdiff_t>(i));
-        if (!went_well) return Fail({}, "a process that computes the summary ended too early");
+        if (!went_well) return Fail({}, "a process ended before it had computed its part of the summary");
       }
     }
-    if (taken < answers.size()) return Fail({}, "a process that computes the summary ended too early");
+    if (taken < answers.size()) return Fail({}, "a process ended before it had computed its part of the summary");
     return {};
   }
 

@@ -319,7 +319,7 @@ class Supervisor {
     const std::string end = worker.process.Finish();
     const int code = worker.process.exit_code();
     if (code == kCannotGoOn) return Replace(worker, {}, "a worker could not continue");
-    if (code == 128 + SIGXCPU) return Replace(worker, {}, "the limit of processor time is reached (ulimit -t)");
+    if (code == 128 + SIGXCPU) return Replace(worker, {}, "a worker reached the limit of processor time (ulimit -t)");
     return Replace(worker, Status::kCrashed, "its worker ended with " + end);
   }
 
@@ -328,7 +328,7 @@ class Supervisor {
   Result<void> Replace(Worker& worker, std::optional<Status> status, const std::string& reason) {
     worker.process.Finish();
     if (!worker.ready && ++deaths_in_setup_ == kMaxDeathsInSetup) {
-      return FailOfMachine("{} workers in a row failed in their set-up: {}", kMaxDeathsInSetup, reason);
+      return FailOfMachine("{} workers in a row failed before they were ready: {}", kMaxDeathsInSetup, reason);
     }
     if (!worker.orders.empty()) {
       Order order = std::move(worker.orders.front());

@@ -82,8 +82,8 @@ class UsedKeys {
       if (how.repeats && IsRepeated(line, use)) continue;
       const auto text = [&](const char* name) { return line.at(name).get<std::string>(); };
       return Fail({key.file.string()},
-                  "was used before by 'etude {}' of '{}' into {} ({}:{}), so its worlds may be known; allowed: a new "
-                  "key (head -c 32 /dev/urandom), or --reuse-key",
+                  "was used before: 'etude {}' with '{}' wrote into {} ({}:{}), so the worlds of this key may be "
+                  "known; allowed: a new key (head -c 32 /dev/urandom), or --reuse-key",
                   text("command"), text("suite"), text("folder"), path_.string(), i + 1);
     }
     return {};
@@ -100,8 +100,8 @@ class UsedKeys {
 
   static tl::unexpected<Error> NotWritable(const fs::path& list) {
     return Fail({list.string()},
-                "cannot be written ({}), so the use of the key could not be recorded; allowed: a key in a folder that "
-                "you may write to, or --reuse-key",
+                "cannot be written ({}), so etude cannot record that the key was used; allowed: a key in a folder that "
+                "you can write to, or --reuse-key",
                 std::strerror(errno));
   }
 
@@ -128,7 +128,7 @@ class UsedKeys {
       ASSIGN_OR_RETURN(auto line, ReadJson(text.substr(at, end - at), place.file, place.line));
       for (const char* name : {"key", "command", "suite", "manifest", "shard", "folder"}) {
         if (line.is_object() && line.value(name, Json()).is_string()) continue;
-        return Fail(place, "is not a line of used keys: '{}' is missing", name);
+        return Fail(place, "is not a line of the list of used keys: '{}' is missing", name);
       }
       lines_.push_back(std::move(line));
     }
@@ -182,8 +182,8 @@ Result<void> NoteRepeat(const SecretKey& key, const KeyUse& use) {
   auto keys = UsedKeys::Open(list);
   if (!keys) {
     return Fail({list.string()},
-                "cannot be written, so the use of the key could not be recorded; allowed: a key in a folder that "
-                "you may write to");
+                "cannot be written, so etude cannot record that the key was used; allowed: a key in a folder that you "
+                "can write to");
   }
   return keys->HasKeyOf(line) ? Result<void>() : keys->Add(line);
 }

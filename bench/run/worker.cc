@@ -46,7 +46,7 @@ int GiveUp(const Error& error) {
 /// for the line forever.
 Result<void> Say(const std::string& line, std::ostream& out) {
   if (out << line << '\n' << std::flush) return {};
-  return FailOfMachine("a worker's answer cannot be written: {}", std::strerror(errno));
+  return FailOfMachine("a worker process cannot send its result: {}", std::strerror(errno));
 }
 
 Result<void> Answer(std::size_t number, FinishedCell cell, std::ostream& out) {
@@ -109,7 +109,10 @@ Result<void> Work(std::istream& in, std::ostream& out) {
     ASSIGN_OR_RETURN(const auto order, ReadJson(line, "a worker's orders"));
     RETURN_IF_ERROR(Execute(order, runners, out));
   }
-  if (&in == &std::cin && std::ferror(stdin) != 0) return FailOfMachine("a worker's instructions cannot be read");
+  if (&in == &std::cin && std::ferror(stdin) != 0)
+    return FailOfMachine(
+        "a worker process cannot read its "
+        "instructions");
   return {};
 }
 
@@ -131,7 +134,7 @@ int RunWorker(std::istream& in, std::ostream& out) {
     const auto done = Work(in, out);
     return done ? 0 : GiveUp(done.error());
   } catch (const std::bad_alloc&) {
-    return GiveUp(FailOfMachine("there is not enough memory for a worker").value());
+    return GiveUp(FailOfMachine("there is not enough memory for a worker process").value());
   } catch (const std::exception& error) {
     return GiveUp({{"a worker's orders"}, error.what()});
   }

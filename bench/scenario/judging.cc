@@ -30,7 +30,10 @@ std::vector<SweptValue> ReadWhere(Fields& fields, const Scenario& scenario) {
   const Node* node = fields.Raw("where");
   if (node == nullptr) return where;
   if (node->kind != Node::Kind::kMapping) {
-    fields.Complain(node->place, "'where' must map swept parameters to one of their values, found " + Describe(*node));
+    fields.Complain(node->place,
+                    "'where' must map each swept parameter to one of the parameter's values, "
+                    "found " +
+                        Describe(*node));
     return where;
   }
   // Check the swept parameters and their values.
@@ -44,7 +47,7 @@ std::vector<SweptValue> ReadWhere(Fields& fields, const Scenario& scenario) {
   for (const Node::Entry& entry : node->entries) {
     const std::string found = entry.key + ": " + entry.value.scalar;
     if (known.empty()) {
-      fields.Complain(entry.place, "'where' names swept parameters; this scenario sweeps none");
+      fields.Complain(entry.place, "'where' selects values of swept parameters, but this scenario has no sweep");
     } else if (!Contains(known, found)) {
       fields.Complain(entry.place, UnknownName("condition", found, known));
     }
@@ -75,7 +78,9 @@ Field<Options> KnownName(const std::string& key, std::string Options::*member, s
 void CheckExpectation(Fields& fields, Expectation& expectation) {
   expectation.place = fields.node().place;
   if (expectation.below == expectation.of || expectation.above == expectation.of) {
-    fields.Complain(expectation.place, fmt::format("'{}' cannot be expected to differ from itself", expectation.of));
+    fields.Complain(expectation.place, fmt::format("an expectation compares '{}' with itself; allowed: two different "
+                                                   "methods",
+                                                   expectation.of));
   }
   const int claims = !expectation.below.empty() + !expectation.above.empty() + expectation.at_most.has_value() +
                      expectation.at_least.has_value();
@@ -83,14 +88,15 @@ void CheckExpectation(Fields& fields, Expectation& expectation) {
   fields.Complain(
       expectation.place,
       fmt::format(
-          "an expectation needs exactly one of: below, above (a method), at_most, at_least (a number); found {}",
+          "an expectation needs exactly one of the keys below, above (a method), at_most, at_least (a number); found "
+          "{}",
           claims));
 }
 
 void CheckTimeRatio(Fields& fields, TimeRatio& ratio) {
   ratio.place = fields.node().place;
   if (ratio.of != ratio.over) return;
-  fields.Complain(ratio.place, fmt::format("a ratio of times needs two methods, found '{}' twice", ratio.of));
+  fields.Complain(ratio.place, fmt::format("a ratio of times needs two different methods, found '{}' twice", ratio.of));
 }
 
 }  // namespace
@@ -123,25 +129,31 @@ FieldTable<Expectation> ExpectationFields(const Scenario& scenario, const std::v
   using Key = Field<Expectation>;
   const std::vector<std::string> methods = MethodNames(scenario);
   const char* another = "(not claimed)";
-  return {{KnownName("metric", &Expectation::metric, "a metric that the task reports", metrics,
-                     "The metric that is judged."),
-           KnownName("of", &Expectation::of, "a method", methods, "The method whose values are judged."),
+  return {{KnownName("metric", &Expectation::metric, "a metric of the task", metrics,
+                     "The metric whose values are compared."),
+           KnownName("of", &Expectation::of, "a method", methods, "The method that the expectation is about."),
            KnownName("below", &Expectation::below, "a method", methods,
-                     "The method of `of` must have lower values than this method in the same worlds.")
+                     "In the same worlds, the method `of` must have lower values than this method.")
                .WhenAbsent(another),
            KnownName("above", &Expectation::above, "a method", methods,
-                     "The method of `of` must have higher values than this method in the same worlds.")
+                     "In the same worlds, the method `of` must have higher values than this method.")
                .WhenAbsent(another),
-           Key::Number("at_most", &Expectation::at_most, {}, "Upper bound of the statistic.").WhenAbsent(another),
-           Key::Number("at_least", &Expectation::at_least, {}, "Lower bound of the statistic.").WhenAbsent(another),
+           Key::Number("at_most", &Expectation::at_most, {},
+                       "The largest allowed value of the statistic of method "
+                       "`of`.")
+               .WhenAbsent(another),
+           Key::Number("at_least", &Expectation::at_least, {},
+                       "The smallest allowed value of the statistic of method "
+                       "`of`.")
+               .WhenAbsent(another),
            Key::Name("statistic", &Expectation::statistic, {{"median", "median"}, {"mean", "mean"}, {"p95", "p95"}},
-                     "The statistic to which `at_most` and `at_least` apply."),
+                     "The statistic that `at_most` and `at_least` limit."),
            Key::Number("confidence", &Expectation::confidence, {0.5, 0.999},
-                       "The confidence that `below` and `above` need."),
+                       "The confidence with which `below` and `above` must hold."),
            {{"where",
-             {"a mapping of swept parameters to one of their values", R"({"type":"object"})"},
+             {"a mapping: for each swept parameter, one of its values", R"({"type":"object"})"},
              "{}",
-             "The conditions in which the expectation is judged; by default all."},
+             "The conditions in which the expectation is checked; by default all conditions."},
             [&](Fields& fields, Expectation& expectation) { expectation.where = ReadWhere(fields, scenario); }}},
           CheckExpectation};
 }
@@ -158,22 +170,26 @@ std::vector<std::string> SuccessMetricsOf(const TaskKind& kind, const Scenario& 
 }
 
 FieldTable<Scenario> SuccessFields(const std::vector<std::string>& metrics) {
-  return {{KnownName("metric", &Scenario::success, "a share that the task reports; higher values are better", metrics,
-                     "The metric that measures success: a share of the cells, or a share within each cell.")
-               .WhenAbsent("(the task's)"),
-           Field<Scenario>::Number(
-               "matters", &Scenario::success_matters, {0.001, 1},
-               "The smallest difference of two methods that matters, as a share. Task evaluation: 0.01.")}};
+  return {
+      {KnownName("metric", &Scenario::success,
+                 "a share or score of the task whose higher values are "
+                 "better",
+                 metrics, "The metric that measures success. It is a share of all cells, or a share within each cell.")
+           .WhenAbsent("(the task's)"),
+       Field<Scenario>::Number(
+           "matters", &Scenario::success_matters, {0.001, 1},
+           "The smallest difference between two methods that matters, as a share. In task evaluation, the default "
+           "is 0.01.")}};
 }
 
 FieldTable<TimeRatio> TimeRatioFields(const Scenario& scenario) {
   const std::vector<std::string> methods = MethodNames(scenario);
-  return {{KnownName("of", &TimeRatio::of, "a method", methods, "The method whose time is judged."),
+  return {{KnownName("of", &TimeRatio::of, "a method", methods, "The method whose processor time is checked."),
            KnownName("over", &TimeRatio::over, "a method", methods,
-                     "The method in the denominator: in each world the time of `of` is divided by the time of this "
-                     "method."),
+                     "The method in the denominator. In each world, the time of method `of` is divided by the time of "
+                     "this method."),
            Field<TimeRatio>::Number("at_most", &TimeRatio::at_most, {0.001, 1e6},
-                                    "Upper bound of the median of these ratios.")},
+                                    "The largest allowed median of these ratios.")},
           CheckTimeRatio};
 }
 
@@ -182,34 +198,36 @@ FieldTable<TailRule> TailFields() {
   constexpr Range kWorlds{0, 1e6};
   return {
       {Key::Number("times", &TailRule::times, {1, 1e6},
-                   "A world is far worse when it is worse by more than this many practical thresholds."),
+                   "A world is far worse if its value is worse by more than this number of practical thresholds."),
        Key::Number("worlds", &TailRule::worlds, kWorlds,
-                   "A comparison with at least this many far worse worlds is a regression; 0: never."),
+                   "A comparison with at least this number of far worse worlds is a regression. 0 turns this rule "
+                   "off."),
        Key::Number("share", &TailRule::share, {0, 1},
-                   "Minimum share of the compared worlds that must also be far worse, because among many worlds "
-                   "rounding alone changes some."),
+                   "The number of far worse worlds must also be at least this share of the compared worlds. Among many "
+                   "worlds, rounding alone makes some worlds far worse."),
        Key::Number(
            "lost", &TailRule::lost, kWorlds,
-           "A comparison in which at least this many worlds lost their value or answer is a regression; 0: never.")}};
+           "A comparison in which at least this number of worlds lost their value or answer is a regression. 0 turns "
+           "this rule off.")}};
 }
 
 FieldTable<GateRules> GateFields(const Scenario& scenario, const std::vector<std::string>& metrics) {
   using Key = Field<GateRules>;
   return {
-      {{{"metrics", ListKind("a list of metrics that the task reports", TextKind("")),
-         "(the success metric and the scenario's `metrics`)", "The metrics that are compared."},
+      {{{"metrics", ListKind("a list of metrics of the task", TextKind("")),
+         "(the metric of `success` and the scenario's `metrics`)", "The metrics that the gate compares."},
         [&scenario, metrics](Fields& gate, GateRules& rules) {
           auto named = ReadMetricList(gate, scenario.task, metrics);
           if (!named.empty()) rules.metrics = std::move(named);
         }},
        Key::Name("rule", &GateRules::exact, {{"threshold", false}, {"exact", true}},
-                 "threshold: only a difference that matters is a regression; exact: every difference is."),
+                 "threshold: only a difference that matters is a regression; exact: every difference is a regression."),
        {{"tail", MappingKind("a mapping", TailFields().Describe()), "{}",
-         "When single far worse worlds are a regression, even if the comparison as a whole is not; not allowed with "
-         "`rule: exact`."},
+         "Decides when single far worse worlds are a regression although the comparison of all worlds finds no "
+         "regression. Not allowed with `rule: exact`."},
         [](Fields& gate, GateRules& rules) { ReadNested(gate, "tail", TailFields(), rules.tail); }},
        {{"time_ratios", ListKind("a list of ratios", MappingKind("", TimeRatioFields(scenario).Describe())), "[]",
-         "Bounds on ratios of processor times within the run."},
+         "Limits on ratios between the processor times of two methods of the run."},
         [&](Fields& gate, GateRules& rules) {
           rules.time_ratios = ReadListed(gate, "time_ratios", "a time ratio", TimeRatioFields(scenario));
         }}}};

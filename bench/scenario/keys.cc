@@ -23,7 +23,8 @@ std::vector<KeyInfo> SweepKeys() {
   return {{"together",
            {"a mapping of parameters to lists of equal length, or a list of such mappings", "{}"},
            "(none)",
-           "Parameters whose values advance together, not in all combinations."}};
+           "Parameters that change together: the first values form one condition, the second values the next "
+           "condition, and so on."}};
 }
 
 template <typename Keys>
@@ -44,7 +45,7 @@ std::vector<KeyGroup> AllKeyGroups() {
   std::vector<KeyGroup> groups = {
       Group("", "A file with several scenarios", FileKeys()),
       Group("scenarios[]", "A scenario of any task", CommonScenarioKeys()),
-      Group("sweep", "A sweep, beside the task's parameters", SweepKeys()),
+      Group("sweep", "A sweep: the key that is not a parameter of the task", SweepKeys()),
       Group("sweep.PARAMETER", "A range of values", RangeFields(kMaxConditions).Describe()),
       Group("methods[]", "A method", OutsideMethodFields().Describe()),
       Group("metrics[]", "A metric that your own program measures", OutsideMetricFields().Describe()),
@@ -65,10 +66,11 @@ std::vector<KeyGroup> AllKeyGroups() {
 
 std::string KeysAsMarkdown() {
   std::string page =
-      "# Every key of a scenario file\n\n"
-      "Written by `etude list keys --markdown`; a test compares the two. [scenarios.md](../scenarios.md) explains how "
-      "they fit together.\nA default in (parentheses) describes what happens without the key; every other default is a "
-      "value that could be written.\n";
+      "# Every key of a scenario file\n"
+      "\nWritten by `etude list keys --markdown`; a test compares the two. [scenarios.md](../scenarios.md) explains "
+      "how the keys work together.\n"
+      "A default in (parentheses) describes what happens without the key. Every other default is a value that you "
+      "could write.\n";
   for (const KeyGroup& group : AllKeyGroups()) {
     page += fmt::format("\n## {}{}\n\n| key | allowed | default | meaning |\n|---|---|---|---|\n", group.title,
                         group.path.empty() ? "" : fmt::format(": `{}`", group.path));
@@ -227,8 +229,8 @@ std::string KeysAsSchema() {
   Json schema{{"$schema", "http://json-schema.org/draft-07/schema#"},
               {"title", "A scenario file of Etude"},
               {"description",
-               "Written by `etude list keys --schema`. A file that it accepts may still have errors: the program also "
-               "checks which methods, conditions and files exist."}};
+               "Written by `etude list keys --schema`. A file that this schema accepts may still contain errors, "
+               "because the program also checks which methods, conditions and files exist."}};
   schema.update(ScenarioSchema());
   schema["definitions"] = std::move(definitions);
   return SchemaText(schema) + "\n";

@@ -35,7 +35,7 @@ void ReadProgram(Fields& method, MethodEntry& entry) {
   if (node == nullptr) return;
   for (const Node& word : node->items) entry.exec_places.push_back(word.place);
   if (!entry.exec.empty() && !entry.exec.front().empty()) return;
-  method.Complain(node->place, "'exec' needs a program and its arguments, such as [python3, my_solver.py]");
+  method.Complain(node->place, "'exec' must be a list of a program and its arguments, such as [python3, my_solver.py]");
 }
 
 /// Checks the key names of a built-in method. The method's task reads the values, but does not know that `against` and
@@ -43,7 +43,10 @@ void ReadProgram(Fields& method, MethodEntry& entry) {
 void CheckKeysOfBuiltIn(Fields& method, const TaskKind& kind) {
   for (const char* key : {"options", "files", "time_s"}) {
     const Node* value = method.Raw(key);
-    if (value != nullptr) method.Complain(value->place, fmt::format("'{}' is only for methods with 'exec'", key));
+    if (value != nullptr)
+      method.Complain(value->place, fmt::format("'{}' is allowed only for methods with "
+                                                "'exec'",
+                                                key));
   }
   for (const KeyInfo& key : kind.method_keys) method.Raw(key.key);
 }
@@ -65,12 +68,16 @@ Result<MethodEntry> ReadSeated(const Node& node, const TaskKind& kind) {
   MethodEntry entry;
   OutsideMethodFields().ReadKeys(method, entry);
   if (kind.seats.empty()) {
-    return Fail(node.Find("exec")->place, "task {} takes no programs, so 'exec' is not allowed", kind.name);
+    return Fail(node.Find("exec")->place,
+                "'exec' is not allowed in task {}, because this task runs no "
+                "programs",
+                kind.name);
   }
   entry.seat = method.Choice("seat", kind.seats, "");
   if (entry.seat.empty() && method.ok()) {
-    method.Complain(node.place, fmt::format("a program of task {} needs a 'seat' in its loop: {}", kind.name,
-                                            fmt::join(kind.seats, ", ")));
+    method.Complain(node.place, fmt::format("in task {}, a method with 'exec' needs the key 'seat'; allowed: "
+                                            "{}",
+                                            kind.name, fmt::join(kind.seats, ", ")));
   }
   for (const KeyInfo& key : kind.method_keys) method.Raw(key.key);
   RETURN_IF_ERROR(method.Finish());
@@ -87,7 +94,7 @@ Result<MethodEntry> ReadMethod(const Node& node, const TaskKind& kind) {
                                             : ReadMapping(node, "a method with 'exec'", OutsideMethodFields());
   if (!entry) return entry;
   if (entry->exec.empty() && node.Find("seat") != nullptr) {
-    return Fail(node.Find("seat")->place, "'seat' is only for methods with 'exec'");
+    return Fail(node.Find("seat")->place, "'seat' is allowed only for methods with 'exec'");
   }
   // The task must not see the keys that are read here.
   entry->node = node;
@@ -116,25 +123,31 @@ ValueKind PlainNameKind() {
 const FieldTable<MethodEntry>& OutsideMethodFields() {
   using Key = Field<MethodEntry>;
   static const FieldTable<MethodEntry> table{
-      {{{"name", PlainNameKind(), "", "The method's name, unique in the scenario."},
+      {{{"name", PlainNameKind(), "", "The method's name. Names must be unique in the scenario."},
         [](Fields& method, MethodEntry& entry) { entry.name = ReadPlainName(method, "name"); }},
        {{"against", TextKind("a method"), "(the first method)", "The method with which this method is compared."},
         [](Fields&, MethodEntry&) {}},  // read once all names are known
        {{"description", TextKind("a sentence"), "(its settings)",
-         "Describes the method to readers of the results; does not change the results."},
+         "Describes the method for readers of the results. It does not change the results."},
         [](Fields&, MethodEntry&) {}},  // read for all methods in ReadMethods
        {{"exec",
          {"a list: a program and its arguments",
           R"({"type":"array","minItems":1,"items":{"type":["string","number"],"minLength":1}})"},
          "(the method is built in)",
-         "The program that answers; such a method has no keys of its task, unless it takes a `seat`."},
+         "The program that answers the problems. A method with `exec` has keys of its task only if it also has a "
+         "`seat`."},
         ReadProgram},
-       {{"options", {"a mapping; with `exec`", R"({"type":"object"})"}, "{}", "Passed to that program as JSON."},
+       {{"options",
+         {"a mapping; with `exec`", R"({"type":"object"})"},
+         "{}",
+         "Options that the program receives as "
+         "JSON."},
         [](Fields& method, MethodEntry& entry) { entry.options_json = ReadOptions(method); }},
        Key::Texts("files", &MethodEntry::files, "a list of folders and files; with `exec`",
-                  "What that program can read inside its fence; by default its own folder."),
+                  "Folders and files that the program can read inside its fence. By default, it can read its own "
+                  "folder."),
        Key::Number("time_s", &MethodEntry::time_s, {0.001, kMaxTime_s},
-                   "Time limit for one problem, or one step, in seconds.")
+                   "Time limit for one problem or one step, in seconds.")
            .WhenAbsent("(`limits.time_s`)")
            .And("with `exec`")}};
   return table;

@@ -33,7 +33,7 @@ void ReadName(Fields& metric, OutsideMetric& own) {
   if (!metric.ok() || IsMetricId(own.info.id)) return;
   metric.Complain(metric.node().Find("name")->place,
                   fmt::format("'{}' is not a valid metric name; allowed: at most 60 lower-case letters, digits and "
-                              "'_', a letter first, and not a name that rows already use",
+                              "'_'; the first must be a letter, and the name must not be a key of result rows",
                               own.info.id));
 }
 
@@ -44,8 +44,10 @@ Result<void> SpellOut(Json& track, const Place& place) {
   // The track has the short form: a number of frames, and the positions of some joints.
   const Json frames = track.value("frames", Json());
   if (!frames.is_number_integer() || frames < 1 || frames > kMaxExampleFrames) {
-    return Fail(place, "a track needs 'poses', or 'frames', from 1 to {}, and 'joints_m'; found {}", kMaxExampleFrames,
-                ShowJson(track));
+    return Fail(place,
+                "a track needs either 'poses', or 'frames' (from 1 to {}) and 'joints_m'; found "
+                "{}",
+                kMaxExampleFrames, ShowJson(track));
   }
   // Fill in the positions of the joints that the track lists.
   const std::size_t roles = AllRoles().size();
@@ -53,7 +55,7 @@ Result<void> SpellOut(Json& track, const Place& place) {
   const Json joints = track.value("joints_m", Json::object());
   for (const auto& [name, places] : joints.items()) {
     const auto role = FindRole(name);
-    if (!role) return Fail(place, "'joints_m' has '{}', which is not one of the twenty joints", name);
+    if (!role) return Fail(place, "'joints_m' contains '{}', which is not one of the twenty joints", name);
     if (!places.is_array() || places.size() != poses.size()) {
       return Fail(place, "'{}' needs {} positions, found {}", name, poses.size(), ShowJson(places));
     }
@@ -101,19 +103,25 @@ void ReadExpected(Fields& fields, MetricExample& example) {
 const FieldTable<MetricExample>& MetricExampleFields() {
   using Key = Field<MetricExample>;
   static const FieldTable<MetricExample> table{
-      {Key::Text("title", &MetricExample::title, "a text", "What the vector tests.").WhenAbsent("(none)"),
+      {Key::Text("title", &MetricExample::title, "a text",
+                 "A title that states what the vector "
+                 "tests.")
+           .WhenAbsent("(none)"),
        {{"cell",
-         {"a mapping: `tracks`, each with `name`, `rate_hz` and `poses`, or `frames` and `joints_m`; `extras`",
+         {"a mapping with a list `tracks` and, optionally, `extras`; each track has `name`, `rate_hz`, and either "
+          "`poses` or both `frames` and `joints_m`",
           R"({"type":"object","required":["tracks"]})"},
          "",
-         "The program's input; joints that `joints_m` does not name are at the origin."},
+         "The program's input. Joints that `joints_m` does not list are at the origin."},
         ReadCell},
        {{"expected",
-         {"a number, or null where the metric has no value", R"({"type":["number","null","string"]})"},
+         {"a number, or null if the metric has no value for this cell", R"({"type":["number","null","string"]})"},
          "null",
-         "The value that the program must answer."},
+         "The value that the program must return."},
         ReadExpected},
-       Key::Number("tolerance", &MetricExample::tolerance, {0, 1e9}, "Largest absolute error of the answer.")}};
+       Key::Number("tolerance", &MetricExample::tolerance, {0, 1e9},
+                   "Largest allowed absolute error of the returned "
+                   "value.")}};
   return table;
 }
 
@@ -123,48 +131,55 @@ const FieldTable<OutsideMetric>& OutsideMetricFields() {
     const auto info = [](auto member) { return Path(&OutsideMetric::info, member); };
     std::vector<Field<OutsideMetric>> fields = {
         {{"name", TextKind("a letter, then at most 59 of a…z, 0…9, '_'", kIdPattern), "",
-          "The metric's id in rows and tables; not that of a built-in metric."},
+          "The metric's id in rows and tables. It must differ from the ids of built-in metrics."},
          ReadName}};
     // The keys about the program are those of an outside method, but their descriptions differ.
     for (auto& field : FieldsOf<OutsideMetric>(OutsideMethodFields(), &OutsideMetric::program, Keep::kThese,
                                                {"exec", "options", "files", "time_s"})) {
       if (field.info.key == "exec") {
         field.info.fallback = "";
-        field.info.meaning = "The program that measures; it never runs in the process of a method.";
+        field.info.meaning = "The program that computes the metric. It never runs in the process of a method.";
       }
       if (field.info.key == "time_s") field.info.meaning = "Time limit for one cell, in seconds.";
       fields.push_back(std::move(field));
     }
     // Add the keys about the metric.
     Append<OutsideMetric>(
-        {Key::Text("unit", info(&MetricInfo::unit), "a text", "Unit of its values: `mm`, `deg`.").WhenAbsent("(none)"),
+        {Key::Text("unit", info(&MetricInfo::unit), "a text",
+                   "Unit of the metric's values, such as `mm` or "
+                   "`deg`.")
+             .WhenAbsent("(none)"),
          Key::Name("direction", info(&MetricInfo::direction),
                    {{"lower", Direction::kLowerIsBetter},
                     {"higher", Direction::kHigherIsBetter},
                     {"neither", Direction::kNeither}},
-                   "Which values are better."),
+                   "States which values are better."),
          Key::Number("version", info(&MetricInfo::version), {1, 1e6},
-                     "Increase it with every change of the metric: values of two versions are never mixed."),
+                     "Version of the metric. Increase it when you change the metric, because Etude never mixes values "
+                     "of two versions."),
          {{"practical", NumberKind({1e-12, 1e12}), "(1; without a unit 0.01)", "The smallest difference that matters."},
           [](Fields& metric, OutsideMetric& own) {
             own.info.practical = metric.Number("practical", own.info.unit.empty() ? 0.01 : 1, {1e-12, 1e12});
           }},
          Key::Name("aggregate", info(&MetricInfo::aggregate),
                    {{"median", Aggregate::kMedian}, {"mean", Aggregate::kMean}},
-                   "How a run aggregates the values of its cells."),
+                   "How a run aggregates the values of all cells."),
          Key::Name("reads", info(&MetricInfo::reading),
                    {{"amount", Reading::kAmount},
                     {"yes-no", Reading::kYesNo},
                     {"share", Reading::kShare},
                     {"score", Reading::kScore}},
-                   "The kind of value: all kinds except `amount` lie between 0 and 1, and are shown in per cent."),
-         Key::Text("label", info(&MetricInfo::label), "a text", "The metric's name for readers.")
-             .WhenAbsent("(`name`)"),
-         Key::Text("definition", info(&MetricInfo::definition), "a text", "What it measures, in one sentence.")
+                   "The kind of value. Values of all kinds except `amount` must lie between 0 and 1; reports show them "
+                   "in per cent."),
+         Key::Text("label", info(&MetricInfo::label), "a text", "The metric's name in reports.").WhenAbsent("(`name`)"),
+         Key::Text("definition", info(&MetricInfo::definition), "a text",
+                   "One sentence that states what the metric "
+                   "measures.")
              .WhenAbsent("(none)"),
          // Add the key of the metric's test vectors.
          {{"vectors", ListKind("a list of test vectors", MappingKind("", MetricExampleFields().Describe())), "[]",
-           "Cells whose value is known; the program must reproduce these values before the first cell is run."},
+           "Cells whose value is known. Before a run computes its first cell, the program must reproduce these "
+           "values."},
           [](Fields& metric, OutsideMetric& own) {
             own.vectors = ReadListed(metric, "vectors", "a test vector", MetricExampleFields());
           }}},
@@ -175,7 +190,7 @@ const FieldTable<OutsideMetric>& OutsideMetricFields() {
 }
 
 ValueKind HeadlineKind() {
-  return {"a list of metrics that the task reports, and of mappings",
+  return {"a list; each entry is a metric of the task or a mapping",
           R"({"type":"array","items":{"anyOf":[{"type":"string"},{"$ref":"#/definitions/outside-metric"}]}})"};
 }
 
@@ -196,7 +211,7 @@ std::vector<std::string> ReadHeadline(Fields& fields, const TaskKind& kind, std:
     }
     if (kind.name == kTaskWithoutMotion) {
       fields.Complain(item.place,
-                      fmt::format("a scenario of task {} cannot define metrics of its own, because its cells "
+                      fmt::format("a scenario of task {} cannot define its own metrics, because cells of this task "
                                   "keep no motion that a program could measure",
                                   kind.name));
     }

@@ -26,7 +26,7 @@ void ReadFilmedTrials(Fields& video, const Scenario& scenario, RecordingSelectio
   const Node* trials = video.Raw("trials");
   std::vector<int> read;
   for (double trial : video.Numbers("trials", {0, scenario.trials - 1.0})) {
-    if (trial != std::floor(trial)) video.Complain(trials->place, "'trials' must be whole numbers");
+    if (trial != std::floor(trial)) video.Complain(trials->place, "'trials' must be a list of whole numbers");
     read.push_back(static_cast<int>(trial));
   }
   if (!read.empty()) selection.trials = std::move(read);
@@ -44,7 +44,7 @@ void ReadFilmedMethods(Fields& video, const Scenario& scenario, RecordingSelecti
 std::vector<NamedClips> ReadLibraries(Fields& fields, const TaskKind& kind) {
   const Node* libraries = fields.Raw("libraries");
   if (libraries == nullptr) return {};
-  if (!kind.uses_clips) fields.Complain(libraries->place, "'libraries' is not used in task " + kind.name);
+  if (!kind.uses_clips) fields.Complain(libraries->place, "'libraries' is not allowed in task " + kind.name);
   if (fields.Raw("clips") != nullptr)
     fields.Complain(libraries->place, "'libraries' replaces 'clips'; leave out one of them");
   if (libraries->kind != Node::Kind::kMapping || libraries->entries.empty()) {
@@ -79,9 +79,9 @@ void CheckStreams(Fields& fields, const Scenario& scenario, const TaskKind& kind
     const Node* named = FindFilled(fields, key);
     if (named == nullptr) continue;
     if (!kind.uses_recordings)
-      fields.Complain(named->place, fmt::format("'{}' is not used in task {}", key, kind.name));
+      fields.Complain(named->place, fmt::format("'{}' is not allowed in task {}", key, kind.name));
     if (!scenario.libraries.empty())
-      fields.Complain(named->place, fmt::format("'{}' is not used with 'libraries'", key));
+      fields.Complain(named->place, fmt::format("'{}' is not allowed together with 'libraries'", key));
   }
   const Node* streams = FindFilled(fields, "streams");
   if (streams != nullptr && FindFilled(fields, "clips") != nullptr) {
@@ -103,19 +103,20 @@ const FieldTable<StreamSource>& ReadingFields() {
   for (const std::string& name : StreamFormatNames()) formats.emplace_back(name, FindStreamFormat(name));
   static const FieldTable<StreamSource> table{
       {Key::Name("format", Path(&StreamSource::reading, &StreamReading::format), formats, "Format of the files.")
-           .WhenAbsent("(found from the content)"),
+           .WhenAbsent("(detected from the content)"),
        Key::Number("rate_hz", Path(&StreamSource::reading, &StreamReading::rate_hz), {1, 1000},
                    "Frame rate of files without a clock, in Hz.")
            .WhenAbsent("30"),
-       {{"body", NumberKind(kBodies, true), "(the one seen longest)",
-         "Which of several bodies is read, counted by first appearance from 0."},
+       {{"body", NumberKind(kBodies, true), "(the body that is seen longest)",
+         "If a recording shows several bodies, the body that Etude reads. Bodies are counted from 0, in the order of "
+         "appearance."},
         [](Fields& fields, StreamSource& s) {
           if (const auto body = fields.OptionalWhole("body", kBodies)) s.reading.body = static_cast<int>(*body);
         }},
        Key::Flag("levels", Path(&StreamSource::making, &StreamOptions::levels),
-                 "true: estimate the up axis and the floor; false: use those of the file."),
+                 "true: estimate the up axis and the floor; false: use the up axis and the floor of the file."),
        Key::Flag("reflects", Path(&StreamSource::making, &StreamOptions::reflects),
-                 "true: negate X, for mirrored recordings.")}};
+                 "true: negate X, because the recording is mirrored.")}};
   return table;
 }
 
@@ -123,18 +124,21 @@ const FieldTable<Limits>& LimitFields() {
   using Key = Field<Limits>;
   static const FieldTable<Limits> table{
       {Key::Number("time_s", &Limits::time_s, {0.001, 86'400},
-                   "Processor time of a world and of each method, in seconds; for an outside program, wall-clock time."),
+                   "Limit of processor time for building a world, and for each method, in seconds. For an outside "
+                   "program, this is a limit of wall-clock time."),
        Key::Number("memory_mb", &Limits::memory_mb, {16, 1'048'576},
-                   "Resident memory of the worker, and of each program that it has started.")}};
+                   "Limit of resident memory for the worker, and for each program that the worker started.")}};
   return table;
 }
 
 FieldTable<RecordingSelection> VideoFields(const Scenario& scenario) {
   using Selection = RecordingSelection;
-  return {{{{"compare", ListKind("a list of methods", TextKind("")), "(all)", "Methods whose motions are kept."},
+  return {{{{"compare", ListKind("a list of methods", TextKind("")), "(all)",
+             "The methods whose motions the run "
+             "keeps."},
             [&](Fields& video, Selection& selection) { ReadFilmedMethods(video, scenario, selection); }},
            {{"trials", ListKind("a list of whole numbers below `trials`", NumberKind({0, kTrials.highest}, true)),
-             "[0]", "Trials whose motions are kept."},
+             "[0]", "The trials whose motions the run keeps."},
             [&](Fields& video, Selection& selection) { ReadFilmedTrials(video, scenario, selection); }}}};
 }
 
@@ -150,49 +154,52 @@ const FieldTable<Scenario>& ScenarioFields() {
   static const Scenario unread;
   static const FieldTable<Scenario> table{
       // The scenario's name, question and task.
-      {{{"scenario", PlainNameKind(), "", "The scenario's name, unique in a run."},
+      {{{"scenario", PlainNameKind(), "", "The scenario's name. Names must be unique in a run."},
         [](Fields& fields, Scenario& s) { s.name = ReadPlainName(fields, "scenario"); }},
-       {{"question", TextKind("a text"), "", "The scenario's question, in one sentence."},
+       {{"question", TextKind("a text"), "", "The question that the scenario answers, in one sentence."},
         [](Fields& fields, Scenario& s) { s.question = fields.RequiredText("question"); }},
        Key::Text("description", &Scenario::description, "a sentence",
-                 "Describes the worlds to readers of the results; does not change the results.")
+                 "Describes the worlds for readers of the results. It does not change the results.")
            .WhenAbsent("(none)"),
        {{"task", NameKind(NamesOf(AllTaskKinds())), "", "The task that the methods solve."},
         [](Fields& fields, Scenario& s) { s.task = fields.Choice("task", NamesOf(AllTaskKinds()), ""); }},
        // The motions from which the worlds are made.
-       Key::Texts("clips", &Scenario::clips, "a list of `builtin:NAME`, `builtin:*`, motion files, patterns",
-                  "The clips from which worlds are made; trials take them in turn."),
+       Key::Texts("clips", &Scenario::clips, "a list of `builtin:NAME`, `builtin:*`, motion files and patterns",
+                  "The clips from which worlds are made. Trial after trial uses the next clip of the list."),
        Key::Texts("streams", Path(&Scenario::streams, &StreamSource::files),
-                  "a list of recordings of skeletons, patterns and folders (docs/streams.md)",
-                  "Recordings that replace `clips` and simulated people, one trial each; `etude run --streams` "
-                  "replaces them."),
+                  "a list of files with recorded skeletons, patterns and folders (docs/streams.md)",
+                  "Recordings that are used instead of `clips` and simulated people. Each recording is one trial. "
+                  "`etude run --streams` replaces this list."),
        Key::Text(
            "labels", Path(&Scenario::streams, &StreamSource::labels), "a file, or a folder of tag streams",
-           "Who did which move at which time in `streams` or in `clips`; labelled people of `clips` replace simulated "
-           "people.")
-           .WhenAbsent("(a recording is one performance, named by its file)"),
-       {{"reading", MappingKind("a mapping", ReadingFields().Describe()), "{}", "How `streams` are read."},
+           "Labels that state who performs which move at which time in `streams` or in `clips`. Labelled people of "
+           "`clips` replace simulated people.")
+           .WhenAbsent("(each recording is one performance of the move that the file is named after)"),
+       {{"reading", MappingKind("a mapping", ReadingFields().Describe()), "{}",
+         "How Etude reads the files of "
+         "`streams`."},
         [](Fields& fields, Scenario& s) { ReadNested(fields, "reading", ReadingFields(), s.streams); }},
        Key::Text("joint_map", &Scenario::joint_map, "a file",
-                 "Assigns the clips' joints to roles if their names do not determine the roles.")
-           .WhenAbsent("(by the names)"),
+                 "Assigns the clips' joints to roles. It is needed if the joints' names do not determine the roles.")
+           .WhenAbsent("(roles by the joints' names)"),
        // The worlds and the conditions.
-       Key::Number("trials", &Scenario::trials, {1, kTrials.highest}, "Worlds per condition."),
+       Key::Number("trials", &Scenario::trials, {1, kTrials.highest}, "Number of worlds per condition."),
        Key::Number("seed", &Scenario::seed, {0, kMaxSeed}, "Seed of all worlds; `etude run --seed` overrides it.")
            .WhenAbsent("1"),
        {{"unit", NameKind(NamesOf(kSamplingUnits)), "(the task's)",
-         "The units from which worlds are drawn; verdicts for other worlds count each unit once."},
+         "The unit from which worlds are drawn (clip, person or library). A verdict that is meant for other worlds "
+         "counts each unit once."},
         when_right([](Fields& fields, Scenario& s, const TaskKind& kind) { s.unit = ReadUnit(fields, kind); })},
        {{"sweep",
-         {"a mapping of the task's parameters to lists or ranges", R"({"type":"object"})"},
+         {"a mapping from parameters of the task to lists or ranges of values", R"({"type":"object"})"},
          "{}",
-         "One condition for every combination of values."},
+         "The values of swept parameters. The run has one condition for every combination of values."},
         when_right([](Fields& fields, Scenario& s, const TaskKind& kind) { s.conditions = ReadSweep(fields, kind); })},
        {{"libraries",
-         {"a mapping of names to lists like `clips`", R"({"type":"object"})"},
+         {"a mapping from names to lists like `clips`", R"({"type":"object"})"},
          "(none)",
-         "Libraries that replace `clips`: every condition runs once per library, on its clips alone; `etude run "
-         "--library` adds libraries."},
+         "Libraries that are used instead of `clips`. Every condition runs once for each library, with the clips of "
+         "this library only. `etude run --library` adds libraries."},
         when_right([](Fields& fields, Scenario& s, const TaskKind& kind) {
           AddLibraries(ReadLibraries(fields, kind), s);
           CheckStreams(fields, s, kind);
@@ -201,50 +208,52 @@ const FieldTable<Scenario>& ScenarioFields() {
        {{"methods",
          {"a list of 1…100 methods", R"({"type":"array","minItems":1,"maxItems":100})"},
          "",
-         "The methods compared, on the same worlds."},
+         "The methods that the run compares in the same worlds."},
         when_right([](Fields& fields, Scenario& s, const TaskKind& kind) { s.methods = ReadMethods(fields, kind); })},
        {{"across", ListKind("a list of swept parameters", TextKind("")), "[]",
-         "Swept parameters that are assumptions of the simulation: a verdict counts only if it is the same under all "
-         "their values."},
+         "Swept parameters that are assumptions of the simulation. A verdict counts only if it is the same under all "
+         "values of these parameters."},
         when_right([](Fields& fields, Scenario& s, const TaskKind&) {
           std::vector<std::string> swept;
           for (const SweptValue& value : s.conditions.front().swept) swept.push_back(value.key);
           s.across = ReadNames(fields, "across", swept);
         })},
-       {{"rival", TextKind("a method"), "(the best is found)",
-         "The strongest method; all others are compared with it in addition to their baseline."},
+       {{"rival", TextKind("a method"), "(the run finds the best method)",
+         "The strongest method. The run compares every other method with its baseline and, in addition, with this "
+         "method."},
         when_right([](Fields& fields, Scenario& s, const TaskKind&) {
           s.rival = fields.Choice("rival", MethodNames(s), "");
         })},
        {{"metrics", HeadlineKind(), "(the task's)",
-         "The headline metrics, most important first. A mapping defines your own metric; if there are only your own, "
-         "the task's come first."},
+         "The headline metrics, the most important first. A mapping defines your own metric. If the list contains only "
+         "your own metrics, the task's metrics come before them."},
         when_right([](Fields& fields, Scenario& s, const TaskKind& kind) {
           s.metrics = ReadHeadline(fields, kind, s.outside_metrics);
         })},
        {{"success", MappingKind("a mapping", SuccessFields({}).Describe()), "{}",
-         "What counts as success of a cell. The scenario's answer compares success first, then the first other "
-         "headline metric."},
+         "Defines the success of a cell. The scenario's answer compares the success of the methods first, and then the "
+         "first other headline metric."},
         when_right([](Fields& fields, Scenario& s, const TaskKind& kind) {
           s.success = kind.success;
           s.success_matters = kind.success_matters;
           ReadNested(fields, "success", SuccessFields(SuccessMetricsOf(kind, s)), s);
         })},
        {{"expect", ListKind("a list of expectations", MappingKind("", ExpectationFields(unread, {}).Describe())), "[]",
-         "The results that are expected, checked after the run."},
+         "The results that you expect. Etude checks them after the run."},
         when_right([](Fields& fields, Scenario& s, const TaskKind& kind) {
           s.expectations = ReadListed(fields, "expect", "an expectation", ExpectationFields(s, MetricsOf(kind, s)));
         })},
        // The data that a run keeps, its limits, and the rules of the gate.
-       {{"video", MappingKind("a mapping", VideoFields(unread).Describe()), "(no motion is kept)",
-         "Which motions are kept for the report's films."},
+       {{"video", MappingKind("a mapping", VideoFields(unread).Describe()), "(the run keeps no motion)",
+         "The motions that the run keeps for the films of its report."},
         when_right([](Fields& fields, Scenario& s, const TaskKind&) {
           RecordingSelection selection{MethodNames(s), {0}};
           ReadNested(fields, "video", VideoFields(s), selection);
           if (fields.Raw("video") != nullptr) s.recordings = selection;
         })},
        {{"limits", MappingKind("a mapping", LimitFields().Describe()), "{}",
-         "Limits of time and memory for a cell, or for building a world; what exceeds them is stopped."},
+         "Limits of time and memory for a cell and for building a world. Etude stops a cell or a world that exceeds a "
+         "limit."},
         [](Fields& fields, Scenario& s) { ReadNested(fields, "limits", LimitFields(), s.limits); }},
        {{"gate", MappingKind("a mapping", GateFields(unread, {}).Describe()), "{}",
          "The rules by which `etude gate` compares the run with a baseline."},
@@ -333,12 +342,12 @@ Result<std::vector<Scenario>> ParseAll(const std::string& file, const TextOf& te
     ASSIGN_OR_RETURN(auto scenario, ParseScenario(node, file));
     values += scenario.conditions.size() * CountValues(node);
     if (values > kMaxFileValues) {
-      return Fail(node.place, "with this scenario, the conditions of the file hold more than {} values",
+      return Fail(node.place, "with this scenario, the conditions of the file have more than {} values",
                   kMaxFileValues);
     }
     for (const Scenario& other : scenarios) {
       if (other.name != scenario.name) continue;
-      return Fail(node.Find("scenario")->place, "two scenarios of this file are named '{}'", other.name);
+      return Fail(node.Find("scenario")->place, "two scenarios of this file have the name '{}'", other.name);
     }
     scenarios.push_back(std::move(scenario));
   }
@@ -359,7 +368,7 @@ Result<std::vector<Scenario>> ReadScenarios(const std::string& file, SourceTexts
 Result<std::vector<Scenario>> ParseScenarios(const std::string& file, const SourceTexts& texts) {
   return ParseAll(file, [&](const std::string& path, const Place& asked_at) -> Result<std::string> {
     const auto text = texts.find(path);
-    if (text == texts.end()) return Fail(asked_at, "the content of the file '{}' was not kept", path);
+    if (text == texts.end()) return Fail(asked_at, "the content of the file '{}' is missing", path);
     return text->second;
   });
 }

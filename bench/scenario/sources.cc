@@ -47,8 +47,8 @@ class Collector {
     const Node* list = top.Find("scenarios");
     if (list == nullptr && top.Find("defaults") != nullptr) {
       return Fail(top.place,
-                  "no scenario, only 'defaults'; move files that others include to a separate folder, such as shared/, "
-                  "which a run of this folder does not read");
+                  "contains no scenario, only 'defaults'; move included files to a separate folder, such as shared/, "
+                  "so that a run of this folder does not read them");
     }
     ASSIGN_OR_RETURN(auto defaults, DefaultsOf(top, file));
     // The file contains a single scenario.
@@ -68,7 +68,9 @@ class Collector {
       return Fail(list->place, "found {} scenarios; allowed: at most {} in a file", list->items.size(), kMaxScenarios);
     }
     if (list->items.size() * CountAll(defaults) > kMaxFileValues) {
-      return Fail(list->place, "found {} scenarios with defaults of {} values; allowed: at most {} values in all",
+      return Fail(list->place,
+                  "found {} scenarios, each with {} values from the defaults; allowed: at most {} values "
+                  "in all scenarios together",
                   list->items.size(), CountAll(defaults), kMaxFileValues);
     }
     // Insert the defaults into each scenario.
@@ -76,7 +78,7 @@ class Collector {
     for (const Node& item : list->items) {
       for (const Node::Entry& entry : item.entries) {
         if (!IsKeyOfFiles(entry.key)) continue;
-        return Fail(entry.place, "'{}' belongs at the top level of a file, not in one of its scenarios", entry.key);
+        return Fail(entry.place, "'{}' is allowed only at the top level of a file, not in a scenario", entry.key);
       }
       scenarios.push_back(WithDefaults(item, defaults));
     }
@@ -132,7 +134,11 @@ class Collector {
     if (std::find(chain_.begin(), chain_.end(), file) != chain_.end()) {
       return Fail(asked_at, "'{}' includes itself", file);
     }
-    if (chain_.size() > kMaxIncludeDepth) return Fail(asked_at, "included more than {} files deep", kMaxIncludeDepth);
+    if (chain_.size() > kMaxIncludeDepth)
+      return Fail(asked_at,
+                  "this inclusion is nested more than {} files "
+                  "deep",
+                  kMaxIncludeDepth);
     if (++inclusions_ > kMaxInclusions) return Fail(asked_at, "more than {} inclusions", kMaxInclusions);
     ASSIGN_OR_RETURN(const auto top, Open(file, asked_at));
     Fields fields(top, "an included file");
@@ -155,13 +161,14 @@ std::span<const KeyInfo> FileKeys() {
       {"scenarios",
        {"a list of scenarios", fmt::format(R"({{"type":"array","minItems":1,"maxItems":{}}})", kMaxScenarios)},
        "",
-       "The scenarios, run in this order."},
+       "The scenarios, in the order in which they run."},
       {"defaults",
        {"a mapping", R"({"type":"object"})"},
        "{}",
-       "Keys for every scenario of this file that does not have them itself."},
+       "Default keys. Each scenario of this file gets the default keys that it lacks."},
       {"include", ListKind("a list of files", TextKind("")), "[]",
-       "Files with more `defaults`, named relative to this file; also allowed in a file of a single scenario."}};
+       "Files with more `defaults`. Paths are relative to this file. This key is also allowed in a file with a single "
+       "scenario."}};
   return keys;
 }
 

@@ -42,10 +42,10 @@ Result<Steps> ReadRange(const Node::Entry& swept, std::size_t most) {
     return Fail(place, "a range needs either 'step' or 'count', found {}", step ? "both" : "neither");
   }
   if (steps.logarithmic && (step || steps.from <= 0 || steps.to <= 0)) {
-    return Fail(place, "'scale: log' needs 'count', and 'from' and 'to' above 0");
+    return Fail(place, "'scale: log' needs the key 'count', and values above 0 of 'from' and 'to'");
   }
   if (!std::isfinite(steps.logarithmic ? steps.to / steps.from : steps.to - steps.from)) {
-    return Fail(place, "{} and {} are too far apart", steps.from, steps.to);
+    return Fail(place, "the values {} and {} of a range are too far apart", steps.from, steps.to);
   }
   // Take the given number of values, or compute the number from the step.
   if (count) {
@@ -55,7 +55,7 @@ Result<Steps> ReadRange(const Node::Entry& swept, std::size_t most) {
   steps.step = *step;
   const double whole_steps = std::floor((steps.to - steps.from) / steps.step + 1e-9);
   if (steps.step == 0 || whole_steps < 0) {
-    return Fail(place, "steps of {} do not lead from {} to {}", steps.step, steps.from, steps.to);
+    return Fail(place, "a 'step' of {} cannot lead from {} to {}", steps.step, steps.from, steps.to);
   }
   if (!(whole_steps < static_cast<double>(most))) {
     return Fail(place, "the range has more than {} values", most);
@@ -70,14 +70,18 @@ FieldTable<RangeWords> RangeFields(std::size_t most) {
   using Key = Field<RangeWords>;
   return {
       {Key::Number("from", &RangeWords::from, {}, "The first value.").WhenAbsent(""),
-       Key::Number("to", &RangeWords::to, {}, "The last value; with `step`, no value goes beyond it.").WhenAbsent(""),
+       Key::Number("to", &RangeWords::to, {},
+                   "The last value. With `step`, the range ends at or before this "
+                   "value.")
+           .WhenAbsent(""),
        Key::Number("step", &RangeWords::step, {}, "Difference between successive values.")
            .And("not 0")
            .WhenAbsent("(from `count`)"),
        Key::Number("count", &RangeWords::count, {2, static_cast<double>(most)}, "Number of values from `from` to `to`.")
            .WhenAbsent("(from `step`)"),
        Key::Name("scale", &RangeWords::is_logarithmic, {{"linear", false}, {"log", true}},
-                 "linear: equal differences; log: equal ratios, only with `count`.")}};
+                 "linear: successive values have equal differences; log: successive values have equal ratios. `log` "
+                 "needs `count`.")}};
 }
 
 Result<std::vector<Node>> SweptValues(const Node::Entry& swept, std::size_t most) {
@@ -98,7 +102,7 @@ Result<std::vector<Node>> SweptValues(const Node::Entry& swept, std::size_t most
   // The values are given as a list.
   if (value.kind != Node::Kind::kSequence || value.items.empty()) {
     return Fail(value.place,
-                "'{}' needs a list of values to sweep over, or a range such as {{from: 5, to: 20, step: 5}}, "
+                "the swept parameter '{}' needs a list of values or a range such as {{from: 5, to: 20, step: 5}}, "
                 "found {}",
                 swept.key, Describe(value));
   }
@@ -152,7 +156,7 @@ Result<Axis> ReadAxis(const std::vector<Node::Entry>& parameters) {
     if (axis.empty()) axis.resize(values.size());
     if (axis.size() != values.size()) {
       return Fail(parameter.value.place,
-                  "'{}' and '{}' are stepped together; they need equally many values, found {} and {}",
+                  "'{}' and '{}' change together, so they need equal numbers of values, found {} and {}",
                   parameters.front().key, parameter.key, axis.size(), values.size());
     }
     for (std::size_t i = 0; i < axis.size(); ++i) axis[i].push_back({parameter.key, parameter.place, values[i]});
@@ -178,8 +182,8 @@ Result<std::vector<Node>> ReadGroups(const Node& together) {
   for (const Node& group : groups) {
     if (group.kind == Node::Kind::kMapping && group.entries.size() >= 2) continue;
     return Fail(group.place,
-                "'together' needs at least two parameters with equally many values, such as {{noise: [1, 2], turn_deg: "
-                "[0, 60]}}, found {}",
+                "'together' needs at least two parameters with equal numbers of values, such as {{noise: [1, 2], "
+                "turn_deg: [0, 60]}}, found {}",
                 group.kind == Node::Kind::kMapping ? "fewer" : Describe(group));
   }
   return groups;
@@ -189,7 +193,7 @@ Result<std::vector<Node>> ReadGroups(const Node& together) {
 Result<void> CheckParameter(const Node::Entry& parameter, const TaskKind& kind, bool in_group) {
   for (const KeyInfo& common : CommonScenarioKeys()) {
     if (common.key != parameter.key) continue;
-    return Fail(parameter.place, "'{}' cannot be swept; only a task's parameters can", parameter.key);
+    return Fail(parameter.place, "'{}' cannot be swept; allowed: only parameters of the task", parameter.key);
   }
   std::vector<std::string> known;
   for (const KeyInfo& key : kind.condition_keys) known.push_back(key.key);
@@ -200,7 +204,10 @@ Result<void> CheckParameter(const Node::Entry& parameter, const TaskKind& kind, 
 
 Result<std::vector<Axis>> ReadAxes(const Node& sweep, const TaskKind& kind) {
   if (sweep.kind != Node::Kind::kMapping) {
-    return Fail(sweep.place, "'sweep' must map parameters to lists or ranges of values, found {}", Describe(sweep));
+    return Fail(sweep.place,
+                "'sweep' must be a mapping from parameters to lists or ranges of values, found "
+                "{}",
+                Describe(sweep));
   }
   std::vector<Axis> axes;
   std::vector<std::string> seen;
@@ -250,8 +257,9 @@ std::vector<Condition> ReadSweep(Fields& fields, const TaskKind& kind) {
       fields.Complain(sweep->place,
                       count > kMaxConditions
                           ? fmt::format("the sweep has more than {} conditions", kMaxConditions)
-                          : fmt::format("{} conditions, each with {} values; allowed: at most {} values in all", count,
-                                        values, kMaxFileValues));
+                          : fmt::format("found {} conditions, each with {} values; allowed: at most {} values in all "
+                                        "conditions together",
+                                        count, values, kMaxFileValues));
       return conditions;
     }
     // Combine every condition so far with every point of this axis.

@@ -194,12 +194,18 @@ Result<std::vector<double>> ReadBeats(std::string_view text, const std::string& 
     if (line.empty() || line.front() == '#') continue;
     // Read the line's time, and compare it with the time of the previous beat.
     const auto moment = NumberAtFront(line);
-    if (!moment) return Fail({file, number, 1}, "a beat is a number of seconds, found {}", Quote(line.substr(0, 40)));
-    if (*moment < 0) return Fail({file, number, 1}, "found a beat at {} s; allowed: 0 or later", *moment);
+    if (!moment)
+      return Fail({file, number, 1},
+                  "each line must contain the time of a beat in seconds, found "
+                  "{}",
+                  Quote(line.substr(0, 40)));
+    if (*moment < 0) return Fail({file, number, 1}, "found a beat at {} s; allowed: 0 s or later", *moment);
     const double step = beats.empty() ? kMinBeatSeconds : *moment - beats.back();
     if (step < kMinBeatSeconds - 1e-9 || step > kMaxBeatSeconds) {
-      return Fail({file, number, 1}, "a beat at {} s, {:.3f} s after the one before; allowed: {} to {}", *moment, step,
-                  kMinBeatSeconds, kMaxBeatSeconds);
+      return Fail({file, number, 1},
+                  "found a beat at {} s, {:.3f} s after the previous beat; allowed: {} to {} "
+                  "s",
+                  *moment, step, kMinBeatSeconds, kMaxBeatSeconds);
     }
     beats.push_back(*moment);
     if (beats.size() > kMaxBeats) return Fail({file, number, 1}, "more than {} beats", kMaxBeats);
@@ -219,7 +225,7 @@ Result<Dance> ToBeats(Dance dance, const std::vector<double>& beats_s) {
   const double beats_per_s = dance.tempo_bpm / 60;
   const double last = static_cast<double>(dance.motion.poses.size() - 1) / kJudgedRateHz * beats_per_s;
   if (last > static_cast<double>(beats_s.size() - 1)) {
-    return Fail({}, "{} beats, but '{}' needs {:.0f}", beats_s.size(), dance.title, std::ceil(last) + 1);
+    return Fail({}, "found {} beats, but '{}' needs {:.0f}", beats_s.size(), dance.title, std::ceil(last) + 1);
   }
   for (MusicTag& tag : dance.tags) tag.music_s = MomentOf(tag.music_s * beats_per_s, beats_s);
   dance.beats_s = beats_s;

@@ -75,7 +75,7 @@ Result<void> CheckList(const Node& list, std::string_view name) {
     return Fail(list.place, "'{}' must be a list of at least one pose, found {}", name, Describe(list));
   }
   if (list.items.size() > kMaxPoses) {
-    return Fail(list.place, "{} {}; allowed: at most {}", list.items.size(), name, kMaxPoses);
+    return Fail(list.place, "found {} {}; allowed: at most {}", list.items.size(), name, kMaxPoses);
   }
   return {};
 }
@@ -85,8 +85,9 @@ double ReadBeat(Fields& pose, double beats) {
   const auto beat = pose.OptionalNumber("beat", {0, beats});
   if (!beat && pose.ok()) pose.Complain(pose.node().place, "a pose needs a 'beat'");
   if (beat && *beat >= beats) {
-    pose.Complain(pose.node().place,
-                  fmt::format("beat {} belongs to the next loop; allowed: 0 to below {}", *beat, beats));
+    pose.Complain(
+        pose.node().place,
+        fmt::format("beat {} is at or after the end of the loop; allowed: at least 0 and below {}", *beat, beats));
   }
   return beat.value_or(0);
 }
@@ -130,10 +131,13 @@ Result<std::vector<PoseKey>> ReadPoses(const Node& poses, double beats) {
     const Controls controls = ReadControls(pose);
     // Check that the pose comes after the previous pose and is held within the loop.
     if (!keys.empty() && beat <= keys.back().beat) {
-      pose.Complain(item.place, fmt::format("beat {} is too early: the previous pose lasts until beat {}",
-                                            beat, keys.back().beat));
+      pose.Complain(item.place, fmt::format("beat {} is too early, because the previous pose lasts until beat {}", beat,
+                                            keys.back().beat));
     }
-    if (beat + hold >= beats) pose.Complain(item.place, fmt::format("the pose is held beyond beat {}", beats));
+    if (beat + hold >= beats)
+      pose.Complain(item.place, fmt::format("the pose is held until beat {} or longer; it must "
+                                            "end earlier",
+                                            beats));
     RETURN_IF_ERROR(pose.Finish());
     // Write two keys for a held pose: at the start and at the end of the hold.
     keys.push_back({beat, controls, ease});
@@ -155,7 +159,7 @@ Result<std::vector<KeyPose>> ReadKeyPoses(const Node& key_poses, double beats) {
       const std::string_view name = FeatureName(feature);
       if (const Node* node = pose.Raw(name)) key_pose.targets.push_back(ReadTarget(pose, *node, name, tolerance_deg));
     }
-    if (key_pose.targets.empty()) pose.Complain(item.place, "a key pose needs at least one feature, e.g. 'RH: 90'");
+    if (key_pose.targets.empty()) pose.Complain(item.place, "a key pose needs at least one feature, such as 'RH: 90'");
     RETURN_IF_ERROR(pose.Finish());
     read.push_back(std::move(key_pose));
   }
@@ -179,10 +183,9 @@ void ReadTempoRange(Fields& fields, Move& move) {
   move.fastest_bpm = range.empty() ? move.tempo_bpm : range.back();
   if (range.empty()) return;
   if (range.size() != 2 || move.tempo_bpm < range[0] || move.tempo_bpm > range[1]) {
-    fields.Complain(
-        fields.Raw("tempo_range_bpm")->place,
-        fmt::format("'tempo_range_bpm' must be [slowest, fastest], and the move's tempo, {}, must lie between them",
-                    move.tempo_bpm));
+    fields.Complain(fields.Raw("tempo_range_bpm")->place,
+                    fmt::format("'tempo_range_bpm' must be [slowest, fastest] and contain the tempo of the move, {}",
+                                move.tempo_bpm));
   }
 }
 

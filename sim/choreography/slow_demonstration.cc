@@ -68,8 +68,8 @@ Result<Move> SlowDemonstration(const Move& move) {
   std::vector<double> stops;
   for (const KeyPose& key_pose : move.key_poses) stops.push_back(key_pose.beat);
   std::ranges::sort(stops);
-  if (stops.empty()) return Fail({}, "'{}' has no key poses to demonstrate", move.name);
-  if (stops.front() <= 0) return Fail({}, "'{}' has a key pose at beat 0; allowed: after beat 0", move.name);
+  if (stops.empty()) return Fail({}, "'{}' has no key poses that could be demonstrated", move.name);
+  if (stops.front() <= 0) return Fail({}, "'{}' has a key pose at beat 0; allowed: key poses after beat 0", move.name);
   stops.erase(std::unique(stops.begin(), stops.end()), stops.end());
   const Pauses pauses(stops, move.beats);
 

@@ -65,8 +65,11 @@ Result<Move> MoveOf(const SongPart& part, double tempo_bpm, const Place& place) 
   if (!move) return move;
   const double danced_bpm = PaceOf(part) * tempo_bpm;
   if (danced_bpm < move->slowest_bpm || danced_bpm > move->fastest_bpm) {
-    return Fail(place, "'{}' at {} beats per minute; allowed: {} to {}{}", part.move, danced_bpm, move->slowest_bpm,
-                move->fastest_bpm, part.half_time ? "" : " ('half_time: true' halves it)");
+    return Fail(place,
+                "'{}' would be danced at {} beats per minute; allowed: {} to "
+                "{}{}",
+                part.move, danced_bpm, move->slowest_bpm, move->fastest_bpm,
+                part.half_time ? "" : " ('half_time: true' halves the tempo)");
   }
   return CurvesAtTempo(*move, danced_bpm, place);
 }
@@ -97,7 +100,7 @@ Result<std::vector<SongPart>> ReadParts(const Node& parts, double tempo_bpm, std
     // Check that the song up to this part is not too long.
     const double seconds = (beat + kLeadBeats) * 60 / tempo_bpm;
     if (seconds > kMaxSeconds) {
-      return Fail(item.place, "the song lasts {:.0f} s up to here; allowed: at most {}", seconds, kMaxSeconds);
+      return Fail(item.place, "with this part, the song lasts {:.0f} s; allowed: at most {} s", seconds, kMaxSeconds);
     }
     names.insert(part.move);
     read.push_back(std::move(part));

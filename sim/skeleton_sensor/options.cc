@@ -268,7 +268,7 @@ Result<SkeletonSensorOptions> ReadSensorFile(std::string_view text, const std::s
   ReadCorrelations(fields, options);
   // Check that the values are consistent.
   if (options.longest_episode < options.shortest_episode) {
-    fields.Complain(node.place, "'longest_episode' is less than 'shortest_episode'");
+    fields.Complain(node.place, "'longest_episode' must not be less than 'shortest_episode'");
   }
   RETURN_IF_ERROR(fields.Finish());
   return options;

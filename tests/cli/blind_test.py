@@ -78,12 +78,12 @@ class Blind(EtudeCase):
         twice = [self.answers(name, self.side_of("faded-one")) for name in ("Anna B.", "annab. ")]
         done = self.ends(2, "blind", self.key_file, *twice)
         self.assertIn("annab. .json: is a second file with answers of 'Anna B.' to the page", done.stderr)
-        self.assertIn("rater: ''; allowed: the rater's name", self.ends(2, "blind", self.key_file, self.answers(" ", ["left", "left"])).stderr)
+        self.assertIn("rater: the name is empty; needed: the rater's name", self.ends(2, "blind", self.key_file, self.answers(" ", ["left", "left"])).stderr)
 
     def test_a_damaged_file_is_one_line_with_its_place(self):
         for changed, words in [({"preferred": ["left", "up"]}, "ben.json: preferred[1]: 'up'; allowed"),
                                ({"preferred": ["left"]}, "'ben' gave 1 answers"),
-                               ({"page": "0"}, "'ben' answered the page 0, but its key is not given"),
+                               ({"page": "0"}, "'ben' answered the page 0, but the key of this page is not given"),
                                ({"version": 2}, "ben.json: version: 2; allowed: 1")]:
             done = self.ends(2, "blind", self.key_file, self.answers("ben", **{"preferred": ["left", "left"], **changed}))
             self.assertIn(words, done.stderr)

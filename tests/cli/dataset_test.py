@@ -166,12 +166,12 @@ class DataSets(EtudeCase):
         shutil.rmtree(self.out)
         for version in (3, "2", 0):
             (old / "manifest.json").write_text(json.dumps({**manifest, "data_set": version}))
-            self.assertIn(f"a data set of version {json.dumps(version)}; allowed: 1 to 2",
+            self.assertIn(f"found a data set of version {json.dumps(version)}; allowed: versions 1 to 2",
                           self.score(old, answers, "--alone", code=2))
 
     def test_a_method_needs_a_name_of_its_own(self):
         data, answers = self.exported()
-        self.assertIn("has a method named 'fixed' already", self.score(data, answers, "--name", "fixed", code=2))
+        self.assertIn("already has a method with the name 'fixed'", self.score(data, answers, "--name", "fixed", code=2))
         self.assertIn("'a/b' is not a valid method name", self.score(data, answers, "--name", "a/b", code=2))
 
     def test_a_missing_answer_may_be_a_failure_instead(self):

@@ -27,7 +27,7 @@ class Errors(EtudeCase):
         self.refuses("run", "no/such.yaml", "-o", self.out, says=["no/such.yaml: no such scenario file or folder"])
         self.refuses("run", self.folder, "-o", self.out, says=["contains no scenario (*.yaml)"])
         self.refuses("report", self.folder / "nothing", says=["nothing: no such folder"])
-        self.refuses("report", self.folder, says=[f"{self.folder}: is not a run, because it contains no manifest.json, which etude run writes"])
+        self.refuses("report", self.folder, says=[f"{self.folder}: is not a run, because it contains no manifest.json; 'etude run' writes this file"])
 
     def test_yaml_that_is_none(self):
         self.refuses_scenario(IK + "clips: [a, b\n", says=[":10:1: not valid YAML"])
@@ -54,7 +54,7 @@ class Errors(EtudeCase):
     def test_more_cells_than_memory_holds(self):
         many = IK.replace("[2, 5]", "[1, 2, 3, 4, 5, 6]")
         self.refuses("run", self.write("s.yaml", many), "--trials", "1000000", "-o", self.out,
-                     says=["6 conditions × 2 methods × 1000000 trials make more than 10000000 cells"])
+                     says=["with this scenario (6 conditions × 2 methods × 1000000 trials), the run has more than 10000000 cells"])
 
     def test_a_manifest_of_nothing_or_of_too_much(self):
         whole = self.folder / "whole"
@@ -66,10 +66,10 @@ class Errors(EtudeCase):
                          says=["m.json: 'trials' must be a whole number from 1 to 10000000, found " + json.dumps(trials)])
         manifest["scenarios"][0]["trials"] = 10_000_000
         self.refuses("run", "--from", self.write("m.json", json.dumps(manifest)), "-o", self.out,
-                     says=["makes more than 10000000 cells"])
+                     says=["the run has more than 10000000 cells"])
         manifest["scenarios"] = []
         self.refuses("run", "--from", self.write("m.json", json.dumps(manifest)), "-o", self.out,
-                     says=["m.json: names no scenario"])
+                     says=["m.json: contains no scenario"])
 
     def test_names_that_are_no_text(self):
         odd = os.fsencode(self.folder) + b"/caf\xe9"
@@ -138,7 +138,7 @@ class Errors(EtudeCase):
         path = self.write("s.yaml", IK)
         self.write("precious.txt", "mine")
         result = self.ends(2, "run", path, "-o", self.folder, "--overwrite")
-        self.assertIn("holds something that is not part of a run", result.stderr)
+        self.assertIn("which is not a part of a run", result.stderr)
         self.assertEqual((self.folder / "precious.txt").read_text(), "mine")
 
 

@@ -366,7 +366,7 @@ class Evaluate(EtudeCase):
     def test_a_heading_without_truth_is_refused_with_its_columns(self):
         table = self.write("pairs.csv", f"Truth,mine\n{self.shared}/clap.npz,{self.shared}/clap.bvh\n")
         self.refusal("evaluate", "--pairs", table, "-o", self.out,
-                     says=["has no column 'truth'; its columns are Truth, mine"])
+                     says=["has no column 'truth'; found the columns Truth, mine"])
 
     def test_markers_of_no_known_set_are_compared_by_their_names(self):
         odd = trc([f"Q{j}" for j in range(len(self.names))], self.frames, 30)
@@ -461,12 +461,12 @@ class Evaluate(EtudeCase):
                 (["evaluate", a, a, "--music-beats", self.write("b.txt", "2\n1\n"), "-o", self.out], "b.txt:2"),
                 (["evaluate", a, a, "--metric", "mpjpe"], "unknown metric of task evaluation 'mpjpe'"),
                 (["evaluate", "--pairs", self.write("p.csv", "truth\n"), "-o", self.out], "has no column for a method"),
-                (["export", scenario, "-o", self.out], "there are no problems to export"),
-                (["score", scenario, self.folder, "--name", "x", "-o", self.out], "there are no problems to export"),
-                (["run", scenario, "--seed-file", keys], "uses no random numbers, because it judges files"),
-                (["run", outside], "task evaluation takes no programs, so 'exec' is not allowed"),
+                (["export", scenario, "-o", self.out], "so it has no problems to export"),
+                (["score", scenario, self.folder, "--name", "x", "-o", self.out], "so it has no problems to export"),
+                (["run", scenario, "--seed-file", keys], "judges files and uses no random numbers"),
+                (["run", outside], "'exec' is not allowed in task evaluation, because this task runs no programs"),
                 (["check-method", "--task", "evaluation", "--", "python3", self.write("x.py", "")],
-                 "task evaluation takes no programs\n")]:
+                 "task evaluation runs no programs\n")]:
             with self.subTest(words=words, command=arguments[0]):
                 told = self.etude(*arguments)
                 self.assertEqual(told.returncode, 2, told.stdout + told.stderr)

@@ -593,7 +593,7 @@ class Formats(MotionFileCase):
         self.assertEqual(len(setup["clips"]), 2)
         alone = self.ends(2, "run", self.scenario(), "-o", self.folder / "no", "--clips", self.folder / "broken.bvh",
                           "--skip-refused")
-        self.assertIn("no clip can be read (1 tried); the first: ", alone.stderr)
+        self.assertIn("none of 1 clips can be read; the first: ", alone.stderr)
 
 
 if __name__ == "__main__":

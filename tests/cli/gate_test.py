@@ -144,7 +144,7 @@ class Gate(EtudeCase):
             self.assertNotEqual(edited, whole)
             self.baseline.write_text(edited)
             told = self.gate(self.out, "--baseline", self.baseline, expect=2)
-            self.assertIn(f"{self.baseline}: was changed after gate --update wrote it: its seal does not match", told)
+            self.assertIn(f"{self.baseline}: the seal does not match, so this baseline was changed after gate --update wrote it", told)
             told = self.gate(self.out, "--baseline", self.baseline, "--unsealed", expect=0)
             self.assertIn("etude: read unsealed: ", told)
         # A baseline without its seal is refused. A baseline of an older schema has no seal, and is read only with
@@ -152,7 +152,7 @@ class Gate(EtudeCase):
         self.baseline.write_text(re.sub(r',\n"seal":"\w+"', "", whole))
         self.assertIn("a baseline of schema 2 lacks its 'seal'", self.gate(self.out, "--baseline", self.baseline, expect=2))
         self.baseline.write_text(re.sub(r',\n"seal":"\w+"', "", whole).replace('"schema":2', '"schema":1'))
-        self.assertIn("has no seal because an older version wrote it", self.gate(self.out, "--baseline", self.baseline, expect=2))
+        self.assertIn("an older version of etude wrote this baseline without a seal", self.gate(self.out, "--baseline", self.baseline, expect=2))
         self.gate(self.out, "--baseline", self.baseline, "--unsealed", expect=0)
         self.gate(self.out, "--baseline", self.baseline, "--update", expect=0)
         self.assertEqual(self.baseline.read_text(), whole)
@@ -182,7 +182,7 @@ class Gate(EtudeCase):
         self.assertEqual(ran.returncode, 1, ran.stderr)
         self.assertIn("24 × failed: ended with exit code 1; its last words: 'ValueError", ran.stdout)
         text = self.gate(self.now, expect=1)
-        self.assertIn("ik: none of the 24 cells of own is ok or unsolved; the first has ik/joint_noise_deg=2/000/own; 24 × "
+        self.assertIn("ik: none of the 24 cells of own has the status ok or unsolved; the first cell is ik/joint_noise_deg=2/000/own; 24 × "
                       "failed: ended with exit code 1; its last words: 'ValueError: math domain error'", text)
         self.assertIn("Gate: regression", text)
         self.assertIn("none of the 24", (self.now / "report" / "gate.md").read_text())
@@ -251,7 +251,7 @@ class Gate(EtudeCase):
         cells.write_text("".join(lines))
         self.gate(self.out, "--baseline", self.baseline, expect=0)
         (self.out / "journal.jsonl").write_text("")
-        self.assertIn("the run was not finished, or is still running (journal.jsonl exists)", self.gate(self.out, "--baseline", self.baseline, expect=3))
+        self.assertIn("the run was interrupted or is still running, because the file journal.jsonl exists", self.gate(self.out, "--baseline", self.baseline, expect=3))
 
     def test_cells_ended_by_the_machine_are_no_regression(self):
         self.make_baseline()
@@ -260,7 +260,7 @@ class Gate(EtudeCase):
         rows[5].update(status="timeout", reason="300 s")
         cells.write_text("".join(json.dumps(row) + "\n" for row in rows))
         text = self.gate(self.out, "--baseline", self.baseline, "--unsealed", expect=3)
-        self.assertIn("1 × the status timeout, which depends on the machine", text)
+        self.assertIn("1 × status timeout, a status that depends on the machine", text)
         self.assertNotIn("worse", text)
 
     def test_bad_input_is_told_in_one_line(self):

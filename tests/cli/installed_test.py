@@ -47,11 +47,11 @@ class Installed(EtudeCase):
         (empty / "quick" / "notes.txt").touch()
         told = run("run", "quick", "--dry-run")
         self.assertEqual(told.returncode, 0, told.stderr)
-        self.assertEqual("etude: quick: this folder contains no scenario (*.yaml); etude's own scenario of that name is used\n",
+        self.assertEqual("etude: quick: this folder contains no scenario (*.yaml), so etude uses its own scenario with this name\n",
                          told.stderr)
         self.assertEqual(run("scenario", "copy", SUITE, "quick").returncode, 0)
         wins = run("run", "quick", "--trials", 6, "-o", "mine")
-        self.assertIn("quick: this file or folder is used, not etude's own scenario of that name", wins.stderr)
+        self.assertIn("quick: etude uses this file or folder instead of its own scenario with the same name", wins.stderr)
         twice = run("scenario", "copy", SUITE, "quick")
         self.assertEqual(twice.returncode, 2)
         self.assertIn("already exists; nothing was copied", twice.stderr)

@@ -145,7 +145,7 @@ class Machine(EtudeCase):
             ("TMPDIR is not there", self.outside, "not a folder for temporary files", {"environment": {"TMPDIR": "/nonexistent"}}),
             ("TMPDIR is a file", self.outside, "not a folder for temporary files",
              {"environment": {"TMPDIR": str(self.folder / "file")}}),
-            ("TMPDIR cannot be written", self.outside, "TMPDIR=/proc: no temporary files can be made in this folder",
+            ("TMPDIR cannot be written", self.outside, "TMPDIR=/proc: cannot create temporary files in this folder",
              {"environment": {"TMPDIR": "/proc"}}),
             ("TMPDIR is relative", self.outside, "begins with /", {"environment": {"TMPDIR": "relative"}, "cwd": self.folder}),
             ("TMPDIR is full", self.outside, "File too large", {"before": limit(resource.RLIMIT_FSIZE, 0)}),
@@ -153,7 +153,7 @@ class Machine(EtudeCase):
              {"before": limit(resource.RLIMIT_NPROC, 1), **nobody}),
             ("few files", self.outside, "Too many open files", {"before": limit(resource.RLIMIT_NOFILE, 8)}),
             ("little address space", self.outside, "", {"before": limit(resource.RLIMIT_AS, self.least_space())}),
-            ("little address space to draw in", self.capture, "drawing is impossible: ", {"before": limit(resource.RLIMIT_AS, 256 * MB)}),
+            ("little address space to draw in", self.capture, "cannot render: ", {"before": limit(resource.RLIMIT_AS, 256 * MB)}),
             ("no renderer", self.capture, "EGL cannot be loaded",
              {"wrapped": ["bwrap", "--dev-bind", "/", "/",
                           *(word for library in LIBRARIES for word in ("--ro-bind", "/dev/null", os.path.realpath(library)))]}),
@@ -223,7 +223,7 @@ class Machine(EtudeCase):
         held = self.run_here(scenario, "-o", self.out, "--overwrite", wrapped=[
             "strace", "-f", "-o", "/dev/null", "-e", "trace=flock", "-e", "inject=flock:error=EAGAIN"])
         self.assertEqual(held.returncode, 2)
-        self.assertIn("another run is writing into it", held.stderr)
+        self.assertIn("another run is writing into this folder", held.stderr)
 
     def test_nobody_but_a_run_locks_its_folder(self):
         """A method that sees another run's folder could lock every file that it can open there."""
@@ -239,7 +239,7 @@ class Machine(EtudeCase):
         first.wait()
         self.assertEqual(seen.stdout, "")
         self.assertEqual(held.returncode, 2)
-        self.assertIn("another run is writing into it", held.stderr)
+        self.assertIn("another run is writing into this folder", held.stderr)
 
     def test_a_kill_of_anybody_leaves_nobody(self):
         dice = random.Random(1)

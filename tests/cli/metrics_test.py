@@ -299,11 +299,11 @@ class OwnMetrics(EtudeCase):
                               (f"[{{name: a, {program}, files: [nowhere]}}]", "'files' of metric 'a': 'nowhere'")):
             self.refused(HEAD + f"metrics: {metrics}\n", says, "refused.yaml")
         self.refused(f"scenario: s\nquestion: why\ntask: pose-distance\nmethods: [{{name: a}}]\nmetrics: [{{name: a, {program}}}]\n",
-                     "a scenario of task pose-distance cannot define metrics of its own, because its cells keep no motion")
+                     "a scenario of task pose-distance cannot define its own metrics, because cells of this task keep no motion")
         self.refused("defaults: {task: ik, methods: [{name: a}]}\nscenarios:\n"
                      f"  - {{scenario: x, question: why, metrics: [{{name: twice, {program}}}]}}\n"
                      f"  - {{scenario: y, question: why, metrics: [{{name: twice, {program}, unit: mm}}]}}\n",
-                     "the metric 'twice' is defined in two ways: unit '' and 'mm'", "refused.yaml:4:")
+                     "the metric 'twice' has two different definitions: unit '' and 'mm'", "refused.yaml:4:")
 
     def test_expectations_and_gates_go_by_it(self):
         gate = self.ends(1, "gate", self.whole)

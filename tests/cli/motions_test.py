@@ -109,13 +109,13 @@ class Motions(MotionFileCase):
         self.run_suite("--from", self.out / "manifest.json", out=self.folder / "again")
 
     def test_what_no_run_recorded_is_told(self):
-        self.assertIn("recorded no cell 'capture/-/007'", self.refusal("clip", "info", f"{self.run_folder}#capture/-/007@truth"))
+        self.assertIn("has no recording of the cell 'capture/-/007'", self.refusal("clip", "info", f"{self.run_folder}#capture/-/007@truth"))
         self.assertIn("animation 'nobody'", self.refusal("clip", "info", f"{self.run_folder}#capture/-/000/a@nobody"))
 
     def test_a_recording_that_names_no_joints_is_refused_with_the_reason(self):
         recording = self.recorded("capture/-/000/a")
         old = self.write("old.json", json.dumps({key: recording[key] for key in ("tracks", "extras")}, separators=(",", ":")))
-        self.assertIn("a recording of version 1, which does not name its joints", self.refusal("clip", "info", old))
+        self.assertIn("a recording of version 1, which does not list its joints", self.refusal("clip", "info", old))
         recording["joints"][:2] = reversed(recording["joints"][:2])
         turned = self.write("turned.json", json.dumps(recording, separators=(",", ":")))
         self.assertIn("'joints': ", self.refusal("clip", "info", turned))

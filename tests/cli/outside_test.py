@@ -120,7 +120,7 @@ class OutsideMethods(EtudeCase):
                       ["run", "--dry-run", "--from", self.out / "manifest.json"],
                       ["replay", self.out, "--sample", "1"], ["replay", pack]):
             self.refusal(*words, leaves=mark,
-                         says=f"would run programs, which needs --allow-exec: {program} --fast (ik/mine)")
+                         says=f"a run would start programs, but --allow-exec is missing: {program} --fast (ik/mine)")
         self.ends(0, "replay", pack, "--allow-exec", "--no-fence")
         self.assertTrue(mark.exists())
         self.assertIn("its last words: 'out of luck'", (self.out / "cells.jsonl").read_text())
@@ -156,8 +156,8 @@ class OutsideMethods(EtudeCase):
         for command, code, words in [
                 ([EXAMPLES / "ik_dls.py"], 0, "9 of 9 checks passed"),
                 ([HOSTILE, "crashes"], 1, "FAILED  gives answers that can be scored: crashed: ended with signal 11"),
-                ([self.radians()], 1, "FAILED  solves the problems that a simple method solves: solves none of 3 problems; damped-least-squares "
-                 "solves 3; read as radians, its angles solve 3, but angles must be in degrees"),
+                ([self.radians()], 1, "FAILED  solves the problems that a simple method solves: the program solves none of 3 problems; the built-in method damped-least-squares "
+                 "solves 3; if its angles are read as radians, they solve 3, so convert the angles to degrees"),
                 ([HOSTILE, "answers_twice", json.dumps({"angles_deg": [0] * 29})], 1, "FAILED  answers every question once")]:
             result = self.etude("check-method", "--task", "ik", "--", "python3", *command)
             self.assertEqual(result.returncode, code, result.stdout + result.stderr)

@@ -83,13 +83,13 @@ metrics: [position_error_cm, {{name: rate, exec: [python3, {self.folder}/ours/me
                 self.write(name, text)
                 said = self.run_shard(2, "--resume")
                 self.assertEqual(said.returncode, 2)
-                self.assertIn("ran other versions of outside programs: ", said.stderr)
+                self.assertIn("this run used other versions of outside programs: ", said.stderr)
                 self.assertIn(words, said.stderr)
-                self.assertIn("--overwrite replaces it", said.stderr)
+                self.assertIn("--overwrite replaces the old run", said.stderr)
                 self.assertEqual(self.run_shard(2, "--overwrite").returncode, 0)
                 mixed = self.folder / "mixed"
                 self.refusal("merge", *self.shards, "-o", mixed, leaves=mixed,
-                             says=[f"{self.shards[1]}: ran other versions of outside programs than the shards before: ", words])
+                             says=[f"{self.shards[1]}: used different versions of outside programs than the shards before it: ", words])
                 again = self.folder / "again"
                 self.refusal("run", "--from", self.out / "manifest.json", "-o", again, "--allow-exec", "--no-fence",
                              leaves=again, says=[words, "run its scenario instead"])
@@ -126,7 +126,7 @@ metrics: [position_error_cm, {{name: rate, exec: [python3, {self.folder}/ours/me
         self.ends(0, "merge", *self.shards, "-o", self.out)
         for folder in (*self.shards, self.out):
             self.forget_programs(folder)
-        reason = "the etude that wrote it did not record them"
+        reason = "the etude of that run did not record the versions"
         self.refusal("merge", *self.shards, "-o", self.folder / "mixed", says=reason, leaves=self.folder / "mixed")
         said = self.run_shard(2, "--resume")
         self.assertEqual(said.returncode, 2)
@@ -134,7 +134,7 @@ metrics: [position_error_cm, {{name: rate, exec: [python3, {self.folder}/ours/me
         self.refusal("run", "--from", self.out / "manifest.json", "-o", self.folder / "again", "--allow-exec",
                      "--no-fence", says=reason, leaves=self.folder / "again")
         read = self.etude("verify", self.out, "--allow-exec", "--no-fence").stdout
-        self.assertIn("except the versions of its programs, which the etude that wrote it did not record", read)
+        self.assertIn("except the versions of its programs, which the etude of that run did not record", read)
         self.assertNotIn("differs  manifest.json", read)
 
     def test_every_kind_of_program_is_named(self):
@@ -193,7 +193,7 @@ metrics: [position_error_cm, {{name: rate, exec: [python3, {self.folder}/ours/me
         self.assertEqual(said.returncode, 2)
         self.assertRegex(said.stderr, rf'belongs to another run: .*suite\.yaml, line {line}, was "?…".*/ours/solver\.py\]}}" '
                                       rf'and is …".*/ours/solver\.py\], files: \[')
-        self.assertIn("; only the same run can be resumed; --overwrite replaces it, -o chooses another folder", said.stderr)
+        self.assertIn("; --resume continues only the same run; --overwrite replaces the old run, -o chooses another folder", said.stderr)
         self.assertNotIn("scenarios[0].digest", said.stderr)
         self.assertEqual(self.run_shard(1, "--overwrite").returncode, 0)
         self.assertTrue((first / "host.json").exists())
@@ -202,7 +202,7 @@ metrics: [position_error_cm, {{name: rate, exec: [python3, {self.folder}/ours/me
         self.assertEqual(self.run_shard(1).returncode, 0)
         said = self.run_shard(1)
         self.assertEqual(said.returncode, 2)
-        self.assertIn("already holds the finished shard 1/2; etude merge makes one run of all shards, --overwrite", said.stderr)
+        self.assertIn("already contains the finished shard 1/2; 'etude merge' makes one run of all shards, --overwrite", said.stderr)
 
 
 if __name__ == "__main__":

@@ -158,7 +158,7 @@ class Recognise(EtudeCase):
         self.assertEqual((scores["people"], scores["performances"]), (3, 6))
         self.assertEqual((scores["accuracy"], scores["nearest_accuracy"]), (1, 1))
         unnamed = self.write("unnamed.csv", labels.replace(",person\n", "\n").replace(",anna\n", "\n"))
-        self.assertIn("the person of anna is unknown", self.refusal("recognise", folder, "--labels", unnamed,
+        self.assertIn("the person in the recording anna is unknown", self.refusal("recognise", folder, "--labels", unnamed,
                                                               "--leave-one-person-out"))
 
     def test_odd_recordings_give_a_result_or_one_line(self):

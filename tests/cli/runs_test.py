@@ -92,8 +92,8 @@ methods: [{name: hue}]
         first.send_signal(signal.SIGTERM)
         self.assertEqual(first.wait(timeout=600), 130)
         self.assertEqual(second.returncode, 2)
-        self.assertIn("another run is writing into it", second.stderr)
-        self.assertIn("this run was not finished, is still running, or is a shard", self.ends(2, "report", self.out).stderr)
+        self.assertIn("another run is writing into this folder", second.stderr)
+        self.assertIn("this run was interrupted, is still running, or is a shard", self.ends(2, "report", self.out).stderr)
 
     def test_nobody_listening_does_not_end_a_run(self):
         path = self.write("ik.yaml", IK)
@@ -129,7 +129,7 @@ methods: [{name: hue}]
     def test_a_run_is_not_overwritten_unasked(self):
         path = self.write("ik.yaml", IK)
         self.run_suite(path)
-        self.assertIn("already holds a run", self.ends(2, "run", path, "-o", self.out).stderr)
+        self.assertIn("already contains a run", self.ends(2, "run", path, "-o", self.out).stderr)
         self.run_suite(path, "--overwrite")
 
     def test_rows_and_a_packed_cell_replace_no_file_unasked(self):

@@ -89,8 +89,8 @@ class Scenarios(EtudeCase):
         for paths in ([ik], [transition, ik]):
             refused = self.folder / "refused"
             result = self.ends(2, "run", *paths, *clips, "-o", refused)
-            self.assertEqual(result.stderr, f"etude: {ik}: cannot use --clips or --library: no task of its scenarios takes clips; "
-                             "a task that judges files takes them from the scenario's key 'truth'\n")
+            self.assertEqual(result.stderr, f"etude: {ik}: cannot use --clips or --library: no scenario has a task that takes clips; "
+                             "a task that judges files finds its files by the scenario's key 'truth'\n")
             self.assertFalse(refused.exists())
 
     def test_the_list_of_methods_says_what_goes_with_what(self):

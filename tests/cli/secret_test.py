@@ -77,7 +77,7 @@ class SecretWorlds(EtudeCase):
                                                     f"files: ['{script.parent}', '{EXAMPLE.parent}']}}\n")
         run = subprocess.run([ETUDE, "run", scenario, "-o", self.out], capture_output=True, text=True, timeout=120,
                              env={**os.environ, "ETUDE_SEED_KEY": KEY})
-        if "cannot be fenced" in run.stderr:
+        if "cannot run in a fence" in run.stderr:
             self.skipTest(run.stderr)
         self.assertEqual(run.returncode, 0, run.stderr)
         self.assertEqual(json.loads((self.out / "manifest.json").read_text())["seed"], "secret " + self.digest)
@@ -112,13 +112,13 @@ class SecretWorlds(EtudeCase):
         (self.folder / "plain").mkdir()
         self.run_suite(self.scenario, out=self.folder / "plain")
         resume = ["run", self.scenario, "-o", self.out, "--resume"]
-        self.assertIn("give its key again (--seed-file)", self.refuse(*resume))
+        self.assertIn("give the key again with --seed-file", self.refuse(*resume))
         self.assertIn('seed was "secret ' + self.digest[:8], self.refuse(*resume, "--seed-file", self.other))
         self.ends(0, *resume, "--seed-file", self.key)
         for command in (["replay", self.out], ["run", "--from", self.out / "manifest.json", "-o", self.folder / "from"]):
-            self.assertIn(f"its worlds are secret; give their key, whose digest is {self.digest[:16]}…",
+            self.assertIn(f"has secret worlds; give the key with the digest {self.digest[:16]}…",
                           self.refuse(*command))
-            self.assertIn("its worlds belong to the key with digest " + self.digest[:16],
+            self.assertIn("has secret worlds of the key with digest " + self.digest[:16],
                           self.refuse(*command, "--seed-file", self.other))
         replayed = self.etude("replay", self.out, "--seed-file", self.key)
         self.assertEqual(replayed.stdout, "8 of 8 cells are identical to the run\n", replayed.stderr)
@@ -126,7 +126,7 @@ class SecretWorlds(EtudeCase):
         cell = json.loads((self.out / "cells.jsonl").read_text().splitlines()[3])["cell"]
         pack = self.folder / "cell.pack"
         self.ends(0, "replay", self.out, "--cell", cell, "--pack", pack)
-        self.assertIn("its worlds are secret", self.refuse("replay", pack))
+        self.assertIn("has secret worlds", self.refuse("replay", pack))
         self.ends(0, "replay", pack, "--seed-file", self.key)
 
     def test_worlds_of_an_earlier_version_are_refused_with_the_reason(self):
@@ -135,7 +135,7 @@ class SecretWorlds(EtudeCase):
         self.assertIn('"secret_worlds":3', text.replace(" ", ""))
         for version, older in ((1, re.sub(r'"secret_worlds":\s*3,\s*', "", text)),
                                (2, re.sub(r'"secret_worlds":\s*3', '"secret_worlds":2', text))):
-            says = (f"its secret worlds are of version {version}, but this program makes version 3 "
+            says = (f"contains secret worlds of version {version}, but this program makes version 3 "
                     "(separate random numbers for each condition)")
             self.assertIn(says, self.refuse("run", "--from", self.write("older.json", older), "-o", self.folder / "from",
                                             "--seed-file", self.key))
@@ -165,7 +165,7 @@ class SecretWorlds(EtudeCase):
             self.ends(0, "gate", run, "--baseline", baseline, "--update", "--unsealed")
             gate = self.etude("gate", self.run_folder, "--baseline", baseline)
             self.assertEqual(gate.returncode, code, gate.stdout + gate.stderr)
-        self.assertIn("or another version of secret worlds", gate.stderr)
+        self.assertIn("or different versions of secret worlds", gate.stderr)
 
     def test_conditions_have_dice_of_their_own_that_hang_on_no_other(self):
         def truths(name, *seed):
@@ -197,7 +197,7 @@ class SecretWorlds(EtudeCase):
         self.run_suite(self.scenario, *asked)
         self.assertEqual([line["command"] for line in used()], ["run"])
         self.assertEqual(pathlib.Path(f"{key}.used").stat().st_mode & 0o777, 0o600)
-        says = f"own-key: was used before by 'etude run' of 'ik' into {self.out} ({key}.used:1), so its worlds may be known"
+        says = f"own-key: was used before: 'etude run' with 'ik' wrote into {self.out} ({key}.used:1), so the worlds of this key may be known"
         again = self.folder / "again"
         for command in (["run", self.scenario, "-o", again], ["export", self.scenario, "-o", again],
                         ["run", self.scenario, "-o", again, "--resume"], ["run", self.scenario, "-o", again, "--shard", "1/2"],
@@ -225,7 +225,7 @@ class SecretWorlds(EtudeCase):
     def test_a_key_that_a_program_could_read_is_refused_or_hidden(self):
         key, _ = self.key_of_its_own()
         os.link(key, self.folder / "innocent")
-        self.assertIn("has another name (a hard link)", self.refuse("run", self.scenario, "-o", self.out, "--seed-file", key))
+        self.assertIn("has a second name (a hard link)", self.refuse("run", self.scenario, "-o", self.out, "--seed-file", key))
         self.assertFalse(self.out.exists())
 
     def test_what_goes_on_is_a_run_that_the_list_tells_of(self):
@@ -286,7 +286,7 @@ class SecretWorlds(EtudeCase):
             self.assertEqual(done.returncode, 0, done.stderr)
         self.assertIn("was used before", shard(2, key, "-o", self.folder / "second").stderr)
         shard(2, self.other, "--reuse-key", "-o", self.folder / "foreign")
-        self.assertIn("is a shard of a different run", self.refuse("merge", self.folder / "1", self.folder / "foreign", "-o", self.out,
+        self.assertIn("belongs to a different run", self.refuse("merge", self.folder / "1", self.folder / "foreign", "-o", self.out,
                                                                "--seed-file", self.key))
         self.ends(0, "merge", self.folder / "1", self.folder / "2", "-o", self.out, "--seed-file", self.key)
         self.assert_same_results(self.run_folder, self.out)
@@ -307,8 +307,8 @@ class SecretWorlds(EtudeCase):
         self.assertEqual(index, sorted(index))
         self.assertTrue(all(re.match("ik,ik,[^,]*,,,", line) for line in index), index)
         score = ["score", data, answers, "-o", self.out, "--alone"]
-        self.assertIn("its worlds are secret", self.refuse(*score))
-        self.assertIn("its worlds belong to the key", self.refuse(*score, "--seed-file", self.other))
+        self.assertIn("has secret worlds", self.refuse(*score))
+        self.assertIn("has secret worlds of the key", self.refuse(*score, "--seed-file", self.other))
         self.ends(0, *score, "--seed-file", self.key)
         for line in (self.out / "cells.jsonl").read_text().splitlines():
             self.assertLess(json.loads(line)["hidden_angle_error_deg"], 1e-9)
@@ -319,8 +319,8 @@ class SecretWorlds(EtudeCase):
         scenario.write_text(ik_scenario(trials=1) + MINE)
         self.run_suite(scenario)
         self.run_suite(scenario, "--seed-file", self.key, "--reuse-key", "--no-fence", out=self.folder / "unfenced")
-        for folder, says in ((self.out, "seed 1, open worlds"), (self.run_folder, f"secret worlds, key {self.digest[:16]}…, other worlds under every condition"),
-                             (self.folder / "unfenced", f"secret worlds, key {self.digest[:16]}…, other worlds under every condition, programs ran without a fence")):
+        for folder, says in ((self.out, "seed 1, open worlds"), (self.run_folder, f"secret worlds, key {self.digest[:16]}…, different worlds under each condition"),
+                             (self.folder / "unfenced", f"secret worlds, key {self.digest[:16]}…, different worlds under each condition, programs ran without a fence")):
             self.ends(0, "report", folder, "--no-video")
             self.assertIn(f"<dd>{says}</dd>", (folder / "report" / "index.html").read_text())
             self.assertIn(says + ".\n", self.etude("compare", folder, folder).stdout)
@@ -330,12 +330,12 @@ class SecretWorlds(EtudeCase):
         shown = f"  - {{name: mine, exec: [python3, '{EXAMPLE}'], files: ['{EXAMPLE.parent}', '{self.folder}']}}\n"
         scenario.write_text(ik_scenario(trials=1) + shown)
         stderr = self.refuse("run", scenario, "-o", self.shared / "out", "--seed-file", self.key)
-        if "cannot be fenced" not in stderr:
+        if "cannot run in a fence" not in stderr:
             self.assertIn(f"method 'mine' could read '{self.folder}', which contains the scenario of the secret "
                           "worlds", stderr)
         self.assertFalse((self.shared / "out").exists())
         scenario.write_text(ik_scenario(trials=1) + MINE.replace("]}", "], files: [no-such-folder]}"))
-        self.assertIn("'no-such-folder' is not a file or folder", self.refuse("run", scenario, "-o", self.shared / "out"))
+        self.assertIn("'no-such-folder' does not exist", self.refuse("run", scenario, "-o", self.shared / "out"))
 
 
 if __name__ == "__main__":

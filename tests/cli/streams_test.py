@@ -69,7 +69,7 @@ class Streams(EtudeCase):
             self.assertEqual([example[:3] for example in one["taught"]["raise"]],
                              [[person, right, fault] for person in others for right, fault in ((True, ""), (False, "half"))])
             self.assertEqual([example[0] for example in one["taught"]["left"]], others)
-        self.assertIn("task ik takes no recordings",
+        self.assertIn("task ik uses no recordings",
                       self.etude("check-method", "--task", "ik", "--streams", takes, "--", "true").stderr)
 
     @heavy
@@ -158,12 +158,12 @@ class Streams(EtudeCase):
             return self.refusal("run", *arguments, "-o", self.out)
         self.assertIn("none: no such recording", refused(scenario, "--streams", "none"))
         self.assertIn("no such file", refused(scenario, "--streams", takes, "--labels", "none.csv"))
-        self.assertIn("no task of its scenarios makes worlds from recordings",
+        self.assertIn("no scenario has a task that makes worlds from recordings",
                       refused(self.write("ik.yaml", IK), "--streams", takes))
         noisy = self.write("noisy.yaml", SCENARIO + "noise: 2\n")
         self.assertIn("'noise' cannot be used here", refused(noisy, "--streams", takes, "--labels", labels))
         alone = self.write("alone.csv", "clip,from_s,to_s,move,truth,person\nanna,0,3,raise,right,anna\n")
-        self.assertIn("only anna was recorded; to leave one person out, two people are needed",
+        self.assertIn("anna is the only recorded person; needed: at least two people",
                       refused(scenario, "--streams", takes / "anna.txt", "--labels", alone))
         both = self.write("both.yaml", SCENARIO + f"streams: ['{takes}']\nclips: ['builtin:*']\n")
         self.assertIn("'streams' replaces 'clips'", refused(both))

@@ -100,7 +100,7 @@ class Survival(EtudeCase):
                                      (["--shard", "1/2"], "belongs to shard 1/1, not 1/2")):
             self.assertIn(complaint, self.ends(2, "run", self.scenario, "-o", self.out, "--resume", *arguments).stderr)
         unasked = self.ends(2, "run", self.scenario, "-o", self.out)
-        self.assertIn("already holds an unfinished run; --resume continues it", unasked.stderr)
+        self.assertIn("already contains an unfinished run; --resume continues it", unasked.stderr)
         self.resume()
         self.assert_same_results(self.whole, self.out)
 
@@ -126,7 +126,7 @@ class Survival(EtudeCase):
         folders = self.shards()
         name = self.change_a_library(folders[1])
         refused = self.ends(2, "merge", *folders, "-o", self.out)
-        self.assertRegex(refused.stderr, rf'ran with other libraries than the shards before: libraries\.{name} was "\w+" '
+        self.assertRegex(refused.stderr, rf'used different libraries than the shards before it: libraries\.{name} was "\w+" '
                                          r'and is "0123456789abcdef0123"; --other-libraries merges')
         self.assertFalse(self.out.exists())
         self.ends(0, "merge", *folders, "-o", self.out, "--other-libraries")
@@ -169,7 +169,7 @@ class Survival(EtudeCase):
         self.write("suite/ik.yaml", IK)
         self.etude("run", self.folder / "suite" / "ik.yaml", "--shard", "1/5", "-o", self.folder / "other")
         refused = self.ends(2, "merge", self.folder / "other", *shards[1:], "-o", self.folder / "none")
-        self.assertIn("is a shard of a different run", refused.stderr)
+        self.assertIn("belongs to a different run", refused.stderr)
 
     def test_shards_merge_to_the_same_bytes_in_any_order(self):
         folders = self.shards()
@@ -208,7 +208,7 @@ class Survival(EtudeCase):
         run.wait()
         self.ends(0, "run", self.scenario, "-o", two, "--shard", "2/2")
         early = self.ends(2, "merge", one, two, "-o", self.out)
-        self.assertRegex(early.stderr, r"not all 2 shards exist and are finished .*: shard 1/2 in \S+ lacks \d+ of 80 cells \(the first is ik/")
+        self.assertRegex(early.stderr, r"not all 2 shards are finished .*: shard 1/2 in \S+ lacks \d+ of 80 cells; the first missing cell is ik/")
         self.assertFalse(self.out.exists())
         self.ends(0, "run", self.scenario, "-o", one, "--shard", "1/2", "--resume")
         self.ends(0, "merge", one, two, "-o", self.out)
@@ -218,11 +218,11 @@ class Survival(EtudeCase):
         folders = self.shards()
         other = self.folder / "other"
         self.etude("run", self.scenario, "-o", other, "--shard", "3/3", "--seed", "2")
-        for shards, complaint in ((folders[:2], "not all 3 shards exist and are finished (etude run --shard i/3 --resume continues one): shard 3/3 is missing"),
-                                  ([*folders[:2], folders[1]], "is shard 2/3, which"),
-                                  ([*folders[:2], other], "is a shard of a different run than"),
-                                  ([*folders, self.whole], "is already a whole run, not a shard"),
-                                  ([*folders[:2], self.folder / "none"], "none holds no shard; shard 3/3 is missing")):
+        for shards, complaint in ((folders[:2], "not all 3 shards are finished ('etude run --shard i/3 --resume' continues a shard): shard 3/3 is missing"),
+                                  ([*folders[:2], folders[1]], "is shard 2/3, but"),
+                                  ([*folders[:2], other], "belongs to a different run than"),
+                                  ([*folders, self.whole], "is a whole run, not a shard"),
+                                  ([*folders[:2], self.folder / "none"], "none contains no shard; shard 3/3 is missing")):
             self.refusal("merge", *shards, "-o", self.out, says=complaint, leaves=self.out)
 
     def test_a_manifest_repeats_its_run(self):
@@ -237,7 +237,7 @@ class Survival(EtudeCase):
         lines = clip.read_text().splitlines()
         clip.write_text("\n".join(lines[:-10] + [line.replace("1", "2") for line in lines[-10:]]) + "\n")
         self.assertRegex(self.refusal("run", "--from", self.out / "manifest.json", "-o", self.folder / "again"),
-                         r"clip 2 of scenario t was walk \w+ \(.*\) then and is walk \w+ \(.*\) now")
+                         r"clip 2 of scenario t was walk \w+ \(.*\) in the run and is walk \w+ \(.*\) now")
 
     def test_cells_replay_to_the_same_stages(self):
         self.assertIn("10 of 10 cells are identical to the run", self.ends(0, "replay", self.whole, "--sample", 10).stdout)

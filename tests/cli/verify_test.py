@@ -59,10 +59,10 @@ class Verify(EtudeCase):
 
     def test_a_run_that_nobody_touched_agrees_line_by_line(self):
         text = self.verify(expect=0)
-        for said in ("seal.json", "rows: exactly those", "files: only those that", "texts: only lines and keys", "host.json: only keys",
-                     "manifest.json: the same as a run of its scenarios writes", "worlds: every row",
-                     "summary.json: the same when computed again from 24 rows",
-                     "20 of 20 cells and 4 that left a recording, run again", "report: "):
+        for said in ("seal.json", "rows: exactly the rows", "files: only files that", "texts: only lines and keys", "host.json: only keys",
+                     "manifest.json: equal to the manifest that a run of its scenarios writes", "worlds: every row",
+                     "summary.json: equal to a summary computed again from 24 rows",
+                     "20 of 20 cells, and 4 cells with a recording, run again", "report: "):
             self.assertRegex(text, f"(?m)^agrees   .*{re.escape(said)}")
         self.assertRegex(text, r"10 of 10 checks agree")
         self.assertIn("Etude ran every cell again that can be run again.", text)
@@ -120,7 +120,7 @@ class Verify(EtudeCase):
              "report", "gate.md differs from a new report of this run"),
             ("a key of the manifest", lambda: forge(manifest, '"metrics":{', '"metrics":{"ours":7,'), "manifest.json", "metrics.ours was 7"),
             ("a metric", lambda: forge(manifest, '"packages":', f'"own_metrics":[{json.dumps(metric, separators=(",", ":"))}],"packages":'),
-             "manifest.json", "own_metrics: no scenario has 'ours'"),
+             "manifest.json", "own_metrics: no scenario defines the metric 'ours'"),
             ("a time", lambda: forge(times, '{"', '{"ours":1,"'), "texts", "timings.jsonl:1 differs from the text that a run writes"),
             ("times of no cell", lambda: times.write_text(times.read_text() + times.read_text().splitlines()[0] + "\n"), "texts",
              "timings.jsonl:25 differs from the text that a run writes"),
@@ -128,7 +128,7 @@ class Verify(EtudeCase):
             ("a figure of the machine", lambda: forge(host, '"jobs":', '"jobs":"no","shards":[{}],"wall_seconds":'), "host.json",
              r"'jobs' is .*shards\[0\]: 'host' is missing.*differs from the text that a run writes"),
             ("a platform", lambda: forge(manifest, '"trials":', '"platform":"ours","trials":'), "manifest.json", "platform was"),
-            ("a source", lambda: forge(manifest, '"sources":{', '"sources":{"ours":"best",'), "manifest.json", "no scenario and no other source names 'ours'"),
+            ("a source", lambda: forge(manifest, '"sources":{', '"sources":{"ours":"best",'), "manifest.json", "'ours' is used by no scenario and by no other source"),
             ("a table", lambda: forge(self.out / "report" / "tables" / "ik.csv", "fixed", "fixes"), "report", "ik.csv"),
         ]
 
@@ -196,7 +196,7 @@ class Verify(EtudeCase):
     def test_what_is_no_key_and_what_does_not_agree_signs_nothing(self):
         other = self.write("other.key", "untrusted comment: x\nRWQ=\n")
         self.assertIn("is not a secret key of minisign", self.verify("--sample", 0, "--sign", other, expect=2))
-        self.assertIn("is neither a public key of minisign nor a file with one", self.verify("--sample", 0, "--check", other, expect=2))
+        self.assertIn("is neither a public key of minisign nor a file with a public key", self.verify("--sample", 0, "--check", other, expect=2))
         locked = b"Ed" + b"Sc" + b"B2" + bytes(152)  # the format of `minisign -G` without -W
         other = self.write("locked.key", "untrusted comment: x\n" + base64.b64encode(locked).decode() + "\n")
         self.assertIn("with a password", self.verify("--sample", 0, "--sign", other, expect=2))

@@ -93,7 +93,7 @@ def run_own_copy(den, seeds):
         for command in (["run", "--no-fence", "--jobs", "1", "-o", OWN / f"run-{seed}"], ["export", "-o", OWN / f"set-{seed}"]):
             done = subprocess.run([den / "etude", command[0], OWN / "own.yaml", "--seed", seed, *command[1:]],
                                   capture_output=True, text=True, cwd=OWN)
-            if done.returncode > 1 and "has no problem that could be written beforehand" not in done.stderr:
+            if done.returncode > 1 and "etude cannot write the problem before the session" not in done.stderr:
                 print(f"own copy: {done.stderr}", file=sys.stderr, flush=True)
         for problem in OWN.glob(f"set-{seed}/inputs/*/*/*/problem.json"):
             asked = json.loads(problem.read_text())

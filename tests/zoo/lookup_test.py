@@ -100,7 +100,7 @@ class Lookup(unittest.TestCase):
         notes = {"notes.json": "[" + re.search("^NOTES (.*)$", said, re.M)[1] + "]"}
         text = self.carrier("joint_noise_deg: 3", "2, 3")
         _, refused = self.run_against("second", text, "--seed-file", key, den=notes, is_refused=True)
-        self.assertIn("was used before by 'etude run' of 'lookup' into", refused)
+        self.assertIn("was used before: 'etude run' with 'lookup' wrote into", refused)
         # The control: the attack that the refusal prevents.
         rows, said = self.run_against("asked-for", text, "--seed-file", key, "--reuse-key", den=notes)
         self.assertLess(max(row["hidden_angle_error_deg"] for row in rows), 1e-9, said)

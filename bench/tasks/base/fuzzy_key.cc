@@ -8,8 +8,8 @@ bool IsFuzzyFile(std::string_view reference) { return !reference.starts_with(kBu
 }  // namespace
 
 KeyInfo FuzzyKey() {
-  return {kFuzzyKey, FileKind("`builtin:paper`, `builtin:gaussian`, a file", IsFuzzyFile), "builtin:paper",
-          "The fuzzy system that grades poses: membership functions, weights, rules."};
+  return {kFuzzyKey, FileKind("`builtin:paper`, `builtin:gaussian`, or a file", IsFuzzyFile), "builtin:paper",
+          "The fuzzy system that grades poses. It consists of membership functions, weights and rules."};
 }
 
 Result<FuzzySystem> FuzzySystemOf(const TaskInput& input) {

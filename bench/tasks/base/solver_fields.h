@@ -23,12 +23,15 @@ void RefuseFormerName(Fields& method);
 template <typename Method>
 std::vector<Field<Method>> IkSolverFields(const IkSolver* Method::*solver, IkOptions Method::*options) {
   using Key = Field<Method>;
-  std::vector<Key> rows = {Key::Name("solver", solver, IkSolverNames(), FindIkSolver, "How the angles are found."),
+  std::vector<Key> rows = {Key::Name("solver", solver, IkSolverNames(), FindIkSolver,
+                                     "The solver that computes the "
+                                     "joint angles."),
                            Key::Name("weights", Path(options, &IkOptions::weights), WeightRuleNames(), FindWeightRule,
-                                     "How strongly an effector's position counts relative to its axes.")
+                                     "The rule for the weight of an effector's position error relative to the error of "
+                                     "the effector's axes.")
                                .With("solver", WeighingSolvers()),
                            Key::Name("refresh", Path(options, &IkOptions::refresh), WeightRefreshNames(),
-                                     FindWeightRefresh, "When weights that depend on errors are updated.")
+                                     FindWeightRefresh, "When the solver updates weights that depend on errors.")
                                .With("solver", WeighingSolvers())};
   rows.front().read = [read = rows.front().read](Fields& fields, Method& method) {
     RefuseFormerName(fields);
@@ -64,7 +67,8 @@ void ReadIkGoals(Fields& condition, IkOptions& options);
 template <typename Options>
 Field<Options> GoalsField(IkOptions Options::*options) {
   return {{"stop_at", NameKind(std::vector<std::string>{"practical", "tight"}), "practical",
-           "Solvers stop when every effector is within 0.1 cm and each of its axes within 0.1°, or 10⁻³ cm and 10⁻³°."},
+           "The accuracy at which solvers stop, for the position and each axis of every effector. practical: 0.1 cm "
+           "and 0.1°; tight: 10⁻³ cm and 10⁻³°."},
           [=](Fields& condition, Options& o) { ReadIkGoals(condition, o.*options); }};
 }
 

@@ -104,7 +104,7 @@ Result<void> CheckFigures(const TaskInput& input) {
   for (const LibraryClip& clip : input.clips.clips) {
     if (clip.figure != nullptr) continue;
     return Fail(input.condition.node().Find("figure")->place,
-                "'figure: own' needs clips with meshes (glTF); '{}' has none", clip.source);
+                "'figure: own' needs clips with meshes (glTF), but '{}' has no mesh", clip.source);
   }
   return {};
 }
@@ -115,7 +115,7 @@ Result<std::unique_ptr<Task>> MakeCaptureTask(TaskInput& input) {
   RETURN_IF_ERROR(OpenOwnCameras(input, study.options));
   ASSIGN_OR_RETURN(auto methods, ReadMethods(input, "capture", SeatedCaptureMethodFields()));
   if (input.clips.clips.empty()) {
-    return Fail(input.condition.node().place, "a capture scenario needs clips, e.g. clips: ['builtin:boxing']");
+    return Fail(input.condition.node().place, "a scenario of task capture needs 'clips', such as ['builtin:boxing']");
   }
   if (study.options.figure == PerformerFigure::kOwn) RETURN_IF_ERROR(CheckFigures(input));
   study.methods = std::move(methods);
@@ -131,7 +131,7 @@ Result<std::unique_ptr<Task>> MakeCaptureTask(TaskInput& input) {
 
 TaskKind MakeCaptureTaskKind() {
   return {.name = "capture",
-          .question = "How close is the skeleton recovered from two or more cameras to the true one?",
+          .question = "How close is the skeleton that is recovered from two or more cameras to the true skeleton?",
           .default_metrics = {"mpjpe_mm", "mpjpe_before_ik_mm", "pa_mpjpe_mm", "pck_50mm", "position_error_cm",
                               "frames_recovered"},
           .success = "frames_recovered",

@@ -16,7 +16,7 @@ namespace etude {
 namespace {
 
 constexpr const char* kOnlyLive =
-    "a session depends on the method's answers, so it has no problem that could be written beforehand";
+    "a session depends on the method's answers, so etude cannot write the problem before the session";
 
 /// The data that all worlds of one condition share.
 struct Rehearsal {
@@ -132,14 +132,14 @@ Result<std::unique_ptr<Task>> MakeCoachTask(TaskInput& input) {
   for (std::size_t i = 0; i < methods.size() && shared.condition.sight.has_cameras; ++i) {
     if (methods[i].sight.sees_truth || methods[i].sight.Capture().causal) continue;
     return Fail(input.methods[i].place,
-                "method {}: a coach cannot wait for later pictures; allowed: 'capture' with 'causal: true'",
+                "method {}: with cameras, a coach needs 'capture' with 'causal: true', because a coach cannot wait for "
+                "later pictures",
                 methods[i].name);
   }
   if (shared.condition.sight.has_cameras && shared.condition.operating_point) {
-    return Fail(
-        input.condition.node().place,
-        "'operating_point' needs the skeleton sensor, because with cameras every method has its own skeletons; use "
-        "'threshold'");
+    return Fail(input.condition.node().place,
+                "'operating_point' is not allowed with cameras, because every method then has its own skeletons; use "
+                "'threshold'");
   }
   // Set the stage, and check that every recogniser can be taught.
   ASSIGN_OR_RETURN(shared.stage, SharedStage(shared.condition.song));

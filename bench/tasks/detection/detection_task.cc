@@ -80,12 +80,14 @@ Result<std::unique_ptr<Task>> MakeDetectionTask(TaskInput& input) {
   ASSIGN_OR_RETURN(auto methods, ReadMethods(input, "detection", DetectionMethodFields(), start));
   if (input.recordings != nullptr) return MakeRecordedTask(input, options, std::move(methods));
   if (!options.moves.empty()) {
-    return Fail(input.condition.node().Find(kMovesKey)->place,
-                "'{}' is for recordings; allowed with 'streams' or 'labels'", kMovesKey);
+    return Fail(input.condition.node().Find(kMovesKey)->place, "'{}' is allowed only with 'streams' or 'labels'",
+                kMovesKey);
   }
   RETURN_IF_ERROR(PrepareCameras(input, methods, std::identity(), options));
   if (input.clips.clips.empty()) {
-    return Fail(input.condition.node().place, "task detection needs 'clips', such as ['builtin:*'], or 'streams'");
+    return Fail(input.condition.node().place,
+                "a scenario of task detection needs 'clips', such as ['builtin:*'], or "
+                "'streams'");
   }
   Repertoire repertoire = RepertoireOf(input.clips);
   std::vector<ReadyMethod> ready;
@@ -103,7 +105,7 @@ Result<std::unique_ptr<Task>> MakeDetectionTask(TaskInput& input) {
 TaskKind MakeDetectionTaskKind() {
   const std::vector<std::string> metrics = DetectionMetrics();
   return {.name = "detection",
-          .question = "Does the coach notice which moves were performed right, and how soon?",
+          .question = "Does the coach notice which moves people performed right, and how soon does it notice this?",
           .default_metrics = metrics,
           .success = "f1",
           .metrics = metrics,

@@ -153,15 +153,18 @@ Result<LeaveOneOut> LeaveOnePersonOut(const std::vector<NamedStream>& streams, c
   std::set<std::string> people;
   for (const LabelledPart& part : parts) {
     if (part.person.empty()) {
-      return Fail({file, part.line},
-                  "the person of {} is unknown; needed: a column 'person', or a known data set's file names",
-                  streams[part.stream].name);
+      return Fail(
+          {file, part.line},
+          "the person in the recording {} is unknown; needed: a column 'person', or file names of a known data set",
+          streams[part.stream].name);
     }
     people.insert(part.person);
   }
   out.people.assign(people.begin(), people.end());
   if (people.size() < 2)
-    return Fail({file}, "the labels name {} person; to leave one person out, at least two people are needed",
+    return Fail({file},
+                "the labels contain {} person; needed: at least two people, because each person is judged with "
+                "the data of the other people",
                 people.size());
   PersonLeftOut left_out(streams, parts, options, out);
   for (const std::string& person : out.people) RETURN_IF_ERROR(left_out.Run(person));

@@ -24,20 +24,24 @@ std::vector<MethodKey> FilterFields() {
   };
   return {
       holt("smoothing", &HoltOptions::smoothing, kShare,
-           "0 follows the raw data; larger values are smoother and lag more."),
-      holt("correction", &HoltOptions::correction, kShare, "How fast the trend follows: larger values react faster."),
+           "Strength of smoothing. 0 follows the raw data. Larger values make the motion smoother and increase the "
+           "lag."),
+      holt("correction", &HoltOptions::correction, kShare,
+           "How fast the filter's trend follows the motion. Larger "
+           "values react faster."),
       holt("prediction_frames", &HoltOptions::prediction_frames, {0, 10},
-           "Number of frames that the output is predicted ahead, to compensate for the lag of smoothing."),
+           "Number of frames by which the output is predicted ahead. The prediction compensates for the lag of "
+           "smoothing."),
       holt("jitter_radius_m", &HoltOptions::jitter_radius_m, kLengths,
-           "A change of position that is smaller than this radius is damped."),
+           "The filter damps changes of position that are smaller than this radius."),
       holt("max_deviation_radius_m", &HoltOptions::max_deviation_radius_m, kLengths,
-           "The output stays this close to the raw position."),
+           "Largest allowed distance between the output and the raw position."),
       one_euro("min_cutoff_hz", &OneEuroOptions::min_cutoff_hz, {0.01, 100},
-               "Cut-off frequency at rest: lower values are smoother, and lag more in slow motion."),
+               "Cut-off frequency at rest. Lower values make the motion smoother and increase the lag of slow motion."),
       one_euro("beta_per_m", &OneEuroOptions::beta_per_m, {0, 1000},
-               "Increase of the cut-off frequency for every metre per second of speed."),
+               "Increase of the cut-off frequency per metre per second of speed."),
       one_euro("derivative_cutoff_hz", &OneEuroOptions::derivative_cutoff_hz, {0.01, 100},
-               "Cut-off frequency of the low pass that smooths the speed.")};
+               "Cut-off frequency of the low-pass filter that smooths the speed.")};
 }
 
 }  // namespace
@@ -46,7 +50,7 @@ Result<SkeletonSensorOptions> SensorOf(const TaskInput& input) {
   const Node* named = input.condition.node().Find(kSensorKey);
   if (named == nullptr) return SensorV2();
   if (named->kind != Node::Kind::kScalar || named->scalar.empty()) {
-    return Fail(named->place, "'{}' must be v1, v2, a sensor file or cameras, found {}", kSensorKey, Describe(*named));
+    return Fail(named->place, "'{}' must be v1, v2, cameras or a sensor file, found {}", kSensorKey, Describe(*named));
   }
   if (named->scalar == kCameraSensor) return SensorV2();
   if (const auto preset = FindSensorPreset(named->scalar)) return *preset;
@@ -57,11 +61,11 @@ const FieldTable<OperatingPoint>& OperatingPointFields() {
   using Key = Field<OperatingPoint>;
   static const FieldTable<OperatingPoint> table{
       {Key::Number("false_alarms_per_min", &OperatingPoint::false_alarms_per_min, {0.01, 60},
-                   "Allowed number of false alarms a minute when moves are spotted without a request."),
+                   "Allowed number of false alarms per minute while moves are spotted without a request."),
        Key::Number("recall", &OperatingPoint::recall, {0.01, 1},
-                   "Share of the right performances of requested moves that must be judged right."),
+                   "Share of the right performances that the method must judge right, for requested moves."),
        Key::Number("sessions", &OperatingPoint::sessions, {1, 1000},
-                   "Number of sessions of other people on which the thresholds are set.")}};
+                   "Number of sessions of other people from which the thresholds are computed.")}};
   return table;
 }
 
@@ -72,60 +76,65 @@ FieldTable<DetectionOptions> MakeConditionFields() {
   using Key = Field<Options>;
   FieldTable<Options> made{
       {Key{{kMovesKey, FileKind("a file that `etude teach` wrote"),
-            "(each person is judged by what the other people teach)",
-            "For recordings of people: the moves that recognisers are taught."},
+            "(for each person, the recordings of the other people teach the moves)",
+            "For recordings of people: a file with the moves that the recognisers learn."},
            [](Fields& condition, Options& o) { o.moves = condition.Text(kMovesKey, ""); }},
        // Keys of the session and the performers.
        Key::Number("events", Path(&Options::session, &SessionOptions::events), {1, 200},
                    "Number of performances in a session."),
        Key::Number("fault_share", Path(&Options::session, &SessionOptions::fault_share), kShare,
-                   "Share of the performances that have a fault; whether such a performance is wrong depends on the "
-                   "fault's severity."),
+                   "Share of the performances that have a fault. Whether such a performance is wrong depends on the "
+                   "severity of the fault."),
        Key::Number("severity", Path(&Options::session, &SessionOptions::severity), kShare,
-                   "Severity of every fault: 0 changes nothing, 1 is the worst of its kind.")
-           .WhenAbsent("(drawn uniformly for each)"),
+                   "Severity of each fault. 0 changes nothing, and 1 is the worst fault of its kind.")
+           .WhenAbsent("(drawn uniformly for each fault)"),
        Key{{"faults", ListKind("a list of: " + NameKind(FaultNameList()).allowed, NameKind(FaultNameList())), "[]",
-            "The faults that may happen; an empty list: all. For recordings: the faulty copies made of each right "
-            "performance (`amplitude`, `wrong_side`, `wrong_move`); an empty list: none."},
+            "For simulated people: the faults that may happen; an empty list allows all faults. For recordings: the "
+            "faulty copies that are made of each right performance (`amplitude`, `wrong_side`, `wrong_move`); with an "
+            "empty list, no copies are made."},
            [](Fields& condition, Options& o) {
              for (const std::string& name : ReadNames(condition, "faults", FaultNameList())) {
                if (const auto fault = FindFault(name)) o.session.faults.push_back(*fault);
              }
            }},
        Key::Number("two_faults", Path(&Options::session, &SessionOptions::two_faults), kShare,
-                   "Probability that a performance with a fault has a second one."),
+                   "Probability that a performance with a fault has a second fault."),
        Key::Name("people", Path(&Options::session, &SessionOptions::people), PeopleNames(), FindPeople,
-                 "The kind of people who dance, another person in every trial; `mixed`: toddlers, school children, "
-                 "adults and experts."),
+                 "The kind of people who dance. Every trial has a different person. `mixed`: toddlers, school "
+                 "children, adults and experts."),
        // Keys of the sensor and its view.
-       Key::Number("noise", &Options::noise, {0, 10}, "Multiplies the measured errors of a Kinect-like sensor."),
+       Key::Number("noise", &Options::noise, {0, 10},
+                   "Factor that multiplies the measured errors of a Kinect-like "
+                   "sensor."),
        Key::Number("turn_deg", &Options::turn_deg, {-180, 180},
                    "Angle by which the performer is turned away from the sensor.")
            .Unit("degrees"),
        Key{{kSensorKey, FileKind("`v1`, `v2`, a sensor file, `cameras`", IsSensorFile), "v2",
-            "The source of skeletons: Kinect v1 as published, v2 as recorded, a file of `etude sensor fit`, or "
-            "cameras, with the keys of `task: capture` and each method's `capture`."},
+            "The source of skeletons: a Kinect v1 with published errors, a Kinect v2 with errors from a recording, a "
+            "sensor file that `etude sensor fit` wrote, or cameras. Cameras have the keys of `task: capture` and each "
+            "method's key `capture`."},
            [](Fields& condition, Options& o) {
              const Node* named = condition.Raw(kSensorKey);
              o.has_cameras = named != nullptr && named->scalar == kCameraSensor;
            }},
        Key::Number("distance_m", &Options::distance_m, {1, 8},
                    "Distance from the sensor to the performer, along the floor.")
-           .WhenAbsent("(2.5 to 3, drawn in each trial)"),
+           .WhenAbsent("(drawn from 2.5 to 3 for each trial)"),
        Key::Number("sensor_height_m", &Options::sensor_height_m, {0.1, 3}, "Height of the sensor above the floor."),
        Key::Name("occluder", &Options::occluder,
                  {{"none", OccluderKind::kNone},
                   {"table", OccluderKind::kTable},
                   {"chair", OccluderKind::kChair},
                   {"person", OccluderKind::kPerson}},
-                 "What stands between the sensor and the performer."),
+                 "The obstacle between the sensor and the performer."),
        // Keys of the thresholds of methods that do not set one.
        Key::Number("threshold", &Options::threshold, kThresholds,
-                   "Lowest evidence at which a move counts as performed; for all methods.")
-           .WhenAbsent("(each recogniser's own)"),
+                   "Lowest evidence at which a move counts as performed. It applies to all methods that do not set "
+                   "their own threshold.")
+           .WhenAbsent("(the recogniser's default)"),
        Key{{"operating_point", MappingKind("a mapping", OperatingPointFields().Describe()), "(none)",
-            "Sets each method's thresholds from sessions of other people: for spotting, by a rate of false alarms; for "
-            "judging requested moves, by a recall."},
+            "Computes each method's thresholds from sessions of other people. The threshold for spotting gives a "
+            "chosen rate of false alarms. The threshold for judging requested moves gives a chosen recall."},
            [](Fields& condition, Options& o) {
              if (condition.Raw("operating_point") == nullptr) return;
              ReadNested(condition, "operating_point", OperatingPointFields(), o.operating_point.emplace());
@@ -134,7 +143,7 @@ FieldTable<DetectionOptions> MakeConditionFields() {
         CheckSensorKeys(condition, o);
         if (!o.threshold || !o.operating_point) return;
         condition.Complain(condition.Raw("threshold")->place,
-                           "'threshold' and 'operating_point' both set thresholds; allowed: one of them");
+                           "'threshold' and 'operating_point' both set the threshold; allowed: only one of these keys");
       }};
   const auto studio = Path(&DetectionOptions::cameras, &CameraSensing::studio);
   Append(FieldsOf<Options>(CameraSensingFields(), studio, Keep::kOthers, {}), made.fields);
@@ -148,7 +157,7 @@ void CheckSensorKeys(Fields& condition, DetectionOptions& options) {
   for (const char* key : {"noise", "turn_deg", "distance_m", "sensor_height_m", "occluder"}) {
     if (const Node* written = condition.Raw(key)) {
       condition.Complain(written->place,
-                         fmt::format("'{}' belongs to skeleton sensors; cameras have their own keys", key));
+                         fmt::format("'{}' is not allowed with cameras, because it describes a skeleton sensor", key));
     }
   }
   CameraSensingFields().check(condition, options.cameras.studio);
@@ -175,32 +184,34 @@ const FieldTable<DetectionMethod>& DetectionMethodFields() {
     // Keys of the stages from the sensor to skeletons.
     std::vector<MethodKey> fields = {MethodKey::Name("filter", Path(&Method::filter, &FilterOptions::kind),
                                                      FilterNames(), FilterOf,
-                                                     "How the sensed joints are smoothed before recognition.")};
+                                                     "The filter that smooths the sensed joints before recognition.")};
     Append(FilterFields(), fields);
     fields.push_back(
         MethodKey::Flags("oracle", {{"stream", &Method::sees_truth}},
-                         "What is replaced by the truth: the sensed skeletons, to show what the sensor costs."));
+                         "stream: the true skeletons replace the sensed skeletons, to measure how much the sensor's "
+                         "errors cost."));
     fields.push_back(CaptureField<Method>(&Method::capture));
     // Keys of the stages from skeletons to verdicts.
     fields.push_back(MethodKey::Name("recogniser", Path(&Method::recogniser, &RecogniserOptions::kind),
-                                     RecogniserNames(), FindRecogniser, "How a move is recognised."));
+                                     RecogniserNames(), FindRecogniser, "The method that recognises moves."));
     const auto settings = Path(&Method::recogniser, &RecogniserOptions::settings);
     Append(SettingFields<Method>("recogniser", AllRecognisers(), settings), fields);
     fields.push_back(
         MethodKey::Name("weights", Path(&Method::recogniser, &RecogniserOptions::weights, &TrackingWeights::weighting),
                         {{"fixed", Weighting::kFixed}, {"adaptive", Weighting::kAdaptive}},
-                        "Weights of the sensed values: all equal, or by how well their joints are seen."));
+                        "Weights of the sensed values. fixed: all weights are equal; adaptive: a weight depends on how "
+                        "well the sensor sees the joints of the value."));
     fields.push_back(
         MethodKey::Number("inferred_weight",
                           Path(&Method::recogniser, &RecogniserOptions::weights, &TrackingWeights::inferred_weight),
                           kShare,
-                          "Weight of values that need an inferred joint; values of tracked joints have weight 1.")
+                          "Weight of values that depend on an inferred joint. Values of tracked joints have weight 1.")
             .With("weights", {"adaptive"}));
     fields.push_back(MethodKey::Number("threshold", &Method::threshold, kThresholds,
                                        "Lowest evidence at which a move counts as performed.")
-                         .WhenAbsent("(the scenario's, else the recogniser's own)"));
+                         .WhenAbsent("(the scenario's `threshold`; without it, the recogniser's default)"));
     fields.push_back(MethodKey::Number("refractory_s", &Method::refractory_s, {0, 60},
-                                       "Time after a detection in which the same move is not spotted again."));
+                                       "After a detection, the same move is not spotted again during this time."));
     return FieldTable<Method>{std::move(fields)};
   }();
   return table;

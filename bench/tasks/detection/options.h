@@ -103,7 +103,7 @@ Result<void> PrepareCameras(const TaskInput& input, const Methods& methods, Sigh
   for (std::size_t i = 0; i < methods.size(); ++i) {
     const DetectionMethod& method = std::invoke(sight, methods[i]);
     if (method.capture && !options.has_cameras) {
-      return Fail(input.methods[i].place, "'capture' needs cameras; allowed with {}: {}", kSensorKey, kCameraSensor);
+      return Fail(input.methods[i].place, "'capture' is allowed only with {}: {}", kSensorKey, kCameraSensor);
     }
     if (!options.has_cameras) continue;
     RETURN_IF_ERROR(CheckMarks(options.cameras.studio, method.Capture(), input.methods[i].place));

@@ -119,18 +119,20 @@ DetectionWorld MakeRecordedWorld(const LabelledStreams& set, std::size_t person,
 Result<void> CheckRecordings(const LabelledStreams& set, bool are_taught) {
   if (!are_taught && !set.nobody.empty()) {
     return Fail({set.file},
-                "the person of {} is unknown; needed: a column 'person', a known data set's file names, or 'moves'",
+                "the person in the recording {} is unknown; needed: a column 'person', file names of a known data set, "
+                "or the key "
+                "'moves'",
                 set.nobody);
   }
   if (!are_taught && set.people.size() < 2) {
-    return Fail({set.file}, "only {} was recorded; to leave one person out, two people are needed, or 'moves'",
+    return Fail({set.file}, "{} is the only recorded person; needed: at least two people, or the key 'moves'",
                 set.people.front().name);
   }
   const LabelledPart* before = nullptr;
   for (const LabelledPart& part : set.parts) {
     if (part.is_action_point) continue;
     if (before != nullptr && before->stream == part.stream && before->begin == part.begin) {
-      return Fail({set.file, part.line}, "two performances of {} begin at the same time",
+      return Fail({set.file, part.line}, "two performances in the recording {} begin at the same time",
                   set.streams[part.stream].name);
     }
     before = &part;
@@ -278,7 +280,9 @@ Result<void> CheckFaults(const Node& condition, std::span<const Fault> faults, c
                 fmt::join(allowed, ", "));
   }
   if (std::ranges::any_of(set.parts, &LabelledPart::is_action_point)) {
-    return Fail(named.place, "faults are made of performances, but {} has action points; needed: from_s and to_s",
+    return Fail(named.place,
+                "faults can be made only from performances with a begin and an end, but {} has action "
+                "points; needed: from_s and to_s",
                 set.file);
   }
   if (set.moves.size() > 1 || std::ranges::find(faults, Fault::kWrongMove) == faults.end()) return {};
@@ -300,18 +304,26 @@ Result<std::unique_ptr<Task>> MakeRecordedTask(TaskInput& input, const Detection
                                                std::vector<DetectionMethod> methods) {
   const LabelledStreams& set = *input.recordings;
   const Node& condition = input.condition.node();
-  RETURN_IF_ERROR(RefuseKeys(condition, PeopleKeys(), "people were recorded, nobody is simulated"));
+  RETURN_IF_ERROR(RefuseKeys(condition, PeopleKeys(),
+                             "it describes simulated people, but this scenario uses "
+                             "recordings"));
   // Refuse keys and oracles that have no effect on recordings.
   const bool are_sensed = std::ranges::any_of(set.streams, [](const NamedStream& s) { return s.motion.has_value(); });
-  if (!are_sensed) RETURN_IF_ERROR(RefuseKeys(condition, SensingKeys(), "a recording contains what its sensor saw"));
+  if (!are_sensed)
+    RETURN_IF_ERROR(RefuseKeys(condition, SensingKeys(),
+                               "it describes a simulated sensor, but this "
+                               "scenario uses recordings of a sensor"));
   if (options.has_cameras) {
     return Fail(
         condition.Find("sensor")->place,
-        "'sensor: cameras' can film only simulated people, not recordings; allowed here: v1, v2, a sensor file");
+        "'sensor: cameras' films only simulated people, but this scenario uses recordings; allowed: v1, v2, a sensor "
+        "file");
   }
   for (const DetectionMethod& method : methods) {
     if (!method.sees_truth || are_sensed) continue;
-    return Fail(condition.place, "method {}: 'oracle: [stream]' is not allowed here: the true dance is unknown",
+    return Fail(condition.place,
+                "method {}: 'oracle: [stream]' is not allowed, because the true motion of recorded "
+                "people is unknown",
                 method.name);
   }
   RETURN_IF_ERROR(CheckFaults(condition, options.session.faults, set));
@@ -324,7 +336,8 @@ Result<std::unique_ptr<Task>> MakeRecordedTask(TaskInput& input, const Detection
   const std::size_t needed = taught ? 2 : 3;  // one person is judged, one sets the thresholds, one teaches
   if (options.operating_point && set.people.size() < needed) {
     return Fail(condition.Find("operating_point")->place,
-                "'operating_point' needs people who neither teach nor are judged; people recorded: {}, needed: {}",
+                "'operating_point' needs recordings of people who neither teach nor are judged; found {} people, "
+                "needed: {}",
                 set.people.size(), needed);
   }
   // Check once before the run that every method can be taught.

@@ -127,7 +127,7 @@ Result<std::unique_ptr<Task>> MakeEvaluationTask(TaskInput& input) {
 
 TaskKind MakeEvaluationTaskKind() {
   return {.name = "evaluation",
-          .question = "How close do the motions of files come to their truths?",
+          .question = "How close are the motions in files to the true motions?",
           .default_metrics = {"mpjpe_unaligned_mm", "mpjpe_root_mm", "mpjpe_each_frame_scaled_mm", "accel_error_mps2",
                               "bend_error_deg"},
           .success = "seen_share",

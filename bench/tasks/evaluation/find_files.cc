@@ -58,7 +58,9 @@ Result<void> RefuseLinks(const std::string& reference, std::span<const std::stri
     fs::path path = Split(file).path;
     for (std::ptrdiff_t i = 0; i < found_parts; ++i, path = path.parent_path()) {
       if (!fs::is_symlink(fs::symlink_status(path, error))) continue;
-      return Fail(place, "'{}' is a link that a pattern or a folder found; name it by itself, or replace it by a file",
+      return Fail(place,
+                  "'{}' is a link in a folder or in the result of a pattern; list the link itself, or replace "
+                  "it by a file",
                   path.string());
     }
   }
@@ -90,7 +92,7 @@ Result<std::vector<std::string>> ExpandFiles(const std::vector<std::string>& ref
         if (!CheckUtf8(file, "")) return Fail(place, "{} has a name that is not UTF-8 text", Quote(file));
       }
       if (links == Links::kRefused) RETURN_IF_ERROR(RefuseLinks(reference, inside, place));
-      if (inside.empty()) return Fail(place, "folder '{}' holds no motion file (.bvh, .npz, …)", reference);
+      if (inside.empty()) return Fail(place, "folder '{}' contains no motion file (.bvh, .npz, …)", reference);
       files.insert(files.end(), inside.begin(), inside.end());
     } else {
       ASSIGN_OR_RETURN(const auto expanded, ExpandReference(reference, place, kMaxPairs));
@@ -110,8 +112,10 @@ Result<std::map<std::string, std::string>> ByName(const std::vector<std::string>
   for (const std::string& reference : references) {
     const auto [known, is_new] = named.emplace(NameOfReference(reference), reference);
     if (is_new) continue;
-    return Fail(place, "'{}' and '{}' have the same name; 'pairs' can state which files belong together", known->second,
-                reference);
+    return Fail(place,
+                "'{}' and '{}' have the same name; use the key 'pairs' to state which files form a "
+                "pair",
+                known->second, reference);
   }
   return named;
 }
@@ -136,7 +140,7 @@ Result<PairColumns> ReadHeading(const std::vector<std::string>& heading, std::sp
     if (std::ranges::count(heading, cell) > 1) return Fail(place, "two columns {}", Quote(cell));
   }
   const auto truth = column_of("truth");
-  if (!truth) return Fail(place, "has no column 'truth'; its columns are {}", Join(heading));
+  if (!truth) return Fail(place, "has no column 'truth'; found the columns {}", Join(heading));
   columns.truth = *truth;
   columns.name = column_of("name");
   for (const EvaluationMethod& method : methods) {
@@ -161,7 +165,7 @@ Result<std::vector<JudgedFiles>> ReadPairs(const std::string& text, const std::s
       continue;
     }
     const std::size_t width = rows.front().cells.size();
-    if (cells.size() != width) return Fail(place, "{} cells; the heading has {}", cells.size(), width);
+    if (cells.size() != width) return Fail(place, "found {} cells, but the heading has {}", cells.size(), width);
     JudgedFiles pair{.name = "", .unit = "", .truth = cells[columns->truth], .answers = {}};
     if (pair.truth.empty()) return Fail(place, "no truth");
     pair.name = columns->name ? cells[*columns->name] : NameOfReference(pair.truth);
@@ -173,7 +177,7 @@ Result<std::vector<JudgedFiles>> ReadPairs(const std::string& text, const std::s
   std::ranges::stable_sort(pairs, {}, &JudgedFiles::name);
   const auto twice = std::ranges::adjacent_find(pairs, {}, &JudgedFiles::name);
   if (twice != pairs.end()) {
-    return Fail({file}, "two pairs are named {}; a column 'name' tells them apart", Quote(twice->name));
+    return Fail({file}, "two pairs have the name {}; add a column 'name' with unique names", Quote(twice->name));
   }
   return pairs;
 }
@@ -187,7 +191,7 @@ Result<void> RefuseTruths(const JudgedFiles& files, const Place& place) {
     if (reference == files.truth || answer.animation != truth.animation || answer.path == truth.path ||
         !fs::equivalent(answer.path, truth.path, none))
       continue;
-    return Fail(place, "'{}' is the truth '{}' under another name", reference, files.truth);
+    return Fail(place, "'{}' is the same file as the truth '{}'", reference, files.truth);
   }
   return {};
 }
@@ -236,7 +240,7 @@ Result<FoundFiles> PairByName(const EvaluationOptions& options, std::span<const 
     if (with_answer == 0) {
       return Fail(of_answers,
                   "none of the {} answers of method {} has the name of a truth (the first answer is '{}', the first "
-                  "truth '{}'); 'pairs' can state which files belong together",
+                  "truth is '{}'); use the key 'pairs' to state which files form a pair",
                   files.size(), Quote(method.name), files.front(), truth_files.front());
     }
     for (const auto& [name, file] : answers) found.left_out.emplace_back(file, "no truth is named " + Quote(name));
@@ -294,8 +298,10 @@ Result<void> FindPeople(const std::string& people, const Place& place, std::vect
   for (JudgedFiles& world : worlds) {
     const auto person = PersonIn(people, world.name);
     if (!person) {
-      return Fail(place, "{} does not fit the name {}; allowed: a pattern with {}, such as {}_*", Quote(people),
-                  Quote(world.name), kPerson, kPerson);
+      return Fail(place,
+                  "the pattern {} does not match the name {}; allowed: a pattern with {}, such as "
+                  "{}_*",
+                  Quote(people), Quote(world.name), kPerson, kPerson);
     }
     world.unit = spellings.emplace(ComparedName(*person), *person).first->second;
   }
@@ -319,7 +325,7 @@ Result<FoundFiles> FindEvaluatedFiles(const Node& condition, std::span<const Nod
     RETURN_IF_ERROR(method.Finish());
     const Node* answers = node.Find("answers");
     if (answers != nullptr && !options.pairs.empty())
-      return Fail(answers->place, "'answers' and 'pairs' exclude each other");
+      return Fail(answers->place, "'answers' and 'pairs' are not allowed together");
   }
   // Make the pairs.
   FoundFiles found;

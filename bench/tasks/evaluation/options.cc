@@ -44,54 +44,60 @@ const FieldTable<EvaluationOptions>& EvaluationConditionFields() {
   using Key = Field<EvaluationOptions>;
   // The keys of the judged files come first.
   static const FieldTable<EvaluationOptions> table{
-      {Key::Texts("truth", &EvaluationOptions::truth, "a list of motion files, patterns, folders",
-                  "The truths; a truth and the answers of the same name are a pair.")
-           .WhenAbsent("(`pairs` names them)"),
-       {{"pairs", FileKind("a CSV file"), "(files of one name are a pair)",
-         "A table of pairs: a column `truth`, a column named after each method and, optionally, a column `name`."},
+      {Key::Texts("truth", &EvaluationOptions::truth, "a list of motion files, patterns and folders",
+                  "The true motions. A truth and an answer with the same file name form a pair.")
+           .WhenAbsent("(listed in `pairs`)"),
+       {{"pairs", FileKind("a CSV file"), "(files with the same name form a pair)",
+         "A table of pairs. It has a column `truth`, one column for each method with the method's name, and optionally "
+         "a column `name`."},
         [](Fields& fields, EvaluationOptions& options) { options.pairs = fields.Text("pairs", ""); }},
        // Keys of the joints, the noise of controls, the units and the time shift.
        {{"joints", NameKind(JointSetNames()), "roles",
-         "Which joints are judged: those with the same role, those with the same name, or those of a set that both "
-         "files have."},
+         "The joints that are judged. roles: joints with the same role in both files; same: joints with the same name; "
+         "other values: the joints of a set that both files contain."},
         [](Fields& fields, EvaluationOptions& options) {
           options.joints = fields.Choice("joints", JointSetNames(), options.joints);
         }},
        Key::Number("noise_mm", &EvaluationOptions::noise_mm, {0, 1000},
-                   "Standard deviation of white noise, along each axis, that is added to every control's answer before "
-                   "its other errors."),
+                   "Standard deviation of white noise along each axis. The noise is added to the answer of every "
+                   "control before the control's other errors."),
        Key::Text("people", &EvaluationOptions::people, "a pattern such as '{person}_*'",
-                 "Which part of a pair's name is the person; verdicts that hold for other files, too, count each "
-                 "person once.")
-           .WhenAbsent("(each pair counts for itself)"),
+                 "A pattern that marks the part of a pair's name that identifies the person. Verdicts that are meant "
+                 "for other files count each person once.")
+           .WhenAbsent("(each pair counts once)"),
        Key::Name("lag", &EvaluationOptions::lag, {{"none", Lag::kNone}, {"find", Lag::kFind}},
-                 "none: frames of equal times are compared, by the files' clocks if both state one, otherwise counted "
-                 "from the first frames; find: the time shift between truth and answer is found and removed."),
+                 "none: frames at equal times are compared; times come from the files' clocks if both files have a "
+                 "clock, and otherwise begin at the first frames. find: Etude estimates the time shift between truth "
+                 "and answer and removes it."),
        {{"statistics", FileKind("a CSV file"), "(L2P has no value)",
-         "Means and standard deviations of joints over a training set: a heading `JOINT_x_m,…` and two rows."},
+         "Means and standard deviations of joint positions over a training set. The file has a heading `JOINT_x_m,…` "
+         "and two rows."},
         [](Fields& fields, EvaluationOptions& options) { options.statistics = fields.Text("statistics", ""); }},
        {{"music_beats", FileKind("a text file"), "(beat alignment has no value)",
-         "The times of the music's beats, one per line, in seconds from the truth's first frame."},
+         "The times of the music's beats in seconds from the truth's first frame. Each line contains one time."},
         [](Fields& fields, EvaluationOptions& options) { options.music_beats = fields.Text("music_beats", ""); }}}};
   return table;
 }
 
 Result<void> CheckFiles(const Node& condition, const EvaluationOptions& options) {
   if (options.truth.empty() == options.pairs.empty()) {
-    return Fail(condition.place, "task evaluation needs either 'truth' or 'pairs', not both");
+    return Fail(condition.place, "a scenario of task evaluation needs exactly one of the keys 'truth' and 'pairs'");
   }
   const Node* trials = condition.Find("trials");
   if (trials == nullptr) return {};
-  return Fail(trials->place, "'trials' has no use in task evaluation: each pair is judged once");
+  return Fail(trials->place, "'trials' is not allowed in task evaluation, because each pair is judged once");
 }
 
 namespace {
 
 /// Adds an error for keys without effect: `answers` if the method is a control, the keys of `spoiler` if it is not.
 void CheckControl(Fields& fields, EvaluationMethod& method) {
-  if (method.is_control && !method.answers.empty()) fields.Complain(fields.node().place, "a control has no 'answers'");
+  if (method.is_control && !method.answers.empty())
+    fields.Complain(fields.node().place,
+                    "a control must not have the "
+                    "key 'answers'");
   if (!method.is_control && method.spoiler != Spoiler{})
-    fields.Complain(fields.node().place, "keys that add errors to the truth need 'control: true'");
+    fields.Complain(fields.node().place, "keys that add errors to the truth are allowed only with 'control: true'");
 }
 
 }  // namespace
@@ -102,36 +108,37 @@ const FieldTable<EvaluationMethod>& EvaluationMethodFields() {
   const auto part = [](auto member) { return Path(&Method::spoiler, member); };
   // The keys of the answers, or of a control, come first.
   static const FieldTable<Method> table{
-      {Key::Texts("answers", &Method::answers, "a list of motion files, patterns, folders",
-                  "The answers; they have the same names as their truths.")
-           .WhenAbsent("(`pairs` names them)"),
+      {Key::Texts("answers", &Method::answers, "a list of motion files, patterns and folders",
+                  "The method's results. A result and its truth have the same file name.")
+           .WhenAbsent("(listed in `pairs`)"),
        Key::Flag("control", &Method::is_control,
-                 "The answer is the truth with the errors that the other keys add, in this order. If all methods are "
-                 "controls, contacts are found from the motion, and the truth gives rotations, beats and statistics "
-                 "that files lack."),
+                 "true: the method is a control. Its answer is the truth with the errors that the keys below add, in "
+                 "this order. If all methods are controls, contacts are computed from the motion, and Etude derives "
+                 "missing rotations, beats and statistics from the truth."),
        Key::Number("noisy_mm", part(&Spoiler::noisy_mm), {0, 1000},
-                   "Standard deviation of white noise, independent for each joint and axis."),
+                   "Standard deviation of white noise. The noise is independent for each joint and axis."),
        Key::Number("smoothed_ms", part(&Spoiler::smoothed_ms), {0, 10'000},
                    "Length of the centred moving mean that smooths the answer."),
        Key::Number("faded_percent", part(&Spoiler::faded_percent), {0, 100},
-                   "Each joint's distance from its mean position is reduced by this share."),
+                   "Each joint's distance from the joint's mean position is reduced by this percentage."),
        Key::Number("scaled_percent", part(&Spoiler::scaled_percent), {-90, 1000},
-                   "Increase of the size, about the world's origin."),
+                   "Increase of the size of the motion, with the world's origin as the centre."),
        Key::Number("moved_cm", part(&Spoiler::moved_cm), {-1e5, 1e5}, "Shift along X."),
        Key::Number("lifted_cm", part(&Spoiler::lifted_cm), {-1e5, 1e5}, "Shift upwards."),
-       Key::Number("gliding_cm_s", part(&Spoiler::gliding_cm_s), {-1000, 1000}, "Speed of a shift along X."),
+       Key::Number("gliding_cm_s", part(&Spoiler::gliding_cm_s), {-1000, 1000}, "Speed of a continuous shift along X."),
        Key::Number("feet_locked_cm", part(&Spoiler::feet_locked_cm), {0, 100},
-                   "While its toes are lower than this, a foot does not move."),
+                   "A foot does not move while its toes are lower than this height."),
        Key::Number("mirrored_share", part(&Spoiler::mirrored_share), {0, 1},
-                   "Share of the take, at its end, in which left and right are exchanged."),
+                   "Share of the take in which left and right are exchanged. This part is at the end of the take."),
        Key::Number("kept_frames", part(&Spoiler::kept_frames), {1, 1000},
-                   "Keeps every n-th frame; the others are interpolated linearly."),
+                   "Every n-th frame is kept. The other frames are interpolated linearly."),
        Key::Number("late_ms", part(&Spoiler::late_ms), {0, 60'000},
-                   "Delay of the answer; until it begins, it stands in its first pose."),
+                   "Delay of the answer. Before the answer begins, the body stands in its first pose."),
        Key::Number("frozen_share", part(&Spoiler::frozen_share), {0, 1},
-                   "Share of the take, at its end, that stands still."),
+                   "Share of the take in which the body stands still. This part is at the end of the take."),
        Key::Number("hidden_percent", part(&Spoiler::hidden_percent), {0, 100},
-                   "Share of all joint positions that is hidden; those with the largest errors are hidden first.")},
+                   "Percentage of all joint positions that are hidden. The positions with the largest errors are "
+                   "hidden first.")},
       CheckControl};
   return table;
 }

@@ -17,7 +17,7 @@ Result<StatisticsByJoint> ReadJointStatistics(std::string_view text, const std::
   const std::vector<std::string> names = heading_rows.empty() ? std::vector<std::string>{} : heading_rows[0].cells;
   if (rows.heading.empty() || names.size() != rows.columns || rows.RowCount() != 2) {
     return Fail({file},
-                "{} names in the heading, {} rows of {} numbers; allowed: a heading JOINT_x_m,JOINT_y_m,…, a "
+                "found {} names in the heading, and {} rows of {} numbers; allowed: a heading JOINT_x_m,JOINT_y_m,…, a "
                 "row of means and a row of deviations",
                 rows.heading.empty() ? 0 : names.size(), rows.RowCount(), rows.columns);
   }
@@ -28,16 +28,16 @@ Result<StatisticsByJoint> ReadJointStatistics(std::string_view text, const std::
     const std::string& name = names[column];
     const auto axis = std::ranges::find_if(kEndings, [&](std::string_view end) { return name.ends_with(end); });
     const Place heading{file, 1, 0}, deviations{file, rows.lines[1], 0};
-    if (axis == std::end(kEndings)) return Fail(heading, "{} does not end in _x_m, _y_m or _z_m", Quote(name));
+    if (axis == std::end(kEndings)) return Fail(heading, "the name {} must end in _x_m, _y_m or _z_m", Quote(name));
     const std::string joint = name.substr(0, name.size() - axis->size());
     const auto index = static_cast<glm::length_t>(axis - std::begin(kEndings));
     const double mean = rows.Row(0)[column], deviation = rows.Row(1)[column];
     if (!(deviation > 0) || !(mean == mean)) {
-      return Fail(deviations, "{}: mean {}, deviation {}; allowed: a number as mean, and a deviation above 0",
+      return Fail(deviations, "{}: found mean {} and deviation {}; allowed: a number as mean, and a deviation above 0",
                   Quote(name), mean, deviation);
     }
     if (axes[joint]++ != index)
-      return Fail(heading, "{} is out of order; allowed: _x_m, _y_m, _z_m of each joint, one after the other",
+      return Fail(heading, "{} is out of order; allowed: for each joint, _x_m, _y_m and _z_m in this order",
                   Quote(name));
     statistics[joint].mean[index] = mean;
     statistics[joint].deviation[index] = deviation;
@@ -51,7 +51,7 @@ Result<StatisticsByJoint> ReadJointStatistics(std::string_view text, const std::
 Result<std::vector<double>> ReadMusicBeats(std::string_view text, const std::string& file) {
   ASSIGN_OR_RETURN(const NumberRows rows, ReadNumberRows(text, file));
   if (rows.columns != 1)
-    return Fail({file}, "found {} numbers in a line; allowed: one, a time in seconds", rows.columns);
+    return Fail({file}, "found {} numbers in a line; allowed: one number, a time in seconds", rows.columns);
   for (std::size_t i = 0; i < rows.values.size(); ++i) {
     const double before = i == 0 ? -1e9 : rows.values[i - 1];
     if (rows.values[i] > before) continue;

@@ -76,7 +76,7 @@ Result<std::unique_ptr<Task>> MakeIkTask(TaskInput& input) {
 TaskKind MakeIkTaskKind() {
   return {.name = "ik",
           .question =
-              "How near do the end effectors come to their targets, and how far from the truth are the angles that no "
+              "How close do the end effectors come to their targets, and how far from the truth are the angles that no "
               "target determines?",
           .default_metrics = {"orientation_error_deg", "position_error_cm", "hidden_angle_error_deg",
                               "solved_practical", "iterations"},

@@ -135,7 +135,7 @@ Result<std::unique_ptr<Task>> MakeInbetweenTask(TaskInput& input) {
 
 TaskKind MakeInbetweenTaskKind() {
   return {.name = "inbetween",
-          .question = "How well are hidden frames of a motion filled in?",
+          .question = "How close to the truth are the frames that a method fills into a gap of a motion?",
           .default_metrics = {"l2p@lafan1", "l2q@lafan1", "npss@lafan1", "supported_share", "foot_slide_cmps",
                               "jitter@wham"},
           .success = "supported_share",

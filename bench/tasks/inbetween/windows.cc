@@ -65,7 +65,7 @@ Result<FoundFiles> FindWindows(const Node& condition, std::span<const Node> meth
   InbetweenConditionFields().Read(fields, options);
   if (!fields.ok()) return tl::unexpected(fields.Finish().error());
   if (const Node* trials = condition.Find("trials")) {
-    return Fail(trials->place, "'trials' has no use in task inbetween: each window is judged once");
+    return Fail(trials->place, "'trials' is not allowed in task inbetween, because each window is judged once");
   }
   for (const char* key : {"truth", "training"}) {
     if (condition.Find(key) == nullptr) return Fail(condition.place, "task inbetween needs '{}'", key);
@@ -80,10 +80,14 @@ Result<FoundFiles> FindWindows(const Node& condition, std::span<const Node> meth
     const std::string name = NameOfReference(file);
     const auto [known, is_new] = named.emplace(name, file);
     if (!is_new)
-      return Fail(place, "'{}' and '{}' have the same name; every file of 'truth' needs a name of its own",
-                  known->second, file);
+      return Fail(place, "'{}' and '{}' have the same name; the files of 'truth' need different names", known->second,
+                  file);
     for (const std::string& other : training) {
-      if (IsSame(file, other)) return Fail(training_place, "'{}' is judged, so it must not be in 'training'", other);
+      if (IsSame(file, other))
+        return Fail(training_place,
+                    "'{}' is in 'truth' and in 'training'; allowed: only in one "
+                    "of the two lists",
+                    other);
     }
     const auto clip = ReadOneClip(file, {});
     if (!clip) {

@@ -85,7 +85,7 @@ Result<FoundFiles> FindLoneClips(const Node& condition, std::span<const Node> me
   PlausibilityConditionFields().Read(fields, options);
   if (!fields.ok()) return tl::unexpected(fields.Finish().error());
   if (const Node* trials = condition.Find("trials")) {
-    return Fail(trials->place, "'trials' has no use in task plausibility: each clip is judged once");
+    return Fail(trials->place, "'trials' is not allowed in task plausibility, because each clip is judged once");
   }
   // Find the clips of each method, and collect the worlds by name.
   std::map<std::string, std::vector<std::string>> answers;

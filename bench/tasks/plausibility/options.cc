@@ -28,15 +28,15 @@ std::map<std::string, double> ReadLimits(Fields& fields) {
 const FieldTable<PlausibilityOptions>& PlausibilityConditionFields() {
   using Key = Field<PlausibilityOptions>;
   static const FieldTable<PlausibilityOptions> table{
-      {Key::Number("floor_m", &PlausibilityOptions::floor_m, {-1000, 1000}, "The height of the floor, metres.")
+      {Key::Number("floor_m", &PlausibilityOptions::floor_m, {-1000, 1000}, "The height of the floor, in metres.")
            .WhenAbsent(
-               "(0, or the height at which the feet rest if the clip's lowest joints are more than 60 cm from 0)"),
+               "(0; if the clip's lowest joints are more than 60 cm from 0, the height at which the feet rest)"),
        Key::Text("people", &PlausibilityOptions::people, "a pattern such as '{person}_*'",
-                 "Which part of a clip's name is the person; verdicts that hold for other files, too, count each "
-                 "person once.")
-           .WhenAbsent("(each clip counts for itself)"),
+                 "A pattern that marks the part of a clip's name that identifies the person. Verdicts that are meant "
+                 "for other files count each person once.")
+           .WhenAbsent("(each clip counts once)"),
        {{"at_most", MappingKind("a mapping", LimitKeys()), "{}",
-         "The largest allowed values of metrics; the metric `within_limits` shows which clips keep all of them."},
+         "The largest allowed values of metrics. The metric `within_limits` shows which clips keep all these limits."},
         [](Fields& fields, PlausibilityOptions& options) {
           const Node* node = fields.Raw("at_most");
           if (node == nullptr) return;
@@ -50,7 +50,7 @@ const FieldTable<PlausibilityOptions>& PlausibilityConditionFields() {
 const FieldTable<PlausibilityMethod>& PlausibilityMethodFields() {
   using Key = Field<PlausibilityMethod>;
   static const FieldTable<PlausibilityMethod> table{
-      {Key::Texts("answers", &PlausibilityMethod::answers, "a list of motion files, patterns, folders",
+      {Key::Texts("answers", &PlausibilityMethod::answers, "a list of motion files, patterns and folders",
                   "The motions that are judged.")}};
   return table;
 }

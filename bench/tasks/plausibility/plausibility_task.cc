@@ -43,7 +43,7 @@ Result<std::unique_ptr<Task>> MakePlausibilityTask(TaskInput& input) {
 
 TaskKind MakePlausibilityTaskKind() {
   return {.name = "plausibility",
-          .question = "Could a person have made the motions in files?",
+          .question = "Could a person have performed the motions in the files?",
           .default_metrics = {"faults", "floats_share", "sinks_share", "skates_share", "jumps", "pops"},
           .success = "fault_free",
           .metrics = PlausibilityMetrics(),

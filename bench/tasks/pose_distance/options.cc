@@ -21,8 +21,8 @@ const FieldTable<PairOptions>& PoseDistanceConditionFields() {
   static const FieldTable<PairOptions> table{
       {Key::Name("pairs", &PairOptions::source,
                  {{"blindspots", PairSource::kBlindSpots}, {"frames", PairSource::kFrames}},
-                 "What is compared: the eight pairs of poses that paper A's distance confuses, one per trial, or any "
-                 "frames of two different clips."),
+                 "The pairs of poses that are compared. blindspots: eight pairs that paper A's distance confuses, one "
+                 "pair in each trial; frames: random frames of two different clips."),
        FuzzyField<PairOptions>(),
        Key::Number("pairs_per_world", &PairOptions::pairs_per_world, {1, 10000},
                    "Number of pairs of frames drawn in a trial.")
@@ -35,14 +35,16 @@ const FieldTable<PoseDistanceMethod>& PoseDistanceMethodFields() {
   using Key = Field<Method>;
   static const FieldTable<Method> table{
       {Key::Name("distance", &Method::distance, PoseDistanceNames(), FindPoseDistance,
-                 "The distance of two poses: paper A's d, Kovar's point clouds (of one frame), or the mean distance of "
-                 "joints after heading and hips are aligned."),
+                 "The distance between two poses: d of paper A, Kovar's distance between point clouds (for one frame), "
+                 "or the mean distance between joints after heading and hips are aligned."),
        Key::Name("weights", &Method::weights, WeightSourceNames(), FindWeightSource,
-                 "Weights of the fuzzy features: paper A's, or learnt on all clips but the two judged, by logistic "
-                 "regression or a genetic algorithm.")
+                 "Weights of the fuzzy features: the weights of paper A, or weights that are learnt on all clips "
+                 "except the two judged clips, by logistic regression or by a genetic algorithm.")
            .With("distance", {"fuzzy"}),
        // Grades are in [0, 1] and the weights S have sum 8, so no distance exceeds sqrt(8 · 4).
-       Key::Number("threshold", &Method::threshold, {0, 6}, "Poses are called alike if d is below this threshold.")
+       Key::Number("threshold", &Method::threshold, {0, 6},
+                   "The method calls two poses alike if d is below this "
+                   "threshold.")
            .With("distance", {"fuzzy"})},
       SetThreshold};
   return table;

@@ -77,7 +77,7 @@ Result<std::unique_ptr<Task>> MakePoseDistanceTask(TaskInput& input) {
   DancedClips clips = DanceClips(input.clips);
   if (options.source == PairSource::kFrames && !HoldsTwoDances(clips)) {
     return Fail(input.condition.node().place,
-                "'pairs: frames' of task pose-distance needs 'clips', two different ones at least, such as "
+                "in task pose-distance, 'pairs: frames' needs 'clips' with at least two different clips, such as "
                 "['builtin:*']");
   }
   ASSIGN_OR_RETURN(const auto fuzzy, FuzzySystemOf(input));
@@ -90,7 +90,7 @@ Result<std::unique_ptr<Task>> MakePoseDistanceTask(TaskInput& input) {
 
 TaskKind MakePoseDistanceTaskKind() {
   return {.name = "pose-distance",
-          .question = "How well does a distance show that two poses look alike?",
+          .question = "How reliably does a distance show that two poses look alike?",
           .default_metrics = {"called_alike", "fuzzy_distance", "joint_distance_cm", "pose_gap_cm", "close_auc",
                               "close_f1"},
           .success = "close_f1",

@@ -12,7 +12,8 @@ const FieldTable<StudioOptions>& CameraSensingFields() {
                                    CaptureConditionFields().check};
     made.fields.push_back(
         Key::Number("picture_every", &StudioOptions::picture_every, {1, 30},
-                    "The cameras take every n-th frame at 30 Hz; in between, the last skeleton is repeated."));
+                    "The cameras take a picture of every n-th frame at 30 Hz. In the frames between, the last skeleton "
+                    "is repeated."));
     for (Key& field : made.fields) {
       if (field.info.only_with.key.empty()) field = field.With(kSensorKey, {kCameraSensor});
     }

@@ -21,13 +21,12 @@ const FieldTable<StudioOptions>& CameraSensingFields();
 /// keys of a method of `task: capture`.
 template <typename Method, typename Member>
 Field<Method> CaptureField(Member member) {
-  return {
-      {"capture", MappingKind("a mapping with the keys of a method of task capture", CaptureMethodFields().Describe()),
-       "(none)", "With `sensor: cameras`: how pictures become skeletons."},
-      [member](Fields& fields, Method& method) {
-        if (fields.Raw("capture") == nullptr) return;
-        ReadNested(fields, "capture", CaptureMethodFields(), std::invoke(member, method).emplace());
-      }};
+  return {{"capture", MappingKind("a mapping with keys of a method of task capture", CaptureMethodFields().Describe()),
+           "(none)", "With `sensor: cameras`: the method that computes skeletons from pictures."},
+          [member](Fields& fields, Method& method) {
+            if (fields.Raw("capture") == nullptr) return;
+            ReadNested(fields, "capture", CaptureMethodFields(), std::invoke(member, method).emplace());
+          }};
 }
 
 }  // namespace etude

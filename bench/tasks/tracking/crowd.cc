@@ -29,7 +29,7 @@ Result<std::vector<TrackingWorld>> MakeCrowd(const CrowdOptions& options) {
     crowd.push_back(*std::move(world));
   }
   if (std::ssize(crowd) == options.characters) return crowd;
-  return Fail({}, "only {} of {} characters have a built-in motion of {} frames at {:g} Hz; allowed: fewer frames",
+  return Fail({}, "only {} of {} characters have a built-in motion with {} frames at {:g} Hz; choose fewer frames",
               crowd.size(), options.characters, options.frames, options.rate_hz);
 }
 

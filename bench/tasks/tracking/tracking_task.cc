@@ -79,7 +79,7 @@ Result<std::unique_ptr<Task>> MakeTrackingTask(TaskInput& input) {
   start.options = study.options.common;
   ASSIGN_OR_RETURN(auto methods, ReadMethods(input, "tracking", TrackingMethodFields(), start));
   if (input.clips.clips.empty()) {
-    return Fail(input.condition.node().place, "a tracking scenario needs clips, e.g. clips: ['builtin:boxing']");
+    return Fail(input.condition.node().place, "a scenario of task tracking needs 'clips', such as ['builtin:boxing']");
   }
   study.methods = std::move(methods);
   study.clips = input.clips;
@@ -90,7 +90,7 @@ Result<std::unique_ptr<Task>> MakeTrackingTask(TaskInput& input) {
 
 TaskKind MakeTrackingTaskKind() {
   return {.name = "tracking",
-          .question = "Can a solver follow a motion, frame by frame?",
+          .question = "How well does a solver follow a motion frame by frame?",
           .default_metrics = {"frames_solved", "mpjpe_mm", "orientation_error_deg", "position_error_cm",
                               "angle_jerk_ratio", "iterations_per_frame"},
           .success = "frames_solved",

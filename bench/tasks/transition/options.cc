@@ -34,30 +34,32 @@ const FieldTable<TransitionCondition>& TransitionConditionFields() {
   // The settings that all methods share come first.
   static const FieldTable<Options> table{
       {Key::Number("threshold", &Options::threshold, kThresholds,
-                   "Fuzzy distance below which two bridge frames match; for all methods."),
+                   "Two bridge frames match if their fuzzy distance is below this threshold. It applies to all methods "
+                   "that do not set their own threshold."),
        Key::Number(
            "wait_s", &Options::wait_s, kWaits_s,
-           "Maximum time from the request to the transition; for all methods (outside methods get it as max_wait_s).")
+           "Maximum time from the request to the transition. It applies to all methods that do not set their own "
+           "limit. Outside methods get this value as max_wait_s.")
            .Unit("seconds"),
        Key::Flag("explain", &Options::explain,
-                 "Whether every cell keeps the ten partial distances of its transition points and candidates as "
-                 "series; the report always explains cells that have films."),
+                 "true: every cell keeps the ten partial distances of its transition points and candidates as series. "
+                 "With false, the report explains only cells that have films."),
        // Keys of the rules by which the library is prepared.
        Key::Name("asked_for", Path(&Options::stage, &StageRules::asks_for_acts), {{"any", false}, {"acts", true}},
-                 "Which clips are requested while another clip plays: any clip, or one of the coach's acts if the library "
-                 "has acts."),
+                 "The clips that may be requested while another clip plays. any: any clip; acts: one of the coach's "
+                 "acts, if the library has acts."),
        Key::Number("min_clips", Path(&Options::stage, &StageRules::min_clips), {1, 1000},
-                   "Minimum number of clips in which a bridge frame's ten tags must occur together."),
+                   "A frame is a bridge frame only if its ten tags occur together in at least this number of clips."),
        Key::Number("most_per_class", Path(&Options::stage, &StageRules::most_per_class), {0, 100000},
-                   "Maximum number of bridge frames per clip and set of ten tags; those most like other clips' frames "
-                   "are kept; 0: all."),
+                   "Maximum number of bridge frames for each clip and each set of ten tags. The frames that are most "
+                   "similar to frames of other clips are kept. 0 keeps all frames."),
        Key::Angle("head_bend_deg", Path(&Options::stage, &StageRules::head, &HeadRule::max_bend), {0, 180},
-                  "Largest bend of the neck in a bridge frame."),
+                  "Largest allowed bend of the neck in a bridge frame."),
        Key::Angle("head_turn_dps", Path(&Options::stage, &StageRules::head, &HeadRule::max_turn_speed), {0, 10000},
-                  "Fastest turn of the neck in a bridge frame.")
+                  "Largest allowed turning speed of the neck in a bridge frame.")
            .Unit("degrees per second"),
        Key::Number("tween_s", Path(&Options::stage, &StageRules::tween, &TweenRules::shortest_s), {0, 10},
-                   "Minimum length of an in-between.")
+                   "Minimum length of an in-between clip.")
            .Unit("seconds"),
        FuzzyField<Options>()}};
   return table;
@@ -69,22 +71,24 @@ const FieldTable<TransitionMethod>& TransitionMethodFields() {
     // Keys of the choice, the join, the weights, the matching rules and the wait.
     FieldTable<TransitionMethod> made{
         {Key::Name("choice", Path(&TransitionMethod::way, &TransitionWay::choice), ChoiceNames(), FindChoice,
-                   "Which frames a transition takes, and when: paper A's bridge frames, or an alternative."),
+                   "The rule that chooses the frames and the time of a transition: paper A's bridge frames, or an "
+                   "alternative."),
          Key::Name("join", Path(&TransitionMethod::way, &TransitionWay::join), JoinNames(), FindJoin,
-                   "The join of two clips: a cut, or a smooth change from the old motion to the new one."),
+                   "How the two clips are joined: by a cut, or by a smooth change from the old motion to the new "
+                   "motion."),
          Key::Name("weights", &TransitionMethod::weights, WeightSourceNames(), FindWeightSource,
-                   "Weights of the fuzzy features: the fuzzy system's, or learnt on all clips but the two judged, by "
-                   "logistic regression or a genetic algorithm."),
+                   "Weights of the fuzzy features: the weights of the fuzzy system, or weights that are learnt on all "
+                   "clips except the two judged clips, by logistic regression or by a genetic algorithm."),
          Key::Number("threshold", Path(&TransitionMethod::way, &TransitionWay::rules, &MatchRules::threshold),
-                     kThresholds, "The distance below which two frames match.")
+                     kThresholds, "Two frames match if their fuzzy distance is below this threshold.")
              .WhenAbsent("(the scenario's)")
              .With("choice", FuzzyChoices()),
          Key::Flag("within_class", Path(&TransitionMethod::way, &TransitionWay::rules, &MatchRules::within_class),
-                   "Whether only frames with the same ten tags are compared.")
+                   "true: only frames with the same ten tags are compared.")
              .With("choice", FuzzyChoices()),
          Key::Name("pick", Path(&TransitionMethod::way, &TransitionWay::rules, &MatchRules::pick),
                    {{"first", Pick::kFirst}, {"smallest", Pick::kSmallest}},
-                   "Which of several matching pairs is taken.")
+                   "The pair of frames that is taken if several pairs match.")
              .With("choice", {"fuzzy-bridge"}),
          Key::Number("wait_s", &TransitionMethod::wait_s, kWaits_s, "Maximum time from the request to the transition.")
              .Unit("seconds")

@@ -65,7 +65,7 @@ Result<std::unique_ptr<Task>> MakeTransitionTask(TaskInput& input) {
 
 TaskKind MakeTransitionTaskKind() {
   return {.name = "transition",
-          .question = "How smoothly does a body change from one clip to another on request?",
+          .question = "How smoothly does a body change from one clip to another clip on request?",
           .default_metrics = {"jump_cm", "natural_share", "pose_gap_cm", "false_smooth", "foot_slide_cmps", "wait_s"},
           .success = "clean_share",
           .metrics = TransitionMetrics(),

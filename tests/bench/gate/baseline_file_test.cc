@@ -76,16 +76,16 @@ TEST(Baseline, HasOneLinePerMethodAndMetric) {
 TEST(Baseline, IsRefusedWhenItsSealDoesNotFitAndReadWhereThatIsAskedFor) {
   const std::string edited = Edited(Text(), "[10.0, => [10.5,");
   EXPECT_THAT(testing::Refusal(ReadBaseline(edited, "b.json")),
-              HasSubstr("b.json: was changed after gate --update wrote it: its seal does not match"));
+              HasSubstr("b.json: the seal does not match, so this baseline was changed after gate --update wrote it"));
   ASSERT_OK(read, ReadBaseline(edited, "b.json", BaselineSeal::kMayBreak));
-  EXPECT_THAT(read->unsealed, HasSubstr("its seal does not match"));
+  EXPECT_THAT(read->unsealed, HasSubstr("the seal does not match"));
   EXPECT_EQ(ReadBaseline(Text(), "b.json")->unsealed, "");
   // A baseline of schema 1 has no seal.
   std::string older = Edited(Text(), R"("schema":2 => "schema":1)");
   older.erase(older.find(",\n\"seal\""));
-  EXPECT_THAT(testing::Refusal(ReadBaseline(older + "}", "b.json")), HasSubstr("has no seal"));
+  EXPECT_THAT(testing::Refusal(ReadBaseline(older + "}", "b.json")), HasSubstr("without a seal"));
   ASSERT_OK(unsealed, ReadBaseline(older + "}", "b.json", BaselineSeal::kMayBreak));
-  EXPECT_THAT(unsealed->unsealed, HasSubstr("has no seal"));
+  EXPECT_THAT(unsealed->unsealed, HasSubstr("without a seal"));
   EXPECT_THAT(ComplaintAbout(Edited(Text(), R"("schema":2 => "schema":1)")), HasSubstr("has a 'seal'"));
   EXPECT_THAT(ComplaintAbout(Edited(older + "}", R"("schema":1 => "schema":2)")), HasSubstr("lacks its 'seal'"));
 }
@@ -97,7 +97,7 @@ TEST(Baseline, IsRefusedWithThePlaceWhenItIsNoneOrWouldHideSomething) {
                              [text = Text()](const std::string& line) { return ComplaintAbout(Edited(text, line)); }));
   const std::string ended = "ooou" + std::string(20, 'o');
   EXPECT_THAT(ComplaintAbout(testing::AllReplaced(Text(), ended, std::string(24, 's'))),
-              HasSubstr("no cell is ok or unsolved"));
+              HasSubstr("no cell has the status ok or unsolved"));
 }
 
 TEST(Baseline, HEAVY_ThatWasTornAnywhereIsRefusedInOneLineOrReadsAsAnotherOne) {

@@ -296,7 +296,8 @@ TEST(Snapshots, AreComparableWhateverDoesNotShapeWorlds) {
   const Snapshot annotated = SnapshotOf(same, "expect: [{metric: position_error_cm, of: a, at_most: 99}]  # new\n");
   EXPECT_THAT(WhyNotComparable(Reference(), annotated), IsEmpty());
   EXPECT_THAT(WhyNotComparable(Reference(), SnapshotOf(same, "max_sweeps: 7\n")),
-              ElementsAre(HasSubstr("joint_noise_deg=1 have other parameters"), HasSubstr("joint_noise_deg=2 have")));
+              ElementsAre(HasSubstr("joint_noise_deg=1, the two runs have different parameters"),
+                          HasSubstr("joint_noise_deg=2, the")));
 }
 
 TEST(Snapshots, AreNotComparableWithOtherSeedsTrialsClipsOrMetricVersions) {

@@ -59,7 +59,7 @@ TEST(Gate, RefusesABaselineOfOtherWorldsAndSaysWhatDiffers) {
   Snapshot baseline = TakeSnapshot(Steady());
   baseline.scenarios[0].seed = 9;
   EXPECT_THAT(testing::Refusal(JudgeRun(Steady(), &baseline, "b.json")),
-              HasSubstr("b.json: the worlds of this baseline are not those of the run: s: the seed was 9 and is 5"));
+              HasSubstr("b.json: this baseline and the run have different worlds: s: the seed was 9 and is 5"));
 }
 
 TEST(Gate, DoesNotJudgeARunThatLacksRows) {
@@ -67,7 +67,8 @@ TEST(Gate, DoesNotJudgeARunThatLacksRows) {
   FinishedRun run = Worse();
   run.data.rows.erase(run.data.rows.begin() + 7);
   ASSERT_TRUE(CheckRows(run, {"cells.jsonl", 0, 0}));
-  EXPECT_THAT(run.incomplete, ElementsAre("s: 1 of 96 rows are missing, the first is s/joint_noise_deg=1/003/b"));
+  EXPECT_THAT(run.incomplete, ElementsAre("s: 1 of 96 rows are missing; the first missing row is "
+                                          "s/joint_noise_deg=1/003/b"));
   EXPECT_EQ(VerdictOn(run, baseline), GateVerdict::kIncomplete);
   FinishedRun whole = Worse();
   ASSERT_TRUE(CheckRows(whole, {}));
@@ -81,7 +82,8 @@ TEST(Gate, RefusesRowsThatAreThereTwiceOrThatNobodyAskedFor) {
               HasSubstr("contains the cell s/joint_noise_deg=1/001/b twice"));
   FinishedRun stranger = Steady();
   stranger.data.rows[3].method = "c";
-  EXPECT_THAT(ToString(CheckRows(stranger, {}).error()), HasSubstr("/c, which is in no scenario of the manifest"));
+  EXPECT_THAT(ToString(CheckRows(stranger, {}).error()), HasSubstr("/c, but no scenario of the manifest has this "
+                                                                   "cell"));
 }
 
 TEST(Gate, IsIncompleteWhereTheMachineEndedACell) {
@@ -102,8 +104,8 @@ TEST(Gate, FailsAMethodThatGaveNoAnswerAnywhere) {
   }
   const auto report = JudgeRun(run, nullptr, "");
   EXPECT_EQ(GateVerdictOf(*report), GateVerdict::kRegressed);
-  EXPECT_THAT(report->silent, ElementsAre("s: none of the 48 cells of b is ok or unsolved; the first has "
-                                          "s/joint_noise_deg=1/000/b; 48 × failed: ended with exit code 1"));
+  EXPECT_THAT(report->silent, ElementsAre("s: none of the 48 cells of b has the status ok or unsolved; the first cell "
+                                          "is s/joint_noise_deg=1/000/b; 48 × failed: ended with exit code 1"));
   run.data.rows.back().result = CellResult::Ended(Status::kUnsolved, "too far");  // b's; kUnsolved is an answer
   EXPECT_EQ(GateVerdictOf(*JudgeRun(run, nullptr, "")), GateVerdict::kPassed);
 }
@@ -114,7 +116,7 @@ TEST(Gate, IsIncompleteWhereNothingWasRun) {
   const auto report = JudgeRun(run, nullptr, "");
   EXPECT_EQ(GateVerdictOf(*report), GateVerdict::kIncomplete);
   EXPECT_THAT(report->incomplete,
-              ElementsAre("every cell was skipped; the first is s/joint_noise_deg=1/000/a: no labels"));
+              ElementsAre("every cell was skipped; the first cell is s/joint_noise_deg=1/000/a: no labels"));
 }
 
 TEST(Gate, IsIncompleteWhenTheBaselineHoldsMoreThanTheRun) {

@@ -45,9 +45,9 @@ TEST(SelfTest, FindsNoAlarmBetweenEqualSeedsAndEveryLargeChange) {
     EXPECT_EQ(tail.found.of, 20);
     tails[tail.change] = tail.found.count;
   }
-  EXPECT_EQ(tails.at("position_error_cm in 3 of 24 worlds worse by 40 × the difference that matters"), 0);
-  EXPECT_EQ(tails.at("position_error_cm in 4 of 24 worlds worse by 40 × the difference that matters"), 20);
-  EXPECT_EQ(tails.at("position_error_cm in 4 of 24 worlds worse by 18 × the difference that matters"), 0);
+  EXPECT_EQ(tails.at("position_error_cm worse in 3 of 24 worlds by 40 × the difference that matters"), 0);
+  EXPECT_EQ(tails.at("position_error_cm worse in 4 of 24 worlds by 40 × the difference that matters"), 20);
+  EXPECT_EQ(tails.at("position_error_cm worse in 4 of 24 worlds by 18 × the difference that matters"), 0);
   EXPECT_EQ(tails.at("position_error_cm lost in 1 of 24 worlds"), 20);
   EXPECT_TRUE(report->Holds());
 }
@@ -97,7 +97,8 @@ TEST(SelfTest, SaysWhenAScenarioGivesItNothingToInjectInto) {
                           "gate: {metrics: [solved_practical]}\n");
       },
       1);
-  EXPECT_THAT(ToString(report.error()), HasSubstr("no metric of the gate is a median with a direction"));
+  EXPECT_THAT(ToString(report.error()), HasSubstr("needs a metric that has a direction and is aggregated by its "
+                                                  "median"));
 }
 
 }  // namespace

@@ -28,7 +28,7 @@ TEST(CompareSystems, NamesBothAndWhatWasMeasuredBetweenThem) {
   EXPECT_THAT(CompareSystems(kDebian12, kDebian13, worlds, worlds),
               ElementsAre("A: GCC 12.2.0, glibc 2.36, Ceres 2.1.0, Mesa 22.3.6, by OSMesa (Debian 12)",
                           "B: GCC 14.2.0, glibc 2.41, Ceres 2.2.0, Mesa 25.0.7-2+deb13u1, by EGL (Debian 13)",
-                          "Measured between these systems: none of the quick suite's 2192 cells differs."));
+                          "In a test of these two systems, none of the 2192 cells of the quick suite differed."));
 }
 
 TEST(CompareSystems, FindsASystemThatDrewNothingByTheRest) {
@@ -40,7 +40,7 @@ TEST(CompareSystems, FindsASystemThatDrewNothingByTheRest) {
 TEST(CompareSystems, TellsWhatIsMoreThanMeasured) {
   const auto lines = CompareSystems(kDebian12, kDebian13, ThreeWorlds({1, 2, 3}), ThreeWorlds({1, 1.75, 3.125}));
   ASSERT_EQ(lines.size(), 4u);
-  EXPECT_EQ(lines[3], "The differences here are larger than measured: jump_cm by 0.25.");
+  EXPECT_EQ(lines[3], "In this comparison, differences are larger than in that test: jump_cm by 0.25.");
 }
 
 TEST(CompareSystems, NamesTheLargestMeasuredDifferences) {
@@ -50,9 +50,10 @@ TEST(CompareSystems, NamesTheLargestMeasuredDifferences) {
   for (Snapshot* snapshot : {&before, &within, &beyond}) snapshot->scenarios[0].cells[0].metrics[0].metric = "mpjpe_mm";
   const auto lines = CompareSystems(kDebian13, sid, before, within);
   ASSERT_EQ(lines.size(), 3u);
-  EXPECT_THAT(lines[2], HasSubstr("at most 80 of the quick suite's 2192 cells differ, "));
+  EXPECT_THAT(lines[2], HasSubstr("at most 80 of the 2192 cells of the quick suite differed ("));
   EXPECT_THAT(lines[2], HasSubstr("mpjpe_mm by 0.064"));
-  EXPECT_THAT(CompareSystems(kDebian13, sid, before, beyond).back(), HasSubstr("larger than measured: mpjpe_mm by 0.12"));
+  EXPECT_THAT(CompareSystems(kDebian13, sid, before, beyond).back(),
+              HasSubstr("larger than in that test: mpjpe_mm by 0.12"));
 }
 
 TEST(CompareSystems, SaysThatNothingIsKnownOfOtherSystems) {
@@ -62,7 +63,7 @@ TEST(CompareSystems, SaysThatNothingIsKnownOfOtherSystems) {
     const auto lines = CompareSystems(kDebian12, other, {}, {});
     ASSERT_EQ(lines.size(), 3u);
     EXPECT_THAT(lines[1], HasSubstr("(not measured)"));
-    EXPECT_THAT(lines[2], HasSubstr("how much results differ between these two has not been measured"));
+    EXPECT_THAT(lines[2], HasSubstr("How much results differ between these two systems has not been measured"));
   }
 }
 

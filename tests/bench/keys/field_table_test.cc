@@ -82,7 +82,7 @@ TEST(FieldTable, SaysWhereSomethingIsWrongAndWhatIsAllowed) {
   EXPECT_THAT(Read("{place: Ulm, warmth_c: 61}").complaint, HasSubstr("1:24: 'warmth_c': 61 is out of range"));
   EXPECT_THAT(Read("{place: Ulm, clouds: 1.5}").complaint, HasSubstr("'clouds' must be a whole number, found 1.5"));
   EXPECT_THAT(Read("{place: Ulm, wind: storng}").complaint, HasSubstr("did you mean 'strong'? Allowed: none, strong"));
-  EXPECT_THAT(Read("{place: Ulm, tides_m: [1]}").complaint, HasSubstr("'tides_m' has 1 numbers; it needs 2 to 3"));
+  EXPECT_THAT(Read("{place: Ulm, tides_m: [1]}").complaint, HasSubstr("'tides_m' has 1 numbers; needed: 2 to 3"));
   EXPECT_THAT(Read("{place: Ulm, tides_m: [1, 2, 3, 4]}").complaint, HasSubstr("has 4 numbers"));
   EXPECT_THAT(Read("{place: Ulm, oddities: [fog, hale]}").complaint, HasSubstr("1:30: unknown oddities 'hale'"));
   EXPECT_THAT(Read("{place: Ulm, cluods: 1}").complaint, HasSubstr("unknown key of a weather 'cluods'"));

@@ -112,7 +112,9 @@ INSTANTIATE_TEST_SUITE_P(
                       Misfit{"refuses_what_it_does_not_know",
                              "accepts long lines, unknown keys and ids with any characters", "not JSON"},
                       Misfit{"answers_twice", "answers every question once", "answers were repeated"},
-                      Misfit{"stays_after_the_end", "ends when its input ends", "it was still running 2 s later"}),
+                      Misfit{"stays_after_the_end", "ends when its input ends",
+                             "the program was still running 2 s "
+                             "after its input ended"}),
     [](const auto& tested) { return tested.param.behaviour; });
 
 TEST(Conformance, TellsWhenThereIsNothingToExamine) {

@@ -315,7 +315,7 @@ TEST(OutsideMethod, WhatOfThisMachineKeepsUsFromAskingItIsNoAnswerOfIt) {
   OutsideMethod fenceless(Behaving("is_good", Fence::Of("/bin/false")));
   const OutsideReply reply = Ask(fenceless);
   EXPECT_FALSE(reply.was_asked);
-  EXPECT_THAT(reply.reason, HasSubstr("no program can be run in the fence"));
+  EXPECT_THAT(reply.reason, HasSubstr("cannot run a program in the fence"));
   OutsideMethod good(Behaving("is_good"));
   EXPECT_TRUE(Ask(good).was_asked);
 }

@@ -37,7 +37,8 @@ TEST(EvaluationExtras, OthersAreRefused) {
     return testing::Message(ReadEvaluationExtras(testing::Edited(WriteEvaluationExtras(SampleOfPair()), edit)));
   }));
   const std::string nameless = testing::Edited(WriteEvaluationExtras(SampleOfPair()), R"("answer" => "other")");
-  EXPECT_THAT(testing::Message(ReadEvaluationExtras(nameless)), ::testing::HasSubstr("not a readable recording"));
+  EXPECT_THAT(testing::Message(ReadEvaluationExtras(nameless)), ::testing::HasSubstr("this recording of an evaluation "
+                                                                                     "cannot be read"));
 }
 
 }  // namespace

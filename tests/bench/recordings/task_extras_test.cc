@@ -120,7 +120,7 @@ TEST(TransitionExtras, SurviveWritingAndReading) {
 TEST(TaskExtras, AreTheOnesThatThePageTellsOf) {
   ASSERT_OK(page, ReadWholeFile("docs/reference/recordings.md"));
   EXPECT_EQ(*page, RecordingsAsMarkdown()) << "write it anew: etude list recordings > docs/reference/recordings.md";
-  EXPECT_THAT(*page, HasSubstr("- `moves`: the moves that may be asked for\n  - `name`: name of a taught move\n"));
+  EXPECT_THAT(*page, HasSubstr("- `moves`: the moves that may be requested\n  - `name`: name of a taught move\n"));
   EXPECT_THAT(*page, HasSubstr("- `version`: always 1\n"));
 }
 

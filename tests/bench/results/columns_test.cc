@@ -175,7 +175,7 @@ TEST_F(ColumnsTest, ThatAreNotAsTheyWereWrittenAreRefused) {
   };
   EXPECT_EQ(Complaint(), "accepted");
   EXPECT_THAT(with(own / "status.npy", [](std::string& text) { text.pop_back(); }),
-              HasSubstr("status.npy: has 15 numbers, but its run has 16 rows"));
+              HasSubstr("status.npy: contains 15 numbers, but the run has 16 rows"));
   EXPECT_THAT(with(own / "status.npy", [](std::string& text) { text.resize(20); }), HasSubstr("it is too short"));
   EXPECT_THAT(with(own / "status.npy", [](std::string& text) { text.back() = 8; }),
               HasSubstr("status.npy contains 8, but there are 8 statuses"));
@@ -184,11 +184,11 @@ TEST_F(ColumnsTest, ThatAreNotAsTheyWereWrittenAreRefused) {
   EXPECT_THAT(with(own / "position_error_cm.npy", [](std::string& text) { text[14] = 'X'; }),
               HasSubstr("is not a column of numbers of type <f8"));
   EXPECT_THAT(with(own / "series" / "position_error_cm.ends.npy", [](std::string& text) { text.back() = 1; }),
-              HasSubstr("do not follow each other"));
+              HasSubstr("are not stored one after the other"));
   // With this shape NumPy would read the two methods of a trial as two trials of one method.
   EXPECT_THAT(with(own / "position_error_cm.npy",
                    [](std::string& text) { text.replace(text.find("(2, 4, 2)"), 9, "(2, 2, 4)"); }),
-              HasSubstr("is not an array with the axes condition, trial, method"));
+              HasSubstr("does not have the shape (conditions, trials, methods) of the run"));
   EXPECT_THAT(with(own / "index.json", [](std::string& text) { text = "{}"; }), HasSubstr("not an index of columns"));
   const auto with_index = [&](const char* key, const nlohmann::json& value, const char* scenario = "poses") {
     return with(folder() / "columns" / scenario / "index.json", [&](std::string& text) {
@@ -199,8 +199,8 @@ TEST_F(ColumnsTest, ThatAreNotAsTheyWereWrittenAreRefused) {
   };
   EXPECT_THAT(with_index("/trials", -1), HasSubstr("contains no cells"));
   EXPECT_THAT(with_index("/methods", nlohmann::json::array()), HasSubstr("contains no cells"));
-  EXPECT_THAT(with_index("/texts", nlohmann::json::array()), HasSubstr("names a text that does not exist"));
-  EXPECT_THAT(with_index("/kinds/0/why/0", -2), HasSubstr("names a text that does not exist"));
+  EXPECT_THAT(with_index("/texts", nlohmann::json::array()), HasSubstr("refers to a text that does not exist"));
+  EXPECT_THAT(with_index("/kinds/0/why/0", -2), HasSubstr("refers to a text that does not exist"));
   const auto texts = nlohmann::json::parse(*ReadWholeFile(folder() / "columns" / "clips" / "index.json")).at("texts");
   for (std::size_t i = 0; i < texts.size(); ++i) {
     if (!texts[i].get<std::string>().starts_with('[')) continue;
@@ -261,7 +261,7 @@ TEST_F(ColumnsTest, ThatAreCutShortWhileTheyAreMappedEndTheProcessWithASentence)
         EndWhenMappedFilesAreCut();
         std::exit(mapped->Numbers<double>().back() > 0 ? 1 : 0);
       },
-      ::testing::ExitedWithCode(3), "a file of a run was cut short");
+      ::testing::ExitedWithCode(3), "another program shortened a file of the run");
 }
 
 }  // namespace

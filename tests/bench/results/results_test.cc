@@ -71,7 +71,7 @@ TEST(Recording, NamesItsJointsAndRefusesThoseThatDoNot) {
     return testing::Refusal(DecodeRecording(changed, kPlace));
   };
   const auto without_head = [](Json& changed) { changed = Json{{"tracks", changed.at("tracks")}, {"extras", {}}}; };
-  EXPECT_THAT(complaint(without_head), HasSubstr("of version 1, which does not name its joints"));
+  EXPECT_THAT(complaint(without_head), HasSubstr("of version 1, which does not list its joints"));
   EXPECT_THAT(complaint([](Json& changed) { changed["recording"] = 3; }), HasSubstr("of version 3"));
   EXPECT_THAT(complaint([](Json& changed) { std::swap(changed["joints"][0], changed["joints"][1]); }),
               HasSubstr("'joints': "));

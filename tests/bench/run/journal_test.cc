@@ -186,7 +186,7 @@ TEST_F(JournalTest, KnowsWhatItBelongsToAsLongAsOneCopyOfItsHeadIsGood) {
   std::string changed = text;
   changed[5] = changed[line + 5] = 'x';
   Rewrite(changed);
-  EXPECT_THAT(Complaint(), HasSubstr("not the header of a journal, and no copy of a header follows"));
+  EXPECT_THAT(Complaint(), HasSubstr("neither the first line nor a later copy is the header of a journal"));
 }
 
 TEST_F(JournalTest, RefusesACellOfAnotherShard) {
@@ -195,7 +195,7 @@ TEST_F(JournalTest, RefusesACellOfAnotherShard) {
   ASSERT_TRUE(journal->Append(LineOf(0, 1)));  // world 0 belongs to the first shard
   EXPECT_EQ(Complaint(), "accepted");
   ASSERT_TRUE(journal->Append(LineOf(2, 1)));  // world 1 does not
-  EXPECT_THAT(Complaint(), HasSubstr("does not belong to this run's shard 1/2"));
+  EXPECT_THAT(Complaint(), HasSubstr("which does not belong to shard 1/2 of this run"));
 }
 
 TEST_F(JournalTest, RefusesACellThatThePlanHasNot) {
@@ -203,7 +203,7 @@ TEST_F(JournalTest, RefusesACellThatThePlanHasNot) {
   auto journal = Journal::Continue(folder());
   ASSERT_TRUE(journal);
   ASSERT_TRUE(journal->Append(EncodeCellLine(plan_.cell_count(), FinishedCell())));
-  EXPECT_THAT(Complaint(), HasSubstr("journal.jsonl:5: cell 12 does not belong to this run's shard 1/1"));
+  EXPECT_THAT(Complaint(), HasSubstr("journal.jsonl:5: found cell 12, which does not belong to shard 1/1 of this run"));
 }
 
 TEST_F(JournalTest, HEAVY_GivesCellsBackInAnyOrderHoweverLargeItIs) {

@@ -132,7 +132,8 @@ TEST_F(RunFolderTest, EmptiesTheWorkingFolderInItsPlace) {
 
 TEST_F(RunFolderTest, LeavesAFolderThatAnotherRunWritesIntoAsItIs) {
   ASSERT_OK(other, RunFolder::Claim(out_, /*keep_contents=*/true));
-  EXPECT_THAT(testing::Refusal(RunFolder::Claim(out_, false)), ::testing::HasSubstr("another run is writing into it"));
+  EXPECT_THAT(testing::Refusal(RunFolder::Claim(out_, false)), ::testing::HasSubstr("another run is writing into this "
+                                                                                    "folder"));
   EXPECT_EQ(ReadWholeFile(out_ / "host.json"), "old");
 }
 

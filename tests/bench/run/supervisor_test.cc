@@ -80,7 +80,7 @@ class NarrowSupervisorTest : public SupervisorTest {
 TEST_F(SupervisorTest, EndsWhenWorkersKeepDyingInTheirSetupAndLosesNoWorld) {
   const auto whole = RunWith("exit 1", 2);
   ASSERT_FALSE(whole);
-  EXPECT_THAT(ToString(whole.error()), HasSubstr("3 workers in a row failed in their set-up"));
+  EXPECT_THAT(ToString(whole.error()), HasSubstr("3 workers in a row failed before they were ready"));
   EXPECT_THAT(ToString(whole.error()), HasSubstr("exit code 1"));
   EXPECT_TRUE(rows_.empty());
 }

@@ -48,7 +48,7 @@ TEST_F(UsedKeysTest, ASecondUseIsRefusedWithTheFirst) {
   EXPECT_FALSE(std::filesystem::exists(List())) << "a check writes nothing";
   EXPECT_EQ(Complaint(Key(), Use()), "");
   const auto told = Complaint(Key(), Use({}, "another suite's"));
-  EXPECT_THAT(told, HasSubstr(File() + ": was used before by 'etude run' of 'ik' into " +
+  EXPECT_THAT(told, HasSubstr(File() + ": was used before: 'etude run' with 'ik' wrote into " +
                               (folder_->path() / "out-1").string()));
   EXPECT_THAT(told, HasSubstr(List() + ":1"));
   EXPECT_THAT(told, HasSubstr("--reuse-key"));
@@ -131,7 +131,7 @@ TEST_F(UsedKeysTest, ARepeatedRunIsNotedUnlessTheKeyIsKnownAsUsed) {
   EXPECT_TRUE(NoteRepeat(Key(), repeat));
   const std::string noted = Text();
   EXPECT_EQ(std::ranges::count(noted, '\n'), 1);
-  EXPECT_THAT(Complaint(Key(), Use()), HasSubstr("was used before by 'etude replay'"));
+  EXPECT_THAT(Complaint(Key(), Use()), HasSubstr("was used before: 'etude replay'"));
   EXPECT_EQ(Complaint(Key(7), Use()), "");
   EXPECT_TRUE(NoteRepeat(Key(7), repeat));
   const std::string used = Text();
@@ -143,7 +143,8 @@ TEST_F(UsedKeysTest, ARepeatedRunIsNotedUnlessTheKeyIsKnownAsUsed) {
 
 TEST_F(UsedKeysTest, AListThatCannotBeWrittenIsRefused) {
   std::filesystem::create_directory(List());
-  EXPECT_THAT(Complaint(Key(), Use()), HasSubstr("cannot be written (Is a directory), so the use of the key"));
+  EXPECT_THAT(Complaint(Key(), Use()), HasSubstr("cannot be written (Is a directory), so etude cannot record that the "
+                                                 "key was used"));
   EXPECT_TRUE(NoteUse(Key(), Use(), true));
   std::filesystem::remove(List());
   std::filesystem::create_symlink(folder_->path() / "elsewhere", List());

@@ -55,7 +55,7 @@ TEST(Sources, LetsASingleScenarioInclude) {
 TEST(Sources, RefusesAnAvalancheOfIncludes) {
   SourceTexts deep;
   for (int i = 0; i < 50; ++i) deep[fmt::format("{}.yaml", i)] = fmt::format("include: [{}.yaml]\n", i + 1);
-  EXPECT_THAT(Complaint("include: [0.yaml]\n" + kHead, deep), HasSubstr("included more than 8 files deep"));
+  EXPECT_THAT(Complaint("include: [0.yaml]\n" + kHead, deep), HasSubstr("nested more than 8 files deep"));
   SourceTexts wide;  // 12^7 inclusions of 7 small files
   for (int i = 0; i < 7; ++i) {
     std::string list;
@@ -74,7 +74,7 @@ TEST(Sources, RefusesCopiesThatWouldFillTheMemory) {
   for (int i = 0; i < 500; ++i) scenarios += fmt::format("  - {{scenario: s{}}}\n", i);
   EXPECT_THAT(Complaint(head + "clips: [" + many + "]}\n" + scenarios), HasSubstr("at most 300000 values in all"));
   EXPECT_THAT(Complaint(head + "sweep: {poses: {from: 0, to: 1, count: 1000}}}\n" + scenarios),
-              HasSubstr("the conditions of the file hold more than 300000 values"));
+              HasSubstr("the conditions of the file have more than 300000 values"));
 }
 
 TEST(Sources, ReadsFilesAndAllThatTheyInclude) {

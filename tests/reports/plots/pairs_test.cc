@@ -66,7 +66,7 @@ TEST(PairsHtml, ShowsTheWorstFramesOfWhatIsRecorded) {
   // An unreadable recording is reported, and the curves stay.
   run.recordings[0].recording.extras_json = "{}";
   const std::string told = PairsHtml(run, run.scenarios[0]);
-  EXPECT_THAT(told, HasSubstr("not a readable recording"));
+  EXPECT_THAT(told, HasSubstr("this recording of an evaluation cannot be read"));
   EXPECT_THAT(told, HasSubstr("polyline"));
 }
 

@@ -91,7 +91,7 @@ TEST(SimulatedStudio, RefusesWhatItCannotDraw) {
   const BodyMotion motion = Gliding();
   NamedCamera lens;
   lens.camera.distortion.k1 = -0.1;
-  EXPECT_THAT(RefusalOf([&] { Studio(motion, std::array{lens}); }), HasSubstr("a lens with distortion"));
+  EXPECT_THAT(RefusalOf([&] { Studio(motion, std::array{lens}); }), HasSubstr("the lens has distortion"));
   EXPECT_THAT(RefusalOf([&] { Studio(motion, {}); }), HasSubstr("no camera"));
   EXPECT_THAT(RefusalOf([&] { StereoCameras(motion, 0); }), HasSubstr("baseline is 0 m"));
   const Studio studio(motion, StereoCameras(motion));

@@ -73,7 +73,7 @@ TEST(CheckJumps, RefusesAJumpThatHasNoTime) {
   EXPECT_EQ(complaint({At(0), JumpAt(1.1, 0.05), JumpAt(2.6, 0.1)}), "accepted");
   EXPECT_THAT(complaint({JumpAt(0, 0.1)}), ::testing::HasSubstr("beat 0 would last"));
   EXPECT_THAT(complaint({At(0), JumpAt(1.1, 0.02), JumpAt(1.6, 0.1)}), ::testing::HasSubstr("beat 1.6 would last"));
-  EXPECT_THAT(complaint({At(0), JumpAt(3.8, 0.2)}), ::testing::HasSubstr("allowed: within beats 0.00 to 4"));
+  EXPECT_THAT(complaint({At(0), JumpAt(3.8, 0.2)}), ::testing::HasSubstr("allowed: a jump between beats 0.00 and 4"));
 }
 
 }  // namespace

@@ -276,8 +276,8 @@ TEST(CaptureTask, FilmsWithOnesOwnCameras) {
   rational[1].camera.distortion.k4 = 0.1;
   EXPECT_THAT(refusal(rational), HasSubstr("camera 'c1' of 'mine.toml' has a lens model that scenarios cannot use"));
   in_millimetres[2].camera.p_WC *= 1000;
-  EXPECT_THAT(refusal(in_millimetres), HasSubstr("Is the file in metres?"));
-  EXPECT_THAT(testing::Refusal(Make("rig: file\nmethods:\n- {name: a}\n")), HasSubstr("needs 'rig_file'"));
+  EXPECT_THAT(refusal(in_millimetres), HasSubstr("check that the file is in metres"));
+  EXPECT_THAT(testing::Refusal(Make("rig: file\nmethods:\n- {name: a}\n")), HasSubstr("needs the key 'rig_file'"));
 }
 
 // Without an annotator, the annotator's dice must not matter; only the picture does.

@@ -44,11 +44,12 @@ TEST(LeaveOnePersonOut, LabelsThatMeanNothingAreGuessed) {
 TEST(LeaveOnePersonOut, RefusesOnePersonAndNobody) {
   Recorded recorded = Record(1, kMoves, 5);
   EXPECT_EQ(testing::Refusal(LeaveOnePersonOut(recorded.streams, recorded.parts, "l.csv", {})),
-            "l.csv: the labels name 1 person; to leave one person out, at least two people are needed");
+            "l.csv: the labels contain 1 person; needed: at least two people");
   recorded.parts[2].person.clear();
   recorded.parts[2].line = 7;
-  EXPECT_EQ(ToString(LeaveOnePersonOut(recorded.streams, recorded.parts, "l.csv", {}).error()).find("l.csv:7: the person of"),
-            0u);
+  EXPECT_EQ(
+      ToString(LeaveOnePersonOut(recorded.streams, recorded.parts, "l.csv", {}).error()).find("l.csv:7: the person in"),
+      0u);
 }
 
 TEST(Accuracy, IsTheShareTakenForWhatTheyWere) {

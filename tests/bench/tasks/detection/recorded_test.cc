@@ -188,19 +188,19 @@ TEST_F(RecordedPeopleTest, RefusesWhatHasNoUseOrCannotBeJudged) {
   const std::string method = "methods: [{name: a}]\n";
   LabelledStreams set = SetOf(Record(2, kDanced, 5));
   EXPECT_EQ(ComplaintAbout(method, set), "accepted");
-  EXPECT_THAT(ComplaintAbout("people: adult\n" + method, set), HasSubstr("nobody is simulated"));
-  EXPECT_THAT(ComplaintAbout("noise: 2\n" + method, set), HasSubstr("what its sensor saw"));
+  EXPECT_THAT(ComplaintAbout("people: adult\n" + method, set), HasSubstr("it describes simulated people"));
+  EXPECT_THAT(ComplaintAbout("noise: 2\n" + method, set), HasSubstr("it describes a simulated sensor"));
   EXPECT_THAT(ComplaintAbout("methods: [{name: a, oracle: [stream]}]\n", set), HasSubstr("is unknown"));
   LabelledStreams alone = SetOf(Record(1, kDanced, 5));
   EXPECT_THAT(ComplaintAbout(method, alone),
-              HasSubstr("only person-0 was recorded; to leave one person out, two people are needed"));
+              HasSubstr("person-0 is the only recorded person; needed: at least two people"));
   LabelledStreams unnamed = set;
   unnamed.nobody = "take";
-  EXPECT_THAT(ComplaintAbout(method, unnamed), HasSubstr("the person of take is unknown"));
+  EXPECT_THAT(ComplaintAbout(method, unnamed), HasSubstr("the person in the recording take is unknown"));
   set.parts[1].begin = set.parts[0].begin;
   set.parts[1].line = 7;
   EXPECT_THAT(ComplaintAbout(method, set),
-              HasSubstr("labels.csv:7: two performances of person-0 begin at the same time"));
+              HasSubstr("labels.csv:7: two performances in the recording person-0 begin at the same time"));
 }
 
 /// Returns an error-free recording of a built-in move, and its label.

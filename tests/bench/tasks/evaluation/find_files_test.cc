@@ -90,8 +90,9 @@ TEST_F(FindFilesTest, AnAnswerIsNotTheTruthUnderAnotherName) {
   Make({"t/a.bvh", "t/b.bvh", "m/b.bvh"});
   std::filesystem::create_hard_link(In("t/a.bvh"), In("m/a.bvh"));
   const std::string both = "truth: ['@/t']";
-  EXPECT_THAT(Complaint(both, {"{name: m, answers: ['@/m']}"}), HasSubstr("m/a.bvh' is the truth"));
-  EXPECT_THAT(Complaint("pairs: p.csv", {"{name: m}"}, "truth,m\n@/t/a.bvh,@/m/a.bvh\n"), HasSubstr("is the truth"));
+  EXPECT_THAT(Complaint(both, {"{name: m, answers: ['@/m']}"}), HasSubstr("m/a.bvh' is the same file as the truth"));
+  EXPECT_THAT(Complaint("pairs: p.csv", {"{name: m}"}, "truth,m\n@/t/a.bvh,@/m/a.bvh\n"), HasSubstr("is the same file "
+                                                                                                    "as the truth"));
   EXPECT_TRUE(Find(both, {"{name: m, answers: ['@/t']}"})) << "who judges the truth by itself says so";
   EXPECT_TRUE(Find("pairs: p.csv", {"{name: m}"}, "truth,m\n@/t/a.bvh#x,@/m/a.bvh#y\n")) << "two motions of one file";
 }
@@ -151,20 +152,20 @@ TEST_F(FindFilesTest, WhatCannotBePairedIsRefused) {
   Make({"t/a.bvh", "t/b.bvh", "u/a.bvh", "m/c.bvh", "m/d.bvh"});
   const std::vector<std::string> m = {"{name: m, answers: ['@/m']}"};
   EXPECT_THAT(Complaint("truth: ['@/t']", m), HasSubstr("none of the 2 answers of method 'm' has the name of a truth"));
-  EXPECT_THAT(Complaint("truth: ['@/t', '@/u']", m), HasSubstr("have the same name; 'pairs' can state"));
+  EXPECT_THAT(Complaint("truth: ['@/t', '@/u']", m), HasSubstr("have the same name; use the key 'pairs'"));
   EXPECT_THAT(Complaint("truth: ['@/none']", m), HasSubstr("no clip matches"));
-  EXPECT_THAT(Complaint("{}", m), HasSubstr("needs either 'truth' or 'pairs'"));
+  EXPECT_THAT(Complaint("{}", m), HasSubstr("needs exactly one of the keys 'truth' and 'pairs'"));
   EXPECT_THAT(Complaint("truth: ['@/t']", {"{name: m}"}), HasSubstr("method 'm' has no 'answers'"));
   EXPECT_THAT(Complaint("{truth: ['@/t'], people: 'x'}", {"{name: m, answers: ['@/u/a.bvh', '@/t/b.bvh']}"}),
-              HasSubstr("'x' does not fit the name 'a'"));
-  EXPECT_THAT(Complaint("{truth: ['@/t'], trials: 3}", m), HasSubstr("'trials' has no use"));
-  EXPECT_THAT(Complaint("pairs: p.csv", m, "truth,m\n"), HasSubstr("'answers' and 'pairs' exclude each other"));
+              HasSubstr("'x' does not match the name 'a'"));
+  EXPECT_THAT(Complaint("{truth: ['@/t'], trials: 3}", m), HasSubstr("'trials' is not allowed"));
+  EXPECT_THAT(Complaint("pairs: p.csv", m, "truth,m\n"), HasSubstr("'answers' and 'pairs' are not allowed together"));
   EXPECT_THAT(Complaint("pairs: p.csv", {"{name: m}"}, "truth,n\n"), HasSubstr("p.csv:1: unknown column 'n'"));
   EXPECT_THAT(Complaint("pairs: p.csv", {"{name: m}"}, "truth\n"), HasSubstr("has no column for method"));
   EXPECT_THAT(Complaint("pairs: p.csv", {"{name: m}"}, "truth,m\na\n"),
-              HasSubstr("p.csv:2: 1 cells; the heading has 2"));
+              HasSubstr("p.csv:2: found 1 cells, but the heading has 2"));
   EXPECT_THAT(Complaint("pairs: p.csv", {"{name: m}"}, "truth,m\nx/a.bvh,1\ny/a.bvh,2\n"),
-              HasSubstr("two pairs are named"));
+              HasSubstr("two pairs have the name"));
   EXPECT_THAT(Complaint("pairs: p.csv", {"{name: m}"}, ""), HasSubstr("lists no pair"));
 }
 

@@ -172,7 +172,8 @@ TEST(Inbetween, TakesAFillerOrTheTruth) {
   const auto complaint = [](const std::string& method) { return testing::Message(StudyOf(kFiles, method)); };
   EXPECT_EQ(complaint("interpolation"), "accepted");
   EXPECT_EQ(complaint("hidden"), "accepted");
-  EXPECT_THAT(complaint("interpolation, oracle: [frames]"), HasSubstr("either 'filler' or 'oracle: [frames]'"));
+  EXPECT_THAT(complaint("interpolation, oracle: [frames]"), HasSubstr("exactly one of 'filler' and 'oracle: "
+                                                                      "[frames]'"));
 }
 
 TEST(Inbetween, TellsAProgramTheEndsAndNoMore) {
