@@ -116,7 +116,7 @@ class Capture(EtudeCase):
         self.rig.unlink()
         self.assertIn("--size '': not a size", self.refusal("calibrate", self.pairs, "-o", self.rig))
         five = self.write("five.csv", "camera,x,y,z,u,v\n" + "a,1,2,3,4,5\n" * 5)
-        self.assertIn("camera a: cannot calibrate a camera: 5 point pairs; at least 6",
+        self.assertIn("camera a: cannot calibrate a camera: found 5 point pairs; allowed: at least 6",
                       self.refusal("calibrate", five, "--size", "640x480", "-o", self.rig))
         words = self.write("words.csv", "camera,x,y,z,u,v\na,1,2,three,4,5\n")
         self.assertIn("words.csv:2: 'three' is not a number",

@@ -74,7 +74,8 @@ TEST(KinectText, NamesTheLineOfWhatItRefuses) {
   std::string tiny;
   for (int i = 0; i < 75; ++i) tiny += "0.002 ";
   EXPECT_EQ(KinectComplaint(tiny),
-            "k.txt: all joints are within 0.00346 m of the sensor; allowed: positions in metres");
+            "k.txt: all joints are within 0.00346 m of the sensor, so the positions are probably not in metres; "
+            "allowed: positions in metres");
   EXPECT_EQ(KinectComplaint(""), "k.txt: no rows of numbers");
   EXPECT_EQ(KinectComplaint("# only remarks\n"), "k.txt: no rows of numbers");
 }

@@ -101,10 +101,11 @@ TEST(Npy, RefusesWhatIsDamagedOrNoNumbers) {
   EXPECT_FALSE(IsNpy(good.substr(1)));
   EXPECT_THAT(reason(good.substr(1)), HasSubstr("is not a .npy file"));
   EXPECT_THAT(reason(good.substr(0, 11)), HasSubstr("is not a .npy file"));
-  EXPECT_THAT(reason(good.substr(0, 40)), HasSubstr("its header is cut short"));
-  EXPECT_THAT(reason(good.substr(0, good.size() - 8)), HasSubstr("has 1 numbers; its shape requires 2"));
+  EXPECT_THAT(reason(good.substr(0, 40)), HasSubstr("the array's header ends too early"));
+  EXPECT_THAT(reason(good.substr(0, good.size() - 8)), HasSubstr("the array has 1 numbers, but its shape requires 2"));
   EXPECT_THAT(reason(NpyOf<double>("<f8", "two", {1, 2})), HasSubstr("its shape is 'two'"));
-  EXPECT_THAT(reason(NpyOf<double>("<f8", "536870912, 2", {1, 2})), HasSubstr("has more numbers than can be read"));
+  EXPECT_THAT(reason(NpyOf<double>("<f8", "536870912, 2", {1, 2})), HasSubstr("the array has more numbers than Etude "
+                                                                              "can read"));
   for (const char* type : {"|O", "<c8", "<U4"}) {
     EXPECT_THAT(reason(NpyOf<double>(type, "2,", {1, 2})), HasSubstr("does not contain plain numbers")) << type;
   }
@@ -196,7 +197,7 @@ TEST(Amass, RefusesArraysThatAreNoMotion) {
   EXPECT_THAT(reason([](Npz& npz) {
                 npz.arrays["trans"] = {{1, 3}, {1, 2, 3}};
               }),
-              HasSubstr("trans has 1 frames; poses has 2"));
+              HasSubstr("the array trans has 1 frames, but the array poses has 2"));
   EXPECT_THAT(reason([](Npz& npz) { npz.arrays["poses"] = {{0, 156}, {}}; }), HasSubstr("no frames"));
   EXPECT_THAT(reason([](Npz& npz) { npz.arrays["mocap_framerate"].values = {0.5}; }), HasSubstr("the rate is 0.5 Hz"));
   EXPECT_EQ(reason([](Npz& npz) { npz.arrays["mocap_framerate"].values = {10000}; }), "(read)");
@@ -207,7 +208,8 @@ TEST(Amass, RefusesArraysThatAreNoMotion) {
   EXPECT_THAT(
       reason([](Npz& npz) { npz.arrays["poses"].values[156 + 4] = -90; }),
       HasSubstr(
-          "poses of frame 1 rotates left_hip by 90 radians; allowed: at most 12.57 (4π); are the values degrees?"));
+          "in frame 1, the array poses rotates left_hip by 90 radians; allowed: at most 12.57 (4π); are the values "
+          "degrees?"));
 }
 
 std::string MotiveTake(const std::string& unit = "Centimeters", const std::string& type = "Bone") {
@@ -244,7 +246,7 @@ TEST(MotiveCsv, TakesTheRateThatIsTold) {
   };
   EXPECT_EQ(reason("Export Frame Rate,60.0", "Export Frame Rate,"), "(read)") << "Capture Frame Rate counts";
   EXPECT_THAT(reason("Export Frame Rate,60.0", "Export Frame Rate,20000"),
-              HasSubstr("Export Frame Rate is missing or out of range; allowed: above 0, up to 10000 Hz"));
+              HasSubstr("'Export Frame Rate' is missing or out of range; allowed: above 0, up to 10000 Hz"));
 }
 
 }  // namespace

@@ -155,14 +155,14 @@ TEST(Streams, DecimalCommasBetweenSemicolonsAreRead) {
       for (char& c : commas) c = c == ' ' ? separator : c == '.' ? ',' : c;
       ASSERT_OK(wanted, ReadStreamRecording(points, "s"));
       ASSERT_OK(read, ReadStreamRecording(commas, "s"));
-      EXPECT_THAT(read->remarks, ElementsAre("its numbers have decimal commas"));
+      EXPECT_THAT(read->remarks, ElementsAre("Etude read commas as decimal points"));
       ASSERT_EQ(read->frames.size(), wanted->frames.size());
       for (std::size_t t = 0; t < read->frames.size(); ++t) {
         EXPECT_EQ(read->frames[t].places, wanted->frames[t].places) << t;
         EXPECT_EQ(read->frames[t].time_s, wanted->frames[t].time_s) << t;
       }
       std::size_t frames = 0;
-      EXPECT_THAT(LiveRemarks(commas, frames), ElementsAre("its numbers have decimal commas"));
+      EXPECT_THAT(LiveRemarks(commas, frames), ElementsAre("Etude read commas as decimal points"));
       EXPECT_EQ(frames, MakeStream(*wanted, "s").value().stream.frames.size());
     }
   }

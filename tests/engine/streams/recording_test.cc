@@ -232,7 +232,7 @@ TEST(Streams, TablesMayCountMillisecondsOrSince1970) {
   std::string trc = WriteTrc(motion, "a");
   std::replace(trc.begin() + static_cast<std::ptrdiff_t>(trc.find("\n1\t")), trc.end(), '.', ',');
   EXPECT_LT(FurthestFrom(motion, Made(trc).stream), 1e-5);
-  EXPECT_EQ(ReadStreamRecording(trc, "s")->remarks, std::vector<std::string>{"its numbers have decimal commas"});
+  EXPECT_EQ(ReadStreamRecording(trc, "s")->remarks, std::vector<std::string>{"Etude read commas as decimal points"});
 }
 
 TEST(Streams, OfSeveralBodiesTheOneSeenLongestIsTakenUnlessAnotherIsAskedFor) {

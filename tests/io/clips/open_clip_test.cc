@@ -78,7 +78,7 @@ TEST_F(OpenClipTest, AnimationsOfOneNameAndASecondBodyAreSaid) {
   ASSERT_OK(clips, ReadClips(Write("same.gltf", gltf)));
   EXPECT_EQ(clips->at(1).name, "same#Armature|Jump_2");
   EXPECT_THAT(clips->at(0).remarks,
-              ElementsAre("two animations are called 'Armature|Jump': the later one is called 'Armature|Jump_2' here"));
+              ElementsAre("two animations are named 'Armature|Jump'; Etude renames the second to 'Armature|Jump_2'"));
   // Two people on one skeleton; readers number joints of the same name.
   Clip pair = RigClip({.rate_hz = 30, .poses = {StandingPose(), StandingPose()}}, StandingPose(), "pair");
   SourceClip source{.name = "one", .source = "one.glb", .format = ClipFormat::kGlb, .clip = pair};

@@ -328,7 +328,8 @@ TEST_F(RawMotionsTest, KimodosMotionsOfSmplXHaveTheStatedRateOrTheModels) {
   std::vector<std::string> remarks;
   const Clip clip = read({}, remarks);
   EXPECT_EQ(clip.rate_hz, 30);
-  EXPECT_EQ(remarks, std::vector<std::string>{"Kimodo's arrays state no rate; 30 Hz is taken, its model's rate"});
+  EXPECT_EQ(remarks, std::vector<std::string>{"the file states no frame rate, so Etude uses 30 Hz, the rate of "
+                                              "Kimodo's model"});
   EXPECT_EQ(clip.skeleton.joints[21].name, "right_wrist");
   ComputeGlobals(clip.skeleton, clip.frames[1], globals);
   for (std::size_t j = 0; j < 22; ++j) {
