@@ -182,7 +182,7 @@ Result<StreamRecording> ReadKinectRows(std::string_view text, const std::string&
                 StreamFormatName(format), ColumnsAllowed(format));
   }
   StreamRecording recording{.format = format, .separator = table.separator};
-  if (table.has_decimal_commas) recording.remarks.emplace_back("its numbers have decimal commas");
+  if (table.has_decimal_commas) recording.remarks.emplace_back("Etude read commas as decimal points");
   recording.records_states = FourthsAreStates(table, *layout);
   recording.records_times = layout->first == 1 && !reading.rate_hz;
   recording.rate_hz = reading.rate_hz.value_or(kJudgedRateHz);

@@ -289,7 +289,7 @@ class Capture(EtudeCase):
             return [make_film(self.folder / name / "left.mp4", size, rate, frames, coding=()), *self.films[1:]]
 
         small = self.refusal(*self.capture("-o", out, films=film("small", "160x120", RATE, FRAMES)))
-        self.assertIn("160 x 120 pixels, but the rig's camera has 320 x 240; state how they were fitted (--fit letterbox, stretch or crop)", small)
+        self.assertIn("the film has 160 x 120 pixels, but the rig's camera has 320 x 240; use --fit to state how the pictures were resized (letterbox, stretch or crop)", small)
         self.assertIn("at 30 Hz", self.refusal(*self.capture("-o", out, films=film("slow", "320x240", 25, FRAMES))))
         self.assertIn("20 frames", self.refusal(*self.capture("-o", out, films=film("short", "320x240", RATE, 18))))
         (self.keypoints / "left_json" / "left_19.json").unlink()

@@ -63,7 +63,7 @@ class Formats(MotionFileCase):
             numpy.testing.assert_array_equal(seen[0], other)
 
     def test_amass_that_is_none_is_told_what_lacks(self):
-        self.refused(self.amass("no.npz", 150, "mocap_framerate", True), "allowed: AMASS's poses")
+        self.refused(self.amass("no.npz", 150, "mocap_framerate", True), "allowed: the arrays of AMASS")
         self.refused(self.amass("slow.npz", 156, "speed", True),
                      "states no frame rate (its arrays: poses, speed, trans, gender (no plain numbers)); allowed:")
         bad = self.amass("nan.npz", 156, "mocap_framerate", True, trans=numpy.full((60, 3), numpy.nan))
@@ -87,7 +87,7 @@ class Formats(MotionFileCase):
         told = self.write("map.yaml", "rate: 50\n")
         self.assertIn("at 50 Hz", self.ends(0, "clip", "info", path, "--map", told).stdout)
         numpy.savez(path, positions=body["positions"], names=body["names"], rate_hz="30")
-        self.refused(path, "rate_hz is not one number; allowed: the frames per second")
+        self.refused(path, "the array rate_hz must be a single number, the frames per second")
         # A body in mm or cm with Z up: declared by options, or by keys of the file.
         z_up = body["positions"][:, :, [0, 2, 1]] * [1, -1, 1]
         for unit, name in (1000, "mm"), (100, "cm"):
@@ -449,7 +449,7 @@ class Formats(MotionFileCase):
         for a, b in zip(read, self.joints(path)):
             for role in a:
                 numpy.testing.assert_array_equal(b[role], a[role])
-        self.refused(self.motive(places, names, unit="Furlongs"), "Length Units is 'Furlongs'; allowed: Meters")
+        self.refused(self.motive(places, names, unit="Furlongs"), "'Length Units' is 'Furlongs'; allowed: Meters")
         self.refused(self.motive(places, names, space="Local"), "allowed: Global")
 
     def test_the_bones_of_a_vrm_file_are_those_of_its_table(self):

@@ -86,7 +86,7 @@ class Sensor(EtudeCase):
         broken = self.folder / "broken.txt"
         broken.write_text("1 2 3\n")
         for arguments, words in (
-                (["stats", broken], "3 values in this row; a Kinect v2 recording has 75"),
+                (["stats", broken], "found 3 values in this row; allowed for a Kinect v2 recording: 75"),
                 (["stats", self.folder / "none.txt"], "none.txt"),
                 (["stats", self.folder / "kinect.txt", "--simulate", "v2"], "--simulate: needs --reference"),
                 (["fit", self.folder / "kinect.txt", "--reference", broken, "-o", self.folder / "s.yaml"],

@@ -270,7 +270,7 @@ class Limits(unittest.TestCase):
                 ("a side of 8193 pixels", lambda: engine.PersonFinder(room)),
                 ("iteration limit", lambda: engine.Kinematics(None, 0)),
                 ("tolerance is negative", lambda: engine.Kinematics(None, 1, 0.1, 0.1, -1.0)),
-                ("not a tree", lambda: engine.Kinematics(circle)),
+                ("do not form a tree", lambda: engine.Kinematics(circle)),
                 (r"target_positions_m: .* allowed: \(1, 4, 3\)", lambda: BODY.solve(one, np.zeros((1, 5, 3)))),
                 (r"root_axes: .* allowed: \(1, 3, 3\)", lambda: BODY.limbs(one, root_axes=np.zeros((2, 3, 3)))),
                 ("root_positions_m: value 0 is not finite", lambda: BODY.limbs(one, [np.nan, 0, 0])),

@@ -82,7 +82,7 @@ TEST(Acclaim, AnglesThatAreImpossibleInTheStatedUnitAreTakenInTheOtherOrSaid) {
     const std::vector<std::string>& remarks = facts.remarks;
     EXPECT_EQ(clip->frames, wanted->frames);
     ASSERT_EQ(remarks.size(), 1u);
-    EXPECT_NE(remarks[0].find("angles are taken as degrees"), std::string::npos);
+    EXPECT_NE(remarks[0].find("reads its angles as degrees"), std::string::npos);
   }
   // Radians that are called degrees could be a nearly still body, so the reader only remarks on them.
   const auto said = [&](const std::string& motion) {

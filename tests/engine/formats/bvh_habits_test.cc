@@ -196,11 +196,11 @@ TEST(BvhHabits, FrameTimesOfFewDigitsAreTakenAndSaid) {
                 "the Frame Time 0.033 has few digits. Etude reads it as 30.303 Hz, but it may be 1 / 30 s, rounded. At "
                 "30 Hz the 600 frames would last 0.2 s longer. Use `--rate 30` (for `etude clip convert`: "
                 "`--file-rate`) to set this rate"});
-  for (const auto& [time, likely] : {std::pair("0.017", "1 / 60 s; at 60 Hz the 600 frames last 0.2 s sho"),
-                                     {"0.016", "1 / 60 s; at 60 Hz the 600 frames last 0.4 s longer"},
-                                     {"0.0083", "1 / 120 s; at 120 Hz the 600 frames last 0.02 s longer"},
-                                     {"0.042", "1 / 24 s; at 24 Hz the 600 frames last 0.2 s shorter"},
-                                     {"0.0334", "a rounded 1 / 29.97 s;"}}) {
+  for (const auto& [time, likely] : {std::pair("0.017", "1 / 60 s, rounded. At 60 Hz the 600 frames would last 0.2 s sho"),
+                                     {"0.016", "1 / 60 s, rounded. At 60 Hz the 600 frames would last 0.4 s longer"},
+                                     {"0.0083", "1 / 120 s, rounded. At 120 Hz the 600 frames would last 0.02 s longer"},
+                                     {"0.042", "1 / 24 s, rounded. At 24 Hz the 600 frames would last 0.2 s shorter"},
+                                     {"0.0334", "it may be 1 / 29.97 s, rounded."}}) {
     const auto remarks = RemarksOnFrameTime(time, 600);
     ASSERT_EQ(remarks.size(), 1u) << time;
     EXPECT_THAT(remarks[0], ::testing::HasSubstr(likely));

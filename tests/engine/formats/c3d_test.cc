@@ -136,7 +136,7 @@ TEST(C3d, LeavesOutThePointsThatAreNoPositions) {
   writer.types = "Angle   TURN    MARKER  BODY    ";
   EXPECT_THAT(ReadC3d(writer.Write(), "a.c3d")->markers.names, ::testing::ElementsAre("LSHO", "RSHO", "COFM"));
   writer.lists.push_back({"SCALARS", writer.labels});
-  EXPECT_THAT(C3dComplaint(writer.Write()), HasSubstr("contains no points (angles, forces and"));
+  EXPECT_THAT(C3dComplaint(writer.Write()), HasSubstr("contains no points (Etude does not read angles, forces and"));
 }
 
 TEST(C3d, TakesWhatIsNoNumberForAGap) {

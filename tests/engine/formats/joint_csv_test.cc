@@ -94,7 +94,7 @@ TEST(JointCsv, TakesTabsDecimalCommasQuotesAndTimesSince1970AndLeavesTextsOut) {
     EXPECT_EQ(read->frames[0][Index(Role::kHead)], glm::dvec3(1.5, -2.25, 3)) << separator << point;
     EXPECT_EQ(read->frames[1][Index(Role::kHead)], glm::dvec3(4.5, 5, 6));
     EXPECT_EQ(read->times_s, (std::vector<double>{0, 0.25}));
-    EXPECT_EQ(read->remark, std::string("its times begin at 1600000000 s: they are counted from its first row; ") +
+    EXPECT_EQ(read->remark, std::string("the times begin at 1600000000 s; Etude counts time from the first row; ") +
                                 (point == ',' ? "Etude read commas as decimal points; " : "") +
                                 "Etude left out columns that contain text: label, head_note");
   }

@@ -120,7 +120,7 @@ TEST(MotionBids, SaysWhatIsWrong) {
   EXPECT_THAT(reason("1\t2\t3\n", with("a_y\tPOS\ty\ta\tm\n", "")),
               HasSubstr("'a' needs channels for x, y and z, but some are missing"));
   EXPECT_THAT(reason("x\ty\tz\tq\n" + row, kChannels),
-              HasSubstr("found a line of headings; allowed: only rows of numbers"));
+              HasSubstr("found a line with column names; allowed: only rows of numbers"));
 }
 
 }  // namespace

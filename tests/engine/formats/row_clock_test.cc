@@ -218,7 +218,7 @@ TEST(RowClock, TimesSince1970AndInSmallerUnitsCountFromTheFirstRow) {
     ASSERT_OK(laid, LayOnClock(std::move(rows), "a"));
     EXPECT_EQ(laid->rate_hz, 60) << unit;
     EXPECT_EQ(laid->frames.size(), 90u);
-    EXPECT_THAT(laid->remark, HasSubstr("its times begin at 1600000000 s: they are counted from its first row"));
+    EXPECT_THAT(laid->remark, HasSubstr("the times begin at 1600000000 s; Etude counts time from the first row"));
     EXPECT_THAT(laid->remark, HasSubstr(unit));
     EXPECT_NEAR(laid->start_s.value_or(0), 1.6e9, 1e-3) << "the file's own clock";
   }
@@ -241,7 +241,7 @@ TEST(RowClock, UnevenTimesAreInterpolatedAndTold) {
   for (int k = 0; k < 90; ++k) times.push_back(k / 30.0 + 0.01 * std::sin(1.7 * k) + 0.01);
   ASSERT_OK(laid, LayOnClock(RowsAt(times), "a"));
   EXPECT_NEAR(laid->rate_hz, 30, 0.1);
-  EXPECT_THAT(laid->remark, HasSubstr("uneven times: "));
+  EXPECT_THAT(laid->remark, HasSubstr("the times are uneven, so Etude interpolates "));
   for (const auto& frame : laid->frames) EXPECT_TRUE(frame[0]);
   EXPECT_LT(FarthestFromCurve(*laid, times.front()), 0.005) << "as even rows they are 12 mm off";
 }
@@ -308,7 +308,7 @@ TEST(RowClock, RefusesWhatIsNoClock) {
   EXPECT_EQ(reason({0, 0.1, 700}),
             "a:4: the time 700 s follows 0.1 s; allowed: at most 600 s between rows");
   EXPECT_THAT(reason({0, 1e-4, 2e-4, 500}, 3),
-              HasSubstr("allowed: 1e+07 missing values in total, with 3 values per frame"));
+              HasSubstr("allowed: 1e+07 missing values in total, at 3 values per frame"));
   EXPECT_EQ(
       reason({0, 0, 0, 0, 0, 0, 1, 2, 2, 2, 2, 2, 2}),
       "a: 13 rows have only 3 different times; allowed: times with enough decimals, or frame numbers instead of times");
@@ -353,7 +353,7 @@ TEST(RowClock, OfMotiveIsItsColumnTimeElseItsFrameNumbers) {
     EXPECT_FALSE(take->frames[110][0]);
     EXPECT_LT(FarthestFromCurve(*take), 2e-6);
     EXPECT_THAT(take->remark,
-                HasSubstr("found 210 rows, but 'Total Exported Frames' is 240; the times show that 30 of 240 frames"));
+                HasSubstr("found 210 rows, but 'Total Exported Frames' is 240; by their times, 30 of 240 frames"));
   }
 }
 

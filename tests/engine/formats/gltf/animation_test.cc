@@ -215,7 +215,7 @@ TEST(GltfAnimation, ALateBeginningAndTimesInMillisecondsAreSaid) {
   const auto refused = ReadGltf(
       Animated({{"translation", "LINEAR", {0, 33, 70, 21.6e6f}, {0, 0, 0, 1, 0, 0, 0, 0, 0, 1, 0, 0}}}), "a.glb", {});
   ASSERT_FALSE(refused);
-  EXPECT_THAT(refused.error().message, ::testing::HasSubstr("s apart: are its times in milliseconds?"));
+  EXPECT_THAT(refused.error().message, ::testing::HasSubstr("s apart: are the times in milliseconds?"));
 }
 
 TEST(GltfAnimation, TakesTheRateFromWhatMoves) {
