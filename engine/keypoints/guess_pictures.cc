@@ -199,7 +199,7 @@ class Guesser {
     const auto words = [](const Guess& guess) {
       std::string text = guess.is_mirrored ? "mirrored" : "";
       if (guess.quarter_turns != 0) {
-        text += fmt::format("{}rotated by {}° clockwise", text.empty() ? "" : " and ", 90 * guess.quarter_turns);
+        text += fmt::format("{}turned by {}° clockwise", text.empty() ? "" : " and ", 90 * guess.quarter_turns);
       }
       return text;
     };

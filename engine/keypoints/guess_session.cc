@@ -280,8 +280,8 @@ class SessionGuesser {
       const int all = (declared + turns) % 4;
       Try(std::move(films),
           all == 0        ? "keypoints belong to the rig's pictures, which the films show rotated"
-          : declared == 0 ? fmt::format("keypoints of all films are rotated by {}° clockwise", 90 * all)
-                          : fmt::format("pictures of all films are rotated by {}° clockwise", 90 * all),
+          : declared == 0 ? fmt::format("keypoints of all films are turned by {}° clockwise", 90 * all)
+                          : fmt::format("pictures of all films are turned by {}° clockwise", 90 * all),
           turns);
     }
   }

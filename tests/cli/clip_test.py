@@ -265,7 +265,7 @@ class Map(Clips):
             odd = re.sub(rf"JOINT {name}\b", f"JOINT ボーン{i}", odd)
         clip = self.write("odd.bvh", odd)
         (told,) = self.info(clip)
-        self.assertIn("found by the skeleton's shape, not by names (confidence ", told["body"]["note"])
+        self.assertIn("roles found by the skeleton's shape instead of by names (confidence ", told["body"]["note"])
         self.assertRegex(told["body"]["roles"]["left_knee"]["joint"], "^ボーン")
         self.assertIn("left_knee = 'ボーン", self.works("info", clip))
         (ours,), limbs = self.info(WALK), ("shoulder", "elbow", "wrist", "hip", "knee", "ankle")

@@ -83,7 +83,7 @@ class Formats(MotionFileCase):
         body = numpy.load(self.shared_body())
         path = self.folder / "t.npz"
         numpy.savez(path, positions=body["positions"], names=body["names"])
-        self.refused(path, "found no rate_hz (frames per second); allowed: one number from 0.1 to 10000, as numpy.savez(")
+        self.refused(path, "found no rate_hz (frames per second); allowed: rate_hz with one number from 0.1 to 10000, as in numpy.savez(")
         told = self.write("map.yaml", "rate: 50\n")
         self.assertIn("at 50 Hz", self.ends(0, "clip", "info", path, "--map", told).stdout)
         numpy.savez(path, positions=body["positions"], names=body["names"], rate_hz="30")
@@ -162,7 +162,7 @@ class Formats(MotionFileCase):
         for a, b in zip(ours, bob):
             for name in names:
                 numpy.testing.assert_allclose(b[name] - [2, floor, 0], a[name], atol=1e-5)
-        self.refused(self.c3d(["A", "B"], 3, lambda t, i: (0, 0, 0)), "its markers (A, B) are not of a known set")
+        self.refused(self.c3d(["A", "B"], 3, lambda t, i: (0, 0, 0)), "the markers (A, B) belong to no known marker set")
 
     def body(self, reference):
         """Returns a built-in move (frames × 20 × 3, metres) and its joint names."""
@@ -325,7 +325,7 @@ class Formats(MotionFileCase):
                 features[t - 1, 1:3] = (to_body @ (joints[t, 0] - joints[t - 1, 0]))[[0, 2]]
         path, converted = self.folder / "features.npy", self.folder / "joints.npy"
         numpy.save(path, features)
-        self.refused(path, f"{len(joints)} × 263: features of HumanML3D; convert them to joints (docs/clips.md#humanml3d)")
+        self.refused(path, f"{len(joints)} × 263 contains features of HumanML3D; convert the features to joints (docs/clips.md#humanml3d)")
         program = pathlib.Path(__file__).parents[2] / "examples" / "python" / "humanml3d_joints.py"
         subprocess.run([sys.executable, program, path, converted], check=True)
         numpy.testing.assert_allclose(numpy.load(converted), joints, atol=1e-9)
@@ -568,7 +568,7 @@ class Formats(MotionFileCase):
     def test_units_told_that_make_no_body_are_refused(self):
         path = self.turned("metres.bvh")
         result = self.ends(2, "clip", "info", path, "--unit", "cm")
-        self.assertIn("m tall; allowed: 0.4 to 4 m; 1 unit = 100 cm (metre) would give 1.", result.stderr)
+        self.assertIn("m tall; allowed: 0.4 to 4 m; with 1 unit = 100 cm (metre), the body would be 1.", result.stderr)
 
     def test_a_run_is_told_the_unit_and_keeps_it(self):
         clips = [self.turned("child.bvh", unit=50), self.turned("other.bvh", unit=50)]
@@ -579,7 +579,7 @@ class Formats(MotionFileCase):
         self.ends(0, "run", "--from", self.out / "manifest.json", "-o", self.folder / "again")
         self.assertEqual((self.out / "cells.jsonl").read_bytes(), (self.folder / "again" / "cells.jsonl").read_bytes())
         refused = self.ends(2, "run", self.scenario(), "-o", self.folder / "no", "--clips", *clips, "--unit", "mm")
-        self.assertIn("in the unit given (1 unit = 0.1 cm)", refused.stderr)
+        self.assertIn("with the given unit (1 unit = 0.1 cm)", refused.stderr)
 
     def test_a_run_leaves_out_what_is_refused_when_asked(self):
         self.turned("a.bvh"), self.turned("b.bvh")

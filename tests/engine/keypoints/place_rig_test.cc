@@ -269,7 +269,7 @@ TEST(PlaceRig, RefusesDistancesThatNoRigHas) {
   for (const double metres : {0.0, 0.05, 4.0, 90.0}) EXPECT_TRUE(PlaceRig(apart(metres), {})) << metres;
   EXPECT_EQ(PlaceRig(apart(6122), {}).error().message,
             "with lengths in m, the rig's cameras are 6122 m apart; allowed: 0.03 to 100 m; use --rig-unit to set the "
-            "unit; 6.12 m in mm");
+            "unit: 6.12 m apart with mm");
   EXPECT_THAT(PlaceRig(apart(400), {}).error().message, HasSubstr("--rig-unit to set the unit: 4 m apart with cm, 10.2 m apart with inch"));
   EXPECT_THAT(PlaceRig(apart(0.004), {}).error().message, ::testing::EndsWith("use --rig-unit to set the unit"));
   EXPECT_TRUE(PlaceRig(apart(6122), {.unit = "m"})) << "who gives the unit is believed";

@@ -97,8 +97,8 @@ TEST_F(OpenClipTest, AnimationsOfOneNameAndASecondBodyAreSaid) {
   const auto both = UnderstandClip(source, {});
   ASSERT_TRUE(both) << ToString(both.error());
   EXPECT_THAT(both->body.doubts,
-              ElementsAre("the file contains a second body, with the left hip "
-                          "'left_hip#2'; the body with 'left_hip' is used (--joint-map chooses another)"));
+              ElementsAre("the file contains a second body with the left hip 'left_hip#2'; Etude uses the body with "
+                          "'left_hip' (use --joint-map to choose another body)"));
 }
 
 TEST_F(OpenClipTest, AnAnimationIsChosenByNameOrByItsEnd) {

@@ -175,10 +175,10 @@ TEST_F(RawMotionsTest, MarkersOfNoKnownSetHaveNoRolesUnlessAJointMapNamesThem) {
   EXPECT_EQ(raw->joints, odd.names);
   EXPECT_NEAR(glm::distance(raw->At(2, 2), StandingPose()[Role::kShoulderCentre]), 0, 1e-5) << "metres, Y up";
   ASSERT_EQ(raw->notes.size(), 2u);
-  EXPECT_THAT(raw->notes[0], HasSubstr("its markers (Q0, Q1, "));
+  EXPECT_THAT(raw->notes[0], HasSubstr("the markers (Q0, Q1, "));
   EXPECT_EQ(raw->notes[1], "Z is up (told)");
   // For any use but a comparison, markers of unknown names are refused.
-  EXPECT_THAT(testing::Refusal(OpenBodyInPlace(trc, told)), HasSubstr("are not of a known set"));
+  EXPECT_THAT(testing::Refusal(OpenBodyInPlace(trc, told)), HasSubstr("belong to no known marker set"));
   // With a joint map of the needed joints they are read as a body, from a marker file and from an array.
   told.roles.emplace();
   using enum Role;

@@ -225,7 +225,7 @@ TEST(LoadStreams, SidesThatAreExchangedInAPartOfARecordingAreSaid) {
   EXPECT_EQ(description(move->motion).find("exchange"), std::string::npos) << description(move->motion);
   BodyMotion wrong = move->motion;
   for (std::size_t f = 20; f < 40; ++f) std::swap(wrong.poses[f][Role::kLeftKnee], wrong.poses[f][Role::kRightKnee]);
-  EXPECT_NE(description(wrong).find("left and right exchange their places from one frame to the next, 2 times (first at "
+  EXPECT_NE(description(wrong).find("left and right exchange positions from one frame to the next, 2 times (first at "
                                     "0.67 s): left_knee – right_knee"),
             std::string::npos)
       << description(wrong);
