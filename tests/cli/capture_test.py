@@ -256,7 +256,7 @@ class Capture(EtudeCase):
         still = [make_film(self.folder / f"{camera}.avi", rate=10, frames=4, what="color=c=gray:", coding=("-c:v", "ffv1"))
                  for camera in PLACES]
         alone = ["capture", "--rig", self.rig, *still, "--silhouettes", "-o", self.folder / "m.bvh"]
-        self.assertIn("there is no frame in which two films show a moving person", self.refusal(*alone))
+        self.assertIn("no frame shows a moving person in two films", self.refusal(*alone))
         self.assertIn("no keypoints to write", self.refusal(*alone, "--points", self.folder / "p.trc"))
         self.assertIn("20 frames, but the film", self.refusal(*alone, "--keypoints", self.keypoints))
         self.assertIn("--stature requires --silhouettes", self.refusal(*self.capture("-o", "m.bvh", "--stature", "1.8")))

@@ -257,7 +257,7 @@ TEST(RowClock, RowsInBurstsAreEvenlySpaced) {
       EXPECT_NEAR(laid->rate_hz, 30, 1e-9);
       EXPECT_EQ(laid->frames.size(), 300u);
       EXPECT_LT(FarthestFromCurve(*laid), 1e-9);
-      EXPECT_THAT(laid->remark, HasSubstr("its times come in bursts"));
+      EXPECT_THAT(laid->remark, HasSubstr("rows arrive in bursts"));
     }
   }
 }
