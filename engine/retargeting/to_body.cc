@@ -401,7 +401,7 @@ bool IsTPose(const BodyPose& pose) {
 Result<BodyConversion> ToBodyMotion(const Clip& clip, const JointMap& map, const std::string& file,
                                     const BodyOptions& options) {
   // Determine the up axis. If Y is up but the body lies along another axis, `lies` states this axis for users.
-  if (clip.frames.empty()) return Fail({file}, "no frames; at least one is needed");
+  if (clip.frames.empty()) return Fail({file}, "the motion has no frames; allowed: at least one");
   BodySampler sampler(clip, map);
   BodyConversion done;
   const BodyPose rest = sampler.Rest();

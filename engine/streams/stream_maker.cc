@@ -174,8 +174,8 @@ StreamLevel EstimateLevel(std::span<const RecordedFrame> frames, double rate_hz)
 }
 
 std::string Describe(const StreamLevel& level) {
-  const char* by = level.up_by == StreamLevel::By::kFeet    ? "by the feet"
-                   : level.up_by == StreamLevel::By::kTrunk ? "by the trunk"
+  const char* by = level.up_by == StreamLevel::By::kFeet    ? "found by the feet"
+                   : level.up_by == StreamLevel::By::kTrunk ? "found by the trunk"
                                                             : "as in the file";
   const std::string turn =
       level.turn_deg == 0

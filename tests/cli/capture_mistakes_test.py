@@ -642,7 +642,7 @@ class Mistakes(EtudeCase):
         for cameras, noise_px in ((2, 2), (4, 2), (4, 6)) if HEAVY else ((2, 2),):
             with self.subTest(cameras=cameras, noise_px=noise_px):
                 told, _, _ = self.capture(rig, cameras=cameras, pixels=shares, noise_px=noise_px)
-                self.assertRegex(told, r"doubtful: the shoulders' width is 0\.5\d of a leg.* relative to the side of a square around the picture, it is 0\.4|"
+                self.assertRegex(told, r"doubtful: the shoulder width is 0\.5\d times the leg.* fractions of the side of a square around the picture, the ratio is 0\.4|"
                                        r"corrected: keypoint coordinates are fractions of the side of a square around the picture")
 
     def test_a_camera_that_fits_nobody_is_named(self):

@@ -277,7 +277,7 @@ class Formats(MotionFileCase):
         head = ",".join(f"{name}_{axis}_m" for name in self.body("builtin:sway")[0] for axis in "xyz")
         numpy.savetxt(self.folder / "bare.csv", places.reshape(len(places), -1), delimiter=",", header=head, comments="")
         for name in ("poses.npy", "bare.csv"):
-            self.assertIn("the file states no rate; 30 Hz is assumed", self.etude("clip", "info", self.folder / name).stdout)
+            self.assertIn("the file states no rate, so Etude assumes 30 Hz", self.etude("clip", "info", self.folder / name).stdout)
             told = self.etude("clip", "info", self.folder / name, "--rate", 20).stdout
             self.assertIn("at 20 Hz", told)
             self.assertNotIn("assumed", told)
@@ -287,7 +287,7 @@ class Formats(MotionFileCase):
         path = self.folder / "poses.npy"
         numpy.save(path, (1000 * places).astype("f4"))
         told = self.info(path)["clips"][0]
-        self.assertIn("layout etude, 1 unit = 0.1 cm; the file states no rate; 30 Hz is assumed", told["body"]["note"])
+        self.assertIn("layout etude, 1 unit = 0.1 cm; the file states no rate, so Etude assumes 30 Hz", told["body"]["note"])
         self.assert_read_back(path, places)
         order = ["hip_centre", "right_hip", "right_knee", "right_ankle", "left_hip", "left_knee", "left_ankle", "spine",
                  "shoulder_centre", "head", "head", "left_shoulder", "left_elbow", "left_wrist", "right_shoulder",
@@ -498,7 +498,7 @@ class Formats(MotionFileCase):
             path.write_bytes(whole)
             edit_glb(path, scale)
             note = self.info(path)["clips"][0]["body"]["note"]
-            self.assertIn(f"removed the frames' scales, which the rest pose does not have; they made the body {factor:g} times as tall", note)
+            self.assertIn(f"Etude removed scales that only the frames have and that made the body {factor:g} times as tall as in the rest pose", note)
             for a, b in zip(before, self.joints(path)):
                 for name in a:
                     numpy.testing.assert_allclose(b[name], a[name], atol=1e-6, err_msg=f"{factor} {name}")
@@ -539,7 +539,7 @@ class Formats(MotionFileCase):
         (channels,) = folder.rglob("*_channels.tsv")
         lines = channels.read_text().splitlines()
         channels.write_text("\n".join(line.replace("global", "other") if line.startswith("head_") else line for line in lines) + "\n")
-        self.assertIn("SpatialAxes ALS and LSA; allowed: the same for all", self.ends(2, "clip", "info", motion).stderr)
+        self.assertIn("SpatialAxes ALS and LSA; allowed: the same SpatialAxes for all", self.ends(2, "clip", "info", motion).stderr)
         axes.write_text("{")
         self.assertIn("_channels.json", self.ends(2, "clip", "info", motion).stderr)
         axes.unlink()

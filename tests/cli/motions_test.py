@@ -160,7 +160,7 @@ class Motions(MotionFileCase):
             self.assertIn(before, text)
             self.assertIn(says, self.refusal("clip", "info", self.write("bad.mot", text.replace(before, after, 1))))
         foreign = self.write("theirs.mot", re.sub(r"(?m)^part .*\n", "", text))
-        self.assertIn("whose model is another file", self.refusal("clip", "info", foreign))
+        self.assertIn("which needs a model from another file", self.refusal("clip", "info", foreign))
 
     def test_angles_have_the_signs_and_limits_of_their_names(self):
         joints = self.joints("builtin:clap")[:1]

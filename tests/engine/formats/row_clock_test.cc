@@ -166,7 +166,7 @@ TEST(RowClock, TimesThatSeveralRowsShareByRoundingKeepTheirRate) {
       EXPECT_NEAR(laid->rate_hz, rate, told > 0 ? 1e-9 : 0.13) << "untold, 119.88 Hz may be 120";
       EXPECT_EQ(laid->frames.size(), 600u);
       EXPECT_LT(FarthestFromCurve(*laid), told > 0 || rate > 119.9 ? 1e-9 : 0.02);
-      EXPECT_THAT(laid->remark, HasSubstr("its times are rounded to 0.01 s, so several rows have the same time"));
+      EXPECT_THAT(laid->remark, HasSubstr("the times are rounded to 0.01 s, so several rows have the same time"));
     }
   }
   // The control: at 100 Hz, a repeated time is a repeated row.

@@ -543,7 +543,7 @@ TEST(Markers, InAUnitThatMakesADwarfOrAGiantAreSaidWithTheLikelyUnit) {
   EXPECT_EQ(note(1, .01), "Etude's joints");
   EXPECT_THAT(note(.01 / .0254, .01), HasSubstr("Etude uses 1 unit = 1 cm; with 1 unit = 2.54 cm (inch), the body "
                                                 "would be 1.66 m tall"));
-  EXPECT_THAT(note(2.4, .0254), HasSubstr("1 unit is taken to be 2.54 cm; with 1 unit = 1 cm (centimetre), the body "
+  EXPECT_THAT(note(2.4, .0254), HasSubstr("Etude uses 1 unit = 2.54 cm; with 1 unit = 1 cm (centimetre), the body "
                                           "would be 1.57 m tall"));
 }
 

@@ -439,7 +439,7 @@ TEST(ToBodyMotion, RefusesASkeletonThatCollapsesInMotion) {
     for (const char* joint : {"LeftForeArm", "RightForeArm", "LeftLeg", "RightLeg"}) At(clip, f, joint).translation = {};
   }
   EXPECT_THAT(testing::Message(Convert(clip)),
-              HasSubstr("4 of its 8 limbs have no length (left_shoulder to left_elbow"));
+              HasSubstr("4 of the body's 8 limbs have no length (left_shoulder to left_elbow"));
   // The control: one limb may be missing.
   for (std::size_t f = 0; f < 3; ++f) {
     At(clip, f, "RightForeArm").translation = {-29, 0, 0};

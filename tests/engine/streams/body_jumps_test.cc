@@ -145,7 +145,7 @@ TEST(Streams, ClocksOfTicksAreRecognised) {
   EXPECT_THAT(RemarksOn(WithClock(rows, 0, 333)), ElementsAre(StartsWith("the times give a rate of 3 Hz, but a Kinect has")));
   EXPECT_THAT(RemarksOn(WithClock(rows, 0.5, 5.0)), ElementsAre(StartsWith("the times give a rate of 200 Hz, but a Kinect")));
   std::size_t live = 0;
-  EXPECT_THAT(LiveRemarks(WithClock(rows, 0, 333), live), ElementsAre(StartsWith("its times give 3 Hz")));
+  EXPECT_THAT(LiveRemarks(WithClock(rows, 0, 333), live), ElementsAre(StartsWith("the times give a rate of 3 Hz")));
 }
 
 TEST(Streams, DecimalCommasBetweenSemicolonsAreRead) {
