@@ -44,7 +44,7 @@ TEST_F(CocoFile, TakesImagesInTheOrderOfTheNumbersInTheirNames) {
                            Name([](int k) { return fmt::format("{}.png", k); })}) {
     ASSERT_OK(film, ReadKeypoints(Images(lexical, name), ""));
     EXPECT_EQ(Noses(*film), wanted) << name(3);
-    EXPECT_THAT(film->told, HasSubstr("images are listed in another order than the numbers in their names"));
+    EXPECT_THAT(film->told, HasSubstr("the file lists the images in another order than the numbers in their names"));
   }
   const auto in_order = ReadKeypoints(Images({0, 1, 2}, [](int k) { return fmt::format("{}.png", k); }), "");
   EXPECT_EQ(in_order->told, "");
@@ -86,8 +86,8 @@ TEST_F(CocoFile, LeavesOutWhatShowsNoPersonAndCountsIt) {
   for (const auto& frame : film->frames) EXPECT_EQ(frame.size(), 1u);
   EXPECT_EQ(
       film->told,
-      "annotations without keypoints are left out: 2; annotations of the category ball are left out, because their "
-      "keypoints are not a person's: 1");
+      "Etude left out annotations without keypoints: 2; Etude left out annotations of the category ball, because their "
+      "keypoints are not those of a person: 1");
   // If nothing else is there, the reason is an error.
   const std::string image = R"({"images": [{"id": 1}], "annotations": [)";
   EXPECT_THAT(Reason(Write("a.json", image + R"({"image_id": 1, "bbox": [1, 2, 3, 4]}]})")),
