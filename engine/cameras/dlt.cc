@@ -38,8 +38,9 @@ std::optional<std::string> ReasonToRefuse(std::span<const PointPair> pairs) {
   cloud.rowwise() -= cloud.colwise().mean().eval();
   const Eigen::Vector3d extents = Eigen::JacobiSVD<Eigen::MatrixXd>(cloud).singularValues();
   if (!(extents[1] > kFlat * extents[0])) return "the world points lie on one line; allowed: points that fill a volume";
-  if (!(extents[2] > kFlat * extents[0])) return "the world points lie in one plane; allowed: points that fill a "
-                                                 "volume";
+  if (!(extents[2] > kFlat * extents[0]))
+    return "the world points lie in one plane; allowed: points that fill a "
+           "volume";
   return std::nullopt;
 }
 
@@ -112,8 +113,9 @@ Result<ProjectionMatrix> Calibrate(std::span<const PointPair> pairs, Calibration
   // The singular values of the plain system have no meaning, because that system mixes metres with squared pixels.
   const Solution normalised = SolveDlt(pairs, world, pixel);
   if (!(normalised.determined > kUndetermined)) {
-    return Fail({}, "cannot calibrate a camera: several different cameras fit these point pairs; measure some points "
-                    "at other positions");
+    return Fail({},
+                "cannot calibrate a camera: several different cameras fit these point pairs; measure some points "
+                "at other positions");
   }
   const Matrix34 H = calibration == Calibration::kDlt
                          ? SolveDlt(pairs, {}, {}).H

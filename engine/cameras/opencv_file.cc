@@ -57,8 +57,10 @@ Result<Distortion> DistortionOf(const OpenCvParameters& p) {
     return Distortion{.k1 = c[0], .k2 = c[1], .k3 = c[2], .k4 = c[3], .is_fisheye = true};
   }
   if (count != 0 && count != 4 && count != 5 && count != 8 && count != 12 && count != 14) {
-    return Fail({}, "found {} distortion coefficients; allowed: 0, 4 (k1, k2, p1, p2), 5 (k1, k2, p1, p2, k3), 8, 12 "
-                    "or 14", count);
+    return Fail({},
+                "found {} distortion coefficients; allowed: 0, 4 (k1, k2, p1, p2), 5 (k1, k2, p1, p2, k3), 8, 12 "
+                "or 14",
+                count);
   }
   // Coefficients that are not given are 0.
   c.resize(14);

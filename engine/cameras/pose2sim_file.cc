@@ -118,8 +118,10 @@ Result<OpenCvParameters> ReadPlanned(const std::string& name, const Keys& keys, 
     return Fail(place, "camera {}: 'fov_deg' is {:g}; allowed: {:g} to {:g}", name, fov, kMinFov, kMaxFov);
   }
   if (!(glm::length(glm::cross(p_WT - p_WC, glm::dvec3(0, 1, 0))) > kVertical)) {
-    return Fail(place, "camera {}: 'look_at' is at, above or below the camera's position; allowed: a point at another "
-                       "horizontal position", name);
+    return Fail(place,
+                "camera {}: 'look_at' is at, above or below the camera's position; allowed: a point at another "
+                "horizontal position",
+                name);
   }
   const double focal = width / 2 / std::tan(Radians(fov / 2));
   const glm::dmat3 R_CW = LookAt({}, p_WC, p_WT).R_CW;

@@ -102,8 +102,9 @@ class Bundle {
     ceres::Solver::Summary summary;
     ceres::Solve(o, &problem_, &summary);
     if (summary.termination_type == ceres::FAILURE) {
-      return Fail({}, "in the first estimate, a point is behind the camera that saw it; are the world points paired "
-                      "with the right pixels?");
+      return Fail({},
+                  "in the first estimate, a point is behind the camera that saw it; are the world points paired "
+                  "with the right pixels?");
     }
     return {};
   }
@@ -299,7 +300,8 @@ Result<void> CheckViews(const RigGuess& guess, std::span<const TargetView> views
     points[view.camera] += view.pairs.size();
     for (const PointPair& pair : view.pairs) {
       const double sum = pair.world.x + pair.world.y + pair.world.z + pair.pixel.x + pair.pixel.y;
-      if (!std::isfinite(sum)) return Fail({}, "camera {}: a point pair has a coordinate that is not finite", view.camera + 1);
+      if (!std::isfinite(sum))
+        return Fail({}, "camera {}: a point pair has a coordinate that is not finite", view.camera + 1);
     }
   }
   for (std::size_t i = 0; i < points.size(); ++i) {

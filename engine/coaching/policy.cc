@@ -46,7 +46,8 @@ const SettingTable<FadingOptions>& FadingSettings() {
 PolicyDecision AfterMistakes(const PolicyInput& input, int wanted) {
   if (input.verdict != WindowVerdict::kWrong) return {false, "no mistake"};
   const int found = input.move.mistakes_in_row;
-  return {found >= wanted, fmt::format("{} successive mistakes in this move; the coach corrects after {}", found, wanted)};
+  return {found >= wanted,
+          fmt::format("{} successive mistakes in this move; the coach corrects after {}", found, wanted)};
 }
 
 PolicyDecision Never(const PolicyInput& /*input*/, Values /*values*/) { return {false, "never corrects"}; }
@@ -61,7 +62,8 @@ PolicyDecision Confident(const PolicyInput& input, Values values) {
   if (input.verdict != WindowVerdict::kWrong) return {false, "no mistake"};
   const double sure = ConfidenceSettings().Apply(values).sure_below * input.right_from;
   return {input.evidence < sure || input.evidence == 0,
-          fmt::format("the evidence for a right move is {:.2f}; a mistake counts as certain below {:.2f}", input.evidence, sure)};
+          fmt::format("the evidence for a right move is {:.2f}; a mistake counts as certain below {:.2f}",
+                      input.evidence, sure)};
 }
 
 PolicyDecision Fading(const PolicyInput& input, Values values) {
@@ -79,9 +81,7 @@ std::span<const Policy> AllPolicies() {
   // The policies that need only the recogniser's evidence, then the two for experiments: `oracle` and `yoked`.
   static const std::vector<Policy> policies = {
       {.name = "at-first-mistake", .description = "corrects every mistake (paper A)", .decide = AtFirst},
-      {.name = "never",
-       .description = "never corrects the player; the dance always continues",
-       .decide = Never},
+      {.name = "never", .description = "never corrects the player; the dance always continues", .decide = Never},
       {.name = "after-n",
        .description = "corrects after several successive mistakes in one move",
        .settings = AfterSettings().Describe(),

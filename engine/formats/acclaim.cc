@@ -76,8 +76,10 @@ class SkeletonReader {
       if (!read) return tl::unexpected(read.error());
       has_line = *read;
     }
-    if (bones_.size() < 2) return Fail({file_}, "found no bones; allowed: an Acclaim skeleton with :root and "
-                                                ":bonedata");
+    if (bones_.size() < 2)
+      return Fail({file_},
+                  "found no bones; allowed: an Acclaim skeleton with :root and "
+                  ":bonedata");
     return Assemble();
   }
 
@@ -350,7 +352,8 @@ Result<AcclaimFrames> ReadFrames(std::string_view text, const AcclaimSkeleton& s
     } else if (lines.words.size() == 1 && !joint_of.contains(lines.words.front().text)) {
       ASSIGN_OR_RETURN(const double number, lines.Number(0));
       if (!clip.frames.empty() && number != last + 1) {
-        return Fail(lines.At(), "found frame {} after frame {}; allowed: frame numbers that increase by 1", number, last);
+        return Fail(lines.At(), "found frame {} after frame {}; allowed: frame numbers that increase by 1", number,
+                    last);
       }
       last = number;
       // A frame takes the memory of all bones even if the file leaves some out, so limit the memory.
@@ -382,8 +385,11 @@ Result<AcclaimFrames> ReadFrames(std::string_view text, const AcclaimSkeleton& s
   if (clip.frames.empty()) return Fail({file}, "no frames");
   for (const auto& [name, joint] : joint_of) {
     if (counts[joint] == clip.frames.size() || skeleton.channels[joint].empty()) continue;
-    if (counts[joint] > 0) return Fail({file}, "bone {} is missing in the last frame or frames; allowed: each bone "
-                                               "once in each frame", Quote(name));
+    if (counts[joint] > 0)
+      return Fail({file},
+                  "bone {} is missing in the last frame or frames; allowed: each bone "
+                  "once in each frame",
+                  Quote(name));
     read.still.push_back(name);
   }
   return read;
@@ -399,24 +405,25 @@ Result<Clip> ReadAcclaimMotion(std::string_view text, const AcclaimSkeleton& ske
   const double largest = std::max(read.of_root, read.of_bones);
   if (!read.in_degrees && read.of_bones > kMaxRadians) {
     remark = fmt::format(
-        "the file states radians, but Etude reads its angles as degrees, because the largest is {:.4g}",
-        largest);
+        "the file states radians, but Etude reads its angles as degrees, because the largest is {:.4g}", largest);
     ASSIGN_OR_RETURN(read, ReadFrames(text, skeleton, file, true));
   } else if (!read.in_degrees && read.of_root > kMaxRadians) {
     // A body that keeps turning in one direction can rotate its root by any angle, so the unit is not changed.
-    remark =
-        fmt::format("the root turns by {:.4g} radians; if the file's angles are degrees, add the line :DEGREES to the "
-                    "file", read.of_root);
+    remark = fmt::format(
+        "the root turns by {:.4g} radians; if the file's angles are degrees, add the line :DEGREES to the "
+        "file",
+        read.of_root);
   } else if (read.in_degrees && largest > kMinDegrees && largest <= 2 * kPi) {
-    remark = fmt::format("no angle is larger than {:.2g} degrees; if the file's angles are radians, add the line "
-                         ":RADIANS to the file", largest);
+    remark = fmt::format(
+        "no angle is larger than {:.2g} degrees; if the file's angles are radians, add the line "
+        ":RADIANS to the file",
+        largest);
   }
   if (facts == nullptr) return std::move(read.clip);
   facts->has_rate = read.has_rate;
   std::vector<std::string>& remarks = facts->remarks;
   if (!read.still.empty()) {
-    remarks.push_back(fmt::format("bones without values, which keep their rest pose: {}",
-                                  fmt::join(read.still, ", ")));
+    remarks.push_back(fmt::format("bones without values, which keep their rest pose: {}", fmt::join(read.still, ", ")));
   }
   if (!read.unknown.empty()) remarks.push_back(fmt::format("not used: {}", fmt::join(read.unknown, ", ")));
   if (!skeleton.remark.empty()) remarks.push_back(skeleton.remark);

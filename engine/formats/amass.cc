@@ -123,8 +123,8 @@ Result<Clip> ReadAmass(const Npz& npz, const std::string& file, std::optional<do
   for (const NumberArray* array : {poses, places}) {
     for (std::size_t i = 0; i < array->values.size(); ++i) {
       if (std::abs(array->values[i]) <= kMaxValue) continue;
-      return Fail({file}, "array {}, frame {}: found {}; allowed: numbers within ±10⁶", array == poses ? "poses" : "trans",
-                  i / WidthOf(array), array->values[i]);
+      return Fail({file}, "array {}, frame {}: found {}; allowed: numbers within ±10⁶",
+                  array == poses ? "poses" : "trans", i / WidthOf(array), array->values[i]);
     }
   }
   // A larger angle shows that rotations are in degrees instead of radians.

@@ -248,7 +248,8 @@ Result<MotionHeader> ReadMotionHeader(TextScanner& scanner, std::size_t joints) 
   const Token count_token = scanner.Next();
   ASSIGN_OR_RETURN(auto count, scanner.Number(count_token, "the number of frames"));
   if (count < 1 || count != std::floor(count)) {
-    return Fail(scanner.At(count_token), "found {} frames; allowed: a whole number of 1 or more", Quote(count_token.text));
+    return Fail(scanner.At(count_token), "found {} frames; allowed: a whole number of 1 or more",
+                Quote(count_token.text));
   }
   // Check the announced size before any frame is stored, so that a false size cannot exhaust the memory.
   const double bytes = count * static_cast<double>(joints * sizeof(LocalTransform));
@@ -416,8 +417,8 @@ Result<Clip> ReadBvh(std::string_view bytes, const std::string& file, std::vecto
   // Exporters that announce the number of their last frame write one frame more; drop it, as other readers do.
   if (clip.frames.size() == announced + 1) {
     clip.frames.pop_back();
-    remark(
-        fmt::format("found {} rows, but the file states {} frames, so the last row is left out", announced + 1, announced));
+    remark(fmt::format("found {} rows, but the file states {} frames, so the last row is left out", announced + 1,
+                       announced));
   }
   if (clip.frames.size() != announced) {
     return Fail(scanner.At(header.frames_place), "the file states {} frames, but contains {}", announced,

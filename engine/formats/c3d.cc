@@ -160,8 +160,10 @@ Result<C3d> ReadC3d(std::string_view bytes, const std::string& file) {
   Layout layout{.points = static_cast<std::size_t>(parameters.Number("POINT:USED").value_or(all.Word(2)))};
   const double scale = parameters.Number("POINT:SCALE").value_or(all.Float(12));
   const double rate = parameters.Number("POINT:RATE").value_or(all.Float(20));
-  if (layout.points == 0) return Fail({file}, "the file contains no points (Etude does not read rotations and analogue "
-                                              "channels)");
+  if (layout.points == 0)
+    return Fail({file},
+                "the file contains no points (Etude does not read rotations and analogue "
+                "channels)");
   if (layout.points > kMaxPoints)
     return Fail({file}, "found {} points; allowed: at most {}", layout.points, kMaxPoints);
   if (!(rate > 0 && rate < kMaxValue)) return Fail({file}, "the rate is {} Hz; allowed: above 0", rate);
@@ -196,8 +198,10 @@ Result<C3d> ReadC3d(std::string_view bytes, const std::string& file) {
   for (std::size_t point = 0; point < layout.points; ++point) {
     if (!others.contains(read.markers.names[point])) kept.push_back(point);
   }
-  if (kept.empty()) return Fail({file}, "the file contains no points (Etude does not read angles, forces and analogue "
-                                        "channels)");
+  if (kept.empty())
+    return Fail({file},
+                "the file contains no points (Etude does not read angles, forces and analogue "
+                "channels)");
   std::vector<std::string> names;
   for (const std::size_t point : kept) names.push_back(std::move(read.markers.names[point]));
   read.markers.names = std::move(names);
@@ -232,14 +236,16 @@ Result<C3d> ReadC3d(std::string_view bytes, const std::string& file) {
     read.markers.remark += (read.markers.remark.empty() ? "" : "; ") + text;
   };
   if (count.other > 0) {
-    remark(fmt::format("{} states {} frames, but {} states {:g} and the file contains {}; Etude uses the first "
-                       "number", count.by, frames,
-                       count.other_by, count.other, frames + more));
+    remark(
+        fmt::format("{} states {} frames, but {} states {:g} and the file contains {}; Etude uses the first "
+                    "number",
+                    count.by, frames, count.other_by, count.other, frames + more));
   }
   if (has_more) {
-    remark(fmt::format("the file contains {} frames more than the {} that {} states; Etude did not read "
-                       "them", more, frames,
-                       count.by));
+    remark(
+        fmt::format("the file contains {} frames more than the {} that {} states; Etude did not read "
+                    "them",
+                    more, frames, count.by));
   }
   return read;
 }

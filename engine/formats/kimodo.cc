@@ -95,8 +95,8 @@ Result<Clip> ReadKimodo(const Npz& arrays, const std::string& file, std::optiona
     for (std::size_t j = 0; j < joints; ++j) {
       const glm::dvec3 p = place(f, j);
       if (!(std::abs(p.x) + std::abs(p.y) + std::abs(p.z) <= kMaxPlace_m)) {
-        return Fail({file}, "joint {} of frame {} is at ({}, {}, {}) m; allowed: coordinates within ±10⁶ m", soma[j].name, f, p.x,
-                    p.y, p.z);
+        return Fail({file}, "joint {} of frame {} is at ({}, {}, {}) m; allowed: coordinates within ±10⁶ m",
+                    soma[j].name, f, p.x, p.y, p.z);
       }
       if (std::abs(glm::determinant(matrix(f, j)) - 1) <= kRounding) continue;
       return Fail({file}, "the matrix of joint {} in frame {} is not a rotation matrix", soma[j].name, f);
@@ -140,8 +140,9 @@ Result<std::optional<std::vector<bool>>> ReadFootContacts(const Npz& arrays, std
   const NumberArray* array = arrays.Find("foot_contacts");
   if (array == nullptr) return std::nullopt;
   if (array->shape != std::vector<std::size_t>{frames, 4}) {
-    return Fail({file}, "the shape of foot_contacts is {}; allowed: {} × 4 (left heel, left toes, right heel, right "
-                        "toes)",
+    return Fail({file},
+                "the shape of foot_contacts is {}; allowed: {} × 4 (left heel, left toes, right heel, right "
+                "toes)",
                 ShapeText(*array), frames);
   }
   std::vector<bool> contacts;

@@ -79,8 +79,11 @@ Result<BidsChannels> ReadChannels(std::string_view text, const std::string& file
       return Fail({file, line}, "found component {}; allowed for channels of type POS: x, y, z", Quote(component));
     column.axis = static_cast<int>(kAxes.find(component));
     const auto metres = MetresOfUnit(units);
-    if (!metres) return Fail({file, line}, "found units {}; allowed for channels of type POS: m, cm, mm, in, "
-                                           "ft", Quote(units));
+    if (!metres)
+      return Fail({file, line},
+                  "found units {}; allowed for channels of type POS: m, cm, mm, in, "
+                  "ft",
+                  Quote(units));
     column.metres = *metres;
     const auto [point, is_new] =
         points.try_emplace(std::string(cells[at[2]]), static_cast<int>(channels.points.size()));
@@ -98,8 +101,10 @@ Result<BidsChannels> ReadChannels(std::string_view text, const std::string& file
     if (std::ranges::find(has[i], false) != has[i].end())
       return Fail({file}, "{} needs channels for x, y and z, but some are missing", Quote(channels.points[i]));
   }
-  if (channels.points.empty()) return Fail({file}, "found no channel of type POS; allowed: at least one, because Etude "
-                                                   "reads only positions");
+  if (channels.points.empty())
+    return Fail({file},
+                "found no channel of type POS; allowed: at least one, because Etude "
+                "reads only positions");
   return channels;
 }
 

@@ -72,7 +72,8 @@ Result<MarkerMotion> ReadMotiveCsv(std::string_view text, const std::string& fil
   const auto metres = MetresOfUnit(unit);
   if (!metres)
     return Fail(first, "'Length Units' is {}; allowed: Meters, Centimeters, Millimeters, Inches, Feet", Quote(unit));
-  if (!space.empty() && space != "Global") return Fail(first, "'Coordinate Space' is {}; allowed: Global", Quote(space));
+  if (!space.empty() && space != "Global")
+    return Fail(first, "'Coordinate Space' is {}; allowed: Global", Quote(space));
   auto rate = ParseFinite(ValueBehind(facts, "Export Frame Rate"));
   if (!rate) rate = ParseFinite(ValueBehind(facts, "Capture Frame Rate"));
   constexpr double kMaxRateHz = 10'000;

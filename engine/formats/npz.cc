@@ -149,7 +149,8 @@ Result<std::optional<NumberArray>> NumbersIn(const NpyParts& parts, const std::s
   }
   auto values = NumbersOf(TypeOf(parts), data);
   if (!values) return std::optional<NumberArray>();
-  if (values->size() != count) return Fail(place, "the array has {} numbers, but its shape requires {}", values->size(), count);
+  if (values->size() != count)
+    return Fail(place, "the array has {} numbers, but its shape requires {}", values->size(), count);
   const bool is_fortran = ValueOf(header, "'fortran_order': ", ',') == "True";
   array.values = is_fortran ? InOrderOfC(*values, array.shape) : std::move(*values);
   return std::optional(std::move(array));
@@ -164,8 +165,11 @@ Result<std::string> Unpack(zip_t* archive, zip_uint64_t member, std::uint64_t& l
   if (zip_stat_index(archive, member, 0, &status) != 0 || (status.valid & ZIP_STAT_SIZE) == 0) {
     return Fail({file}, "member {} has no size", member);
   }
-  if (status.size > left) return Fail({file}, "the unpacked file has more than {} MiB; allowed: at most this "
-                                              "size", kMaxUnpacked >> 20);
+  if (status.size > left)
+    return Fail({file},
+                "the unpacked file has more than {} MiB; allowed: at most this "
+                "size",
+                kMaxUnpacked >> 20);
   if ((status.valid & ZIP_STAT_COMP_SIZE) != 0 && status.size / kMaxDeflateRatio > status.comp_size) {
     return Fail({file}, "member {} states that {} bytes unpack to {} bytes, which is impossible", member,
                 status.comp_size, status.size);
@@ -188,8 +192,10 @@ bool IsNpy(std::string_view bytes) { return bytes.starts_with(kNpyMagic); }
 Result<NumberArray> ReadNpy(std::string_view bytes, const std::string& file) {
   ASSIGN_OR_RETURN(const auto parts, SplitNpy(bytes, file));
   ASSIGN_OR_RETURN(auto array, NumbersIn(parts, file));
-  if (!array) return Fail({file}, "the array contains other data than numbers; allowed: floating-point numbers and "
-                                  "integers");
+  if (!array)
+    return Fail({file},
+                "the array contains other data than numbers; allowed: floating-point numbers and "
+                "integers");
   return *std::move(array);
 }
 
@@ -273,8 +279,10 @@ Result<Npz> ReadNpz(std::string_view bytes, const std::string& file) {
     }
   }
   if (!others.empty() && read.arrays.empty() && read.skipped.empty()) {
-    return Fail({file}, "the file is a ZIP file without arrays (.npy), and its first member is {}; unpack the ZIP file "
-                        "first", Quote(others));
+    return Fail({file},
+                "the file is a ZIP file without arrays (.npy), and its first member is {}; unpack the ZIP file "
+                "first",
+                Quote(others));
   }
   return read;
 }

@@ -26,8 +26,8 @@ double UnitOf(const NumberRows& table) {
 Result<std::vector<TargetFrame>> ReadRigidTargets(std::string_view text, const std::string& file) {
   ASSIGN_OR_RETURN(const NumberRows table, ReadNumberRows(text, file));
   if (table.columns != kPerTarget * kBodyTargetCount) {
-    return Fail({file}, "found {} values in this row; allowed for a recording of {} targets: {}", table.columns, kBodyTargetCount,
-                kPerTarget * kBodyTargetCount);
+    return Fail({file}, "found {} values in this row; allowed for a recording of {} targets: {}", table.columns,
+                kBodyTargetCount, kPerTarget * kBodyTargetCount);
   }
   const double unit = UnitOf(table);
   std::vector<TargetFrame> frames(table.RowCount());

@@ -54,8 +54,8 @@ Result<std::vector<std::size_t>> CountingRows(std::span<const double> times, std
       return Fail(place, "the time {:.6g} s follows {:.6g} s; allowed: times that do not decrease", times[i], before);
     }
     if (times[i] - before > kMaxStep_s) {
-      return Fail(place, "the time {:.6g} s follows {:.6g} s; allowed: at most {} s between rows",
-                  times[i], before, kMaxStep_s);
+      return Fail(place, "the time {:.6g} s follows {:.6g} s; allowed: at most {} s between rows", times[i], before,
+                  kMaxStep_s);
     }
     if (times[i] == before) rows.pop_back();
     rows.push_back(i);
@@ -80,12 +80,14 @@ std::string DescribeGrid(const RowGrid& grid, std::size_t twice) {
                                static_cast<double>(longest + 1) / grid.rate_hz));
   }
   if (between > 0) {
-    said.push_back(
-        fmt::format("the times are uneven, so Etude interpolates {} frames to even steps of {:.4g} s", between, 1 / grid.rate_hz));
+    said.push_back(fmt::format("the times are uneven, so Etude interpolates {} frames to even steps of {:.4g} s",
+                               between, 1 / grid.rate_hz));
   }
   if (twice > 0)
-    said.push_back(fmt::format("{} rows have the same time as another row; Etude uses the last row of each "
-                               "time", twice));
+    said.push_back(
+        fmt::format("{} rows have the same time as another row; Etude uses the last row of each "
+                    "time",
+                    twice));
   return Join(said, "; ");
 }
 
@@ -318,8 +320,8 @@ std::string DescribeOtherRate(const MarkerRows& rows, double told_hz, const std:
   if (count < 3) return "";
   const double span = rows.times_s.back() - rows.times_s.front();
   if (span == 0)
-    return fmt::format("all times in {} are equal, so Etude uses the rate that {} states, {:g} Hz", rows.time_name, rows.rate_name,
-                       told_hz);
+    return fmt::format("all times in {} are equal, so Etude uses the rate that {} states, {:g} Hz", rows.time_name,
+                       rows.rate_name, told_hz);
   const double rate = grid ? grid->rate_hz : static_cast<double>(count - 1) / span;
   const bool is_other = grid ? rate != told_hz : std::abs(rate / told_hz - 1) > kBriefTolerance;
   if (!is_other) return "";  // also if a time is missing
@@ -429,8 +431,8 @@ Result<BodyMotion> LayOnClock(BodyMotion rows, std::span<const double> times_s, 
   }
   if (best_end - best_begin < grid->frames.size()) {
     AddRemark(remark, fmt::format("Etude keeps only frames {} to {} of {}, because the gaps around them are longer "
-                                  "than {:g} s", best_begin + 1,
-                                  best_end, grid->frames.size(), kMaxBridged_s));
+                                  "than {:g} s",
+                                  best_begin + 1, best_end, grid->frames.size(), kMaxBridged_s));
   }
   start_s += static_cast<double>(best_begin) / rows.rate_hz;
   // Interpolate every joint.

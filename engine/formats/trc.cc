@@ -191,7 +191,8 @@ Result<MarkerRows> ReadTrcRows(std::string_view text, const std::string& file) {
   for (std::size_t marker = 0; marker < header.markers; ++marker) {
     const std::size_t at = 2 + 3 * marker;
     if (at >= names.size() || names[at].empty())
-      return Fail({file, line, 0}, "the header states {} markers, but this line has only {} names", header.markers, marker);
+      return Fail({file, line, 0}, "the header states {} markers, but this line has only {} names", header.markers,
+                  marker);
     motion.names.emplace_back(names[at]);
   }
   // Check the axes; a line that begins with a number is the first frame of a file without that line.
@@ -229,8 +230,7 @@ Result<MarkerRows> ReadTrcRows(std::string_view text, const std::string& file) {
   }
   RETURN_IF_ERROR(commas.Check(file));
   if (motion.frames.size() != header.frames) {
-    return Fail({file}, "the file contains {} frames, but its header states {}", motion.frames.size(),
-                header.frames);
+    return Fail({file}, "the file contains {} frames, but its header states {}", motion.frames.size(), header.frames);
   }
   // If no row has a time, the frame numbers give the times.
   if (std::ranges::all_of(rows.times_s, [](double time) { return std::isnan(time); })) {

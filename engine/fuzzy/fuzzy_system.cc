@@ -208,8 +208,9 @@ Result<void> ReadRule(const Node& node, RuleBase& base) {
   RETURN_IF_ERROR(fields.Finish());
   // Check that the premise names terms and that the conclusion names a pose.
   if (premise == nullptr || premise->kind != Node::Kind::kMapping || premise->entries.empty()) {
-    return Fail(premise == nullptr ? node.place : premise->place, "'if' must map features to terms, such as {{RH: up, "
-                                                                  "LH: up}}, found {}",
+    return Fail(premise == nullptr ? node.place : premise->place,
+                "'if' must map features to terms, such as {{RH: up, "
+                "LH: up}}, found {}",
                 premise == nullptr ? "nothing" : Describe(*premise));
   }
   if (!IsPoseName(pose)) {

@@ -232,9 +232,10 @@ class SessionGuesser {
       found.doubt = DoubtOfScale(is_mended ? least_ : guessed, is_mended);
       if (is_mended && found.doubt.empty()) {
         found.turns = turns_;
-        found.mended = fmt::format("{}: rays to the same keypoint miss each other by {:.2f} % of the person's height "
-                                   "instead of {:.2f} %",
-                                   told_, kPercent * least_, kPercent * said);
+        found.mended = fmt::format(
+            "{}: rays to the same keypoint miss each other by {:.2f} % of the person's height "
+            "instead of {:.2f} %",
+            told_, kPercent * least_, kPercent * said);
         films_ = std::move(*best_);
       }
     }
@@ -334,7 +335,8 @@ class SessionGuesser {
         if (!AreAlike(films_[a], films_[b])) continue;
         Films films = films_;
         std::swap(films[a].camera, films[b].camera);
-        Try(std::move(films), fmt::format("the films or the keypoints of {} and {} are exchanged", names_[a], names_[b]));
+        Try(std::move(films),
+            fmt::format("the films or the keypoints of {} and {} are exchanged", names_[a], names_[b]));
       }
     }
   }

@@ -151,8 +151,9 @@ Result<double> UnitOf(const RigFile& rig, double file_units, const PlacementOpti
     return metres;
   }
   if (!rig.has_unit) {
-    return Fail({}, "a calibration of the format {} has no unit of length; set the unit by --rig-unit: for a person of "
-                    "{:g} m, the unit is about {:.2g} m",
+    return Fail({},
+                "a calibration of the format {} has no unit of length; set the unit by --rig-unit: for a person of "
+                "{:g} m, the unit is about {:.2g} m",
                 rig.format, kUsualStature, kUsualStature / file_units);
   }
   // Keep the format's unit if it gives a plausible stature.
@@ -163,8 +164,9 @@ Result<double> UnitOf(const RigFile& rig, double file_units, const PlacementOpti
   }
   // Otherwise look for a unit that gives a plausible stature.
   if (likely == nullptr) {
-    return Fail({}, "the legs are {:.3g} units long from hip to ankle, which is impossible for a person in each of the "
-                    "units {}; {}",
+    return Fail({},
+                "the legs are {:.3g} units long from hip to ankle, which is impossible for a person in each of the "
+                "units {}; {}",
                 file_units / kStatureOfLeg, RigUnits(), advice);
   }
   told = fmt::format("lengths in {} (this unit gives {}; in {} the legs would be {:.3g} m long)", likely->name,
@@ -228,9 +230,10 @@ Result<ChosenUp> UpOf(const RigFile& rig, const std::optional<glm::dvec3>& perso
   if (options.up == "auto" && camera.empty() && rig.has_unit && is_usual && is_level) {
     std::string told = fmt::format("up is {}{}", usual_name(), reason(usual, ""));
     if (person && tilt > std::max(kSure * accuracy, kTold)) {
-      told += fmt::format("; according to {}, the up direction is {:.0f}° away from this axis; if the up direction is "
-                          "right, use --rig-up floor",
-                          found.by, tilt);
+      told += fmt::format(
+          "; according to {}, the up direction is {:.0f}° away from this axis; if the up direction is "
+          "right, use --rig-up floor",
+          found.by, tilt);
     }
     return ChosenUp{usual, false, told};
   }
@@ -251,7 +254,8 @@ Result<ChosenUp> UpOf(const RigFile& rig, const std::optional<glm::dvec3>& perso
                 "(for level cameras: -y)",
                 found.by, within, world);
   }
-  return ChosenUp{found.up, true, fmt::format("the up direction is found from {}, to within {:.1f}°{}", found.by, within, world)};
+  return ChosenUp{found.up, true,
+                  fmt::format("the up direction is found from {}, to within {:.1f}°{}", found.by, within, world)};
 }
 
 /// Returns a text that names the file's axis for each of our axes: "; x is the file's y, z its x, up its z". Returns
@@ -267,8 +271,11 @@ std::string AxesTold(const glm::dmat3& R_OF) {
     names[i] = axis->name;
     is_same = is_same && axis == kAxes.begin() + i;
   }
-  return is_same ? "" : fmt::format("; Etude's x is the file's {}, Etude's z is the file's {}, and up is the file's "
-                                    "{}", names[0], names[2], names[1]);
+  return is_same ? ""
+                 : fmt::format(
+                       "; Etude's x is the file's {}, Etude's z is the file's {}, and up is the file's "
+                       "{}",
+                       names[0], names[2], names[1]);
 }
 
 /// Fails if the largest distance between two cameras is impossible for a rig in the unit of its format *(ours)*.
@@ -301,8 +308,10 @@ std::string DoubtOnFloor(const RigFile& rig, const RigPlacement& place) {
     names += fmt::format("{}{} by {:.2f} m", names.empty() ? "" : ", ", named.name, -height);
   }
   if (names.empty()) return "";
-  return fmt::format("cameras are below the floor: {}; use --rig-up to set the rig's up axis, and --floor to set the "
-                     "height of the floor", names);
+  return fmt::format(
+      "cameras are below the floor: {}; use --rig-up to set the rig's up axis, and --floor to set the "
+      "height of the floor",
+      names);
 }
 
 }  // namespace
@@ -365,8 +374,10 @@ Result<RigPlacement> PlaceRig(const RigFile& rig, const PlacementOptions& option
   if (options.unit != "auto") {
     place.scale = *MetresOf(options.unit) / rig.unit_m;
   } else if (!rig.has_unit) {
-    return Fail({}, "a calibration of the format {} has no unit of length; use --rig-unit to set the metres in one "
-                    "unit", rig.format);
+    return Fail({},
+                "a calibration of the format {} has no unit of length; use --rig-unit to set the metres in one "
+                "unit",
+                rig.format);
   } else {
     RETURN_IF_ERROR(CheckDistances(rig));
   }

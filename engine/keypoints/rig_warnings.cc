@@ -187,8 +187,8 @@ class RigChecker {
     std::string whose =
         fmt::format("focal lengths of all cameras multiplied by {:.3f} ± {:.3f}", found.gain, found.error);
     if (found.film) {
-      whose = fmt::format("{}: a focal length multiplied by {:.3f} ± {:.3f}", names_[*found.film], found.gain,
-                          found.error);
+      whose =
+          fmt::format("{}: a focal length multiplied by {:.3f} ± {:.3f}", names_[*found.film], found.gain, found.error);
     }
     if (found.film && cameras_.size() == 2) {
       whose += fmt::format(" (or that of {} multiplied by {:.3f})", names_[1 - *found.film], 1 / found.gain);

@@ -102,10 +102,15 @@ std::string SentenceOf(const MotionFault& fault, bool is_always) {
   // Write the sentence of the fault's kind.
   switch (fault.kind) {
     case kFloats:
-      if (is_always) return fmt::format("floats: the feet never touch the floor, and their resting height is {:.0f} "
-                                        "cm", cm);
-      return fmt::format("floats {:.0f} cm above the floor {}; are there steps, or is the floor at another "
-                         "height?", cm, when);
+      if (is_always)
+        return fmt::format(
+            "floats: the feet never touch the floor, and their resting height is {:.0f} "
+            "cm",
+            cm);
+      return fmt::format(
+          "floats {:.0f} cm above the floor {}; are there steps, or is the floor at another "
+          "height?",
+          cm, when);
     case kSinks:
       return fmt::format("sinks {:.0f} cm into the floor {}", cm, when);
     case kSkates:
@@ -123,8 +128,10 @@ std::string SentenceOf(const MotionFault& fault, bool is_always) {
       return fmt::format("{} bends backwards by {:.0f}° {}", joint, fault.size, when);
     case kTorn:
       if (!fault.joint) return fmt::format("left and right joints are exchanged, or lie on the same side, {}", when);
-      return fmt::format("{} is torn off {}: it is {:.0f} cm from the position that the neighbouring joints "
-                         "imply", joint, when, cm);
+      return fmt::format(
+          "{} is torn off {}: it is {:.0f} cm from the position that the neighbouring joints "
+          "imply",
+          joint, when, cm);
     case kGaps:
       return fmt::format("{} not shown for {:.2f} s {}", fault.joint ? joint + " is" : "joints are", fault.size, when);
     case kPasses:
@@ -143,7 +150,8 @@ std::vector<FaultRule> MakeFaultRules() {
   // Phrases that several rules use.
   const auto cm = [](double metres) { return fmt::format("{:g} cm", 100 * metres); };
   const auto percent = [](double share) { return fmt::format("{:g} %", 100 * share); };
-  const std::string whole_body = fmt::format("{} of the joints, including at least one ankle,", percent(kAgreeingShare));
+  const std::string whole_body =
+      fmt::format("{} of the joints, including at least one ankle,", percent(kAgreeingShare));
   std::string hovers;
   for (const Hovering& rule : kHoverings) {
     hovers += fmt::format("{}{} for {:g} s{}", hovers.empty() ? "" : ", ", cm(rule.height_m), rule.longest_s,

@@ -229,8 +229,8 @@ std::string WriteTrees(const std::string& key, const BoostedTrees& model) {
 
 Result<DecisionTree> ReadTree(const Node& node) {
   if (node.kind != Node::Kind::kSequence || node.items.size() != kNumbersPerTree) {
-    return Fail(node.place, "a tree must be a list of {} numbers, found {} with {} items", kNumbersPerTree, Describe(node),
-                node.items.size());
+    return Fail(node.place, "a tree must be a list of {} numbers, found {} with {} items", kNumbersPerTree,
+                Describe(node), node.items.size());
   }
   // A tree is stored as a flat list of numbers.
   std::array<double, kNumbersPerTree> numbers{};

@@ -54,8 +54,9 @@ Result<double> UnitOf(const Npz& arrays, const RawMotion& motion, const std::str
   } else if (const std::string text = TextOf(arrays, "unit"); !text.empty()) {
     ASSIGN_OR_RETURN(unit, ReadUnit(text, {file}));
   } else if (arrays.Contains("unit")) {
-    return Fail({file}, "the array 'unit' is neither one number nor one text; allowed: the metres in one unit, or the "
-                        "unit's name");
+    return Fail({file},
+                "the array 'unit' is neither one number nor one text; allowed: the metres in one unit, or the "
+                "unit's name");
   }
   constexpr double kMinExtent_m = 0.3, kMaxExtent_m = 4;
   const double spread = SpreadOf(motion.positions, motion.joints.size());
@@ -122,8 +123,9 @@ Result<ArrayJoints> JointsOfArray(const NumberArray& array, const std::optional<
                                   const std::string& file, std::optional<UpAxis> told) {
   constexpr std::size_t kHumanMl3dFeatures = 263;
   if (array.shape.size() == 2 && array.shape[1] == kHumanMl3dFeatures) {
-    return Fail({file}, "the array of {} contains features of HumanML3D; convert the features to joints "
-                        "(docs/clips.md#humanml3d)",
+    return Fail({file},
+                "the array of {} contains features of HumanML3D; convert the features to joints "
+                "(docs/clips.md#humanml3d)",
                 ShapeText(array));
   }
   if (array.shape.size() != 3 || array.shape[2] != 3 || array.shape[0] == 0) {
@@ -137,8 +139,10 @@ Result<ArrayJoints> JointsOfArray(const NumberArray& array, const std::optional<
   };
   const auto count = std::ranges::count_if(JointLayouts(), is_named);
   if (count != 1) {
-    return Fail({file}, "found {} joints{}; allowed: {}#LAYOUT, where LAYOUT has the same number of joints and is one "
-                        "of {}", joints,
+    return Fail({file},
+                "found {} joints{}; allowed: {}#LAYOUT, where LAYOUT has the same number of joints and is one "
+                "of {}",
+                joints,
                 layout      ? " in the layout " + Quote(*layout)
                 : count > 1 ? ", as several layouts have"
                             : ", as no layout has",
@@ -159,8 +163,9 @@ Result<ArrayJoints> JointsOfArray(const NumberArray& array, const std::optional<
     }
   }
   if (const JointLayout* const better = FindBetterLayout(places, found)) {
-    return Fail({file}, "in the layout {}, limbs have impossible lengths; allowed: {}#{}, in which the limbs have "
-                        "possible lengths",
+    return Fail({file},
+                "in the layout {}, limbs have impossible lengths; allowed: {}#{}, in which the limbs have "
+                "possible lengths",
                 found.name, file, better->name);
   }
   // Convert to metres.
@@ -190,15 +195,17 @@ Result<std::optional<NumberArray>> JointsOfSam(const Npz& arrays, const std::str
     if (found == nullptr) continue;
     NumberArray joints = of_one_person(*found, 3);
     if (joints.shape.size() != 3 || joints.shape[2] != 3) {
-      return Fail({file}, "the array {} has the shape {}; allowed: frames × joints × 3, for one person", name, ShapeText(*found));
+      return Fail({file}, "the array {} has the shape {}; allowed: frames × joints × 3, for one person", name,
+                  ShapeText(*found));
     }
     note = "SAM 3D Body's arrays are in the camera's frame; Etude rotated them to Y up, assuming a level camera";
     NumberArray moved;
     if (const NumberArray* const camera = arrays.Find("pred_cam_t")) {
       moved = of_one_person(*camera, 2);
       if (moved.shape != std::vector<std::size_t>{joints.shape[0], 3}) {
-        return Fail({file}, "the array pred_cam_t has the shape {}, and {} the shape {}; allowed: frames × 3 and "
-                            "frames × joints × 3, with the same number of frames",
+        return Fail({file},
+                    "the array pred_cam_t has the shape {}, and {} the shape {}; allowed: frames × 3 and "
+                    "frames × joints × 3, with the same number of frames",
                     ShapeText(*camera), name, ShapeText(*found));
       }
     } else {
@@ -286,8 +293,9 @@ bool IsBodyNpz(const Npz& arrays) {
 
 Result<RawMotion> ReadRawNpz(const Npz& arrays, const std::string& file, const ArrayOptions& told) {
   if (!arrays.arrays.contains("positions")) {
-    return Fail({file}, "the array 'positions' contains other data than numbers; allowed: floating-point numbers and "
-                        "integers");
+    return Fail({file},
+                "the array 'positions' contains other data than numbers; allowed: floating-point numbers and "
+                "integers");
   }
   const NumberArray& positions = arrays.arrays.at("positions");
   const auto& shape = positions.shape;
@@ -310,18 +318,23 @@ Result<RawMotion> ReadRawNpz(const Npz& arrays, const std::string& file, const A
   if (const auto names = arrays.texts.find("names"); names != arrays.texts.end()) {
     motion.joints = names->second;
   } else if (std::ranges::find(arrays.skipped, "names") != arrays.skipped.end() || arrays.arrays.contains("names")) {
-    return Fail({file}, "the array 'names' is not a list of texts; allowed: a list such as "
-                        "numpy.array([\"hip_centre\", …])");
+    return Fail({file},
+                "the array 'names' is not a list of texts; allowed: a list such as "
+                "numpy.array([\"hip_centre\", …])");
   } else if (shape[1] == kRoleCount) {
     for (const Role role : AllRoles()) motion.joints.emplace_back(RoleName(role));
   }
   const std::size_t joints = motion.joints.size();
-  if (joints != shape[1]) return Fail({file}, "found {} joints and {} names; allowed: one name for each "
-                                              "joint", shape[1], joints);
+  if (joints != shape[1])
+    return Fail({file},
+                "found {} joints and {} names; allowed: one name for each "
+                "joint",
+                shape[1], joints);
   std::set<std::string_view> known;
   for (std::size_t j = 0; j < joints; ++j) {
     if (!known.insert(motion.joints[j]).second) {
-      return Fail({file}, "the array 'names' contains {} twice; allowed: a different name for each joint", Quote(motion.joints[j]));
+      return Fail({file}, "the array 'names' contains {} twice; allowed: a different name for each joint",
+                  Quote(motion.joints[j]));
     }
     if (const auto role = FindRole(motion.joints[j])) motion.roles[Index(*role)] = static_cast<int>(j);
   }
@@ -334,7 +347,9 @@ Result<RawMotion> ReadRawNpz(const Npz& arrays, const std::string& file, const A
   motion.positions.reserve(shape[0] * joints);
   for (std::size_t i = 0; i < shape[0] * joints; ++i) {
     const auto place = PlaceIn(positions, i);
-    if (!place) return Fail({file}, "in frame {}, a coordinate of joint {} is out of range; allowed: ±10⁹", i / joints, i % joints);
+    if (!place)
+      return Fail({file}, "in frame {}, a coordinate of joint {} is out of range; allowed: ±10⁹", i / joints,
+                  i % joints);
     motion.positions.push_back(*place);
   }
   RETURN_IF_ERROR(LeaveGapsOut(std::move(clock), file, motion));
@@ -344,8 +359,9 @@ Result<RawMotion> ReadRawNpz(const Npz& arrays, const std::string& file, const A
     constexpr double kMinExtent_m = 0.1, kMaxExtent_m = 4;
     const double extent = unit * SpreadOf(motion.positions, joints);
     if (extent > 0 && (extent < kMinExtent_m || extent > kMaxExtent_m)) {
-      return Fail({file}, "with the given unit (1 unit = {:.4g} cm), the joints extend {:.3g} m; allowed: {:g} to {:g} "
-                          "m",
+      return Fail({file},
+                  "with the given unit (1 unit = {:.4g} cm), the joints extend {:.3g} m; allowed: {:g} to {:g} "
+                  "m",
                   100 * unit, extent, kMinExtent_m, kMaxExtent_m);
     }
     motion.notes.push_back(fmt::format("1 unit = {:g} cm (given)", 100 * unit));

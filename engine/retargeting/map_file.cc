@@ -91,10 +91,11 @@ std::string WriteJointMapFile(const Skeleton& skeleton, const JointMap& map) {
     const std::string& name = skeleton.joints[joint].name;
     const bool is_composed = std::ranges::find(map.composed, role) != map.composed.end();
     if (is_composed) {
-      text += fmt::format("  # {}: the file has no such joint; Etude uses a point fixed to {}\n", RoleName(role), QuotedInYaml(name));
+      text += fmt::format("  # {}: the file has no such joint; Etude uses a point fixed to {}\n", RoleName(role),
+                          QuotedInYaml(name));
     } else if (skeleton.Find(name) != joint) {
-      text +=
-          fmt::format("  # {}: the joint {}, but not the first joint with this name\n", RoleName(role), QuotedInYaml(name));
+      text += fmt::format("  # {}: the joint {}, but not the first joint with this name\n", RoleName(role),
+                          QuotedInYaml(name));
     } else {
       text += fmt::format("  {}: {}\n", RoleName(role), QuotedInYaml(name));
     }

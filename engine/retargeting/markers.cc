@@ -188,8 +188,8 @@ std::vector<BodyPose> PosesOf(const std::vector<JointPositions>& frames, const S
 std::string DescribeStretches(const std::vector<Stretch>& stretches, const Stretch& longest, std::size_t frames,
                               bool keeps_others) {
   if (keeps_others && stretches.size() > 1) {
-    return fmt::format("the motion has {} parts, because joints are missing between them for over {:g} s", stretches.size(),
-                       kMaxGap_s);
+    return fmt::format("the motion has {} parts, because joints are missing between them for over {:g} s",
+                       stretches.size(), kMaxGap_s);
   }
   return fmt::format("Etude uses only frames {} to {} of {}, because {}", longest.first + 1, longest.second, frames,
                      stretches.size() > 1 ? fmt::format("joints are missing in other frames for over {:g} s", kMaxGap_s)
@@ -349,13 +349,15 @@ Result<std::optional<MarkerBody>> BodyOf(const MarkerMotion& markers, const Mark
     if (!scaled) continue;
     const double stature = MiddleStature(scaled->motion);
     if (stature < kMinPerson || stature > kMaxPerson) continue;
-    scaled->changes.push_back(fmt::format(
-        "with the file's unit, the body would be {:.3g} m tall, so Etude multiplies all lengths by {:g}", stature / scale, scale));
+    scaled->changes.push_back(
+        fmt::format("with the file's unit, the body would be {:.3g} m tall, so Etude multiplies all lengths by {:g}",
+                    stature / scale, scale));
     return scaled;
   }
-  return Fail({file}, "the markers show a body {:.3g} m tall; allowed: {:g} to {:g} m; is the unit of the file "
-                      "right?", own,
-              kMinStature, kMaxStature);
+  return Fail({file},
+              "the markers show a body {:.3g} m tall; allowed: {:g} to {:g} m; is the unit of the file "
+              "right?",
+              own, kMinStature, kMaxStature);
 }
 
 /// Lists the columns of the markers by which the complete people are read.

@@ -51,7 +51,8 @@ Result<void> CheckRoles(const StreamRecording& recording, const std::string& fil
     if (std::ranges::none_of(recording.frames, has)) missing.emplace_back(RoleName(role));
   }
   if (missing.size() == kRoleCount) return Fail({file}, "no frame shows a body");
-  if (!missing.empty()) return Fail({file}, "no frame shows {}; allowed: recordings that show all {} joints", Join(missing), kRoleCount);
+  if (!missing.empty())
+    return Fail({file}, "no frame shows {}; allowed: recordings that show all {} joints", Join(missing), kRoleCount);
   return {};
 }
 
@@ -250,8 +251,8 @@ Result<void> ToMetres(StreamRecording& recording, const std::string& file) {
   return Fail(
       {file},
       "the distance from hip centre to shoulder centre is {:.3g}; allowed: {} to {} m, with positions in m, cm or "
-      "mm", trunk,
-      kMinTrunk_m, kMaxTrunk_m);
+      "mm",
+      trunk, kMinTrunk_m, kMaxTrunk_m);
 }
 
 Result<StreamRecording> ReadStreamRecording(std::string_view text, const std::string& file,

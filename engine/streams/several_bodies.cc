@@ -75,8 +75,9 @@ class AzureReader {
     StreamRecording recording{.format = StreamFormat::kAzureKinect};
     const auto frames = root_.find("frames");
     if (frames == root_.end() || !frames->is_array()) {
-      return Fail({file_}, "the file has no list \"frames\"; allowed: JSON written by the offline processor of Azure "
-                           "Kinect body tracking");
+      return Fail({file_},
+                  "the file has no list \"frames\"; allowed: JSON written by the offline processor of Azure "
+                  "Kinect body tracking");
     }
     recording.rate_hz = reading.rate_hz.value_or(kJudgedRateHz);
     recording.records_times = !reading.rate_hz && !frames->empty() && frames->front().contains("timestamp_usec");
@@ -143,8 +144,10 @@ Result<StreamRecording> ReadAzureKinect(std::string_view text, const std::string
   try {
     return AzureReader(root, file).Read(reading);
   } catch (const Json::exception& error) {
-    return Fail({file}, "this is not JSON written by the offline processor of Azure Kinect body tracking: "
-                        "{}", error.what());
+    return Fail({file},
+                "this is not JSON written by the offline processor of Azure Kinect body tracking: "
+                "{}",
+                error.what());
   }
 }
 

@@ -180,14 +180,17 @@ std::string Describe(const StreamLevel& level) {
   const std::string turn =
       level.turn_deg == 0
           ? ""
-          : fmt::format("the sensor was rotated by {} degrees, and Etude rotated the positions back (--level none "
-                        "keeps the rotation); ", level.turn_deg);
+          : fmt::format(
+                "the sensor was rotated by {} degrees, and Etude rotated the positions back (--level none "
+                "keeps the rotation); ",
+                level.turn_deg);
   const std::string how =
       level.trunk_deg == 0
           ? fmt::format("{:.1f} degrees", level.tilt_deg)
           : fmt::format("although trunks are {:.0f} degrees from this direction: a lying person, or a tilted sensor",
                         level.trunk_deg);
-  return fmt::format("{}the up direction is {} ({}); the floor is {:.2f} m below the sensor", turn, by, how, -level.floor_m);
+  return fmt::format("{}the up direction is {} ({}); the floor is {:.2f} m below the sensor", turn, by, how,
+                     -level.floor_m);
 }
 
 namespace {
@@ -239,8 +242,7 @@ Result<void> StreamMaker::Add(const RecordedFrame& frame, std::vector<SensedFram
   if (!before_) {
     start_s_ = frame.time_s;
   } else if (frame.time_s <= before_->time_s || frame.time_s - before_->time_s > kMaxLoss_s) {
-    return Fail({file_, frame.line},
-                "the time {:.6g} s follows {:.6g} s; allowed: at most {} s between rows",
+    return Fail({file_, frame.line}, "the time {:.6g} s follows {:.6g} s; allowed: at most {} s between rows",
                 frame.time_s, before_->time_s, kMaxLoss_s);
   }
   // Make the stream's frames up to the time of `frame`. Each is a recorded frame, an interpolation between two

@@ -22,8 +22,9 @@ Result<std::vector<std::string>> NamedByLabels(const LabelledStreams& all) {
   for (const LabelledPart& part : all.parts) {
     std::string& name = names[part.stream];
     if (!name.empty() && !part.person.empty() && name != part.person) {
-      return Fail({all.file, part.line}, "{} shows the person {} by this label, but the person {} by an earlier label; "
-                                         "allowed: one person for each recording",
+      return Fail({all.file, part.line},
+                  "{} shows the person {} by this label, but the person {} by an earlier label; "
+                  "allowed: one person for each recording",
                   all.streams[part.stream].name, part.person, name);
     }
     if (name.empty()) name = part.person;
@@ -72,7 +73,8 @@ std::vector<std::string> DoubtMoves(const std::vector<Label>& labels, const std:
       doubts.push_back(ToString(
           Error{{file, a->line},
                 fmt::format("doubtful: the names of the moves {} and {} differ only in capital letters; Etude reads "
-                            "them as two moves", known, a->move)}));
+                            "them as two moves",
+                            known, a->move)}));
     }
   }
   for (auto a = labels.begin(); a != labels.end(); ++a) {
@@ -150,7 +152,8 @@ Result<std::vector<LabelledPart>> MatchLabels(const std::vector<Label>& labels, 
       part.end = std::max(part.begin + 1, frames.end);
     }
   }
-  if (parts.empty()) return Fail({file}, "no label belongs to any of the given recordings, such as {}", streams.front().name);
+  if (parts.empty())
+    return Fail({file}, "no label belongs to any of the given recordings, such as {}", streams.front().name);
   std::ranges::stable_sort(parts, [](const LabelledPart& a, const LabelledPart& b) {
     return a.stream != b.stream ? a.stream < b.stream : a.begin < b.begin;
   });
@@ -202,8 +205,9 @@ std::vector<std::string> DescribeLabels(const std::vector<Label>& labels, const 
     const std::vector<std::string> known{"right"};
     for (const auto& [fault, count] : faults) {
       truths.push_back(fmt::format("{} {}{}", fault, count,
-                                   NearestName(fault, known).empty() ? "" : " (Etude reads this as a fault; did you "
-                                                                            "mean right?)"));
+                                   NearestName(fault, known).empty() ? ""
+                                                                     : " (Etude reads this as a fault; did you "
+                                                                       "mean right?)"));
     }
     lines.push_back(fmt::format("{}: truth: {}", file, Join(truths)));
   }

@@ -92,7 +92,8 @@ Result<PoseTarget> ReadTarget(const Node::Entry& entry, double tolerance_deg) {
 }
 
 Result<TaughtPose> ReadPose(const Node& node) {
-  if (node.kind != Node::Kind::kMapping) return Fail(node.place, "a key pose must be a mapping, found {}", Describe(node));
+  if (node.kind != Node::Kind::kMapping)
+    return Fail(node.place, "a key pose must be a mapping, found {}", Describe(node));
   double tolerance_deg = 0;
   if (const Node* shared = node.Find("tolerance_deg")) {
     ASSIGN_OR_RETURN(tolerance_deg, AsNumber(*shared));
@@ -115,8 +116,8 @@ Result<SensedFrame> ReadFrame(std::string_view line, const Place& place) {
   SensedFrame frame;
   const std::string_view letters = line.substr(0, line.find(' '));
   if (letters.size() != kRoleCount || letters.find_first_not_of("tin-") != std::string_view::npos) {
-    return Fail(place, "found {}; allowed: {} letters (t, i, n or -), followed by {} numbers", Quote(letters), kRoleCount,
-                3 * kRoleCount);
+    return Fail(place, "found {}; allowed: {} letters (t, i, n or -), followed by {} numbers", Quote(letters),
+                kRoleCount, 3 * kRoleCount);
   }
   // The first letter states whether a body is seen.
   line.remove_prefix(letters.size());

@@ -233,7 +233,8 @@ Result<TaughtMove> TeachMove(const std::string& name, std::vector<SkeletonStream
     tracks.push_back(TrackOf(stream));
     const double seen = static_cast<double>(tracks.back().size()) / stream.rate_hz;
     if (seen < kMinSeconds) {
-      return Fail({}, "a performance of '{}' shows a body for only {:.2f} s; allowed: at least {} s", name, seen, kMinSeconds);
+      return Fail({}, "a performance of '{}' shows a body for only {:.2f} s; allowed: at least {} s", name, seen,
+                  kMinSeconds);
     }
     if (SecondsOf(stream) > kMaxSpan) {
       return Fail({},

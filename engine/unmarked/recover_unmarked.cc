@@ -270,7 +270,8 @@ class Recovery {
     if (first == track.frames.end()) {
       return Fail({}, "no frame shows a moving person in two films{}",
                   take_.rooms.empty() && take_.masks.empty() ? "; Etude cannot distinguish a person who never moves "
-                                                               "from the room" : "");
+                                                               "from the room"
+                                                             : "");
     }
     // Copy poses and cost; untracked frames repeat the last pose.
     BodyPose last = ToBodyPose(track.body, (*first)->state);

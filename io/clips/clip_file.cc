@@ -45,9 +45,10 @@ class CappedReader {
     std::error_code not_there;  // the error is ignored, because ReadWholeFile describes a missing file better
     const std::uintmax_t size = fs::file_size(path, not_there);
     if (!not_there && size > left_) {
-      return Fail({path.string(), 0, 0}, "found {} MB; allowed: at most {} MB for a motion and its files "
-                                         "together", (size + 999'999) / 1'000'000,
-                  kMaxClipFileBytes / 1'000'000);
+      return Fail({path.string(), 0, 0},
+                  "found {} MB; allowed: at most {} MB for a motion and its files "
+                  "together",
+                  (size + 999'999) / 1'000'000, kMaxClipFileBytes / 1'000'000);
     }
     auto bytes = ReadWholeFile(path);
     if (bytes) left_ -= std::min<std::uintmax_t>(left_, bytes->size());
@@ -174,7 +175,8 @@ Result<BidsFacts> ReadBidsFacts(const std::string& path, const std::string& stem
     facts.missing = missing->is_string() ? missing->get<std::string>() : missing->dump();
   }
   if (facts.rate_hz >= kMinRate_hz && facts.rate_hz <= kMaxRate_hz) return facts;
-  return Fail({file}, "SamplingFrequency is missing or out of range; allowed: a number from {:g} to {:g} Hz", kMinRate_hz, kMaxRate_hz);
+  return Fail({file}, "SamplingFrequency is missing or out of range; allowed: a number from {:g} to {:g} Hz",
+              kMinRate_hz, kMaxRate_hz);
 }
 
 /// Returns the rule for the up axis of a Motion-BIDS recording. The optional file _channels.json states the axes of its
@@ -192,9 +194,10 @@ Result<UpRule> UpOfBids(const std::string& path, const std::set<std::string, std
     const auto up = axes.is_string() ? UpOfSpatialAxes(axes.get<std::string>()) : std::nullopt;
     if (!up) continue;
     if (!stated.empty() && stated != axes.get<std::string>()) {
-      return Fail({files.back()}, "found reference frames with the SpatialAxes {} and {}; allowed: the same "
-                                  "SpatialAxes for all reference frames", stated,
-                  axes.get<std::string>());
+      return Fail({files.back()},
+                  "found reference frames with the SpatialAxes {} and {}; allowed: the same "
+                  "SpatialAxes for all reference frames",
+                  stated, axes.get<std::string>());
     }
     stated = axes.get<std::string>();
     rule = {.axis = *up, .evidence = UpEvidence::kFile, .source = "its SpatialAxes"};

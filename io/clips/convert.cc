@@ -246,15 +246,17 @@ Result<MotionFormat> FormatOfName(const std::string& path) {
 
 Result<Converted> ConvertClips(std::vector<SourceClip> clips, MotionFormat format, const ConvertOptions& options) {
   const bool has_figure = options.performer == Performer::kBear || options.performer == Performer::kMannequin;
-  if (has_figure && format != MotionFormat::kGlb) return Fail({}, "only GLB files can contain a character; write a "
-                                                                  ".glb file");
+  if (has_figure && format != MotionFormat::kGlb)
+    return Fail({},
+                "only GLB files can contain a character; write a "
+                ".glb file");
   if (clips.size() > 1 && format != MotionFormat::kGlb) {
     std::vector<std::string> names;
     for (const SourceClip& clip : clips) names.push_back(clip.clip.name);
     return Fail({clips.front().source, 0, 0},
                 "only GLB files can contain several animations; choose one of the {} animations with FILE#NAME: "
-                "{}", clips.size(),
-                Join(names));
+                "{}",
+                clips.size(), Join(names));
   }
   const bool has_only_joints = format != MotionFormat::kBvh && format != MotionFormat::kGlb;
   const bool as_body = options.ground || options.retarget || has_figure || has_only_joints;

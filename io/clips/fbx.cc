@@ -171,7 +171,8 @@ void Describe(const FbxKeyFacts& facts, std::vector<std::string>& remarks) {
   if (facts.turn_deg > 0) {
     remarks.push_back(
         fmt::format("an angle changes by {:.0f}° from one key to the next, and Etude makes the joint turn by this "
-                    "angle", facts.turn_deg));
+                    "angle",
+                    facts.turn_deg));
   }
   if (facts.cut_s > 0) {
     remarks.push_back(fmt::format(
@@ -191,8 +192,9 @@ bool IsFbx(std::string_view bytes) { return bytes.starts_with(kBinaryStart) || b
 Result<FbxMotion> FbxReader::Read(std::string_view bytes, const std::string& path) {
   // Refuse versions that assimp cannot read, before a child is started.
   if (const unsigned version = MajorVersion(bytes); version > 0 && version < kMinVersion) {
-    return Fail({path}, "the FBX file has version {}; allowed: version {} (2011) or later; export or convert the file "
-                        "again",
+    return Fail({path},
+                "the FBX file has version {}; allowed: version {} (2011) or later; export or convert the file "
+                "again",
                 version, kMinVersion);
   }
   PreparedFbx prepared = Prepare(bytes);

@@ -111,9 +111,10 @@ std::string UseBaseLayer(std::string_view clip, const std::vector<const FbxLink*
   if (left_out.empty()) {
     return fmt::format("clip {}: Etude uses only the animation layer {}", Quote(clip), Quote(*used));
   }
-  return fmt::format("clip {}: Etude uses only the animation layer {} and leaves out the other layers ({}); bake the "
-                     "layers into one",
-                     Quote(clip), Quote(*used), Join(left_out));
+  return fmt::format(
+      "clip {}: Etude uses only the animation layer {} and leaves out the other layers ({}); bake the "
+      "layers into one",
+      Quote(clip), Quote(*used), Join(left_out));
 }
 
 /// Returns true if a time span's end can be a time: it is nearer than the margin.

@@ -47,7 +47,8 @@ FilmWorkers::FilmWorkers(int frames, int jobs, int width, int height, FrameFeed 
 Result<void> FilmWorkers::MapSlots() {
   const std::size_t slots = workers_.size() * static_cast<std::size_t>(slots_), bytes = slots * SlotBytes();
   void* memory = mmap(nullptr, bytes, PROT_READ | PROT_WRITE, MAP_SHARED | MAP_ANONYMOUS, -1, 0);
-  if (memory == MAP_FAILED) return FailOfMachine("there is not enough memory for {} frames: {}", slots, std::strerror(errno));
+  if (memory == MAP_FAILED)
+    return FailOfMachine("there is not enough memory for {} frames: {}", slots, std::strerror(errno));
   memory_ = {static_cast<std::uint8_t*>(memory), Unmap{bytes}};
   return {};
 }

@@ -41,7 +41,8 @@ Result<CocoImages> ImagesOf(const Json& images, PeopleOfFilm& film, const Place&
       const int w = static_cast<int>(std::clamp(width->get<double>(), 0.0, kMaxPixel));
       const int h = static_cast<int>(std::clamp(height->get<double>(), 0.0, kMaxPixel));
       if (film.width != 0 && (w != film.width || h != film.height)) {
-        return Fail(place, "one film has images of {} x {} and of {} x {} pixels; allowed: one size", film.width, film.height, w, h);
+        return Fail(place, "one film has images of {} x {} and of {} x {} pixels; allowed: one size", film.width,
+                    film.height, w, h);
       }
       film.width = w;
       film.height = h;
@@ -130,9 +131,10 @@ Result<void> AddPeople(std::vector<CocoPerson> people, const std::string& layout
   for (const auto& [id, category] : categories) {
     if (category.refused == 0) continue;
     if (category.read > 0 || !is_any_read) return tl::unexpected(category.error);
-    film.Tell(fmt::format("Etude left out annotations of the category {}, because their keypoints are not those of a "
-                          "person: {}",
-                          category.name.empty() ? fmt::format("{:g}", id) : category.name, category.refused));
+    film.Tell(
+        fmt::format("Etude left out annotations of the category {}, because their keypoints are not those of a "
+                    "person: {}",
+                    category.name.empty() ? fmt::format("{:g}", id) : category.name, category.refused));
   }
   return {};
 }
@@ -157,8 +159,10 @@ Result<PeopleOfFilm> ReadCoco(const Json& json, const std::string& layout, const
   for (const Json& annotation : *annotations) {
     const Json* id = Member(annotation, "image_id");
     const auto frame = id != nullptr && id->is_number() ? listed.frames.find(id->get<double>()) : listed.frames.end();
-    if (frame == listed.frames.end()) return Fail(place, "an annotation belongs to an image that the list 'images' "
-                                                         "does not contain");
+    if (frame == listed.frames.end())
+      return Fail(place,
+                  "an annotation belongs to an image that the list 'images' "
+                  "does not contain");
     if (!HasKeypoints(annotation)) {
       ++boxes;
       continue;

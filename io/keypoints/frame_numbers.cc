@@ -98,9 +98,10 @@ Result<PeopleOfFilm> FilmOfNumbers(std::map<long, std::vector<SeenPerson>> numbe
                   "number of frames, or evenly spaced numbers from the first frame to the last frame",
                   lowest, highest, frames);
     }
-    film.Tell(fmt::format("frame numbers go from {} to {}, and the film has {} frames; Etude assumes that number {} is "
-                          "the film's first frame",
-                          lowest, highest, frames, lowest));
+    film.Tell(
+        fmt::format("frame numbers go from {} to {}, and the film has {} frames; Etude assumes that number {} is "
+                    "the film's first frame",
+                    lowest, highest, frames, lowest));
   } else if (film.is_base_open) {
     film.Tell(
         fmt::format("frame numbers go from {} to {}, and the film has {} frames; Etude assumes that the numbers count "

@@ -142,7 +142,8 @@ Result<const KeypointLayout*> LayoutOf(std::size_t count, const std::string& nam
   }
   if (fitting.size() == 1) return fitting.front();
   if (fitting.empty()) {
-    return Fail(place, "found {} keypoints per person{}; allowed: {}", count, named.empty() ? "" : ", which do not fit the layout " + named, counts);
+    return Fail(place, "found {} keypoints per person{}; allowed: {}", count,
+                named.empty() ? "" : ", which do not fit the layout " + named, counts);
   }
   return Fail(place, "{} keypoints per person may have the layout {} or {}; use --layout to choose one of them", count,
               fitting[0]->name, fitting[1]->name);
@@ -170,8 +171,9 @@ Result<std::span<const Landmark>> OrderOf(std::size_t count, const std::string& 
   if (layout.empty() && is_named && names.names.size() == count) {
     constexpr std::size_t kMinKnown = 12;
     if (names.known >= kMinKnown) return std::span(names.landmarks);
-    return Fail(place, "Etude knows only {} of the {} keypoint names ({}); allowed: at least {} names of {}, or "
-                       "--layout",
+    return Fail(place,
+                "Etude knows only {} of the {} keypoint names ({}); allowed: at least {} names of {}, or "
+                "--layout",
                 names.known, count, SomeOf(names.names), kMinKnown, AllLandmarks());
   }
   const auto found = LayoutOf(count, layout, place);
@@ -184,8 +186,9 @@ Result<std::span<const Landmark>> OrderOf(std::size_t count, const std::string& 
   for (std::size_t i = 0; i < std::min(names.landmarks.size(), chosen->landmarks.size()); ++i) {
     const Landmark stated = names.landmarks[i], taken = chosen->landmarks[i];
     if (stated == taken || stated == Landmark::kNoLandmark || taken == Landmark::kNoLandmark) continue;
-    return Fail(place, "keypoint {} has the name {} in the file, but is {} in the layout {} ({} names, {} keypoints); "
-                       "{}",
+    return Fail(place,
+                "keypoint {} has the name {} in the file, but is {} in the layout {} ({} names, {} keypoints); "
+                "{}",
                 i + 1, names.names[i], LandmarkName(taken), chosen->name, names.names.size(), count,
                 layout.empty() ? "allowed: a name for each keypoint" : "leave out --layout, or remove the names");
   }
@@ -224,8 +227,10 @@ Result<Keypoint> PointOf(const Json& json, const Place& place) {
   for (const auto& [key, value] : json.items()) {
     constexpr std::array kNoScores = {"x", "y", "z", "id", "index", "presence", "world_x", "world_y", "world_z"};
     if (sure != nullptr || !value.is_number_float() || std::ranges::count(kNoScores, key) > 0) continue;
-    return Fail(place, "a keypoint has the number '{}' in addition to x and y; allowed: score, confidence or "
-                       "visibility", key);
+    return Fail(place,
+                "a keypoint has the number '{}' in addition to x and y; allowed: score, confidence or "
+                "visibility",
+                key);
   }
   if (!x || !y) return Keypoint{};
   return Keypoint{glm::dvec2(*x, *y) + kHalfPixel, sure == nullptr ? 1 : NumberOf(sure).value_or(0)};
@@ -258,8 +263,9 @@ Result<std::vector<Keypoint>> PointsOfPairs(const Json& list, const Json* scores
     double sure = 1;
     if (scores != nullptr && scores->is_array() && scores->size() == list.size()) {
       if (pair.size() > 2 && pair[2] != (*scores)[i]) {
-        return Fail(place, "a keypoint has {} coordinates in addition to a score: {}; allowed: pixels of one picture, "
-                           "[x, y]",
+        return Fail(place,
+                    "a keypoint has {} coordinates in addition to a score: {}; allowed: pixels of one picture, "
+                    "[x, y]",
                     pair.size(), ShowJson(pair));
       }
       sure = NumberOf(&(*scores)[i]).value_or(0);

@@ -37,8 +37,10 @@ Result<std::vector<fs::path>> FilesIn(const fs::path& folder, const char* ending
   if (files.empty()) {
     for (const fs::directory_entry& entry : fs::directory_iterator(folder, error)) {
       if (entry.path().extension() != ".txt") continue;
-      return Fail({folder.string()}, "the folder contains no {} file, but text files, as YOLO writes; allowed: "
-                                     "{}", ending, kAllowed);
+      return Fail({folder.string()},
+                  "the folder contains no {} file, but text files, as YOLO writes; allowed: "
+                  "{}",
+                  ending, kAllowed);
     }
     return Fail({folder.string()}, "the folder contains no {} file", ending);
   }
@@ -157,9 +159,10 @@ void Denormalise(const FilmOfKeypoints& of, PeopleOfFilm& film) {
   const double shares = share_of(range.shares, range.confident);
   if (shares <= 0.5) {
     if (shares > kFew) {
-      film.Tell(fmt::format("{} of {} keypoints have coordinates between -1 and 1, but most keypoints do not, so Etude "
-                            "reads all coordinates as pixels",
-                            range.shares, range.confident));
+      film.Tell(
+          fmt::format("{} of {} keypoints have coordinates between -1 and 1, but most keypoints do not, so Etude "
+                      "reads all coordinates as pixels",
+                      range.shares, range.confident));
     }
     return;
   }
@@ -263,8 +266,9 @@ Result<PeopleOfFilm> ReadKeypoints(const fs::path& path, const std::string& layo
     // The number of keypoints may fit two layouts, which the mid-hip tells apart.
     auto other = ReadAs(path, "body_25", of);
     if (other && MidHipsOfBody25(other->frames).Are()) {
-      other->Tell("Etude uses the layout body_25, because there are 25 keypoints per person and one keypoint is "
-                  "between the hips");
+      other->Tell(
+          "Etude uses the layout body_25, because there are 25 keypoints per person and one keypoint is "
+          "between the hips");
       film = std::move(other);
     }
   }
@@ -280,8 +284,8 @@ Result<PeopleOfFilm> ReadMarkedPictures(const fs::path& folder) {
   for (const fs::path& file : files) {
     ASSIGN_OR_RETURN(const ColourImage picture, LoadColourPng(file.string()));
     if (film.width != 0 && (picture.width != film.width || picture.height != film.height)) {
-      return Fail({file.string()}, "the picture has {} x {} pixels, but earlier pictures have {} x {}", picture.width, picture.height,
-                  film.width, film.height);
+      return Fail({file.string()}, "the picture has {} x {} pixels, but earlier pictures have {} x {}", picture.width,
+                  picture.height, film.width, film.height);
     }
     film.width = picture.width;
     film.height = picture.height;
@@ -307,13 +311,15 @@ Result<fs::path> EntryOfFilm(const fs::path& folder, const std::string& film) {
   std::ranges::sort(found);
   if (error) return Fail({folder.string()}, "{}", error.message());
   if (found.empty())
-    return Fail({folder.string()}, "the folder contains no file for the film {}; allowed: a file name that begins with "
-                                   "the film's name, followed by another character than a letter or a digit",
+    return Fail({folder.string()},
+                "the folder contains no file for the film {}; allowed: a file name that begins with "
+                "the film's name, followed by another character than a letter or a digit",
                 film);
   if (found.size() > 1) {
-    return Fail({folder.string()}, "the names of two files, {} and {}, begin with the film's name {}; allowed: one "
-                                   "such file", found[0].filename().string(),
-                found[1].filename().string(), film);
+    return Fail({folder.string()},
+                "the names of two files, {} and {}, begin with the film's name {}; allowed: one "
+                "such file",
+                found[0].filename().string(), found[1].filename().string(), film);
   }
   return found.front();
 }

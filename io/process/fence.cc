@@ -208,7 +208,8 @@ Result<void> Fence::Try() const {
   if (!IsUp()) return {};
   const std::string said = FirstLineOf(*this, {program_, "--version"});
   if (said.starts_with("bubblewrap ")) return {};
-  return FailOfMachine("no program can run in the sandbox (bubblewrap): {}", said.empty() ? "bubblewrap gave no reason" : said);
+  return FailOfMachine("no program can run in the sandbox (bubblewrap): {}",
+                       said.empty() ? "bubblewrap gave no reason" : said);
 }
 
 ScratchUse Fence::MeasureScratch(pid_t inside) const {

@@ -32,8 +32,9 @@ Result<std::string_view> TakeChunk(std::string_view bytes, std::size_t& at, std:
     return Fail(place, "found a chunk of type 0x{:08X} at byte {}; allowed: type 0x{:08X}", found, at, kind);
   }
   if (length > left - kChunkHeaderBytes || length % 4 != 0) {
-    return Fail(place, "found a chunk of {} bytes at byte {}; allowed: a multiple of 4, at most the {} bytes left in "
-                       "the file",
+    return Fail(place,
+                "found a chunk of {} bytes at byte {}; allowed: a multiple of 4, at most the {} bytes left in "
+                "the file",
                 length, at, left - kChunkHeaderBytes);
   }
   at += kChunkHeaderBytes + length;
@@ -41,8 +42,11 @@ Result<std::string_view> TakeChunk(std::string_view bytes, std::size_t& at, std:
 }
 
 Result<GltfContainer> OpenGlb(std::string_view bytes, const Place& place) {
-  if (bytes.size() < kHeaderBytes) return Fail(place, "found a GLB file of {} bytes; allowed: at least 12, the size of "
-                                                      "the header", bytes.size());
+  if (bytes.size() < kHeaderBytes)
+    return Fail(place,
+                "found a GLB file of {} bytes; allowed: at least 12, the size of "
+                "the header",
+                bytes.size());
   if (const std::uint32_t version = Number(bytes, 4); version != 2) {
     return Fail(place, "found GLB version {}; allowed: 2", version);
   }
@@ -124,8 +128,9 @@ Result<GltfContainer> OpenGltfContainer(std::string_view bytes, const std::strin
   ASSIGN_OR_RETURN(const auto buffers, JsonShape().CountBuffers(container.json, place));
   // Every buffer without a URI gets a copy of the binary part, so limit the size of all copies together.
   if (static_cast<double>(buffers) * static_cast<double>(container.binary.size()) > kMaxGltfBytes) {
-    return Fail(place, "found {} buffers, each with a copy of {} bytes of binary data; allowed: at most {:.0f} MB for "
-                       "all copies together",
+    return Fail(place,
+                "found {} buffers, each with a copy of {} bytes of binary data; allowed: at most {:.0f} MB for "
+                "all copies together",
                 buffers, container.binary.size(), kMaxGltfBytes / 1e6);
   }
   return container;

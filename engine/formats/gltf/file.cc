@@ -116,8 +116,8 @@ Result<std::span<const unsigned char>> ViewBytes(const GltfFile& file, int view_
   RETURN_IF_ERROR(file.CheckIndex(view.buffer, model.buffers.size(), view_name + ".buffer"));
   const std::vector<unsigned char>& data = model.buffers[static_cast<std::size_t>(view.buffer)].data;
   if (view.byteOffset > data.size() || view.byteLength > data.size() - view.byteOffset) {
-    return file.Refuse(view_name, "found {} bytes from byte {} on, but buffer {} contains only {} bytes", view.byteLength,
-                       view.byteOffset, view.buffer, data.size());
+    return file.Refuse(view_name, "found {} bytes from byte {} on, but buffer {} contains only {} bytes",
+                       view.byteLength, view.byteOffset, view.buffer, data.size());
   }
   return std::span(data).subspan(view.byteOffset, view.byteLength);
 }
@@ -136,9 +136,10 @@ Result<Elements> Locate(const GltfFile& file, int view_index, std::size_t offset
   const bool fits = offset <= view.byteLength && size <= view.byteLength - offset &&
                     count - 1 <= (view.byteLength - offset - size) / stride;
   if (!fits) {
-    return file.Refuse(where, "found {} elements of {} bytes with a stride of {} bytes from byte {} on, but {} "
-                              "contains only {} bytes", count,
-                       size, stride, offset, view_name, view.byteLength);
+    return file.Refuse(where,
+                       "found {} elements of {} bytes with a stride of {} bytes from byte {} on, but {} "
+                       "contains only {} bytes",
+                       count, size, stride, offset, view_name, view.byteLength);
   }
   return Elements{bytes.subspan(offset), stride};
 }

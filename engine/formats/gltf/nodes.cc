@@ -45,9 +45,10 @@ class NodeReader {
         RETURN_IF_ERROR(file_.CheckIndex(children[i], count_, where));
         int& parent = parents_[children[i]];
         if (parent != kNoIndex) {
-          return file_.Refuse(where, "found node {}, which is already a child of node {}; allowed: one "
-                                     "parent", children[i],
-                              parent);
+          return file_.Refuse(where,
+                              "found node {}, which is already a child of node {}; allowed: one "
+                              "parent",
+                              children[i], parent);
         }
         parent = node;
       }
@@ -59,8 +60,10 @@ class NodeReader {
     for (int node = 0; node < static_cast<int>(count_); ++node) {
       int depth = 1;
       for (int above = parents_[node]; above != kNoIndex; above = parents_[above]) {
-        if (above == node) return file_.Refuse(NodeName(node), "the node is its own ancestor; allowed: a tree of "
-                                                               "nodes");
+        if (above == node)
+          return file_.Refuse(NodeName(node),
+                              "the node is its own ancestor; allowed: a tree of "
+                              "nodes");
         if (++depth > kMaxLevels) return TooDeep(node);
       }
     }
@@ -72,8 +75,10 @@ class NodeReader {
   Result<void> TooDeep(int node) const {
     std::size_t steps = 0;
     for (int above = parents_[node]; above != kNoIndex; above = parents_[above]) {
-      if (++steps > count_) return file_.Refuse(NodeName(node), "an ancestor of the node is its own ancestor; allowed: "
-                                                                "a tree of nodes");
+      if (++steps > count_)
+        return file_.Refuse(NodeName(node),
+                            "an ancestor of the node is its own ancestor; allowed: "
+                            "a tree of nodes");
     }
     return file_.Refuse(NodeName(node), "nested more than {} levels deep", kMaxLevels);
   }
@@ -95,8 +100,10 @@ class NodeReader {
         const std::string where = fmt::format("scenes[{}].nodes[{}]", scene, i);
         RETURN_IF_ERROR(file_.CheckIndex(open[i], count_, where));
         if (parents_[open[i]] != kNoIndex) {
-          return file_.Refuse(where, "found node {}, which is a child of node {}; allowed: nodes without a "
-                                     "parent", open[i], parents_[open[i]]);
+          return file_.Refuse(where,
+                              "found node {}, which is a child of node {}; allowed: nodes without a "
+                              "parent",
+                              open[i], parents_[open[i]]);
         }
       }
     }
@@ -219,8 +226,10 @@ class NodeReader {
     glm::dmat3 axes(m[0], m[1], m[2], m[4], m[5], m[6], m[8], m[9], m[10]);
     for (int k = 0; k < 3; ++k) {
       local.scale[k] = glm::length(axes[k]);
-      if (local.scale[k] < 1e-9) return file_.Refuse(where, "the matrix scales an axis to 0; allowed: a product of "
-                                                            "translation, rotation and scale");
+      if (local.scale[k] < 1e-9)
+        return file_.Refuse(where,
+                            "the matrix scales an axis to 0; allowed: a product of "
+                            "translation, rotation and scale");
       axes[k] /= local.scale[k];
     }
     if (glm::determinant(axes) < 0) {  // a mirror image: give the negative sign to the scale of x
@@ -229,8 +238,10 @@ class NodeReader {
     }
     const double shear = std::max({std::abs(glm::dot(axes[0], axes[1])), std::abs(glm::dot(axes[1], axes[2])),
                                    std::abs(glm::dot(axes[2], axes[0]))});
-    if (shear > kMatrixRounding) return file_.Refuse(where, "the matrix contains a shear; allowed: a product of "
-                                                            "translation, rotation and scale");
+    if (shear > kMatrixRounding)
+      return file_.Refuse(where,
+                          "the matrix contains a shear; allowed: a product of "
+                          "translation, rotation and scale");
     local.rotation = glm::normalize(glm::quat_cast(axes));
     return local;
   }
@@ -260,8 +271,8 @@ Result<void> CheckGltfPose(const GltfFile& file, const Skeleton& skeleton, const
   for (std::size_t i = 0; i < globals.size(); ++i) {
     const auto& [position, axes] = globals[i];
     if (is_within(position) && is_within(axes[0]) && is_within(axes[1]) && is_within(axes[2])) continue;
-    return file.Refuse(where, "a world coordinate of joint {} is out of range; allowed: ±{:g}", Quote(skeleton.joints[i].name),
-                       kMaxGltfNumber);
+    return file.Refuse(where, "a world coordinate of joint {} is out of range; allowed: ±{:g}",
+                       Quote(skeleton.joints[i].name), kMaxGltfNumber);
   }
   return {};
 }

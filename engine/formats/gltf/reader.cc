@@ -70,18 +70,22 @@ bool ReadWholeFile(std::vector<unsigned char>* out, std::string*, const std::str
   Fetcher& fetcher = *static_cast<Fetcher*>(user_data);
   const Place place{fetcher.file};
   if (!StaysInFolder(uri)) {
-    return fetcher.Complain(Fail(place, "the file refers to {}; allowed: files in the same folder", Quote(uri)).value());
+    return fetcher.Complain(
+        Fail(place, "the file refers to {}; allowed: files in the same folder", Quote(uri)).value());
   }
   if (!*fetcher.fetch) {
-    return fetcher.Complain(Fail(place, "the file refers to {}; allowed: data inside the file itself", Quote(uri)).value());
+    return fetcher.Complain(
+        Fail(place, "the file refers to {}; allowed: data inside the file itself", Quote(uri)).value());
   }
   auto bytes = (*fetcher.fetch)(uri);
   if (!bytes) return fetcher.Complain(bytes.error());
   fetcher.bytes_left -= static_cast<double>(bytes->size());
   if (fetcher.bytes_left < 0) {
     return fetcher.Complain(
-        Fail(place, "the files that this file refers to exceed {:.0f} MB together at {}; allowed: at most this "
-                    "size", kMaxGltfBytes / 1e6, Quote(uri))
+        Fail(place,
+             "the files that this file refers to exceed {:.0f} MB together at {}; allowed: at most this "
+             "size",
+             kMaxGltfBytes / 1e6, Quote(uri))
             .value());
   }
   out->assign(bytes->begin(), bytes->end());

@@ -62,7 +62,8 @@ Result<Bindings> ReadGltfBindings(GltfFile& file, const GltfNodes& nodes, int no
   const std::string matrices_name = name + ".inverseBindMatrices";
   ASSIGN_OR_RETURN(auto matrices, file.Read(skin.inverseBindMatrices, 16, GltfComponents::kFloat, matrices_name));
   if (matrices.Count() < bindings.size()) {
-    return file.Refuse(matrices_name, "found {} matrices for {} joints; allowed: one for each joint", matrices.Count(), bindings.size());
+    return file.Refuse(matrices_name, "found {} matrices for {} joints; allowed: one for each joint", matrices.Count(),
+                       bindings.size());
   }
   for (std::size_t i = 0; i < bindings.size(); ++i) {
     const double* m = matrices[i];

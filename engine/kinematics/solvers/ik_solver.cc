@@ -82,8 +82,10 @@ IkSolver GaussNewton() {
                       "default)",
        .step = "steps"},
       SolveWithOwn<GaussNewtonOptions>(SolveGaussNewton), &SolverSettings::first_sweeps,
-      &GaussNewtonOptions::first_sweeps, Between("first_sweeps", 0, 100, "Number of CCD sweeps before the first "
-                                                                         "Gauss-Newton step."));
+      &GaussNewtonOptions::first_sweeps,
+      Between("first_sweeps", 0, 100,
+              "Number of CCD sweeps before the first "
+              "Gauss-Newton step."));
   solver.prepare = [](const KinematicTree& tree) { return std::make_unique<PreparedGaussNewton>(tree); };
   solver.solve_batch = [](const KinematicTree& tree, std::span<const IkProblem> problems, const IkOptions& options) {
     return SolveGaussNewtonBatch(tree, problems, options, Precision::kDouble, GaussNewtonOptionsOf(options));
@@ -125,9 +127,8 @@ std::span<const IkSolver> AllIkSolvers() {
       GaussNewton(),
       WithSetting(
           {.name = "levenberg-marquardt",
-           .description =
-               "dense Levenberg-Marquardt steps with restarts and an active set for the limits: the usual "
-               "recommendation today",
+           .description = "dense Levenberg-Marquardt steps with restarts and an active set for the limits: the usual "
+                          "recommendation today",
            .step = "steps"},
           SolveWithOwn<LevenbergMarquardtOptions>(SolveLevenbergMarquardt), &SolverSettings::damping_share,
           &LevenbergMarquardtOptions::damping_share,
@@ -160,14 +161,14 @@ std::span<const IkSolver> AllIkSolvers() {
        .step = "passes",
        .solve = SolveFabrik},
       // Methods that do not check whether a step lowers the error.
-      WithSetting({.name = "jacobian-pinv",
-                   .description =
-                       "paper B's Jacobian pseudo-inverse: the start pose is the preferred posture, and angles are "
-                       "clamped to their limits",
-                   .step = "steps"},
-                  SolveWithOwn<JacobianPinvOptions>(SolveJacobianPinv), &SolverSettings::pinv_damping,
-                  &JacobianPinvOptions::damping,
-                  Between("pinv_damping", 0, 100, "Damping of the pseudo-inverse. Paper B uses 0.")),
+      WithSetting(
+          {.name = "jacobian-pinv",
+           .description = "paper B's Jacobian pseudo-inverse: the start pose is the preferred posture, and angles are "
+                          "clamped to their limits",
+           .step = "steps"},
+          SolveWithOwn<JacobianPinvOptions>(SolveJacobianPinv), &SolverSettings::pinv_damping,
+          &JacobianPinvOptions::damping,
+          Between("pinv_damping", 0, 100, "Damping of the pseudo-inverse. Paper B uses 0.")),
       WithSetting({.name = "jacobian-transpose",
                    .description = "the Jacobian transpose, with the step length that minimises the error to first "
                                   "order",

@@ -46,9 +46,10 @@ PairSurvey SurveyPairs(const MotionLibrary& library, const TransitionRequest& re
 std::string WhyTaken(const std::string& pair, const TransitionPoint& point, bool is_rear, const PairSurvey& survey,
                      const MatchRules& rules) {
   if (rules.pick == Pick::kFirst) {
-    return fmt::format("the first match: {}, with the distance d = {:.2f} < {:g}; {} pairs match, and {} of them have "
-                       "a smaller distance but come later",
-                       pair, point.distance.value, rules.threshold, survey.matching, survey.nearer);
+    return fmt::format(
+        "the first match: {}, with the distance d = {:.2f} < {:g}; {} pairs match, and {} of them have "
+        "a smaller distance but come later",
+        pair, point.distance.value, rules.threshold, survey.matching, survey.nearer);
   }
   return fmt::format(
       "the smallest distance{}: {}, with d = {:.2f} < {:g}, among {} matching pairs",
@@ -94,8 +95,10 @@ TransitionRecord PlanFuzzyBridge(const MotionLibrary& library, const TransitionR
 TransitionRecord PlanNow(const MotionLibrary& library, const TransitionRequest& request, const MatchRules& rules) {
   TransitionRecord record = DirectTransition(library, request, request.request_frame, 0, rules);
   record.branch = Branch::kNow;
-  record.why = fmt::format("the transition goes at once into the first frame, whatever the poses are; d = "
-                           "{:.2f}", record.distances[0].value);
+  record.why = fmt::format(
+      "the transition goes at once into the first frame, whatever the poses are; d = "
+      "{:.2f}",
+      record.distances[0].value);
   return record;
 }
 
@@ -106,9 +109,10 @@ TransitionRecord PlanWaitForEnd(const MotionLibrary& library, const TransitionRe
   const int end = library.tagged[request.from].FrameCount() - 1;
   TransitionRecord record = DirectTransition(library, request, end, 0, rules);
   record.branch = Branch::kEnd;
-  record.why = fmt::format("the playing clip ended after {:.2f} s; the distance to the first frame is d = "
-                           "{:.2f}", record.wait_s,
-                           record.distances[0].value);
+  record.why = fmt::format(
+      "the playing clip ended after {:.2f} s; the distance to the first frame is d = "
+      "{:.2f}",
+      record.wait_s, record.distances[0].value);
   return record;
 }
 
@@ -161,9 +165,10 @@ TransitionRecord PlanThroughStanding(const MotionLibrary& library, const Transit
   const auto to_itself = [&](const Grades& grades) { return ComputeDistance(grades, grades, rules.weights); };
   record.distances = {to_itself(playing.grades[request.request_frame]), to_itself(next.grades.front())};
   record.wait_s = WaitOf(record.segments, playing.rate_hz);
-  record.why = fmt::format("the transition starts at once: {:.2f} s into a standing pose, then {:.2f} s into the first "
-                           "frame of {}",
-                           standing / playing.rate_hz, (last - standing) / playing.rate_hz, library.names[request.to]);
+  record.why = fmt::format(
+      "the transition starts at once: {:.2f} s into a standing pose, then {:.2f} s into the first "
+      "frame of {}",
+      standing / playing.rate_hz, (last - standing) / playing.rate_hz, library.names[request.to]);
   return record;
 }
 
@@ -217,30 +222,36 @@ std::span<const Choice> Table() {
              .allowed = BridgeFrames,
              .plan = PlanBy<PlanFuzzyBridge>},
       Ranked<PlanFuzzyKovar, PointCloudSettings>(
-          "fuzzy-kovar", "among all matching bridge frames, takes the pair with the smallest point-cloud distance "
-                         "(Kovar 2002)", true),
+          "fuzzy-kovar",
+          "among all matching bridge frames, takes the pair with the smallest point-cloud distance "
+          "(Kovar 2002)",
+          true),
       Ranked<PlanFuzzyWindow, FuzzyWindowSettings>(
-          "fuzzy-window", "among all matching bridge frames, takes the pair with the smallest mean fuzzy distance in a "
-                          "window around the pair", true),
+          "fuzzy-window",
+          "among all matching bridge frames, takes the pair with the smallest mean fuzzy distance in a "
+          "window around the pair",
+          true),
       Ranked<PlanPointCloud, PointCloudSettings>(
           "point-cloud", "takes the pair of frames with the smallest point-cloud distance (Kovar 2002)", false),
       Ranked<PlanMotionMatching, MotionMatchingSettings>(
           "motion-matching",
           "takes the pair of frames with the most similar positions and velocities of hands, feet and hips (Clavet "
-          "2016)", false),
-      Choice{
-          .name = "played",
-          .description = "takes the frames and the blend length whose transition costs the least waiting time and "
-                         "acceleration",
-          .settings = PlayedSettings().Describe(),
-          .plan = PlanWith<PlanPlayed, PlayedSettings>},
+          "2016)",
+          false),
+      Choice{.name = "played",
+             .description = "takes the frames and the blend length whose transition costs the least waiting time and "
+                            "acceleration",
+             .settings = PlayedSettings().Describe(),
+             .plan = PlanWith<PlanPlayed, PlayedSettings>},
       // Choices of fixed frames, for comparison.
       Choice{.name = "through-standing",
              .description = "leaves the playing clip at once, and goes through a standing pose into the first frame of "
                             "the wanted clip",
              .plan = PlanBy<PlanThroughStanding>},
-      Choice{.name = "now", .description = "leaves the playing clip at once, into the first frame of the wanted "
-                                           "clip", .plan = PlanBy<PlanNow>},
+      Choice{.name = "now",
+             .description = "leaves the playing clip at once, into the first frame of the wanted "
+                            "clip",
+             .plan = PlanBy<PlanNow>},
       Choice{.name = "wait-for-end",
              .description = "goes from the last frame of the playing clip into the first frame of the wanted clip",
              .plan = PlanBy<PlanWaitForEnd>},

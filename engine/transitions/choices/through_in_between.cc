@@ -128,10 +128,10 @@ std::string Explain(const MotionLibrary& library, const TransitionRequest& reque
                        : is_near         ? ", but no allowed bridge frame"
                                          : fmt::format(", not below {}", threshold));
   };
-  return fmt::format("the transition leaves {} at frame {} for the key pose {}, and goes from the key pose {} into {} "
-                     "at frame {}",
-                     library.names[request.from], judge(exit), name(exit), name(entrance), library.names[request.to],
-                     judge(entrance));
+  return fmt::format(
+      "the transition leaves {} at frame {} for the key pose {}, and goes from the key pose {} into {} "
+      "at frame {}",
+      library.names[request.from], judge(exit), name(exit), name(entrance), library.names[request.to], judge(entrance));
 }
 
 }  // namespace

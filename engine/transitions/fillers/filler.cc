@@ -150,8 +150,10 @@ std::span<const Filler> AllFillers() {
       {.name = "zero-velocity",
        .description = "holds the last pose",
        .fill = [](const Gap& gap, Values) { return std::vector<TreePose>(gap.frames, gap.past.back()); }},
-      {.name = "interpolation", .description = "interpolates along straight lines and great arcs (lerp, "
-                                               "slerp)", .fill = Interpolate},
+      {.name = "interpolation",
+       .description = "interpolates along straight lines and great arcs (lerp, "
+                      "slerp)",
+       .fill = Interpolate},
       {.name = "inertialised",
        .description = "interpolates, and adds the velocity difference at each end, which decays like a spring",
        .settings = {HalfLife(kSpring_s, "Time in which a difference decays to one half.")},

@@ -78,9 +78,10 @@ bool IsSame(const TaggedFrame& a, const TaggedFrame& b) {
 void CompareClips(const ClipTags& file, const ClipTags& now, TagsComparison& comparison) {
   const std::string name = Quote(file.name);
   if (file.frames != now.frames || file.rate_hz != now.rate_hz) {
-    comparison.differences.push_back(fmt::format("clip {} has {} frames at {} Hz in the file, but {} frames at {} Hz "
-                                                 "now", name,
-                                                 file.frames, file.rate_hz, now.frames, now.rate_hz));
+    comparison.differences.push_back(
+        fmt::format("clip {} has {} frames at {} Hz in the file, but {} frames at {} Hz "
+                    "now",
+                    name, file.frames, file.rate_hz, now.frames, now.rate_hz));
     return;
   }
   // Compare the bridge frames that are in both sets of tags, and report the others.

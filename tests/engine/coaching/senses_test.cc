@@ -123,10 +123,12 @@ TEST(CheckDance, SaysWhatIsWrong) {
   EXPECT_EQ(complaint([](Dance& d) { d.tags[3].frame = 419; }), "nothing");
   EXPECT_EQ(complaint([](Dance& d) { d.tags[3].frame = 420; }),
             ": a music-time tag has frame 420 and 10 s; allowed: a frame below 420 and a finite time");
-  EXPECT_EQ(complaint([](Dance& d) { d.tags[1].frame = d.tags[0].frame; }),
-            ": found the music-time tag (frame 30, 4 s) after the tag (frame 30, 1 s); allowed: increasing frames and times");
+  EXPECT_EQ(
+      complaint([](Dance& d) { d.tags[1].frame = d.tags[0].frame; }),
+      ": found the music-time tag (frame 30, 4 s) after the tag (frame 30, 1 s); allowed: increasing frames and times");
   EXPECT_EQ(complaint([](Dance& d) { d.tags[1].music_s = d.tags[0].music_s; }),
-            ": found the music-time tag (frame 120, 1 s) after the tag (frame 30, 1 s); allowed: increasing frames and times");
+            ": found the music-time tag (frame 120, 1 s) after the tag (frame 30, 1 s); allowed: increasing frames and "
+            "times");
 }
 
 }  // namespace

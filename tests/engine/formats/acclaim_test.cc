@@ -107,8 +107,9 @@ TEST(Acclaim, ARootThatTurnsOnAndOnMayBeInRadians) {
   const int end = clip->skeleton.Find("lower_end");
   ExpectAcclaimNear(AcclaimGlobals(*clip, 0)[end].position, AcclaimGlobals(*wanted, 0)[end].position);
   ASSERT_EQ(remarks.size(), 1u);
-  EXPECT_EQ(remarks[0], "the root turns by 18.85 radians; if the file's angles are degrees, add the line :DEGREES to "
-                        "the file");
+  EXPECT_EQ(remarks[0],
+            "the root turns by 18.85 radians; if the file's angles are degrees, add the line :DEGREES to "
+            "the file");
 }
 
 TEST(Acclaim, ABoneWithoutValuesIsRefusedOrSaid) {
@@ -117,8 +118,9 @@ TEST(Acclaim, ABoneWithoutValuesIsRefusedOrSaid) {
   const auto refusal = [&](const std::string& text) {
     return testing::Refusal(ReadAcclaimMotion(text, *skeleton, "a.amc"));
   };
-  EXPECT_EQ(refusal(head + arm + second), "a.amc: bone 'upper' is missing in the last frame or frames; allowed: each "
-                                          "bone once in each frame");
+  EXPECT_EQ(refusal(head + arm + second),
+            "a.amc: bone 'upper' is missing in the last frame or frames; allowed: each "
+            "bone once in each frame");
   const char* const once =
       "bone 'upper' appears twice in this frame, or is missing in an earlier frame; allowed: each bone once in each "
       "frame";
@@ -126,8 +128,7 @@ TEST(Acclaim, ABoneWithoutValuesIsRefusedOrSaid) {
   EXPECT_EQ(refusal(head + arm + arm), std::string("a.amc:5:1: ") + once);
   AcclaimFacts facts;
   EXPECT_TRUE(ReadAcclaimMotion(head + second, *skeleton, "a.amc", &facts));
-  EXPECT_EQ(facts.remarks,
-            std::vector<std::string>{"bones without values, which keep their rest pose: upper"});
+  EXPECT_EQ(facts.remarks, std::vector<std::string>{"bones without values, which keep their rest pose: upper"});
 }
 
 TEST(Acclaim, AMotionMayStateItsRateAndNameOtherFilesInAnyCaseAndOrder) {

@@ -167,9 +167,8 @@ TEST(BvhHabits, IncludePlacesRelativeToTheOffset) {
   EXPECT_EQ(relative->frames[1][0].translation, glm::dvec3(1, 2, 3)) << "the root's places are the world's";
   EXPECT_EQ(relative->frames[1][1].translation, glm::dvec3(0, 10.5, 0));
   EXPECT_EQ(relative->frames[1][2].translation, glm::dvec3(5, 0, .1));
-  EXPECT_EQ(remarks,
-            (std::vector<std::string>{"the position channels are relative to the OFFSETs, so Etude added the "
-                                      "OFFSETs"}));
+  EXPECT_EQ(remarks, (std::vector<std::string>{"the position channels are relative to the OFFSETs, so Etude added the "
+                                               "OFFSETs"}));
   // The control: absolute positions replace OFFSETs, also for a joint that moves a little.
   ASSERT_OK(absolute, ReadBvh(head + "1 2 3 0 10 0 5 0 0\n1 2 3 0 10.5 0 5 0 .1\n", "absolute.bvh", &remarks));
   EXPECT_EQ(absolute->frames[1][1].translation, glm::dvec3(0, 10.5, 0));
@@ -196,11 +195,12 @@ TEST(BvhHabits, FrameTimesOfFewDigitsAreTakenAndSaid) {
                 "the Frame Time 0.033 has few digits. Etude reads it as 30.303 Hz, but it may be 1 / 30 s, rounded. At "
                 "30 Hz the 600 frames would last 0.2 s longer. Use `--rate 30` (for `etude clip convert`: "
                 "`--file-rate`) to set this rate"});
-  for (const auto& [time, likely] : {std::pair("0.017", "1 / 60 s, rounded. At 60 Hz the 600 frames would last 0.2 s sho"),
-                                     {"0.016", "1 / 60 s, rounded. At 60 Hz the 600 frames would last 0.4 s longer"},
-                                     {"0.0083", "1 / 120 s, rounded. At 120 Hz the 600 frames would last 0.02 s longer"},
-                                     {"0.042", "1 / 24 s, rounded. At 24 Hz the 600 frames would last 0.2 s shorter"},
-                                     {"0.0334", "it may be 1 / 29.97 s, rounded."}}) {
+  for (const auto& [time, likely] :
+       {std::pair("0.017", "1 / 60 s, rounded. At 60 Hz the 600 frames would last 0.2 s sho"),
+        {"0.016", "1 / 60 s, rounded. At 60 Hz the 600 frames would last 0.4 s longer"},
+        {"0.0083", "1 / 120 s, rounded. At 120 Hz the 600 frames would last 0.02 s longer"},
+        {"0.042", "1 / 24 s, rounded. At 24 Hz the 600 frames would last 0.2 s shorter"},
+        {"0.0334", "it may be 1 / 29.97 s, rounded."}}) {
     const auto remarks = RemarksOnFrameTime(time, 600);
     ASSERT_EQ(remarks.size(), 1u) << time;
     EXPECT_THAT(remarks[0], ::testing::HasSubstr(likely));

@@ -305,8 +305,7 @@ TEST(RowClock, RefusesWhatIsNoClock) {
   const double nan = std::nan("");
   EXPECT_EQ(reason({0, 0.1, 0.05}), "a:4: the time 0.05 s follows 0.1 s; allowed: times that do not decrease");
   EXPECT_EQ(reason({0, nan, 0.1}), "a:3: this row has no time, but other rows have one");
-  EXPECT_EQ(reason({0, 0.1, 700}),
-            "a:4: the time 700 s follows 0.1 s; allowed: at most 600 s between rows");
+  EXPECT_EQ(reason({0, 0.1, 700}), "a:4: the time 700 s follows 0.1 s; allowed: at most 600 s between rows");
   EXPECT_THAT(reason({0, 1e-4, 2e-4, 500}, 3),
               HasSubstr("allowed: 1e+07 missing values in total, at 3 values per frame"));
   EXPECT_EQ(

@@ -87,9 +87,8 @@ TEST(ReadTrc, TakesTheRateOfItsTimesWhereDataRateIsAnother) {
   const auto alike = ReadTrc(AtFiftyHertz(51, 60), "a.trc"), brief = ReadTrc(AtFiftyHertz(100, 20), "a.trc");
   EXPECT_EQ(alike->rate_hz, 50) << "at the end they are a frame apart";
   EXPECT_EQ(brief->rate_hz, 100) << "so few times tell no rate";
-  EXPECT_EQ(
-      brief->remark,
-      "DataRate states 100 Hz, which is used, but the times in the column Time give 50 Hz (from only 20 rows)");
+  EXPECT_EQ(brief->remark,
+            "DataRate states 100 Hz, which is used, but the times in the column Time give 50 Hz (from only 20 rows)");
 }
 
 TEST(ReadTrc, SaysWhereFrameNumbersJumpAndTimesDoNot) {

@@ -163,12 +163,14 @@ TEST(GuessSession, LeavesASessionThatIsAsSaid) {
 TEST(GuessSession, ReadsKeypointsAsTheyWereMeant) {
   const double side = 1280, bar = 0.5 * (1280 - 720);
   const std::vector<std::pair<std::string, std::function<glm::dvec2(glm::dvec2)>>> mistakes = {
-      {"keypoints have their origin at the bottom of the picture", [](glm::dvec2 p) { return glm::dvec2(p.x, 720 - p.y); }},
+      {"keypoints have their origin at the bottom of the picture",
+       [](glm::dvec2 p) { return glm::dvec2(p.x, 720 - p.y); }},
       {"keypoints have x and y exchanged", [](glm::dvec2 p) { return glm::dvec2(p.y, p.x); }},
       {"keypoints of all films are mirrored", [](glm::dvec2 p) { return glm::dvec2(1280 - p.x, p.y); }},
       {"keypoint coordinates are fractions of the side of a square around the picture",
        [&](glm::dvec2 p) { return (p + glm::dvec2(0, bar)) / side * kPicture; }},
-      {"keypoint coordinates are fractions of the longer side of the picture", [&](glm::dvec2 p) { return p / side * kPicture; }},
+      {"keypoint coordinates are fractions of the longer side of the picture",
+       [&](glm::dvec2 p) { return p / side * kPicture; }},
       {"keypoints belong to pictures 0.5 times as large", [](glm::dvec2 p) { return 0.5 * p; }},
       {"keypoints belong to pictures 1.5 times as large", [](glm::dvec2 p) { return 1.5 * p; }},
       {"keypoints belong to pictures 3 times as large", [](glm::dvec2 p) { return 3.0 * p; }}};

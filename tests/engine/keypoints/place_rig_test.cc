@@ -91,7 +91,7 @@ TEST(PlaceRig, TakesTheUnitThatIsToldAndNoOtherPersonThanOne) {
   rig.has_unit = false;
   const auto points = Stander([](glm::dvec3 p) { return p * 4.0; });
   EXPECT_THAT(testing::Message(PlaceRig(rig, points, kPlaceRate, {})),
-              HasSubstr("for a person of 1.7 m it is about 0.25 m"));
+              HasSubstr("for a person of 1.7 m, the unit is about 0.25 m"));
   ASSERT_OK(told, PlaceRig(rig, points, kPlaceRate, {.unit = "0.3"}));
   EXPECT_DOUBLE_EQ(told->scale, 0.3);
   EXPECT_THAT(told->told, HasSubstr("lengths in units of 0.3 m (as given; legs of 1.02 m from hip to ankle)"));
@@ -188,22 +188,25 @@ TEST(PlaceRig, WithoutAPersonTakesWhatIsTold) {
   EXPECT_THAT(PlaceRig(rig, {}).error().message, HasSubstr("the rig does not show which direction is up, because the "
                                                            "world frame is that of camera eye"));
   rig.has_unit = false;
-  EXPECT_THAT(PlaceRig(rig, {.up = "y"}).error().message, HasSubstr("a calibration of the format Pose2Sim has no unit of length"));
+  EXPECT_THAT(PlaceRig(rig, {.up = "y"}).error().message,
+              HasSubstr("a calibration of the format Pose2Sim has no unit of length"));
   EXPECT_TRUE(PlaceRig(rig, {.unit = "inch", .up = "y"}));
 }
 
 TEST(PlaceRig, TellsWhichAxesOfTheFileAreOurs) {
   RigFile rig = SomeRig();
   rig.R_WF = glm::dmat3(0, 0, 1, 1, 0, 0, 0, 1, 0);  // (x, y, z) of the file is our (y, z, x)
-  EXPECT_EQ(PlaceRig(rig, {})->told, "lengths in m; up is z, as in the format; Etude's x is the file's y, Etude's z is "
-                                     "the file's x, and up is the file's z");
+  EXPECT_EQ(PlaceRig(rig, {})->told,
+            "lengths in m; up is z, as in the format; Etude's x is the file's y, Etude's z is "
+            "the file's x, and up is the file's z");
   EXPECT_EQ(PlaceRig(rig, {.unit = "mm", .up = "-y", .floor = "0.2"})->told,
             "lengths in mm; up is -y (as given); the floor is at height 0.2 m; Etude's x is the file's z, Etude's z is "
             "the file's x, and up is the file's -y");
   EXPECT_EQ(PlaceRig(SomeRig(), {})->told, "lengths in m; up is y, as in the format") << "the axes are the same";
   ASSERT_OK(seen, PlaceRig(rig, Stander([](glm::dvec3 p) { return p; }), kPlaceRate, {}));
-  EXPECT_THAT(seen->told, ::testing::EndsWith("the floor is as in the file; Etude's x is the file's y, Etude's z is the "
-                                              "file's x, and up is the file's z"));
+  EXPECT_THAT(seen->told,
+              ::testing::EndsWith("the floor is as in the file; Etude's x is the file's y, Etude's z is the "
+                                  "file's x, and up is the file's z"));
 }
 
 /// Returns four cameras around a person, 1 to 3 m high, in a file whose axes are `R_FW` times ours, but whose format
@@ -270,7 +273,8 @@ TEST(PlaceRig, RefusesDistancesThatNoRigHas) {
   EXPECT_EQ(PlaceRig(apart(6122), {}).error().message,
             "with lengths in m, the rig's cameras are 6122 m apart; allowed: 0.03 to 100 m; use --rig-unit to set the "
             "unit: 6.12 m apart with mm");
-  EXPECT_THAT(PlaceRig(apart(400), {}).error().message, HasSubstr("--rig-unit to set the unit: 4 m apart with cm, 10.2 m apart with inch"));
+  EXPECT_THAT(PlaceRig(apart(400), {}).error().message,
+              HasSubstr("--rig-unit to set the unit: 4 m apart with cm, 10.2 m apart with inch"));
   EXPECT_THAT(PlaceRig(apart(0.004), {}).error().message, ::testing::EndsWith("use --rig-unit to set the unit"));
   EXPECT_TRUE(PlaceRig(apart(6122), {.unit = "m"})) << "who gives the unit is believed";
 }
@@ -283,7 +287,8 @@ TEST(PlaceRig, RefusesWordsThatMeanNothing) {
         << unit;
   }
   EXPECT_THAT(CheckPlace({.up = "w"}).error().message, HasSubstr("allowed: auto, floor, x, y, z, -x, -y, -z"));
-  EXPECT_THAT(CheckPlace({.floor = "low"}).error().message, HasSubstr("allowed: auto, keep, feet, or the height of the floor"));
+  EXPECT_THAT(CheckPlace({.floor = "low"}).error().message,
+              HasSubstr("allowed: auto, keep, feet, or the height of the floor"));
 }
 
 TEST(Placed, CamerasShowPlacedPointsWhereTheyShowedThemBefore) {

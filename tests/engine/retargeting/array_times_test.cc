@@ -126,7 +126,7 @@ TEST(ArrayTimes, ThatAreNoClockAreRefused) {
   EXPECT_THAT(refusal("times", std::vector<double>(119, 0)),
               HasSubstr("the array times has 119 values, but the positions have 120 frames; allowed: one time for each "
                         "frame"));
-  EXPECT_THAT(refusal("times", std::vector<double>(120, 3)), HasSubstr("all times in times are equal"));
+  EXPECT_THAT(refusal("times", std::vector<double>(120, 3)), HasSubstr("all times in the array times are equal"));
   std::vector<double> backwards = Times(false);
   backwards[9] = 0;
   EXPECT_THAT(refusal("times", backwards), HasSubstr("allowed: times that do not decrease"));

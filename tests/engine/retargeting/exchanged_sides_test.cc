@@ -87,9 +87,8 @@ TEST(Exchanges, OfAnyTwoJointsAreFoundAndNameOnlyTheseTwo) {
   EXPECT_GT(pairs, 100);
   std::vector<JointPositions> frames = Dance("boxing");
   for (std::size_t f = 20; f < 40; ++f) std::swap(frames[f][Index(kLeftWrist)], frames[f][Index(kLeftElbow)]);
-  EXPECT_EQ(
-      DescribeExchangedJoints(frames, kRate_hz),
-      "joints exchange positions from one frame to the next, 2 times (first at 0.67 s): left_elbow – left_wrist");
+  EXPECT_EQ(DescribeExchangedJoints(frames, kRate_hz),
+            "joints exchange positions from one frame to the next, 2 times (first at 0.67 s): left_elbow – left_wrist");
 }
 
 TEST(Exchanges, AreNoneOfPeopleWhoCrossTheirArms) {

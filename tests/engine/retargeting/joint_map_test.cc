@@ -115,7 +115,7 @@ TEST(JointMap, RefusesAKneeThatDoesNotHangFromItsHip) {
 TEST(JointMap, RefusesTwoHipsOnOneSide) {
   Skeleton lopsided = testing::PersonSkeleton();
   lopsided.joints[lopsided.Find("RightUpLeg")].rest.translation.x = 3;
-  EXPECT_THAT(testing::Message(FindJointMap(lopsided, "lopsided.bvh")), HasSubstr("lie on the same side of 'Hips'"));
+  EXPECT_THAT(testing::Message(FindJointMap(lopsided, "lopsided.bvh")), HasSubstr("are on the same side of 'Hips'"));
 }
 
 TEST(JointMap, ComposesTipsThatTheFileHasAtUnbelievableDistances) {

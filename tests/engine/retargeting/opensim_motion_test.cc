@@ -166,8 +166,10 @@ TEST(OpenSimMotion, TheUnitOfAnglesIsReadOrSaid) {
   for (const char* unit : {"inDegrees=yes\n", "inDegrees=YES\n", "indegrees = Yes\n"}) {
     EXPECT_EQ(noted(degrees, unit), "") << unit;
   }
-  EXPECT_THAT(noted(degrees, ""), HasSubstr("the file has no line inDegrees, so Etude reads the angles as degrees (the largest is"));
-  EXPECT_THAT(noted(radians, ""), HasSubstr("the file has no line inDegrees, so Etude reads the angles as radians (the largest is"));
+  EXPECT_THAT(noted(degrees, ""),
+              HasSubstr("the file has no line inDegrees, so Etude reads the angles as degrees (the largest is"));
+  EXPECT_THAT(noted(radians, ""),
+              HasSubstr("the file has no line inDegrees, so Etude reads the angles as radians (the largest is"));
   // A unit that the angles contradict is refused, or said.
   const auto read = [](const std::string& text, std::string* note = nullptr) {
     return ReadOpenSimMotion(text, "a.mot", note);
@@ -300,8 +302,9 @@ TEST(JointArrays, OfSam3dBodyAreTurnedFromTheCamerasFrame) {
     EXPECT_EQ((*moved)->values[2], -3);
     EXPECT_EQ(std::vector<double>(&(*moved)->values[213], &(*moved)->values[216]),
               (std::vector<double>{1.25, -0.5, -4}));
-    EXPECT_EQ(note, "SAM 3D Body's arrays are in the camera's frame; Etude rotated them to Y up, assuming a level "
-                    "camera");
+    EXPECT_EQ(note,
+              "SAM 3D Body's arrays are in the camera's frame; Etude rotated them to Y up, assuming a level "
+              "camera");
   }
   // Other shapes are refused.
   arrays.arrays["pred_cam_t"].shape = {3, 2};
@@ -524,7 +527,8 @@ TEST(BodyNpz, IsRefusedBeyondItsLimits) {
   std::erase(pickled.skipped, "names");
   EXPECT_TRUE(ReadRawNpz(pickled, "a.npz"));
   pickled.skipped.emplace_back("names");
-  EXPECT_THAT(testing::Refusal(ReadRawNpz(pickled, "a.npz")), HasSubstr("the array 'names' is not a list of texts; allowed: a list"));
+  EXPECT_THAT(testing::Refusal(ReadRawNpz(pickled, "a.npz")),
+              HasSubstr("the array 'names' is not a list of texts; allowed: a list"));
 }
 
 }  // namespace

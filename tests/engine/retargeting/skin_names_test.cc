@@ -96,7 +96,8 @@ TEST(HelenHayes, GivesTheHipsOfThePelvisWhateverItsNamesLookLike) {
     EXPECT_LT(glm::distance(bodies->front().motion.poses.front()[kLeftHip] + glm::dvec3(0, bodies->front().floor, 0),
                             StandingSubject()[kLeftHip]),
               1e-9);
-    EXPECT_THAT(bodies->front().Note(), HasSubstr("skin markers (Helen Hayes); Etude placed joint centres under the skin"));
+    EXPECT_THAT(bodies->front().Note(),
+                HasSubstr("skin markers (Helen Hayes); Etude placed joint centres under the skin"));
     EXPECT_EQ(bodies->front().markers[Index(kLeftHip)].size(), 3u) << "two spines and the sacrum";
     EXPECT_EQ(bodies->front().markers[Index(kLeftKnee)], std::vector{std::string(left) + "Knee"});
     EXPECT_TRUE(bodies->front().markers[Index(kSpine)].empty()) << "by rule";
@@ -220,9 +221,11 @@ TEST(SkinMarkers, HaveTheirOwnSizeInMessagesAboutTheUnit) {
 TEST(AThighMarker, BetweenPelvisAndKneeIsNeverAHip) {
   std::vector<Placed> markers = HelenHayes();
   std::erase_if(markers, [](const Placed& one) { return one.role == kHipCentre || one.name == "?Shank"; });
-  EXPECT_THAT(testing::Refusal(FindMarkerBodies(Take(markers), "a.trc")),
-              HasSubstr("L.Thigh is on the thigh instead of the hip, because its distance from L.Knee is 0.49 times the distance "
-                        "from that marker to L.Ankle; allowed: "));
+  EXPECT_THAT(
+      testing::Refusal(FindMarkerBodies(Take(markers), "a.trc")),
+      HasSubstr(
+          "L.Thigh is on the thigh instead of the hip, because its distance from L.Knee is 0.49 times the distance "
+          "from that marker to L.Ankle; allowed: "));
   // The control: "thigh" at the hip, as bones are called.
   for (Placed& one : markers) {
     if (one.name == "?Thigh") one = {"?Thigh", kLeftHip};

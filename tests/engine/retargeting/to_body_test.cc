@@ -82,10 +82,10 @@ TEST(ToBodyMotion, ChildrenKeepTheirStatureIfTheFileStatesMetres) {
     ASSERT_OK(body, convert(units * adult_m, true));
     EXPECT_EQ(body->unit, unit);
     EXPECT_NEAR(Stature(body->motion.poses[0]), *unit == 'u' ? 1.70 : adult_m, 1e-9);
-    EXPECT_THAT(
-        body->doubts,
-        ::testing::ElementsAre(HasSubstr(fmt::format(
-            "the unit that the file or the file format states, because the body would be {:.3g} m tall", units * adult_m))));
+    EXPECT_THAT(body->doubts,
+                ::testing::ElementsAre(HasSubstr(fmt::format(
+                    "the unit that the file or the file format states, because the body would be {:.3g} m tall",
+                    units * adult_m))));
   }
   // Inches in a file that states centimetres: 0.69 m, with an adult's long legs.
   ASSERT_OK(body, convert(adult_m / 2.54, true));
@@ -427,9 +427,10 @@ TEST(ToBodyMotion, TellsThatABodyLiesWhoseUpAxisNobodyKnows) {
     Skeleton lying = testing::PersonSkeleton();
     for (Joint& joint : lying.joints) joint.rest.translation = turn * joint.rest.translation;
     ASSERT_OK(body, Convert(AtRest(lying)));
-    EXPECT_THAT(body->Note(), HasSubstr(std::string("the body lies along ") + axis +
-                                        ", also at rest, and Etude assumes that Y is up; if another axis is up, rotate the file "
-                                        "first"));
+    EXPECT_THAT(body->Note(),
+                HasSubstr(std::string("the body lies along ") + axis +
+                          ", also at rest, and Etude assumes that Y is up; if another axis is up, rotate the file "
+                          "first"));
   }
 }
 

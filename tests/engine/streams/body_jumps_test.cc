@@ -142,8 +142,10 @@ TEST(Streams, ClocksOfTicksAreRecognised) {
   EXPECT_THAT(RemarksOn(WithClock(rows, 0, 1)), ElementsAre("Etude reads the first column as frame numbers at 30 Hz"));
   // Rates of Kinects have no doubt, other rates have one: 5 Hz in microseconds, 3 Hz and 200 Hz in milliseconds.
   EXPECT_THAT(RemarksOn(WithClock(rows, 0, 200000)), IsEmpty());
-  EXPECT_THAT(RemarksOn(WithClock(rows, 0, 333)), ElementsAre(StartsWith("the times give a rate of 3 Hz, but a Kinect has")));
-  EXPECT_THAT(RemarksOn(WithClock(rows, 0.5, 5.0)), ElementsAre(StartsWith("the times give a rate of 200 Hz, but a Kinect")));
+  EXPECT_THAT(RemarksOn(WithClock(rows, 0, 333)),
+              ElementsAre(StartsWith("the times give a rate of 3 Hz, but a Kinect has")));
+  EXPECT_THAT(RemarksOn(WithClock(rows, 0.5, 5.0)),
+              ElementsAre(StartsWith("the times give a rate of 200 Hz, but a Kinect")));
   std::size_t live = 0;
   EXPECT_THAT(LiveRemarks(WithClock(rows, 0, 333), live), ElementsAre(StartsWith("the times give a rate of 3 Hz")));
 }

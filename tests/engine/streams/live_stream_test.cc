@@ -125,8 +125,9 @@ TEST(LiveStream, ASensorUpsideDownIsTurnedBackAndSaid) {
   for (std::size_t at = 0; at < text.size(); at = text.find('\n', at) + 1) {
     ASSERT_TRUE(live.Take(std::string_view(text).substr(at, text.find('\n', at) - at), frames));
   }
-  EXPECT_THAT(live.TakeRemarks(),
-              ::testing::ElementsAre(::testing::StartsWith("the sensor was rotated by 180 degrees, and Etude rotated")));
+  EXPECT_THAT(
+      live.TakeRemarks(),
+      ::testing::ElementsAre(::testing::StartsWith("the sensor was rotated by 180 degrees, and Etude rotated")));
   EXPECT_TRUE(live.TakeRemarks().empty());
 }
 

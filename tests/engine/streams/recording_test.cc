@@ -124,7 +124,8 @@ TEST(Streams, ClocksInAnotherUnitAreRefused) {
   };
   EXPECT_EQ(Made(scaled(1)).stream.frames.size(), 60u);
   EXPECT_TRUE(ComplaintOf(scaled(1e-3)).find("Hz; allowed: 1 to 10000 Hz") != std::string::npos);
-  EXPECT_TRUE(ComplaintOf(scaled(1e3)).find("the times give a rate of 0.03 Hz; allowed: 1 to 10000 Hz") != std::string::npos);
+  EXPECT_TRUE(ComplaintOf(scaled(1e3)).find("the times give a rate of 0.03 Hz; allowed: 1 to 10000 Hz") !=
+              std::string::npos);
   EXPECT_EQ(ComplaintOf(scaled(1e3), {.rate_hz = 30}), "accepted");
 }
 
@@ -244,8 +245,9 @@ TEST(Streams, OfSeveralBodiesTheOneSeenLongestIsTakenUnlessAnotherIsAskedFor) {
   const std::string text = "3\n1\n" + other + "2\n" + other + body + "1\n" + body + "";
   EXPECT_EQ(ReadStreamRecording(text, "s")->remarks.size(), 1u);
   EXPECT_TRUE(ReadStreamRecording(text, "s", {.body = 1})->frames[0].places[0] == std::nullopt);
-  EXPECT_EQ(ComplaintOf(text, {.body = 2}), "s: there is no body 2; the bodies are counted from 0, and their number is "
-                                            "2");
+  EXPECT_EQ(ComplaintOf(text, {.body = 2}),
+            "s: there is no body 2; the bodies are counted from 0, and their number is "
+            "2");
 }
 
 /// Returns one body of a frame in NTU's text, under another name and `aside` metres to the side.
@@ -290,8 +292,7 @@ TEST(Streams, MarkersOfOtherNamesAreTold) {
   for (int i = 0; i < 39; ++i) markers.names.push_back(fmt::format("M{}", i));
   markers.frames.resize(2, std::vector<std::optional<glm::dvec3>>(39, glm::dvec3(1)));
   const std::string complaint = ComplaintOf(WriteTrc(markers, "m"));
-  EXPECT_NE(complaint.find("'M7' and 31 more; missing markers: hip_centre, spine"), std::string::npos)
-      << complaint;
+  EXPECT_NE(complaint.find("'M7' and 31 more; missing markers: hip_centre, spine"), std::string::npos) << complaint;
 }
 
 TEST(Streams, JointsThatAreNeverShownAndTimesThatRunBackAreRefused) {
@@ -307,7 +308,8 @@ TEST(Streams, NobodyAndTooSmallOrTooLargeBodiesAreRefused) {
   BodyMotion giant = WavingMotion(2);
   for (auto& joint : giant.poses[0].joints) joint *= 4.0;
   for (auto& joint : giant.poses[1].joints) joint *= 4.0;
-  EXPECT_NE(ComplaintOf(KinectV1Text(giant)).find("the distance from hip centre to shoulder centre is 1.88"), std::string::npos)
+  EXPECT_NE(ComplaintOf(KinectV1Text(giant)).find("the distance from hip centre to shoulder centre is 1.88"),
+            std::string::npos)
       << ComplaintOf(KinectV1Text(giant));
 }
 

@@ -125,7 +125,9 @@ TEST(StreamMaker, WhoLiesOrFallsBeforeALevelSensorIsNotTurnedButSaidToBeFarFromU
     EXPECT_EQ(level.turn_deg, 0);
     EXPECT_EQ(level.R_WF, glm::dmat3(1));
     EXPECT_NEAR(level.trunk_deg, 90, 1e-6);
-    EXPECT_EQ(Describe(level).find("the up direction is as in the file (although trunks are 90 degrees from this direction: "), 0u);
+    EXPECT_EQ(Describe(level).find(
+                  "the up direction is as in the file (although trunks are 90 degrees from this direction: "),
+              0u);
   }
   // A person who stood before, and now lies on a side.
   StreamRecording falling = WavingBeforeKinect();

@@ -153,7 +153,8 @@ TEST_F(ConvertTest, ABearDancesInAGlbWithItsMeshes) {
   ASSERT_EQ(bear.clips.size(), 1u);
   EXPECT_EQ(bear.clips[0].name, "clap");
   EXPECT_EQ(bear.clips[0].frames.size(), LoadBuiltinMove("clap")->motion.poses.size());
-  EXPECT_THAT(Complaint("builtin:clap", MotionFormat::kBvh, options), HasSubstr("only GLB files can contain a character"));
+  EXPECT_THAT(Complaint("builtin:clap", MotionFormat::kBvh, options),
+              HasSubstr("only GLB files can contain a character"));
 }
 
 TEST_F(ConvertTest, SeveralAnimationsBecomeAGlbOrAComplaint) {

@@ -145,8 +145,10 @@ TEST(FbxTakes, TheBaseLayerIsReadAndLayersThatChangeItAreTold) {
                             Baked("Fix", 0, 1, other, Number("BlendMode", 1) + Number("Weight", 60))}) {
     const Waved waved = Read(ArmFile({base, layer}));
     ExpectHand(waved, 0, 1, Truth);
-    EXPECT_THAT(waved.remark,
-                HasSubstr("clip 'Wave': Etude uses only the animation layer 'Base' and leaves out the other layers ('Fix'); bake"));
+    EXPECT_THAT(
+        waved.remark,
+        HasSubstr(
+            "clip 'Wave': Etude uses only the animation layer 'Base' and leaves out the other layers ('Fix'); bake"));
   }
   for (const char* silent : {"Weight", "Mute"}) {
     const Waved waved = Read(ArmFile({base, Baked("Fix", 0, 1, other, Number(silent, *silent == 'W' ? 0 : 1))}));
@@ -172,9 +174,7 @@ TEST(FbxTakes, ALayerThatOverridesTheBaseFullyReplacesIt) {
 TEST(FbxTakes, KeysOutsideOfTheTimeSpanAreLeftOutAndTold) {
   const ArmLayer keys = Baked("Base", 0, 2, Angle);
   const std::string preset = Preset(Span(0, 0));
-  const auto cut = [](double seconds) {
-    return fmt::format("(LocalStart to LocalStop), up to {:.2f} s", seconds);
-  };
+  const auto cut = [](double seconds) { return fmt::format("(LocalStart to LocalStop), up to {:.2f} s", seconds); };
   for (const auto& [from_s, to_s] : {std::pair(0.5, 1.5), {1.0, 2.0}, {0.0, 1.0}}) {
     const Waved waved = Read(ArmFile({keys}, {.span = Span(from_s, to_s)}));
     ExpectHand(waved, from_s, to_s, Truth, fmt::format("{} s", from_s));

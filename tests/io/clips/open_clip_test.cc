@@ -112,7 +112,8 @@ TEST_F(OpenClipTest, AnAnimationIsChosenByNameOrByItsEnd) {
 }
 
 TEST_F(OpenClipTest, FilesWithoutMotionAndChoicesWithoutMeaningAreRefused) {
-  EXPECT_THAT(Complaint(Write("figure.gltf", GltfWith(""))), HasSubstr("the file contains no animation, only a character (joints: 2"));
+  EXPECT_THAT(Complaint(Write("figure.gltf", GltfWith(""))),
+              HasSubstr("the file contains no animation, only a character (joints: 2"));
   EXPECT_THAT(Complaint(Write("a.bvh", kTwoJoints) + "#Jump"), HasSubstr("a BVH file has only one motion"));
 }
 
@@ -215,7 +216,8 @@ TEST_F(ClipFileTest, WhatIsNeitherIsToldWithWhatIsAllowed) {
            {std::string("\x55\xaa\0\1", 4), "a binary file of an unknown type: export BVH, FBX or C3D"},
            {"{\"Bodies\": []}", "JSON that is neither glTF (it has no \"asset\")"},
            {"[{\"keypoints\": []}]", "a JSON list: for joint positions, use numpy.save"},
-           {"frame,x,y,z\n", "a table that begins with 'frame,x,y,z': for joint positions, use columns such as left_wrist_x_m"}}) {
+           {"frame,x,y,z\n",
+            "a table that begins with 'frame,x,y,z': for joint positions, use columns such as left_wrist_x_m"}}) {
     EXPECT_NE(Complaint(Write("other", bytes)).find(told), std::string::npos) << told;
   }
   EXPECT_NE(Complaint(folder_.path().string()).find("is no file"), std::string::npos);
@@ -225,7 +227,8 @@ TEST_F(ClipFileTest, WhatIsNeitherIsToldWithWhatIsAllowed) {
 TEST_F(ClipFileTest, AFileThatIsTooLargeIsRefusedBeforeItIsRead) {
   const std::string path = Write("huge.bvh", "HIERARCHY");
   std::filesystem::resize_file(path, kMaxClipFileBytes + 1);  // a sparse file, which takes no space
-  EXPECT_NE(Complaint(path).find("found 501 MB; allowed: at most 500 MB for a motion and its files together"), std::string::npos);
+  EXPECT_NE(Complaint(path).find("found 501 MB; allowed: at most 500 MB for a motion and its files together"),
+            std::string::npos);
 }
 
 TEST_F(ClipFileTest, BuffersAreReadFromTheFilesOwnFolder) {

@@ -93,10 +93,10 @@ TEST_F(CocoFile, LeavesOutWhatShowsNoPersonAndCountsIt) {
   EXPECT_THAT(Reason(Write("a.json", image + R"({"image_id": 1, "bbox": [1, 2, 3, 4]}]})")),
               HasSubstr("none of 1 annotations has a list 'keypoints'"));
   EXPECT_THAT(Reason(Write("b.json", image + R"({"image_id": 1, "keypoints": [1, 2, 2]}]})")),
-              HasSubstr("1 keypoints a person; allowed: coco (17)"));
+              HasSubstr("1 keypoints per person; allowed: coco (17)"));
   // A person with too few keypoints among others is still an error.
   EXPECT_THAT(Reason(Images({0, 1}, name, R"(, {"image_id": 1, "category_id": 1, "keypoints": [1, 2, 2]})")),
-              HasSubstr("1 keypoints a person"));
+              HasSubstr("1 keypoints per person"));
 }
 
 }  // namespace

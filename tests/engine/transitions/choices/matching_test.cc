@@ -90,7 +90,8 @@ TEST(FuzzyGate, ComparesInsideTheClassOnlyWhenAsked) {
   rules.within_class = true;
   const TransitionRecord record = PlanFuzzyKovar(library, request, rules);
   EXPECT_EQ(record.segments.size(), 3u);
-  EXPECT_NE(record.why.find("none of the 2170 pairs of frames has the same tags in both frames"), std::string::npos) << record.why;
+  EXPECT_NE(record.why.find("none of the 2170 pairs of frames has the same tags in both frames"), std::string::npos)
+      << record.why;
 }
 
 TEST(MotionMatching, TellsArmsThatRiseFromArmsThatSink) {

@@ -275,7 +275,7 @@ TEST(TagsFile, IsReadWithTagsOfUpTo65536Bytes) {
     return Complaint(Replaced(text, tag, tag + std::string(bytes, ' ')) + "<").message;
   };
   const std::size_t from = text.find("<fuzzy-system"), others = text.find('<', from + 1) - from;
-  EXPECT_THAT(complaint(65536 - others), ::testing::Not(HasSubstr("without a new tag")));
+  EXPECT_THAT(complaint(65536 - others), ::testing::Not(HasSubstr("without a new XML tag")));
   EXPECT_THAT(complaint(65537 - others), HasSubstr("found 65537 bytes without a new XML tag; allowed: at most 65536"));
 }
 
