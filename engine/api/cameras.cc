@@ -24,8 +24,7 @@ CalibratedCamera Calibrate(std::span<const PointPair> pairs, int width, int heig
 TriangulatedPoint Triangulate(std::span<const NamedCamera> cameras, std::span<const std::optional<glm::dvec2>> pixels) {
   if (pixels.size() != cameras.size()) {
     throw BadInput(
-        fmt::format("found {} entries for {} cameras; allowed: one entry for each camera, either a pixel or "
-                    "empty",
+        fmt::format("found {} entries for {} cameras; allowed: one entry for each camera, either a pixel or empty",
                     pixels.size(), cameras.size()));
   }
   std::vector<Sighting> sightings;

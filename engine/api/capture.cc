@@ -24,8 +24,7 @@ void CheckPerson(const SeenPerson& person) {
 void CheckSizes(std::span<const NamedCamera> cameras, std::span<const SeenPeople> seen, const CaptureOptions& options) {
   if (cameras.size() < 2 || seen.size() != cameras.size()) {
     throw BadInput(
-        fmt::format("found {} cameras, but keypoints for {} cameras; allowed: two or more cameras, each "
-                    "with keypoints",
+        fmt::format("found {} cameras, but keypoints for {} cameras; allowed: two or more cameras, each with keypoints",
                     cameras.size(), seen.size()));
   }
   for (const SeenPeople& frames : seen) {

@@ -75,8 +75,7 @@ std::vector<std::optional<BodyPose>> TrackSilhouettes(std::span<const NamedCamer
   // Check the numbers of cameras and masks.
   if (cameras.size() < 2 || masks.size() != cameras.size()) {
     throw BadInput(
-        fmt::format("found {} cameras, but masks for {} cameras; allowed: two or more cameras, each with "
-                    "masks",
+        fmt::format("found {} cameras, but masks for {} cameras; allowed: two or more cameras, each with masks",
                     cameras.size(), masks.size()));
   }
   if (!(options.rate_hz >= 1 && options.rate_hz <= 1000)) {

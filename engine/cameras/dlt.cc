@@ -39,8 +39,7 @@ std::optional<std::string> ReasonToRefuse(std::span<const PointPair> pairs) {
   const Eigen::Vector3d extents = Eigen::JacobiSVD<Eigen::MatrixXd>(cloud).singularValues();
   if (!(extents[1] > kFlat * extents[0])) return "the world points lie on one line; allowed: points that fill a volume";
   if (!(extents[2] > kFlat * extents[0]))
-    return "the world points lie in one plane; allowed: points that fill a "
-           "volume";
+    return "the world points lie in one plane; allowed: points that fill a volume";
   return std::nullopt;
 }
 

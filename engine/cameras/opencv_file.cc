@@ -58,8 +58,7 @@ Result<Distortion> DistortionOf(const OpenCvParameters& p) {
   }
   if (count != 0 && count != 4 && count != 5 && count != 8 && count != 12 && count != 14) {
     return Fail({},
-                "found {} distortion coefficients; allowed: 0, 4 (k1, k2, p1, p2), 5 (k1, k2, p1, p2, k3), 8, 12 "
-                "or 14",
+                "found {} distortion coefficients; allowed: 0, 4 (k1, k2, p1, p2), 5 (k1, k2, p1, p2, k3), 8, 12 or 14",
                 count);
   }
   // Coefficients that are not given are 0.

@@ -73,8 +73,7 @@ Result<CameraPairs> ReadCamera(const Node::Entry& entry) {
   // Read the pairs, five numbers each.
   if (pairs == nullptr || pairs->kind != Node::Kind::kSequence) {
     return Fail(entry.place,
-                "camera {} has no list of point pairs; allowed: `pairs: [[x, y, z, u, v], "
-                "...]`",
+                "camera {} has no list of point pairs; allowed: `pairs: [[x, y, z, u, v], ...]`",
                 entry.key);
   }
   for (const Node& item : pairs->items) {

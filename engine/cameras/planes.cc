@@ -191,8 +191,7 @@ Result<RefinedRig> CalibrateFromPlanes(std::span<const PictureSize> sizes, std::
     }
     if (homographies.empty())
       return Fail({},
-                  "no picture of camera {} shows a board with four corners or "
-                  "more",
+                  "no picture of camera {} shows a board with four corners or more",
                   camera + 1);
     const auto intrinsics = IntrinsicsFromPlanes(homographies, sizes[camera].width, sizes[camera].height);
     if (!intrinsics) return Fail({}, "camera {}: {}", camera + 1, intrinsics.error().message);

@@ -20,8 +20,7 @@ Result<std::vector<double>> MatrixAt(const Node& camera, std::string_view key, s
   const Node* data = matrix->Find("data");
   if (data == nullptr || data->kind != Node::Kind::kSequence) {
     return Fail(matrix->place,
-                "{} is {}; allowed: a matrix as OpenCV writes it, with the keys rows, cols, dt, "
-                "data",
+                "{} is {}; allowed: a matrix as OpenCV writes it, with the keys rows, cols, dt, data",
                 key, Describe(*matrix));
   }
   std::vector<double> values;
@@ -167,8 +166,7 @@ Result<OpenCvParameters> InsideOf(const ColmapLine& line) {
   constexpr std::size_t kBefore = 4;
   if (line.words.size() < kBefore)
     return Fail(place,
-                "this line does not describe a camera; allowed: CAMERA_ID MODEL "
-                "WIDTH HEIGHT PARAMS");
+                "this line does not describe a camera; allowed: CAMERA_ID MODEL WIDTH HEIGHT PARAMS");
   const auto model = ColmapModels().find(line.words[1]);
   if (model == ColmapModels().end()) {
     std::string names;
@@ -257,8 +255,7 @@ Result<RigFile> ReadColmap(std::string_view cameras, std::string_view images, co
     const glm::dquat turn(n[0], n[1], n[2], n[3]);
     if (!(glm::length(turn) > 0))
       return Fail(place,
-                  "the quaternion QW QX QY QZ is 0 0 0 0; allowed: a quaternion of "
-                  "length above 0");
+                  "the quaternion QW QX QY QZ is 0 0 0 0; allowed: a quaternion of length above 0");
     p.R = glm::mat3_cast(glm::normalize(turn));
     p.T = {n[4], n[5], n[6]};
     const Place in_cameras{{}, lines[camera->first], 0};

@@ -78,8 +78,7 @@ class SkeletonReader {
     }
     if (bones_.size() < 2)
       return Fail({file_},
-                  "found no bones; allowed: an Acclaim skeleton with :root and "
-                  ":bonedata");
+                  "found no bones; allowed: an Acclaim skeleton with :root and :bonedata");
     return Assemble();
   }
 
@@ -387,8 +386,7 @@ Result<AcclaimFrames> ReadFrames(std::string_view text, const AcclaimSkeleton& s
     if (counts[joint] == clip.frames.size() || skeleton.channels[joint].empty()) continue;
     if (counts[joint] > 0)
       return Fail({file},
-                  "bone {} is missing in the last frame or frames; allowed: each bone "
-                  "once in each frame",
+                  "bone {} is missing in the last frame or frames; allowed: each bone once in each frame",
                   Quote(name));
     read.still.push_back(name);
   }
@@ -410,13 +408,11 @@ Result<Clip> ReadAcclaimMotion(std::string_view text, const AcclaimSkeleton& ske
   } else if (!read.in_degrees && read.of_root > kMaxRadians) {
     // A body that keeps turning in one direction can rotate its root by any angle, so the unit is not changed.
     remark = fmt::format(
-        "the root turns by {:.4g} radians; if the file's angles are degrees, add the line :DEGREES to the "
-        "file",
+        "the root turns by {:.4g} radians; if the file's angles are degrees, add the line :DEGREES to the file",
         read.of_root);
   } else if (read.in_degrees && largest > kMinDegrees && largest <= 2 * kPi) {
     remark = fmt::format(
-        "no angle is larger than {:.2g} degrees; if the file's angles are radians, add the line "
-        ":RADIANS to the file",
+        "no angle is larger than {:.2g} degrees; if the file's angles are radians, add the line :RADIANS to the file",
         largest);
   }
   if (facts == nullptr) return std::move(read.clip);

@@ -20,8 +20,7 @@ Result<ArrayClock> ClockOfArrays(const Npz& arrays, std::size_t frames, const st
     }
     if (times->shape.size() != 1 || times->values.size() < 2 || std::string_view(name) == "t") continue;
     return Fail({file},
-                "the array {} has {} values, but the positions have {} frames; allowed: one time for each "
-                "frame",
+                "the array {} has {} values, but the positions have {} frames; allowed: one time for each frame",
                 name, times->values.size(), frames);
   }
   return clock;
@@ -45,8 +44,7 @@ Result<MarkerMotion> LayOnClock(MarkerMotion markers, ArrayClock clock, const st
   ASSIGN_OR_RETURN(markers, LayOnClock(std::move(rows), file));
   if (!clock.rate && !markers.start_s) {
     return Fail({file},
-                "all times in the array {} are equal; allowed: different times in seconds, or the rate as "
-                "rate_hz",
+                "all times in the array {} are equal; allowed: different times in seconds, or the rate as rate_hz",
                 clock.time_name);
   }
   return markers;
@@ -64,8 +62,7 @@ Result<std::optional<double>> EvenRateOf(const Npz& arrays, std::size_t frames, 
   remark = numbers.remark;
   if (numbers.frames == unchanged) return std::optional(numbers.rate_hz);
   return Fail({file},
-              "{}: {}; allowed: evenly spaced times, or `--rate` (for `etude clip convert`: "
-              "`--file-rate`)",
+              "{}: {}; allowed: evenly spaced times, or `--rate` (for `etude clip convert`: `--file-rate`)",
               clock.time_name, remark);
 }
 

@@ -141,8 +141,7 @@ Result<std::optional<std::vector<bool>>> ReadFootContacts(const Npz& arrays, std
   if (array == nullptr) return std::nullopt;
   if (array->shape != std::vector<std::size_t>{frames, 4}) {
     return Fail({file},
-                "the shape of foot_contacts is {}; allowed: {} × 4 (left heel, left toes, right heel, right "
-                "toes)",
+                "the shape of foot_contacts is {}; allowed: {} × 4 (left heel, left toes, right heel, right toes)",
                 ShapeText(*array), frames);
   }
   std::vector<bool> contacts;

@@ -81,8 +81,7 @@ Result<BidsChannels> ReadChannels(std::string_view text, const std::string& file
     const auto metres = MetresOfUnit(units);
     if (!metres)
       return Fail({file, line},
-                  "found units {}; allowed for channels of type POS: m, cm, mm, in, "
-                  "ft",
+                  "found units {}; allowed for channels of type POS: m, cm, mm, in, ft",
                   Quote(units));
     column.metres = *metres;
     const auto [point, is_new] =
@@ -103,8 +102,7 @@ Result<BidsChannels> ReadChannels(std::string_view text, const std::string& file
   }
   if (channels.points.empty())
     return Fail({file},
-                "found no channel of type POS; allowed: at least one, because Etude "
-                "reads only positions");
+                "found no channel of type POS; allowed: at least one, because Etude reads only positions");
   return channels;
 }
 

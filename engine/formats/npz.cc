@@ -167,8 +167,7 @@ Result<std::string> Unpack(zip_t* archive, zip_uint64_t member, std::uint64_t& l
   }
   if (status.size > left)
     return Fail({file},
-                "the unpacked file has more than {} MiB; allowed: at most this "
-                "size",
+                "the unpacked file has more than {} MiB; allowed: at most this size",
                 kMaxUnpacked >> 20);
   if ((status.valid & ZIP_STAT_COMP_SIZE) != 0 && status.size / kMaxDeflateRatio > status.comp_size) {
     return Fail({file}, "member {} states that {} bytes unpack to {} bytes, which is impossible", member,
@@ -194,8 +193,7 @@ Result<NumberArray> ReadNpy(std::string_view bytes, const std::string& file) {
   ASSIGN_OR_RETURN(auto array, NumbersIn(parts, file));
   if (!array)
     return Fail({file},
-                "the array contains other data than numbers; allowed: floating-point numbers and "
-                "integers");
+                "the array contains other data than numbers; allowed: floating-point numbers and integers");
   return *std::move(array);
 }
 
@@ -280,8 +278,7 @@ Result<Npz> ReadNpz(std::string_view bytes, const std::string& file) {
   }
   if (!others.empty() && read.arrays.empty() && read.skipped.empty()) {
     return Fail({file},
-                "the file is a ZIP file without arrays (.npy), and its first member is {}; unpack the ZIP file "
-                "first",
+                "the file is a ZIP file without arrays (.npy), and its first member is {}; unpack the ZIP file first",
                 Quote(others));
   }
   return read;

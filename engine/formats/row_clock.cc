@@ -85,8 +85,7 @@ std::string DescribeGrid(const RowGrid& grid, std::size_t twice) {
   }
   if (twice > 0)
     said.push_back(
-        fmt::format("{} rows have the same time as another row; Etude uses the last row of each "
-                    "time",
+        fmt::format("{} rows have the same time as another row; Etude uses the last row of each time",
                     twice));
   return Join(said, "; ");
 }

@@ -209,8 +209,7 @@ Result<void> ReadRule(const Node& node, RuleBase& base) {
   // Check that the premise names terms and that the conclusion names a pose.
   if (premise == nullptr || premise->kind != Node::Kind::kMapping || premise->entries.empty()) {
     return Fail(premise == nullptr ? node.place : premise->place,
-                "'if' must map features to terms, such as {{RH: up, "
-                "LH: up}}, found {}",
+                "'if' must map features to terms, such as {{RH: up, LH: up}}, found {}",
                 premise == nullptr ? "nothing" : Describe(*premise));
   }
   if (!IsPoseName(pose)) {

@@ -233,8 +233,7 @@ class SessionGuesser {
       if (is_mended && found.doubt.empty()) {
         found.turns = turns_;
         found.mended = fmt::format(
-            "{}: rays to the same keypoint miss each other by {:.2f} % of the person's height "
-            "instead of {:.2f} %",
+            "{}: rays to the same keypoint miss each other by {:.2f} % of the person's height instead of {:.2f} %",
             told_, kPercent * least_, kPercent * said);
         films_ = std::move(*best_);
       }

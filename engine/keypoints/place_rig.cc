@@ -273,8 +273,7 @@ std::string AxesTold(const glm::dmat3& R_OF) {
   }
   return is_same ? ""
                  : fmt::format(
-                       "; Etude's x is the file's {}, Etude's z is the file's {}, and up is the file's "
-                       "{}",
+                       "; Etude's x is the file's {}, Etude's z is the file's {}, and up is the file's {}",
                        names[0], names[2], names[1]);
 }
 
@@ -375,8 +374,7 @@ Result<RigPlacement> PlaceRig(const RigFile& rig, const PlacementOptions& option
     place.scale = *MetresOf(options.unit) / rig.unit_m;
   } else if (!rig.has_unit) {
     return Fail({},
-                "a calibration of the format {} has no unit of length; use --rig-unit to set the metres in one "
-                "unit",
+                "a calibration of the format {} has no unit of length; use --rig-unit to set the metres in one unit",
                 rig.format);
   } else {
     RETURN_IF_ERROR(CheckDistances(rig));

@@ -208,8 +208,7 @@ std::string_view FindProblemFault(const KinematicTree& tree, const IkProblem& pr
   if (problem.start.angles.size() != dofs || problem.limits.size() != dofs)
     return "the number of angles or limits is not the tree's number of degrees of freedom";
   if (problem.targets.size() != tree.effectors.size())
-    return "the number of targets is not the tree's number of end "
-           "effectors";
+    return "the number of targets is not the tree's number of end effectors";
   if (!IsSane(problem.start.root_position) || !IsAFrame(problem.start.root_frame))
     return "the root's position is not finite or too large, or the root's axes are not orthonormal";
   bool are_angles_sane = true, are_limits_good = true, are_targets_good = true;

@@ -104,12 +104,10 @@ std::string SentenceOf(const MotionFault& fault, bool is_always) {
     case kFloats:
       if (is_always)
         return fmt::format(
-            "floats: the feet never touch the floor, and their resting height is {:.0f} "
-            "cm",
+            "floats: the feet never touch the floor, and their resting height is {:.0f} cm",
             cm);
       return fmt::format(
-          "floats {:.0f} cm above the floor {}; are there steps, or is the floor at another "
-          "height?",
+          "floats {:.0f} cm above the floor {}; are there steps, or is the floor at another height?",
           cm, when);
     case kSinks:
       return fmt::format("sinks {:.0f} cm into the floor {}", cm, when);
@@ -129,8 +127,7 @@ std::string SentenceOf(const MotionFault& fault, bool is_always) {
     case kTorn:
       if (!fault.joint) return fmt::format("left and right joints are exchanged, or lie on the same side, {}", when);
       return fmt::format(
-          "{} is torn off {}: it is {:.0f} cm from the position that the neighbouring joints "
-          "imply",
+          "{} is torn off {}: it is {:.0f} cm from the position that the neighbouring joints imply",
           joint, when, cm);
     case kGaps:
       return fmt::format("{} not shown for {:.2f} s {}", fault.joint ? joint + " is" : "joints are", fault.size, when);

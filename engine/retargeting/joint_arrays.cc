@@ -140,8 +140,7 @@ Result<ArrayJoints> JointsOfArray(const NumberArray& array, const std::optional<
   const auto count = std::ranges::count_if(JointLayouts(), is_named);
   if (count != 1) {
     return Fail({file},
-                "found {} joints{}; allowed: {}#LAYOUT, where LAYOUT has the same number of joints and is one "
-                "of {}",
+                "found {} joints{}; allowed: {}#LAYOUT, where LAYOUT has the same number of joints and is one of {}",
                 joints,
                 layout      ? " in the layout " + Quote(*layout)
                 : count > 1 ? ", as several layouts have"
@@ -294,8 +293,7 @@ bool IsBodyNpz(const Npz& arrays) {
 Result<RawMotion> ReadRawNpz(const Npz& arrays, const std::string& file, const ArrayOptions& told) {
   if (!arrays.arrays.contains("positions")) {
     return Fail({file},
-                "the array 'positions' contains other data than numbers; allowed: floating-point numbers and "
-                "integers");
+                "the array 'positions' contains other data than numbers; allowed: floating-point numbers and integers");
   }
   const NumberArray& positions = arrays.arrays.at("positions");
   const auto& shape = positions.shape;
@@ -319,16 +317,14 @@ Result<RawMotion> ReadRawNpz(const Npz& arrays, const std::string& file, const A
     motion.joints = names->second;
   } else if (std::ranges::find(arrays.skipped, "names") != arrays.skipped.end() || arrays.arrays.contains("names")) {
     return Fail({file},
-                "the array 'names' is not a list of texts; allowed: a list such as "
-                "numpy.array([\"hip_centre\", …])");
+                "the array 'names' is not a list of texts; allowed: a list such as numpy.array([\"hip_centre\", …])");
   } else if (shape[1] == kRoleCount) {
     for (const Role role : AllRoles()) motion.joints.emplace_back(RoleName(role));
   }
   const std::size_t joints = motion.joints.size();
   if (joints != shape[1])
     return Fail({file},
-                "found {} joints and {} names; allowed: one name for each "
-                "joint",
+                "found {} joints and {} names; allowed: one name for each joint",
                 shape[1], joints);
   std::set<std::string_view> known;
   for (std::size_t j = 0; j < joints; ++j) {
@@ -360,8 +356,7 @@ Result<RawMotion> ReadRawNpz(const Npz& arrays, const std::string& file, const A
     const double extent = unit * SpreadOf(motion.positions, joints);
     if (extent > 0 && (extent < kMinExtent_m || extent > kMaxExtent_m)) {
       return Fail({file},
-                  "with the given unit (1 unit = {:.4g} cm), the joints extend {:.3g} m; allowed: {:g} to {:g} "
-                  "m",
+                  "with the given unit (1 unit = {:.4g} cm), the joints extend {:.3g} m; allowed: {:g} to {:g} m",
                   100 * unit, extent, kMinExtent_m, kMaxExtent_m);
     }
     motion.notes.push_back(fmt::format("1 unit = {:g} cm (given)", 100 * unit));

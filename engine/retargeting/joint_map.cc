@@ -252,8 +252,7 @@ class MapFinder {
     const double right = glm::dot(draft_.RestOf(kRightHip) - draft_.RestOf(kHipCentre), across);
     if (left > 0 && right < 0) return {};
     return Fail({file_},
-                "the hips {} and {} are on the same side of {} in the rest pose; allowed: one hip on each "
-                "side",
+                "the hips {} and {} are on the same side of {} in the rest pose; allowed: one hip on each side",
                 Quote(draft_.NameOf(kLeftHip)), Quote(draft_.NameOf(kRightHip)), Quote(draft_.NameOf(kHipCentre)));
   }
 

@@ -96,8 +96,7 @@ class PeopleFinder {
       const std::vector<std::string> alike = Alike(person, other);
       if (alike.size() < kMinAlike || !LieApart(person, other)) continue;
       person.remark = fmt::format(
-          "Etude does not use {} more markers with the same names ({}, …), because they may belong to "
-          "another person",
+          "Etude does not use {} more markers with the same names ({}, …), because they may belong to another person",
           alike.size(), markers_.names[other.columns.at(alike.front())]);
       return;
     }

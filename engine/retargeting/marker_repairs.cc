@@ -157,8 +157,7 @@ void RepairMarkers(MarkerMotion& markers, const std::set<std::size_t>& used) {
     remark(fmt::format("Etude treats {} positions at (0, 0, 0) as missing", zeros));
   if (const int far = LeaveFarOut(markers, used); far > 0) {
     remark(
-        fmt::format("Etude treats {} positions as missing, because they are a hundred times as far away as the "
-                    "others",
+        fmt::format("Etude treats {} positions as missing, because they are a hundred times as far away as the others",
                     far));
   }
   if (const int equal = LeaveEqualNumbersOut(markers); equal > 0) {

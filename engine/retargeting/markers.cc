@@ -355,8 +355,7 @@ Result<std::optional<MarkerBody>> BodyOf(const MarkerMotion& markers, const Mark
     return scaled;
   }
   return Fail({file},
-              "the markers show a body {:.3g} m tall; allowed: {:g} to {:g} m; is the unit of the file "
-              "right?",
+              "the markers show a body {:.3g} m tall; allowed: {:g} to {:g} m; is the unit of the file right?",
               own, kMinStature, kMaxStature);
 }
 

@@ -262,8 +262,7 @@ Result<void> FindColumns(TextScanner& scanner, AngleTable& table, std::size_t& c
     column = static_cast<std::size_t>(std::ranges::find(names, name) - names.begin());
     if (column == names.size())
       return Fail(scanner.At(time),
-                  "the model needs the column {}, but the file does not "
-                  "have it",
+                  "the model needs the column {}, but the file does not have it",
                   Quote(name));
     return {};
   };
@@ -312,14 +311,12 @@ Result<void> CheckUnit(AngleTable& table, const std::string& file, std::string& 
   }
   if (table.radians == 1 && std::abs(largest) > kMaxRadians) {
     return Fail({file},
-                "the file states inDegrees=no, but {} is {:.4g}; allowed: at most 12.57 radians "
-                "(4π)",
+                "the file states inDegrees=no, but {} is {:.4g}; allowed: at most 12.57 radians (4π)",
                 name, largest);
   }
   if (table.radians != 1 && are_small) {
     note = fmt::format(
-        "the file states inDegrees=yes, but the largest angle is only {:.3g} ({}); are the angles in "
-        "radians?",
+        "the file states inDegrees=yes, but the largest angle is only {:.3g} ({}); are the angles in radians?",
         largest, name);
   }
   return {};

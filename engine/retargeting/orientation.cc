@@ -121,8 +121,7 @@ Result<double> CheckSides(std::span<const BodyPose> poses, const JointMap& map, 
   constexpr double kArmsBackwards = 0.25;
   if (!has_feet && sides.arms < -kArmsBackwards * count) {
     return Fail({file},
-                "the arms bend and reach backwards, so left and right are exchanged, or the axes are "
-                "left-handed");
+                "the arms bend and reach backwards, so left and right are exchanged, or the axes are left-handed");
   }
   constexpr double kMinBendOffset = 0.01, kMaxOverextension = Radians(35);
   const bool are_backwards = LowerPercentile(sides.knee_bends, 0.25) < -kMaxOverextension || sides.arms < 0;

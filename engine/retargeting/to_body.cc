@@ -193,8 +193,7 @@ Result<void> FindUnit(const BodyPose& rest, const std::vector<BodyPose>& poses, 
   const double stature = is_alike ? at_rest : moving;
   if (stature < kMinBody)
     return Fail({file},
-                "all joints of the body are at the same position; allowed: joints at "
-                "different positions");
+                "all joints of the body are at the same position; allowed: joints at different positions");
   const Unit* const unit = UnitOf(stature);
   // A given unit must be plausible.
   if (given) {
@@ -206,8 +205,7 @@ Result<void> FindUnit(const BodyPose& rest, const std::vector<BodyPose>& poses, 
                                                  100 * unit->metres, unit->name, stature * unit->metres);
     if (told < kMinGiven || told > kMaxGiven) {
       return Fail({file},
-                  "with the given unit (1 unit = {:.4g} cm), the body is {:.3g} m tall; allowed: {:g} to {:g} "
-                  "m{}",
+                  "with the given unit (1 unit = {:.4g} cm), the body is {:.3g} m tall; allowed: {:g} to {:g} m{}",
                   100 * *given, told, kMinGiven, kMaxGiven, likely);
     }
     if ((told < kMinStature || told > kMaxStature) && unit != nullptr) {
@@ -300,13 +298,11 @@ std::vector<std::string> ChangesOf(const BodyConversion& done, const JointMap& m
   };
   if (!map.composed.empty())
     changes.push_back(
-        "joints that are not in the file, so Etude constructed them: "
-        "" +
+        "joints that are not in the file, so Etude constructed them: " +
         names_of(map.composed));
   if (!map.by_anatomy.empty()) {
     changes.push_back(
-        fmt::format("roles found by the skeleton's shape instead of by names (confidence {:.2f}): "
-                    "{}",
+        fmt::format("roles found by the skeleton's shape instead of by names (confidence {:.2f}): {}",
                     map.confidence, names_of(map.by_anatomy)));
   }
   return changes;
@@ -383,8 +379,7 @@ std::string DescribeImpossibleHeight(std::span<const BodyPose> poses) {
   const double legs = LowerPercentile(OverFrames(all, LeftLegLength), 0.5);
   if (stature > kMaxInfant_m || legs < kMaxInfantLegs * stature) return "";
   return fmt::format(
-      "the body is {:.3g} m tall, but the legs have an adult's proportion of the height; is the file's "
-      "unit right?",
+      "the body is {:.3g} m tall, but the legs have an adult's proportion of the height; is the file's unit right?",
       stature);
 }
 

@@ -194,8 +194,7 @@ Result<void> Bodies::Choose(const StreamReading& reading, const std::string& fil
     const std::size_t most = bodies_[chosen].frames.size();
     const auto ties = std::ranges::count_if(bodies_, [&](const Body& body) { return body.frames.size() == most; });
     const std::string why = ties > 1 ? fmt::format(
-                                           ", because it moves most ({} bodies are in equally many "
-                                           "frames)",
+                                           ", because it moves most ({} bodies are in equally many frames)",
                                            ties)
                                      : ", because it is in the most frames";
     recording.remarks.push_back(

@@ -85,8 +85,7 @@ Result<std::array<std::optional<std::size_t>, kHeadings.size()>> FindHeadings(st
   for (std::size_t h = 0; h + 1 < kHeadings.size(); ++h) {
     if (!found[h])
       return Fail({file, number},
-                  "the heading '{}' is missing; allowed: the headings "
-                  "clip,from_s,to_s,move,truth",
+                  "the heading '{}' is missing; allowed: the headings clip,from_s,to_s,move,truth",
                   kHeadings[h]);
   }
   return found;
@@ -111,8 +110,7 @@ Result<std::vector<Label>> ReadCsv(Lines lines, const std::string& file) {
     ASSIGN_OR_RETURN(label.clip, NameIn(cell(0), file, number, "clip"));
     ASSIGN_OR_RETURN(label.move, NameIn(cell(3), file, number, "move"));
     ASSIGN_OR_RETURN(const std::string truth, NameIn(cell(4), file, number,
-                                                     "truth ('right', or the name of the "
-                                                     "fault)"));
+                                                     "truth ('right', or the name of the fault)"));
     if (truth != "right") label.fault = truth;
     if (!cell(5).text.empty()) {
       ASSIGN_OR_RETURN(label.person, NameIn(cell(5), file, number, "person"));
@@ -124,12 +122,10 @@ Result<std::vector<Label>> ReadCsv(Lines lines, const std::string& file) {
     }
     if (label.to_s && !label.from_s)
       return Fail({file, number, cell(2).column},
-                  "found 'to_s' without 'from_s'; allowed: both, 'from_s' alone, or "
-                  "neither");
+                  "found 'to_s' without 'from_s'; allowed: both, 'from_s' alone, or neither");
     if (label.to_s && *label.to_s <= *label.from_s) {
       return Fail({file, number, cell(2).column},
-                  "the label ends at {} s, before its beginning at {} s; allowed: an end after the "
-                  "beginning",
+                  "the label ends at {} s, before its beginning at {} s; allowed: an end after the beginning",
                   *label.to_s, *label.from_s);
     }
     labels.push_back(std::move(label));

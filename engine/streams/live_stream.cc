@@ -161,8 +161,7 @@ Result<void> LiveStream::Add(RecordedFrame frame, std::vector<SensedFrame>& stre
   ++frames_;
   if (back_s > kMaxBack_s) {
     return Fail({name_, frame.line},
-                "the clock goes back by {:.3g} s, from {:.6g} s to {:.6g} s; allowed: to go back by at most {} "
-                "s",
+                "the clock goes back by {:.3g} s, from {:.6g} s to {:.6g} s; allowed: to go back by at most {} s",
                 back_s, last_s_, frame.time_s, kMaxBack_s);
   }
   if (back_s > 0 && !has_gone_back_) {

@@ -250,8 +250,7 @@ Result<void> ToMetres(StreamRecording& recording, const std::string& file) {
   }
   return Fail(
       {file},
-      "the distance from hip centre to shoulder centre is {:.3g}; allowed: {} to {} m, with positions in m, cm or "
-      "mm",
+      "the distance from hip centre to shoulder centre is {:.3g}; allowed: {} to {} m, with positions in m, cm or mm",
       trunk, kMinTrunk_m, kMaxTrunk_m);
 }
 

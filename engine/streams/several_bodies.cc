@@ -145,8 +145,7 @@ Result<StreamRecording> ReadAzureKinect(std::string_view text, const std::string
     return AzureReader(root, file).Read(reading);
   } catch (const Json::exception& error) {
     return Fail({file},
-                "this is not JSON written by the offline processor of Azure Kinect body tracking: "
-                "{}",
+                "this is not JSON written by the offline processor of Azure Kinect body tracking: {}",
                 error.what());
   }
 }

@@ -46,8 +46,7 @@ class CappedReader {
     const std::uintmax_t size = fs::file_size(path, not_there);
     if (!not_there && size > left_) {
       return Fail({path.string(), 0, 0},
-                  "found {} MB; allowed: at most {} MB for a motion and its files "
-                  "together",
+                  "found {} MB; allowed: at most {} MB for a motion and its files together",
                   (size + 999'999) / 1'000'000, kMaxClipFileBytes / 1'000'000);
     }
     auto bytes = ReadWholeFile(path);

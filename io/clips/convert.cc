@@ -248,14 +248,12 @@ Result<Converted> ConvertClips(std::vector<SourceClip> clips, MotionFormat forma
   const bool has_figure = options.performer == Performer::kBear || options.performer == Performer::kMannequin;
   if (has_figure && format != MotionFormat::kGlb)
     return Fail({},
-                "only GLB files can contain a character; write a "
-                ".glb file");
+                "only GLB files can contain a character; write a .glb file");
   if (clips.size() > 1 && format != MotionFormat::kGlb) {
     std::vector<std::string> names;
     for (const SourceClip& clip : clips) names.push_back(clip.clip.name);
     return Fail({clips.front().source, 0, 0},
-                "only GLB files can contain several animations; choose one of the {} animations with FILE#NAME: "
-                "{}",
+                "only GLB files can contain several animations; choose one of the {} animations with FILE#NAME: {}",
                 clips.size(), Join(names));
   }
   const bool has_only_joints = format != MotionFormat::kBvh && format != MotionFormat::kGlb;

@@ -193,8 +193,7 @@ Result<FbxMotion> FbxReader::Read(std::string_view bytes, const std::string& pat
   // Refuse versions that assimp cannot read, before a child is started.
   if (const unsigned version = MajorVersion(bytes); version > 0 && version < kMinVersion) {
     return Fail({path},
-                "the FBX file has version {}; allowed: version {} (2011) or later; export or convert the file "
-                "again",
+                "the FBX file has version {}; allowed: version {} (2011) or later; export or convert the file again",
                 version, kMinVersion);
   }
   PreparedFbx prepared = Prepare(bytes);

@@ -112,8 +112,7 @@ std::string UseBaseLayer(std::string_view clip, const std::vector<const FbxLink*
     return fmt::format("clip {}: Etude uses only the animation layer {}", Quote(clip), Quote(*used));
   }
   return fmt::format(
-      "clip {}: Etude uses only the animation layer {} and leaves out the other layers ({}); bake the "
-      "layers into one",
+      "clip {}: Etude uses only the animation layer {} and leaves out the other layers ({}); bake the layers into one",
       Quote(clip), Quote(*used), Join(left_out));
 }
 

@@ -126,8 +126,7 @@ Result<Descriptor> OpenFile(const FilePath& path, int flags, mode_t mode) {
   if (::fstat(file.number(), &status) != 0 || !S_ISREG(status.st_mode)) return Fail({path.string()}, "is no file");
   if (path.is_inside() && (flags & O_ACCMODE) != O_RDONLY && status.st_nlink > 1) {
     return Fail({path.string()},
-                "the file has a second name (a hard link), and writing would also change the file of "
-                "the second name");
+                "the file has a second name (a hard link), and writing would also change the file of the second name");
   }
   if ((flags & O_TRUNC) != 0 && ::ftruncate(file.number(), 0) != 0) {
     return CannotWrite(path.string(), "cannot write this file", errno);

@@ -38,8 +38,7 @@ Result<void> Sync(const std::filesystem::path& path, int flags) {
     file = ::open(path.c_str(), O_WRONLY | O_CLOEXEC | flags);  // read access may be denied for a lock file
   if (file < 0)
     return CannotWrite(path.string(),
-                       "the file cannot be opened for writing it to the disk "
-                       "(fsync)",
+                       "the file cannot be opened for writing it to the disk (fsync)",
                        errno);
   const int failed = Synced(file) ? 0 : errno;
   ::close(file);

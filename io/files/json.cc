@@ -118,8 +118,7 @@ Result<Json> ReadJson(const std::string& text, const std::string& file, int line
   // The parser stops at a zero byte and ignores what follows.
   if (text.find('\0') != std::string::npos)
     return Fail({file, line, 0},
-                "not valid JSON: the text contains a zero "
-                "byte");
+                "not valid JSON: the text contains a zero byte");
   try {
     return Json::parse(text);
   } catch (const Json::exception& error) {

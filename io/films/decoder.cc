@@ -180,8 +180,7 @@ Result<FilmFacts> ProbeFilm(const std::filesystem::path& path, const std::string
   constexpr double kMaxFrames = 1e8;
   if (!(width >= 1) || !(height >= 1) || !(width * height <= kMaxPixels) || !(frames >= 1) || frames > kMaxFrames) {
     return Fail(place,
-                "found {:g} frames of {:g} x {:g} pixels; allowed: at least one frame, at most 64 million "
-                "pixels",
+                "found {:g} frames of {:g} x {:g} pixels; allowed: at least one frame, at most 64 million pixels",
                 frames, width, height);
   }
   // Swap width and height of a film that is shown rotated by 90°.

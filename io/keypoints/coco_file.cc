@@ -161,8 +161,7 @@ Result<PeopleOfFilm> ReadCoco(const Json& json, const std::string& layout, const
     const auto frame = id != nullptr && id->is_number() ? listed.frames.find(id->get<double>()) : listed.frames.end();
     if (frame == listed.frames.end())
       return Fail(place,
-                  "an annotation belongs to an image that the list 'images' "
-                  "does not contain");
+                  "an annotation belongs to an image that the list 'images' does not contain");
     if (!HasKeypoints(annotation)) {
       ++boxes;
       continue;

@@ -172,8 +172,7 @@ Result<std::span<const Landmark>> OrderOf(std::size_t count, const std::string& 
     constexpr std::size_t kMinKnown = 12;
     if (names.known >= kMinKnown) return std::span(names.landmarks);
     return Fail(place,
-                "Etude knows only {} of the {} keypoint names ({}); allowed: at least {} names of {}, or "
-                "--layout",
+                "Etude knows only {} of the {} keypoint names ({}); allowed: at least {} names of {}, or --layout",
                 names.known, count, SomeOf(names.names), kMinKnown, AllLandmarks());
   }
   const auto found = LayoutOf(count, layout, place);
@@ -187,8 +186,7 @@ Result<std::span<const Landmark>> OrderOf(std::size_t count, const std::string& 
     const Landmark stated = names.landmarks[i], taken = chosen->landmarks[i];
     if (stated == taken || stated == Landmark::kNoLandmark || taken == Landmark::kNoLandmark) continue;
     return Fail(place,
-                "keypoint {} has the name {} in the file, but is {} in the layout {} ({} names, {} keypoints); "
-                "{}",
+                "keypoint {} has the name {} in the file, but is {} in the layout {} ({} names, {} keypoints); {}",
                 i + 1, names.names[i], LandmarkName(taken), chosen->name, names.names.size(), count,
                 layout.empty() ? "allowed: a name for each keypoint" : "leave out --layout, or remove the names");
   }
@@ -228,8 +226,7 @@ Result<Keypoint> PointOf(const Json& json, const Place& place) {
     constexpr std::array kNoScores = {"x", "y", "z", "id", "index", "presence", "world_x", "world_y", "world_z"};
     if (sure != nullptr || !value.is_number_float() || std::ranges::count(kNoScores, key) > 0) continue;
     return Fail(place,
-                "a keypoint has the number '{}' in addition to x and y; allowed: score, confidence or "
-                "visibility",
+                "a keypoint has the number '{}' in addition to x and y; allowed: score, confidence or visibility",
                 key);
   }
   if (!x || !y) return Keypoint{};
@@ -264,8 +261,7 @@ Result<std::vector<Keypoint>> PointsOfPairs(const Json& list, const Json* scores
     if (scores != nullptr && scores->is_array() && scores->size() == list.size()) {
       if (pair.size() > 2 && pair[2] != (*scores)[i]) {
         return Fail(place,
-                    "a keypoint has {} coordinates in addition to a score: {}; allowed: pixels of one picture, "
-                    "[x, y]",
+                    "a keypoint has {} coordinates in addition to a score: {}; allowed: pixels of one picture, [x, y]",
                     pair.size(), ShowJson(pair));
       }
       sure = NumberOf(&(*scores)[i]).value_or(0);

@@ -38,8 +38,7 @@ Result<std::vector<fs::path>> FilesIn(const fs::path& folder, const char* ending
     for (const fs::directory_entry& entry : fs::directory_iterator(folder, error)) {
       if (entry.path().extension() != ".txt") continue;
       return Fail({folder.string()},
-                  "the folder contains no {} file, but text files, as YOLO writes; allowed: "
-                  "{}",
+                  "the folder contains no {} file, but text files, as YOLO writes; allowed: {}",
                   ending, kAllowed);
     }
     return Fail({folder.string()}, "the folder contains no {} file", ending);
@@ -317,8 +316,7 @@ Result<fs::path> EntryOfFilm(const fs::path& folder, const std::string& film) {
                 film);
   if (found.size() > 1) {
     return Fail({folder.string()},
-                "the names of two files, {} and {}, begin with the film's name {}; allowed: one "
-                "such file",
+                "the names of two files, {} and {}, begin with the film's name {}; allowed: one such file",
                 found[0].filename().string(), found[1].filename().string(), film);
   }
   return found.front();

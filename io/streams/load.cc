@@ -215,8 +215,7 @@ Result<std::vector<std::string>> LabelFiles(const std::string& path) {
   std::erase_if(files, [](const std::string& file) { return fs::path(file).extension() != ".tagstream"; });
   if (files.empty())
     return Fail({path},
-                "the folder contains no .tagstream file; allowed: a labels file, or a folder of .tagstream "
-                "files");
+                "the folder contains no .tagstream file; allowed: a labels file, or a folder of .tagstream files");
   return files;
 }
 

@@ -33,8 +33,7 @@ Result<std::string_view> TakeChunk(std::string_view bytes, std::size_t& at, std:
   }
   if (length > left - kChunkHeaderBytes || length % 4 != 0) {
     return Fail(place,
-                "found a chunk of {} bytes at byte {}; allowed: a multiple of 4, at most the {} bytes left in "
-                "the file",
+                "found a chunk of {} bytes at byte {}; allowed: a multiple of 4, at most the {} bytes left in the file",
                 length, at, left - kChunkHeaderBytes);
   }
   at += kChunkHeaderBytes + length;
@@ -44,8 +43,7 @@ Result<std::string_view> TakeChunk(std::string_view bytes, std::size_t& at, std:
 Result<GltfContainer> OpenGlb(std::string_view bytes, const Place& place) {
   if (bytes.size() < kHeaderBytes)
     return Fail(place,
-                "found a GLB file of {} bytes; allowed: at least 12, the size of "
-                "the header",
+                "found a GLB file of {} bytes; allowed: at least 12, the size of the header",
                 bytes.size());
   if (const std::uint32_t version = Number(bytes, 4); version != 2) {
     return Fail(place, "found GLB version {}; allowed: 2", version);

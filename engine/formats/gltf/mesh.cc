@@ -106,8 +106,7 @@ Result<std::string_view> GltfTextures::BytesOf(const tinygltf::Image& image, con
 Result<void> GltfTextures::Take(std::size_t pixels, const std::string& where) {
   if (pixels > pixels_left_) {
     return file_.Refuse(where,
-                        "found {} pixels; allowed: {} more, because all textures together may have 64 million "
-                        "pixels",
+                        "found {} pixels; allowed: {} more, because all textures together may have 64 million pixels",
                         pixels, pixels_left_);
   }
   pixels_left_ -= pixels;
@@ -216,8 +215,7 @@ class MeshReader {
     bindings_ += bindings.size() * mesh.primitives.size();  // every surface gets a copy of the bindings
     if (bindings_ > kMaxBindings) {
       return file_.Refuse(where,
-                          "up to this mesh, the numbers of joints of all surfaces add up to {}; allowed: at "
-                          "most {}",
+                          "up to this mesh, the numbers of joints of all surfaces add up to {}; allowed: at most {}",
                           bindings_, kMaxBindings);
     }
     // Read each primitive as a mesh.

@@ -46,8 +46,7 @@ class NodeReader {
         int& parent = parents_[children[i]];
         if (parent != kNoIndex) {
           return file_.Refuse(where,
-                              "found node {}, which is already a child of node {}; allowed: one "
-                              "parent",
+                              "found node {}, which is already a child of node {}; allowed: one parent",
                               children[i], parent);
         }
         parent = node;
@@ -62,8 +61,7 @@ class NodeReader {
       for (int above = parents_[node]; above != kNoIndex; above = parents_[above]) {
         if (above == node)
           return file_.Refuse(NodeName(node),
-                              "the node is its own ancestor; allowed: a tree of "
-                              "nodes");
+                              "the node is its own ancestor; allowed: a tree of nodes");
         if (++depth > kMaxLevels) return TooDeep(node);
       }
     }
@@ -77,8 +75,7 @@ class NodeReader {
     for (int above = parents_[node]; above != kNoIndex; above = parents_[above]) {
       if (++steps > count_)
         return file_.Refuse(NodeName(node),
-                            "an ancestor of the node is its own ancestor; allowed: "
-                            "a tree of nodes");
+                            "an ancestor of the node is its own ancestor; allowed: a tree of nodes");
     }
     return file_.Refuse(NodeName(node), "nested more than {} levels deep", kMaxLevels);
   }
@@ -101,8 +98,7 @@ class NodeReader {
         RETURN_IF_ERROR(file_.CheckIndex(open[i], count_, where));
         if (parents_[open[i]] != kNoIndex) {
           return file_.Refuse(where,
-                              "found node {}, which is a child of node {}; allowed: nodes without a "
-                              "parent",
+                              "found node {}, which is a child of node {}; allowed: nodes without a parent",
                               open[i], parents_[open[i]]);
         }
       }
@@ -228,8 +224,7 @@ class NodeReader {
       local.scale[k] = glm::length(axes[k]);
       if (local.scale[k] < 1e-9)
         return file_.Refuse(where,
-                            "the matrix scales an axis to 0; allowed: a product of "
-                            "translation, rotation and scale");
+                            "the matrix scales an axis to 0; allowed: a product of translation, rotation and scale");
       axes[k] /= local.scale[k];
     }
     if (glm::determinant(axes) < 0) {  // a mirror image: give the negative sign to the scale of x
@@ -240,8 +235,7 @@ class NodeReader {
                                    std::abs(glm::dot(axes[2], axes[0]))});
     if (shear > kMatrixRounding)
       return file_.Refuse(where,
-                          "the matrix contains a shear; allowed: a product of "
-                          "translation, rotation and scale");
+                          "the matrix contains a shear; allowed: a product of translation, rotation and scale");
     local.rotation = glm::normalize(glm::quat_cast(axes));
     return local;
   }

@@ -84,8 +84,7 @@ IkSolver GaussNewton() {
       SolveWithOwn<GaussNewtonOptions>(SolveGaussNewton), &SolverSettings::first_sweeps,
       &GaussNewtonOptions::first_sweeps,
       Between("first_sweeps", 0, 100,
-              "Number of CCD sweeps before the first "
-              "Gauss-Newton step."));
+              "Number of CCD sweeps before the first Gauss-Newton step."));
   solver.prepare = [](const KinematicTree& tree) { return std::make_unique<PreparedGaussNewton>(tree); };
   solver.solve_batch = [](const KinematicTree& tree, std::span<const IkProblem> problems, const IkOptions& options) {
     return SolveGaussNewtonBatch(tree, problems, options, Precision::kDouble, GaussNewtonOptionsOf(options));

@@ -96,8 +96,7 @@ TransitionRecord PlanNow(const MotionLibrary& library, const TransitionRequest& 
   TransitionRecord record = DirectTransition(library, request, request.request_frame, 0, rules);
   record.branch = Branch::kNow;
   record.why = fmt::format(
-      "the transition goes at once into the first frame, whatever the poses are; d = "
-      "{:.2f}",
+      "the transition goes at once into the first frame, whatever the poses are; d = {:.2f}",
       record.distances[0].value);
   return record;
 }
@@ -110,8 +109,7 @@ TransitionRecord PlanWaitForEnd(const MotionLibrary& library, const TransitionRe
   TransitionRecord record = DirectTransition(library, request, end, 0, rules);
   record.branch = Branch::kEnd;
   record.why = fmt::format(
-      "the playing clip ended after {:.2f} s; the distance to the first frame is d = "
-      "{:.2f}",
+      "the playing clip ended after {:.2f} s; the distance to the first frame is d = {:.2f}",
       record.wait_s, record.distances[0].value);
   return record;
 }
@@ -166,8 +164,7 @@ TransitionRecord PlanThroughStanding(const MotionLibrary& library, const Transit
   record.distances = {to_itself(playing.grades[request.request_frame]), to_itself(next.grades.front())};
   record.wait_s = WaitOf(record.segments, playing.rate_hz);
   record.why = fmt::format(
-      "the transition starts at once: {:.2f} s into a standing pose, then {:.2f} s into the first "
-      "frame of {}",
+      "the transition starts at once: {:.2f} s into a standing pose, then {:.2f} s into the first frame of {}",
       standing / playing.rate_hz, (last - standing) / playing.rate_hz, library.names[request.to]);
   return record;
 }
@@ -223,8 +220,7 @@ std::span<const Choice> Table() {
              .plan = PlanBy<PlanFuzzyBridge>},
       Ranked<PlanFuzzyKovar, PointCloudSettings>(
           "fuzzy-kovar",
-          "among all matching bridge frames, takes the pair with the smallest point-cloud distance "
-          "(Kovar 2002)",
+          "among all matching bridge frames, takes the pair with the smallest point-cloud distance (Kovar 2002)",
           true),
       Ranked<PlanFuzzyWindow, FuzzyWindowSettings>(
           "fuzzy-window",
@@ -249,8 +245,7 @@ std::span<const Choice> Table() {
                             "the wanted clip",
              .plan = PlanBy<PlanThroughStanding>},
       Choice{.name = "now",
-             .description = "leaves the playing clip at once, into the first frame of the wanted "
-                            "clip",
+             .description = "leaves the playing clip at once, into the first frame of the wanted clip",
              .plan = PlanBy<PlanNow>},
       Choice{.name = "wait-for-end",
              .description = "goes from the last frame of the playing clip into the first frame of the wanted clip",

@@ -79,8 +79,7 @@ std::string DescribeNoMatch(const std::vector<RankedPair>& nearest, std::int64_t
   if (nearest.empty()) return fmt::format("none of the {} pairs of {} has the same tags in both frames", pairs, frames);
   const double least = std::ranges::min_element(nearest, {}, &RankedPair::rank)->rank;
   return fmt::format(
-      "no match among {} pairs of {}: the smallest distance is d = {:.2f}, which is not below "
-      "{:g}",
+      "no match among {} pairs of {}: the smallest distance is d = {:.2f}, which is not below {:g}",
       pairs, frames, least, rules.threshold);
 }
 

@@ -129,8 +129,7 @@ std::string Explain(const MotionLibrary& library, const TransitionRequest& reque
                                          : fmt::format(", not below {}", threshold));
   };
   return fmt::format(
-      "the transition leaves {} at frame {} for the key pose {}, and goes from the key pose {} into {} "
-      "at frame {}",
+      "the transition leaves {} at frame {} for the key pose {}, and goes from the key pose {} into {} at frame {}",
       library.names[request.from], judge(exit), name(exit), name(entrance), library.names[request.to], judge(entrance));
 }
 

@@ -151,8 +151,7 @@ std::span<const Filler> AllFillers() {
        .description = "holds the last pose",
        .fill = [](const Gap& gap, Values) { return std::vector<TreePose>(gap.frames, gap.past.back()); }},
       {.name = "interpolation",
-       .description = "interpolates along straight lines and great arcs (lerp, "
-                      "slerp)",
+       .description = "interpolates along straight lines and great arcs (lerp, slerp)",
        .fill = Interpolate},
       {.name = "inertialised",
        .description = "interpolates, and adds the velocity difference at each end, which decays like a spring",

@@ -97,8 +97,7 @@ const SettingTable<DeadOptions>& DeadSettings() {
       {{"blend_s", &DeadOptions::blend_s, 0, 5,
         "Blend length: seconds from the transition point until only the new motion is shown."},
        {"half_life_s", &DeadOptions::half_life_s, 0.01, 10,
-        "Time in which the velocity of the old motion decays to "
-        "one half."}});
+        "Time in which the velocity of the old motion decays to one half."}});
   return kSettings;
 }
 

@@ -29,8 +29,7 @@ std::span<const JoinKind> Table() {
   static const std::array kJoins = {
       // Joins of papers and games.
       JoinKind{.name = "cut",
-               .description = "paper A's method: a cut; the next frame shown is a frame of the new "
-                              "clip",
+               .description = "paper A's method: a cut; the next frame shown is a frame of the new clip",
                .begin = CutOver},
       JoinKind{.name = "crossfade",
                .description = "the old motion fades into the new one (Kovar 2002)",

@@ -78,8 +78,7 @@ Result<void> CheckBeforeParsing(std::string_view text, const std::string& file) 
     const std::size_t next = std::min(text.find('<', start + 1), text.size());
     if (next - start > kMaxTagBytes) {
       return Fail({file, LineOf(text, start), 0},
-                  "found {} bytes without a new XML tag; allowed: at most "
-                  "{}",
+                  "found {} bytes without a new XML tag; allowed: at most {}",
                   next - start, kMaxTagBytes);
     }
     start = next;
@@ -299,8 +298,7 @@ class TagsReader {
     const auto clip = clip_of_name_.find(key.clip);
     if (clip == clip_of_name_.end())
       return Complain(
-          "a key pose refers to clip {}, which is not in the "
-          "file",
+          "a key pose refers to clip {}, which is not in the file",
           Quote(key.clip));
     const bool has_bridge_frames = std::any_of(tags_.clips.begin(), tags_.clips.end(),
                                                [](const ClipTags& tagged) { return !tagged.bridge_frames.empty(); });

@@ -162,8 +162,7 @@ TEST(RefineRig, SaysWhatIsWrongWithViews) {
   EXPECT_EQ(reason({{0, 0, pairs}, {0, 1, pairs}}), "camera 2 has no point");
   EXPECT_EQ(reason({{0, 0, pairs}, {1, 0, pairs}, {1, 1, two}}), "the views do not determine the position of board 2");
   EXPECT_EQ(reason({{0, 0, two}, {1, 1, two}}),
-            "4 points give 8 equations, but there are 34 unknowns; more points are "
-            "needed");
+            "4 points give 8 equations, but there are 34 unknowns; more points are needed");
   EXPECT_EQ(reason({{0, 0, two}, {1, 1, two}}, {.hold_intrinsics = true}),
             "4 points give 8 equations, but there are 18 unknowns; more points are needed");
   std::vector<PointPair> broken = pairs;

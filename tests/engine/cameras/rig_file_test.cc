@@ -146,8 +146,7 @@ TEST(RigFile, RefusesWhateverNumberIsNotFinite) {
 // A mirrored camera has a matrix of orthogonal rows, but the determinant -1.
 TEST(RigFile, RefusesAMirroredCameraInEveryFormatWithAMatrix) {
   const std::string said =
-      "R is not a rotation matrix; it is a reflection, with the determinant -1; allowed: the "
-      "determinant 1";
+      "R is not a rotation matrix; it is a reflection, with the determinant -1; allowed: the determinant 1";
   Camera mirrored = TwoCameras().front().camera;
   mirrored.R_CW = glm::dmat3(-1, 0, 0, 0, 1, 0, 0, 0, 1) * mirrored.R_CW;
   EXPECT_EQ(testing::Message(CameraOf(ParametersOf(mirrored))), said);

@@ -108,8 +108,7 @@ TEST(Acclaim, ARootThatTurnsOnAndOnMayBeInRadians) {
   ExpectAcclaimNear(AcclaimGlobals(*clip, 0)[end].position, AcclaimGlobals(*wanted, 0)[end].position);
   ASSERT_EQ(remarks.size(), 1u);
   EXPECT_EQ(remarks[0],
-            "the root turns by 18.85 radians; if the file's angles are degrees, add the line :DEGREES to "
-            "the file");
+            "the root turns by 18.85 radians; if the file's angles are degrees, add the line :DEGREES to the file");
 }
 
 TEST(Acclaim, ABoneWithoutValuesIsRefusedOrSaid) {
@@ -119,8 +118,7 @@ TEST(Acclaim, ABoneWithoutValuesIsRefusedOrSaid) {
     return testing::Refusal(ReadAcclaimMotion(text, *skeleton, "a.amc"));
   };
   EXPECT_EQ(refusal(head + arm + second),
-            "a.amc: bone 'upper' is missing in the last frame or frames; allowed: each "
-            "bone once in each frame");
+            "a.amc: bone 'upper' is missing in the last frame or frames; allowed: each bone once in each frame");
   const char* const once =
       "bone 'upper' appears twice in this frame, or is missing in an earlier frame; allowed: each bone once in each "
       "frame";

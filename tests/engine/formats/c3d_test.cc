@@ -86,8 +86,7 @@ TEST(C3d, TellsOfDataBeyondTheLastFrame) {
   ASSERT_OK(read, ReadC3d(writer.Write(), "a.c3d"));
   EXPECT_EQ(read->markers.frames.size(), 40u);
   EXPECT_EQ(read->markers.remark,
-            "the file contains 60 frames more than the 40 that its header states; Etude did not "
-            "read them");
+            "the file contains 60 frames more than the 40 that its header states; Etude did not read them");
   writer.header_frames = 100;
   std::string padded = writer.Write();
   padded.resize(padded.size() + 2000, '\0');
@@ -108,8 +107,7 @@ TEST(C3d, HasAsManyFramesAsPointFramesTells) {
     const char* remark;
   };
   const char* const cropped =
-      "POINT:FRAMES states 20 frames, but TRIAL states 40 and the file contains 20; Etude uses "
-      "the first number";
+      "POINT:FRAMES states 20 frames, but TRIAL states 40 and the file contains 20; Etude uses the first number";
   for (const Case& one :
        {Case{40, 40, 40, 40, 40, ""}, Case{20, 20, 20, 40, 20, cropped},
         Case{20, 40, 20, 0, 20,
@@ -161,8 +159,7 @@ TEST(C3d, RefusesWhatIsDamaged) {
   const std::string good = C3dWriter(kIntel, true).Write();
   EXPECT_EQ(C3dComplaint("HIERARCHY"), "a.c3d: no C3D file");
   EXPECT_EQ(C3dComplaint(good.substr(0, good.size() - 20)),
-            "a.c3d: the file ends too early: it contains 2 of 3 "
-            "frames");
+            "a.c3d: the file ends too early: it contains 2 of 3 frames");
   std::string other = good;
   other[512 + 3] = 7;
   EXPECT_THAT(C3dComplaint(other), HasSubstr("the processor type is 7; allowed: 84 (Intel), 85 (DEC), 86 (MIPS)"));

@@ -76,11 +76,9 @@ TEST(Faults, BeginRightBeyondTheirBounds) {
   EXPECT_EQ(fault([](T&, P& p, O&) { p.targets[2].axis_weights.y = -1e-9; }),
             "a target is invalid; allowed: a finite position, orthonormal axes, finite weights of 0 or more");
   EXPECT_EQ(fault([](T&, P& p, O&) { p.targets.pop_back(); }),
-            "the number of targets is not the tree's number of end "
-            "effectors");
+            "the number of targets is not the tree's number of end effectors");
   EXPECT_EQ(fault([](T&, P& p, O&) { p.limits.pop_back(); }),
-            "the number of angles or limits is not the tree's number "
-            "of degrees of freedom");
+            "the number of angles or limits is not the tree's number of degrees of freedom");
   EXPECT_EQ(fault([](T&, P&, O& o) { o.angle_change_tolerance = 0; }), "");
   EXPECT_EQ(fault([](T&, P&, O& o) { o.angle_change_tolerance = -1e-9; }),
             "the angle-change tolerance is negative or not finite");
@@ -100,11 +98,9 @@ TEST(Faults, BeginRightBeyondTheirBounds) {
   EXPECT_EQ(fault([](T& t, P&, O&) { t.joints[5].dof_count = 4; }),
             "the joints do not form a tree whose first joint is the root");
   EXPECT_EQ(fault([](T& t, P&, O&) { t.joints[5].parent = 5; }),
-            "the joints do not form a tree whose first joint is "
-            "the root");
+            "the joints do not form a tree whose first joint is the root");
   EXPECT_EQ(fault([](T& t, P&, O&) { t.limits.push_back({}); }),
-            "the joints do not form a tree whose first joint is "
-            "the root");
+            "the joints do not form a tree whose first joint is the root");
   KinematicTree few;
   few.joints = {{}, {.name = "", .parent = 0, .p_PJ = {0, 0, 1}, .dof_count = 3}};
   few.limits.resize(3);

@@ -245,8 +245,7 @@ TEST(FollowStream, RefusesWindowsThatItCannotFollow) {
   };
   EXPECT_EQ(complaint({{kRaise, {15, 75}}, {kHang, {75, 75}}, {kHang, {75, 90}}}), "accepted");  // the control
   EXPECT_EQ(complaint({{2, {15, 75}}}),
-            "move number 2 is requested, but only 2 moves were taught; moves are counted "
-            "from 0");
+            "move number 2 is requested, but only 2 moves were taught; moves are counted from 0");
   for (const FrameInterval window : {FrameInterval{-1, 9}, FrameInterval{9, 8}, FrameInterval{0, 91}}) {
     EXPECT_THAT(complaint({{kRaise, window}}), HasSubstr(", but the stream has 90 frames"));
   }

@@ -303,8 +303,7 @@ TEST(JointArrays, OfSam3dBodyAreTurnedFromTheCamerasFrame) {
     EXPECT_EQ(std::vector<double>(&(*moved)->values[213], &(*moved)->values[216]),
               (std::vector<double>{1.25, -0.5, -4}));
     EXPECT_EQ(note,
-              "SAM 3D Body's arrays are in the camera's frame; Etude rotated them to Y up, assuming a level "
-              "camera");
+              "SAM 3D Body's arrays are in the camera's frame; Etude rotated them to Y up, assuming a level camera");
   }
   // Other shapes are refused.
   arrays.arrays["pred_cam_t"].shape = {3, 2};

@@ -273,7 +273,7 @@ TEST_F(RawMotionsTest, KimodosArraysKeepTheirRotationsAndContacts) {
   std::map<std::string, NumberArray> wrong = arrays;
   wrong["foot_contacts"] = {{2, 4}, std::vector<double>(8, 1)};
   EXPECT_THAT(testing::Refusal(OpenRawMotion(Write("w.npz", WriteNpz(wrong, {})), {})),
-              HasSubstr("foot_contacts 2 × 4; allowed: 4 × 4"));
+              HasSubstr("the shape of foot_contacts is 2 × 4; allowed: 4 × 4"));
 }
 
 TEST_F(RawMotionsTest, KimodosWholeSkeletonHasItsFingersAndTheSameRoles) {

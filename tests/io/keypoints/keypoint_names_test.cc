@@ -101,7 +101,7 @@ TEST_F(KeypointNamesOfFiles, ThatAreNotKnownOrContradictTheLayoutAreRefused) {
   EXPECT_EQ(ReadAt(Landmark::kLeftEye, own, 17, "coco"), 1) << "what is said counts";
   const std::vector<std::string> reversed(coco_.rbegin(), coco_.rend());
   EXPECT_THAT(Reason(Coco(reversed, 17), "coco"),
-              HasSubstr("keypoint 1 is named right_ankle in the file, but is Nose in the layout coco"));
+              HasSubstr("keypoint 1 has the name right_ankle in the file, but is Nose in the layout coco"));
   // Names of another number than the keypoints: the layout, if they do not contradict it.
   EXPECT_EQ(ReadAt(Landmark::kLeftEye, coco_, 26), 1);
   EXPECT_THAT(Reason(Coco(reversed, 26)), HasSubstr("allowed: a name for each keypoint"));

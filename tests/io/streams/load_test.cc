@@ -68,8 +68,7 @@ TEST(MatchLabels, RefusesTimesOutsideAndLabelsOfNothing) {
                                     {"3,", "at 3.000 s"}}) {
     const auto beyond = ReadLabels(fmt::format("clip,from_s,to_s,move,truth\na,{},m,right\n", times), "l");
     EXPECT_EQ(testing::Refusal(MatchLabels(*beyond, "l", TwoStreams())),
-              fmt::format("l:2: found a label {} of a; allowed: labels within the recording, which lasts 3.000 "
-                          "s",
+              fmt::format("l:2: found a label {} of a; allowed: labels within the recording, which lasts 3.000 s",
                           told));
   }
   for (const char* times : {"2.99,3.4", "-0.4,0.01", "0,3", "2.99,"}) {
@@ -107,8 +106,7 @@ TEST(DescribeLabels, TellsWhatLabelsAndRecordingsDoNotShare) {
                    "l: no label for ah_hammer1"}));
   EXPECT_EQ(lines("ah_clap1,,,clap,rihgt\nah_hammer1,,,hammer,right\nah_hammer1,1,2,hammer,half\nzz,,,wave,odd\n"),
             (Lines{"l:5: no recording zz is given",
-                   "l: truth: right 1, half 1, rihgt 1 (Etude reads this as a fault; did "
-                   "you mean right?)"}));
+                   "l: truth: right 1, half 1, rihgt 1 (Etude reads this as a fault; did you mean right?)"}));
 }
 
 TEST(DescribeLabels, DoubtsLabelsThatMayBeTimesOfTheRecordingsClock) {
