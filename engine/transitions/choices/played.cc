@@ -195,12 +195,12 @@ TransitionRecord PlanThroughClip(const MotionLibrary& library, const TransitionR
                &wanted = library.stances[request.to][allowed.enter.front()];
   // Explain why the two clips cannot be joined.
   const auto describe = [&](int clip, const Stance& stance) {
-    return fmt::format("{} {} with its hips at {:.2f} m", library.names[clip],
+    return fmt::format("in {}, the body {} with the hips at {:.2f} m", library.names[clip],
                        stance.is_down ? "lies, sits or kneels" : "stands", stance.hips);
   };
   const std::string why = fmt::format(
-      "at every frame where it can be left, {}, and at every frame where it can be entered, {}; but no join can {} a "
-      "body without support",
+      "{} at every frame where the clip can be left, and {} at every frame where the clip can be entered; no join can "
+      "{} a body without support",
       describe(request.from, left), describe(request.to, wanted), wanted.hips > left.hips ? "raise" : "lower");
   // Find a clip that changes the stance.
   const auto through = FindThroughClip(library, request, allowed, options.most_through_s);
