@@ -182,7 +182,7 @@ Result<void> Bodies::Choose(const StreamReading& reading, const std::string& fil
   if (reading.body) {
     chosen = static_cast<std::size_t>(*reading.body);
     if (chosen >= bodies_.size())
-      return Fail({file}, "there is no body {}; the bodies are counted from 0, and their number is {}", chosen,
+      return Fail({file}, "there is no body {}; the file has {} bodies, counted from 0", chosen,
                   bodies_.size());
   } else {
     for (std::size_t b = 1; b < bodies_.size(); ++b) {
