@@ -103,9 +103,7 @@ class Forecast(EtudeCase):
             f"[{name}]\nsize = [1280, 960]\nfov_deg = 70\nposition = [{x}, 3, 2]\nlook_at = [0, 0, 1]\n"
             for name, x in (("left", -2), ("right", 2))))
         said = self.etude("forecast", path).stdout
-        self.assertIn("lengths in m; up is z, as in the format; Etude's x is the file's y, Etude's z is the file's x, and up is the file's z
-  left           x 3.00, z -2.00, 2.00 m high
-"
+        self.assertIn("lengths in m; up is z, as in the format; Etude's x is the file's y, Etude's z is the file's x, and up is the file's z\n  left           x 3.00, z -2.00, 2.00 m high\n"
                       "  right          x 3.00, z 2.00, 2.00 m high\n", said)
         self.assertEqual(self.facts("forecast", path)["middle_m"], [0, 0])
 
