@@ -14,7 +14,8 @@ std::vector<NamedCamera> ReadRig(std::string_view text, const std::string& file)
 CalibratedCamera Calibrate(std::span<const PointPair> pairs, int width, int height) {
   constexpr int kMaxSide = 100'000;
   if (width < 1 || height < 1 || width > kMaxSide || height > kMaxSide) {
-    throw BadInput(fmt::format("the picture has {} x {} pixels; allowed: 1 to {} each", width, height, kMaxSide));
+    throw BadInput(
+        fmt::format("the picture has {} x {} pixels; allowed: 1 to {} pixels on each side", width, height, kMaxSide));
   }
   const RefinedRig rig = OrThrow(RefineCamera(pairs, width, height));
   return {rig.cameras.front(), rig.rms_px};
@@ -22,8 +23,9 @@ CalibratedCamera Calibrate(std::span<const PointPair> pairs, int width, int heig
 
 TriangulatedPoint Triangulate(std::span<const NamedCamera> cameras, std::span<const std::optional<glm::dvec2>> pixels) {
   if (pixels.size() != cameras.size()) {
-    throw BadInput(fmt::format("found {} entries for {} cameras; allowed: one for each camera, a pixel or empty",
-                               pixels.size(), cameras.size()));
+    throw BadInput(
+        fmt::format("found {} entries for {} cameras; allowed: one entry for each camera, either a pixel or empty",
+                    pixels.size(), cameras.size()));
   }
   std::vector<Sighting> sightings;
   for (std::size_t i = 0; i < cameras.size(); ++i) {

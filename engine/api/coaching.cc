@@ -26,8 +26,8 @@ void CheckCoached(const Dance& dance, std::span<const TaughtMove> moves) {
   for (std::size_t i = 0; i < moves.size(); ++i) {
     const std::string& wanted = dance.moves[i].name;
     if (moves[i].name == wanted) continue;
-    throw BadInput(
-        fmt::format("move {} is '{}'; allowed: '{}', the dance's move at this place", i, moves[i].name, wanted));
+    throw BadInput(fmt::format("move {} is '{}'; allowed: '{}', the move with this number in the dance", i,
+                               moves[i].name, wanted));
   }
   CheckMoves(moves);
 }

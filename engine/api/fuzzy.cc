@@ -14,7 +14,7 @@ namespace {
 
 Grades GradesOf(const PoseFeatures& features) {
   for (const double value : features.values) {
-    if (!std::isfinite(value)) throw BadInput("a feature that is not finite");
+    if (!std::isfinite(value)) throw BadInput("a feature of the pose is not finite");
   }
   return Fuzzify(features);
 }
@@ -68,7 +68,7 @@ std::optional<TransitionPoint> Bridges::Find(int from, int frame, int to, double
   const TaggedClip& playing = library_->Of(from);
   const TaggedClip& next = library_->Of(to);
   if (frame < 0 || frame >= playing.FrameCount()) {
-    throw BadInput(fmt::format("frame {} of clip {}; allowed: 0 to {}", frame, from, playing.FrameCount() - 1));
+    throw BadInput(fmt::format("found frame {} for clip {}; allowed: 0 to {}", frame, from, playing.FrameCount() - 1));
   }
   CheckBudget(budget_s);
   const auto found = FindTransitionPoint(playing, WaitWindow(playing, frame, budget_s), next, library_->rules);

@@ -67,7 +67,7 @@ std::optional<double> UnitOf(const ReadingOptions& options) {
   if (options.metres_per_unit == 0) return std::nullopt;
   constexpr double kMin_m = 1e-6, kMax_m = 1e3;
   if (options.metres_per_unit >= kMin_m && options.metres_per_unit <= kMax_m) return options.metres_per_unit;
-  throw BadInput(fmt::format("metres_per_unit: {}; allowed: {:g} to {:g}", options.metres_per_unit, kMin_m, kMax_m));
+  throw BadInput(fmt::format("metres_per_unit is {}; allowed: {:g} to {:g}", options.metres_per_unit, kMin_m, kMax_m));
 }
 
 /// A motion, and sentences for users about findings and changes.
@@ -93,7 +93,7 @@ ReadBody BodyOfMarkers(const MarkerMotion& markers, const std::string& file, dou
       markers, file,
       {.up = rule, .keep_floor = options.keep_floor, .metres_per_unit = UnitOf(options), .set = options.marker_set}));
   if (bodies.size() != 1)
-    throw BadInput(fmt::format("{}: markers of {} people; allowed: markers of one person", file, bodies.size()));
+    throw BadInput(fmt::format("{}: found markers of {} people; allowed: markers of one person", file, bodies.size()));
   return ResampledBody(bodies.front().motion, bodies.front().changes, rate_hz);
 }
 
@@ -172,7 +172,7 @@ void CheckClips(std::span<const BodyMotion> clips) {
   for (std::size_t i = 0; i < clips.size(); ++i) {
     if (clips[i].poses.empty()) throw BadInput(fmt::format("clip {}: no frames", i));
     if (clips[i].rate_hz != clips.front().rate_hz) {
-      throw BadInput(fmt::format("clip {}: {} Hz; allowed: the rate of clip 0, {} Hz", i, clips[i].rate_hz,
+      throw BadInput(fmt::format("the rate of clip {} is {} Hz; allowed: {} Hz, as in clip 0", i, clips[i].rate_hz,
                                  clips.front().rate_hz));
     }
     Checked(clips[i]);
@@ -188,7 +188,7 @@ double StandingHipsOf(const BodyPose& first) {
 void CheckBudget(double budget_s) {
   constexpr double kMaxWait_s = 3600;
   if (budget_s >= 0 && budget_s <= kMaxWait_s) return;
-  throw BadInput(fmt::format("the budget is {} s; allowed: 0 to {} s", budget_s, kMaxWait_s));
+  throw BadInput(fmt::format("the waiting time budget_s is {} s; allowed: 0 to {} s", budget_s, kMaxWait_s));
 }
 
 BodyMotion ReadMotion(std::string_view bytes, const std::string& file, double rate_hz, const ReadingOptions& options,

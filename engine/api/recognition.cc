@@ -27,7 +27,7 @@ void CheckFrame(const SensedFrame& frame) {
   for (std::size_t i = 0; i < kRoleCount; ++i) {
     for (int axis = 0; axis < 3; ++axis) {
       if (std::isfinite(frame.joints[i].position[axis])) continue;
-      throw BadInput(fmt::format("joint {}: a position that is not finite", i));
+      throw BadInput(fmt::format("the position of joint {} is not finite", i));
     }
   }
 }

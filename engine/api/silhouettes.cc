@@ -17,8 +17,8 @@ constexpr double kFittedSide = 640;  ///< longer side, pixels, of the pictures f
 /// Returns the mask with 1 for every pixel other than 0, as the fit expects.
 Mask OnesOf(const Mask& mask) {
   if (std::min(mask.width, mask.height) < 1 || std::max(mask.width, mask.height) > kMaxMaskSide) {
-    throw BadInput(
-        fmt::format("the mask has {} x {} pixels; allowed: 1 to {} each", mask.width, mask.height, kMaxMaskSide));
+    throw BadInput(fmt::format("the mask has {} x {} pixels; allowed: 1 to {} pixels on each side", mask.width,
+                               mask.height, kMaxMaskSide));
   }
   Mask made(mask.width, mask.height);
   if (mask.pixels.size() != made.pixels.size()) {
@@ -35,8 +35,8 @@ int PixelOf(const NamedCamera& camera, const Mask& mask) {
   const int pixel = mask.width > 0 ? picture.width / mask.width : 0;
   if (pixel >= 1 && picture.width == pixel * mask.width && picture.height == pixel * mask.height) return pixel;
   throw BadInput(
-      fmt::format("the mask for camera '{2}' has {0} x {1} pixels; allowed: {3} x {4}, or both sides divided by the "
-                  "same whole number",
+      fmt::format("the mask for camera '{2}' has {0} x {1} pixels; allowed: {3} x {4} pixels, or both of these numbers "
+                  "divided by the same whole number",
                   mask.width, mask.height, camera.name, picture.width, picture.height));
 }
 
@@ -44,13 +44,13 @@ std::vector<ProjectionMatrix> PinholesOf(std::span<const NamedCamera> cameras) {
   std::vector<ProjectionMatrix> matrices;
   for (const NamedCamera& camera : cameras) {
     if (!camera.camera.distortion.IsNone()) {
-      throw BadInput(fmt::format(
-          "camera '{}' has a lens with distortion; allowed: pinhole cameras, with undistorted pictures", camera.name));
+      throw BadInput(fmt::format("camera '{}' has lens distortion; allowed: pinhole cameras, with undistorted pictures",
+                                 camera.name));
     }
     const ProjectionMatrix& matrix = matrices.emplace_back(MatrixOf(camera.camera));
     for (const auto& row : matrix.h) {
       if (std::ranges::all_of(row, [](double number) { return std::isfinite(number); })) continue;
-      throw BadInput(fmt::format("camera '{}': a number that is not finite", camera.name));
+      throw BadInput(fmt::format("camera '{}' has a parameter that is not finite", camera.name));
     }
   }
   return matrices;
@@ -63,7 +63,7 @@ LimbLengths LengthsOf(const FollowOptions& options) {
   }
   Checked({.rate_hz = options.rate_hz, .poses = options.measured});
   const LimbLengths lengths = MeasureLimbLengths(options.measured);
-  if (!IsValid(lengths)) throw BadInput("measured: a limb has no length");
+  if (!IsValid(lengths)) throw BadInput("a limb of the poses in 'measured' has no length");
   return lengths;
 }
 
@@ -74,8 +74,9 @@ std::vector<std::optional<BodyPose>> TrackSilhouettes(std::span<const NamedCamer
                                                       const FollowOptions& options) {
   // Check the numbers of cameras and masks.
   if (cameras.size() < 2 || masks.size() != cameras.size()) {
-    throw BadInput(fmt::format("{} cameras, but masks of {}; allowed: two or more cameras, each with masks",
-                               cameras.size(), masks.size()));
+    throw BadInput(
+        fmt::format("found {} cameras, but masks for {} cameras; allowed: two or more cameras, each with masks",
+                    cameras.size(), masks.size()));
   }
   if (!(options.rate_hz >= 1 && options.rate_hz <= 1000)) {
     throw BadInput(fmt::format("the rate is {} Hz; allowed: 1 to 1000 Hz", options.rate_hz));
@@ -86,8 +87,10 @@ std::vector<std::optional<BodyPose>> TrackSilhouettes(std::span<const NamedCamer
   std::vector<std::vector<Silhouette>> silhouettes;
   for (std::size_t i = 0; i < cameras.size(); ++i) {
     if (masks[i].empty() || masks[i].size() != masks.front().size()) {
-      throw BadInput(fmt::format("found {} masks of one camera, but {} of the first; allowed: equal numbers, 1 or more",
-                                 masks[i].size(), masks.front().size()));
+      throw BadInput(
+          fmt::format("one camera has {} masks, but the first camera has {}; allowed: the same number for "
+                      "all cameras, at least 1",
+                      masks[i].size(), masks.front().size()));
     }
     const Intrinsics& picture = cameras[i].camera.intrinsics;
     const double scale = kFittedSide / std::max({1, picture.width, picture.height});

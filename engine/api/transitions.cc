@@ -40,7 +40,7 @@ std::vector<double> ValuesOf(const std::map<std::string, double>& told, const st
     const bool is_allowed =
         value >= found->lowest && value <= found->largest && (!found->is_whole || value == std::round(value));
     if (!is_allowed) {
-      throw BadInput(fmt::format("setting '{}' is {} for '{}'; allowed: {}{:g} to {:g}", key, value, of,
+      throw BadInput(fmt::format("setting '{}' is {} for method '{}'; allowed: {}{:g} to {:g}", key, value, of,
                                  found->is_whole ? "whole numbers from " : "", found->lowest, found->largest));
     }
     values[static_cast<std::size_t>(found - known.begin())] = value;
@@ -93,7 +93,7 @@ struct TransitionLibrary::Library {
     if (clip < 0 || clip >= count) throw BadInput(fmt::format("clip {}; allowed: 0 to {}", clip, count - 1));
     const int frames = static_cast<int>(clips.motions[clip].poses.size());
     if (frame < 0 || frame >= frames) {
-      throw BadInput(fmt::format("frame {} of clip {}; allowed: 0 to {}", frame, clip, frames - 1));
+      throw BadInput(fmt::format("found frame {} for clip {}; allowed: 0 to {}", frame, clip, frames - 1));
     }
   }
 };

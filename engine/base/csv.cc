@@ -71,7 +71,7 @@ Result<std::vector<CsvRow>> ReadCsv(std::string_view text, const std::string& fi
     rows.push_back({{}, line});
     for (bool is_last = false; !is_last;) {
       const auto cell = TakeCell(row, separator, is_last);
-      if (!cell) return Fail({file, line}, "cell {}: its quotes do not close", rows.back().cells.size() + 1);
+      if (!cell) return Fail({file, line}, "cell {} has no closing quotation mark", rows.back().cells.size() + 1);
       rows.back().cells.push_back(*cell);
     }
   }

@@ -8,8 +8,8 @@ Result<std::size_t> BoardViews::Add(std::size_t camera, const std::string& momen
   PictureSize& size = sizes_[camera];
   if (size.width == 0) size = {picture.width, picture.height};
   if (size.width != picture.width || size.height != picture.height) {
-    return Fail({}, "this picture has {} x {} pixels, but earlier pictures have {} x {}", picture.width, picture.height,
-                size.width, size.height);
+    return Fail({}, "this picture has {} x {} pixels, but earlier pictures of the same camera have {} x {}",
+                picture.width, picture.height, size.width, size.height);
   }
   const std::vector<SeenCorner> corners = printed_ ? printed_->Find(picture) : FindBoards(picture, boards_);
   std::map<std::size_t, TargetView> by_board;

@@ -15,11 +15,11 @@ constexpr const char* kModule = "etude_boards_opencv.so";  // dlopen finds it by
 Result<OpenCvBoards> OpenBoardModule() {
   void* module = ::dlopen(kModule, RTLD_NOW | RTLD_LOCAL);
   if (module == nullptr) {
-    return Fail({}, "OpenCV's board detectors are missing ({}); run scripts/setup --boards and build again",
+    return Fail({}, "OpenCV's board detectors are missing ({}); run `scripts/setup --boards` and build Etude again",
                 ::dlerror());
   }
   const void* symbol = ::dlsym(module, "etude_boards_opencv");
-  if (symbol == nullptr) return Fail({}, "{} is not a module of this program", kModule);
+  if (symbol == nullptr) return Fail({}, "{} is a module of another program or version", kModule);
   return *static_cast<const OpenCvBoards*>(symbol);
 }
 
@@ -58,8 +58,8 @@ std::optional<Result<PrintedBoard>> ReadPrintedBoard(std::string_view text) {
   const auto is_side = [&](double n) { return n == std::floor(n) && n >= min_squares && n <= kMaxPerSide; };
   if (!is_read || !is_side(numbers[0]) || !is_side(numbers[1]) || !(numbers[2] >= 0.001) || !(numbers[2] <= 10)) {
     return Result<PrintedBoard>(Fail({},
-                                     "--board {}: not a board; allowed: {} to 64 squares along each side, and a "
-                                     "square's side in metres, such as chess:9x6x0.025",
+                                     "--board {} does not describe a board; allowed: {} to 64 squares along each side, "
+                                     "and the side of a square in metres, such as chess:9x6x0.025",
                                      text, min_squares));
   }
   board.columns = static_cast<int>(numbers[0]);

@@ -32,10 +32,10 @@ Result<CameraParameters> Decompose(const ProjectionMatrix& matrix) {
   constexpr double kParallel = 1e-12;
   if (!(glm::length(n1) > kParallel * glm::length(a1)) || !(glm::length(n2) > kParallel * glm::length(a2)) ||
       !(glm::length(glm::cross(n1, n2)) > kParallel * glm::length(n1) * glm::length(n2))) {
-    return Fail({}, "the camera matrix projects the world onto one line");
+    return Fail({}, "the camera matrix projects all points onto one line");
   }
   if (!(glm::dot(a1, glm::cross(a2, a3)) > 0)) {
-    return Fail({}, "the camera matrix mirrors the picture; an axis of the world or of the pixels may be reversed");
+    return Fail({}, "the camera matrix mirrors the picture; a world axis or a pixel axis may be reversed");
   }
   // Compute intrinsics and rotation from dot and cross products of the rows.
   CameraParameters p;

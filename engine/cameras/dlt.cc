@@ -26,19 +26,20 @@ Eigen::Vector3d ToEigen(const glm::dvec3& v) { return {v.x, v.y, v.z}; }
 // Returns the reason why the pairs cannot determine a camera; nullopt if no reason is found.
 std::optional<std::string> ReasonToRefuse(std::span<const PointPair> pairs) {
   constexpr std::size_t kMinPairs = 6;
-  if (pairs.size() < kMinPairs) return fmt::format("{} point pairs; at least 6 are needed", pairs.size());
+  if (pairs.size() < kMinPairs) return fmt::format("found {} point pairs; allowed: at least 6", pairs.size());
   for (std::size_t i = 0; i < pairs.size(); ++i) {
     const PointPair& p = pairs[i];
     const double sum = p.world.x + p.world.y + p.world.z + p.pixel.x + p.pixel.y;
-    if (!std::isfinite(sum)) return fmt::format("point pair {} is not finite", i + 1);
+    if (!std::isfinite(sum)) return fmt::format("point pair {} has a coordinate that is not finite", i + 1);
   }
   // Compute the extents of the world points by principal components.
   Eigen::MatrixXd cloud(pairs.size(), 3);
   for (std::size_t i = 0; i < pairs.size(); ++i) cloud.row(i) = ToEigen(pairs[i].world).transpose();
   cloud.rowwise() -= cloud.colwise().mean().eval();
   const Eigen::Vector3d extents = Eigen::JacobiSVD<Eigen::MatrixXd>(cloud).singularValues();
-  if (!(extents[1] > kFlat * extents[0])) return "the world points lie on one line; they must fill a volume";
-  if (!(extents[2] > kFlat * extents[0])) return "the world points lie in one plane; they must fill a volume";
+  if (!(extents[1] > kFlat * extents[0])) return "the world points lie on one line; allowed: points that fill a volume";
+  if (!(extents[2] > kFlat * extents[0]))
+    return "the world points lie in one plane; allowed: points that fill a volume";
   return std::nullopt;
 }
 
@@ -111,7 +112,9 @@ Result<ProjectionMatrix> Calibrate(std::span<const PointPair> pairs, Calibration
   // The singular values of the plain system have no meaning, because that system mixes metres with squared pixels.
   const Solution normalised = SolveDlt(pairs, world, pixel);
   if (!(normalised.determined > kUndetermined)) {
-    return Fail({}, "cannot calibrate a camera: more than one camera fits these point pairs; move some of them");
+    return Fail({},
+                "cannot calibrate a camera: several different cameras fit these point pairs; measure some points "
+                "at other positions");
   }
   const Matrix34 H = calibration == Calibration::kDlt
                          ? SolveDlt(pairs, {}, {}).H
@@ -127,7 +130,8 @@ Result<ProjectionMatrix> Calibrate(std::span<const PointPair> pairs, Calibration
   }
   if (!std::isfinite(ReprojectionRms(matrix, pairs))) {
     return Fail({},
-                "cannot calibrate a camera: no camera has all these points in front of it; are the pairs mixed up?");
+                "cannot calibrate a camera: no camera fits these point pairs, because some points would be behind the "
+                "camera; are the world points paired with the right pixels?");
   }
   return matrix;
 }

@@ -52,12 +52,14 @@ Result<Distortion> DistortionOf(const OpenCvParameters& p) {
   const std::size_t count = c.size();
   if (p.is_fisheye) {
     if (count != 0 && count != 4)
-      return Fail({}, "found {} distortion coefficients of a fisheye lens; allowed: 0 or 4", count);
+      return Fail({}, "found {} distortion coefficients for a fisheye lens; allowed: 0 or 4", count);
     c.resize(4);
     return Distortion{.k1 = c[0], .k2 = c[1], .k3 = c[2], .k4 = c[3], .is_fisheye = true};
   }
   if (count != 0 && count != 4 && count != 5 && count != 8 && count != 12 && count != 14) {
-    return Fail({}, "found {} distortion coefficients; allowed: 0, 4 (k1, k2, p1, p2), 5 (and k3), 8, 12 or 14", count);
+    return Fail({},
+                "found {} distortion coefficients; allowed: 0, 4 (k1, k2, p1, p2), 5 (k1, k2, p1, p2, k3), 8, 12 or 14",
+                count);
   }
   // Coefficients that are not given are 0.
   c.resize(14);
@@ -93,19 +95,19 @@ OpenCvParameters ParametersOf(const Camera& camera) {
 
 Result<Camera> CameraOf(const OpenCvParameters& p) {
   if (!IsSide(p.width) || !IsSide(p.height)) {
-    return Fail({}, "the picture has {:g} x {:g} pixels; allowed: whole numbers of 1 to 65536", p.width, p.height);
+    return Fail({}, "the picture has {:g} x {:g} pixels; allowed: whole numbers from 1 to 65536", p.width, p.height);
   }
   const std::vector<double>& K = p.camera_matrix;
   if (K.size() != 9) return Fail({}, "the camera matrix has {} numbers; allowed: 9", K.size());
-  if (!AreFinite(p)) return Fail({}, "one of the camera's numbers is not finite");
+  if (!AreFinite(p)) return Fail({}, "a parameter of the camera is not finite");
   if (!(K[0] > 0) || !(K[4] > 0))
-    return Fail({}, "focal lengths of {:g} and {:g}; allowed: numbers above 0", K[0], K[4]);
+    return Fail({}, "the focal lengths are {:g} and {:g}; allowed: numbers above 0", K[0], K[4]);
   if (K[3] != 0 || K[6] != 0 || K[7] != 0 || K[8] != 1) {
-    return Fail({}, "the last two rows of the camera matrix must be 0 fy cy and 0 0 1");
+    return Fail({}, "the last two rows of the camera matrix must be (0, fy, cy) and (0, 0, 1)");
   }
   if (!IsRotation(p.R)) {
     return Fail({}, "R is not a rotation matrix{}",
-                IsRotation(-p.R) ? "; it mirrors: its determinant is -1; allowed: 1" : "");
+                IsRotation(-p.R) ? "; it is a reflection, with the determinant -1; allowed: the determinant 1" : "");
   }
   Camera camera;
   camera.intrinsics = {.width = static_cast<int>(p.width),

@@ -39,7 +39,7 @@ Result<std::vector<CameraPairs>> ReadCsv(std::string_view text, const std::strin
     if (line == 1) continue;  // the first line is the heading
     if (words.size() == 1 && (words[0].empty() || words[0].front() == '#')) continue;
     if (words.size() != 6 || words[0].empty()) {
-      return Fail(place, "found '{}'; allowed: a camera's name and five numbers, {}", here, kHeading);
+      return Fail(place, "found '{}'; allowed: the name of a camera and five numbers, {}", here, kHeading);
     }
     // Parse the five numbers and add the pair to its camera.
     Five values;
@@ -65,14 +65,16 @@ Result<CameraPairs> ReadCamera(const Node::Entry& entry) {
   const Node* pairs = fields.Raw("pairs");
   RETURN_IF_ERROR(fields.Finish());
   if (size.size() != 2 || size[0] != std::floor(size[0]) || size[1] != std::floor(size[1])) {
-    return Fail(entry.place, "camera {}: no valid size; allowed: size: [width, height], whole numbers of pixels",
+    return Fail(entry.place, "camera {} has no valid size; allowed: `size: [width, height]`, in whole pixels",
                 entry.key);
   }
   camera.width = static_cast<int>(size[0]);
   camera.height = static_cast<int>(size[1]);
   // Read the pairs, five numbers each.
   if (pairs == nullptr || pairs->kind != Node::Kind::kSequence) {
-    return Fail(entry.place, "camera {}: no list of pairs; allowed: pairs: [[x, y, z, u, v], ...]", entry.key);
+    return Fail(entry.place,
+                "camera {} has no list of point pairs; allowed: `pairs: [[x, y, z, u, v], ...]`",
+                entry.key);
   }
   for (const Node& item : pairs->items) {
     if (item.kind != Node::Kind::kSequence || item.items.size() != 5) {
@@ -91,8 +93,10 @@ Result<CameraPairs> ReadCamera(const Node::Entry& entry) {
 Result<std::vector<CameraPairs>> ReadYaml(std::string_view text, const std::string& file) {
   ASSIGN_OR_RETURN(const Node root, ParseYaml(text, file));
   if (root.kind != Node::Kind::kMapping) {
-    return Fail({file}, "found {}; allowed: point pairs as CSV ({}) or YAML (a mapping of cameras)", Describe(root),
-                kHeading);
+    return Fail({file},
+                "found {}; allowed: point pairs in a CSV file with the heading {}, or in a YAML file with one "
+                "key per camera",
+                Describe(root), kHeading);
   }
   std::vector<CameraPairs> cameras;
   for (const Node::Entry& entry : root.entries) {
@@ -110,7 +114,7 @@ Result<std::vector<CameraPairs>> ReadPointPairs(std::string_view text, const std
   std::erase_if(heading, [](char c) { return c == ' ' || c == '\r' || c == '\t'; });
   ASSIGN_OR_RETURN(auto cameras, heading == kHeading ? ReadCsv(text, file) : ReadYaml(text, file));
   if (cameras.empty() || cameras.size() > kMaxCameras) {
-    return Fail({file}, "point pairs of {} cameras; allowed: 1 to {}", cameras.size(), kMaxCameras);
+    return Fail({file}, "found point pairs of {} cameras; allowed: 1 to {} cameras", cameras.size(), kMaxCameras);
   }
   return cameras;
 }

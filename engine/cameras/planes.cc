@@ -88,7 +88,7 @@ class Places {
 
 Result<glm::dmat3> HomographyOf(std::span<const PointPair> pairs) {
   // Collect the points. Refuse points that determine no homography.
-  if (pairs.size() < 4) return Fail({}, "{} corners; at least 4 are needed", pairs.size());
+  if (pairs.size() < 4) return Fail({}, "found {} corners; allowed: at least 4", pairs.size());
   const auto count = static_cast<Eigen::Index>(pairs.size());
   Eigen::MatrixX2d plane(count, 2), picture(count, 2);
   for (Eigen::Index i = 0; i < count; ++i) {
@@ -96,7 +96,7 @@ Result<glm::dmat3> HomographyOf(std::span<const PointPair> pairs) {
     plane.row(i) << pair.world.x, pair.world.y;
     picture.row(i) << pair.pixel.x, pair.pixel.y;
   }
-  if (!plane.allFinite() || !picture.allFinite()) return Fail({}, "a corner's position is not finite");
+  if (!plane.allFinite() || !picture.allFinite()) return Fail({}, "the position of a corner is not finite");
   if (LieOnALine(plane) || LieOnALine(picture)) return Fail({}, "the corners lie on one line");
   // Write two equations for each pair, in normalised coordinates.
   const Matrix3d Np = Normaliser(plane), Ni = Normaliser(picture);
@@ -152,7 +152,9 @@ Result<Intrinsics> IntrinsicsFromPlanes(std::span<const glm::dmat3> homographies
   constexpr double kMaxFocal = 50;
   if (!(ab.minCoeff() > 0) || !focal.allFinite() || focal.maxCoeff() > kMaxFocal * unit) {
     return Fail(
-        {}, "all boards face the camera straight on, so the camera's focal length is not determined; tilt some boards");
+        {},
+        "all boards are parallel to the picture, so they do not determine the focal length; tilt the board in some "
+        "pictures");
   }
   return Intrinsics{width, height, focal[0], focal[1], width / 2.0, height / 2.0, 0};
 }
@@ -187,7 +189,10 @@ Result<RefinedRig> CalibrateFromPlanes(std::span<const PictureSize> sizes, std::
     for (const PlaneView& view : usable) {
       if (view.view->camera == camera) homographies.push_back(view.homography);
     }
-    if (homographies.empty()) return Fail({}, "camera {} shows no board with four corners or more", camera + 1);
+    if (homographies.empty())
+      return Fail({},
+                  "no picture of camera {} shows a board with four corners or more",
+                  camera + 1);
     const auto intrinsics = IntrinsicsFromPlanes(homographies, sizes[camera].width, sizes[camera].height);
     if (!intrinsics) return Fail({}, "camera {}: {}", camera + 1, intrinsics.error().message);
     guess.cameras.push_back({.intrinsics = *intrinsics});
@@ -210,8 +215,8 @@ Result<RefinedRig> CalibrateFromPlanes(std::span<const PictureSize> sizes, std::
     const auto& pose_CW = places.cameras_[camera];
     if (!pose_CW) {
       return Fail({},
-                  "camera {} cannot be placed: no board connects it with the earlier cameras; show a board to this "
-                  "camera and to another one at the same time",
+                  "the position of camera {} is not determined, because this camera and the cameras before it never "
+                  "see a board at the same time; show a board to both at the same time",
                   camera + 1);
     }
     guess.cameras[camera].R_CW = pose_CW->R_WT;
@@ -243,7 +248,7 @@ Result<RefinedRig> LocateBoards(std::span<const Camera> cameras, std::span<const
     }
     kept.push_back({view.camera, *as, view.pairs});
   }
-  if (kept.empty()) return Fail({}, "no board with four corners or more");
+  if (kept.empty()) return Fail({}, "found no board with four corners or more");
   return RefineRig(guess, kept, {.lens = LensModel::kAsInCamera, .hold_cameras = true});
 }
 

@@ -94,7 +94,7 @@ Result<Values> ValuesOf(const std::string& name, const Keys& keys, const std::ma
     const auto found = keys.find(key);
     if (found == keys.end()) return Fail(place, "camera {} has no {}", name, key);
     const auto numbers = NumbersOf(found->second);
-    if (!numbers) return Fail(place, "camera {}: {} is not a list of numbers: {}", name, key, found->second);
+    if (!numbers) return Fail(place, "camera {}: '{}' must be a list of numbers, found {}", name, key, found->second);
     if (count != 0 && numbers->size() != count) {
       return Fail(place, "camera {}: {} has {} numbers; allowed: {}", name, key, numbers->size(), count);
     }
@@ -115,10 +115,13 @@ Result<OpenCvParameters> ReadPlanned(const std::string& name, const Keys& keys, 
   const double fov = values["fov_deg"][0], width = values["size"][0], height = values["size"][1];
   constexpr double kMinFov = 1, kMaxFov = 170, kVertical = 1e-6;
   if (!(fov >= kMinFov && fov <= kMaxFov)) {
-    return Fail(place, "camera {}: fov_deg is {:g}; allowed: {:g} to {:g}", name, fov, kMinFov, kMaxFov);
+    return Fail(place, "camera {}: 'fov_deg' is {:g}; allowed: {:g} to {:g}", name, fov, kMinFov, kMaxFov);
   }
   if (!(glm::length(glm::cross(p_WT - p_WC, glm::dvec3(0, 1, 0))) > kVertical)) {
-    return Fail(place, "camera {}: look_at is the camera's position, or straight above or below it", name);
+    return Fail(place,
+                "camera {}: 'look_at' is at, above or below the camera's position; allowed: a point at another "
+                "horizontal position",
+                name);
   }
   const double focal = width / 2 / std::tan(Radians(fov / 2));
   const glm::dmat3 R_CW = LookAt({}, p_WC, p_WT).R_CW;
@@ -139,7 +142,7 @@ Result<OpenCvParameters> ReadCalibrated(const std::string& name, const Keys& key
   const auto& t = values["translation"];
   const auto fisheye = keys.find("fisheye");
   if (fisheye != keys.end() && fisheye->second != "true" && fisheye->second != "false") {
-    return Fail(place, "camera {}: fisheye is {}; allowed: true, false", name, fisheye->second);
+    return Fail(place, "camera {}: 'fisheye' is {}; allowed: true, false", name, fisheye->second);
   }
   const auto R = RotationOf(values["rotation"], "rotation");
   if (!R) return Fail(place, "camera {}: {}", name, R.error().message);
@@ -206,7 +209,7 @@ Result<std::vector<NamedCamera>> ReadPose2SimCalibration(std::string_view text) 
       continue;
     }
     if (equals == std::string_view::npos)
-      return Fail({{}, line, 1}, "this line is neither a table nor a key: {}", here);
+      return Fail({{}, line, 1}, "found {}; allowed: a table ([name]) or a key (name = value)", here);
     std::string& value = keys[std::string(Trimmed(here.substr(0, equals)))];
     value = Trimmed(here.substr(equals + 1));
     // A list may continue over several lines.

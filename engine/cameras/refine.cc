@@ -102,7 +102,9 @@ class Bundle {
     ceres::Solver::Summary summary;
     ceres::Solve(o, &problem_, &summary);
     if (summary.termination_type == ceres::FAILURE) {
-      return Fail({}, "in the first estimate, a camera cannot see one of its points; point pairs may be mixed up");
+      return Fail({},
+                  "in the first estimate, a point is behind the camera that saw it; are the world points paired "
+                  "with the right pixels?");
     }
     return {};
   }
@@ -270,7 +272,8 @@ class Bundle {
       return Fail({}, "the views do not determine the position of board {}", of.camera - intrinsics_.size() + 1);
     const char* const what = of.intrinsic < 0 ? "place" : kIntrinsicsNames[static_cast<std::size_t>(of.intrinsic)];
     return Fail({},
-                "camera {}: the points do not determine its {}; they must fill a volume, or the boards must be tilted",
+                "camera {}: the points do not determine the camera's {}; points must fill a volume, and boards must be "
+                "tilted",
                 of.camera + 1, what);
   }
 
@@ -292,12 +295,13 @@ Result<void> CheckViews(const RigGuess& guess, std::span<const TargetView> views
   std::vector<std::size_t> points(guess.cameras.size());
   for (const TargetView& view : views) {
     if (view.camera >= guess.cameras.size() || view.target >= guess.targets.size()) {
-      return Fail({}, "a view names a camera or board that does not exist");
+      return Fail({}, "a view refers to a camera or a board that does not exist");
     }
     points[view.camera] += view.pairs.size();
     for (const PointPair& pair : view.pairs) {
       const double sum = pair.world.x + pair.world.y + pair.world.z + pair.pixel.x + pair.pixel.y;
-      if (!std::isfinite(sum)) return Fail({}, "camera {}: a point pair is not finite", view.camera + 1);
+      if (!std::isfinite(sum))
+        return Fail({}, "camera {}: a point pair has a coordinate that is not finite", view.camera + 1);
     }
   }
   for (std::size_t i = 0; i < points.size(); ++i) {
@@ -329,7 +333,7 @@ Result<RefinedRig> RefineRig(const RigGuess& guess, std::span<const TargetView> 
   RETURN_IF_ERROR(CheckViews(guess, views));
   Bundle bundle(guess, views, options);
   if (2 * bundle.points() < bundle.parameters()) {
-    return Fail({}, "{} points give {} equations for {} unknowns; more points are needed", bundle.points(),
+    return Fail({}, "{} points give {} equations, but there are {} unknowns; more points are needed", bundle.points(),
                 2 * bundle.points(), bundle.parameters());
   }
   RETURN_IF_ERROR(bundle.Solve());
@@ -343,8 +347,8 @@ Result<RefinedRig> RefineRig(const RigGuess& guess, std::span<const TargetView> 
   AddRms(views, rig);
   if (!std::isfinite(rig.rms_px)) {
     return Fail({},
-                "the lens distortion that fits best maps several directions to the same pixel: there are too few "
-                "points, or point pairs are mixed up");
+                "the best-fitting lens distortion maps several directions to the same pixel; there may be too few "
+                "points, or world points may be paired with wrong pixels");
   }
   rig.deviations = std::move(deviations);
   return rig;

@@ -48,8 +48,8 @@ std::vector<std::string> RigDoubts(std::span<const NamedCamera> cameras) {
     const Intrinsics& in = camera.intrinsics;
     if (!HasPicture(camera) || IsInPicture(in, {in.cx, in.cy})) continue;
     doubts.push_back(
-        fmt::format("{}: the principal point ({:.0f}, {:.0f}) is outside the picture of {} x {} pixels; this is "
-                    "possible only if the picture was cropped",
+        fmt::format("{}: the principal point ({:.0f}, {:.0f}) is outside the picture of {} x {} pixels; this is right "
+                    "only if the picture was cropped",
                     name, in.cx, in.cy, in.width, in.height));
   }
   for (std::size_t i = 0; i < cameras.size(); ++i) {
@@ -60,8 +60,8 @@ std::vector<std::string> RigDoubts(std::span<const NamedCamera> cameras) {
     }
     if (has_partner) continue;
     doubts.push_back(fmt::format(
-        "{}: no other camera sees any place that this camera sees; this camera's rotation may be from camera to "
-        "world, or its axes may point right, up and backwards",
+        "{}: the field of view of this camera does not overlap with any other camera's; its rotation may be from "
+        "camera to world instead of from world to camera, or its axes may point right, up and backwards",
         cameras[i].name));
   }
   return doubts;

@@ -209,7 +209,7 @@ Result<std::vector<NamedCamera>> ReadOwnRig(const Node& root) {
   std::vector<NamedCamera> rig;
   for (const std::string& name : cameras) {
     const Node* node = root.Find(name);
-    if (node == nullptr) return Fail(names->place, "camera {} is listed, but not described below", name);
+    if (node == nullptr) return Fail(names->place, "camera {} is in the list, but the file has no entry for it", name);
     const auto camera = ReadCamera(*node, false);
     if (!camera) return Fail(camera.error().place, "camera {}: {}", name, camera.error().message);
     rig.push_back({name, *camera});
@@ -245,8 +245,8 @@ Result<RigFile> Read(std::string_view text, const std::string& file) {
     for (const char* key : {"names", "M1", "R1"}) {
       if (root.Find(key) == nullptr) continue;
       return Fail({},
-                  "this calibration needs a second file; allowed: intri.yml and extri.yml (EasyMocap), or "
-                  "intrinsics.yml and extrinsics.yml (OpenCV)");
+                  "this file has only one half of a calibration; give both files: intri.yml and extri.yml (EasyMocap), "
+                  "or intrinsics.yml and extrinsics.yml (OpenCV)");
     }
     ASSIGN_OR_RETURN(const Camera camera, ReadCamera(root, true));
     return RigFile{{{"camera", camera}}, "OpenCV's YAML"};
@@ -260,8 +260,9 @@ Result<RigFile> Read(std::string_view text, const std::string& file) {
         kYUpOfZUp};
   }
   return Fail({},
-              "not a calibration; allowed: a rig file of etude calibrate, YAML of OpenCV, TOML of Pose2Sim, Anipose, "
-              "FreeMoCap or Caliscope, XML of Qualisys, or both files of a calibration by EasyMocap, OpenCV or COLMAP");
+              "this is not a calibration; allowed: a rig file written by `etude calibrate`, YAML of OpenCV, TOML of "
+              "Pose2Sim, Anipose, FreeMoCap or Caliscope, XML of Qualisys, or both files of a calibration by "
+              "EasyMocap, OpenCV or COLMAP");
 }
 
 /// Applies the checks that all formats share.

@@ -19,8 +19,9 @@ Result<std::vector<double>> MatrixAt(const Node& camera, std::string_view key, s
   if (matrix == nullptr) return Fail(camera.place, "no {}", key);
   const Node* data = matrix->Find("data");
   if (data == nullptr || data->kind != Node::Kind::kSequence) {
-    return Fail(matrix->place, "{} is {}; allowed: a matrix of OpenCV with rows, cols, dt, data", key,
-                Describe(*matrix));
+    return Fail(matrix->place,
+                "{} is {}; allowed: a matrix as OpenCV writes it, with the keys rows, cols, dt, data",
+                key, Describe(*matrix));
   }
   std::vector<double> values;
   for (const Node& item : data->items) {
@@ -163,7 +164,9 @@ const std::map<std::string, ColmapModel, std::less<>>& ColmapModels() {
 Result<OpenCvParameters> InsideOf(const ColmapLine& line) {
   const Place place{{}, line.number, 0};
   constexpr std::size_t kBefore = 4;
-  if (line.words.size() < kBefore) return Fail(place, "not a camera; allowed: CAMERA_ID MODEL WIDTH HEIGHT PARAMS");
+  if (line.words.size() < kBefore)
+    return Fail(place,
+                "this line does not describe a camera; allowed: CAMERA_ID MODEL WIDTH HEIGHT PARAMS");
   const auto model = ColmapModels().find(line.words[1]);
   if (model == ColmapModels().end()) {
     std::string names;
@@ -177,7 +180,7 @@ Result<OpenCvParameters> InsideOf(const ColmapLine& line) {
   }
   ASSIGN_OR_RETURN(const auto n, NumbersFrom(line, 2, line.words.size(), place));
   if (n[0] == 0 || n[1] == 0) {  // unlike EasyMocap, COLMAP always knows the pictures' size
-    return Fail(place, "camera {}: a picture of {:g} x {:g} pixels; allowed: whole numbers of 1 to 65536",
+    return Fail(place, "camera {}: the picture has {:g} x {:g} pixels; allowed: whole numbers from 1 to 65536",
                 line.words[0], n[0], n[1]);
   }
   const std::size_t at = 2 + of.focal.size();
@@ -210,8 +213,8 @@ Result<void> NameCameras(std::span<const std::string> paths, std::vector<NamedCa
     return {};
   }
   return Fail(place,
-              "{} images, of which some share their name, and some their folder's name; allowed: one image for "
-              "each camera, in a file or folder with the camera's name",
+              "{} images do not have different file names or different folder names; allowed: one image for each "
+              "camera, in a file or folder named after the camera",
               paths.size());
 }
 
@@ -241,7 +244,8 @@ Result<RigFile> ReadColmap(std::string_view cameras, std::string_view images, co
     if (line.words.size() < kWords) {
       return Fail(
           place,
-          "not an image; allowed: IMAGE_ID QW QX QY QZ TX TY TZ CAMERA_ID NAME, and its points on the next line");
+          "this line does not describe an image; allowed: IMAGE_ID QW QX QY QZ TX TY TZ CAMERA_ID NAME, followed by a "
+          "line with the image's points");
     }
     // Combine the pose of the image with the intrinsics of its camera.
     const auto camera = inside.find(line.words[8]);
@@ -249,7 +253,9 @@ Result<RigFile> ReadColmap(std::string_view cameras, std::string_view images, co
     ASSIGN_OR_RETURN(const auto n, NumbersFrom(line, 1, 8, place));
     OpenCvParameters p = camera->second;
     const glm::dquat turn(n[0], n[1], n[2], n[3]);
-    if (!(glm::length(turn) > 0)) return Fail(place, "a quaternion of length 0; allowed: QW QX QY QZ of a rotation");
+    if (!(glm::length(turn) > 0))
+      return Fail(place,
+                  "the quaternion QW QX QY QZ is 0 0 0 0; allowed: a quaternion of length above 0");
     p.R = glm::mat3_cast(glm::normalize(turn));
     p.T = {n[4], n[5], n[6]};
     const Place in_cameras{{}, lines[camera->first], 0};
@@ -257,7 +263,7 @@ Result<RigFile> ReadColmap(std::string_view cameras, std::string_view images, co
     rig.cameras.push_back(std::move(named));
     paths.push_back(line.words[9]);
   }
-  if (rig.cameras.empty()) return Fail({images_file}, "no image in images.txt");
+  if (rig.cameras.empty()) return Fail({images_file}, "images.txt contains no image");
   RETURN_IF_ERROR(NameCameras(paths, rig.cameras, {images_file}));
   return rig;
 }

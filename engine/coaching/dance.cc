@@ -18,7 +18,7 @@ Result<void> CheckMotion(const std::string& title, std::string_view what, const 
     return Fail({}, "dance '{}': {} has {} frames; allowed: at least {}", title, what, motion.poses.size(), kMinFrames);
   }
   if (motion.rate_hz != kJudgedRateHz) {
-    return Fail({}, "dance '{}': {} has a rate of {} Hz; allowed: {}", title, what, motion.rate_hz, kJudgedRateHz);
+    return Fail({}, "dance '{}': {} has a rate of {} Hz; allowed: {} Hz", title, what, motion.rate_hz, kJudgedRateHz);
   }
   return {};
 }
@@ -29,12 +29,16 @@ Result<void> CheckRepetitions(const Dance& dance) {
   for (std::size_t i = 0; i < dance.repetitions.size(); ++i) {
     const Repetition& repetition = dance.repetitions[i];
     if (repetition.move < 0 || repetition.move >= static_cast<int>(dance.moves.size())) {
-      return Fail({}, "dance '{}', repetition {}: there is no move {}; moves are counted from 0, and the dance has {}",
+      return Fail({},
+                  "dance '{}', repetition {}: there is no move {}; moves are counted from 0, and the dance has {} "
+                  "moves",
                   dance.title, i, repetition.move, dance.moves.size());
     }
     if (repetition.first < free_from || repetition.end < repetition.first + kMinFrames ||
         repetition.end > dance.motion.poses.size()) {
-      return Fail({}, "dance '{}', repetition {}: frames {} to {}; allowed: at least two frames within {} to {}",
+      return Fail({},
+                  "dance '{}', repetition {}: found frames {} to {}; allowed: at least two frames in the range {} "
+                  "to {}",
                   dance.title, i, repetition.first, repetition.end, free_from, dance.motion.poses.size());
     }
     free_from = repetition.end;
@@ -46,12 +50,14 @@ Result<void> CheckTags(const Dance& dance) {
   const MusicTag* before = nullptr;
   for (const MusicTag& tag : dance.tags) {
     if (!std::isfinite(tag.music_s) || tag.frame >= dance.motion.poses.size()) {
-      return Fail({}, "dance '{}': a music-time tag at frame {}, {} s; allowed: a frame below {}, and a finite time",
+      return Fail({}, "dance '{}': a music-time tag has frame {} and {} s; allowed: a frame below {} and a finite time",
                   dance.title, tag.frame, tag.music_s, dance.motion.poses.size());
     }
     if (before != nullptr && (tag.frame <= before->frame || tag.music_s <= before->music_s)) {
-      return Fail({}, "dance '{}': music-time tags must ascend; frame {}, {} s comes after frame {}, {} s", dance.title,
-                  tag.frame, tag.music_s, before->frame, before->music_s);
+      return Fail({},
+                  "dance '{}': found the music-time tag (frame {}, {} s) after the tag (frame {}, {} s); allowed: "
+                  "increasing frames and times",
+                  dance.title, tag.frame, tag.music_s, before->frame, before->music_s);
     }
     before = &tag;
   }

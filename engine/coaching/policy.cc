@@ -16,7 +16,7 @@ struct AfterOptions {
 const SettingTable<AfterOptions>& AfterSettings() {
   static const SettingTable<AfterOptions> table({
       {"mistakes", &AfterOptions::mistakes, 1, 100,
-       "Number of successive mistakes in a move after which the coach corrects it."},
+       "Number of successive mistakes in one move after which the coach corrects the player."},
   });
   return table;
 }
@@ -27,7 +27,7 @@ struct ConfidenceOptions {
 const SettingTable<ConfidenceOptions>& ConfidenceSettings() {
   static const SettingTable<ConfidenceOptions> table({
       {"sure_below", &ConfidenceOptions::sure_below, 0, 1,
-       "Corrects if the evidence stays below this share of what counts as right."},
+       "The coach corrects the player if the evidence is below this fraction of the evidence that counts as right."},
   });
   return table;
 }
@@ -38,7 +38,7 @@ struct FadingOptions {
 const SettingTable<FadingOptions>& FadingSettings() {
   static const SettingTable<FadingOptions> table({
       {"mistakes_per_correction", &FadingOptions::mistakes_per_correction, 0, 10,
-       "For every correction of the move so far, this many more successive mistakes are not corrected."},
+       "Number of further successive mistakes that the coach tolerates for each earlier correction of the same move."},
   });
   return table;
 }
@@ -46,7 +46,8 @@ const SettingTable<FadingOptions>& FadingSettings() {
 PolicyDecision AfterMistakes(const PolicyInput& input, int wanted) {
   if (input.verdict != WindowVerdict::kWrong) return {false, "no mistake"};
   const int found = input.move.mistakes_in_row;
-  return {found >= wanted, fmt::format("{} mistakes in a row in this move; corrects after {}", found, wanted)};
+  return {found >= wanted,
+          fmt::format("{} successive mistakes in this move; the coach corrects after {}", found, wanted)};
 }
 
 PolicyDecision Never(const PolicyInput& /*input*/, Values /*values*/) { return {false, "never corrects"}; }
@@ -61,7 +62,8 @@ PolicyDecision Confident(const PolicyInput& input, Values values) {
   if (input.verdict != WindowVerdict::kWrong) return {false, "no mistake"};
   const double sure = ConfidenceSettings().Apply(values).sure_below * input.right_from;
   return {input.evidence < sure || input.evidence == 0,
-          fmt::format("evidence {:.2f} that it was right; below {:.2f} a mistake is certain", input.evidence, sure)};
+          fmt::format("the evidence for a right move is {:.2f}; a mistake counts as certain below {:.2f}",
+                      input.evidence, sure)};
 }
 
 PolicyDecision Fading(const PolicyInput& input, Values values) {
@@ -70,7 +72,7 @@ PolicyDecision Fading(const PolicyInput& input, Values values) {
 }
 
 PolicyDecision AtMoments(const PolicyInput& /*input*/, Values /*values*/) {
-  return {false, "corrects only at given moments"};
+  return {false, "the coach corrects only at given moments"};
 }
 
 }  // namespace
@@ -79,11 +81,9 @@ std::span<const Policy> AllPolicies() {
   // The policies that need only the recogniser's evidence, then the two for experiments: `oracle` and `yoked`.
   static const std::vector<Policy> policies = {
       {.name = "at-first-mistake", .description = "corrects every mistake (paper A)", .decide = AtFirst},
-      {.name = "never",
-       .description = "never corrects: the dance continues, whatever the player does",
-       .decide = Never},
+      {.name = "never", .description = "never corrects the player; the dance always continues", .decide = Never},
       {.name = "after-n",
-       .description = "corrects after several successive mistakes in a move",
+       .description = "corrects after several successive mistakes in one move",
        .settings = AfterSettings().Describe(),
        .decide = AfterN},
       {.name = "confidence",
@@ -91,16 +91,17 @@ std::span<const Policy> AllPolicies() {
        .settings = ConfidenceSettings().Describe(),
        .decide = Confident},
       {.name = "fading",
-       .description = "corrects less and less: after every correction of a move, more mistakes are left uncorrected",
+       .description = "corrects less and less often: each correction of a move raises the number of mistakes that the "
+                      "next correction needs",
        .settings = FadingSettings().Describe(),
        .decide = Fading},
       {.name = "oracle",
-       .description = "knows the truth: corrects every mistake, and nothing else",
+       .description = "knows which performances are right, and corrects every mistake and nothing else",
        .asks_truth = true,
        .decide = AtFirst},
       {.name = "yoked",
-       .description = "tests what the timing is worth: corrects at the moments of another person's session, whatever "
-                      "its player does",
+       .description = "control for the timing of corrections: corrects at the times at which another person's session "
+                      "was corrected, whatever the player does",
        .takes_moments = true,
        .decide = AtMoments},
   };

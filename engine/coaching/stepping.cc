@@ -294,7 +294,7 @@ void Stepping::FollowMusic(double dance_frame) {
           RateToTag(dance_, state_.next_tag, dance_frame, *input_.music_s, options_.slowest, options_.fastest);
     }
     CoachRecord& record =
-        Note(CoachEvent::kTag, fmt::format("the dance is {:.0f} ms {}; it continues {:.3f} times as fast",
+        Note(CoachEvent::kTag, fmt::format("the dance is {:.0f} ms {}; it continues at {:.3f} times the recorded speed",
                                            1000 * std::abs(error_s), error_s > 0 ? "late" : "early", state_.rate));
     record.tag = tag;
     record.beat_error_s = error_s;

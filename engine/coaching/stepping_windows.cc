@@ -87,10 +87,11 @@ void Stepping::Remember(WindowVerdict verdict) {
   if (verdict == WindowVerdict::kUnknown) {
     note(CoachEvent::kUnjudged, fmt::format("seen in {} of {} frames", state_.stillness.seen, state_.stillness.frames));
   } else if (verdict == WindowVerdict::kRight) {
-    note(CoachEvent::kRight, fmt::format("evidence {:.2f}; at least {:.2f} is right", evidence, options_.right_from));
+    note(CoachEvent::kRight,
+         fmt::format("evidence {:.2f}; a move counts as right from {:.2f} on", evidence, options_.right_from));
     if (state_.correcting == window.repetition) state_.corrections_here = 0;
     if (!was_wrong) return;
-    note(CoachEvent::kPraises, "right, after a mistake in this move");
+    note(CoachEvent::kPraises, "the player is right after a mistake in this move");
     Say("Well done!", kWordsSeconds);
   }
 }
@@ -114,10 +115,10 @@ void Stepping::AnswerMistake(Mistake mistake) {
   const OpenWindow window = *state_.open;
   const double evidence = input_.evidence.asked;
   // Record the mistake.
-  CoachRecord& record =
-      Note(CoachEvent::kWrong,
-           fmt::format("{}: evidence {:.2f} (at least {:.2f} is right); moved in {} of {} frames", MistakeName(mistake),
-                       evidence, options_.right_from, state_.stillness.moving, state_.stillness.seen));
+  CoachRecord& record = Note(
+      CoachEvent::kWrong,
+      fmt::format("{}: evidence {:.2f} (right from {:.2f} on); the player moved in {} of {} frames",
+                  MistakeName(mistake), evidence, options_.right_from, state_.stillness.moving, state_.stillness.seen));
   record.repetition = window.repetition;
   record.move = window.move;
   record.mistake = mistake;

@@ -49,7 +49,7 @@ Result<void> CheckControls(std::string_view text, const Place& place) {
     const auto byte = static_cast<unsigned char>(text[at]);
     const bool is_c1 = byte == 0xc2 && at + 1 < text.size() && static_cast<unsigned char>(text[at + 1]) < 0xa0;
     if ((byte >= ' ' && byte != 0x7f && !is_c1) || byte == '\n' || byte == '\t') continue;
-    return Fail(place, "holds the control character U+{:04X}; allowed: text, tabs and line ends",
+    return Fail(place, "found the control character U+{:04X}; allowed: text, tabs and line ends",
                 is_c1 ? static_cast<unsigned char>(text[at + 1]) : byte);
   }
   return {};
@@ -67,7 +67,7 @@ Result<void> CheckLineEnds(std::string_view text, const std::string& file) {
     }
     if (text[at] == '\r' && text.substr(at + 1, 1) != "\n") {
       return Fail({file, line, static_cast<int>(at - start) + 1},
-                  "a carriage return without a line feed; allowed: lines that end in \\n or \\r\\n");
+                  "found a carriage return without a line feed; allowed: lines that end in \\n or \\r\\n");
     }
   }
   return {};
@@ -176,10 +176,10 @@ Result<Node> ParseYaml(std::string_view text, const std::string& file, std::size
     YAML::Parser parser(events);
     parser.HandleNextDocument(survey);
     if (!survey.alias.is_null())
-      return Fail(builder.At(survey.alias), "aliases (*name) are not supported; write the value out");
+      return Fail(builder.At(survey.alias), "aliases (*name) are not supported; write the value itself");
     if (survey.values > kMaxValues)
       return Fail(whole, "found {} values; allowed: at most {}", survey.values, kMaxValues);
-    if (parser.HandleNextDocument(survey)) return Fail(whole, "more than one document (---); allowed: one");
+    if (parser.HandleNextDocument(survey)) return Fail(whole, "found more than one YAML document (---); allowed: one");
     return builder.Build(YAML::Load(std::string(text)), 0);
   } catch (const YAML::Exception& error) {
     return Fail(builder.At(error.mark), "not valid YAML: {}", error.msg);

@@ -76,7 +76,9 @@ class SkeletonReader {
       if (!read) return tl::unexpected(read.error());
       has_line = *read;
     }
-    if (bones_.size() < 2) return Fail({file_}, "no bones; allowed: an Acclaim skeleton with :root and :bonedata");
+    if (bones_.size() < 2)
+      return Fail({file_},
+                  "found no bones; allowed: an Acclaim skeleton with :root and :bonedata");
     return Assemble();
   }
 
@@ -168,7 +170,7 @@ class SkeletonReader {
     }
     // Check and store the bone.
     if (bone.name.empty()) return Fail(place, "a bone without a name");
-    if (FindBone(bone.name)) return Fail(place, "the bone {} appears twice here", Quote(bone.name));
+    if (FindBone(bone.name)) return Fail(place, "found the bone {} twice; allowed: once", Quote(bone.name));
     if (bones_.size() > kMaxBones) return Fail(place, "more than {} bones", kMaxBones);
     bone.end = direction * length;
     bones_.push_back(std::move(bone));
@@ -179,7 +181,7 @@ class SkeletonReader {
     while (lines_.Next()) {
       if (lines_.IsSection()) return true;
       if (!lines_.Is("begin"))
-        return Fail(lines_.At(), "found {}; allowed: 'begin', then the properties of a bone", Found());
+        return Fail(lines_.At(), "found {}; allowed: 'begin', followed by the properties of a bone", Found());
       RETURN_IF_ERROR(ReadBone());
     }
     return false;
@@ -242,7 +244,7 @@ class SkeletonReader {
     if (joint_of.size() == bones_.size()) return made;
     const auto lost =
         std::ranges::find_if(bones_, [&](const AcclaimBone& bone) { return !joint_of.contains(*FindBone(bone.name)); });
-    return Fail({file_}, "the bone {} has no parent; allowed: a :hierarchy that leads from the root to every bone",
+    return Fail({file_}, "the bone {} has no parent; allowed: a :hierarchy that connects every bone to the root",
                 Quote(lost->name));
   }
 
@@ -298,7 +300,7 @@ Result<AcclaimSkeleton> ReadAcclaimSkeleton(std::string_view text, const std::st
   read = SkeletonReader(text, file, true).Read();
   if (read) {
     read->remark =
-        "the skeleton's angles are taken as degrees, although its file states radians: as radians they would exceed 4π";
+        "the skeleton file states radians, but Etude reads its angles as degrees, because some angles exceed 4π";
   }
   return read;
 }
@@ -349,7 +351,8 @@ Result<AcclaimFrames> ReadFrames(std::string_view text, const AcclaimSkeleton& s
     } else if (lines.words.size() == 1 && !joint_of.contains(lines.words.front().text)) {
       ASSIGN_OR_RETURN(const double number, lines.Number(0));
       if (!clip.frames.empty() && number != last + 1) {
-        return Fail(lines.At(), "found frame {} after frame {}; allowed: numbers that increase by 1", number, last);
+        return Fail(lines.At(), "found frame {} after frame {}; allowed: frame numbers that increase by 1", number,
+                    last);
       }
       last = number;
       // A frame takes the memory of all bones even if the file leaves some out, so limit the memory.
@@ -369,8 +372,8 @@ Result<AcclaimFrames> ReadFrames(std::string_view text, const AcclaimSkeleton& s
       if (clip.frames.empty()) return Fail(lines.At(), "found a bone before the number of the first frame");
       if (++counts[joint->second] != clip.frames.size()) {
         return Fail(lines.At(),
-                    "bone {} is twice in this frame, or missing in an earlier frame; allowed: once in "
-                    "each frame",
+                    "bone {} appears twice in this frame, or is missing in an earlier frame; allowed: each bone once "
+                    "in each frame",
                     Quote(joint->first));
       }
       ASSIGN_OR_RETURN(
@@ -381,7 +384,10 @@ Result<AcclaimFrames> ReadFrames(std::string_view text, const AcclaimSkeleton& s
   if (clip.frames.empty()) return Fail({file}, "no frames");
   for (const auto& [name, joint] : joint_of) {
     if (counts[joint] == clip.frames.size() || skeleton.channels[joint].empty()) continue;
-    if (counts[joint] > 0) return Fail({file}, "bone {} is missing in the last frames", Quote(name));
+    if (counts[joint] > 0)
+      return Fail({file},
+                  "bone {} is missing in the last frame or frames; allowed: each bone once in each frame",
+                  Quote(name));
     read.still.push_back(name);
   }
   return read;
@@ -397,22 +403,23 @@ Result<Clip> ReadAcclaimMotion(std::string_view text, const AcclaimSkeleton& ske
   const double largest = std::max(read.of_root, read.of_bones);
   if (!read.in_degrees && read.of_bones > kMaxRadians) {
     remark = fmt::format(
-        "its angles are taken as degrees, although the file states radians: as radians they would reach {:.4g}",
-        largest);
+        "the file states radians, but Etude reads its angles as degrees, because the largest is {:.4g}", largest);
     ASSIGN_OR_RETURN(read, ReadFrames(text, skeleton, file, true));
   } else if (!read.in_degrees && read.of_root > kMaxRadians) {
     // A body that keeps turning in one direction can rotate its root by any angle, so the unit is not changed.
-    remark =
-        fmt::format("its root turns by {:.4g} radians; if its angles are degrees, add a line :DEGREES", read.of_root);
+    remark = fmt::format(
+        "the root turns by {:.4g} radians; if the file's angles are degrees, add the line :DEGREES to the file",
+        read.of_root);
   } else if (read.in_degrees && largest > kMinDegrees && largest <= 2 * kPi) {
-    remark = fmt::format("its angles stay within {:.2g} degrees; if they are radians, add a line :RADIANS", largest);
+    remark = fmt::format(
+        "no angle is larger than {:.2g} degrees; if the file's angles are radians, add the line :RADIANS to the file",
+        largest);
   }
   if (facts == nullptr) return std::move(read.clip);
   facts->has_rate = read.has_rate;
   std::vector<std::string>& remarks = facts->remarks;
   if (!read.still.empty()) {
-    remarks.push_back(fmt::format("these bones have no values in any frame and keep their rest pose: {}",
-                                  fmt::join(read.still, ", ")));
+    remarks.push_back(fmt::format("bones without values, which keep their rest pose: {}", fmt::join(read.still, ", ")));
   }
   if (!read.unknown.empty()) remarks.push_back(fmt::format("not used: {}", fmt::join(read.unknown, ", ")));
   if (!skeleton.remark.empty()) remarks.push_back(skeleton.remark);

@@ -91,16 +91,16 @@ Result<Clip> ReadAmass(const Npz& npz, const std::string& file, std::optional<do
   for (const std::string& name : npz.skipped) names.push_back(name + " (no plain numbers)");
   if ((width != 72 && width != 156 && width != 165) || WidthOf(places) != 3) {
     return Fail({file},
-                "found the arrays {}; allowed: AMASS's poses (frames × 72, 156 or 165), trans (frames × 3) and "
-                "mocap_framerate or mocap_frame_rate, or Kimodo's posed_joints and global_rot_mats; write positions of "
-                "joints into a .npy file",
+                "found the arrays {}; allowed: the arrays of AMASS (poses, frames × 72, 156 or 165; trans, frames × 3; "
+                "mocap_framerate or mocap_frame_rate) or of Kimodo (posed_joints, global_rot_mats); save joint "
+                "positions as a .npy file",
                 names.empty() ? "none" : Join(names));
   }
   // Check frames, rate and values.
   const std::size_t frames = poses->shape[0];
   if (frames == 0) return Fail({file}, "no frames");
   if (places->shape[0] != frames) {
-    return Fail({file}, "trans has {} frames; poses has {}", places->shape[0], frames);
+    return Fail({file}, "the array trans has {} frames, but the array poses has {}", places->shape[0], frames);
   }
   std::optional<double> stated_hz = told_hz;
   if (!told_hz) {
@@ -109,8 +109,9 @@ Result<Clip> ReadAmass(const Npz& npz, const std::string& file, std::optional<do
     if (remarks != nullptr && !remark.empty()) remarks->push_back(remark);
     if (!stated_hz) {
       return Fail({file},
-                  "states no frame rate (its arrays: {}); allowed: mocap_framerate or mocap_frame_rate, a number of "
-                  "frames per second, or `--rate` (in convert `--file-rate`, in a joint map `rate: 60`)",
+                  "the file states no frame rate (its arrays: {}); allowed: the array mocap_framerate or "
+                  "mocap_frame_rate with the frames per second, or `--rate` (for `etude clip convert`: `--file-rate`; "
+                  "in a joint map: `rate: 60`)",
                   Join(names));
     }
   }
@@ -122,8 +123,8 @@ Result<Clip> ReadAmass(const Npz& npz, const std::string& file, std::optional<do
   for (const NumberArray* array : {poses, places}) {
     for (std::size_t i = 0; i < array->values.size(); ++i) {
       if (std::abs(array->values[i]) <= kMaxValue) continue;
-      return Fail({file}, "{} of frame {} is {}; allowed: numbers within ±10⁶", array == poses ? "poses" : "trans",
-                  i / WidthOf(array), array->values[i]);
+      return Fail({file}, "array {}, frame {}: found {}; allowed: numbers within ±10⁶",
+                  array == poses ? "poses" : "trans", i / WidthOf(array), array->values[i]);
     }
   }
   // A larger angle shows that rotations are in degrees instead of radians.
@@ -134,8 +135,8 @@ Result<Clip> ReadAmass(const Npz& npz, const std::string& file, std::optional<do
       const double angle = glm::length(glm::dvec3(turn[0], turn[1], turn[2]));
       if (angle <= kMaxAngle) continue;
       return Fail({file},
-                  "poses of frame {} rotates {} by {:.4g} radians; allowed: at most 12.57 (4π); are the values "
-                  "degrees?",
+                  "in frame {}, the array poses rotates {} by {:.4g} radians; allowed: at most 12.57 (4π); are the "
+                  "values degrees?",
                   t, kSmpl[joint].name, angle);
     }
   }

@@ -19,8 +19,9 @@ Result<ArrayClock> ClockOfArrays(const Npz& arrays, std::size_t frames, const st
       return clock;
     }
     if (times->shape.size() != 1 || times->values.size() < 2 || std::string_view(name) == "t") continue;
-    return Fail({file}, "{} has {} values, and positions have {} frames; allowed: one time for each frame", name,
-                times->values.size(), frames);
+    return Fail({file},
+                "the array {} has {} values, but the positions have {} frames; allowed: one time for each frame",
+                name, times->values.size(), frames);
   }
   return clock;
 }
@@ -42,7 +43,9 @@ Result<MarkerMotion> LayOnClock(MarkerMotion markers, ArrayClock clock, const st
                   .time_name = "the array " + clock.time_name};
   ASSIGN_OR_RETURN(markers, LayOnClock(std::move(rows), file));
   if (!clock.rate && !markers.start_s) {
-    return Fail({file}, "all times in {} are equal; allowed: different times in seconds, or rate_hz", clock.time_name);
+    return Fail({file},
+                "all times in the array {} are equal; allowed: different times in seconds, or the rate as rate_hz",
+                clock.time_name);
   }
   return markers;
 }
@@ -58,8 +61,9 @@ Result<std::optional<double>> EvenRateOf(const Npz& arrays, std::size_t frames, 
   ASSIGN_OR_RETURN(numbers, LayOnClock(std::move(numbers), clock, file));
   remark = numbers.remark;
   if (numbers.frames == unchanged) return std::optional(numbers.rate_hz);
-  return Fail({file}, "{}: {}; allowed: times at even steps, or `--rate` (in convert `--file-rate`)", clock.time_name,
-              remark);
+  return Fail({file},
+              "{}: {}; allowed: evenly spaced times, or `--rate` (for `etude clip convert`: `--file-rate`)",
+              clock.time_name, remark);
 }
 
 }  // namespace etude

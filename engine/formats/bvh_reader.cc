@@ -117,7 +117,7 @@ class HierarchyReader {
         has_children = true;
         ok = ReadEndSite(index, token, depth + 1);
       } else {
-        return Unexpected(token, "OFFSET and CHANNELS (once each, before any child), JOINT, End Site or '}'");
+        return Unexpected(token, "OFFSET or CHANNELS (each once, before any child), JOINT, End Site or '}'");
       }
       if (!ok) return ok;
     }
@@ -148,7 +148,7 @@ class HierarchyReader {
 
   Result<void> ReadOffset(int joint) {
     for (int axis = 0; axis < 3; ++axis) {
-      ASSIGN_OR_RETURN(auto value, scanner_.Number(scanner_.Next(), "one of an OFFSET's three numbers"));
+      ASSIGN_OR_RETURN(auto value, scanner_.Number(scanner_.Next(), "one of the three numbers of an OFFSET"));
       hierarchy_.skeleton.joints[joint].rest.translation[axis] = value;
     }
     return {};
@@ -226,8 +226,9 @@ std::string DescribeRoughTime(const Token& printed, double seconds, double frame
   const double longer_s = likely == 0 ? 0 : frames * (1 / likely - seconds);
   if (std::abs(longer_s) * likely < 0.5) return "";
   return fmt::format(
-      "the Frame Time {} has few digits: it is read as {:.6g} Hz, but may be a rounded 1 / {:.6g} s; at {:.6g} Hz "
-      "the {:g} frames last {:.2g} s {}; `--rate {:.6g}` (in convert `--file-rate`) sets this rate",
+      "the Frame Time {} has few digits. Etude reads it as {:.6g} Hz, but it may be 1 / {:.6g} s, rounded. At {:.6g} "
+      "Hz the {:g} frames would last {:.2g} s {}. Use `--rate {:.6g}` (for `etude clip convert`: `--file-rate`) to set "
+      "this rate",
       printed.text, rate, likely, likely, frames, std::abs(longer_s), longer_s > 0 ? "longer" : "shorter", likely);
 }
 
@@ -247,7 +248,8 @@ Result<MotionHeader> ReadMotionHeader(TextScanner& scanner, std::size_t joints) 
   const Token count_token = scanner.Next();
   ASSIGN_OR_RETURN(auto count, scanner.Number(count_token, "the number of frames"));
   if (count < 1 || count != std::floor(count)) {
-    return Fail(scanner.At(count_token), "found {} frames; allowed: a whole number from 1", Quote(count_token.text));
+    return Fail(scanner.At(count_token), "found {} frames; allowed: a whole number of 1 or more",
+                Quote(count_token.text));
   }
   // Check the announced size before any frame is stored, so that a false size cannot exhaust the memory.
   const double bytes = count * static_cast<double>(joints * sizeof(LocalTransform));
@@ -316,7 +318,7 @@ Result<void> ReadFrame(TextScanner& scanner, const std::vector<BvhChannel>& chan
     Apply(channels[i], value, pose[channels[i].joint]);
   }
   if (const Token extra = scanner.NextInLine(); !extra.text.empty()) {
-    return Fail(scanner.At(extra), "frame {} continues with {} after its {} numbers, one for each channel", number,
+    return Fail(scanner.At(extra), "frame {} has {} after its {} numbers; allowed: one number for each channel", number,
                 Quote(extra.text), channels.size());
   }
   return {};
@@ -402,7 +404,7 @@ Result<Clip> ReadBvh(std::string_view bytes, const std::string& file, std::vecto
   const auto announced = static_cast<std::size_t>(header.frame_count);
   while (scanner.SkipToText()) {
     if (clip.frames.size() > announced) {
-      return Fail(scanner.At(scanner.Next()), "more lines than the {} frames announced on line {}", announced,
+      return Fail(scanner.At(scanner.Next()), "found more rows than the {} frames that line {} states", announced,
                   header.frames_place.line);
     }
     clip.frames.push_back(rest);
@@ -415,30 +417,30 @@ Result<Clip> ReadBvh(std::string_view bytes, const std::string& file, std::vecto
   // Exporters that announce the number of their last frame write one frame more; drop it, as other readers do.
   if (clip.frames.size() == announced + 1) {
     clip.frames.pop_back();
-    remark(
-        fmt::format("{} rows, but the file announces {} frames: the last row was dropped", announced + 1, announced));
+    remark(fmt::format("found {} rows, but the file states {} frames, so the last row is left out", announced + 1,
+                       announced));
   }
   if (clip.frames.size() != announced) {
-    return Fail(scanner.At(header.frames_place), "the file announces {} frames, but contains {}", announced,
+    return Fail(scanner.At(header.frames_place), "the file states {} frames, but contains {}", announced,
                 clip.frames.size());
   }
   if (AreRelativeToOffsets(clip.skeleton, hierarchy.channels, clip.frames)) {
     AddOffsets(hierarchy.channels, clip);
-    remark("the joints' positions are relative to their OFFSETs, which were added");
+    remark("the position channels are relative to the OFFSETs, so Etude added the OFFSETs");
   }
   // If all angles are small numbers, they may be radians that were read as degrees.
   constexpr double kMaxRadians = 6.2832, kMoves = 1.2;
   if (const double largest = LargestRotation(clip.frames); largest > kMoves && largest < kMaxRadians) {
     remark(
-        fmt::format("no joint rotates by more than {:.2g} degrees; BVH needs degrees: if the file's angles are "
-                    "radians, convert them",
+        fmt::format("no joint rotates by more than {:.2g} degrees; if the file's angles are radians, convert them to "
+                    "degrees, as BVH requires",
                     largest));
   }
   // A joint with positions and an OFFSET of 0 rests at its position in the first frame. This is usual for our own
   // bodies, so they get no remark.
   const bool is_body = std::ranges::none_of(clip.skeleton.joints, [](const Joint& j) { return !FindRole(j.name); });
   if (TakeOffsetsFromFrame(clip.frames.front(), clip.skeleton) && !is_body)
-    remark("joints with positions and an OFFSET of 0 take their rest positions from the first frame");
+    remark("joints with position channels and an OFFSET of 0 get their rest positions from the first frame");
   return clip;
 }
 

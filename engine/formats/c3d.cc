@@ -151,7 +151,7 @@ Result<C3d> ReadC3d(std::string_view bytes, const std::string& file) {
   const std::size_t parameters_at = (static_cast<unsigned char>(bytes[0]) - std::size_t{1}) * kC3dBlock;
   const unsigned machine = C3dBytes(bytes, C3dMachine::kIntel).Byte(parameters_at + 3);
   if (machine < 84 || machine > 86) {
-    return Fail({file}, "written by processor type {}; allowed: 84 (Intel), 85 (DEC), 86 (MIPS)", machine);
+    return Fail({file}, "the processor type is {}; allowed: 84 (Intel), 85 (DEC), 86 (MIPS)", machine);
   }
   const C3dBytes all(bytes, static_cast<C3dMachine>(machine));
   const C3dParameters parameters(all, parameters_at);
@@ -160,7 +160,9 @@ Result<C3d> ReadC3d(std::string_view bytes, const std::string& file) {
   Layout layout{.points = static_cast<std::size_t>(parameters.Number("POINT:USED").value_or(all.Word(2)))};
   const double scale = parameters.Number("POINT:SCALE").value_or(all.Float(12));
   const double rate = parameters.Number("POINT:RATE").value_or(all.Float(20));
-  if (layout.points == 0) return Fail({file}, "contains no points (rotations and analogue channels are not read)");
+  if (layout.points == 0)
+    return Fail({file},
+                "the file contains no points (Etude does not read rotations and analogue channels)");
   if (layout.points > kMaxPoints)
     return Fail({file}, "found {} points; allowed: at most {}", layout.points, kMaxPoints);
   if (!(rate > 0 && rate < kMaxValue)) return Fail({file}, "the rate is {} Hz; allowed: above 0", rate);
@@ -185,7 +187,7 @@ Result<C3d> ReadC3d(std::string_view bytes, const std::string& file) {
   constexpr double kSameRate = 0.01;
   if (const double header_hz = all.Float(20); header_hz > 0 && std::abs(header_hz / rate - 1) > kSameRate) {
     read.markers.remark =
-        fmt::format("POINT:RATE states {:g} Hz, which is used; the header states {:g} Hz", rate, header_hz);
+        fmt::format("POINT:RATE states {:g} Hz, but the header states {:g} Hz; Etude uses POINT:RATE", rate, header_hz);
   }
   read.markers.sizes_m = BodySizes(parameters);
 
@@ -195,7 +197,9 @@ Result<C3d> ReadC3d(std::string_view bytes, const std::string& file) {
   for (std::size_t point = 0; point < layout.points; ++point) {
     if (!others.contains(read.markers.names[point])) kept.push_back(point);
   }
-  if (kept.empty()) return Fail({file}, "contains no points (angles, forces and analogue channels are not read)");
+  if (kept.empty())
+    return Fail({file},
+                "the file contains no points (Etude does not read angles, forces and analogue channels)");
   std::vector<std::string> names;
   for (const std::size_t point : kept) names.push_back(std::move(read.markers.names[point]));
   read.markers.names = std::move(names);
@@ -206,9 +210,9 @@ Result<C3d> ReadC3d(std::string_view bytes, const std::string& file) {
   layout.frame_bytes = (4 * layout.points + all.Word(4)) * (layout.has_floats ? 4 : 2);
   const FrameCount count = CountFrames(all, parameters);
   const auto frames = static_cast<std::size_t>(count.frames >= 1 && count.frames <= kMaxC3dFrames ? count.frames : 0);
-  if (frames == 0) return Fail({file}, "its header states 0 frames, or more than the allowed 10⁷");
+  if (frames == 0) return Fail({file}, "the header states 0 frames or more than 10⁷; allowed: 1 to 10⁷ frames");
   const std::size_t there = bytes.size() > layout.begin ? (bytes.size() - layout.begin) / layout.frame_bytes : 0;
-  if (there < frames) return Fail({file}, "is cut short: it contains {} of {} frames", there, frames);
+  if (there < frames) return Fail({file}, "the file ends too early: it contains {} of {} frames", there, frames);
   // Read the points.
   read.markers.frames.reserve(frames);
   for (std::size_t frame = 0; frame < frames; ++frame) {
@@ -230,12 +234,14 @@ Result<C3d> ReadC3d(std::string_view bytes, const std::string& file) {
     read.markers.remark += (read.markers.remark.empty() ? "" : "; ") + text;
   };
   if (count.other > 0) {
-    remark(fmt::format("{} states {} frames, which is used; {} states {:g}; the file holds {}", count.by, frames,
-                       count.other_by, count.other, frames + more));
+    remark(
+        fmt::format("{} states {} frames, but {} states {:g} and the file contains {}; Etude uses the first number",
+                    count.by, frames, count.other_by, count.other, frames + more));
   }
   if (has_more) {
-    remark(fmt::format("data of {} more frames follow the {} that {} states; they were not read", more, frames,
-                       count.by));
+    remark(
+        fmt::format("the file contains {} frames more than the {} that {} states; Etude did not read them",
+                    more, frames, count.by));
   }
   return read;
 }

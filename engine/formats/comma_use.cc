@@ -37,9 +37,9 @@ Result<void> CommaUse::Check(const std::string& file) const {
   const bool is_mixed = std::ranges::any_of(columns_, [](Column one) { return one.has_comma && one.has_short; });
   if (!first_ || has_decimal_comma_ || (pointed_.empty() && !is_mixed)) return {};
   return Fail({file, first_->line, first_->character},
-              "value {}: {} has a thousands separator{}; allowed: numbers without one, e.g. 1234.5", first_->column + 1,
-              Quote(first_->number),
-              pointed_.empty() ? "" : ", because other numbers have a decimal point, as " + pointed_);
+              "value {}: {} has a thousands separator{}; allowed: numbers without thousands separators, such as 1234.5",
+              first_->column + 1, Quote(first_->number),
+              pointed_.empty() ? "" : ", because other numbers have a decimal point, such as " + pointed_);
 }
 
 }  // namespace etude

@@ -68,7 +68,7 @@ Result<Numbers> ReadNumbers(const Json& frame, std::size_t index, const std::str
   constexpr double kMaxNumber = 1e9;
   const Place place{file, 0, 0};
   if (!frame.is_array() || frame.size() != kNumbers) {
-    return Fail(place, "Frames[{}] has {} numbers; allowed: {}, as for the character humanoid3d", index,
+    return Fail(place, "Frames[{}] has {} numbers; allowed: {}, the number for DeepMimic's character humanoid3d", index,
                 frame.is_array() ? frame.size() : 0, kNumbers);
   }
   Numbers numbers{};
@@ -116,11 +116,11 @@ Result<Clip> ReadFrames(const Json& frames, const std::string& file) {
     if (i == 0) {
       duration = numbers[0];
       if (duration < kMinDuration_s || duration > kMaxDuration_s) {
-        return Fail(place, "Frames[0][0]: a frame that lasts {} s; allowed: {} to {} s", duration, kMinDuration_s,
+        return Fail(place, "Frames[0][0]: the frame lasts {} s; allowed: {} to {} s", duration, kMinDuration_s,
                     kMaxDuration_s);
       }
     } else if (i + 1 < frames.size() && std::abs(numbers[0] - duration) > kRounding * duration) {
-      return Fail(place, "Frames[{}][0]: a frame that lasts {} s; allowed: the duration of the first, {} s", i,
+      return Fail(place, "Frames[{}][0]: the frame lasts {} s; allowed: {} s, the duration of the first frame", i,
                   numbers[0], duration);
     }
     auto pose = PoseOf(numbers);
@@ -145,7 +145,7 @@ Result<Clip> ReadDeepMimicMotion(std::string_view text, const std::string& file)
   ASSIGN_OR_RETURN(const Json motion, ParseJsonText(text, file));
   const auto frames = motion.find("Frames");
   if (frames == motion.end() || !frames->is_array() || frames->empty()) {
-    return Fail({file, 0, 0}, "no frames; allowed: a list of them under \"Frames\"");
+    return Fail({file, 0, 0}, "found no frames; allowed: a list of frames in \"Frames\"");
   }
   return ReadFrames(*frames, file);
 }

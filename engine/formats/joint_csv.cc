@@ -47,7 +47,7 @@ Result<void> CheckColumns(std::size_t headings, std::size_t columns, const std::
   if (headings == columns) return {};
   return Fail({file, 1}, "{} headings, but {} columns{}", headings, columns,
               2 * columns >= 3 * headings && headings > 1
-                  ? "; if numbers have decimal commas, columns must be separated by semicolons or tabs"
+                  ? "; if the numbers have decimal commas, separate the columns by semicolons or tabs"
                   : "");
 }
 
@@ -68,8 +68,9 @@ Result<JointCsvColumns> FindColumns(const NumberRows& table, const std::string& 
     const auto found = std::ranges::find(known, headings[i]);
     const auto text = std::ranges::find(table.texts, i, &std::pair<std::size_t, std::string>::first);
     if (text != table.texts.end() && found != known.end()) {
-      return Fail({file, table.lines.front()}, "{}: {}; allowed: a number, or nan for a missing one", headings[i],
-                  Quote(text->second));
+      return Fail({file, table.lines.front()},
+                  "column {}: found {}; allowed: a number, or nan for a missing value",
+                  headings[i], Quote(text->second));
     }
     if (text != table.texts.end()) {
       left_out.push_back(headings[i]);
@@ -98,8 +99,9 @@ Result<void> CheckPlaces(std::span<const double> values, const JointCsvColumns& 
   for (const auto& joint : columns.joints) {
     for (const auto& column : joint) {
       if (!column || !(std::abs(values[*column]) > kMax)) continue;
-      return Fail(place, "value {}: {:.10g}; allowed: a number within ±{:g}, or nan for a missing one", *column + 1,
-                  values[*column], kMax);
+      return Fail(place,
+                  "value {}: found {:.10g}; allowed: a number within ±{:g}, or nan for a missing value",
+                  *column + 1, values[*column], kMax);
     }
   }
   return {};
@@ -160,14 +162,14 @@ Result<JointCsv> ReadJointCsv(std::string_view text, const std::string& file) {
   if (!csv.scale.remark.empty()) said.push_back(csv.scale.remark);
   const auto is_first = [&](double time) { return time == csv.times_s.front(); };
   if (csv.times_s.size() > 1 && std::ranges::all_of(csv.times_s, is_first)) {
-    said.emplace_back("all times in time_s are equal, so they give no rate");
+    said.emplace_back("all times in the column time_s are equal, so they do not determine the rate");
   }
-  if (table.has_decimal_commas) said.emplace_back("its numbers have decimal commas");
+  if (table.has_decimal_commas) said.emplace_back("Etude read commas as decimal points");
   if (!left_out.empty()) {
     constexpr std::size_t kListed = 8;
     const bool has_more = left_out.size() > kListed;
     left_out.resize(std::min(left_out.size(), kListed));
-    said.push_back("columns with text are left out: " + Join(left_out) + (has_more ? ", …" : ""));
+    said.push_back("Etude left out columns that contain text: " + Join(left_out) + (has_more ? ", …" : ""));
   }
   csv.remark = Join(said, "; ");
   return csv;
@@ -181,8 +183,9 @@ Result<JointCsvRow> ReadJointCsvRow(std::string_view row, const JointCsvColumns&
   RETURN_IF_ERROR(CheckColumns(columns.count, table.columns, file));
   for (const auto& [column, text] : table.texts) {
     if (std::ranges::count(columns.texts, column) > 0) continue;
-    return Fail({file, table.lines.front()}, "value {}: {}; allowed: a number, or nan for a missing one", column + 1,
-                Quote(text));
+    return Fail({file, table.lines.front()},
+                "value {}: found {}; allowed: a number, or nan for a missing value",
+                column + 1, Quote(text));
   }
   RETURN_IF_ERROR(CheckPlaces(table.Row(0), columns, {file, table.lines.front()}));
   return RowOf(table.Row(0), columns);

@@ -17,13 +17,13 @@ Place PlaceOf(std::string_view text, std::size_t index, const std::string& file)
 
 Result<nlohmann::json> ParseJsonText(std::string_view text, const std::string& file) {
   if (const std::size_t zero = text.find('\0'); zero != std::string_view::npos) {
-    return Fail(PlaceOf(text, zero, file), "a zero byte, which JSON must not contain");
+    return Fail(PlaceOf(text, zero, file), "found a zero byte; allowed: JSON text without zero bytes");
   }
   try {
     return nlohmann::json::parse(text);
   } catch (const nlohmann::json::parse_error& error) {
     const std::size_t index = error.byte == 0 ? 0 : error.byte - 1;  // the parser counts from 1
-    return Fail(PlaceOf(text, std::min(index, text.size()), file), "not JSON from here on");
+    return Fail(PlaceOf(text, std::min(index, text.size()), file), "from this place on, the text is not valid JSON");
   } catch (const nlohmann::json::exception& error) {
     return Fail({file, 0, 0}, "no readable JSON: {}", error.what());
   }

@@ -78,8 +78,8 @@ Result<Clip> ReadKimodo(const Npz& arrays, const std::string& file, std::optiona
   if (frames == 0 || places.shape != std::vector<std::size_t>{frames, joints, 3} ||
       matrices.shape != std::vector<std::size_t>{frames, joints, 3, 3}) {
     return Fail({file},
-                "posed_joints {}, global_rot_mats {}; allowed: frames × J × 3 and frames × J × 3 × 3, J = 22, 30 or 77 "
-                "(34 joints are a robot's)",
+                "the shapes are {} for posed_joints and {} for global_rot_mats; allowed: frames × J × 3 and frames × J "
+                "× 3 × 3, with J = 22, 30 or 77 (motions of robots, with 34 joints, are not supported)",
                 ShapeText(places), ShapeText(matrices));
   }
   const auto place = [&](std::size_t frame, std::size_t joint) {
@@ -95,11 +95,11 @@ Result<Clip> ReadKimodo(const Npz& arrays, const std::string& file, std::optiona
     for (std::size_t j = 0; j < joints; ++j) {
       const glm::dvec3 p = place(f, j);
       if (!(std::abs(p.x) + std::abs(p.y) + std::abs(p.z) <= kMaxPlace_m)) {
-        return Fail({file}, "joint {} of frame {} is at {}, {}, {}; allowed: metres within ±10⁶", soma[j].name, f, p.x,
-                    p.y, p.z);
+        return Fail({file}, "joint {} of frame {} is at ({}, {}, {}) m; allowed: coordinates within ±10⁶ m",
+                    soma[j].name, f, p.x, p.y, p.z);
       }
       if (std::abs(glm::determinant(matrix(f, j)) - 1) <= kRounding) continue;
-      return Fail({file}, "the matrix of joint {} in frame {} is no rotation", soma[j].name, f);
+      return Fail({file}, "the matrix of joint {} in frame {} is not a rotation matrix", soma[j].name, f);
     }
   }
   // Find the rate.
@@ -108,7 +108,7 @@ Result<Clip> ReadKimodo(const Npz& arrays, const std::string& file, std::optiona
   if (!rate_hz) {
     std::string remark;
     ASSIGN_OR_RETURN(rate_hz, EvenRateOf(arrays, frames, file, remark));
-    if (!rate_hz) remark = "Kimodo's arrays state no rate; 30 Hz is taken, its model's rate";
+    if (!rate_hz) remark = "the file states no frame rate, so Etude uses 30 Hz, the rate of Kimodo's model";
     if (!remark.empty()) remarks.push_back(remark);
   }
   // Make the skeleton at rest: the first frame's offsets, without rotations.
@@ -140,7 +140,8 @@ Result<std::optional<std::vector<bool>>> ReadFootContacts(const Npz& arrays, std
   const NumberArray* array = arrays.Find("foot_contacts");
   if (array == nullptr) return std::nullopt;
   if (array->shape != std::vector<std::size_t>{frames, 4}) {
-    return Fail({file}, "foot_contacts {}; allowed: {} × 4: left heel, left toes, right heel, right toes",
+    return Fail({file},
+                "the shape of foot_contacts is {}; allowed: {} × 4 (left heel, left toes, right heel, right toes)",
                 ShapeText(*array), frames);
   }
   std::vector<bool> contacts;

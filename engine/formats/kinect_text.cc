@@ -21,7 +21,9 @@ constexpr double kMinDistance = 0.05, kMaxDistance = 20;  // metres; a Kinect's 
 Result<std::vector<KinectV2Frame>> ReadKinectV2Text(std::string_view text, const std::string& file) {
   ASSIGN_OR_RETURN(const NumberRows table, ReadNumberRows(text, file));
   if (table.columns != kPlaceColumns && table.columns != kPoseColumns) {
-    return Fail({file}, "{} values in this row; a Kinect v2 recording has {} (x y z) or {} (x y z and a quaternion)",
+    return Fail({file},
+                "found {} values in this row; allowed for a Kinect v2 recording: {} (x y z per joint) or {} (x "
+                "y z and a quaternion per joint)",
                 table.columns, kPlaceColumns, kPoseColumns);
   }
   const std::size_t stride = table.columns / kKinectV2JointCount;
@@ -35,14 +37,17 @@ Result<std::vector<KinectV2Frame>> ReadKinectV2Text(std::string_view text, const
       farthest = std::max(farthest, glm::length(place));
       if (glm::length(place) > kMaxDistance) {
         return Fail({file, table.lines[t]},
-                    "joint {} is {:.1f} m from the sensor; allowed: positions in metres, at most {} m away", j,
+                    "joint {} is {:.1f} m from the sensor; allowed: at most {} m; positions must be in metres", j,
                     glm::length(place), kMaxDistance);
       }
       frames[t][j] = place;
     }
   }
   if (farthest > 0 && farthest < kMinDistance) {
-    return Fail({file}, "all joints are within {:.3g} m of the sensor; allowed: positions in metres", farthest);
+    return Fail({file},
+                "all joints are within {:.3g} m of the sensor, so the positions are probably not in metres; "
+                "allowed: positions in metres",
+                farthest);
   }
   return frames;
 }

@@ -61,7 +61,7 @@ Result<BidsChannels> ReadChannels(std::string_view text, const std::string& file
       continue;
     }
     if (cells.size() != heads)
-      return Fail({file, line}, "this row has {} cells, but there are {} headings", cells.size(), heads);
+      return Fail({file, line}, "this row has {} cells, but the heading has {}", cells.size(), heads);
     // Channels that hold neither positions nor times are only counted.
     BidsChannels::Column& column = channels.columns.emplace_back();
     if (cells[at[1]] == "LATENCY" && !channels.latency) {
@@ -76,10 +76,13 @@ Result<BidsChannels> ReadChannels(std::string_view text, const std::string& file
     const std::string_view component = cells[at[0]], units = cells[at[3]];
     constexpr std::string_view kAxes = "xyz";
     if (component.size() != 1 || kAxes.find(component) == std::string_view::npos)
-      return Fail({file, line}, "found component {}; allowed for POS: x, y, z", Quote(component));
+      return Fail({file, line}, "found component {}; allowed for channels of type POS: x, y, z", Quote(component));
     column.axis = static_cast<int>(kAxes.find(component));
     const auto metres = MetresOfUnit(units);
-    if (!metres) return Fail({file, line}, "units are {}; allowed for POS: m, cm, mm, in, ft", Quote(units));
+    if (!metres)
+      return Fail({file, line},
+                  "found units {}; allowed for channels of type POS: m, cm, mm, in, ft",
+                  Quote(units));
     column.metres = *metres;
     const auto [point, is_new] =
         points.try_emplace(std::string(cells[at[2]]), static_cast<int>(channels.points.size()));
@@ -97,7 +100,9 @@ Result<BidsChannels> ReadChannels(std::string_view text, const std::string& file
     if (std::ranges::find(has[i], false) != has[i].end())
       return Fail({file}, "{} needs channels for x, y and z, but some are missing", Quote(channels.points[i]));
   }
-  if (channels.points.empty()) return Fail({file}, "no channel of the type POS; only positions are read");
+  if (channels.points.empty())
+    return Fail({file},
+                "found no channel of type POS; allowed: at least one, because Etude reads only positions");
   return channels;
 }
 
@@ -197,7 +202,8 @@ Result<MarkerMotion> ReadMotionBids(std::string_view motion_tsv, std::string_vie
   }
   if (!table.heading.empty())
     return Fail({files[0], 1},
-                "found a line of headings; allowed: only rows of numbers; _channels.tsv names the columns");
+                "found a line with column names; allowed: only rows of numbers, because _channels.tsv has the column "
+                "names");
   for (std::size_t t = 0; t < table.RowCount(); ++t) {
     const auto row = table.Row(t);
     std::vector<glm::dvec3> places(channels.points.size());
@@ -223,7 +229,7 @@ Result<MarkerMotion> ReadMotionBids(std::string_view motion_tsv, std::string_vie
     laid.lines.push_back(table.lines[t]);
   }
   if (channels.others > 0)
-    motion.remark = fmt::format("{} channels that are not positions are left out", channels.others);
+    motion.remark = fmt::format("Etude left out {} channels that are not positions", channels.others);
   return LayOnClock(std::move(laid), files[0]);
 }
 

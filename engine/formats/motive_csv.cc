@@ -71,13 +71,14 @@ Result<MarkerMotion> ReadMotiveCsv(std::string_view text, const std::string& fil
   const std::string_view unit = ValueBehind(facts, "Length Units"), space = ValueBehind(facts, "Coordinate Space");
   const auto metres = MetresOfUnit(unit);
   if (!metres)
-    return Fail(first, "Length Units is {}; allowed: Meters, Centimeters, Millimeters, Inches, Feet", Quote(unit));
-  if (!space.empty() && space != "Global") return Fail(first, "Coordinate Space is {}; allowed: Global", Quote(space));
+    return Fail(first, "'Length Units' is {}; allowed: Meters, Centimeters, Millimeters, Inches, Feet", Quote(unit));
+  if (!space.empty() && space != "Global")
+    return Fail(first, "'Coordinate Space' is {}; allowed: Global", Quote(space));
   auto rate = ParseFinite(ValueBehind(facts, "Export Frame Rate"));
   if (!rate) rate = ParseFinite(ValueBehind(facts, "Capture Frame Rate"));
   constexpr double kMaxRateHz = 10'000;
   if (!rate || *rate <= 0 || *rate > kMaxRateHz)
-    return Fail(first, "Export Frame Rate is missing or out of range; allowed: above 0, up to {:g} Hz", kMaxRateHz);
+    return Fail(first, "'Export Frame Rate' is missing or out of range; allowed: above 0, up to {:g} Hz", kMaxRateHz);
 
   // Read the headings, which end with the line of axes.
   std::vector<std::string_view> types, names, kinds, axes;
@@ -128,7 +129,7 @@ Result<MarkerMotion> ReadMotiveCsv(std::string_view text, const std::string& fil
   }
   const auto announced = ParseFinite(ValueBehind(facts, "Total Exported Frames"));
   if (announced && *announced > static_cast<double>(motion.frames.size())) {
-    motion.remark = fmt::format("{} rows, but Total Exported Frames is {:g}", motion.frames.size(), *announced);
+    motion.remark = fmt::format("found {} rows, but 'Total Exported Frames' is {:g}", motion.frames.size(), *announced);
   }
   // If no row has a time, the frame numbers give the times.
   if (std::ranges::all_of(rows.times_s, [](double time) { return std::isnan(time); })) {

@@ -109,7 +109,7 @@ Result<NpyParts> SplitNpy(std::string_view bytes, const std::string& file) {
   std::size_t length = 0;
   for (std::size_t i = 0; i < length_bytes; ++i)
     length |= std::size_t{static_cast<unsigned char>(bytes[8 + i])} << (8 * i);
-  if (length > bytes.size() - head) return Fail(place, "its header is cut short");
+  if (length > bytes.size() - head) return Fail(place, "the array's header ends too early");
   return NpyParts{bytes.substr(head, length), bytes.substr(head + length)};
 }
 
@@ -142,14 +142,15 @@ Result<std::optional<NumberArray>> NumbersIn(const NpyParts& parts, const std::s
     std::size_t size = 0;
     const auto [end, error] = std::from_chars(shape.data() + at, shape.data() + shape.size(), size);
     if (error != std::errc() || size > kMaxUnpacked) return Fail(place, "its shape is {}", Quote(shape));
-    if (size != 0 && count > kMaxUnpacked / size) return Fail(place, "has more numbers than can be read");
+    if (size != 0 && count > kMaxUnpacked / size) return Fail(place, "the array has more numbers than Etude can read");
     array.shape.push_back(size);
     count *= size;
     at = static_cast<std::size_t>(end - shape.data());
   }
   auto values = NumbersOf(TypeOf(parts), data);
   if (!values) return std::optional<NumberArray>();
-  if (values->size() != count) return Fail(place, "has {} numbers; its shape requires {}", values->size(), count);
+  if (values->size() != count)
+    return Fail(place, "the array has {} numbers, but its shape requires {}", values->size(), count);
   const bool is_fortran = ValueOf(header, "'fortran_order': ", ',') == "True";
   array.values = is_fortran ? InOrderOfC(*values, array.shape) : std::move(*values);
   return std::optional(std::move(array));
@@ -164,9 +165,12 @@ Result<std::string> Unpack(zip_t* archive, zip_uint64_t member, std::uint64_t& l
   if (zip_stat_index(archive, member, 0, &status) != 0 || (status.valid & ZIP_STAT_SIZE) == 0) {
     return Fail({file}, "member {} has no size", member);
   }
-  if (status.size > left) return Fail({file}, "is more than {} MiB when unpacked", kMaxUnpacked >> 20);
+  if (status.size > left)
+    return Fail({file},
+                "the unpacked file has more than {} MiB; allowed: at most this size",
+                kMaxUnpacked >> 20);
   if ((status.valid & ZIP_STAT_COMP_SIZE) != 0 && status.size / kMaxDeflateRatio > status.comp_size) {
-    return Fail({file}, "member {} states that its {} bytes unpack to {} bytes, which is impossible", member,
+    return Fail({file}, "member {} states that {} bytes unpack to {} bytes, which is impossible", member,
                 status.comp_size, status.size);
   }
   left -= status.size;
@@ -187,7 +191,9 @@ bool IsNpy(std::string_view bytes) { return bytes.starts_with(kNpyMagic); }
 Result<NumberArray> ReadNpy(std::string_view bytes, const std::string& file) {
   ASSIGN_OR_RETURN(const auto parts, SplitNpy(bytes, file));
   ASSIGN_OR_RETURN(auto array, NumbersIn(parts, file));
-  if (!array) return Fail({file}, "does not contain plain numbers; allowed: floats and whole numbers");
+  if (!array)
+    return Fail({file},
+                "the array contains other data than numbers; allowed: floating-point numbers and integers");
   return *std::move(array);
 }
 
@@ -209,15 +215,15 @@ Result<std::optional<ArrayRate>> RateOfArrays(const Npz& arrays, const std::stri
     const NumberArray* rate = arrays.Find(name);
     if (rate == nullptr || rate->values.size() != 1) {
       return Fail({file},
-                  "{} is not one number; allowed: the frames per second, or `--rate` (in convert `--file-rate`, in a "
-                  "joint map `rate: 30`)",
+                  "the array {} must be a single number, the frames per second; otherwise use `--rate` (for `etude "
+                  "clip convert`: `--file-rate`; in a joint map: `rate: 30`)",
                   name);
     }
     const double value = rate->values[0];
     if (found && found->rate_hz != value) {
       return Fail({file},
-                  "{} is {:g} and {} is {:g}; allowed: one rate, or `--rate` (in convert `--file-rate`, in a joint map "
-                  "`rate: 30`)",
+                  "the file states two rates: {} is {:g} and {} is {:g}; allowed: one rate, or `--rate` (for `etude "
+                  "clip convert`: `--file-rate`; in a joint map: `rate: 30`)",
                   found->name, found->rate_hz, name, value);
     }
     if (!found) found = ArrayRate{value, name};
@@ -271,7 +277,9 @@ Result<Npz> ReadNpz(std::string_view bytes, const std::string& file) {
     }
   }
   if (!others.empty() && read.arrays.empty() && read.skipped.empty()) {
-    return Fail({file}, "a ZIP file that begins with {} and contains no arrays (.npy); unpack it", Quote(others));
+    return Fail({file},
+                "the file is a ZIP file without arrays (.npy), and its first member is {}; unpack the ZIP file first",
+                Quote(others));
   }
   return read;
 }

@@ -122,7 +122,8 @@ Result<NumberRows> ReadNumberRows(std::string_view text, const std::string& file
     const bool is_first = table.columns == 0;
     if (is_first) table.columns = words.size();
     if (words.size() != table.columns) {
-      return Fail({file, line_number}, "{} values, but earlier rows have {}", words.size(), table.columns);
+      return Fail({file, line_number}, "found {} values in this row, but earlier rows have {}", words.size(),
+                  table.columns);
     }
     table.lines.push_back(line_number);
     for (std::size_t i = 0; i < words.size(); ++i) {
@@ -142,8 +143,8 @@ Result<NumberRows> ReadNumberRows(std::string_view text, const std::string& file
         // positions. The larger limit `largest` applies only to the column of times.
         const int column = static_cast<int>(words[i].data() - line_start) + 1;
         return Fail({file, line_number, column},
-                    "value {}: {}; allowed: a number within ±{:g}{}, or nan for a missing one", i + 1, Quote(words[i]),
-                    value || !allows_texts ? largest : kMaxPosition,
+                    "value {}: found {}; allowed: a number within ±{:g}{}, or nan for a missing value", i + 1,
+                    Quote(words[i]), value || !allows_texts ? largest : kMaxPosition,
                     IsOfDigits(words[i]) ? ", without a thousands separator" : "");
       }
       table.values.push_back(*value);

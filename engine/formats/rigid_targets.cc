@@ -26,8 +26,8 @@ double UnitOf(const NumberRows& table) {
 Result<std::vector<TargetFrame>> ReadRigidTargets(std::string_view text, const std::string& file) {
   ASSIGN_OR_RETURN(const NumberRows table, ReadNumberRows(text, file));
   if (table.columns != kPerTarget * kBodyTargetCount) {
-    return Fail({file}, "{} values in this row; a recording of {} targets has {}", table.columns, kBodyTargetCount,
-                kPerTarget * kBodyTargetCount);
+    return Fail({file}, "found {} values in this row; allowed for a recording of {} targets: {}", table.columns,
+                kBodyTargetCount, kPerTarget * kBodyTargetCount);
   }
   const double unit = UnitOf(table);
   std::vector<TargetFrame> frames(table.RowCount());
@@ -39,7 +39,7 @@ Result<std::vector<TargetFrame>> ReadRigidTargets(std::string_view text, const s
       if (std::isnan(v[0] + v[1] + v[2] + length) || length == 0) continue;
       constexpr double kTolerance = 0.1;
       if (std::abs(length - 1) > kTolerance) {
-        return Fail({file, table.lines[t]}, "target {}: a quaternion of length {:.3g}; allowed: 1", i, length);
+        return Fail({file, table.lines[t]}, "target {}: the quaternion has length {:.3g}; allowed: 1", i, length);
       }
       frames[t][i] = TargetPose{unit * glm::dvec3(v[0], v[1], v[2]), rotation / length};
     }

@@ -54,8 +54,8 @@ Result<std::vector<std::size_t>> CountingRows(std::span<const double> times, std
       return Fail(place, "the time {:.6g} s follows {:.6g} s; allowed: times that do not decrease", times[i], before);
     }
     if (times[i] - before > kMaxStep_s) {
-      return Fail(place, "the time {:.6g} s follows {:.6g} s; allowed: a clock that advances by at most {} s per row",
-                  times[i], before, kMaxStep_s);
+      return Fail(place, "the time {:.6g} s follows {:.6g} s; allowed: at most {} s between rows", times[i], before,
+                  kMaxStep_s);
     }
     if (times[i] == before) rows.pop_back();
     rows.push_back(i);
@@ -75,16 +75,18 @@ std::string DescribeGrid(const RowGrid& grid, std::size_t twice) {
   }
   std::vector<std::string> said;
   if (holes > 0) {
-    said.push_back(fmt::format("the times show that {} of {} frames are missing, in {} {} of at most {:.3g} s", holes,
+    said.push_back(fmt::format("by their times, {} of {} frames are missing, in {} {} of at most {:.3g} s", holes,
                                grid.frames.size(), places, places == 1 ? "gap" : "gaps",
                                static_cast<double>(longest + 1) / grid.rate_hz));
   }
   if (between > 0) {
-    said.push_back(
-        fmt::format("uneven times: {} frames are interpolated at even steps of {:.4g} s", between, 1 / grid.rate_hz));
+    said.push_back(fmt::format("the times are uneven, so Etude interpolates {} frames to even steps of {:.4g} s",
+                               between, 1 / grid.rate_hz));
   }
   if (twice > 0)
-    said.push_back(fmt::format("{} rows repeat another row's time; the last row of each time is used", twice));
+    said.push_back(
+        fmt::format("{} rows have the same time as another row; Etude uses the last row of each time",
+                    twice));
   return Join(said, "; ");
 }
 
@@ -104,7 +106,7 @@ RowGrid GridOfBursts(const std::vector<std::size_t>& rows, double mean_s, double
   }
   for (const std::size_t row : rows) grid.frames.push_back({row, row});
   grid.remark = fmt::format(
-      "its times come in bursts: rows are mostly {:.3g} s apart, but {:.3g} s on average; they are taken as evenly "
+      "rows arrive in bursts: the median step is {:.3g} s, but the mean step is {:.3g} s; Etude takes them as evenly "
       "spaced, at {:.6g} Hz",
       median_s, mean_s, grid.rate_hz);
   return grid;
@@ -191,8 +193,8 @@ std::optional<RowGrid> GridOfCoarseTimes(std::span<const double> times, std::opt
     }
     grid.is_even = grid.frames.size() == times.size();
     grid.remark = fmt::format(
-        "its times are rounded to {:g} s, so several rows have the same time; the rows are taken as evenly spaced, at "
-        "{:.6g} Hz",
+        "the times are rounded to {:g} s, so several rows have the same time; Etude takes the rows as evenly spaced, "
+        "at {:.6g} Hz",
         step, rate);
     AddRemark(grid.remark, DescribeGrid(grid, 0));
     return grid;
@@ -212,7 +214,7 @@ Result<std::optional<RowGrid>> GridOfRows(std::span<const double> times_s, std::
   if (times_s.size() > kMaxPerTime * rows.size()) {
     return Fail(
         {file},
-        "{} rows have only {} different times; allowed: times with more decimals, or frame numbers instead of times",
+        "{} rows have only {} different times; allowed: times with enough decimals, or frame numbers instead of times",
         times_s.size(), rows.size());
   }
 
@@ -264,15 +266,15 @@ Result<std::optional<RowGrid>> GridOfRows(std::span<const double> times_s, std::
   constexpr double kRounding = 1e-6;
   if (grid.rate_hz > kMaxMotionRate_hz * (1 + kRounding)) {
     return Fail({file},
-                "the times of {} rows are mostly {:.3g} s apart, which gives {:.4g} Hz; allowed: at most {:g} Hz, with "
-                "times in seconds",
+                "the times of {} rows are mostly {:.3g} s apart, which means a rate of {:.4g} Hz; allowed: at most "
+                "{:g} Hz, with times in seconds",
                 rows.size(), 1 / grid.rate_hz, grid.rate_hz, kMaxMotionRate_hz);
   }
   const double slack = tolerance(grid.rate_hz), count = std::floor(span * grid.rate_hz + slack) + 1;
   if (!AreGapsStorable(count, rows.size(), width)) {
     return Fail({file},
-                "{} rows in {:.6g} s, mostly {:.3g} s apart, leave gaps that are too large to fill; allowed: {:g} "
-                "missing values in total, with {} values per frame",
+                "{} rows in {:.6g} s, mostly {:.3g} s apart, have gaps that are too large to fill; allowed: {:g} "
+                "missing values in total, at {} values per frame",
                 rows.size(), span, 1 / grid.rate_hz, kMaxAddedValues, width);
   }
   // Place every frame on a row, between two rows, or in a hole.
@@ -317,14 +319,14 @@ std::string DescribeOtherRate(const MarkerRows& rows, double told_hz, const std:
   if (count < 3) return "";
   const double span = rows.times_s.back() - rows.times_s.front();
   if (span == 0)
-    return fmt::format("all times in {} are equal; {} states {:g} Hz, which is used", rows.time_name, rows.rate_name,
-                       told_hz);
+    return fmt::format("all times in {} are equal, so Etude uses the rate that {} states, {:g} Hz", rows.time_name,
+                       rows.rate_name, told_hz);
   const double rate = grid ? grid->rate_hz : static_cast<double>(count - 1) / span;
   const bool is_other = grid ? rate != told_hz : std::abs(rate / told_hz - 1) > kBriefTolerance;
   if (!is_other) return "";  // also if a time is missing
-  return fmt::format("{} states {:g} Hz{}, but {} runs at {:g} Hz{}", rows.rate_name, told_hz,
+  return fmt::format("{} states {:g} Hz{}, but the times in {} give {:g} Hz{}", rows.rate_name, told_hz,
                      grid ? "" : ", which is used", rows.time_name, rate,
-                     grid ? std::string(", which is used") : fmt::format(": {} rows are too few to tell", count));
+                     grid ? std::string(", which is used") : fmt::format(" (from only {} rows)", count));
 }
 
 /// Returns a remark about the first place where the frame numbers jump and the times do not, or the reverse; "" if
@@ -346,8 +348,8 @@ std::string DescribeOtherNumbers(const MarkerRows& rows) {
     if (!(std::abs(counted - timed) >= kMinFrames) || !(std::max(counted, timed) >= 2 * std::min(counted, timed)))
       continue;
     return fmt::format(
-        "the frame numbers go from {:.10g} to {:.10g}, but {} advances by {:.4g} s, the time of {:.3g} frames; the "
-        "times are used",
+        "the frame numbers go from {:.10g} to {:.10g}, but the times in {} advance by {:.4g} s, the duration of {:.3g} "
+        "frames; Etude uses the times",
         numbers[i - 1], numbers[i], rows.time_name, rows.times_s[i] - rows.times_s[i - 1], timed);
   }
   return "";
@@ -368,7 +370,7 @@ Result<MarkerMotion> LayOnClock(MarkerRows rows, const std::string& file) {
   markers.rate_hz = grid->rate_hz;
   if (!rows.has_clock && rows.first_number > 1) {
     AddRemark(markers.remark,
-              fmt::format("its rows have no times, and their frame numbers begin at {:.10g}; the first row gets time 0",
+              fmt::format("the rows have frame numbers from {:.10g} on, but no times; Etude gives the first row time 0",
                           rows.first_number));
   }
   if (rows.has_clock) markers.start_s = scale.first * scale.seconds + rows.times_s[grid->frames.front().row];
@@ -427,8 +429,9 @@ Result<BodyMotion> LayOnClock(BodyMotion rows, std::span<const double> times_s, 
     begin = k + 1;
   }
   if (best_end - best_begin < grid->frames.size()) {
-    AddRemark(remark, fmt::format("only frames {} to {} of {} are kept: gaps are longer than {:g} s", best_begin + 1,
-                                  best_end, grid->frames.size(), kMaxBridged_s));
+    AddRemark(remark, fmt::format("Etude keeps only frames {} to {} of {}, because the gaps around them are longer "
+                                  "than {:g} s",
+                                  best_begin + 1, best_end, grid->frames.size(), kMaxBridged_s));
   }
   start_s += static_cast<double>(best_begin) / rows.rate_hz;
   // Interpolate every joint.

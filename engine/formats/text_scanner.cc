@@ -81,7 +81,7 @@ Result<double> TextScanner::Number(const Token& token, std::string_view what) co
   const std::string_view digits = token.text.starts_with('+') ? token.text.substr(1) : token.text;
   const auto value = ParseNumber<double>(digits);
   if (!value || !IsAllowed(*value)) {
-    return Fail(At(token), "found {} as {}; allowed: a number within ±{:g}", Quote(token.text), what, kMaxNumber);
+    return Fail(At(token), "found {} for {}; allowed: a number within ±{:g}", Quote(token.text), what, kMaxNumber);
   }
   return *value;
 }

@@ -59,7 +59,7 @@ TimeUnit UnitByStep(double step, const std::string& times, std::string& remark) 
   std::vector<std::string> others;
   for (const TimeUnit& other : {kHundredths, kSmallUnits[0], kSmallUnits[1], kSmallUnits[2], kSmallUnits[3]}) {
     if (!is_likely(other) || other.seconds == unit->seconds) continue;
-    others.push_back(fmt::format("as {}, it would be {:.4g} Hz", other.name, rate_in(other)));
+    others.push_back(fmt::format("in {}, it would be {:.4g} Hz", other.name, rate_in(other)));
   }
   remark = fmt::format(
       "{} taken as {}, because as seconds rows would be more than a second apart; the rate is "
@@ -102,7 +102,7 @@ TimeScale FindTimeScale(std::span<const double> times, const ToldRate& told) {
   const auto first = std::ranges::find_if(times, [](double time) { return !std::isnan(time); });
   if (first == times.end() || std::abs(*first * scale.seconds) <= kMaxStart_s) return scale;
   scale.first = *first;
-  scale.remark += fmt::format("{}its times begin at {:.10g} s: they are counted from its first row",
+  scale.remark += fmt::format("{}the times begin at {:.10g} s; Etude counts time from the first row",
                               scale.remark.empty() ? "" : "; ", *first * scale.seconds);
   return scale;
 }

@@ -87,12 +87,12 @@ Result<TrcHeader> ReadHeader(std::string_view names, std::string_view values, co
   if (!rate || !frames || !markers || !(*rate >= 0) || !(*frames >= 0 && *frames <= kMaxFrames) ||
       !(*markers >= 1 && *markers <= kMaxMarkers)) {
     return Fail(place,
-                "not the header of a TRC file; allowed: DataRate, NumFrames, NumMarkers (to 1000) and Units with "
-                "their values in the next line, between tabs");
+                "the header is not that of a TRC file; allowed: one line with DataRate, NumFrames, NumMarkers and "
+                "Units, and one line with their values, both separated by tabs; at most 1000 markers");
   }
   const std::string_view unit = of("Units");
   const auto metres = MetresOfUnit(unit);
-  if (!metres) return Fail(place, "units are '{}'; allowed: m, cm, mm, in, ft", unit);
+  if (!metres) return Fail(place, "found units '{}'; allowed: m, cm, mm, in, ft", unit);
   return TrcHeader{*rate, static_cast<std::size_t>(*frames), static_cast<std::size_t>(*markers), *metres};
 }
 
@@ -191,7 +191,8 @@ Result<MarkerRows> ReadTrcRows(std::string_view text, const std::string& file) {
   for (std::size_t marker = 0; marker < header.markers; ++marker) {
     const std::size_t at = 2 + 3 * marker;
     if (at >= names.size() || names[at].empty())
-      return Fail({file, line, 0}, "the header announces {} markers, but this line names {}", header.markers, marker);
+      return Fail({file, line, 0}, "the header states {} markers, but this line has only {} names", header.markers,
+                  marker);
     motion.names.emplace_back(names[at]);
   }
   // Check the axes; a line that begins with a number is the first frame of a file without that line.
@@ -203,7 +204,7 @@ Result<MarkerRows> ReadTrcRows(std::string_view text, const std::string& file) {
     --line;
   }
   const bool has_commas = text.find(',') != std::string_view::npos;
-  if (has_commas) motion.remark = "its numbers have decimal commas";
+  if (has_commas) motion.remark = "Etude read commas as decimal points";
   // Check the size before any frame is stored: rows may leave out the cells of their last markers, so frames may take
   // far more memory than the text.
   constexpr double kMaxFrameBytes = 1e9;
@@ -229,8 +230,7 @@ Result<MarkerRows> ReadTrcRows(std::string_view text, const std::string& file) {
   }
   RETURN_IF_ERROR(commas.Check(file));
   if (motion.frames.size() != header.frames) {
-    return Fail({file}, "the file contains {} frames, but its header announces {}", motion.frames.size(),
-                header.frames);
+    return Fail({file}, "the file contains {} frames, but its header states {}", motion.frames.size(), header.frames);
   }
   // If no row has a time, the frame numbers give the times.
   if (std::ranges::all_of(rows.times_s, [](double time) { return std::isnan(time); })) {

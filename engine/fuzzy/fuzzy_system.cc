@@ -44,7 +44,7 @@ Result<std::vector<Feature>> ReadGroup(const Node::Entry& entry) {
     if (feature == nullptr) return Fail(entry.place, "{}", UnknownName("feature", name, FeatureNames()));
     group.push_back(*feature);
     if (TermNames(*feature) != TermNames(group.front())) {
-      return Fail(entry.place, "{} and {} have different terms ({}; {}), so they cannot be in one list",
+      return Fail(entry.place, "the features {} and {} have different terms ({}; {}), so they cannot share a key",
                   FeatureName(group.front()), name, Join(TermNames(group.front())), Join(TermNames(*feature)));
     }
   }
@@ -57,7 +57,7 @@ Result<Universe> ReadUniverse(Fields& fields) {
   const std::vector<double> ends = fields.Numbers("universe", {-kMaxNumber, kMaxNumber});
   if (node != nullptr && fields.ok() && ends.size() == 2 && ends[0] < ends[1]) return Universe{ends[0], ends[1]};
   fields.Complain(node == nullptr ? fields.node().place : node->place,
-                  "'universe' must be two rising numbers, such as [0, 180]");
+                  "'universe' must be two increasing numbers, such as [0, 180]");
   return tl::unexpected(fields.Finish().error());
 }
 
@@ -69,7 +69,7 @@ class FeaturesReader {
     ASSIGN_OR_RETURN(const auto group, ReadGroup(entry));
     for (Feature feature : group) {
       bool& seen = seen_[static_cast<std::size_t>(feature)];
-      if (seen) return Fail(entry.place, "the feature {} appears twice here", FeatureName(feature));
+      if (seen) return Fail(entry.place, "found the feature {} twice; allowed: once", FeatureName(feature));
       seen = true;
     }
     // Read the universe, the terms and the weight that these features share.
@@ -97,10 +97,10 @@ class FeaturesReader {
     for (std::size_t k = 0; k < kFeatureCount; ++k) {
       if (!seen_[k]) missing.emplace_back(FeatureName(AllFeatures()[k]));
     }
-    if (!missing.empty()) return Fail(place, "'features' lacks {}; all ten must be there", Join(missing));
+    if (!missing.empty()) return Fail(place, "'features' lacks {}; all ten features are needed", Join(missing));
     double sum = 0;
     for (double weight : weights_) sum += weight;
-    if (sum == 0) return Fail(place, "all weights are 0; at least one must be positive");
+    if (sum == 0) return Fail(place, "all weights are 0; allowed: at least one positive weight");
     constexpr double kRounding = 1e-12;  // a smaller deviation from 8 is kept: written weights must not change
     if (std::abs(sum - kWeightSum) > kRounding) {
       for (double& weight : weights_) weight *= kWeightSum / sum;
@@ -150,7 +150,7 @@ std::string Written(Feature feature, const FeatureSettings& settings) {
 /// Features with equal settings may share a key, for example "RH, LH".
 Result<FeatureSettings> ReadFeatures(const Node& node) {
   if (node.kind != Node::Kind::kMapping) {
-    return Fail(node.place, "'features' must map features to their terms (RH, LH: …), found {}", Describe(node));
+    return Fail(node.place, "'features' must map each feature to its terms (RH, LH: …), found {}", Describe(node));
   }
   FeaturesReader reader;
   for (const Node::Entry& entry : node.entries) {
@@ -208,12 +208,14 @@ Result<void> ReadRule(const Node& node, RuleBase& base) {
   RETURN_IF_ERROR(fields.Finish());
   // Check that the premise names terms and that the conclusion names a pose.
   if (premise == nullptr || premise->kind != Node::Kind::kMapping || premise->entries.empty()) {
-    return Fail(premise == nullptr ? node.place : premise->place, "'if' must name terms ({{RH: up, LH: up}}), found {}",
+    return Fail(premise == nullptr ? node.place : premise->place,
+                "'if' must map features to terms, such as {{RH: up, LH: up}}, found {}",
                 premise == nullptr ? "nothing" : Describe(*premise));
   }
   if (!IsPoseName(pose)) {
     return Fail(fields.Raw("then")->place,
-                "{} is not a valid name of a pose; allowed: at most {} letters, digits, spaces, '-', a letter first",
+                "{} is not a valid name of a pose; allowed: a letter, then letters, digits, spaces and '-'; at most {} "
+                "characters",
                 Quote(pose), kMaxPoseNameBytes);
   }
   // Replace the names by indices.
@@ -285,7 +287,8 @@ Result<FuzzySystem> ReadFuzzySystem(std::string_view text, const std::string& fi
   const std::string name = fields.RequiredText("system");
   if (fields.ok() && !IsPlainName(name)) {
     fields.Complain(fields.Raw("system")->place,
-                    fmt::format("{} is not a valid name; allowed: at most {} letters, digits, '-', '_', '.'",
+                    fmt::format("{} is not a valid name; allowed: at most {} characters, each a letter, a digit, '-', "
+                                "'_' or '.'",
                                 Quote(name), kMaxNameBytes));
   }
   const Node* features_node = fields.Raw("features");

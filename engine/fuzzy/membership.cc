@@ -164,7 +164,8 @@ Result<Shape> ReadShape(const Node& node, const Universe& universe) {
   std::vector<std::string> names;
   for (const ShapeKind& kind : kKinds) names.emplace_back(kind.name);
   if (node.kind != Node::Kind::kMapping || node.entries.size() != 1) {
-    return Fail(node.place, "a term needs one shape, such as {{triangular: [20, 90, 180]}}; found {}. Allowed: {}",
+    return Fail(node.place,
+                "a term needs one shape, such as {{triangular: [20, 90, 180]}}; found {}. Allowed shapes: {}",
                 node.kind == Node::Kind::kMapping ? fmt::format("{} keys", node.entries.size()) : Describe(node),
                 Join(names));
   }
@@ -186,7 +187,8 @@ Result<Shape> ReadShape(const Node& node, const Universe& universe) {
   }
   const Cut top = CutOf(shape, 1);
   if (top.high < universe.low || top.low > universe.high) {
-    return Fail(entry.value.place, "the universe [{}, {}] does not contain the term's top, {}{}: no input has grade 1",
+    return Fail(entry.value.place,
+                "no input has grade 1, because the universe [{}, {}] does not contain the maximum of the term at {}{}",
                 universe.low, universe.high, top.low, top.high > top.low ? fmt::format(" to {}", top.high) : "");
   }
   return shape;

@@ -158,8 +158,8 @@ class Guesser {
       guesses_[c].is_stored = true;
       if (films_[c].fit.IsNone()) continue;
       told_[c] = fmt::format(
-          "keypoints read as pixels of the rig's pictures, not of the fitted film: rays miss each other by {:.2f} % of "
-          "the person's height instead of {:.2f} %",
+          "Etude reads the keypoints as pixels of the rig's pictures instead of the resized film: then rays to the "
+          "same keypoint miss each other by {:.2f} % of the person's height instead of {:.2f} %",
           kPercent * stored, kPercent * said);
     }
   }
@@ -204,7 +204,8 @@ class Guesser {
       return text;
     };
     told_[best->camera] += fmt::format(
-        "{}pictures {}: rays miss each other by {:.2f} % of the person's height instead of {:.2f} %",
+        "{}pictures {}: rays to the same keypoint miss each other by {:.2f} % of the person's height instead of {:.2f} "
+        "%",
         told_[best->camera].empty() ? "" : "; ", words(best->guess), kPercent * best->after, kPercent * best->before);
     if (second && second->after < kNearly * best->after + 0.001) {
       told_[best->camera] +=

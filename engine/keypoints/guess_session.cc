@@ -34,15 +34,15 @@ glm::dvec2 OfSquare(const glm::dvec2& p, const glm::dvec2& size, double padded) 
 }
 
 constexpr std::array kReadings = {
-    Reading{"keypoints count v from the picture's bottom",
+    Reading{"keypoints have their origin at the bottom of the picture",
             [](const glm::dvec2& p, const glm::dvec2& size) { return glm::dvec2(p.x, size.y - p.y); }},
     Reading{"keypoints have x and y exchanged",
             [](const glm::dvec2& p, const glm::dvec2&) { return glm::dvec2(p.y, p.x); }},
     Reading{"keypoints of all films are mirrored",
             [](const glm::dvec2& p, const glm::dvec2& size) { return glm::dvec2(size.x - p.x, p.y); }},
-    Reading{"keypoints are relative to a square around the picture",
+    Reading{"keypoint coordinates are fractions of the side of a square around the picture",
             [](const glm::dvec2& p, const glm::dvec2& size) { return OfSquare(p, size, 0.5); }},
-    Reading{"keypoints are relative to the picture's longer side",
+    Reading{"keypoint coordinates are fractions of the longer side of the picture",
             [](const glm::dvec2& p, const glm::dvec2& size) { return OfSquare(p, size, 0); }}};
 
 /// Returns the camera with the pose p_C = R_CF p_F + t of the rig's file read in another way: if `is_inverse`, as the
@@ -232,8 +232,9 @@ class SessionGuesser {
       found.doubt = DoubtOfScale(is_mended ? least_ : guessed, is_mended);
       if (is_mended && found.doubt.empty()) {
         found.turns = turns_;
-        found.mended = fmt::format("{}: rays miss each other by {:.2f} % of the person's height instead of {:.2f} %",
-                                   told_, kPercent * least_, kPercent * said);
+        found.mended = fmt::format(
+            "{}: rays to the same keypoint miss each other by {:.2f} % of the person's height instead of {:.2f} %",
+            told_, kPercent * least_, kPercent * said);
         films_ = std::move(*best_);
       }
     }
@@ -278,7 +279,7 @@ class SessionGuesser {
       }
       const int all = (declared + turns) % 4;
       Try(std::move(films),
-          all == 0        ? "keypoints are of the rig's pictures, which the films show turned"
+          all == 0        ? "keypoints belong to the rig's pictures, which the films show rotated"
           : declared == 0 ? fmt::format("keypoints of all films are turned by {}° clockwise", 90 * all)
                           : fmt::format("pictures of all films are turned by {}° clockwise", 90 * all),
           turns);
@@ -294,9 +295,9 @@ class SessionGuesser {
     const glm::dvec2 size = films_.front().film_px, scale = glm::exp(glm::dvec2(fit)),
                      origin = Fitted(fit, glm::dvec2(0), size);
     return fmt::format(
-        "keypoints of all films fit the rig best if they are scaled by {:.3f} and {:.3f}, then shifted by {:+.0f} and "
-        "{:+.0f} px: rays miss each other by {:.2f} % of the person's height instead of {:.2f} %; are they of pictures "
-        "of another size, or cropped? Not corrected",
+        "keypoints of all films would fit the rig best if they were scaled by {:.3f} and {:.3f}, then shifted by "
+        "{:+.0f} and {:+.0f} px: rays to the same keypoint would miss each other by {:.2f} % of the person's height "
+        "instead of {:.2f} %. Were the pictures resized or cropped? Etude did not correct this",
         scale.x, scale.y, std::round(origin.x) + 0.0, std::round(origin.y) + 0.0, kPercent * least, kPercent * miss);
   }
 
@@ -316,10 +317,10 @@ class SessionGuesser {
 
   void TryPoses() {
     for (const auto& [is_inverse, is_opengl, told] :
-         {std::tuple(true, false, "the rig's poses transform from its cameras to the world"),
-          {false, true, "the rig's cameras look along -z, y up"},
+         {std::tuple(true, false, "the poses in the rig file are from camera to world"),
+          {false, true, "the rig's cameras look along -z, with y up"},
           {true, true,
-           "the rig's poses transform from its cameras to the world, and the cameras look along -z, y up"}}) {
+           "the poses in the rig file are from camera to world, and the cameras look along -z, with y up"}}) {
       Films films = films_;
       for (PictureOfFilm& film : films) film.camera = WithPose(film.camera, R_WF_, is_inverse, is_opengl);
       Try(std::move(films), told);
@@ -333,7 +334,8 @@ class SessionGuesser {
         if (!AreAlike(films_[a], films_[b])) continue;
         Films films = films_;
         std::swap(films[a].camera, films[b].camera);
-        Try(std::move(films), fmt::format("films or keypoints of {} and {} are exchanged", names_[a], names_[b]));
+        Try(std::move(films),
+            fmt::format("the films or the keypoints of {} and {} are exchanged", names_[a], names_[b]));
       }
     }
   }
@@ -344,7 +346,7 @@ class SessionGuesser {
                 [&](const PictureOfFilm& film, const glm::dvec2& pixel) { return reading.pixel(pixel, film.film_px); });
     }
     for (const double scale : {0.25, 1.0 / 3, 0.375, 0.5, 2.0 / 3, 0.75, 4.0 / 3, 1.5, 2.0, 8.0 / 3, 3.0, 4.0}) {
-      const auto told = fmt::format("keypoints are of pictures {:.4g} times as large", 1 / scale);
+      const auto told = fmt::format("keypoints belong to pictures {:.4g} times as large", 1 / scale);
       TryPixels(
           told, [&](const PictureOfFilm&, const glm::dvec2& pixel) { return scale * pixel; }, true);
     }

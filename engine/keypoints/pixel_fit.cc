@@ -45,8 +45,8 @@ Result<PixelFit> FitPictures(FitMode mode, const glm::dvec2& rig, const glm::dve
   switch (mode) {
     case FitMode::kNone:
       return Fail({},
-                  "{:g} x {:g} pixels, but the rig's camera has {:g} x {:g}; state how they were fitted (--fit "
-                  "letterbox, stretch or crop)",
+                  "the film has {:g} x {:g} pixels, but the rig's camera has {:g} x {:g}; use --fit to state how the "
+                  "pictures were resized (letterbox, stretch or crop)",
                   film.x, film.y, rig.x, rig.y);
     case FitMode::kLetterbox: {
       const double scale = std::min(film.x / rig.x, film.y / rig.y);

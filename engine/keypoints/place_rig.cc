@@ -137,21 +137,23 @@ Result<double> UnitOf(const RigFile& rig, double file_units, const PlacementOpti
   const LengthUnit* likely = rig.has_unit ? LikelyUnit(file_units) : nullptr;
   const std::string advice = likely != nullptr ? fmt::format("--rig-unit {} gives legs of {:.3g} m", likely->name,
                                                              likely->metres * file_units / kStatureOfLeg)
-                                               : fmt::format("for a person of {:g} m: about --rig-unit {:.2g}",
+                                               : fmt::format("for a person of {:g} m, use about --rig-unit {:.2g}",
                                                              kUsualStature, kUsualStature / file_units);
   // A requested unit must give a plausible stature.
   if (options.unit != "auto") {
     const double metres = *MetresOf(options.unit);
     const double stature = metres * file_units;
     if (stature < kMinStature || stature > kMaxStature) {
-      return Fail({}, "in {} the person would have {}; allowed: {:g} to {:g} m; {}", UnitText(metres),
+      return Fail({}, "with lengths in {}, the person would have {}; allowed: {:g} to {:g} m; {}", UnitText(metres),
                   LegsText(stature), kMinStature / kStatureOfLeg, kMaxStature / kStatureOfLeg, advice);
     }
     told = fmt::format("lengths in {} (as given; {})", UnitText(metres), LegsText(stature));
     return metres;
   }
   if (!rig.has_unit) {
-    return Fail({}, "{}'s lengths have no unit; give one by --rig-unit: for a person of {:g} m it is about {:.2g} m",
+    return Fail({},
+                "a calibration of the format {} has no unit of length; set the unit by --rig-unit: for a person of "
+                "{:g} m, the unit is about {:.2g} m",
                 rig.format, kUsualStature, kUsualStature / file_units);
   }
   // Keep the format's unit if it gives a plausible stature.
@@ -162,10 +164,12 @@ Result<double> UnitOf(const RigFile& rig, double file_units, const PlacementOpti
   }
   // Otherwise look for a unit that gives a plausible stature.
   if (likely == nullptr) {
-    return Fail({}, "the legs are {:.3g} units long from hip to ankle, which is no person's length in {}; {}",
+    return Fail({},
+                "the legs are {:.3g} units long from hip to ankle, which is impossible for a person in each of the "
+                "units {}; {}",
                 file_units / kStatureOfLeg, RigUnits(), advice);
   }
-  told = fmt::format("lengths in {} (found: {}; in {} they would be {:.3g} m long)", likely->name,
+  told = fmt::format("lengths in {} (this unit gives {}; in {} the legs would be {:.3g} m long)", likely->name,
                      LegsText(likely->metres * file_units), UnitText(rig.unit_m), usual / kStatureOfLeg);
   return likely->metres;
 }
@@ -200,7 +204,7 @@ Result<ChosenUp> UpOf(const RigFile& rig, const std::optional<glm::dvec3>& perso
   };
   const auto reason = [&](const glm::dvec3& up, const std::string& given) {
     if (!person) return given.empty() ? std::string(", as in the format") : fmt::format(" ({})", given);
-    return fmt::format(" ({}{}the person leans {:.0f}° from it)", given, given.empty() ? "" : "; ",
+    return fmt::format(" ({}{}the person leans {:.0f}° from this axis)", given, given.empty() ? "" : "; ",
                        Degrees(AngleBetween(up, *person)));
   };
   // A requested axis must not put the pictures upside down.
@@ -209,8 +213,8 @@ Result<ChosenUp> UpOf(const RigFile& rig, const std::optional<glm::dvec3>& perso
     const double off = Degrees(AngleBetween(up, found.up));
     if (person && off > kUpsideDown) {
       return Fail({},
-                  "with {} up, everything would be upside down: this axis is {:.0f}° away from the up direction, which "
-                  "is known from {}",
+                  "with {} up, everything would be upside down: this axis is {:.0f}° away from the up direction found "
+                  "from {}",
                   options.up, off, found.by);
     }
     return ChosenUp{up, false, fmt::format("up is {}{}", options.up, reason(up, "as given"))};
@@ -226,8 +230,10 @@ Result<ChosenUp> UpOf(const RigFile& rig, const std::optional<glm::dvec3>& perso
   if (options.up == "auto" && camera.empty() && rig.has_unit && is_usual && is_level) {
     std::string told = fmt::format("up is {}{}", usual_name(), reason(usual, ""));
     if (person && tilt > std::max(kSure * accuracy, kTold)) {
-      told += fmt::format("; according to {}, up is {:.0f}° away from this axis: if that is right, give --rig-up floor",
-                          found.by, tilt);
+      told += fmt::format(
+          "; according to {}, the up direction is {:.0f}° away from this axis; if the up direction is "
+          "right, use --rig-up floor",
+          found.by, tilt);
     }
     return ChosenUp{usual, false, told};
   }
@@ -241,14 +247,15 @@ Result<ChosenUp> UpOf(const RigFile& rig, const std::optional<glm::dvec3>& perso
     }
   }
   constexpr double kMaxDoubt = 35;
-  const std::string world = camera.empty() ? "" : fmt::format(" (the world was {}'s own frame)", camera);
+  const std::string world = camera.empty() ? "" : fmt::format(" (the world frame was that of camera {})", camera);
   if (within > kMaxDoubt) {
     return Fail({},
-                "from {}, the up direction is known only to within {:.0f}°{}; give the file's axis by --rig-up (level "
-                "cameras: -y)",
+                "from {}, the up direction is known only to within {:.0f}°{}; use --rig-up to set the file's up axis "
+                "(for level cameras: -y)",
                 found.by, within, world);
   }
-  return ChosenUp{found.up, true, fmt::format("up is found from {}, to within {:.1f}°{}", found.by, within, world)};
+  return ChosenUp{found.up, true,
+                  fmt::format("the up direction is found from {}, to within {:.1f}°{}", found.by, within, world)};
 }
 
 /// Returns a text that names the file's axis for each of our axes: "; x is the file's y, z its x, up its z". Returns
@@ -264,7 +271,10 @@ std::string AxesTold(const glm::dmat3& R_OF) {
     names[i] = axis->name;
     is_same = is_same && axis == kAxes.begin() + i;
   }
-  return is_same ? "" : fmt::format("; x is the file's {}, z its {}, up its {}", names[0], names[2], names[1]);
+  return is_same ? ""
+                 : fmt::format(
+                       "; Etude's x is the file's {}, Etude's z is the file's {}, and up is the file's {}",
+                       names[0], names[2], names[1]);
 }
 
 /// Fails if the largest distance between two cameras is impossible for a rig in the unit of its format *(ours)*.
@@ -279,11 +289,11 @@ Result<void> CheckDistances(const RigFile& rig) {
   for (const LengthUnit& unit : kUnits) {
     const double metres = unit.metres * apart / rig.unit_m;
     if (metres < kMinUsual || metres > kMaxUsual) continue;
-    usual += fmt::format("{} {:.3g} m in {}", usual.empty() ? ";" : ",", metres, unit.name);
+    usual += fmt::format("{} {:.3g} m apart with {}", usual.empty() ? ":" : ",", metres, unit.name);
   }
   return Fail({},
-              "with lengths in {}, the rig's cameras are {:.4g} m apart; allowed: {:g} to {:g} m, or give the unit by "
-              "--rig-unit{}",
+              "with lengths in {}, the rig's cameras are {:.4g} m apart; allowed: {:g} to {:g} m; use --rig-unit to "
+              "set the unit{}",
               UnitText(rig.unit_m), apart, kMinApart, kMaxApart, usual);
 }
 
@@ -297,7 +307,10 @@ std::string DoubtOnFloor(const RigFile& rig, const RigPlacement& place) {
     names += fmt::format("{}{} by {:.2f} m", names.empty() ? "" : ", ", named.name, -height);
   }
   if (names.empty()) return "";
-  return fmt::format("cameras lie below the floor: {}; --rig-up sets the rig's up axis, and --floor its floor", names);
+  return fmt::format(
+      "cameras are below the floor: {}; use --rig-up to set the rig's up axis, and --floor to set the "
+      "height of the floor",
+      names);
 }
 
 }  // namespace
@@ -310,13 +323,13 @@ std::string RigUnits() {
 
 Result<void> CheckPlace(const PlacementOptions& options) {
   if (options.unit != "auto" && !MetresOf(options.unit)) {
-    return Fail({}, "--rig-unit {}; allowed: auto, {}, or metres in one unit", options.unit, RigUnits());
+    return Fail({}, "--rig-unit is {}; allowed: auto, {}, or the metres in one unit", options.unit, RigUnits());
   }
   if (options.up != "auto" && options.up != "floor" && AxisOf(options.up) == nullptr) {
-    return Fail({}, "--rig-up {}; allowed: auto, floor, x, y, z, -x, -y, -z", options.up);
+    return Fail({}, "--rig-up is {}; allowed: auto, floor, x, y, z, -x, -y, -z", options.up);
   }
   if (options.floor != "auto" && options.floor != "keep" && options.floor != "feet" && !ParseFinite(options.floor)) {
-    return Fail({}, "--floor {}; allowed: auto, keep, feet, or its height in metres", options.floor);
+    return Fail({}, "--floor is {}; allowed: auto, keep, feet, or the height of the floor in metres", options.floor);
   }
   return {};
 }
@@ -328,7 +341,8 @@ Result<RigPlacement> PlaceRig(const RigFile& rig, std::span<const LandmarkPositi
   const auto person = PersonsUp(points);
   if (!stature || !person)
     return Fail({"keypoints"},
-                "no frame shows hips, knees, ankles and shoulders, so the rig's unit and up axis cannot be found");
+                "Etude cannot find the rig's unit and up axis, because no frame shows hips, knees, ankles and "
+                "shoulders");
   RigPlacement place;
   // Choose the unit, then the up axis.
   std::string unit_told;
@@ -339,14 +353,14 @@ Result<RigPlacement> PlaceRig(const RigFile& rig, std::span<const LandmarkPositi
   place.R = Upright(chosen.up);
   place.stature_m = place.scale * *stature;
   // Choose the floor.
-  std::string floor_told = ", the floor as in the file";
+  std::string floor_told = "; the floor is as in the file";
   const bool at_feet = options.floor == "feet" || (options.floor == "auto" && chosen.from_the_take);
   if (const auto height = ParseFinite(options.floor)) {
     place.shift.y = -*height;
-    floor_told = fmt::format(", the floor at height {:g} m", *height);
+    floor_told = fmt::format("; the floor is at height {:g} m", *height);
   } else if (at_feet) {
     place.shift.y = -place.scale * FloorUnder(FeetAtRest(points, rate_hz, *stature), chosen.up, *stature);
-    floor_told = ", the floor under the feet";
+    floor_told = "; the floor is under the feet";
   }
   place.told = unit_told + "; " + chosen.told + floor_told + AxesTold(place.R * rig.R_WF);
   place.doubt = DoubtOnFloor(rig, place);
@@ -359,15 +373,17 @@ Result<RigPlacement> PlaceRig(const RigFile& rig, const PlacementOptions& option
   if (options.unit != "auto") {
     place.scale = *MetresOf(options.unit) / rig.unit_m;
   } else if (!rig.has_unit) {
-    return Fail({}, "{}'s lengths have no unit; give the metres in one unit by --rig-unit", rig.format);
+    return Fail({},
+                "a calibration of the format {} has no unit of length; use --rig-unit to set the metres in one unit",
+                rig.format);
   } else {
     RETURN_IF_ERROR(CheckDistances(rig));
   }
   // Choose the up axis. Without feet, the floor of a camera's own frame is not known either.
   const std::string camera = CameraOfTheWorld(rig);
   if (AxisOf(options.up) == nullptr && (!camera.empty() || options.up == "floor")) {
-    return Fail({}, "the rig does not show which direction is up{}; give the file's axis by --rig-up",
-                camera.empty() ? "" : fmt::format(" in {}'s own frame", camera));
+    return Fail({}, "the rig does not show which direction is up{}; use --rig-up to set the file's up axis",
+                camera.empty() ? "" : fmt::format(", because the world frame is that of camera {}", camera));
   }
   constexpr double kNoRate = 1, kNoStature = 1, kNoMetre = 1;  // these matter only for a person's points
   const FoundUp found = FindUp(rig.cameras, {}, kNoRate, kNoStature, kNoMetre);
@@ -376,7 +392,7 @@ Result<RigPlacement> PlaceRig(const RigFile& rig, const PlacementOptions& option
   place.told = fmt::format("lengths in {}; {}", UnitText(place.scale * rig.unit_m), chosen.told);
   if (const auto height = ParseFinite(options.floor)) {
     place.shift.y = -*height;
-    place.told += fmt::format(", the floor at height {:g} m", *height);
+    place.told += fmt::format("; the floor is at height {:g} m", *height);
   }
   place.told += AxesTold(place.R * rig.R_WF);
   place.doubt = DoubtOnFloor(rig, place);

@@ -97,7 +97,7 @@ Result<CaptureBody> MedianBody(std::span<const LandmarkPositions> frames) {
   std::array<double, kRoleCount> lengths{};
   for (const Bone& bone : AllBones()) {
     const auto length = MedianBone(joints, bone);
-    if (!length) return Fail({}, "no frame shows {} and {} together", RoleName(bone.child), RoleName(bone.parent));
+    if (!length) return Fail({}, "no frame shows both {} and {}", RoleName(bone.child), RoleName(bone.parent));
     lengths[Index(bone.child)] = *length;
   }
   return BodyOfBones(lengths);
@@ -171,11 +171,11 @@ Result<RecoveredPerson> LocatePerson(std::span<const ProjectionMatrix> cameras, 
   }
   if (in_space.empty()) {
     return Fail({},
-                "no person is seen consistently by two cameras; check that the films belong to these cameras of the "
-                "rig and are synchronised");
+                "no two cameras see the same person at the same place; are the films synchronised, and does each film "
+                "belong to its camera of the rig?");
   }
   if (options.person >= in_space.size()) {
-    return Fail({}, "there is no person {}; people seen by two cameras or more: {}", options.person + 1,
+    return Fail({}, "there is no person {}; number of people seen by two or more cameras: {}", options.person + 1,
                 in_space.size());
   }
   // Mend the keypoints if requested, then triangulate.
@@ -199,7 +199,7 @@ Result<RecoveredPerson> FitLocated(RecoveredPerson person, const RecoverPersonOp
   person.body = body;
   const auto states = FitPerson(body, person.landmarks);
   for (const auto& state : states) person.is_held.push_back(!state);
-  if (std::ranges::count(person.is_held, false) == 0) return Fail({}, "no frame shows enough of the person");
+  if (std::ranges::count(person.is_held, false) == 0) return Fail({}, "no frame shows enough joints of the person");
   person.states = HoldStates(states);
   person.motion.rate_hz = options.rate_hz;
   ShowStates(person);

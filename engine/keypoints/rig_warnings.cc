@@ -67,8 +67,8 @@ struct SquareReading {
   double padded;
   const char* told;
 };
-constexpr std::array kSquares = {SquareReading{0.5, "a square around the picture"},
-                                 SquareReading{0, "the picture's longer side"}};
+constexpr std::array kSquares = {SquareReading{0.5, "the side of a square around the picture"},
+                                 SquareReading{0, "the longer side of the picture"}};
 
 class RigChecker {
  public:
@@ -185,21 +185,21 @@ class RigChecker {
   /// with the rig's focal length and with this one.
   std::string TextOf(const FocalGain& found, double miss, double better) const {
     std::string whose =
-        fmt::format("all cameras: focal lengths {:.3f} ± {:.3f} times the rig's", found.gain, found.error);
+        fmt::format("focal lengths of all cameras multiplied by {:.3f} ± {:.3f}", found.gain, found.error);
     if (found.film) {
-      whose = fmt::format("{}: a focal length {:.3f} ± {:.3f} times the rig's", names_[*found.film], found.gain,
-                          found.error);
+      whose =
+          fmt::format("{}: a focal length multiplied by {:.3f} ± {:.3f}", names_[*found.film], found.gain, found.error);
     }
     if (found.film && cameras_.size() == 2) {
-      whose += fmt::format(", or one of {} {:.3f} times the rig's,", names_[1 - *found.film], 1 / found.gain);
+      whose += fmt::format(" (or that of {} multiplied by {:.3f})", names_[1 - *found.film], 1 / found.gain);
     }
     constexpr double kClearly = 0.95;
     const std::string strength = better < kClearly * miss ? "" : ", which is weak evidence";
-    const std::string rivals = found.film ? "a camera that was moved, or a wrong lens, can look like this"
-                                          : "the person's size changes by about the same factor";
+    const std::string rivals = found.film ? "a moved camera or a wrong lens can have the same effect"
+                                          : "the person's size would change by about the same factor";
     return fmt::format(
-        "{} would fit the keypoints better: rays would miss each other by {:.3f} px (median) instead of "
-        "{:.3f}{}; {} (±: standard error)",
+        "{} would fit the keypoints better: rays to the same keypoint would miss each other by {:.3f} px (median) "
+        "instead of {:.3f} px{}; {} (±: standard error)",
         whose, better, miss, strength, rivals);
   }
 
@@ -260,8 +260,8 @@ class RigChecker {
       if (share == 0 || !(strange(share) < strange(said)) || !(miss_read < least)) continue;
       least = miss_read;
       told = fmt::format(
-          "the shoulders' width is {:.2f} of a leg's length (usual: {:.2f}); if keypoints are relative to {}, it "
-          "is {:.2f}, and the rays' residual is {:.2f} px instead of {:.2f}",
+          "the shoulder width is {:.2f} times the leg length (usual: {:.2f}); if keypoint coordinates are fractions of "
+          "{}, the ratio is {:.2f}, and the residual of the rays is {:.2f} px instead of {:.2f} px",
           said, kUsual, square.told, share, miss_read, miss);
     }
     return told;

@@ -220,7 +220,7 @@ class Builder {
 
   Result<void> Add(int part, int parent, const RestLimb& limb) {
     if (!(glm::distance(limb.from, limb.to) > kMinLimbLengthM)) {
-      return Fail({}, "'{}' of the body at rest has no length", parts_[part].name);
+      return Fail({}, "the limb '{}' of the body at rest has no length", parts_[part].name);
     }
     // If the parent turns about the same point, attach the limb to the first ancestor that turns about another point.
     while (parent > 0 && AreSame(OriginOf(parent), limb.from)) parent = body_.tree.joints[parent].parent;
@@ -390,7 +390,7 @@ class Builder {
 
 Result<CaptureBody> FittedBody(const RestBody& rest) {
   Parts parts(rest);
-  if (!parts.AreConnected()) return Fail({}, "a part of the body is not connected with its pelvis");
+  if (!parts.AreConnected()) return Fail({}, "a part of the body is not connected to the pelvis");
   parts.Simplify();
   return Builder(parts).Build();
 }

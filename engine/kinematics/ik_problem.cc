@@ -174,7 +174,7 @@ double EffectorError::MeanAxisAngle(const glm::dvec3& axis_weights) const {
 }
 
 std::string_view FindTreeFault(const KinematicTree& tree) {
-  if (!IsATree(tree)) return "the joints are not a tree that begins with its root";
+  if (!IsATree(tree)) return "the joints do not form a tree whose first joint is the root";
   for (const TreeJoint& joint : tree.joints) {
     if (joint.parent < 0) continue;
     // A child of the root may coincide with the root; such a joint lets the whole tree turn.
@@ -206,17 +206,18 @@ std::string_view FindFault(const KinematicTree& tree, const IkProblem& problem, 
 std::string_view FindProblemFault(const KinematicTree& tree, const IkProblem& problem) {
   const std::size_t dofs = tree.limits.size();
   if (problem.start.angles.size() != dofs || problem.limits.size() != dofs)
-    return "angles or limits do not fit the tree";
-  if (problem.targets.size() != tree.effectors.size()) return "targets do not fit the tree";
+    return "the number of angles or limits is not the tree's number of degrees of freedom";
+  if (problem.targets.size() != tree.effectors.size())
+    return "the number of targets is not the tree's number of end effectors";
   if (!IsSane(problem.start.root_position) || !IsAFrame(problem.start.root_frame))
-    return "the root's position is not finite or too large, or its axes are not orthonormal";
+    return "the root's position is not finite or too large, or the root's axes are not orthonormal";
   bool are_angles_sane = true, are_limits_good = true, are_targets_good = true;
   for (const double angle : problem.start.angles) are_angles_sane &= IsSane(angle);
   if (!are_angles_sane) return "a start angle is not finite";
   for (const AngleRange& range : problem.limits) {
     are_limits_good &= IsSane(range.lower) & IsSane(range.upper) & (range.lower <= range.upper);
   }
-  if (!are_limits_good) return "a limit is not finite or too large, or its lower bound is above its upper bound";
+  if (!are_limits_good) return "an angle limit is not finite or too large, or a lower limit is above the upper limit";
   for (const EffectorTarget& target : problem.targets) are_targets_good &= IsGood(target);
   if (!are_targets_good) {
     return "a target is invalid; allowed: a finite position, orthonormal axes, finite weights of 0 or more";

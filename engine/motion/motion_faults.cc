@@ -85,8 +85,8 @@ std::string GravitySentence(const MotionFault& fault) {
   const bool is_fast = fault.size > kGravity;
   const double factor = is_fast ? fault.size / kGravity : kGravity / fault.size;
   return fmt::format(
-      "in flight at {:.2f} s the mass centre falls with {:.1f} m/s², not {:.2f}: is the rate {:.2g} times too {}, "
-      "or the unit {:.2g} times too {}?",
+      "in flight at {:.2f} s, the centre of mass falls with {:.1f} m/s² instead of {:.2f} m/s²: is the frame rate "
+      "{:.2g} times too {}, or the unit of length {:.2g} times too {}?",
       fault.from_s, fault.size, kGravity, std::sqrt(factor), is_fast ? "high" : "low", factor,
       is_fast ? "large" : "small");
 }
@@ -102,8 +102,13 @@ std::string SentenceOf(const MotionFault& fault, bool is_always) {
   // Write the sentence of the fault's kind.
   switch (fault.kind) {
     case kFloats:
-      if (is_always) return fmt::format("floats: the feet never touch the floor, and rest {:.0f} cm above it", cm);
-      return fmt::format("floats {:.0f} cm {}; are there steps, or is the floor elsewhere?", cm, when);
+      if (is_always)
+        return fmt::format(
+            "floats: the feet never touch the floor, and their resting height is {:.0f} cm",
+            cm);
+      return fmt::format(
+          "floats {:.0f} cm above the floor {}; are there steps, or is the floor at another height?",
+          cm, when);
     case kSinks:
       return fmt::format("sinks {:.0f} cm into the floor {}", cm, when);
     case kSkates:
@@ -120,12 +125,14 @@ std::string SentenceOf(const MotionFault& fault, bool is_always) {
     case kBends:
       return fmt::format("{} bends backwards by {:.0f}° {}", joint, fault.size, when);
     case kTorn:
-      if (!fault.joint) return fmt::format("left and right are exchanged, or lie on one side, {}", when);
-      return fmt::format("{} is torn off {}: {:.0f} cm from where its neighbours have it", joint, when, cm);
+      if (!fault.joint) return fmt::format("left and right joints are exchanged, or lie on the same side, {}", when);
+      return fmt::format(
+          "{} is torn off {}: it is {:.0f} cm from the position that the neighbouring joints imply",
+          joint, when, cm);
     case kGaps:
       return fmt::format("{} not shown for {:.2f} s {}", fault.joint ? joint + " is" : "joints are", fault.size, when);
     case kPasses:
-      return fmt::format("{} passes through trunk or head {}, {:.0f} cm from their centre line", joint, when, cm);
+      return fmt::format("{} passes through the trunk or the head {}, {:.0f} cm from the centre line", joint, when, cm);
     case kRate:
       return GravitySentence(fault);
     case kSpeed:
@@ -140,7 +147,8 @@ std::vector<FaultRule> MakeFaultRules() {
   // Phrases that several rules use.
   const auto cm = [](double metres) { return fmt::format("{:g} cm", 100 * metres); };
   const auto percent = [](double share) { return fmt::format("{:g} %", 100 * share); };
-  const std::string whole_body = fmt::format("{} of the joints, one ankle among them,", percent(kAgreeingShare));
+  const std::string whole_body =
+      fmt::format("{} of the joints, including at least one ankle,", percent(kAgreeingShare));
   std::string hovers;
   for (const Hovering& rule : kHoverings) {
     hovers += fmt::format("{}{} for {:g} s{}", hovers.empty() ? "" : ", ", cm(rule.height_m), rule.longest_s,
@@ -150,39 +158,41 @@ std::vector<FaultRule> MakeFaultRules() {
   return {
       {"floats", "m",
        fmt::format(
-           "The feet rest more than {} above the floor in the whole clip. Or all joints stay higher than a limit "
-           "({}; above {} only if no foot rests). Or {} are displaced upwards by more than {} from one frame to "
-           "the next, until they come back.",
+           "The feet rest more than {} above the floor in the whole clip. Or all joints stay higher than a limit ({}; "
+           "limits above {} apply only if no foot rests). Or {} are displaced upwards by more than {} from one frame "
+           "to the next, until they come back.",
            cm(kFloatInAll_m), hovers, cm(kStand_m), whole_body, cm(kLevel_m))},
       {"sinks", "m",
-       fmt::format("The feet are more than {} below the floor for {:g} s or in the whole clip. Or {} are displaced "
+       fmt::format("The feet are more than {} below the floor for {:g} s, or in the whole clip. Or {} are displaced "
                    "downwards by more than {}, until they come back.",
                    cm(kSink_m), kSink_s, whole_body, cm(kLevel_m))},
       {"skates", "m/s",
        fmt::format(
-           "Feet that should stand share a velocity along the floor of {}/s or more for {:g} s, and few of them "
-           "rest. Or {} change their velocity by {}/s (below {:g} Hz, more) from one frame to the next and back "
-           "after {:g} to {:g} s, and low feet move with them. Or ankle and toes of one low foot move alike along "
-           "the floor, faster than {}/s, for {:g} s ({:g} s at one velocity).",
+           "Feet that should stand move together along the floor at {}/s or more for {:g} s, and few of these feet "
+           "rest. Or {} change velocity by {}/s from one frame to the next (the limit is higher below {:g} Hz), and "
+           "back after {:g} to {:g} s, and low feet move with these joints. Or the ankle and the toes of one low foot "
+           "move together along the floor, faster than {}/s, for {:g} s ({:g} s if the velocity is constant).",
            cm(kGlide_m_s), kGlide_s, whole_body, cm(kStep_m_s), kSlow_hz, kMinCarried_s, kMaxCarried_s,
            cm(kFootSkate_m_s), kFootSkate_s, kEvenFootSkate_s)},
       {"jumps", "m",
        fmt::format(
-           "{} are displaced alike from one frame to the next (by third differences of positions): by more than "
-           "{} along the floor, or {} in any direction. Below {:g} Hz, both limits grow with 1 / rate².",
+           "From one frame to the next, {} are displaced together, by more than {} along the floor or by more than {} "
+           "in any direction (measured by third differences of positions). Below {:g} Hz, both limits grow with 1 / "
+           "rate².",
            whole_body, cm(kJumpAlongFloor_m), cm(kJump_m), kSlowJump_hz)},
       {"pops", "m",
        fmt::format(
-           "One joint alone is displaced from one frame to the next: its third difference is above {}, and above {:g} "
-           "times its {}th percentile in the clip; a third difference above {} always counts. In clips of {:g} to "
-           "{:.0f} frames a third difference also counts if it is above {}, and above {:g} times the value that all "
-           "but {:g} of the joint's third differences stay below. Below {:g} Hz, the limits of {} and {} grow with "
-           "1 / rate², as the third differences of fast motion do.",
+           "One joint alone is displaced from one frame to the next: the third difference of its position is above {}, "
+           "and above {:g} times the {}th percentile of this joint's third differences in the clip. A third difference "
+           "above {} always counts. In clips of {:g} to {:.0f} frames, a third difference also counts if it is above "
+           "{}, and above {:g} times the joint's largest third difference after the {:g} largest are removed. Below "
+           "{:g} Hz, the limits of {} and {} grow with 1 / rate², as the third differences of fast motion do.",
            cm(kPop_m), kPopTimesUsual, 100 * kUsualPop, cm(kSurePop_m), kShortClipFrames, kPopFrames / (1 - kUsualPop),
            cm(kShortPop_m), kPopTimesUsual, kPopFrames, kSlow_hz, cm(kSurePop_m), cm(kShortPop_m))},
       {"freezes", "s",
-       fmt::format("No joint is faster than {:g} mm/s for {:g} s, and the body stops or starts abruptly (from or to a "
-                   "mean speed of its joints above {}/s), or its frames repeat one pose exactly for {:g} s.",
+       fmt::format("No joint is faster than {:g} mm/s for {:g} s, and the body stops or starts abruptly (the mean "
+                   "speed of the joints is above {}/s just before or after). Or the frames repeat one pose exactly for "
+                   "{:g} s.",
                    1000 * kStill_m_s, kFreeze_s, cm(kAbrupt_m_s), kRepeat_s)},
       {"stretches", "share",
        fmt::format(
@@ -192,32 +202,33 @@ std::vector<FaultRule> MakeFaultRules() {
            percent(kStretch), kStretch_s, kStretchTimesUsual)},
       {"bends", "deg",
        fmt::format(
-           "A knee bends backwards by more than {:g}° for {:g} s. The line of the hips shows where the front is; the "
-           "toes must agree, unless the foot is missing or pointed.",
+           "A knee bends backwards by more than {:g}° for {:g} s. The line between the hips determines the front. The "
+           "toes must agree with this front, except if the foot is missing or pointed.",
            kBend_deg, kBend_s)},
       {"torn", "m",
        fmt::format(
            "For {:g} s, a joint of trunk, head, shoulders, hips, toes or hands deviates from its usual distance to its "
            "neighbours by 8 to 14 % of the length of leg and trunk. Or, in the median frame, this distance is 1.6 to "
-           "3.5 times that of a person, or differs from the distance on the body's other side. Also: the head lies on "
-           "the neck or points down "
-           "the trunk, toes point backwards, shoulders or hips are exchanged or coincide.",
+           "3.5 times a person's usual distance, or differs from the distance on the other side of the body. Or the "
+           "head lies on the neck or points down the trunk. Or toes point backwards. Or shoulders or hips are "
+           "exchanged or coincide.",
            kTorn_s)},
       {"gaps", "s",
-       fmt::format("For {:g} s, every frame lacks a joint that other frames show. Or frames at the beginning or "
-                   "end of the file lack needed joints for as long.",
+       fmt::format("For {:g} s, every frame lacks a joint that other frames show. Or, for the same time at the "
+                   "beginning or the end of the file, frames lack joints that Etude needs.",
                    kGap_s)},
       {"passes", "m",
-       fmt::format("For {:g} s, a forearm or a hand is within {} of the line of the spine, or a forearm is as close to "
-                   "the line from neck to head.",
+       fmt::format("For {:g} s, a forearm or a hand is within {} of the line of the spine, or a forearm is equally "
+                   "close to the line from neck to head.",
                    kPass_s, cm(kPass_m))},
       {"rate", "m/s2",
-       fmt::format("In flight (all feet off the floor), the mass centre falls by less than {:.1f} or more than {:.1f} "
-                   "m/s²: the frame rate or the unit of length is wrong.",
+       fmt::format("In flight (all feet off the floor), the centre of mass falls with less than {:.1f} or more than "
+                   "{:.1f} m/s². Then the frame rate or the unit of length is wrong.",
                    kGravity / kGravityFactor, kGravity * kGravityFactor)},
       {"speed", "m/s",
        fmt::format(
-           "In the median frame the fastest joint is faster than {:g} m/s, and no flight shows how bodies fall.",
+           "In the median frame, the fastest joint is faster than {:g} m/s, and the clip has no flight from which "
+           "gravity could be measured.",
            kFast_m_s)}};
 }
 

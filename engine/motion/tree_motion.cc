@@ -7,12 +7,16 @@ namespace etude {
 
 Result<TreeMotion> TreeMotionOf(const RawMotion& motion) {
   const std::size_t joints = motion.joints.size();
-  if (motion.rotations.empty()) return Fail({motion.name}, "has only points; needed: rotations of the joints");
+  if (motion.rotations.empty())
+    return Fail({motion.name},
+                "the motion has only points; allowed: motions with joint rotations");
   if (std::ranges::count(motion.parents, -1) != 1 || motion.parents.front() != -1) {
-    return Fail({motion.name}, "has {} roots; allowed: one, the first joint", std::ranges::count(motion.parents, -1));
+    return Fail({motion.name}, "the motion has {} roots; allowed: one root, the first joint",
+                std::ranges::count(motion.parents, -1));
   }
   if (!std::ranges::all_of(motion.positions, IsSeen))
-    return Fail({motion.name}, "has frames without the position of a joint; needed: every joint in every frame");
+    return Fail({motion.name},
+                "in some frames, the position of a joint is missing; allowed: every joint in every frame");
   TreeMotion made{
       {motion.joints, motion.parents, std::vector<glm::dvec3>(joints), std::vector<bool>(joints)}, motion.rate_hz, {}};
   for (const int joint : motion.added) made.tree.is_point[static_cast<std::size_t>(joint)] = true;

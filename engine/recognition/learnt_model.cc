@@ -229,8 +229,8 @@ std::string WriteTrees(const std::string& key, const BoostedTrees& model) {
 
 Result<DecisionTree> ReadTree(const Node& node) {
   if (node.kind != Node::Kind::kSequence || node.items.size() != kNumbersPerTree) {
-    return Fail(node.place, "a tree must be a list of {} numbers, found {} of {}", kNumbersPerTree, Describe(node),
-                node.items.size());
+    return Fail(node.place, "a tree must be a list of {} numbers, found {} with {} items", kNumbersPerTree,
+                Describe(node), node.items.size());
   }
   // A tree is stored as a flat list of numbers.
   std::array<double, kNumbersPerTree> numbers{};
@@ -280,7 +280,8 @@ Result<LearntModel> ReadLearntModel(std::string_view text, const std::string& fi
   const auto version = static_cast<int>(fields.OptionalWhole("measures", {1, 1e6}).value_or(kUnsaid));
   if (version != kMeasuresVersion) {
     return Fail(fields.Raw("measures")->place,
-                "a model for version {} of the measures, but this program has version {}: train the model again",
+                "the model was trained with version {} of the measures, but this program has version {}; train the "
+                "model again",
                 version, kMeasuresVersion);
   }
   LearntModel model;

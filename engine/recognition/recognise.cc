@@ -13,12 +13,13 @@ Result<void> CheckAsked(std::span<const AskedMove> asked, std::size_t moves, std
   for (const auto& [move, window] : asked) {
     const auto [begin, end] = window;
     if (move >= moves)
-      return Fail({}, "move number {} is asked for, but {} moves were taught (numbers count from 0)", move, moves);
+      return Fail({}, "move number {} is requested, but only {} moves were taught; moves are counted from 0", move,
+                  moves);
     if (begin < 0 || end < begin || end > static_cast<int>(frames)) {
-      return Fail({}, "a move is asked for in frames {} to {}, but the stream has {} frames", begin, end, frames);
+      return Fail({}, "a move is requested in frames {} to {}, but the stream has {} frames", begin, end, frames);
     }
     if (begin < free_from) {
-      return Fail({}, "a move is requested from frame {} on, but the request before it lasts until {}", begin,
+      return Fail({}, "a move is requested from frame {} on, but the previous request lasts until frame {}", begin,
                   free_from);
     }
     free_from = end;

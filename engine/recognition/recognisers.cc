@@ -54,7 +54,7 @@ Result<void> Check(const RecogniserKind& kind, std::span<const TaughtMove> taugh
     const TaughtMove& move = taught[i];
     if (FindByName(taught.first(i), move.name)) return Fail({}, "two moves are called '{}'", move.name);
     if (!(move.span_s > 0 && move.span_s <= kMaxSpan)) {
-      return Fail({}, "move '{}' lasts {} s; allowed: above 0, up to {}", move.name, move.span_s, kMaxSpan);
+      return Fail({}, "move '{}' lasts {} s; allowed: above 0, up to {} s", move.name, move.span_s, kMaxSpan);
     }
     const auto why = [&](const Error& error) { return Fail({}, "recogniser {}: {}", kind.name, error.message); };
     if (kind.needs_key_poses) {
@@ -75,18 +75,19 @@ std::span<const RecogniserKind> AllRecognisers() {
       // These recognisers are taught by key poses.
       WithSettings<KeyPoseOptions>(
           {.name = "key-pose",
-           .description = "paper A's: the move's key poses, in their order",
+           .description = "paper A's method: checks that the key poses of the move occur in their order",
            .needs_key_poses = true},
           MakeKeyPoseRecogniser,
           {{{"tolerance_scale", &KeyPoseOptions::tolerance_scale, 0.1, 5,
-             "Multiplies every tolerance of the key poses."},
+             "Factor on every tolerance of the key poses."},
             {"pose_share", &KeyPoseOptions::pose_share, 0.01, 1,
-             "The weighted share of a key pose's angles that must be within their tolerances."},
+             "Weighted fraction of the angles of a key pose that must be within their tolerances."},
             {"hold_frames", &KeyPoseOptions::hold_frames, 1, 30,
-             "Number of successive frames in which a key pose must be met."}}}),
+             "Number of successive frames in which the body must match a key pose."}}}),
       WithSettings<FuzzyRulesOptions>(
           {.name = "fuzzy-rules",
-           .description = "paper A's fuzzy features: a rule for each key pose, and one for their order",
+           .description = "fuzzy rules on paper A's features: one rule for each key pose, and one rule for the order "
+                          "of the key poses",
            .needs_key_poses = true},
           MakeFuzzyRulesRecogniser,
           {{{"hold_frames", &FuzzyRulesOptions::hold_frames, 1, 30,
@@ -94,26 +95,27 @@ std::span<const RecogniserKind> AllRecognisers() {
       // These recognisers are taught by examples.
       WithSettings<DtwOptions>(
           {.name = "dtw",
-           .description = "dynamic time warping of joints to the taught examples",
+           .description = "dynamic time warping of joint positions to the taught examples",
            .needs_examples = true},
           MakeDtwRecogniser,
-          {{{"half_at_cm", &DtwOptions::half_at_cm, 1, 100, "The distance at which the evidence is one half."}}}),
+          {{{"half_at_cm", &DtwOptions::half_at_cm, 1, 100, "Distance at which the evidence is one half."}}}),
       {.name = "nearest",
-       .description = "nearest neighbour of joint positions: examples compete with their mirror images, copies of half "
+       .description = "nearest neighbour of joint positions among the examples, their mirror images, copies with half "
                       "the amplitude, other moves and standing",
        .needs_examples = true,
        .teach = [](std::span<const TaughtMove> taught,
                    const RecogniserOptions& options) { return MakeNearestRecogniser(taught, options.weights); }},
       {.name = "learnt",
-       .description = "ours: limbs aligned with the taught examples, judged by a model learnt from simulated people",
+       .description = "ours: aligns limbs with the taught examples, and judges the differences by a model learnt from "
+                      "simulated people",
        .needs_examples = true,
        .teach =
            [](std::span<const TaughtMove> taught, const RecogniserOptions& options) {
              return MakeLearntRecogniser(taught, options.weights, BuiltinLearntModel());
            }},
       {.name = "coached",
-       .description = "ours: like `learnt`, but for moves that are requested in time with the music; its model is "
-                      "learnt from people who follow a coach",
+       .description = "ours: like `learnt`, but for moves that a coach requests in time with the music; the model is "
+                      "learnt from simulated people who follow a coach",
        .needs_examples = true,
        // In a test with 32 simulated adults, 0.2 right performances per minute were missed at this threshold.
        .threshold = 0.25,
@@ -122,8 +124,8 @@ std::span<const RecogniserKind> AllRecognisers() {
              return MakeLearntRecogniser(taught, options.weights, BuiltinCoachedModel());
            }},
       {.name = "whole-body",
-       .description = "ours, for recorded people: judges like `learnt`, and finds sides and moves by the three nearest "
-                      "whole bodies",
+       .description = "ours, for recorded people: judges like `learnt`, and recognises sides and moves by the three "
+                      "examples with the nearest whole-body poses",
        .needs_examples = true,
        .teach = [](std::span<const TaughtMove> taught, const RecogniserOptions& options) {
          return MakeWholeBodyRecogniser(taught, options.weights,

@@ -128,10 +128,11 @@ Result<BodyChoice> ChooseBody(const Clip& clip, const std::string& file, const J
     if (body != used) left_out.push_back(LeftHipOf(clip, *body));
   }
   const std::string others =
-      left_out.size() == 1 ? "a second body, with the left hip " + left_out.front()
-                           : fmt::format("{} other bodies, with the left hips {}", left_out.size(), Join(left_out));
-  std::string doubt = fmt::format("the file contains {}; the body with {} is used (--joint-map chooses another)",
-                                  others, LeftHipOf(clip, *used));
+      left_out.size() == 1 ? "a second body with the left hip " + left_out.front()
+                           : fmt::format("{} other bodies with the left hips {}", left_out.size(), Join(left_out));
+  std::string doubt = fmt::format(
+      "the file contains {}; Etude uses the body with {} (use --joint-map to choose another body)",
+      others, LeftHipOf(clip, *used));
   return BodyChoice{std::move(used->map), std::move(doubt)};
 }
 

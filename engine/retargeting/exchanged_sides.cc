@@ -212,7 +212,7 @@ std::vector<std::size_t> FindExchangesOf(std::span<const MarkerPosition> one, st
 
 std::string DescribeExchanges(std::string_view what, const std::set<std::size_t>& times, double rate_hz,
                               const std::vector<std::string>& pairs) {
-  return fmt::format("{} exchange their places from one frame to the next, {} (first at {:.2f} s): {}", what,
+  return fmt::format("{} exchange positions from one frame to the next, {} (first at {:.2f} s): {}", what,
                      times.size() == 1 ? "once" : fmt::format("{} times", times.size()),
                      static_cast<double>(*times.begin()) / rate_hz, Join(pairs));
 }
@@ -222,7 +222,7 @@ std::string DescribeExchangedJoints(std::span<const JointPositions> frames, doub
   const auto pair_of = [&](Role left) { return name_of(left) + " – " + name_of(Mirrored(left)); };
   std::vector<std::string> said, pairs;
   for (const Role left : FindExchangedJoints(frames)) pairs.push_back(pair_of(left));
-  if (!pairs.empty()) said.push_back("left and right look exchanged, because limbs cross: " + Join(pairs));
+  if (!pairs.empty()) said.push_back("left and right are probably exchanged, because limbs cross: " + Join(pairs));
   // Describe the exchanges of left and right, and those of other joints.
   const std::vector<Exchange> exchanges = FindExchanges(frames, rate_hz);
   for (const bool is_mirrored : {true, false}) {

@@ -23,8 +23,8 @@
 namespace etude {
 namespace {
 
-constexpr const char* kFromCamera = "the body stands along −Y, as in a camera's frame: turned to Y up";
-constexpr const char* kOnHands = "the body is upside down on its hands: Y is taken to be up, as in a handstand";
+constexpr const char* kFromCamera = "the body stands along −Y, as in a camera's frame, so Etude rotated it to Y up";
+constexpr const char* kOnHands = "the body is upside down on its hands, so Etude assumes a handstand with Y up";
 
 /// Reads the position at `index`; NaN means not seen. Returns nullopt if a coordinate exceeds ±10⁹.
 std::optional<glm::dvec3> PlaceIn(const NumberArray& array, std::size_t index) {
@@ -54,7 +54,9 @@ Result<double> UnitOf(const Npz& arrays, const RawMotion& motion, const std::str
   } else if (const std::string text = TextOf(arrays, "unit"); !text.empty()) {
     ASSIGN_OR_RETURN(unit, ReadUnit(text, {file}));
   } else if (arrays.Contains("unit")) {
-    return Fail({file}, "unit is neither one number nor one text; allowed: its length in metres, or its name");
+    return Fail({file},
+                "the array 'unit' is neither one number nor one text; allowed: the metres in one unit, or the "
+                "unit's name");
   }
   constexpr double kMinExtent_m = 0.3, kMaxExtent_m = 4;
   const double spread = SpreadOf(motion.positions, motion.joints.size());
@@ -67,8 +69,8 @@ Result<double> UnitOf(const Npz& arrays, const RawMotion& motion, const std::str
   if (!likely) {
     return Fail(
         {file},
-        "the joints extend {:.3g} m in the median frame if the unit is {:g} m; allowed: at most {:g} m; `unit` in "
-        "the file or in a joint map sets the unit",
+        "the joints extend {:.3g} m in the median frame if the unit is {:g} m; allowed: at most {:g} m; use `unit` in "
+        "the file or in a joint map to set the unit",
         unit * spread, unit, kMaxExtent_m);
   }
   notes.push_back(fmt::format("1 unit = {:g} cm, because in units of {:g} m the joints would extend {:.3g} m",
@@ -104,7 +106,7 @@ void TakeRolesOfDataSet(RawMotion& motion) {
     std::ranges::replace(motion.roles, static_cast<int>(one.points.front()), -1);
     motion.roles[Index(*role)] = static_cast<int>(one.points.front());
   }
-  if (motion.roles != before) motion.notes.push_back(fmt::format("joints of {} by their names", known->data_set));
+  if (motion.roles != before) motion.notes.push_back(fmt::format("joints of {}, found by name", known->data_set));
 }
 
 NumberArray ArrayOf(std::vector<std::size_t> shape, std::vector<double> values = {}) {
@@ -121,11 +123,13 @@ Result<ArrayJoints> JointsOfArray(const NumberArray& array, const std::optional<
                                   const std::string& file, std::optional<UpAxis> told) {
   constexpr std::size_t kHumanMl3dFeatures = 263;
   if (array.shape.size() == 2 && array.shape[1] == kHumanMl3dFeatures) {
-    return Fail({file}, "an array of {}: features of HumanML3D; convert them to joints (docs/clips.md#humanml3d)",
+    return Fail({file},
+                "the array of {} contains features of HumanML3D; convert the features to joints "
+                "(docs/clips.md#humanml3d)",
                 ShapeText(array));
   }
   if (array.shape.size() != 3 || array.shape[2] != 3 || array.shape[0] == 0) {
-    return Fail({file}, "an array of {}; allowed: frames × joints × 3", ShapeText(array));
+    return Fail({file}, "found an array of {}; allowed: frames × joints × 3", ShapeText(array));
   }
   // Find the layout by its name or by the number of joints.
   const std::size_t frames = array.shape[0], joints = array.shape[1];
@@ -135,7 +139,9 @@ Result<ArrayJoints> JointsOfArray(const NumberArray& array, const std::optional<
   };
   const auto count = std::ranges::count_if(JointLayouts(), is_named);
   if (count != 1) {
-    return Fail({file}, "{} joints{}; allowed: {}#LAYOUT, where LAYOUT has as many joints and is one of {}", joints,
+    return Fail({file},
+                "found {} joints{}; allowed: {}#LAYOUT, where LAYOUT has the same number of joints and is one of {}",
+                joints,
                 layout      ? " in the layout " + Quote(*layout)
                 : count > 1 ? ", as several layouts have"
                             : ", as no layout has",
@@ -156,7 +162,9 @@ Result<ArrayJoints> JointsOfArray(const NumberArray& array, const std::optional<
     }
   }
   if (const JointLayout* const better = FindBetterLayout(places, found)) {
-    return Fail({file}, "in the layout {}, its limbs have impossible lengths; allowed: {}#{}, whose limbs fit",
+    return Fail({file},
+                "in the layout {}, limbs have impossible lengths; allowed: {}#{}, in which the limbs have "
+                "possible lengths",
                 found.name, file, better->name);
   }
   // Convert to metres.
@@ -186,18 +194,21 @@ Result<std::optional<NumberArray>> JointsOfSam(const Npz& arrays, const std::str
     if (found == nullptr) continue;
     NumberArray joints = of_one_person(*found, 3);
     if (joints.shape.size() != 3 || joints.shape[2] != 3) {
-      return Fail({file}, "{} {}; allowed: frames × joints × 3, one person", name, ShapeText(*found));
+      return Fail({file}, "the array {} has the shape {}; allowed: frames × joints × 3, for one person", name,
+                  ShapeText(*found));
     }
-    note = "SAM 3D Body's arrays in the camera's frame, turned to Y up as if the camera were level";
+    note = "SAM 3D Body's arrays are in the camera's frame; Etude rotated them to Y up, assuming a level camera";
     NumberArray moved;
     if (const NumberArray* const camera = arrays.Find("pred_cam_t")) {
       moved = of_one_person(*camera, 2);
       if (moved.shape != std::vector<std::size_t>{joints.shape[0], 3}) {
-        return Fail({file}, "pred_cam_t {}, {} {}; allowed: frames × 3 and frames × joints × 3, as many frames in both",
+        return Fail({file},
+                    "the array pred_cam_t has the shape {}, and {} the shape {}; allowed: frames × 3 and "
+                    "frames × joints × 3, with the same number of frames",
                     ShapeText(*camera), name, ShapeText(*found));
       }
     } else {
-      note += "; without pred_cam_t, the file does not say where the body is, so it stays in place";
+      note += "; the body stays in place, because the file has no array pred_cam_t with positions";
     }
     for (std::size_t i = 0; i < joints.values.size(); ++i) {
       if (!moved.values.empty()) joints.values[i] += moved.values[3 * (i / (3 * joints.shape[1])) + i % 3];
@@ -232,8 +243,8 @@ std::string DescribeFewFrames(const MarkerMotion& motion) {
     least = std::min(least, step);
   }
   return fmt::format(
-      "from each of its {} frames to the next, most joints jump by at least {:.0f} cm: does the first axis count "
-      "people instead of frames?",
+      "in each of the {} frames, most joints jump by at least {:.0f} cm to the next frame: does the first axis of the "
+      "array count people instead of frames?",
       motion.frames.size(), 100 * least);
 }
 
@@ -281,7 +292,8 @@ bool IsBodyNpz(const Npz& arrays) {
 
 Result<RawMotion> ReadRawNpz(const Npz& arrays, const std::string& file, const ArrayOptions& told) {
   if (!arrays.arrays.contains("positions")) {
-    return Fail({file}, "positions: not plain numbers; allowed: floats and whole numbers");
+    return Fail({file},
+                "the array 'positions' contains other data than numbers; allowed: floating-point numbers and integers");
   }
   const NumberArray& positions = arrays.arrays.at("positions");
   const auto& shape = positions.shape;
@@ -295,8 +307,8 @@ Result<RawMotion> ReadRawNpz(const Npz& arrays, const std::string& file, const A
     ASSIGN_OR_RETURN(clock, ClockOfArrays(arrays, shape[0], file));
     if (!clock.IsStated()) {
       return Fail({file},
-                  "found no rate_hz (frames per second); allowed: one number from 0.1 to 10000, as numpy.savez(…, "
-                  "positions=p, rate_hz=30) writes it, `times` in seconds, or `rate: 30` in a joint map");
+                  "found no rate_hz (frames per second); allowed: rate_hz with one number from 0.1 to 10000, as in "
+                  "numpy.savez(…, positions=p, rate_hz=30), or `times` in seconds, or `rate: 30` in a joint map");
     }
   }
   motion.rate_hz = told.rate_hz.value_or(kJudgedRateHz);
@@ -304,16 +316,21 @@ Result<RawMotion> ReadRawNpz(const Npz& arrays, const std::string& file, const A
   if (const auto names = arrays.texts.find("names"); names != arrays.texts.end()) {
     motion.joints = names->second;
   } else if (std::ranges::find(arrays.skipped, "names") != arrays.skipped.end() || arrays.arrays.contains("names")) {
-    return Fail({file}, "names: not a list of texts; allowed: a list as numpy.array([\"hip_centre\", …]) makes it");
+    return Fail({file},
+                "the array 'names' is not a list of texts; allowed: a list such as numpy.array([\"hip_centre\", …])");
   } else if (shape[1] == kRoleCount) {
     for (const Role role : AllRoles()) motion.joints.emplace_back(RoleName(role));
   }
   const std::size_t joints = motion.joints.size();
-  if (joints != shape[1]) return Fail({file}, "{} joints and {} names; allowed: one name for each", shape[1], joints);
+  if (joints != shape[1])
+    return Fail({file},
+                "found {} joints and {} names; allowed: one name for each joint",
+                shape[1], joints);
   std::set<std::string_view> known;
   for (std::size_t j = 0; j < joints; ++j) {
     if (!known.insert(motion.joints[j]).second) {
-      return Fail({file}, "names: {} appears twice; allowed: a different name for each joint", Quote(motion.joints[j]));
+      return Fail({file}, "the array 'names' contains {} twice; allowed: a different name for each joint",
+                  Quote(motion.joints[j]));
     }
     if (const auto role = FindRole(motion.joints[j])) motion.roles[Index(*role)] = static_cast<int>(j);
   }
@@ -326,7 +343,9 @@ Result<RawMotion> ReadRawNpz(const Npz& arrays, const std::string& file, const A
   motion.positions.reserve(shape[0] * joints);
   for (std::size_t i = 0; i < shape[0] * joints; ++i) {
     const auto place = PlaceIn(positions, i);
-    if (!place) return Fail({file}, "positions of frame {}: joint {} lies beyond ±10⁹", i / joints, i % joints);
+    if (!place)
+      return Fail({file}, "in frame {}, a coordinate of joint {} is out of range; allowed: ±10⁹", i / joints,
+                  i % joints);
     motion.positions.push_back(*place);
   }
   RETURN_IF_ERROR(LeaveGapsOut(std::move(clock), file, motion));
@@ -336,7 +355,8 @@ Result<RawMotion> ReadRawNpz(const Npz& arrays, const std::string& file, const A
     constexpr double kMinExtent_m = 0.1, kMaxExtent_m = 4;
     const double extent = unit * SpreadOf(motion.positions, joints);
     if (extent > 0 && (extent < kMinExtent_m || extent > kMaxExtent_m)) {
-      return Fail({file}, "in the unit given (1 unit = {:.4g} cm) the joints extend {:.3g} m; allowed: {:g} to {:g} m",
+      return Fail({file},
+                  "with the given unit (1 unit = {:.4g} cm), the joints extend {:.3g} m; allowed: {:g} to {:g} m",
                   100 * unit, extent, kMinExtent_m, kMaxExtent_m);
     }
     motion.notes.push_back(fmt::format("1 unit = {:g} cm (given)", 100 * unit));
@@ -345,7 +365,7 @@ Result<RawMotion> ReadRawNpz(const Npz& arrays, const std::string& file, const A
   }
   const std::string axis = TextOf(arrays, "up");
   if (!axis.empty() && axis != "y" && axis != "z") return Fail({file}, "up is {}; allowed: y, z", Quote(axis));
-  if (axis.empty() && arrays.Contains("up")) return Fail({file}, "up is not one text; allowed: 'y', 'z'");
+  if (axis.empty() && arrays.Contains("up")) return Fail({file}, "the array 'up' is not one text; allowed: 'y', 'z'");
   const UpAxis up = told.up.value_or(axis == "z" ? UpAxis::kZ : UpAxis::kY);
   if (up == UpAxis::kZ) {
     motion.notes.push_back(fmt::format("turned upright from Z up ({})", told.up ? "given" : "the file's `up`"));

@@ -107,8 +107,8 @@ class MapFinder {
     std::string guess;
     if (agrees && proposal.confidence > 0) {
       guess = fmt::format(
-          "by the skeleton's shape {} could be {} (confidence {:.2f}; used from {:.1f} on): etude clip map writes a "
-          "file with this proposal, which you can edit; ",
+          "by the skeleton's shape, the role {} could be the joint {} (confidence {:.2f}; Etude needs at least "
+          "{:.1f}); `etude clip map` writes a joint map with this proposal, which you can edit; ",
           RoleName(missing_roles[0]), Quote(tree_.NameOf(proposal.joints[Index(missing_roles[0])])),
           proposal.confidence, kMinAnatomyConfidence);
     }
@@ -119,7 +119,7 @@ class MapFinder {
     if (draft_.Has(kHipCentre)) return {};
     const int pelvis = tree_.CommonAncestor(draft_.JointOf(kLeftHip), draft_.JointOf(kRightHip));
     if (pelvis < 0) {
-      return Fail({file_}, "{} and {}, the hips, have no common ancestor", Quote(draft_.NameOf(kLeftHip)),
+      return Fail({file_}, "the hips, {} and {}, have no common ancestor", Quote(draft_.NameOf(kLeftHip)),
                   Quote(draft_.NameOf(kRightHip)));
     }
     draft_.Set(kHipCentre, pelvis);
@@ -217,7 +217,7 @@ class MapFinder {
 
   Result<void> CheckDescends(Role child, Role parent) const {
     if (tree_.DescendsFrom(draft_.JointOf(child), draft_.JointOf(parent))) return {};
-    return Fail({file_}, "the role {} has the joint {}, which does not descend from {}, the joint of {}",
+    return Fail({file_}, "the role {} has the joint {}, which does not descend from {}, the joint of the role {}",
                 RoleName(child), Quote(draft_.NameOf(child)), Quote(draft_.NameOf(parent)), RoleName(parent));
   }
 
@@ -239,7 +239,8 @@ class MapFinder {
     for (const Role role : {kSpine, kShoulderCentre, kHead}) {
       if (IsFree(draft_, role)) continue;
       return Fail({file_},
-                  "the role {} has the joint {}, which is part of a limb; allowed: a joint of trunk, neck or head",
+                  "the role {} has the joint {}, which is part of a limb; allowed: a joint of the trunk, the neck or "
+                  "the head",
                   RoleName(role), Quote(draft_.NameOf(role)));
     }
     return {};
@@ -250,7 +251,8 @@ class MapFinder {
     const double left = glm::dot(draft_.RestOf(kLeftHip) - draft_.RestOf(kHipCentre), across);
     const double right = glm::dot(draft_.RestOf(kRightHip) - draft_.RestOf(kHipCentre), across);
     if (left > 0 && right < 0) return {};
-    return Fail({file_}, "{} and {} lie on the same side of {} in the rest pose; a left and a right hip are needed",
+    return Fail({file_},
+                "the hips {} and {} are on the same side of {} in the rest pose; allowed: one hip on each side",
                 Quote(draft_.NameOf(kLeftHip)), Quote(draft_.NameOf(kRightHip)), Quote(draft_.NameOf(kHipCentre)));
   }
 

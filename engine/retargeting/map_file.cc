@@ -70,7 +70,7 @@ Result<JointMapOverrides> ReadJointMapFile(std::string_view yaml, const std::str
   if (roles == nullptr && tells_else) return taught;
   if (roles == nullptr || roles->kind != Node::Kind::kMapping || roles->entries.empty()) {
     return Fail(roles == nullptr ? document.place : roles->place,
-                "'roles' must name joints (left_elbow: LForeArm), found {}",
+                "'roles' must map roles to joint names (left_elbow: LForeArm), found {}",
                 roles == nullptr ? "nothing" : Describe(*roles));
   }
   for (const Node::Entry& entry : roles->entries) {
@@ -91,10 +91,11 @@ std::string WriteJointMapFile(const Skeleton& skeleton, const JointMap& map) {
     const std::string& name = skeleton.joints[joint].name;
     const bool is_composed = std::ranges::find(map.composed, role) != map.composed.end();
     if (is_composed) {
-      text += fmt::format("  # {}: no joint; a point fixed to {}\n", RoleName(role), QuotedInYaml(name));
+      text += fmt::format("  # {}: the file has no such joint; Etude uses a point fixed to {}\n", RoleName(role),
+                          QuotedInYaml(name));
     } else if (skeleton.Find(name) != joint) {
-      text +=
-          fmt::format("  # {}: the joint {} that is not the first of this name\n", RoleName(role), QuotedInYaml(name));
+      text += fmt::format("  # {}: the joint {}, but not the first joint with this name\n", RoleName(role),
+                          QuotedInYaml(name));
     } else {
       text += fmt::format("  {}: {}\n", RoleName(role), QuotedInYaml(name));
     }

@@ -95,9 +95,9 @@ class PeopleFinder {
       if (!person.IsComplete() || !person.remark.empty()) continue;
       const std::vector<std::string> alike = Alike(person, other);
       if (alike.size() < kMinAlike || !LieApart(person, other)) continue;
-      person.remark =
-          fmt::format("{} more markers with the same names ({}, …) may belong to another person: they are not used",
-                      alike.size(), markers_.names[other.columns.at(alike.front())]);
+      person.remark = fmt::format(
+          "Etude does not use {} more markers with the same names ({}, …), because they may belong to another person",
+          alike.size(), markers_.names[other.columns.at(alike.front())]);
       return;
     }
   }

@@ -154,18 +154,20 @@ std::vector<std::string> NamesOfSeveral(const MarkerMotion& markers) {
 void RepairMarkers(MarkerMotion& markers, const std::set<std::size_t>& used) {
   const auto remark = [&](const std::string& text) { markers.remark += (markers.remark.empty() ? "" : "; ") + text; };
   if (const int zeros = LeaveZerosOut(markers, used); zeros > 0)
-    remark(fmt::format("{} positions at 0, 0, 0 are taken as gaps", zeros));
+    remark(fmt::format("Etude treats {} positions at (0, 0, 0) as missing", zeros));
   if (const int far = LeaveFarOut(markers, used); far > 0) {
-    remark(fmt::format("{} positions a hundred times as far away as the others are taken as gaps", far));
+    remark(
+        fmt::format("Etude treats {} positions as missing, because they are a hundred times as far away as the others",
+                    far));
   }
   if (const int equal = LeaveEqualNumbersOut(markers); equal > 0) {
-    remark(fmt::format("{} repeated positions of three equal numbers are taken as gaps", equal));
+    remark(fmt::format("Etude treats {} repeated positions of three equal numbers as missing", equal));
   }
   if (const auto several = NamesOfSeveral(markers); !several.empty()) {
     constexpr std::size_t kListed = 3;
     const std::vector<std::string> first(
         several.begin(), several.begin() + static_cast<std::ptrdiff_t>(std::min(several.size(), kListed)));
-    remark(fmt::format("several markers are called {}{}: the first of each name is used", Join(first),
+    remark(fmt::format("several markers have the name {}{}; Etude uses the first marker of each name", Join(first),
                        several.size() > kListed ? ", …" : ""));
   }
 }

@@ -258,7 +258,7 @@ void TakeJointsOfDataSet(const MarkerColumns& columns, std::span<const std::stri
     is_changed = true;
   }
   if (!is_changed) return;
-  set.name = fmt::format("joints of {} by their names", known->data_set);
+  set.name = fmt::format("joints of {}, found by name", known->data_set);
   chosen.made = std::move(set);
 }
 

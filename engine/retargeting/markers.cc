@@ -188,12 +188,12 @@ std::vector<BodyPose> PosesOf(const std::vector<JointPositions>& frames, const S
 std::string DescribeStretches(const std::vector<Stretch>& stretches, const Stretch& longest, std::size_t frames,
                               bool keeps_others) {
   if (keeps_others && stretches.size() > 1) {
-    return fmt::format("{} stretches of frames, between which joints are missing for over {:g} s", stretches.size(),
-                       kMaxGap_s);
+    return fmt::format("the motion has {} parts, because joints are missing between them for over {:g} s",
+                       stretches.size(), kMaxGap_s);
   }
-  return fmt::format("only frames {} to {} of {} are used ({})", longest.first + 1, longest.second, frames,
-                     stretches.size() > 1 ? fmt::format("elsewhere joints are missing for over {:g} s", kMaxGap_s)
-                                          : "joints are missing before and after these");
+  return fmt::format("Etude uses only frames {} to {} of {}, because {}", longest.first + 1, longest.second, frames,
+                     stretches.size() > 1 ? fmt::format("joints are missing in other frames for over {:g} s", kMaxGap_s)
+                                          : "joints are missing before and after these frames");
 }
 
 /// Returns the floor's height: the 5th percentile of the lowest joint's height.
@@ -221,7 +221,7 @@ void StandOnFloor(bool keeps_floor, bool is_own, MarkerBody& body) {
   lower(body.motion.poses);
   for (BodyStretch& other : body.others) lower(other.poses);
   if (std::abs(floor) >= kMinTold) {
-    body.changes.push_back(fmt::format("the floor was at {:.4g} cm: moved to 0", 100 * floor));
+    body.changes.push_back(fmt::format("Etude moved the floor from {:.4g} cm to 0", 100 * floor));
   }
 }
 
@@ -323,7 +323,7 @@ Result<std::optional<MarkerBody>> BodyOf(const MarkerMotion& markers, const Mark
   auto body = BodyAt(told_scale, markers, set, columns, options);
   if (!body) return body;
   if (told_scale != 1) {
-    body->changes.push_back(fmt::format("1 unit = {:.4g} cm (given), instead of the file's {:.4g} cm",
+    body->changes.push_back(fmt::format("1 unit = {:.4g} cm (given), instead of {:.4g} cm as in the file",
                                         100 * *options.metres_per_unit, 100 * markers.metres_per_unit));
   }
   const double told = MiddleStature(body->motion);
@@ -341,7 +341,7 @@ Result<std::optional<MarkerBody>> BodyOf(const MarkerMotion& markers, const Mark
     }
   }
   if (options.metres_per_unit) {
-    return Fail({file}, "in the unit given (1 unit = {:.4g} cm) the body is {:.3g} m tall; allowed: {:g} to {:g} m",
+    return Fail({file}, "with the given unit (1 unit = {:.4g} cm), the body is {:.3g} m tall; allowed: {:g} to {:g} m",
                 100 * *options.metres_per_unit, own, kMinStature, kMaxStature);
   }
   for (const double scale : {1000.0, 100.0, 10.0, 0.1, 0.01, 0.001}) {
@@ -349,12 +349,14 @@ Result<std::optional<MarkerBody>> BodyOf(const MarkerMotion& markers, const Mark
     if (!scaled) continue;
     const double stature = MiddleStature(scaled->motion);
     if (stature < kMinPerson || stature > kMaxPerson) continue;
-    scaled->changes.push_back(fmt::format(
-        "in the file's unit the body would be {:.3g} m tall: all lengths are multiplied by {:g}", stature / scale, scale));
+    scaled->changes.push_back(
+        fmt::format("with the file's unit, the body would be {:.3g} m tall, so Etude multiplies all lengths by {:g}",
+                    stature / scale, scale));
     return scaled;
   }
-  return Fail({file}, "its markers show a body {:.3g} m tall; allowed: {:g} to {:g} m; is their unit right?", own,
-              kMinStature, kMaxStature);
+  return Fail({file},
+              "the markers show a body {:.3g} m tall; allowed: {:g} to {:g} m; is the unit of the file right?",
+              own, kMinStature, kMaxStature);
 }
 
 /// Lists the columns of the markers by which the complete people are read.
@@ -386,15 +388,15 @@ std::string DescribeUnknownMarkers(const MarkerMotion& markers, const MarkerOpti
     };
     if (person.chosen.made) compare(*person.chosen.made);
     if (person.chosen.made && person.chosen.made->has_skin_limbs) {
-      why = "; a marker on a thigh, a shank or an upper arm is no joint";
+      why = "; markers on thighs, shanks and upper arms do not determine joints";
       continue;
     }
     for (const MarkerSet& set : MarkerSets()) compare(set);
   }
   const std::size_t shown = std::min<std::size_t>(markers.names.size(), 12);
   return fmt::format(
-      "its markers ({}{}) are not of a known set (nearest: {}{}); known: {}, the joint names of skeletons{}{}; a joint "
-      "map (--joint-map) states which markers are the joints",
+      "the markers ({}{}) belong to no known marker set (nearest: {}{}); allowed: {}, or the joint names of "
+      "skeletons{}{}; use a joint map (--joint-map) to state which markers are the joints",
       Join(std::span(markers.names).first(shown)), markers.names.size() > shown ? ", …" : "", nearest, why,
       NamesOfMarkerSets(), markers.remark.empty() ? "" : "; ", markers.remark);
 }
@@ -415,7 +417,7 @@ Result<std::vector<MarkerBody>> FindMarkerBodies(MarkerMotion markers, const std
     body->name = person.name;
     if (const MarkerSet* const other = person.chosen.other; other != nullptr) {
       body->changes.front() +=
-          fmt::format(", not {}, which the file also contains (--marker-set {})", other->name, other->key);
+          fmt::format(" (the file also contains {}; --marker-set {} chooses this set)", other->name, other->key);
     }
     if (!person.remark.empty()) body->changes.push_back(person.remark);
     for (const MarkerPerson& other : people) {
@@ -428,7 +430,7 @@ Result<std::vector<MarkerBody>> FindMarkerBodies(MarkerMotion markers, const std
   // Explain why there is no body.
   if (!bodies.empty()) return bodies;
   const std::string unknown = DescribeUnknownMarkers(markers, options);
-  return Fail({file}, "{}", unknown.empty() ? "no frame shows all joints of a body at once" : unknown);
+  return Fail({file}, "{}", unknown.empty() ? "no frame contains all joints of a body" : unknown);
 }
 
 }  // namespace etude

@@ -204,14 +204,15 @@ Result<ReadPart> ReadPartLine(TextScanner& scanner, const std::vector<ReadPart>&
   const auto end = FindRole(name.text);
   const auto ends_at = [&](Role role) { return std::ranges::find(read, role, &ReadPart::end) != read.end(); };
   if (!end || ends_at(*end)) {
-    return Fail(scanner.At(name), "found part {}; allowed: each of the twenty roles once", Quote(name.text));
+    return Fail(scanner.At(name), "found the body part {}; allowed: each of the twenty roles once", Quote(name.text));
   }
   part.end = *end;
   part.after = FindRole(after.text);
   const bool is_first = read.empty() && after.text == "ground";
   if (after_word.text != "after" || !(is_first || (part.after && ends_at(*part.after)))) {
     return Fail(scanner.At(after_word),
-                "found {}; allowed: 'after ground' for the first part, then 'after' and a part above this line",
+                "found {}; allowed: 'after ground' for the first body part, otherwise 'after' and a body part from a "
+                "line above",
                 Quote(fmt::format("{} {}", after_word.text, after.text)));
   }
   // Read the bone, then three angles with their axes.
@@ -222,13 +223,15 @@ Result<ReadPart> ReadPartLine(TextScanner& scanner, const std::vector<ReadPart>&
   }
   const Token turns = scanner.NextInLine();
   if (turns.text != "turns")
-    return Fail(scanner.At(turns), "found {}; allowed: 'turns' and three angles", Quote(turns.text));
+    return Fail(scanner.At(turns), "found {}; allowed: 'turns', followed by three angles", Quote(turns.text));
   for (std::size_t i = 0; i < 3; ++i) {
     const Token axis = scanner.NextInLine(), angle = scanner.NextInLine();
     const bool has_axis = axis.text.size() == 2 && (axis.text[0] == '+' || axis.text[0] == '-') &&
                           axis.text[1] >= 'X' && axis.text[1] <= 'Z';
     if (!has_axis || angle.text.empty()) {
-      return Fail(scanner.At(axis), "turn {} {}; allowed: +X, -X, +Y, -Y, +Z or -Z, each with the name of its angle",
+      return Fail(scanner.At(axis),
+                  "found the axis and angle {} {}; allowed: +X, -X, +Y, -Y, +Z or -Z, followed by "
+                  "the name of the angle",
                   Quote(axis.text), Quote(angle.text));
     }
     part.axes[i][axis.text[1] - 'X'] = axis.text[0] == '-' ? -1 : 1;
@@ -249,7 +252,7 @@ struct AngleTable {
 Result<void> FindColumns(TextScanner& scanner, AngleTable& table, std::size_t& count) {
   const Token time = scanner.Next();
   if (time.text != "time")
-    return Fail(scanner.At(time), "found {}; allowed: 'time', then names of angles", Quote(time.text));
+    return Fail(scanner.At(time), "found {}; allowed: 'time', followed by the names of the angles", Quote(time.text));
   std::vector<std::string> names{"time"};
   for (Token name = scanner.NextInLine(); !name.text.empty(); name = scanner.NextInLine()) {
     names.emplace_back(name.text);
@@ -257,7 +260,10 @@ Result<void> FindColumns(TextScanner& scanner, AngleTable& table, std::size_t& c
   count = names.size();
   const auto find = [&](const std::string& name, std::size_t& column) -> Result<void> {
     column = static_cast<std::size_t>(std::ranges::find(names, name) - names.begin());
-    if (column == names.size()) return Fail(scanner.At(time), "no column {}, which the model needs", Quote(name));
+    if (column == names.size())
+      return Fail(scanner.At(time),
+                  "the model needs the column {}, but the file does not have it",
+                  Quote(name));
     return {};
   };
   for (ReadPart& part : table.parts) {
@@ -299,15 +305,19 @@ Result<void> CheckUnit(AngleTable& table, const std::string& file, std::string& 
   const bool are_small = std::abs(largest) > kMinMoved && std::abs(largest) <= kUsualRadians;
   if (!table.has_unit) {
     if (are_small) table.radians = 1;
-    note = fmt::format("no line inDegrees: angles are taken as {} (the largest is {:.3g})",
+    note = fmt::format("the file has no line inDegrees, so Etude reads the angles as {} (the largest is {:.3g})",
                        are_small ? "radians" : "degrees", largest);
     return {};
   }
   if (table.radians == 1 && std::abs(largest) > kMaxRadians) {
-    return Fail({file}, "inDegrees=no, but {} is {:.4g}; allowed: at most 12.57 radians (4π)", name, largest);
+    return Fail({file},
+                "the file states inDegrees=no, but {} is {:.4g}; allowed: at most 12.57 radians (4π)",
+                name, largest);
   }
   if (table.radians != 1 && are_small) {
-    note = fmt::format("inDegrees=yes, but the largest angle is {:.3g} ({}): the angles may be radians", largest, name);
+    note = fmt::format(
+        "the file states inDegrees=yes, but the largest angle is only {:.3g} ({}); are the angles in radians?",
+        largest, name);
   }
   return {};
 }
@@ -329,7 +339,7 @@ Result<AngleTable> ReadAngleTable(std::string_view bytes, const std::string& fil
     RETURN_IF_ERROR(ReadUnit(std::move(line), scanner.At(first), table));
   }
   if (table.parts.size() != kRoleCount) {
-    return Fail({file}, "the model has {} parts; allowed: {}, one for each role", table.parts.size(), kRoleCount);
+    return Fail({file}, "the model has {} body parts; allowed: {}, one for each role", table.parts.size(), kRoleCount);
   }
   std::size_t columns = 0;
   RETURN_IF_ERROR(FindColumns(scanner, table, columns));
@@ -354,7 +364,7 @@ Result<void> CheckTimes(const std::vector<double>& times, const std::string& fil
   const double span = times.back() - times.front();
   const double rate = span > 0 ? static_cast<double>(times.size() - 1) / span : 0;
   if (rate >= kMinRate_hz && rate <= kMaxRate_hz) return {};
-  return Fail({file}, "found {} rows in {:g} s; allowed: {:g} to {:g} rows a second", times.size(), span, kMinRate_hz,
+  return Fail({file}, "found {} rows in {:g} s; allowed: {:g} to {:g} rows per second", times.size(), span, kMinRate_hz,
               kMaxRate_hz);
 }
 

@@ -108,7 +108,7 @@ Sides MeasureSides(std::span<const BodyPose> poses) {
 Result<double> CheckSides(std::span<const BodyPose> poses, const JointMap& map, const std::string& file) {
   const Sides sides = MeasureSides(poses);
   if (sides.shoulders < 0) {
-    return Fail({file}, "the left arm is on the side of the right leg: left and right are exchanged");
+    return Fail({file}, "the left arm is on the side of the right leg, so left and right are exchanged");
   }
   // Compare each threshold with a mean over limbs and frames. A threshold of zero would be too strict: the feet of a
   // lying body, for example, point slightly backwards.
@@ -116,16 +116,17 @@ Result<double> CheckSides(std::span<const BodyPose> poses, const JointMap& map, 
   const auto count = static_cast<double>(2 * poses.size());
   const bool has_feet = std::ranges::find(map.composed, kLeftFoot) == map.composed.end();
   if (has_feet && sides.toes < -kBackwards * count) {
-    return Fail({file}, "the feet point backwards: left and right are exchanged, or the axes are left-handed");
+    return Fail({file}, "the feet point backwards, so left and right are exchanged, or the axes are left-handed");
   }
   constexpr double kArmsBackwards = 0.25;
   if (!has_feet && sides.arms < -kArmsBackwards * count) {
-    return Fail({file}, "the arms bend and reach backwards: left and right are exchanged, or the axes are left-handed");
+    return Fail({file},
+                "the arms bend and reach backwards, so left and right are exchanged, or the axes are left-handed");
   }
   constexpr double kMinBendOffset = 0.01, kMaxOverextension = Radians(35);
   const bool are_backwards = LowerPercentile(sides.knee_bends, 0.25) < -kMaxOverextension || sides.arms < 0;
   if (!has_feet && sides.knees < -kMinBendOffset * count && are_backwards) {
-    return Fail({file}, "the knees bend backwards: left and right are exchanged, or the axes are left-handed");
+    return Fail({file}, "the knees bend backwards, so left and right are exchanged, or the axes are left-handed");
   }
   constexpr double kMinReported = Radians(3);
   double mean = 0;
@@ -149,7 +150,7 @@ Result<void> CheckLimbs(std::span<const BodyPose> poses, const std::string& file
     }
   }
   if (gone.size() < 2) return {};
-  return Fail({file}, "{} of its 8 limbs have no length ({}); allowed: limbs as long as a person's", gone.size(),
+  return Fail({file}, "{} of the body's 8 limbs have no length ({}); allowed: limbs of a person's lengths", gone.size(),
               Join(gone));
 }
 

@@ -82,11 +82,11 @@ std::string DescribeRootTravel(const Clip& clip, const JointMap& map) {
   if (best < 1 && as_it_is < kImpossible) return "";
   if (slide(0) > kAsWell * least) {
     return fmt::format(
-        "its feet slide, but stand if the root's positions are multiplied by {:.4g}: root and limbs "
-        "seem to have different units",
+        "the feet slide, but would stand still if the root's positions were multiplied by {:.4g}; do root and limbs "
+        "have different units?",
         best);
   }
-  return "no foot ever stands: the root's positions seem to have a smaller unit than the limbs";
+  return "no foot ever stands still; do the root's positions have a smaller unit than the limbs?";
 }
 
 }  // namespace etude

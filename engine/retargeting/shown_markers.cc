@@ -16,7 +16,7 @@ RawMotion AsShown(double scale, const MarkerMotion& markers, const MarkerSet& se
   shown.start_s = markers.start_s;
   shown.notes = {"markers: " + set.name};
   if (scale != 1)
-    shown.notes[0] += fmt::format("; its unit is taken to be {:g} times the file's, by the body's stature", scale);
+    shown.notes[0] += fmt::format("; by the height of the body, the unit is {:g} times the file's unit", scale);
   if (!markers.remark.empty()) shown.notes[0] += "; " + markers.remark;
   std::vector<std::size_t> own;
   for (const auto& [name, column] : columns) {

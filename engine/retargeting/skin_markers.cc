@@ -263,12 +263,14 @@ std::string MoveToJointCentres(const MarkerSet& set, const std::map<std::string,
   }
   // State which joints were moved, and by which rule.
   if (depths.of_file.empty() && depths.of_limb.empty()) return "";
-  std::string said = "joint centres moved under the skin, distances from their markers in cm: ";
+  std::string said = "Etude placed joint centres under the skin, at these distances from the markers in cm: ";
   if (!depths.of_file.empty()) said += Join(depths.of_file) + " by the file's widths";
   if (!depths.of_file.empty() && !depths.of_limb.empty()) said += "; ";
   if (!depths.of_limb.empty()) said += Join(depths.of_limb) + " by the lengths of the limbs";
   if (is_on_point)
-    said += "; elbow markers taken to be on the point of the elbow, because upper arms then keep their length";
+    said +=
+        "; Etude assumes that the elbow markers are on the point of the elbow, because then the upper arms keep "
+        "their length";
   return said;
 }
 

@@ -185,8 +185,9 @@ std::string DescribeWandAsHip(const MarkerMotion& markers, const MarkerSet& set,
     const double share = shares.empty() ? kMinThigh : LowerPercentile(std::move(shares), 0.5);
     if (share >= kMinThigh) continue;
     return fmt::format(
-        "{} is on the thigh, not at the hip: its distance from {} is {:.2f} times the distance from there to {}; "
-        "allowed: markers of the pelvis, or a joint map (--joint-map) that states which markers are the joints",
+        "{} is on the thigh instead of the hip, because its distance from {} is {:.2f} times the distance from that "
+        "marker to {}; allowed: markers of the pelvis, or a joint map (--joint-map) that states which markers are the "
+        "joints",
         markers.names[leg[0]], markers.names[leg[1]], share, markers.names[leg[2]]);
   }
   return "";

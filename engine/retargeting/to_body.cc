@@ -117,12 +117,13 @@ Result<std::vector<BodyPose>> Resampled(const Clip& clip, BodySampler& sampler, 
   const double seconds = frames / clip.rate_hz;
   if (seconds > kMaxSeconds) {
     return Fail({file}, "the clip lasts {:.0f} s; allowed: at most {:.0f} s{}", seconds, kMaxSeconds,
-                clip.rate_hz < 1 ? fmt::format("; its frames are {:.3g} s apart: does the file count in milliseconds?",
-                                               1 / clip.rate_hz)
-                                 : "");
+                clip.rate_hz < 1
+                    ? fmt::format("; frames are {:.3g} s apart: are the times in milliseconds?", 1 / clip.rate_hz)
+                    : "");
   }
   if (seconds * rate_hz > kMaxPoses) {
-    return Fail({file}, "{:.0f} s at {:g} Hz are too many poses; allowed: at most {:.0f}", seconds, rate_hz, kMaxPoses);
+    return Fail({file}, "{:.0f} s at {:g} Hz are too many poses; allowed: at most {:.0f} poses", seconds, rate_hz,
+                kMaxPoses);
   }
   constexpr double kRounding = 1e-6;  // share of a frame; keeps the last frame if the rates divide evenly
   const auto count = static_cast<std::size_t>(seconds * rate_hz + kRounding) + 1;
@@ -164,8 +165,8 @@ void UseMetres(double stature, BodyConversion& done, std::vector<std::string>& r
     return;
   }
   remarks.push_back(
-      fmt::format("by the unit that the file or its format states, the body is {:.3g} m tall; this unit is "
-                  "not used",
+      fmt::format("Etude does not use the unit that the file or the file format states, because the body would be "
+                  "{:.3g} m tall",
                   stature));
 }
 
@@ -182,30 +183,33 @@ Result<void> FindUnit(const BodyPose& rest, const std::vector<BodyPose>& poses, 
   const double ratio = moving / at_rest;
   const bool is_alike = AreAlike(ratio);
   if (!AreAlike(own / moving)) {
-    remarks.push_back(fmt::format(
-        "its frames show a body {:.3g} times as tall as the median over all frames of the file", own / moving));
+    remarks.push_back(
+        fmt::format("in this clip, the body is {:.3g} times as tall as in the median frame of the file", own / moving));
   }
   const std::vector<double> statures = OverFrames(poses, Stature);
   const double least = LowerPercentile(statures, 0.05), most = LowerPercentile(statures, 0.95);
   if (!AreAlike(most / least))
-    remarks.push_back(fmt::format("its size changes between frames by a factor of {:.2g}", most / least));
+    remarks.push_back(fmt::format("the size of the body changes between frames by a factor of {:.2g}", most / least));
   const double stature = is_alike ? at_rest : moving;
-  if (stature < kMinBody) return Fail({file}, "all joints of the body lie in one point; needed: joints that lie apart");
+  if (stature < kMinBody)
+    return Fail({file},
+                "all joints of the body are at the same position; allowed: joints at different positions");
   const Unit* const unit = UnitOf(stature);
   // A given unit must be plausible.
   if (given) {
     constexpr double kMinGiven = 0.4, kMaxGiven = 4;
     const double told = stature * *given;
-    const std::string likely =
-        unit == nullptr ? ""
-                        : fmt::format("; 1 unit = {:.4g} cm ({}) would give {:.2f} m", 100 * unit->metres, unit->name,
-                                      stature * unit->metres);
+    const std::string likely = unit == nullptr
+                                   ? ""
+                                   : fmt::format("; with 1 unit = {:.4g} cm ({}), the body would be {:.2f} m tall",
+                                                 100 * unit->metres, unit->name, stature * unit->metres);
     if (told < kMinGiven || told > kMaxGiven) {
-      return Fail({file}, "in the unit given (1 unit = {:.4g} cm) the body is {:.3g} m tall; allowed: {:g} to {:g} m{}",
+      return Fail({file},
+                  "with the given unit (1 unit = {:.4g} cm), the body is {:.3g} m tall; allowed: {:g} to {:g} m{}",
                   100 * *given, told, kMinGiven, kMaxGiven, likely);
     }
     if ((told < kMinStature || told > kMaxStature) && unit != nullptr) {
-      remarks.push_back(fmt::format("the body is {:.2f} m tall in the unit given{}", told, likely));
+      remarks.push_back(fmt::format("with the given unit, the body is {:.2f} m tall{}", told, likely));
     }
     done.unit = "given";
     done.metres_per_unit = *given;
@@ -219,13 +223,13 @@ Result<void> FindUnit(const BodyPose& rest, const std::vector<BodyPose>& poses, 
   constexpr double kSame = 0.05;
   // Only a rest pose with a size can be compared with the frames.
   if (at_rest < kMinBody || std::abs(ratio - 1) <= kSame) return {};
-  remarks.push_back(fmt::format("the frames show a body {:.3g} times as tall as the rest pose", ratio));
+  remarks.push_back(fmt::format("in the frames, the body is {:.3g} times as tall as in the rest pose", ratio));
   if (!is_scaled) return {};
   const Unit* const of_rest = UnitOf(at_rest);
   done.unit = "scaled";
   done.metres_per_unit = of_rest->metres / ratio;
-  remarks.back() +=
-      fmt::format(": scaled back to the rest pose's {:.2f} m ({})", at_rest * of_rest->metres, of_rest->name);
+  remarks.back() += fmt::format("; Etude scaled the body to the height of the rest pose, {:.2f} m ({})",
+                                at_rest * of_rest->metres, of_rest->name);
   return {};
 }
 
@@ -269,8 +273,9 @@ std::vector<std::string> ChangesOf(const BodyConversion& done, const JointMap& m
   // Describe unit, axis and frames.
   std::vector<std::string> changes = {
       fmt::format("1 unit = {:.4g} cm", 100 * done.metres_per_unit) +
-      (done.unit == "unknown" ? fmt::format(" (unknown unit, scaled to a stature of {:.2f} m)", kDefaultStature)
-                              : fmt::format(" ({})", done.unit))};
+      (done.unit == "unknown"
+           ? fmt::format(" (unknown unit; Etude scaled the body to a height of {:.2f} m)", kDefaultStature)
+           : fmt::format(" ({})", done.unit))};
   if (std::string turn = DescribeTurn(done.found_up); !turn.empty()) changes.push_back(std::move(turn));
   if (!lies.empty()) changes.push_back(lies);
   if (!done.found_up.doubt.empty() && lies.empty()) changes.push_back(done.found_up.doubt);
@@ -284,17 +289,21 @@ std::vector<std::string> ChangesOf(const BodyConversion& done, const JointMap& m
   // Describe floor and joints.
   const double floor_cm = 100 * done.floor * done.metres_per_unit;
   if (std::abs(floor_cm) >= kMinToldFloor_cm) {
-    changes.push_back(fmt::format("the floor was at {:.4g} cm: moved to 0", floor_cm));
+    changes.push_back(fmt::format("Etude moved the floor from {:.4g} cm to 0", floor_cm));
   }
   const auto names_of = [](const std::vector<Role>& roles) {
     std::vector<std::string> names;
     for (const Role role : roles) names.emplace_back(RoleName(role));
     return Join(names);
   };
-  if (!map.composed.empty()) changes.push_back("joints that are not in the file, composed: " + names_of(map.composed));
+  if (!map.composed.empty())
+    changes.push_back(
+        "joints that are not in the file, so Etude constructed them: " +
+        names_of(map.composed));
   if (!map.by_anatomy.empty()) {
-    changes.push_back(fmt::format("found by the skeleton's shape, not by names (confidence {:.2f}): {}", map.confidence,
-                                  names_of(map.by_anatomy)));
+    changes.push_back(
+        fmt::format("roles found by the skeleton's shape instead of by names (confidence {:.2f}): {}",
+                    map.confidence, names_of(map.by_anatomy)));
   }
   return changes;
 }
@@ -365,18 +374,19 @@ std::string DescribeImpossibleHeight(std::span<const BodyPose> poses) {
   const std::vector<BodyPose> all(poses.begin(), poses.end());
   const double stature = MedianStature(all);
   if (stature < kLeast_m || stature > kMost_m) {
-    return fmt::format("the body is {:.3g} m tall, which is not a person's height; is its unit right?", stature);
+    return fmt::format("the body is {:.3g} m tall, which is not a person's height; is the file's unit right?", stature);
   }
   const double legs = LowerPercentile(OverFrames(all, LeftLegLength), 0.5);
   if (stature > kMaxInfant_m || legs < kMaxInfantLegs * stature) return "";
-  return fmt::format("the body is {:.3g} m tall, but its legs are an adult's share of that height; is its unit right?",
-                     stature);
+  return fmt::format(
+      "the body is {:.3g} m tall, but the legs have an adult's proportion of the height; is the file's unit right?",
+      stature);
 }
 
 std::string DescribeLikelyUnit(double stature, double metres_per_unit) {
   const Unit* const unit = UnitOf(stature / metres_per_unit);
   if (unit == nullptr || std::abs(unit->metres / metres_per_unit - 1) < 1e-6) return "";
-  return fmt::format("1 unit is taken to be {:.4g} cm; 1 unit = {:.4g} cm ({}) would give {:.2f} m",
+  return fmt::format("Etude uses 1 unit = {:.4g} cm; with 1 unit = {:.4g} cm ({}), the body would be {:.2f} m tall",
                      100 * metres_per_unit, 100 * unit->metres, unit->name, stature / metres_per_unit * unit->metres);
 }
 
@@ -396,7 +406,7 @@ bool IsTPose(const BodyPose& pose) {
 Result<BodyConversion> ToBodyMotion(const Clip& clip, const JointMap& map, const std::string& file,
                                     const BodyOptions& options) {
   // Determine the up axis. If Y is up but the body lies along another axis, `lies` states this axis for users.
-  if (clip.frames.empty()) return Fail({file}, "no frames; at least one is needed");
+  if (clip.frames.empty()) return Fail({file}, "the motion has no frames; allowed: at least one");
   BodySampler sampler(clip, map);
   BodyConversion done;
   const BodyPose rest = sampler.Rest();
@@ -406,8 +416,9 @@ Result<BodyConversion> ToBodyMotion(const Clip& clip, const JointMap& map, const
   std::string lies = !options.up && done.up == UpAxis::kY ? LiesAlong(samples.poses) : "";
   if (!lies.empty()) {
     const bool at_rest = LiesAlong(std::span(&rest, 1)) == lies;
-    lies = fmt::format("the body lies along {}{}: Y is assumed to be up", lies, at_rest ? ", also at rest" : "");
-    if (at_rest) lies += "; a file with another up axis must be rotated first";
+    lies =
+        fmt::format("the body lies along {}{}, and Etude assumes that Y is up", lies, at_rest ? ", also at rest" : "");
+    if (at_rest) lies += "; if another axis is up, rotate the file first";
   }
   if (options.drop_t_pose) done.dropped_frames = CountForeignTPose(clip, sampler, done.up);
 

@@ -73,25 +73,25 @@ std::string DescribeFloorWork(const AxisStance& usual, const AxisStance& other) 
   const bool is_steep = usual.way < kSteep * usual.floor || usual.upright < 0.5;
   if (usual.floor > kClimb && usual.hover_s > kHover_s && is_steep &&
       other.floor < std::min(kMaxFloor, usual.floor / 4)) {
-    return fmt::format("its lowest joint would rise by {:.2g} times its stature", usual.floor);
+    return fmt::format("the lowest joint would rise by {:.2g} times the body's height", usual.floor);
   }
   // Hands and legs carry the body along the other axis; along the usual axis it would fall. Legs that are not straight
   // may be those of a person who sits.
   constexpr double kStillFloor = 0.05, kMostly = 0.75, kRarely = 0.25;
   if (other.propped > kMostly && other.floor < kStillFloor && usual.tall > kMostly && usual.balanced < kRarely) {
-    return "it would lean without a support";
+    return "the body would lean without support";
   }
   // The lowest joint stays near height 0 along the other axis, but is away from 0 along the usual axis.
   constexpr double kBelow = 0.005, kAbove = 0.08, kAway = 0.12;
   const bool is_away = usual.lowest > kAway || usual.lowest + usual.floor < -kAway;
   if (is_away && !Walks(usual) && other.floor < kStillFloor && other.lowest > kBelow &&
       other.lowest + other.floor < kAbove) {
-    return fmt::format("its lowest joint would be at {:.2g} times its stature", usual.lowest);
+    return fmt::format("the lowest joint would be at {:.2g} times the body's height", usual.lowest);
   }
   // Nothing shows that the body stands or sits along the usual axis, and along the other axis it may lie on something
   // that is not at height 0, such as a bed: its hips or its shoulders stay at one height.
   const bool may_lie = other.upright < kHardlyEver && std::min(other.hip_rise, other.shoulder_rise) < kStillFloor;
-  if (may_lie && !ShowsStanding(usual)) return "nothing shows that it stands or sits on a floor";
+  if (may_lie && !ShowsStanding(usual)) return "nothing shows that the body stands or sits on a floor";
   return "";
 }
 
@@ -137,31 +137,34 @@ UpFinding FindUp(std::span<const BodyPose> all, double rate_hz, const UpRule& ru
   const bool is_guess = rule.evidence == UpEvidence::kPosture;
   if (best != nullptr && rule.yields_to_walking && Walks(MeasureStance(frames, *best))) {
     found = {.axis = *best, .evidence = UpEvidence::kPosture, .source = "the body walks"};
-    found.doubt =
-        fmt::format("the body walks upright along {}, which is taken to be up, although {}", AxisName(*best), usually);
+    found.doubt = fmt::format("the body walks upright along {}, so Etude takes this axis as up, although {}",
+                              AxisName(*best), usually);
   } else if (best != nullptr && is_guess && !(is_seated && usual.on_side > kMostly)) {
     found.axis = *best;
     found.source = "its posture";
-    found.doubt = fmt::format("{} is assumed to be up because of the posture, although {}", AxisName(*best), usually);
+    found.doubt = fmt::format("Etude assumes from the posture that {} is up, although {}", AxisName(*best), usually);
   } else if (is_seated) {
     found.doubt =
         fmt::format("{}, but the body sits along {}, or lies with bent hips and knees", usually, AxisName(*best));
   } else if (best != nullptr) {
     found.doubt = fmt::format("the body stands along {}, but {}", AxisName(*best), usually);
   } else if (is_guess && usual.upright < kHardlyEver) {
-    found.doubt = fmt::format("the posture never shows clearly which axis is up: {}, so it is assumed", usually);
+    found.doubt = fmt::format(
+        "the posture never shows clearly which axis is up; {}, so Etude assumes this axis",
+        usually);
   } else if (is_guess && !rule.is_y_or_z) {  // a skeleton also has a rest pose
     const glm::dvec3 other = rule.axis.y != 0 ? glm::dvec3(0, 0, 1) : glm::dvec3(0, 1, 0);
     const std::string odd = DescribeFloorWork(usual, MeasureStance(frames, other));
     if (!odd.empty()) {
-      found.doubt = fmt::format("{}, so it is assumed, but then {}: if the body is on the floor, {} is up", usually,
-                                odd, AxisName(other));
+      found.doubt = fmt::format(
+          "{}, so Etude assumes this axis, but then {}; if the body is on the floor, {} is up",
+          usually, odd, AxisName(other));
     }
   }
   // The user can state Y or Z: the axis that the posture shows, or the usual one instead of the posture's.
   const bool is_selectable = best == nullptr || best->y + best->z > 0 || found.axis == *best;
   if (!found.doubt.empty()) {
-    found.doubt += is_selectable ? "; --up sets another axis" : "; allowed: Y or Z, so the file must be rotated first";
+    found.doubt += is_selectable ? "; --up sets another axis" : "; --up allows only Y or Z, so rotate the file first";
   }
   return found;
 }
@@ -170,7 +173,7 @@ UpFinding FindUp(const BodyPose& rest, std::span<const BodyPose> poses, double r
   constexpr double kStanding = 0.9;
   const glm::dvec3 at_rest = BodyAxis(rest);
   UpRule rule{.is_y_or_z = true};
-  if (std::max(at_rest.y, at_rest.z) > kStanding) rule.source = "the axis along which it stands at rest";
+  if (std::max(at_rest.y, at_rest.z) > kStanding) rule.source = "the axis along which the body stands at rest";
   rule.is_of_rest = at_rest.y > kStanding;
   // Some exporters write a rest pose along Z and motions along Y, so a still stance overrules a rest pose along Z.
   if (at_rest.z > kStanding) rule.axis = {0, 0, 1};

@@ -151,7 +151,7 @@ void Bodies::JoinContinued(StreamRecording& recording) {
     for (auto b = next[a]; b; b = next[*b]) {
       const Body& later = bodies_[*b];
       recording.remarks.push_back(
-          fmt::format("body {} continues as body {} from frame {} on; both are read as one person", NameOf(body.id),
+          fmt::format("body {} continues as body {} from frame {} on; Etude reads both as one person", NameOf(body.id),
                       NameOf(later.id), begin_of(later)));
       body.frames.insert(body.frames.end(), later.frames.begin(), later.frames.end());
       body.id = later.id;
@@ -166,13 +166,14 @@ Result<void> Bodies::Choose(const StreamReading& reading, const std::string& fil
   if (bodies_.empty()) return {};
   if (ambiguous_) {
     recording.remarks.push_back(fmt::format(
-        "several bodies of one frame have {} (first in frame {}); each continues the body that was nearest before",
+        "several bodies of one frame have {} (first in frame {}); Etude reads each of these bodies as the nearest body "
+        "of the frames before",
         ambiguous_->id.empty() ? "no id" : "the id " + ambiguous_->id, ambiguous_->frame));
   }
   if (!exchanged_.empty()) {
     const std::size_t more = exchanged_.size() - 1;
     recording.remarks.push_back(fmt::format(
-        "two bodies exchange their ids in frame {} (one is {}){}; each is read on as the same person",
+        "two bodies exchange ids in frame {} (one id is {}){}; Etude still reads each body as the same person",
         exchanged_.front().frame, exchanged_.front().id, more > 0 ? fmt::format(", and {} times more", more) : ""));
   }
   JoinContinued(recording);
@@ -181,7 +182,8 @@ Result<void> Bodies::Choose(const StreamReading& reading, const std::string& fil
   if (reading.body) {
     chosen = static_cast<std::size_t>(*reading.body);
     if (chosen >= bodies_.size())
-      return Fail({file}, "there is no body {}; bodies in the file, counted from 0: {}", chosen, bodies_.size());
+      return Fail({file}, "there is no body {}; the file has {} bodies, counted from 0", chosen,
+                  bodies_.size());
   } else {
     for (std::size_t b = 1; b < bodies_.size(); ++b) {
       const std::size_t most = bodies_[chosen].frames.size(), here = bodies_[b].frames.size();
@@ -191,10 +193,12 @@ Result<void> Bodies::Choose(const StreamReading& reading, const std::string& fil
   if (bodies_.size() > 1) {
     const std::size_t most = bodies_[chosen].frames.size();
     const auto ties = std::ranges::count_if(bodies_, [&](const Body& body) { return body.frames.size() == most; });
-    const std::string why = ties > 1 ? fmt::format(", which moves most; {} bodies are in equally many frames", ties)
-                                     : ", which is in the most frames";
+    const std::string why = ties > 1 ? fmt::format(
+                                           ", because it moves most ({} bodies are in equally many frames)",
+                                           ties)
+                                     : ", because it is in the most frames";
     recording.remarks.push_back(
-        fmt::format("the file has {} bodies; body {} is read{}", bodies_.size(), chosen, reading.body ? "" : why));
+        fmt::format("the file has {} bodies; Etude reads body {}{}", bodies_.size(), chosen, reading.body ? "" : why));
   }
   // Copy the joints of the chosen body to the recording.
   for (const Seen& seen : bodies_[chosen].frames) {

@@ -37,8 +37,8 @@ bool BodyJumps::Take(const RecordedFrame& frame) {
 std::string BodyJumps::Describe() const {
   if (count_ == 0) return "";
   const std::string times = count_ == 1 ? "" : fmt::format(" {} times, first", count_);
-  return fmt::format("the body jumps{} by {:.2f} m at {:.2f} s, as if another person were read", times, first_m_,
-                     first_s_);
+  return fmt::format("the body jumps{} by {:.2f} m at {:.2f} s; has the sensor changed to another person?", times,
+                     first_m_, first_s_);
 }
 
 }  // namespace etude

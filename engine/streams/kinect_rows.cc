@@ -100,7 +100,7 @@ std::optional<double> SecondsPerCount(const NumberRows& table, const std::option
   if (step < 1) return 1.0;
   if (step < (CountsWhole(table) ? kMinStepMs : 5)) {
     const std::string rows = step >= 2 ? fmt::format(", with one row for every {:g} frames", step) : "";
-    remarks.push_back("the first column counts frames at 30 Hz" + rows);
+    remarks.push_back("Etude reads the first column as frame numbers at 30 Hz" + rows);
     return 1 / kJudgedRateHz;
   }
   // Choose among the units of clocks.
@@ -113,7 +113,8 @@ std::optional<double> SecondsPerCount(const NumberRows& table, const std::option
   if (unit == std::end(kClockUnits)) return std::nullopt;
   if (unit->seconds < 1e-6) {
     remarks.push_back(
-        fmt::format("the first column is taken as {}: the rate is then {:.3g} Hz; as {}, it would be {:.3g} Hz",
+        fmt::format("Etude reads the first column as {}, which gives a rate of {:.3g} Hz; as {}, the rate would be "
+                    "{:.3g} Hz",
                     unit->name, rate_in(*unit), unit[-1].name, rate_in(unit[-1])));
   }
   return unit->seconds;
@@ -182,7 +183,7 @@ Result<StreamRecording> ReadKinectRows(std::string_view text, const std::string&
                 StreamFormatName(format), ColumnsAllowed(format));
   }
   StreamRecording recording{.format = format, .separator = table.separator};
-  if (table.has_decimal_commas) recording.remarks.emplace_back("its numbers have decimal commas");
+  if (table.has_decimal_commas) recording.remarks.emplace_back("Etude read commas as decimal points");
   recording.records_states = FourthsAreStates(table, *layout);
   recording.records_times = layout->first == 1 && !reading.rate_hz;
   recording.rate_hz = reading.rate_hz.value_or(kJudgedRateHz);
@@ -194,9 +195,9 @@ Result<StreamRecording> ReadKinectRows(std::string_view text, const std::string&
     recording.records_times = false;
     unit = 1 / recording.rate_hz;
     recording.remarks.push_back(
-        fmt::format("its times come in bursts; the rows are taken as evenly spaced, at {:.3g} Hz", recording.rate_hz));
+        fmt::format("rows arrive in bursts; Etude takes them as evenly spaced, at {:.3g} Hz", recording.rate_hz));
   }
-  if (!unit) return Fail({file, table.lines.front(), 1}, "the first column is neither a clock nor a count of frames");
+  if (!unit) return Fail({file, table.lines.front(), 1}, "the first column contains neither times nor frame numbers");
   recording.seconds_per_count = *unit;
   // Convert every row.
   for (std::size_t t = 0; t < table.RowCount(); ++t) {
@@ -214,7 +215,7 @@ Result<RecordedFrame> ReadKinectRow(std::string_view row, const std::string& fil
   ASSIGN_OR_RETURN(const NumberRows table, ReadNumberRows(heading + "\n" + std::string(row), file, kMaxClock));
   const RowLayout* layout = FindLayout(recording.format, table.columns);
   if (layout == nullptr || (layout->first == 0 && recording.records_times)) {
-    return Fail({file, 1}, "found {} numbers in this row; earlier rows have another number", table.columns);
+    return Fail({file, 1}, "found {} numbers in this row; allowed: as many numbers as in earlier rows", table.columns);
   }
   return TimedFrame(table.Row(0), {file, 1, 1}, *layout, recording, index);
 }

@@ -63,7 +63,7 @@ Result<std::string> NameIn(const Cell& cell, const std::string& file, int line, 
       std::ranges::none_of(cell.text, [](char c) { return (c >= 0 && c < ' ') || c == ',' || c == '"'; });
   if (is_name) return std::string(cell.text);
   return Fail({file, line, cell.column},
-              "found {} as {}; allowed: a name of at most {} bytes, without quotes and commas", Quote(cell.text), what,
+              "found {} for {}; allowed: a name of at most {} bytes, without quotes and commas", Quote(cell.text), what,
               kMaxNameBytes);
 }
 
@@ -83,7 +83,10 @@ Result<std::array<std::optional<std::size_t>, kHeadings.size()>> FindHeadings(st
     found[static_cast<std::size_t>(at - kHeadings.begin())] = i;
   }
   for (std::size_t h = 0; h + 1 < kHeadings.size(); ++h) {
-    if (!found[h]) return Fail({file, number}, "no heading '{}'; needed: clip,from_s,to_s,move,truth", kHeadings[h]);
+    if (!found[h])
+      return Fail({file, number},
+                  "the heading '{}' is missing; allowed: the headings clip,from_s,to_s,move,truth",
+                  kHeadings[h]);
   }
   return found;
 }
@@ -106,7 +109,8 @@ Result<std::vector<Label>> ReadCsv(Lines lines, const std::string& file) {
     // Read names and truth.
     ASSIGN_OR_RETURN(label.clip, NameIn(cell(0), file, number, "clip"));
     ASSIGN_OR_RETURN(label.move, NameIn(cell(3), file, number, "move"));
-    ASSIGN_OR_RETURN(const std::string truth, NameIn(cell(4), file, number, "truth ('right' or the fault)"));
+    ASSIGN_OR_RETURN(const std::string truth, NameIn(cell(4), file, number,
+                                                     "truth ('right', or the name of the fault)"));
     if (truth != "right") label.fault = truth;
     if (!cell(5).text.empty()) {
       ASSIGN_OR_RETURN(label.person, NameIn(cell(5), file, number, "person"));
@@ -117,11 +121,12 @@ Result<std::vector<Label>> ReadCsv(Lines lines, const std::string& file) {
       ASSIGN_OR_RETURN((i == 1 ? label.from_s : label.to_s), NumberIn(cell(i), file, number, kMaxTime_s));
     }
     if (label.to_s && !label.from_s)
-      return Fail({file, number, cell(2).column}, "'to_s' without 'from_s'; allowed: both, 'from_s' alone, or neither");
+      return Fail({file, number, cell(2).column},
+                  "found 'to_s' without 'from_s'; allowed: both, 'from_s' alone, or neither");
     if (label.to_s && *label.to_s <= *label.from_s) {
       return Fail({file, number, cell(2).column},
-                  "the label ends at {} s, but begins at {} s; allowed: an end after the beginning", *label.to_s,
-                  *label.from_s);
+                  "the label ends at {} s, before its beginning at {} s; allowed: an end after the beginning",
+                  *label.to_s, *label.from_s);
     }
     labels.push_back(std::move(label));
   }

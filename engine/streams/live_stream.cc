@@ -126,7 +126,7 @@ Result<void> LiveStream::LeaveOut(Error error) {
   if (++damaged_ > kMaxDamaged) return tl::unexpected(std::move(error));
   if (!std::exchange(has_damage_, true)) {
     remarks_.push_back(
-        fmt::format("line {}: {}; the row is left out, and later damaged rows too", line_, error.message));
+        fmt::format("line {}: {}; Etude leaves out this row and later damaged rows", line_, error.message));
   }
   return {};
 }
@@ -145,8 +145,8 @@ double LiveStream::SteadyTime(double time_s) {
   if (!(time_s - last_s_ > kMaxJump_s)) return time_s;
   if (!std::exchange(has_leapt_, true)) {
     remarks_.push_back(
-        fmt::format("the clock jumps from {:.6g} s to {:.6g} s in line {}; the time between counts as {:g} s without a "
-                    "body, and so does every later jump of over {:g} s",
+        fmt::format("the clock jumps from {:.6g} s to {:.6g} s in line {}; Etude replaces this jump by {:g} s without "
+                    "a body, and does the same with every later jump of over {:g} s",
                     last_s_, time_s, line_, kLoss_s, kMaxJump_s));
   }
   shift_s_ -= time_s - last_s_ - kLoss_s;
@@ -161,20 +161,21 @@ Result<void> LiveStream::Add(RecordedFrame frame, std::vector<SensedFrame>& stre
   ++frames_;
   if (back_s > kMaxBack_s) {
     return Fail({name_, frame.line},
-                "the clock goes back by {:.3g} s, from {:.6g} s to {:.6g} s; allowed: at most {} s", back_s, last_s_,
-                frame.time_s, kMaxBack_s);
+                "the clock goes back by {:.3g} s, from {:.6g} s to {:.6g} s; allowed: to go back by at most {} s",
+                back_s, last_s_, frame.time_s, kMaxBack_s);
   }
   if (back_s > 0 && !has_gone_back_) {
     has_gone_back_ = true;
     remarks_.push_back(
-        fmt::format("the time {:.6g} s in line {} follows {:.6g} s; rows with an earlier time are left out",
+        fmt::format("the time {:.6g} s in line {} follows {:.6g} s; Etude leaves out rows with a time before the "
+                    "latest time",
                     frame.time_s, frame.line, last_s_));
   }
   if (back_s >= 0) return {};
   last_s_ = frame.time_s;
   if (jumps_.Take(frame) && !has_jumped_) {
     has_jumped_ = true;
-    remarks_.push_back(jumps_.Describe() + "; later jumps are not reported");
+    remarks_.push_back(jumps_.Describe() + "; Etude does not report later jumps");
   }
   return maker_->Add(frame, stream);
 }

@@ -51,7 +51,8 @@ Result<void> CheckRoles(const StreamRecording& recording, const std::string& fil
     if (std::ranges::none_of(recording.frames, has)) missing.emplace_back(RoleName(role));
   }
   if (missing.size() == kRoleCount) return Fail({file}, "no frame shows a body");
-  if (!missing.empty()) return Fail({file}, "no frame shows {}; needed: all {} joints", Join(missing), kRoleCount);
+  if (!missing.empty())
+    return Fail({file}, "no frame shows {}; allowed: recordings that show all {} joints", Join(missing), kRoleCount);
   return {};
 }
 
@@ -71,7 +72,7 @@ Result<void> CheckMarkerNames(const std::vector<std::string>& names, const std::
   unknown.resize(unknown.size() - more);
   const std::string rest = more > 0 ? fmt::format(" and {} more", more) : "";
   return Fail({file, kNamesLine},
-              "unknown marker names {}{}; needed but missing: {} (`etude clip convert` knows other sets of markers)",
+              "unknown marker names {}{}; missing markers: {}; `etude clip convert` can read other marker sets",
               Join(unknown), rest, Join(missing));
 }
 
@@ -131,7 +132,7 @@ Result<void> OrderTimes(StreamRecording& recording, const std::string& file) {
   }
   if (const std::size_t twice = recording.frames.size() - ordered.size(); twice > 0) {
     recording.remarks.push_back(
-        fmt::format("{} frames repeat another frame's time; the first frame of each time is used", twice));
+        fmt::format("{} frames have the same time as another frame; Etude uses the first frame of each time", twice));
   }
   recording.frames = std::move(ordered);
   return {};
@@ -156,8 +157,8 @@ Result<void> CheckRate(const StreamRecording& recording, const std::string& file
       !rate || (*rate >= kMinMotionRate_hz * (1 - kRounding) && *rate <= kMaxMotionRate_hz * (1 + kRounding));
   if (is_allowed) return {};
   return Fail({file},
-              "its times give {:.3g} Hz; allowed: {:g} to {:g} Hz, with times in the format's unit; `--rate 30` "
-              "replaces the times",
+              "the times give a rate of {:.3g} Hz; allowed: {:g} to {:g} Hz, with times in the unit of the file "
+              "format; use `--rate 30` to replace the times by a rate",
               *rate, kMinMotionRate_hz, kMaxMotionRate_hz);
 }
 
@@ -214,8 +215,8 @@ std::string RateDoubt(const StreamRecording& recording) {
   const auto rate = RateOfTimes(recording);
   if (!rate || IsKinectRate(*rate) || recording.format == kEtudeCsv || recording.format == kTrc) return "";
   return fmt::format(
-      "its times give {:.3g} Hz, which no Kinect has (5 to 130 Hz): the clock may be in another unit; `--rate 30` "
-      "replaces the times",
+      "the times give a rate of {:.3g} Hz, but a Kinect has 5 to 130 Hz; are the times in another unit? Use `--rate "
+      "30` to replace the times by a rate",
       *rate);
 }
 
@@ -249,8 +250,8 @@ Result<void> ToMetres(StreamRecording& recording, const std::string& file) {
   }
   return Fail(
       {file},
-      "the trunk is {:.3g} long from hip centre to shoulder centre; allowed: {} to {} m, written in m, cm or mm", trunk,
-      kMinTrunk_m, kMaxTrunk_m);
+      "the distance from hip centre to shoulder centre is {:.3g}; allowed: {} to {} m, with positions in m, cm or mm",
+      trunk, kMinTrunk_m, kMaxTrunk_m);
 }
 
 Result<StreamRecording> ReadStreamRecording(std::string_view text, const std::string& file,
@@ -262,10 +263,10 @@ Result<StreamRecording> ReadStreamRecording(std::string_view text, const std::st
   const auto format = reading.format ? reading.format : DetectStreamFormat(text);
   if (!format) {
     const std::size_t columns = FirstRowColumns(text);
-    const std::string found = columns == 0 ? "no rows of numbers" : fmt::format("{} numbers in its first row", columns);
+    const std::string found = columns == 0 ? "no rows of numbers" : fmt::format("{} numbers in the first row", columns);
     return Fail({file, 1},
-                "not a known format of skeletons ({}); allowed: {}; a Kinect v2's rows have 75, 100 or 175 numbers, "
-                "a Kinect v1's 60, 61, 80 or 81",
+                "this is no known format of skeleton recordings ({}); allowed: {}; rows of a Kinect v2 have 75, 100 or "
+                "175 numbers, rows of a Kinect v1 have 60, 61, 80 or 81",
                 found, Join(StreamFormatNames()));
   }
   ASSIGN_OR_RETURN(StreamRecording recording, ReadFormat(*format, text, file, reading));
@@ -296,7 +297,7 @@ Result<StreamRecording> ReadEtudeCsv(std::string_view text, const std::string& f
     recording.records_times = false;
     recording.rate_hz = 1 / *step_s;
     recording.remarks.push_back(
-        fmt::format("its times come in bursts; the rows are taken as evenly spaced, at {:.3g} Hz", recording.rate_hz));
+        fmt::format("rows arrive in bursts; Etude takes them as evenly spaced, at {:.3g} Hz", recording.rate_hz));
   }
   const std::vector<double> counted = TimesOfNumbers(csv.numbers, recording.rate_hz);
   for (std::size_t t = 0; t < csv.frames.size(); ++t) {

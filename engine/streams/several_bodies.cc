@@ -75,7 +75,9 @@ class AzureReader {
     StreamRecording recording{.format = StreamFormat::kAzureKinect};
     const auto frames = root_.find("frames");
     if (frames == root_.end() || !frames->is_array()) {
-      return Fail({file_}, "no list \"frames\"; allowed: JSON of the Azure Kinect body tracking's offline processor");
+      return Fail({file_},
+                  "the file has no list \"frames\"; allowed: JSON written by the offline processor of Azure "
+                  "Kinect body tracking");
     }
     recording.rate_hz = reading.rate_hz.value_or(kJudgedRateHz);
     recording.records_times = !reading.rate_hz && !frames->empty() && frames->front().contains("timestamp_usec");
@@ -105,7 +107,7 @@ class AzureReader {
     const bool has_joints = body.is_object() && body.contains("joint_positions");
     const std::size_t count = has_joints ? body["joint_positions"].size() : 0;
     if (count != kAzureJoints) {
-      return Fail({file_}, "a body of frame {} has {} joint_positions; allowed: {}", t, count, kAzureJoints);
+      return Fail({file_}, "a body in frame {} has {} joint_positions; allowed: {}", t, count, kAzureJoints);
     }
     const Json* confidences = ConfidencesOf(body);
     tells_states_ = tells_states_ || confidences != nullptr;
@@ -116,8 +118,8 @@ class AzureReader {
       const auto confidence = confidences == nullptr ? std::optional(2.0) : ConfidenceAt(*confidences, j);
       if (!confidence) {
         return Fail({file_},
-                    "a body of frame {} has the confidence {}; allowed: 0 to 3, or K4ABT_JOINT_CONFIDENCE_NONE, _LOW, "
-                    "_MEDIUM or _HIGH",
+                    "a body in frame {} has the confidence level {}; allowed: 0 to 3, or K4ABT_JOINT_CONFIDENCE_NONE, "
+                    "_LOW, _MEDIUM or _HIGH",
                     t, Quote((*confidences)[j].get<std::string>()));
       }
       if (*confidence < 1) continue;
@@ -142,7 +144,9 @@ Result<StreamRecording> ReadAzureKinect(std::string_view text, const std::string
   try {
     return AzureReader(root, file).Read(reading);
   } catch (const Json::exception& error) {
-    return Fail({file}, "not JSON of the Azure Kinect body tracking's offline processor: {}", error.what());
+    return Fail({file},
+                "this is not JSON written by the offline processor of Azure Kinect body tracking: {}",
+                error.what());
   }
 }
 

@@ -174,19 +174,23 @@ StreamLevel EstimateLevel(std::span<const RecordedFrame> frames, double rate_hz)
 }
 
 std::string Describe(const StreamLevel& level) {
-  const char* by = level.up_by == StreamLevel::By::kFeet    ? "by the feet"
-                   : level.up_by == StreamLevel::By::kTrunk ? "by the trunk"
+  const char* by = level.up_by == StreamLevel::By::kFeet    ? "found by the feet"
+                   : level.up_by == StreamLevel::By::kTrunk ? "found by the trunk"
                                                             : "as in the file";
   const std::string turn =
       level.turn_deg == 0
           ? ""
-          : fmt::format("sensor rotated by {} degrees, rotated back (--level none keeps it), ", level.turn_deg);
+          : fmt::format(
+                "the sensor was rotated by {} degrees, and Etude rotated the positions back (--level none "
+                "keeps the rotation); ",
+                level.turn_deg);
   const std::string how =
       level.trunk_deg == 0
           ? fmt::format("{:.1f} degrees", level.tilt_deg)
-          : fmt::format("although trunks are {:.0f} degrees from it: a lying person, or a tilted sensor",
+          : fmt::format("although trunks are {:.0f} degrees from this direction: a lying person, or a tilted sensor",
                         level.trunk_deg);
-  return fmt::format("{}up {} ({}), floor {:.2f} m below the sensor", turn, by, how, -level.floor_m);
+  return fmt::format("{}the up direction is {} ({}); the floor is {:.2f} m below the sensor", turn, by, how,
+                     -level.floor_m);
 }
 
 namespace {
@@ -238,8 +242,7 @@ Result<void> StreamMaker::Add(const RecordedFrame& frame, std::vector<SensedFram
   if (!before_) {
     start_s_ = frame.time_s;
   } else if (frame.time_s <= before_->time_s || frame.time_s - before_->time_s > kMaxLoss_s) {
-    return Fail({file_, frame.line},
-                "the time {:.6g} s follows {:.6g} s; allowed: a clock that advances by at most {} s per row",
+    return Fail({file_, frame.line}, "the time {:.6g} s follows {:.6g} s; allowed: at most {} s between rows",
                 frame.time_s, before_->time_s, kMaxLoss_s);
   }
   // Make the stream's frames up to the time of `frame`. Each is a recorded frame, an interpolation between two

@@ -22,7 +22,9 @@ Result<std::vector<std::string>> NamedByLabels(const LabelledStreams& all) {
   for (const LabelledPart& part : all.parts) {
     std::string& name = names[part.stream];
     if (!name.empty() && !part.person.empty() && name != part.person) {
-      return Fail({all.file, part.line}, "{} shows {}, but {} in an earlier label; a recording shows one person",
+      return Fail({all.file, part.line},
+                  "{} shows the person {} by this label, but the person {} by an earlier label; "
+                  "allowed: one person for each recording",
                   all.streams[part.stream].name, part.person, name);
     }
     if (name.empty()) name = part.person;
@@ -40,7 +42,8 @@ Result<void> RefuseTwice(const std::vector<LabelledPart>& parts, const std::stri
       if (a->move != b->move || 2 * common <= longer) continue;
       const double second = b->begin / streams[b->stream].stream.rate_hz;
       return Fail({file, std::max(a->line, b->line)},
-                  "line {} already labels this performance of {} ({}, at {:.3f} s); allowed: one label",
+                  "line {} already labels this performance of {} ({}, at {:.3f} s); allowed: one label for each "
+                  "performance",
                   std::min(a->line, b->line), b->move, streams[b->stream].name, second);
     }
   }
@@ -69,7 +72,9 @@ std::vector<std::string> DoubtMoves(const std::vector<Label>& labels, const std:
     if (known != a->move && doubts.empty()) {
       doubts.push_back(ToString(
           Error{{file, a->line},
-                fmt::format("doubtful: the moves {} and {} differ in case only; they are two moves", known, a->move)}));
+                fmt::format("doubtful: the names of the moves {} and {} differ only in capital letters; Etude reads "
+                            "them as two moves",
+                            known, a->move)}));
     }
   }
   for (auto a = labels.begin(); a != labels.end(); ++a) {
@@ -82,8 +87,8 @@ std::vector<std::string> DoubtMoves(const std::vector<Label>& labels, const std:
     if (b == a) continue;
     doubts.push_back(
         ToString(Error{{file, a->line},
-                       fmt::format("doubtful: line {} labels the same time of {} as {}, this line as {}; both are "
-                                   "used as right",
+                       fmt::format("doubtful: line {} labels the same time of {} as the move {}, but this line labels "
+                                   "it as {}; Etude uses both as right performances",
                                    b->line, a->clip, b->move, a->move)}));
     break;
   }
@@ -100,8 +105,8 @@ std::string DoubtClock(const std::vector<Label>& labels, const std::string& file
   const double end = static_cast<double>(stream.stream.frames.size()) / stream.stream.rate_hz;
   if (stream.start_s < kNoticeable || first < stream.start_s || first >= end) return "";
   return fmt::format(
-      "{}: doubtful: the clock of {} begins at {:.3f} s, and no label begins earlier; from_s and to_s count from "
-      "the first frame: if yours count by that clock, subtract {:.3f} s",
+      "{}: doubtful: the clock of {} begins at {:.3f} s, and no label begins before this time. Etude counts from_s and "
+      "to_s from the first frame; if your labels use the recording's clock, subtract {:.3f} s",
       file, stream.name, stream.start_s, stream.start_s);
 }
 
@@ -131,7 +136,7 @@ Result<std::vector<LabelledPart>> MatchLabels(const std::vector<Label>& labels, 
       const double from = label.from_s ? *label.from_s - shift : 0, to = label.to_s ? *label.to_s - shift : length;
       if (from < -kOutside || from >= length || to <= 0 || to > length + kOutside) {
         return Fail(
-            {file, label.line}, "a label {} of {}; allowed: within the recording, which lasts {:.3f} s",
+            {file, label.line}, "found a label {} of {}; allowed: labels within the recording, which lasts {:.3f} s",
             label.IsActionPoint() ? fmt::format("at {:.3f} s", from) : fmt::format("from {:.3f} to {:.3f} s", from, to),
             stream.name, length);
       }
@@ -147,7 +152,8 @@ Result<std::vector<LabelledPart>> MatchLabels(const std::vector<Label>& labels, 
       part.end = std::max(part.begin + 1, frames.end);
     }
   }
-  if (parts.empty()) return Fail({file}, "no label belongs to a given recording, such as {}", streams.front().name);
+  if (parts.empty())
+    return Fail({file}, "no label belongs to any of the given recordings, such as {}", streams.front().name);
   std::ranges::stable_sort(parts, [](const LabelledPart& a, const LabelledPart& b) {
     return a.stream != b.stream ? a.stream < b.stream : a.begin < b.begin;
   });
@@ -181,7 +187,7 @@ std::vector<std::string> DescribeLabels(const std::vector<Label>& labels, const 
     const Label* shown = typo == lost.end() ? lost.front() : *typo;
     std::string line = ToString(Error{{file, shown->line}, fmt::format("no recording {} is given", shown->clip)});
     if (typo != lost.end()) line += fmt::format("; did you mean {}?", nearest(shown));
-    if (lost.size() > 1) line += fmt::format("; {} such labels are left out", lost.size());
+    if (lost.size() > 1) line += fmt::format("; Etude leaves out {} labels without a recording", lost.size());
     lines.push_back(std::move(line));
   }
   if (!bare.empty()) {
@@ -199,7 +205,9 @@ std::vector<std::string> DescribeLabels(const std::vector<Label>& labels, const 
     const std::vector<std::string> known{"right"};
     for (const auto& [fault, count] : faults) {
       truths.push_back(fmt::format("{} {}{}", fault, count,
-                                   NearestName(fault, known).empty() ? "" : " (a fault; did you mean right?)"));
+                                   NearestName(fault, known).empty() ? ""
+                                                                     : " (Etude reads this as a fault; did you "
+                                                                       "mean right?)"));
     }
     lines.push_back(fmt::format("{}: truth: {}", file, Join(truths)));
   }

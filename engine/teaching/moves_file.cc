@@ -88,11 +88,12 @@ Result<PoseTarget> ReadTarget(const Node::Entry& entry, double tolerance_deg) {
     ASSIGN_OR_RETURN(target.degrees, AsNumber(entry.value));
   }
   if (target.tolerance_deg > 0) return target;
-  return Fail(entry.place, "no tolerance_deg for this angle or its pose");
+  return Fail(entry.place, "neither this angle nor its key pose has a tolerance_deg");
 }
 
 Result<TaughtPose> ReadPose(const Node& node) {
-  if (node.kind != Node::Kind::kMapping) return Fail(node.place, "a key pose is a mapping, found {}", Describe(node));
+  if (node.kind != Node::Kind::kMapping)
+    return Fail(node.place, "a key pose must be a mapping, found {}", Describe(node));
   double tolerance_deg = 0;
   if (const Node* shared = node.Find("tolerance_deg")) {
     ASSIGN_OR_RETURN(tolerance_deg, AsNumber(*shared));
@@ -106,7 +107,7 @@ Result<TaughtPose> ReadPose(const Node& node) {
     if (entry.key == "tolerance_deg") continue;
     ASSIGN_OR_RETURN(pose.targets.emplace_back(), ReadTarget(entry, tolerance_deg));
   }
-  if (pose.targets.empty()) return Fail(node.place, "a key pose has no angle; at least one is needed");
+  if (pose.targets.empty()) return Fail(node.place, "the key pose has no angle; allowed: at least one");
   return pose;
 }
 
@@ -115,8 +116,8 @@ Result<SensedFrame> ReadFrame(std::string_view line, const Place& place) {
   SensedFrame frame;
   const std::string_view letters = line.substr(0, line.find(' '));
   if (letters.size() != kRoleCount || letters.find_first_not_of("tin-") != std::string_view::npos) {
-    return Fail(place, "found {}; allowed: {} letters t, i, n or -, then {} numbers", Quote(letters), kRoleCount,
-                3 * kRoleCount);
+    return Fail(place, "found {}; allowed: {} letters (t, i, n or -), followed by {} numbers", Quote(letters),
+                kRoleCount, 3 * kRoleCount);
   }
   // The first letter states whether a body is seen.
   line.remove_prefix(letters.size());
@@ -132,7 +133,7 @@ Result<SensedFrame> ReadFrame(std::string_view line, const Place& place) {
       const std::string_view from_here = line;
       const auto value = TakeNumber(line);
       if (!value || !(std::abs(*value) <= kMaxCoordinateMm)) {
-        return Fail(place, "found {} as number {} of {}; allowed: millimetres within ±{:g}",
+        return Fail(place, "found {} for number {} of {}; allowed: millimetres within ±{:g}",
                     Quote(from_here.substr(0, 12)), 3 * i + static_cast<std::size_t>(axis) + 1, 3 * kRoleCount,
                     kMaxCoordinateMm);
       }
@@ -140,7 +141,7 @@ Result<SensedFrame> ReadFrame(std::string_view line, const Place& place) {
     }
   }
   if (line.find_first_not_of(" \r") == std::string_view::npos) return frame;
-  return Fail(place, "more than {} numbers in a line", 3 * kRoleCount);
+  return Fail(place, "found more than {} numbers in a line", 3 * kRoleCount);
 }
 
 Result<SkeletonStream> ReadStream(const Node& node) {
@@ -180,11 +181,11 @@ Result<TaughtMove> ReadMove(const Node& node) {
     return Fail(node.place, "the name has {} bytes; allowed: 1 to {}", move.name.size(), kMaxNameBytes);
   }
   if (std::ranges::any_of(move.name, [](unsigned char c) { return c < ' ' || c == 0x7f; })) {
-    return Fail(node.place, "a name with a line break or another control character");
+    return Fail(node.place, "the name contains a line break or another control character; allowed: other characters");
   }
   if (poses != nullptr) {
     if (poses->kind != Node::Kind::kSequence)
-      return Fail(poses->place, "a list of key poses, found {}", Describe(*poses));
+      return Fail(poses->place, "'key_poses' must be a list of key poses, found {}", Describe(*poses));
     for (const Node& pose : poses->items) {
       ASSIGN_OR_RETURN(move.poses.emplace_back(), ReadPose(pose));
     }
@@ -208,7 +209,7 @@ Result<std::vector<TaughtMove>> ReadMoves(std::string_view text, const std::stri
   const Node* list = fields.Raw("moves");
   RETURN_IF_ERROR(fields.Finish());
   if (list == nullptr || list->kind != Node::Kind::kSequence || list->items.empty()) {
-    return Fail(list == nullptr ? root.place : list->place, "no list 'moves' with at least one move");
+    return Fail(list == nullptr ? root.place : list->place, "'moves' must be a list of at least one move");
   }
   if (list->items.size() > kMaxMoves)
     return Fail(list->place, "found {} moves; allowed: at most {}", list->items.size(), kMaxMoves);

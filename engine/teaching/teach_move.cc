@@ -225,7 +225,7 @@ double SecondsOf(const SkeletonStream& stream) { return static_cast<double>(stre
 Result<TaughtMove> TeachMove(const std::string& name, std::vector<SkeletonStream> right,
                              std::vector<SkeletonStream> wrong, const TeachOptions& options) {
   constexpr double kMinSeconds = 0.5, kSlowestFactor = 1.3;
-  if (right.empty()) return Fail({}, "move '{}' has no right performance to learn from", name);
+  if (right.empty()) return Fail({}, "move '{}' has no right performance from which Etude could learn", name);
   // Check the performances, and compute the angles of each.
   std::vector<Track> tracks;
   double longest = 0;
@@ -233,12 +233,13 @@ Result<TaughtMove> TeachMove(const std::string& name, std::vector<SkeletonStream
     tracks.push_back(TrackOf(stream));
     const double seen = static_cast<double>(tracks.back().size()) / stream.rate_hz;
     if (seen < kMinSeconds) {
-      return Fail({}, "a performance of '{}' shows a body for {:.2f} s; needed: {} s", name, seen, kMinSeconds);
+      return Fail({}, "a performance of '{}' shows a body for only {:.2f} s; allowed: at least {} s", name, seen,
+                  kMinSeconds);
     }
     if (SecondsOf(stream) > kMaxSpan) {
       return Fail({},
-                  "a performance of '{}' lasts {:.1f} s; allowed: at most {} s; use labels to mark where each begins "
-                  "and ends",
+                  "a performance of '{}' lasts {:.1f} s; allowed: at most {} s; use labels to mark where each "
+                  "performance begins and ends",
                   name, SecondsOf(stream), kMaxSpan);
     }
     longest = std::max(longest, SecondsOf(stream));

@@ -67,7 +67,7 @@ Result<std::vector<TaughtMove>> TeachMoves(const std::vector<NamedStream>& strea
     ASSIGN_OR_RETURN(taught.emplace_back(),
                      TeachMove(name, std::move(performance.right), std::move(performance.wrong)));
   }
-  if (taught.empty()) return Fail({}, "nothing to learn from: no right performance");
+  if (taught.empty()) return Fail({}, "no recording shows a right performance, so Etude cannot learn any move");
   return taught;
 }
 

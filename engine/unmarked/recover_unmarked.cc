@@ -268,8 +268,10 @@ class Recovery {
     result.stature_m = stature_;
     const auto first = std::ranges::find_if(track.frames, [](const auto& fit) { return fit.has_value(); });
     if (first == track.frames.end()) {
-      return Fail({}, "there is no frame in which two films show a moving person{}",
-                  take_.rooms.empty() && take_.masks.empty() ? "; a person who never moves cannot be distinguished from the room" : "");
+      return Fail({}, "no frame shows a moving person in two films{}",
+                  take_.rooms.empty() && take_.masks.empty() ? "; Etude cannot distinguish a person who never moves "
+                                                               "from the room"
+                                                             : "");
     }
     // Copy poses and cost; untracked frames repeat the last pose.
     BodyPose last = ToBodyPose(track.body, (*first)->state);

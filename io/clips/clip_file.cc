@@ -45,8 +45,9 @@ class CappedReader {
     std::error_code not_there;  // the error is ignored, because ReadWholeFile describes a missing file better
     const std::uintmax_t size = fs::file_size(path, not_there);
     if (!not_there && size > left_) {
-      return Fail({path.string(), 0, 0}, "found {} MB; allowed: clips of at most {} MB", (size + 999'999) / 1'000'000,
-                  kMaxClipFileBytes / 1'000'000);
+      return Fail({path.string(), 0, 0},
+                  "found {} MB; allowed: at most {} MB for a motion and its files together",
+                  (size + 999'999) / 1'000'000, kMaxClipFileBytes / 1'000'000);
     }
     auto bytes = ReadWholeFile(path);
     if (bytes) left_ -= std::min<std::uintmax_t>(left_, bytes->size());
@@ -59,7 +60,7 @@ class CappedReader {
 
 Result<std::string> ReadBeside(const std::string& path, const std::string& uri, CappedReader& reader) {
   const auto fail = [&](const std::string& why) {
-    return Fail({path, 0, 0}, "cannot read the file {}, to which it refers: {}", Quote(uri), why);
+    return Fail({path, 0, 0}, "Etude cannot read {}, to which this file refers: {}", Quote(uri), why);
   };
   std::error_code error;
   const fs::path folder = fs::canonical(fs::path(path), error).parent_path();
@@ -67,7 +68,7 @@ Result<std::string> ReadBeside(const std::string& path, const std::string& uri, 
   if (error) return fail(error.message());
   // A link may point anywhere, so compare the resolved paths.
   const auto ends = std::ranges::mismatch(folder, file);
-  if (ends.in1 != folder.end()) return fail("a link that leads out of the folder");
+  if (ends.in1 != folder.end()) return fail("the path is a link to another folder");
   auto bytes = reader.Read(file);
   if (!bytes) return fail(bytes.error().message);
   return bytes;
@@ -111,8 +112,8 @@ Result<std::string> AcclaimSkeletonBeside(const std::string& path) {
   }
   if (found.size() == 1) return found.front();
   return Fail({path},
-              "an Acclaim motion needs a skeleton file: found {} .asf files in its folder; allowed: exactly one, "
-              "or one whose name begins the motion's name ('01.asf' for '01_01.amc')",
+              "an Acclaim motion needs a skeleton file, but its folder contains {} .asf files; allowed: exactly one, "
+              "or one with a name that begins the motion's name ('01.asf' for '01_01.amc')",
               found.empty() ? "no" : std::to_string(found.size()));
 }
 
@@ -173,7 +174,8 @@ Result<BidsFacts> ReadBidsFacts(const std::string& path, const std::string& stem
     facts.missing = missing->is_string() ? missing->get<std::string>() : missing->dump();
   }
   if (facts.rate_hz >= kMinRate_hz && facts.rate_hz <= kMaxRate_hz) return facts;
-  return Fail({file}, "SamplingFrequency: allowed: a number from {:g} to {:g} Hz", kMinRate_hz, kMaxRate_hz);
+  return Fail({file}, "SamplingFrequency is missing or out of range; allowed: a number from {:g} to {:g} Hz",
+              kMinRate_hz, kMaxRate_hz);
 }
 
 /// Returns the rule for the up axis of a Motion-BIDS recording. The optional file _channels.json states the axes of its
@@ -191,8 +193,10 @@ Result<UpRule> UpOfBids(const std::string& path, const std::set<std::string, std
     const auto up = axes.is_string() ? UpOfSpatialAxes(axes.get<std::string>()) : std::nullopt;
     if (!up) continue;
     if (!stated.empty() && stated != axes.get<std::string>()) {
-      return Fail({files.back()}, "reference frames with the SpatialAxes {} and {}; allowed: the same for all", stated,
-                  axes.get<std::string>());
+      return Fail({files.back()},
+                  "found reference frames with the SpatialAxes {} and {}; allowed: the same "
+                  "SpatialAxes for all reference frames",
+                  stated, axes.get<std::string>());
     }
     stated = axes.get<std::string>();
     rule = {.axis = *up, .evidence = UpEvidence::kFile, .source = "its SpatialAxes"};
@@ -313,7 +317,7 @@ Result<ClipFile> ReadClipFile(const std::string& path, const std::optional<std::
     return options.recorded->Read(bytes, path, options);
   // Try text formats of bodies: OpenSim's angles and DeepMimic's motions.
   if (first.text == "Coordinates" && HasModelOfAngles(bytes)) {
-    std::string note = "angles of the model in the file's header";
+    std::string note = "the angles belong to the model in the file's header";
     double start_s = 0;
     ASSIGN_OR_RETURN(const auto motion, ReadOpenSimMotion(bytes, path, &note, &start_s));
     file = FileOfBody(ClipFormat::kMot, motion, path, {note});
@@ -340,7 +344,7 @@ Result<ClipFile> ReadClipFile(const std::string& path, const std::optional<std::
     auto read = ReadGltf(
         is_fbx ? fbx.glb : bytes, path, [&](const std::string& uri) { return ReadBeside(path, uri, reader); },
         DecodeTexture);
-    if (!read && is_fbx) return Fail({path}, "an FBX file whose motion cannot be used: {}", read.error().message);
+    if (!read && is_fbx) return Fail({path}, "the motion of the FBX file cannot be used: {}", read.error().message);
     ASSIGN_OR_RETURN(auto content, std::move(read));
     for (std::string& remark : content.remarks) file.remarks.push_back(std::move(remark));
     file.figure = std::move(content.character);
@@ -362,9 +366,9 @@ Result<ClipFile> ReadClipFile(const std::string& path, const std::optional<std::
   if (!std::ranges::equal(first.text, kBvhStart, {}, [](char c) { return c >= 'a' && c <= 'z' ? c - 'a' + 'A' : c; })) {
     return Fail(
         scanner.At(first),
-        "{}; allowed: BVH (it begins with HIERARCHY), glTF 2.0 (.glb, .gltf), FBX, Acclaim's .amc, AMASS's .npz, "
-        "C3D, TRC, joint CSV, Motive's CSV, _motion.tsv of Motion-BIDS, .npy of joints, .mot of ours, DeepMimic's "
-        "motions",
+        "found {}; allowed: BVH (it begins with HIERARCHY), glTF 2.0 (.glb, .gltf), FBX, Acclaim's .amc, AMASS's .npz, "
+        "C3D, TRC, joint CSV, Motive's CSV, _motion.tsv of Motion-BIDS, .npy of joints, .mot written by Etude, "
+        "DeepMimic's motions",
         DescribeOtherFile(bytes, first.text));
   }
   ASSIGN_OR_RETURN(auto clip, ReadBvh(bytes, path, &file.remarks, ToldOfArrays(options).rate_hz));

@@ -60,7 +60,7 @@ Result<Clip> Edited(const Clip& clip, const ConvertOptions& options) {
     const double frames = 1 + edited->DurationSeconds() * *options.rate_hz;
     const double bytes = frames * static_cast<double>(edited->skeleton.joints.size() * sizeof(LocalTransform));
     if (bytes > kMaxResampledBytes) {
-      return Fail({}, "{:.0f} frames of {} joints would take {:.1f} GB; allowed: {:.0f} GB", frames,
+      return Fail({}, "{:.0f} frames of {} joints would take {:.1f} GB; allowed: at most {:.0f} GB", frames,
                   edited->skeleton.joints.size(), bytes / 1e9, kMaxResampledBytes / 1e9);
     }
     *edited = Resample(*edited, *options.rate_hz);
@@ -79,7 +79,7 @@ double StartOf(const SourceClip& source, const ConvertOptions& options) {
 std::string DescribeStart(double start_s, MotionFormat format) {
   using enum MotionFormat;
   if (start_s == 0 || (format != kBvh && format != kGlb && format != kBids)) return "";
-  return fmt::format("time 0 of the output is {:.6g} s of the input", start_s);
+  return fmt::format("time 0 of the output is the time {:.6g} s of the input", start_s);
 }
 
 /// Adds the user's edits to the list of changes. `from_hz` is the clip's own rate; or it is the wanted rate if
@@ -105,7 +105,8 @@ Result<BodyConversion> FindUnit(const SourceClip& source, const OpenOptions& opt
     return told;
   }
   opened.error().message +=
-      "; GLB files are in metres, so --unit must state the unit if the joints' roles cannot be found";
+      "; use --unit to state the unit, because GLB files are in metres and Etude found no roles from which it could "
+      "estimate the unit";
   return tl::unexpected(std::move(opened.error()));
 }
 
@@ -148,7 +149,7 @@ Result<Converted> ConvertOwnSkeletons(std::vector<SourceClip> sources, MotionFor
   const SourceClip& first = sources.front();
   const bool keeps_meshes = first.character && !options.mirror && options.performer == Performer::kFile;
   if (first.character && options.mirror) {
-    converted.changes.emplace_back("without its meshes, which do not fit the mirrored skeleton");
+    converted.changes.emplace_back("Etude left out the meshes, because they do not fit the mirrored skeleton");
   }
   const Character bones{first.name, clips.front().skeleton, {}, {}};
   converted.bytes = WriteGlb(keeps_meshes ? *first.character : bones, clips);
@@ -240,18 +241,20 @@ Result<MotionFormat> FormatOfName(const std::string& path) {
   if (extension == ".npz") return MotionFormat::kNpz;
   if (extension == ".mot") return MotionFormat::kMot;
   return Fail({path, 0, 0},
-              "is not the name of a format that can be written; allowed: .bvh, .glb, .trc, .csv, .c3d, .npz, .mot");
+              "Etude cannot write files with this ending; allowed: .bvh, .glb, .trc, .csv, .c3d, .npz, .mot");
 }
 
 Result<Converted> ConvertClips(std::vector<SourceClip> clips, MotionFormat format, const ConvertOptions& options) {
   const bool has_figure = options.performer == Performer::kBear || options.performer == Performer::kMannequin;
-  if (has_figure && format != MotionFormat::kGlb) return Fail({}, "only GLB holds a character; write to a .glb file");
+  if (has_figure && format != MotionFormat::kGlb)
+    return Fail({},
+                "only GLB files can contain a character; write a .glb file");
   if (clips.size() > 1 && format != MotionFormat::kGlb) {
     std::vector<std::string> names;
     for (const SourceClip& clip : clips) names.push_back(clip.clip.name);
     return Fail({clips.front().source, 0, 0},
-                "only GLB holds several animations; choose one of the {} with FILE#NAME: {}", clips.size(),
-                Join(names));
+                "only GLB files can contain several animations; choose one of the {} animations with FILE#NAME: {}",
+                clips.size(), Join(names));
   }
   const bool has_only_joints = format != MotionFormat::kBvh && format != MotionFormat::kGlb;
   const bool as_body = options.ground || options.retarget || has_figure || has_only_joints;

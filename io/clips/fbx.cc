@@ -28,7 +28,7 @@ constexpr const char* kModule = "etude_clips_assimp.so";  // found beside the pr
 constexpr rlim_t kMemoryBytes = rlim_t{4} << 30, kProcessorSeconds = 60;
 constexpr std::size_t kMaxGlbBytes = std::size_t{1} << 30;
 constexpr unsigned kMinVersion = 7;
-constexpr const char* kReaderFailed = "a damaged FBX file: its reader stopped";
+constexpr const char* kReaderFailed = "the FBX file is damaged: its reader stopped";
 constexpr char kSaidGlb = 'G', kSaidComplaint = 'C';
 
 constexpr std::string_view kBinaryStart = "Kaydara FBX Binary", kTextStart = "; FBX";
@@ -107,10 +107,10 @@ int ReadFilesInChild(int socket) {
   GlbOfFbxBytes* read = nullptr;
   // Load the module once. If that fails, every file gets the same complaint.
   if (void* module = ::dlopen(kModule, RTLD_NOW | RTLD_LOCAL); module == nullptr) {
-    missing = std::string("an FBX file, but assimp is missing (") + ::dlerror() +
-              "); install Debian's libassimp-dev, and build again";
+    missing = std::string("reading an FBX file needs assimp, which is missing (") + ::dlerror() +
+              "); install Debian's libassimp-dev, and build Etude again";
   } else if (const void* symbol = ::dlsym(module, "etude_clips_assimp"); symbol == nullptr) {
-    missing = std::string(kModule) + " is not a module of this program";
+    missing = std::string(kModule) + " is a module of another program or version";
   } else {
     read = *static_cast<GlbOfFbxBytes* const*>(symbol);
     name = NameOfReader();
@@ -141,8 +141,8 @@ PreparedFbx Prepare(std::string_view bytes) {
   PreparedFbx prepared;
   if (const std::size_t inactive = LeaveOutInactiveRotations(bytes, prepared.bytes); inactive > 0) {
     prepared.remarks.push_back(fmt::format(
-        "RotationActive is not set in {} joints: their pre-rotations, post-rotations and rotation orders are left "
-        "out",
+        "RotationActive is not set in {} joints, so Etude ignores the pre-rotations, post-rotations and rotation "
+        "orders of these joints",
         inactive));
     bytes = prepared.bytes;
   }
@@ -157,27 +157,30 @@ PreparedFbx Prepare(std::string_view bytes) {
 void Describe(const FbxKeyFacts& facts, std::vector<std::string>& remarks) {
   if (facts.longest_s > kFbxNearKeys_s) {
     remarks.push_back(
-        fmt::format("its keys are up to {:.2f} s apart: between keys, the file's curves are replaced by shortest "
-                    "arcs at constant speed",
+        fmt::format("keys are up to {:.2f} s apart; between keys, Etude replaces the file's curves by shortest arcs at "
+                    "constant speed",
                     facts.longest_s));
   }
   constexpr double kHeld_s = 0.05;  // longer than a frame at the usual rates
   if (facts.step_s > kHeld_s) {
     remarks.push_back(fmt::format(
-        "it has stepped keys, up to {:.2f} s apart: here the joints move from one to the next and do not jump",
+        "the file has stepped keys, up to {:.2f} s apart; Etude moves the joints from key to key, although in the file "
+        "they jump",
         facts.step_s));
   }
   if (facts.turn_deg > 0) {
     remarks.push_back(
-        fmt::format("an angle changes by {:.0f}° from one key to the next: the joint makes this turn", facts.turn_deg));
+        fmt::format("an angle changes by {:.0f}° from one key to the next, and Etude makes the joint turn by this "
+                    "angle",
+                    facts.turn_deg));
   }
   if (facts.cut_s > 0) {
     remarks.push_back(fmt::format(
-        "keys outside of the clip's time span (LocalStart to LocalStop) are left out: up to {:.2f} s", facts.cut_s));
+        "Etude leaves out keys outside the clip's time span (LocalStart to LocalStop), up to {:.2f} s", facts.cut_s));
   }
   if (facts.empty_spans > 0) {
     remarks.push_back(
-        fmt::format("in {} clips, the time span (LocalStart to LocalStop) contains no key, so all keys are used",
+        fmt::format("in {} clips, the time span (LocalStart to LocalStop) contains no key, so Etude uses all keys",
                     facts.empty_spans));
   }
 }
@@ -189,7 +192,8 @@ bool IsFbx(std::string_view bytes) { return bytes.starts_with(kBinaryStart) || b
 Result<FbxMotion> FbxReader::Read(std::string_view bytes, const std::string& path) {
   // Refuse versions that assimp cannot read, before a child is started.
   if (const unsigned version = MajorVersion(bytes); version > 0 && version < kMinVersion) {
-    return Fail({path}, "an FBX file of version {}; allowed: {} (of 2011 or later): export it anew, or convert it",
+    return Fail({path},
+                "the FBX file has version {}; allowed: version {} (2011) or later; export or convert the file again",
                 version, kMinVersion);
   }
   PreparedFbx prepared = Prepare(bytes);
@@ -230,7 +234,8 @@ Result<FbxMotion> FbxReader::Read(std::string_view bytes, const std::string& pat
   const int signal = WIFSIGNALED(status) ? WTERMSIG(status) : 0;
   if (is_too_long || signal == SIGXCPU || signal == SIGKILL) {
     return Fail({path},
-                "an FBX file too large to read: at most {} s of processor time, {} GB of memory and {} GB of result",
+                "the FBX file is too large; allowed for reading: {} s of processor time, {} GB of memory and {} GB of "
+                "result",
                 kProcessorSeconds, kMemoryBytes >> 30, kMaxGlbBytes >> 30);
   }
   if (signal == 0) return Fail({path}, "{}", kReaderFailed);

@@ -39,7 +39,7 @@ struct FbxMotion {
 };
 
 /// The beginning of the complaint about a file that crashed its reader; the number of the signal is appended.
-inline constexpr std::string_view kReaderCrashed = "a damaged FBX file: its reader ended with signal";
+inline constexpr std::string_view kReaderCrashed = "the FBX file is damaged: its reader ended with signal";
 
 /// Reads the motion of FBX files, one after the other; meshes, materials, cameras and lights are left out. Files may be
 /// hostile, so assimp reads them in a child process with limited memory and processor time. If the child dies on a

@@ -109,10 +109,11 @@ std::string UseBaseLayer(std::string_view clip, const std::vector<const FbxLink*
   }
   if (left_out.empty() && !is_alone) return "";
   if (left_out.empty()) {
-    return fmt::format("clip {}: its motion is that of the animation layer {} alone", Quote(clip), Quote(*used));
+    return fmt::format("clip {}: Etude uses only the animation layer {}", Quote(clip), Quote(*used));
   }
-  return fmt::format("clip {}: its animation layer {} is used; other layers are left out: {}; bake the layers into one",
-                     Quote(clip), Quote(*used), Join(left_out));
+  return fmt::format(
+      "clip {}: Etude uses only the animation layer {} and leaves out the other layers ({}); bake the layers into one",
+      Quote(clip), Quote(*used), Join(left_out));
 }
 
 /// Returns true if a time span's end can be a time: it is nearer than the margin.
@@ -208,8 +209,8 @@ std::string DoubtOfScales(std::string_view bytes) {
   for (const FbxLink& link : links) {
     if (!link.property.empty() || !without.contains(link.from) || !scaled.contains(link.to)) continue;
     return fmt::format(
-        "joint {} should not inherit the scale of its parent {} (InheritType 2), but Etude cannot prevent it: "
-        "limbs below the joint may have wrong lengths; freeze the scales, then export again",
+        "joint {} should not inherit the scale of its parent {} (InheritType 2), but Etude lets it inherit this scale, "
+        "so limbs below the joint may have wrong lengths; freeze the scales, then export again",
         Quote(names[link.from]), Quote(names[link.to]));
   }
   return "";

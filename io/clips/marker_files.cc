@@ -113,7 +113,7 @@ std::optional<UpRule> UpRuleOf(ClipFormat format) {
     case ClipFormat::kFbx: {
       UpRule of_file = GltfUp();  // assimp has already rotated the scene by the file's own settings
       of_file.evidence = UpEvidence::kFile;
-      of_file.source = "the settings in the file";
+      of_file.source = "the up axis in the file's settings";
       return of_file;
     }
     case ClipFormat::kDeepMimic:

@@ -36,7 +36,7 @@ std::vector<Clip>::iterator FindAnimation(std::vector<Clip>& clips, const std::s
 /// Keeps only the requested animation, or all if none is requested.
 Result<void> KeepWanted(const SplitReference& wanted, const Character& figure, std::vector<Clip>& clips) {
   if (clips.empty()) {
-    return Fail({wanted.path, 0, 0}, "holds no animation, only a figure (joints: {}, meshes: {})",
+    return Fail({wanted.path, 0, 0}, "the file contains no animation, only a character (joints: {}, meshes: {})",
                 figure.skeleton.joints.size(), figure.meshes.size());
   }
   if (!wanted.animation) return {};
@@ -107,7 +107,8 @@ void TakeScalesOut(ClipFile& file, const std::string& path, const OpenOptions& o
   if (!body) return;
   if (const auto ratio = UndoScales(file.clips, body->map)) {
     file.remarks.push_back(fmt::format(
-        "removed the frames' scales, which the rest pose does not have; they made the body {:.3g} times as tall",
+        "Etude removed scales that only the frames have and that made the body {:.3g} times as tall as in the rest "
+        "pose",
         *ratio));
   }
 }
@@ -135,8 +136,9 @@ Result<OpenedClip> UnderstandBuiltin(SourceClip source, const BodyOptions& optio
     opened.body.changes.push_back(DescribeTurn(opened.body.found_up));
   }
   if (!IsOfMarkers(opened.source.format) && (options.metres_per_unit || (is_ours && options.up))) {
-    opened.body.changes.emplace_back(is_ours ? "the file's own unit and up axis are used, not the given ones"
-                                             : "the file's own unit is used, not the given one");
+    opened.body.changes.emplace_back(is_ours ? "Etude uses the unit and up axis of the file instead of the given unit "
+                                               "and up axis"
+                                             : "Etude uses the unit of the file instead of the given unit");
   }
   constexpr double kSameRate = 1e-6;  // relative tolerance, because a rate that was computed from times is rounded
   const bool keeps_rate = std::abs(opened.source.clip.rate_hz / options.rate_hz - 1) < kSameRate;
@@ -184,15 +186,15 @@ Result<std::vector<SourceClip>> ReadClips(const std::string& reference, const Op
       shown.start_s.reset();  // the file's clock has another rate
     }
   } else if (!file.has_rate) {
-    say(fmt::format("the file states no rate; {:g} Hz is assumed", file.clips.front().rate_hz));
+    say(fmt::format("the file states no rate, so Etude assumes {:g} Hz", file.clips.front().rate_hz));
   }
   // The frames of an animation are its keys, which may be 1 s apart.
   const bool has_animations = IsOfAnimations(file.format);
   const auto is_slow = [&](const Clip& clip) { return has_animations ? clip.rate_hz < 1 : clip.rate_hz <= 1; };
   if (const auto slow = std::ranges::find_if(file.clips, is_slow); slow != file.clips.end() && !is_recording) {
     say(fmt::format(
-        "its frames are {:.3g} s apart: does the file count in milliseconds or in frames? `--rate` (in convert "
-        "`--file-rate`) states the rate",
+        "frames are {:.3g} s apart: are the times in milliseconds, or are they frame numbers? Use `--rate` (for `etude "
+        "clip convert`: `--file-rate`) to set the rate",
         1 / slow->rate_hz));
   }
   if (is_recording && wanted.animation == "") wanted.animation = options.recorded->OwnTrack(file.clips);
@@ -242,7 +244,7 @@ Result<SourceClip> ReadOneClip(const std::string& reference, const OpenOptions& 
   if (clips.size() == 1) return std::move(clips.front());
   std::vector<std::string> names;
   for (const SourceClip& clip : clips) names.push_back(clip.source);
-  return Fail({reference}, "holds {} motions; name one of them: {}", clips.size(), Join(names));
+  return Fail({reference}, "the file contains {} motions; choose one of them: {}", clips.size(), Join(names));
 }
 
 Result<OpenedClip> UnderstandClip(SourceClip source, const OpenOptions& options) {

@@ -18,14 +18,15 @@ struct Mark {
 };
 
 constexpr const char* kOpenSim =
-    "an OpenSim table (.mot, .sto), whose model is another file: export its markers as TRC from OpenSim";
-constexpr const char* kFilm = "a film, picture or sound, not a motion: etude capture recovers motions from films";
+    "an OpenSim table (.mot, .sto), which needs a model from another file: in OpenSim, export the markers as TRC";
+constexpr const char* kFilm = "a film, a picture or a sound: use `etude capture` to recover motions from films";
 constexpr const char* kJsonList =
-    "a JSON list; write joints with numpy.save, frames × joints × 3; keypoints of pictures are for etude capture";
-constexpr const char* kMaya = "a file of Maya: export FBX there";
-constexpr const char* kUsd = "a USD scene: export glTF, FBX or BVH of it, from Blender for instance";
+    "a JSON list: for joint positions, use numpy.save (frames × joints × 3); for keypoints of pictures, use `etude "
+    "capture`";
+constexpr const char* kMaya = "a Maya file: in Maya, export FBX";
+constexpr const char* kUsd = "a USD scene: export it as glTF, FBX or BVH, for example with Blender";
 constexpr const char* kUtf16 = "text in UTF-16: save it as UTF-8";
-constexpr const char* kVicon = "Vicon's CSV: export C3D from Nexus";
+constexpr const char* kVicon = "Vicon's CSV: in Nexus, export C3D";
 
 constexpr Mark kMarks[] = {
     {"\x1f\x8b", "a gzip file: unpack it"},
@@ -36,50 +37,50 @@ constexpr Mark kMarks[] = {
     {"7z\xbc\xaf", "a 7-Zip archive: unpack it"},
     {"Rar!", "a RAR archive: unpack it"},
     {"ustar", "a tar archive: unpack it", 257},
-    {"\x28\xb5\x2f\xfd", "a file packed by zstd: unpack it; if it is Blender's, export BVH or glTF there"},
-    {"\x80", "a pickled Python object, which is never opened: write its arrays with numpy.savez"},
-    {"\x89HDF", "an HDF5 file: write its arrays with numpy.savez"},
-    {"MATLAB", "a file of MATLAB: write its arrays with numpy.savez"},
+    {"\x28\xb5\x2f\xfd", "a zstd file: unpack it; if it is a Blender scene, export BVH or glTF from Blender"},
+    {"\x80", "a pickled Python object, which Etude does not open for safety: write the arrays with numpy.savez"},
+    {"\x89HDF", "an HDF5 file: write the arrays with numpy.savez"},
+    {"MATLAB", "a MATLAB file: write the arrays with numpy.savez"},
     {"\xff\xfe", kUtf16},
     {"\xfe\xff", kUtf16},
-    {"version https://git-lfs", "a pointer of Git LFS, not the file: git lfs pull"},
+    {"version https://git-lfs", "a pointer of Git LFS instead of the file: run `git lfs pull`"},
     {"<!DOCTYPE html", "a web page"},
     {"<html", "a web page"},
     {"Vocaloid Motion Data",
-     "a motion of MikuMikuDance (.vmd), whose model is another file: load both in Blender (MMD "
-     "Tools), and export BVH or glTF"},
-    {"PMX ", "a model of MikuMikuDance (.pmx), which holds no motion"},
-    {"Pmd", "a model of MikuMikuDance (.pmd), which holds no motion"},
+     "a motion of MikuMikuDance (.vmd), which needs a model from another file: load both in Blender (MMD Tools), and "
+     "export BVH or glTF"},
+    {"PMX ", "a model of MikuMikuDance (.pmx), which contains no motion"},
+    {"Pmd", "a model of MikuMikuDance (.pmd), which contains no motion"},
     {"PXR-USDC", kUsd},
     {"#usda", kUsd},
-    {"NO_OF_FRAMES", "Qualisys' TSV: export C3D from QTM"},
+    {"NO_OF_FRAMES", "Qualisys' TSV: in QTM, export C3D"},
     {"Trajectories", kVicon},
     {"Model Outputs", kVicon},
     {"Devices", kVicon},
-    {"BLENDER", "a scene of Blender: export BVH or glTF there"},
+    {"BLENDER", "a Blender scene: in Blender, export BVH or glTF"},
     {"//Maya", kMaya},
     {"animVersion", kMaya},
     {"FOR4", kMaya},
     {"FOR8", kMaya},
-    {"%YAML 1.1\n%TAG !u!", "a file of Unity: export FBX there"},
-    {"#VRML", "a VRML scene: export BVH or glTF of it, from Blender for instance"},
+    {"%YAML 1.1\n%TAG !u!", "a Unity file: in Unity, export FBX"},
+    {"#VRML", "a VRML scene: export it as BVH or glTF, for example with Blender"},
     {"\x89PNG", kFilm},
     {"\xff\xd8\xff", kFilm},
     {"\x1a\x45\xdf\xa3", kFilm},
     {"RIFF", kFilm},
     {"ftyp", kFilm, 4},
-    {"[SegmentNames&Hierarchy]", "Motion Analysis' HTR: export TRC or C3D from Cortex", kAnywhere},
-    {"<mvnx", "Xsens' MVNX: export BVH, C3D or FBX from MVN", kAnywhere},
-    {"<COLLADA", "a Collada scene: export glTF or BVH of it, from Blender for instance", kAnywhere},
-    {"<X3D", "an X3D scene: export BVH or glTF of it, from Blender for instance", kAnywhere},
-    {"<OpenSimDocument", "a model of OpenSim, which holds no motion", kAnywhere},
-    {"<?xml", "XML of an unknown kind; export BVH, FBX or C3D from the program that wrote it"},
+    {"[SegmentNames&Hierarchy]", "Motion Analysis' HTR: in Cortex, export TRC or C3D", kAnywhere},
+    {"<mvnx", "Xsens' MVNX: in MVN, export BVH, C3D or FBX", kAnywhere},
+    {"<COLLADA", "a Collada scene: export it as glTF or BVH, for example with Blender", kAnywhere},
+    {"<X3D", "an X3D scene: export it as BVH or glTF, for example with Blender", kAnywhere},
+    {"<OpenSimDocument", "an OpenSim model, which contains no motion", kAnywhere},
+    {"<?xml", "XML of an unknown type: export BVH, FBX or C3D from the program that wrote the file"},
     {"Coordinates", kOpenSim},
     {"\nendheader", kOpenSim, kAnywhere},
-    {":", "an Acclaim skeleton, whose motions are the .amc files beside it"},
+    {":", "an Acclaim skeleton without motion: open an .amc file of the same folder"},
     {"{",
-     "JSON that is neither glTF (it has no \"asset\") nor a motion of DeepMimic (\"Frames\"); write joints with "
-     "numpy.save, frames × joints × 3; keypoints of pictures are for etude capture"},
+     "JSON that is neither glTF (it has no \"asset\") nor a motion of DeepMimic (it has no \"Frames\"): for joint "
+     "positions, use numpy.save (frames × joints × 3); for keypoints of pictures, use `etude capture`"},
     {"[[", kJsonList},
     {"[{", kJsonList}};
 
@@ -96,14 +97,14 @@ std::string DescribeOtherFile(std::string_view bytes, std::string_view first_wor
   const auto* const known = std::ranges::find_if(kMarks, [&](const Mark& mark) { return Has(head, mark); });
   if (known != std::end(kMarks)) return known->told;
   if (head.find('\0') != kAnywhere) {
-    return "a binary file of an unknown kind; export BVH, FBX or C3D from the program that wrote it (Motive writes "
-           ".tak, QTM .qtm)";
+    return "a binary file of an unknown type: export BVH, FBX or C3D from the program that wrote the file (for .tak "
+           "files Motive, for .qtm files QTM)";
   }
   const std::string begins = "that begins with " + Quote(std::string(first_word));
   const std::string_view line = head.substr(0, head.find('\n'));
   if (std::ranges::count_if(line, [](char c) { return c == ',' || c == ';' || c == '\t'; }) > 1) {
     return "a table " + begins +
-           "; one of joints has columns left_wrist_x_m, …; or write joints with numpy.save, frames × joints × 3";
+           ": for joint positions, use columns such as left_wrist_x_m, or numpy.save (frames × joints × 3)";
   }
   return "a file " + begins;
 }

@@ -83,7 +83,7 @@ std::string NamesOf(const std::vector<Role>& roles) {
 std::vector<std::string> NotesOn(const OpenedClip& opened) {
   const BodyConversion& body = opened.body;
   std::vector<std::string> notes = {fmt::format("1 unit = {:.4g} cm ({})", 100 * body.metres_per_unit, body.unit)};
-  if (body.unit == "unknown" || body.unit == "scaled") notes.back() += ", estimated from the body's stature";
+  if (body.unit == "unknown" || body.unit == "scaled") notes.back() += ", estimated from the body's height";
   if (body.up == UpAxis::kZ) notes.emplace_back("turned upright from Z up");
   if (!opened.map.composed.empty()) notes.push_back("has no " + NamesOf(opened.map.composed));
   if (!opened.map.by_anatomy.empty()) {
@@ -141,7 +141,7 @@ Result<RawMotion> RawMotionOf(SourceClip source, const OpenOptions& options, boo
   if (format == ClipFormat::kNpz || format == ClipFormat::kAmass) {
     ASSIGN_OR_RETURN(raw.contacts, ContactsIn(name, raw.FrameCount()));
   }
-  if (raw.positions.empty()) return Fail({name}, "no frames; at least one is needed");
+  if (raw.positions.empty()) return Fail({name}, "the motion has no frames; allowed: at least one");
   return raw;
 }
 

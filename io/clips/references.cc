@@ -95,8 +95,8 @@ Result<std::vector<std::string>> ExpandReference(const std::string& reference, c
   const bool is_builtin = reference.starts_with(kBuiltinPrefix);
   std::vector<std::string> found = is_builtin ? BuiltinsOf(reference) : FilesOf(reference);
   if (const PackagedClips* package = FindPackage(reference); found.empty() && package != nullptr) {
-    return Fail(place, "no clip matches '{}'; {} come with the package {}, in {}", reference, package->prefix,
-                package->package, package->folder);
+    return Fail(place, "no clip matches '{}'; the clips {} are part of the package {}, in the folder {}", reference,
+                package->prefix, package->package, package->folder);
   }
   if (found.empty()) {
     return Fail(place,

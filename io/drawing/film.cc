@@ -47,7 +47,8 @@ FilmWorkers::FilmWorkers(int frames, int jobs, int width, int height, FrameFeed 
 Result<void> FilmWorkers::MapSlots() {
   const std::size_t slots = workers_.size() * static_cast<std::size_t>(slots_), bytes = slots * SlotBytes();
   void* memory = mmap(nullptr, bytes, PROT_READ | PROT_WRITE, MAP_SHARED | MAP_ANONYMOUS, -1, 0);
-  if (memory == MAP_FAILED) return FailOfMachine("there is no memory for {} frames: {}", slots, std::strerror(errno));
+  if (memory == MAP_FAILED)
+    return FailOfMachine("there is not enough memory for {} frames: {}", slots, std::strerror(errno));
   memory_ = {static_cast<std::uint8_t*>(memory), Unmap{bytes}};
   return {};
 }
@@ -119,7 +120,7 @@ Result<std::span<const std::uint8_t>> FilmWorkers::Next() {
   RETURN_IF_ERROR(FeedAhead());
   const std::size_t worker = WorkerOf(next_);
   if (next_ >= frames_ || !ReceiveByte(workers_[worker].copy->socket()))
-    return Fail({}, "a drawing process ended before it had drawn its frames");
+    return Fail({}, "a drawing process ended before it had drawn all of its frames");
   ++next_;
   return SlotOf(worker, workers_[worker].taken).picture;
 }
@@ -205,7 +206,7 @@ Film Shoot(Scene& scene, const FilePath& path, const FilmWatch& watch) {
   if (auto mp4 = Encode(scene, path, watch)) {
     film.mp4 = std::move(*mp4);
   } else {
-    film.why_not = "No film could be made, only this picture: " + ToString(mp4.error());
+    film.why_not = "Etude made only this picture, because it could not make the film: " + ToString(mp4.error());
   }
   return film;
 }

@@ -77,7 +77,7 @@ std::string Plural(long long count, std::string_view singular) {
 
 std::string LeftOutWords(std::size_t total, std::size_t shown, std::string_view things, std::string_view where) {
   if (total <= shown) return "";
-  return fmt::format("{} more {} are not shown here; {} has all of them.",
+  return fmt::format("{} more {} are not shown here; all of them are in {}.",
                      FormatCount(static_cast<long long>(total - shown)), things, where);
 }
 

@@ -100,7 +100,7 @@ Result<FileSpot> FileSpot::Find(const FilePath& path, bool makes_folders) {
   Walk walk = WalkDown(path.given(), path.below().parent_path(), makes_folders);
   if (walk.end.number() < 0) return WhyNot(walk, path, makes_folders);
   if (spot.name_.empty() || spot.name_ == "." || spot.name_ == "..") {
-    return Fail({path.string()}, "is not the name of a file");
+    return Fail({path.string()}, "this path does not end with the name of a file");
   }
   spot.folder_ = std::move(walk.end);
   return spot;
@@ -125,7 +125,8 @@ Result<Descriptor> OpenFile(const FilePath& path, int flags, mode_t mode) {
   struct stat status {};
   if (::fstat(file.number(), &status) != 0 || !S_ISREG(status.st_mode)) return Fail({path.string()}, "is no file");
   if (path.is_inside() && (flags & O_ACCMODE) != O_RDONLY && status.st_nlink > 1) {
-    return Fail({path.string()}, "has another name (a hard link); the file of that name would be overwritten, too");
+    return Fail({path.string()},
+                "the file has a second name (a hard link), and writing would also change the file of the second name");
   }
   if ((flags & O_TRUNC) != 0 && ::ftruncate(file.number(), 0) != 0) {
     return CannotWrite(path.string(), "cannot write this file", errno);
@@ -159,7 +160,7 @@ Result<std::vector<fs::path>> PlainFilesBelow(const FilePath& folder) {
     const fs::file_status status = entry->symlink_status(error);
     if (fs::is_directory(status)) continue;
     if (fs::is_symlink(status)) return RefuseLink(entry->path());
-    if (!fs::is_regular_file(status)) return Fail({entry->path().string()}, "is neither a file nor a folder");
+    if (!fs::is_regular_file(status)) return Fail({entry->path().string()}, "this is neither a file nor a folder");
     files.push_back(entry->path().lexically_relative(folder.whole()));
   }
   if (error) return CannotRead(folder.string(), "cannot be read", error.value());
@@ -168,7 +169,7 @@ Result<std::vector<fs::path>> PlainFilesBelow(const FilePath& folder) {
 }
 
 tl::unexpected<Error> RefuseLink(const fs::path& link) {
-  return Fail({link.string()}, "is a link; links inside this folder are not followed");
+  return Fail({link.string()}, "this is a link, and Etude does not follow links inside this folder");
 }
 
 }  // namespace etude

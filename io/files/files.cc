@@ -36,10 +36,13 @@ Result<void> Sync(const std::filesystem::path& path, int flags) {
   int file = ::open(path.c_str(), O_RDONLY | O_CLOEXEC | flags);
   if (file < 0 && errno == EACCES)
     file = ::open(path.c_str(), O_WRONLY | O_CLOEXEC | flags);  // read access may be denied for a lock file
-  if (file < 0) return CannotWrite(path.string(), "cannot be opened to be synchronised with the disk", errno);
+  if (file < 0)
+    return CannotWrite(path.string(),
+                       "the file cannot be opened for writing it to the disk (fsync)",
+                       errno);
   const int failed = Synced(file) ? 0 : errno;
   ::close(file);
-  if (failed != 0) return CannotWrite(path.string(), "cannot be synchronised with the disk", failed);
+  if (failed != 0) return CannotWrite(path.string(), "the file cannot be written to the disk (fsync)", failed);
   return {};
 }
 
@@ -108,7 +111,7 @@ Result<PartialFile> PartialFile::Claim(const FilePath& path) {
     if (::ftruncate(file, 0) != 0) return partial.Failure();
     return partial;
   }
-  return Fail(InFile(path), "cannot write this file: too many processes write it");
+  return Fail(InFile(path), "cannot write this file: too many processes write it at the same time");
 }
 
 PartialFile& PartialFile::operator=(PartialFile&& other) noexcept {
@@ -243,7 +246,7 @@ Result<std::string> ReadWholeFile(const FilePath& path, std::uintmax_t limit) {
     ASSIGN_OR_RETURN(const std::size_t count, ReadSome(path, file.number(), chunk));
     if (count == 0) return bytes;
     bytes.append(chunk.data(), count);
-    if (bytes.size() > limit) return Fail(InFile(path), "became larger while it was read");
+    if (bytes.size() > limit) return Fail(InFile(path), "the file became larger while Etude read it");
   }
 }
 

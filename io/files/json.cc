@@ -116,7 +116,9 @@ int NestingOf(std::string_view text) {
 Result<Json> ReadJson(const std::string& text, const std::string& file, int line) {
   if (NestingOf(text) > kMaxNesting) return Fail({file, line, 0}, "nested more than {} levels deep", kMaxNesting);
   // The parser stops at a zero byte and ignores what follows.
-  if (text.find('\0') != std::string::npos) return Fail({file, line, 0}, "not valid JSON: a zero byte");
+  if (text.find('\0') != std::string::npos)
+    return Fail({file, line, 0},
+                "not valid JSON: the text contains a zero byte");
   try {
     return Json::parse(text);
   } catch (const Json::exception& error) {
@@ -131,7 +133,8 @@ Result<Json> ReadJsonFile(const FilePath& path) {
 
 Result<Json> ReadCbor(std::string_view bytes, const std::string& file) {
   if (!IsShallowCbor(bytes))
-    return Fail({file}, "not CBOR in the form that Etude writes, or nested more than {} levels deep", kMaxNesting);
+    return Fail({file}, "the file is not CBOR as Etude writes it, or it is nested more than {} levels deep",
+                kMaxNesting);
   try {
     return Json::from_cbor(bytes);
   } catch (const Json::exception& error) {

@@ -54,10 +54,10 @@ Result<TemporaryFolder> TemporaryFolder::Make(const std::string& purpose) {
   const std::string place = told != nullptr ? "TMPDIR=" + parent.string() : parent.string();
   std::error_code error;
   if (!fs::is_directory(parent, error)) {
-    return FailOfMachine("{}: is not a folder for temporary files{}", place, error ? ": " + error.message() : "");
+    return FailOfMachine("{} is not a folder for temporary files{}", place, error ? ": " + error.message() : "");
   }
   if (!parent.is_absolute()) {
-    return FailOfMachine("{}: is not a folder for temporary files; allowed: a path that begins with /", place);
+    return FailOfMachine("{} is not a folder for temporary files; allowed: a path that begins with /", place);
   }
   auto folder = MakeIn(parent, purpose);
   if (!folder) return FailOfMachine("{}: {}", place, folder.error().message);

@@ -46,7 +46,7 @@ Result<Child> StartReading(const Words& words, const Place& place) {
     return FailOfMachine("{} cannot be started: {}", words[0], std::strerror(error));
   }
   if (error != 0) {
-    return Fail(place, "{} could not be started ({}); it is in the Debian package ffmpeg", words[0],
+    return Fail(place, "the program {} could not be started ({}); install the Debian package ffmpeg", words[0],
                 std::strerror(error));
   }
   return child;
@@ -103,7 +103,7 @@ Result<Answer> Ask(const std::filesystem::path& path, const std::string& program
   Answer answer = ReadAnswer(child.output.get());
   if (const int status = WaitFor(child.pid); !WIFEXITED(status) || WEXITSTATUS(status) != 0 || answer.keys.empty()) {
     const std::string log = FirstLineOf(child.log.get());
-    return Fail(place, "not a film that ffmpeg can read{}{}", log.empty() ? "" : ": ", log);
+    return Fail(place, "ffmpeg cannot read this file as a film{}{}", log.empty() ? "" : ": ", log);
   }
   return answer;
 }
@@ -159,7 +159,7 @@ std::vector<int> FilmFacts::FramesOfPictures() const {
 
 Result<FilmFacts> ProbeFilm(const std::filesystem::path& path, const std::string& program) {
   const Place place{.file = path.string()};
-  if (std::filesystem::is_directory(path)) return Fail(place, "is a folder; the name of a film is needed");
+  if (std::filesystem::is_directory(path)) return Fail(place, "this is a folder; allowed: the name of a film");
   if (!std::filesystem::is_regular_file(path)) return Fail(place, "no such file");
   // Ask for the size, the rates, the rotation and the packets of the first video stream.
   ASSIGN_OR_RETURN(Answer answer, Ask(path, program,
@@ -179,7 +179,8 @@ Result<FilmFacts> ProbeFilm(const std::filesystem::path& path, const std::string
   }
   constexpr double kMaxFrames = 1e8;
   if (!(width >= 1) || !(height >= 1) || !(width * height <= kMaxPixels) || !(frames >= 1) || frames > kMaxFrames) {
-    return Fail(place, "{:g} frames of {:g} x {:g} pixels; allowed: at least one frame, up to 64 million pixels",
+    return Fail(place,
+                "found {:g} frames of {:g} x {:g} pixels; allowed: at least one frame, at most 64 million pixels",
                 frames, width, height);
   }
   // Swap width and height of a film that is shown rotated by 90°.

@@ -52,7 +52,7 @@ Result<Encoder> Encoder::Start(const FilePath& path, int width, int height, doub
   const Place place{.file = path.string()};
   ASSIGN_OR_RETURN(auto film, PartialFile::Claim(path));
   Log log(std::tmpfile(), std::fclose);
-  if (!log) return FailOfMachine("no temporary file can be made: {}", std::strerror(errno));
+  if (!log) return FailOfMachine("Etude cannot create a temporary file: {}", std::strerror(errno));
   // Use a socket and not a pipe: writing to a closed socket returns an error, but writing to a closed pipe raises a
   // signal.
   int ends[2];
@@ -68,7 +68,7 @@ Result<Encoder> Encoder::Start(const FilePath& path, int width, int height, doub
     return FailOfMachine("{} cannot be started: {}", program, std::strerror(error));
   }
   if (error != 0) {
-    return Fail(place, "{} could not be started ({}); it is in the Debian package of that name", program,
+    return Fail(place, "the program {} could not be started ({}); install the Debian package of the same name", program,
                 std::strerror(error));
   }
   return Encoder(std::move(film), child, ends[0], std::move(log));

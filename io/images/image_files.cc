@@ -163,7 +163,8 @@ Result<void> BeginPng(const std::string& bytes, const std::string& path, png_ima
   }
   if (png.width > kMaxPictureSide || png.height > kMaxPictureSide) {
     png_image_free(&png);
-    return Fail({path}, "found {} x {} pixels; allowed: at most {} a side", png.width, png.height, kMaxPictureSide);
+    return Fail({path}, "found {} x {} pixels; allowed: at most {} pixels on each side", png.width, png.height,
+                kMaxPictureSide);
   }
   return {};
 }
@@ -275,8 +276,9 @@ Result<ColourImage> DecodeColourPng(std::string_view bytes, std::size_t max_pixe
   const std::size_t pixels = std::size_t{png.width} * png.height;
   if (png.width > kMaxSide || png.height > kMaxSide || pixels > max_pixels) {
     png_image_free(&png);
-    return Fail({}, "the PNG picture has {} x {} pixels; allowed: at most {} in all, {} a side", png.width, png.height,
-                max_pixels, kMaxSide);
+    return Fail({},
+                "the PNG picture has {} x {} pixels; allowed: at most {} pixels in total, and {} on each side",
+                png.width, png.height, max_pixels, kMaxSide);
   }
   png.format = PNG_FORMAT_RGBA;
   std::vector<std::array<std::uint8_t, 4>> with_alpha(pixels);
@@ -294,7 +296,7 @@ Result<std::string> EncodeExr(const View& view, const NormalImage& normals, std:
     WriteExr(view, normals, measured, stream);
     return stream.TakeBytes();
   } catch (const std::exception& error) {
-    return Fail({}, "cannot be written as OpenEXR: {}", error.what());
+    return Fail({}, "the picture cannot be written as OpenEXR: {}", error.what());
   }
 }
 

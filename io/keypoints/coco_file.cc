@@ -32,16 +32,17 @@ Result<CocoImages> ImagesOf(const Json& images, PeopleOfFilm& film, const Place&
     const Json* name = Member(image, "file_name");
     names.push_back(name != nullptr && name->is_string() ? name->get<std::string>() : "");
     const Json *id = Member(image, "id"), *width = Member(image, "width"), *height = Member(image, "height");
-    if (id == nullptr || !id->is_number()) return Fail(place, "an image without a number 'id'");
+    if (id == nullptr || !id->is_number()) return Fail(place, "found an image without a number 'id'");
     if (!read.frames.try_emplace(id->get<double>(), 0).second) {
-      return Fail(place, "two images with the id {}", id->dump());
+      return Fail(place, "found two images with the id {}", id->dump());
     }
     ids.push_back(id->get<double>());
     if (width != nullptr && width->is_number() && height != nullptr && height->is_number()) {
       const int w = static_cast<int>(std::clamp(width->get<double>(), 0.0, kMaxPixel));
       const int h = static_cast<int>(std::clamp(height->get<double>(), 0.0, kMaxPixel));
       if (film.width != 0 && (w != film.width || h != film.height)) {
-        return Fail(place, "images of {} x {} and of {} x {} pixels in one film", film.width, film.height, w, h);
+        return Fail(place, "one film has images of {} x {} and of {} x {} pixels; allowed: one size", film.width,
+                    film.height, w, h);
       }
       film.width = w;
       film.height = h;
@@ -55,7 +56,7 @@ Result<CocoImages> ImagesOf(const Json& images, PeopleOfFilm& film, const Place&
     return are_numbered ? NaturallyBefore(names[a], names[b]) : ids[a] < ids[b];
   });
   if (!std::ranges::is_sorted(order)) {
-    film.Tell(fmt::format("images are listed in another order than {}; they are taken in the order of {}",
+    film.Tell(fmt::format("the file lists the images in another order than {}; Etude uses the order of {}",
                           are_numbered ? "the numbers in their names" : "their ids",
                           are_numbered ? "these numbers" : "the ids"));
   }
@@ -123,15 +124,17 @@ Result<void> AddPeople(std::vector<CocoPerson> people, const std::string& layout
     }
     ++category.read;
     if (film.frames[person.frame].size() >= kMaxPeople)
-      return Fail(place, "more than {} people in a frame", kMaxPeople);
+      return Fail(place, "found more than {} people in a frame", kMaxPeople);
     film.frames[person.frame].push_back(*seen);
   }
   const bool is_any_read = std::ranges::any_of(categories, [](const auto& one) { return one.second.read > 0; });
   for (const auto& [id, category] : categories) {
     if (category.refused == 0) continue;
     if (category.read > 0 || !is_any_read) return tl::unexpected(category.error);
-    film.Tell(fmt::format("annotations of the category {} are left out, because their keypoints are not a person's: {}",
-                          category.name.empty() ? fmt::format("{:g}", id) : category.name, category.refused));
+    film.Tell(
+        fmt::format("Etude left out annotations of the category {}, because their keypoints are not those of a "
+                    "person: {}",
+                    category.name.empty() ? fmt::format("{:g}", id) : category.name, category.refused));
   }
   return {};
 }
@@ -143,8 +146,8 @@ Result<PeopleOfFilm> ReadCoco(const Json& json, const std::string& layout, const
   const Json *images = Member(json, "images"), *annotations = Member(json, "annotations");
   if (images == nullptr || !images->is_array() || annotations == nullptr || !annotations->is_array()) {
     return Fail(place,
-                "no lists 'images' and 'annotations'; allowed: keypoint files or results of COCO, AlphaPose or MMPose, "
-                "landmarks of MediaPipe, or a folder of OpenPose's JSON files");
+                "the lists 'images' and 'annotations' are missing; allowed: keypoint files or results of COCO, "
+                "AlphaPose or MMPose, landmarks of MediaPipe, or a folder of OpenPose's JSON files");
   }
   PeopleOfFilm film;
   CocoCategories categories = CategoriesOf(json);
@@ -156,7 +159,9 @@ Result<PeopleOfFilm> ReadCoco(const Json& json, const std::string& layout, const
   for (const Json& annotation : *annotations) {
     const Json* id = Member(annotation, "image_id");
     const auto frame = id != nullptr && id->is_number() ? listed.frames.find(id->get<double>()) : listed.frames.end();
-    if (frame == listed.frames.end()) return Fail(place, "an annotation of an image that is not listed");
+    if (frame == listed.frames.end())
+      return Fail(place,
+                  "an annotation belongs to an image that the list 'images' does not contain");
     if (!HasKeypoints(annotation)) {
       ++boxes;
       continue;
@@ -169,7 +174,7 @@ Result<PeopleOfFilm> ReadCoco(const Json& json, const std::string& layout, const
   film.frames.resize(listed.frames.size());
   if (film.frames.empty()) return Fail(place, "no image");
   if (people.empty() && boxes > 0) return Fail(place, "none of {} annotations has a list 'keypoints'", boxes);
-  if (boxes > 0) film.Tell(fmt::format("annotations without keypoints are left out: {}", boxes));
+  if (boxes > 0) film.Tell(fmt::format("Etude left out annotations without keypoints: {}", boxes));
   RETURN_IF_ERROR(AddPeople(std::move(people), layout, categories, film, place));
   LayByNames(listed.names, of, film);
   return film;

@@ -94,15 +94,17 @@ Result<PeopleOfFilm> FilmOfNumbers(std::map<long, std::vector<SeenPerson>> numbe
     if (highest - lowest + 1 == frames) step = 1;
     if (step == 0 || (highest - lowest) / step + 1 != frames) {
       return Fail(place,
-                  "frames are numbered {} to {}, but the film has {}; allowed: numbers from 0 or 1 up to the "
-                  "film's number of frames, or evenly spaced numbers from the first frame to the last",
+                  "frame numbers go from {} to {}, but the film has {} frames; allowed: numbers from 0 or 1 up to the "
+                  "number of frames, or evenly spaced numbers from the first frame to the last frame",
                   lowest, highest, frames);
     }
-    film.Tell(fmt::format("frames are numbered {} to {}, and the film has {}; number {} is assumed to be its first",
-                          lowest, highest, frames, lowest));
+    film.Tell(
+        fmt::format("frame numbers go from {} to {}, and the film has {} frames; Etude assumes that number {} is "
+                    "the film's first frame",
+                    lowest, highest, frames, lowest));
   } else if (film.is_base_open) {
     film.Tell(
-        fmt::format("frames are numbered {} to {}, and the film has {}; the numbers are assumed to be counted "
+        fmt::format("frame numbers go from {} to {}, and the film has {} frames; Etude assumes that the numbers count "
                     "from {}",
                     lowest, highest, frames, of.from_one ? "1, as in another film" : "0"));
   }
@@ -122,7 +124,8 @@ void MoveFrames(std::span<const std::size_t> indices, std::size_t count, PeopleO
   for (std::size_t i = 0; i < indices.size(); ++i) frames[indices[i]] = std::move(film.frames[i]);
   if (count > indices.size()) {
     film.Tell(
-        fmt::format("numbers or times show that {} of {} frames are missing; these frames are taken to show nobody",
+        fmt::format("by the frame numbers or times, {} of {} frames are missing; Etude assumes that these frames show "
+                    "nobody",
                     count - indices.size(), count));
   }
   film.frames = std::move(frames);
@@ -209,8 +212,8 @@ void LayByNames(std::span<const std::string> names, const FilmOfKeypoints& of, P
   if (indices.back() >= kMaxSpread * indices.size() + of.frames) return;
   if (film.is_base_open) {
     film.Tell(
-        fmt::format("files are numbered {} to {}, and the film has {} frames; the numbers are assumed to be "
-                    "counted from {}",
+        fmt::format("file numbers go from {} to {}, and the film has {} frames; Etude assumes that the numbers count "
+                    "from {}",
                     numbers.front(), last, frames, of.from_one ? "1, as in another film" : "0"));
   }
   MoveFrames(indices, are_films ? of.frames : indices.back() + 1, film);

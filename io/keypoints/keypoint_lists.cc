@@ -54,14 +54,14 @@ Result<PeopleOfFilm> ReadResults(const Json& list, const std::string& layout, co
   for (const Json& one : list) {
     const Json* id = Member(one, "image_id");
     const auto number = id == nullptr ? std::nullopt : FrameNumber(*id);
-    if (!number) return Fail(place, "a result whose image_id has no number: {}", ShowJson(one));
+    if (!number) return Fail(place, "the image_id of a result contains no number: {}", ShowJson(one));
     if (!HasKeypoints(one)) {
       ++boxes;
       continue;
     }
     ASSIGN_OR_RETURN(ListedPerson listed, PointsOf(one, place));
     for (const Keypoint& point : listed.points) confidences.push_back(point.confidence);
-    if (numbered[*number].size() >= kMaxPeople) return Fail(place, "more than {} people in a frame", kMaxPeople);
+    if (numbered[*number].size() >= kMaxPeople) return Fail(place, "found more than {} people in a frame", kMaxPeople);
     numbered[*number].push_back(std::move(listed));
   }
   if (numbered.empty()) return Fail(place, "none of {} results has a list 'keypoints'", boxes);
@@ -76,7 +76,7 @@ Result<PeopleOfFilm> ReadResults(const Json& list, const std::string& layout, co
     }
   }
   ASSIGN_OR_RETURN(auto film, FilmOfNumbers(std::move(people), of, place));
-  if (boxes > 0) film.Tell(fmt::format("results without keypoints are left out: {}", boxes));
+  if (boxes > 0) film.Tell(fmt::format("Etude left out results without keypoints: {}", boxes));
   return film;
 }
 
@@ -85,7 +85,7 @@ Result<PeopleOfFilm> ReadResults(const Json& list, const std::string& layout, co
 Result<PeopleOfFilm> ReadKeypointList(const Json& json, const std::string& layout, const FilmOfKeypoints& of,
                                       const Place& place) {
   const Json& list = json.is_array() ? json : *FirstMember(json, {"instance_info", "frames"});
-  if (list.empty()) return Fail(place, "an empty list of frames");
+  if (list.empty()) return Fail(place, "the list of frames is empty");
   if (Member(list.front(), "image_id") != nullptr) return ReadResults(list, layout, of, place);
   const KeypointNames names = NamesOfMeta(json);
   const auto number_of = [](const Json& frame) {
@@ -107,13 +107,13 @@ Result<PeopleOfFilm> ReadKeypointList(const Json& json, const std::string& layou
         const Json* first = Member(list.front(), key.c_str());
         const bool may_be_number = key.starts_with("frame") && value.is_number_integer() && first && value != *first;
         if (may_be_number)
-          return Fail(place, "the key '{}' of entry {} may be a frame number; allowed: frame_id", key, i);
+          return Fail(place, "the key '{}' of entry {} may be a frame number; allowed: the key frame_id", key, i);
       }
     }
     if (number.has_value() != has_numbers) {
       return Fail(place,
-                  "entry {} has {} frame number, but the first has {}; allowed: a frame number in all entries or "
-                  "in none",
+                  "entry {} has {} frame number, but the first entry has {}; allowed: a frame number in all entries or "
+                  "in no entry",
                   i, number ? "a" : "no", has_numbers ? "one" : "none");
     }
     const Json* people = frame.is_object()
@@ -130,7 +130,7 @@ Result<PeopleOfFilm> ReadKeypointList(const Json& json, const std::string& layou
     }
     // A list may have one entry for each person.
     std::vector<SeenPerson>& all = numbered[*number];
-    if (all.size() + seen.size() > kMaxPeople) return Fail(place, "more than {} people in a frame", kMaxPeople);
+    if (all.size() + seen.size() > kMaxPeople) return Fail(place, "found more than {} people in a frame", kMaxPeople);
     all.insert(all.end(), seen.begin(), seen.end());
   }
   if (has_numbers) return FilmOfNumbers(std::move(numbered), of, place);

@@ -108,7 +108,7 @@ KeypointNames NamesOfMeta(const Json& json) {
 
 Result<std::vector<Keypoint>> Triples(const Json* list, const Place& place) {
   if (list == nullptr || !list->is_array() || list->size() % 3 != 0) {
-    return Fail(place, "not a list of keypoints{}; allowed: a list of x, y and confidence for each keypoint",
+    return Fail(place, "this is not a list of keypoints{}; allowed: a list with x, y and confidence for each keypoint",
                 list == nullptr || !list->is_array() ? "" : fmt::format(" ({} numbers)", list->size()));
   }
   std::vector<Keypoint> points;
@@ -122,7 +122,7 @@ Result<std::vector<Keypoint>> Triples(const Json* list, const Place& place) {
       const Json& number = (*list)[i + k];
       v[k] = number.is_number() ? number.get<double>() : std::nan("");
       if (!(std::abs(v[k]) <= kMaxListedPixel)) {
-        return Fail(place, "a keypoint's number is {}; allowed: at most {:g}", number.dump(), kMaxListedPixel);
+        return Fail(place, "a number of a keypoint is {}; allowed: at most {:g}", number.dump(), kMaxListedPixel);
       }
     }
     points.push_back({glm::dvec2(v[0], v[1]) + kHalfPixel, v[2]});
@@ -142,9 +142,10 @@ Result<const KeypointLayout*> LayoutOf(std::size_t count, const std::string& nam
   }
   if (fitting.size() == 1) return fitting.front();
   if (fitting.empty()) {
-    return Fail(place, "{} keypoints a person{}; allowed: {}", count, named.empty() ? "" : ", not " + named, counts);
+    return Fail(place, "found {} keypoints per person{}; allowed: {}", count,
+                named.empty() ? "" : ", which do not fit the layout " + named, counts);
   }
-  return Fail(place, "{} keypoints per person may be the layout {} or {}; choose one by --layout", count,
+  return Fail(place, "{} keypoints per person may have the layout {} or {}; use --layout to choose one of them", count,
               fitting[0]->name, fitting[1]->name);
 }
 
@@ -170,12 +171,13 @@ Result<std::span<const Landmark>> OrderOf(std::size_t count, const std::string& 
   if (layout.empty() && is_named && names.names.size() == count) {
     constexpr std::size_t kMinKnown = 12;
     if (names.known >= kMinKnown) return std::span(names.landmarks);
-    return Fail(place, "only {} of the {} names of keypoints are known: {}; allowed: at least {} of {}, or --layout",
+    return Fail(place,
+                "Etude knows only {} of the {} keypoint names ({}); allowed: at least {} names of {}, or --layout",
                 names.known, count, SomeOf(names.names), kMinKnown, AllLandmarks());
   }
   const auto found = LayoutOf(count, layout, place);
   if (!found && layout.empty() && is_named) {
-    return Fail(place, "{} keypoints a person, but {} names: {}; allowed: a name for each keypoint", count,
+    return Fail(place, "found {} keypoints per person, but {} names ({}); allowed: a name for each keypoint", count,
                 names.names.size(), SomeOf(names.names));
   }
   ASSIGN_OR_RETURN(const KeypointLayout* chosen, found);
@@ -183,7 +185,8 @@ Result<std::span<const Landmark>> OrderOf(std::size_t count, const std::string& 
   for (std::size_t i = 0; i < std::min(names.landmarks.size(), chosen->landmarks.size()); ++i) {
     const Landmark stated = names.landmarks[i], taken = chosen->landmarks[i];
     if (stated == taken || stated == Landmark::kNoLandmark || taken == Landmark::kNoLandmark) continue;
-    return Fail(place, "keypoint {} is named {} in the file, but is {} in the layout {} ({} names, {} keypoints); {}",
+    return Fail(place,
+                "keypoint {} has the name {} in the file, but is {} in the layout {} ({} names, {} keypoints); {}",
                 i + 1, names.names[i], LandmarkName(taken), chosen->name, names.names.size(), count,
                 layout.empty() ? "allowed: a name for each keypoint" : "leave out --layout, or remove the names");
   }
@@ -222,7 +225,9 @@ Result<Keypoint> PointOf(const Json& json, const Place& place) {
   for (const auto& [key, value] : json.items()) {
     constexpr std::array kNoScores = {"x", "y", "z", "id", "index", "presence", "world_x", "world_y", "world_z"};
     if (sure != nullptr || !value.is_number_float() || std::ranges::count(kNoScores, key) > 0) continue;
-    return Fail(place, "a keypoint has the number '{}' beside x and y; allowed: score, confidence or visibility", key);
+    return Fail(place,
+                "a keypoint has the number '{}' in addition to x and y; allowed: score, confidence or visibility",
+                key);
   }
   if (!x || !y) return Keypoint{};
   return Keypoint{glm::dvec2(*x, *y) + kHalfPixel, sure == nullptr ? 1 : NumberOf(sure).value_or(0)};
@@ -240,7 +245,7 @@ Result<const Json*> ScoresOf(const Json& person, std::size_t keypoints, const Pl
   if (!person.is_object()) return nullptr;
   for (const auto& [key, value] : person.items()) {
     if (!value.is_array() || value.size() != keypoints || !std::ranges::all_of(value, is_number)) continue;
-    return Fail(place, "a person has the list '{}' beside the keypoints; allowed: keypoint_scores", key);
+    return Fail(place, "a person has the list '{}' in addition to the keypoints; allowed: keypoint_scores", key);
   }
   return nullptr;
 }
@@ -255,7 +260,8 @@ Result<std::vector<Keypoint>> PointsOfPairs(const Json& list, const Json* scores
     double sure = 1;
     if (scores != nullptr && scores->is_array() && scores->size() == list.size()) {
       if (pair.size() > 2 && pair[2] != (*scores)[i]) {
-        return Fail(place, "a keypoint has {} coordinates beside a score: {}; allowed: pixels of one picture, [x, y]",
+        return Fail(place,
+                    "a keypoint has {} coordinates in addition to a score: {}; allowed: pixels of one picture, [x, y]",
                     pair.size(), ShowJson(pair));
       }
       sure = NumberOf(&(*scores)[i]).value_or(0);
@@ -289,7 +295,7 @@ bool HasKeypoints(const Json& person) {
 Result<ListedPerson> PointsOf(const Json& person, const Place& place) {
   const Json* list = person.is_array() ? &person : KeypointsOf(person);
   if (list == nullptr || !list->is_array() || list->empty()) {
-    return Fail(place, "a person without a list of keypoints: {}", ShowJson(person));
+    return Fail(place, "found a person without a list of keypoints: {}", ShowJson(person));
   }
   ListedPerson listed;
   if (list->front().is_array()) {

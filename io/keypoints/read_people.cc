@@ -37,9 +37,11 @@ Result<std::vector<fs::path>> FilesIn(const fs::path& folder, const char* ending
   if (files.empty()) {
     for (const fs::directory_entry& entry : fs::directory_iterator(folder, error)) {
       if (entry.path().extension() != ".txt") continue;
-      return Fail({folder.string()}, "no {} file in it, but text files, as YOLO writes; allowed: {}", ending, kAllowed);
+      return Fail({folder.string()},
+                  "the folder contains no {} file, but text files, as YOLO writes; allowed: {}",
+                  ending, kAllowed);
     }
-    return Fail({folder.string()}, "no {} file in it", ending);
+    return Fail({folder.string()}, "the folder contains no {} file", ending);
   }
   std::ranges::sort(files, NaturallyBefore, &fs::path::native);
   return files;
@@ -79,7 +81,8 @@ Result<std::vector<SeenPerson>> ReadFrame(const fs::path& file, const std::strin
   const Json* people = FirstMember(json, {"people", "instance_info"});
   if (people == nullptr || !people->is_array()) {
     return Fail(place,
-                "no list 'people' or 'instance_info'; allowed: JSON as OpenPose writes it, or MMPose's list of people");
+                "the list 'people' or 'instance_info' is missing; allowed: JSON as OpenPose writes it, or MMPose's "
+                "list of people");
   }
   if (people == Member(json, "instance_info")) {  // MMPose's own scripts write this object for a picture
     ASSIGN_OR_RETURN(auto listed, PeopleOfList(*people, layout, NamesOfMeta(json), place));
@@ -155,8 +158,10 @@ void Denormalise(const FilmOfKeypoints& of, PeopleOfFilm& film) {
   const double shares = share_of(range.shares, range.confident);
   if (shares <= 0.5) {
     if (shares > kFew) {
-      film.Tell(fmt::format("{} of {} keypoints lie between -1 and 1, but most do not, so all are taken as pixels",
-                            range.shares, range.confident));
+      film.Tell(
+          fmt::format("{} of {} keypoints have coordinates between -1 and 1, but most keypoints do not, so Etude "
+                      "reads all coordinates as pixels",
+                      range.shares, range.confident));
     }
     return;
   }
@@ -171,14 +176,15 @@ void Denormalise(const FilmOfKeypoints& of, PeopleOfFilm& film) {
   }
   if (is_signed) {
     film.Tell(
-        fmt::format("keypoints lie between -1 and 1, so -1 and 1 are taken as the edges of the picture of {} x {} "
-                    "pixels (OpenPose's --keypoint_scale 4)",
+        fmt::format("keypoint coordinates are between -1 and 1, so Etude reads -1 and 1 as the edges of the picture of "
+                    "{} x {} pixels (OpenPose's --keypoint_scale 4)",
                     of.width, of.height));
     return;
   }
   const std::string but = range.outside == 0 ? "" : fmt::format(", all but {} of {}", range.outside, range.seen);
   film.Tell(
-      fmt::format("keypoints lie between 0 and 1{}, so they are taken as fractions of the picture's {} x {} pixels",
+      fmt::format("keypoint coordinates are between 0 and 1{}, so Etude reads them as fractions of the picture's {} x "
+                  "{} pixels",
                   but, of.width, of.height));
 }
 
@@ -186,10 +192,10 @@ Result<PeopleOfFilm> ReadFile(const fs::path& file, const std::string& layout, c
   ASSIGN_OR_RETURN(const std::string text, ReadWholeFile(file));
   const Place place{file.string()};
   if (text.starts_with("\x89HDF")) {
-    return Fail(place, "an HDF5 file, as DeepLabCut (.h5) and SLEAP (.slp) write; allowed: {}", kAllowed);
+    return Fail(place, "this is an HDF5 file, as DeepLabCut (.h5) and SLEAP (.slp) write; allowed: {}", kAllowed);
   }
   if (file.extension() == ".csv") {
-    return Fail(place, "a CSV file, as DeepLabCut and SLEAP write; allowed: {}", kAllowed);
+    return Fail(place, "this is a CSV file, as DeepLabCut and SLEAP write; allowed: {}", kAllowed);
   }
   ASSIGN_OR_RETURN(const Json json, ReadJson(WithNullForNan(text), file.string()));
   return IsKeypointList(json) ? ReadKeypointList(json, layout, of, place) : ReadCoco(json, layout, of, place);
@@ -237,7 +243,7 @@ std::string DoubtOf(const std::string& layout, const SeenPeople& frames) {
     const Midway hips = MidHipsOfBody25(frames);
     if (!hips.AreNot()) return "";
     return fmt::format(
-        "read as layout body_25, the mid-hip lies between the hips in only {} of {} people; try --layout body_25b",
+        "in the layout body_25, the mid-hip would be between the hips in only {} of {} people; try --layout body_25b",
         hips.between, hips.people);
   }
   if (layout != "body_25b") return "";
@@ -246,8 +252,8 @@ std::string DoubtOf(const std::string& layout, const SeenPeople& frames) {
   const Midway hips = CountMidway(frames, Landmark::kRightElbow, Landmark::kLeftWrist, Landmark::kRightHip);
   if (!hips.Are()) return "";
   return fmt::format(
-      "read as layout body_25b, the right elbow lies between the left wrist and the right hip in {} of {} people; try "
-      "--layout body_25",
+      "in the layout body_25b, the right elbow would be between the left wrist and the right hip in {} of {} people; "
+      "try --layout body_25",
       hips.between, hips.people);
 }
 
@@ -259,7 +265,9 @@ Result<PeopleOfFilm> ReadKeypoints(const fs::path& path, const std::string& layo
     // The number of keypoints may fit two layouts, which the mid-hip tells apart.
     auto other = ReadAs(path, "body_25", of);
     if (other && MidHipsOfBody25(other->frames).Are()) {
-      other->Tell("25 keypoints per person, one of them between the hips: layout body_25");
+      other->Tell(
+          "Etude uses the layout body_25, because there are 25 keypoints per person and one keypoint is "
+          "between the hips");
       film = std::move(other);
     }
   }
@@ -275,8 +283,8 @@ Result<PeopleOfFilm> ReadMarkedPictures(const fs::path& folder) {
   for (const fs::path& file : files) {
     ASSIGN_OR_RETURN(const ColourImage picture, LoadColourPng(file.string()));
     if (film.width != 0 && (picture.width != film.width || picture.height != film.height)) {
-      return Fail({file.string()}, "{} x {} pixels, but earlier pictures have {} x {}", picture.width, picture.height,
-                  film.width, film.height);
+      return Fail({file.string()}, "the picture has {} x {} pixels, but earlier pictures have {} x {}", picture.width,
+                  picture.height, film.width, film.height);
     }
     film.width = picture.width;
     film.height = picture.height;
@@ -302,11 +310,14 @@ Result<fs::path> EntryOfFilm(const fs::path& folder, const std::string& film) {
   std::ranges::sort(found);
   if (error) return Fail({folder.string()}, "{}", error.message());
   if (found.empty())
-    return Fail({folder.string()}, "no file in it begins with the film's name {}, followed by no letter or digit",
+    return Fail({folder.string()},
+                "the folder contains no file for the film {}; allowed: a file name that begins with "
+                "the film's name, followed by another character than a letter or a digit",
                 film);
   if (found.size() > 1) {
-    return Fail({folder.string()}, "{} and {} both begin with the film's name {}", found[0].filename().string(),
-                found[1].filename().string(), film);
+    return Fail({folder.string()},
+                "the names of two files, {} and {}, begin with the film's name {}; allowed: one such file",
+                found[0].filename().string(), found[1].filename().string(), film);
   }
   return found.front();
 }

@@ -51,7 +51,8 @@ struct Pipe {
 
 Result<Pipe> MakePipe() {
   std::array<int, 2> ends{};
-  if (::pipe2(ends.data(), O_CLOEXEC) != 0) return FailOfMachine("no pipe can be made: {}", std::strerror(errno));
+  if (::pipe2(ends.data(), O_CLOEXEC) != 0)
+    return FailOfMachine("Etude cannot create a pipe: {}", std::strerror(errno));
   return Pipe{Descriptor(ends[0]), Descriptor(ends[1])};
 }
 
@@ -150,7 +151,7 @@ bool SetUpNamespaces(const ExecPlan& child) {
 Result<Descriptor> MakeFile(const std::string& text) {
   Descriptor file(::memfd_create("text", MFD_CLOEXEC));
   if (file.number() < 0 || ::write(file.number(), text.data(), text.size()) != static_cast<ssize_t>(text.size())) {
-    return FailOfMachine("a file in memory cannot be made: {}", std::strerror(errno));
+    return FailOfMachine("Etude cannot create a file in memory: {}", std::strerror(errno));
   }
   return file;
 }
@@ -205,7 +206,7 @@ std::string DescribeEnd(int code) {
 Result<std::string> FindProgram(const std::string& name) {
   if (name.find('/') != std::string::npos) {
     if (::access(name.c_str(), F_OK) != 0) return Fail({name, 0, 0}, "no such program: {}", std::strerror(errno));
-    if (!IsProgram(name)) return Fail({name, 0, 0}, "is not an executable program");
+    if (!IsProgram(name)) return Fail({name, 0, 0}, "this file is not an executable program");
     return name;
   }
   const char* variable = ::getenv("PATH");
@@ -242,7 +243,7 @@ Result<ChildProcess> ChildProcess::Start(const ChildOptions& options) {
   const std::vector<char*> argv = Pointers(argument_texts);
   const std::vector<char*> envp = Pointers(environment_texts);
   const Descriptor ourselves(static_cast<int>(::syscall(SYS_pidfd_open, ::getpid(), 0)));
-  if (ourselves.number() < 0) return FailOfMachine("the process cannot be watched: {}", std::strerror(errno));
+  if (ourselves.number() < 0) return FailOfMachine("Etude cannot watch the process: {}", std::strerror(errno));
   ExecPlan child{
       .path = path.c_str(),
       .argv = argv.data(),
@@ -270,7 +271,7 @@ Result<ChildProcess> ChildProcess::Start(const ChildOptions& options) {
   if (pid < 0 && options.control_group >= 0) pid = ForkContained(-1);
   if (pid == 0) BecomeProgram(child);
   if (pid < 0 && options.contained && errno != EAGAIN && errno != ENOMEM) return StartUncontained(options);
-  if (pid < 0) return FailOfMachine("no process can be started: {}", std::strerror(errno));
+  if (pid < 0) return FailOfMachine("Etude cannot start a process: {}", std::strerror(errno));
   // Wait until the child has executed the program (the pipe closes) or reports why not.
   ManagedChildren().insert(pid);
   report->write.Close();

@@ -200,7 +200,7 @@ Fence Fence::Find() {
 }
 
 std::string Fence::MemoryDescription() const {
-  return groups_.empty() ? "measured from the processes' memory pages, 50 times a second"
+  return groups_.empty() ? "measured from the memory pages of the processes, 50 times per second"
                          : "counted by the kernel (cgroup v2)";
 }
 
@@ -208,7 +208,8 @@ Result<void> Fence::Try() const {
   if (!IsUp()) return {};
   const std::string said = FirstLineOf(*this, {program_, "--version"});
   if (said.starts_with("bubblewrap ")) return {};
-  return FailOfMachine("no program can be run in the fence: {}", said.empty() ? "bubblewrap gave no reason" : said);
+  return FailOfMachine("no program can run in the sandbox (bubblewrap): {}",
+                       said.empty() ? "bubblewrap gave no reason" : said);
 }
 
 ScratchUse Fence::MeasureScratch(pid_t inside) const {

@@ -18,7 +18,7 @@ namespace etude {
 Result<ForkedCopy> ForkedCopy::Start(const std::function<int(int socket)>& work) {
   std::array<int, 2> ends{};
   if (::socketpair(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0, ends.data()) != 0) {
-    return FailOfMachine("no pair of sockets can be made: {}", std::strerror(errno));
+    return FailOfMachine("Etude cannot create a pair of sockets: {}", std::strerror(errno));
   }
   const pid_t parent = ::getpid(), child = ::fork();
   if (child == 0) {
@@ -31,7 +31,7 @@ Result<ForkedCopy> ForkedCopy::Start(const std::function<int(int socket)>& work)
   ::close(ends[1]);
   if (child < 0) {
     ::close(ends[0]);
-    return FailOfMachine("no process can be started: {}", std::strerror(why));
+    return FailOfMachine("Etude cannot start a process: {}", std::strerror(why));
   }
   return ForkedCopy(child, ends[0]);
 }

@@ -123,7 +123,7 @@ Result<void> EnterPinnedEnvironment() {
   for (std::size_t at = 0; at < line.size(); at += std::strlen(&line[at]) + 1) arguments.push_back(&line[at]);
   arguments.push_back(nullptr);
   ::execve("/proc/self/exe", arguments.data(), variables.data());
-  return FailOfMachine("this program cannot be started anew: {}", std::strerror(errno));
+  return FailOfMachine("Etude cannot restart itself: {}", std::strerror(errno));
 }
 
 std::vector<std::pair<std::string, std::string>> LoadedLibraries() {

@@ -35,10 +35,10 @@ std::string Describe(const StreamRecording& recording, const MadeStream& made) {
   std::string text =
       fmt::format("{}, {:.1f} s, {} tracking states", StreamFormatName(recording.format),
                   static_cast<double>(frames) / made.stream.rate_hz, recording.records_states ? "with" : "no");
-  if (!recording.records_times) text += fmt::format(", without a clock: {:g} Hz is assumed", recording.rate_hz);
-  if (!recording.is_level) text += ", " + Describe(made.level);
-  if (made.lost_frames > 0) text += fmt::format(", nobody in {} of {} frames", made.lost_frames, frames);
-  for (const std::string& remark : recording.remarks) text += ", " + remark;
+  if (!recording.records_times) text += fmt::format(", without a clock (Etude assumes {:g} Hz)", recording.rate_hz);
+  if (!recording.is_level) text += "; " + Describe(made.level);
+  if (made.lost_frames > 0) text += fmt::format("; nobody is visible in {} of {} frames", made.lost_frames, frames);
+  for (const std::string& remark : recording.remarks) text += "; " + remark;
   std::vector<JointPositions> tracked;
   for (const SensedFrame& frame : made.stream.frames) {
     JointPositions& places = tracked.emplace_back();
@@ -47,10 +47,10 @@ std::string Describe(const StreamRecording& recording, const MadeStream& made) {
     }
   }
   const std::string exchanged = DescribeExchangedJoints(tracked, made.stream.rate_hz);
-  if (!exchanged.empty()) text += ", " + exchanged;
+  if (!exchanged.empty()) text += "; " + exchanged;
   constexpr double kBackwards = -0.35;  // the threshold that CheckSides uses for clips
   const auto feet = FeetForward(made.stream);
-  if (feet && *feet < kBackwards) text += ", feet point backwards: the stream may be mirrored (--reflect)";
+  if (feet && *feet < kBackwards) text += "; the feet point backwards, so the stream may be mirrored (--reflect)";
   return text;
 }
 
@@ -184,7 +184,7 @@ Result<LoadedStreams> LoadStreams(const std::vector<std::string>& references, co
     }
     const auto expanded = ExpandReference(reference, {});
     if (!expanded && IsClip(reference)) return tl::unexpected(expanded.error());
-    if (!expanded) return Fail({reference}, "no such recording; allowed: a file, a pattern, a folder, a clip");
+    if (!expanded) return Fail({reference}, "no such recording; allowed: a file, a pattern, a folder or a clip");
     for (const std::string& one : *expanded) {
       auto streams = LoadStream(one, reading, options, clips);
       if (!streams && expanded->size() == 1) return tl::unexpected(streams.error());
@@ -200,8 +200,8 @@ Result<LoadedStreams> LoadStreams(const std::vector<std::string>& references, co
   const auto is_clip = [](const NamedStream& stream) { return stream.motion.has_value(); };
   if (is_told && !loaded.streams.empty() && std::ranges::none_of(loaded.streams, is_clip)) {
     return Fail({loaded.streams.front().source},
-                "this is a sensor's recording, and its format determines unit and joints; --joint-map, --unit and --up "
-                "are allowed only for clips");
+                "--joint-map, --unit and --up are allowed only for clips, but this is a recording of a sensor, whose "
+                "format determines the unit and the joints");
   }
   if (!loaded.streams.empty()) return loaded;
   if (!loaded.refused.empty()) return tl::unexpected(loaded.refused.front());
@@ -214,7 +214,8 @@ Result<std::vector<std::string>> LabelFiles(const std::string& path) {
   ASSIGN_OR_RETURN(auto files, FilesBelow(path));
   std::erase_if(files, [](const std::string& file) { return fs::path(file).extension() != ".tagstream"; });
   if (files.empty())
-    return Fail({path}, "the folder contains no .tagstream file; allowed: a labels file, or a folder of tag streams");
+    return Fail({path},
+                "the folder contains no .tagstream file; allowed: a labels file, or a folder of .tagstream files");
   return files;
 }
 

@@ -64,7 +64,8 @@ using Masks = py::array_t<bool, py::array::c_style | py::array::forcecast>;
 
 Mask MaskOf(const bool* pixels, py::ssize_t height, py::ssize_t width) {
   if (std::min(width, height) < 1 || std::max(width, height) > kMaxSide) {
-    throw BadInput(fmt::format("the mask has {} x {} pixels; allowed: 1 to {} each", width, height, kMaxSide));
+    throw BadInput(
+        fmt::format("the mask has {} x {} pixels; allowed: 1 to {} pixels on each side", width, height, kMaxSide));
   }
   Mask mask(static_cast<int>(width), static_cast<int>(height));
   std::copy_n(pixels, mask.pixels.size(), mask.pixels.begin());

@@ -363,21 +363,21 @@ PADDED = (WIDTH - HEIGHT) / 2
 # Mistakes outside the documentation: the rig, a change of every pixel, and the message.
 STRANGERS = {
     "two cameras exchanged": (altered_toml(lambda name, R, T, K: (EXCHANGED.get(name, name), R, T, K)), None,
-                              "corrected: films or keypoints of cam1 and cam2 are exchanged"),
+                              "corrected: the films or the keypoints of cam1 and cam2 are exchanged"),
     "poses from the cameras": (altered_toml(lambda name, R, T, K: (name, R.T, -R.T @ T, K)), None,
-                               "corrected: the rig's poses transform from its cameras to the world"),
+                               "corrected: the poses in the rig file are from camera to world"),
     "OpenGL's axes": (altered_toml(lambda name, R, T, K: (name, FLIP @ R, FLIP @ T, K)), None,
                       "corrected: the rig's cameras look along -z"),
     "matrices of Blender": (altered_toml(lambda name, R, T, K: (name, (FLIP @ R).T, -R.T @ T, K)), None,
                             "and the cameras look along -z"),
     "calibrated at twice the size, which is not told": (altered_size(2), None, "1280 x 960 pixels, so Etude assumes this size"),
     "calibrated at half of the size, which is not told": (altered_size(0.5), None, "320 x 240 pixels, so Etude assumes this size"),
-    "keypoints of halved pictures": ("Pose2Sim", lambda p: (p + 0.5) / 2 - 0.5, "corrected: keypoints are of pictures 0.5 times as large"),
+    "keypoints of halved pictures": ("Pose2Sim", lambda p: (p + 0.5) / 2 - 0.5, "corrected: keypoints belong to pictures 0.5 times as large"),
     "shares of a padded square": ("Pose2Sim", lambda p: np.array([(p[0] + 0.5) / WIDTH, (p[1] + 0.5 + PADDED) / WIDTH]),
-                                  "corrected: keypoints are relative to a square around the picture"),
-    "shares of the longer side": ("Pose2Sim", lambda p: (p + 0.5) / WIDTH, "corrected: keypoints are relative to the picture's longer side"),
+                                  "corrected: keypoint coordinates are fractions of the side of a square around the picture"),
+    "shares of the longer side": ("Pose2Sim", lambda p: (p + 0.5) / WIDTH, "corrected: keypoint coordinates are fractions of the longer side of the picture"),
     "x and y exchanged": ("Pose2Sim", lambda p: p[::-1], "corrected: keypoints have x and y exchanged"),
-    "v counted from below": ("Pose2Sim", lambda p: np.array([p[0], HEIGHT - 1 - p[1]]), "corrected: keypoints count v from the picture's bottom"),
+    "v counted from below": ("Pose2Sim", lambda p: np.array([p[0], HEIGHT - 1 - p[1]]), "corrected: keypoints have their origin at the bottom of the picture"),
     "all films turned by 180": ("Pose2Sim", lambda p: np.array([WIDTH - 1 - p[0], HEIGHT - 1 - p[1]]),
                                 "corrected: keypoints of all films are turned by 180° clockwise"),
     "all films turned by 90": ("Pose2Sim", lambda p: np.array([HEIGHT - 1 - p[1], p[0]]),
@@ -489,7 +489,7 @@ class Mistakes(EtudeCase):
     # No camera contradicts another one, so nothing is mended; the person's joints jump.
     def test_sides_that_change_in_all_films_are_doubted(self):
         told, _, _ = self.capture(mistake=IN_ALL_FILMS, cameras=2)
-        self.assertIn("doubtful: left and right exchange their places from one frame to the next, 2 times (first at 0.", told)
+        self.assertIn("doubtful: left and right exchange positions from one frame to the next, 2 times (first at 0.", told)
 
     def test_what_no_page_names_is_told_and_mended(self):
         for name, (rig, pixels, words) in list(STRANGERS.items())[::1 if HEAVY else 5]:
@@ -507,7 +507,7 @@ class Mistakes(EtudeCase):
             with self.subTest(words):
                 folder, rig, films, _ = self.take(cameras=3, pixels=pixels, lens=Lens(LENS[:4]))
                 told = self.etude("capture", "--rig", rig, *films, "--keypoints", folder / "keypoints", "-o", folder / "m.csv")
-                self.assertRegex(told.stdout, r"doubtful: keypoints of all films fit the rig best .*Not corrected")
+                self.assertRegex(told.stdout, r"doubtful: keypoints of all films would fit the rig best .*Etude did not correct this")
                 self.assertNotIn("corrected: keypoints", told.stdout)
 
     def remade(self, folder, name, filters, times, *arguments):
@@ -624,13 +624,13 @@ class Mistakes(EtudeCase):
 
     def test_focal_lengths_that_are_off_are_doubted(self):
         off = lambda films: altered_toml(lambda name, R, T, K: (name, R, T, K @ np.diag([1.05, 1.05, 1]) if name in films else K))
-        cases = [("cam2", 4, 2, r"cam2: a focal length 0\.9[56]\d ± 0\.00\d times the rig's would fit the keypoints better: rays would miss"),
-                 (PLACES, 4, 0, r"all cameras: focal lengths 0\.95\d ± 0\.00\d times the rig's would fit")]
+        cases = [("cam2", 4, 2, r"cam2: a focal length multiplied by 0\.9[56]\d ± 0\.00\d would fit the keypoints better: rays to the same keypoint would miss"),
+                 (PLACES, 4, 0, r"focal lengths of all cameras multiplied by 0\.95\d ± 0\.00\d would fit")]
         if HEAVY:
-            cases += [("cam2", 2, 8, r"(cam2: a focal length 0\.9[456]\d ± 0\.0[01]\d times the rig's, or one of cam1 1\.0[456]|"
-                                     r"cam1: a focal length 1\.0[456]\d ± 0\.0[01]\d times the rig's, or one of cam2 0\.9[456])"),
-                      (PLACES, 4, 0.5, r"all cameras: focal lengths 0\.9[56]\d ± 0\.00\d times the rig's"),
-                      (PLACES, 2, 0.1, r"all cameras: focal lengths 0\.9[56]\d ± 0\.00\d times the rig's")]
+            cases += [("cam2", 2, 8, r"(cam2: a focal length multiplied by 0\.9[456]\d ± 0\.0[01]\d \(or that of cam1 multiplied by 1\.0[456]|"
+                                     r"cam1: a focal length multiplied by 1\.0[456]\d ± 0\.0[01]\d \(or that of cam2 multiplied by 0\.9[456])"),
+                      (PLACES, 4, 0.5, r"focal lengths of all cameras multiplied by 0\.9[56]\d ± 0\.00\d"),
+                      (PLACES, 2, 0.1, r"focal lengths of all cameras multiplied by 0\.9[56]\d ± 0\.00\d")]
         for films, cameras, noise_px, words in cases:
             with self.subTest(films=films, cameras=cameras, noise_px=noise_px):
                 told, _, _ = self.capture(off(films), cameras=cameras, lens=Lens(), noise_px=noise_px)
@@ -642,8 +642,8 @@ class Mistakes(EtudeCase):
         for cameras, noise_px in ((2, 2), (4, 2), (4, 6)) if HEAVY else ((2, 2),):
             with self.subTest(cameras=cameras, noise_px=noise_px):
                 told, _, _ = self.capture(rig, cameras=cameras, pixels=shares, noise_px=noise_px)
-                self.assertRegex(told, r"doubtful: the shoulders' width is 0\.5\d of a leg.* relative to a square around the picture, it is 0\.4|"
-                                       r"corrected: keypoints are relative to a square around the picture")
+                self.assertRegex(told, r"doubtful: the shoulder width is 0\.5\d times the leg.* fractions of the side of a square around the picture, the ratio is 0\.4|"
+                                       r"corrected: keypoint coordinates are fractions of the side of a square around the picture")
 
     def test_a_camera_that_fits_nobody_is_named(self):
         elsewhere = altered_toml(lambda name, R, T, K: (name, R, 1000 * T if name == "cam2" else T, K))

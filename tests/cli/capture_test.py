@@ -116,7 +116,7 @@ class Capture(EtudeCase):
         self.rig.unlink()
         self.assertIn("--size '': point pairs as CSV need", self.refusal("calibrate", self.pairs, "-o", self.rig))
         five = self.write("five.csv", "camera,x,y,z,u,v\n" + "a,1,2,3,4,5\n" * 5)
-        self.assertIn("camera a: cannot calibrate a camera: 5 point pairs; at least 6",
+        self.assertIn("camera a: cannot calibrate a camera: found 5 point pairs; allowed: at least 6",
                       self.refusal("calibrate", five, "--size", "640x480", "-o", self.rig))
         words = self.write("words.csv", "camera,x,y,z,u,v\na,1,2,three,4,5\n")
         self.assertIn("words.csv:2: 'three' is not a number",
@@ -256,7 +256,7 @@ class Capture(EtudeCase):
         still = [make_film(self.folder / f"{camera}.avi", rate=10, frames=4, what="color=c=gray:", coding=("-c:v", "ffv1"))
                  for camera in PLACES]
         alone = ["capture", "--rig", self.rig, *still, "--silhouettes", "-o", self.folder / "m.bvh"]
-        self.assertIn("there is no frame in which two films show a moving person", self.refusal(*alone))
+        self.assertIn("no frame shows a moving person in two films", self.refusal(*alone))
         self.assertIn("no keypoints to write", self.refusal(*alone, "--points", self.folder / "p.trc"))
         self.assertIn("20 frames, but the film", self.refusal(*alone, "--keypoints", self.keypoints))
         self.assertIn("--stature requires --silhouettes", self.refusal(*self.capture("-o", "m.bvh", "--stature", "1.8")))
@@ -289,7 +289,7 @@ class Capture(EtudeCase):
             return [make_film(self.folder / name / "left.mp4", size, rate, frames, coding=()), *self.films[1:]]
 
         small = self.refusal(*self.capture("-o", out, films=film("small", "160x120", RATE, FRAMES)))
-        self.assertIn("160 x 120 pixels, but the rig's camera has 320 x 240; state how they were fitted (--fit letterbox, stretch or crop)", small)
+        self.assertIn("the film has 160 x 120 pixels, but the rig's camera has 320 x 240; use --fit to state how the pictures were resized (letterbox, stretch or crop)", small)
         self.assertIn("at 30 Hz", self.refusal(*self.capture("-o", out, films=film("slow", "320x240", 25, FRAMES))))
         self.assertIn("20 frames", self.refusal(*self.capture("-o", out, films=film("short", "320x240", RATE, 18))))
         (self.keypoints / "left_json" / "left_19.json").unlink()

@@ -88,7 +88,7 @@ class Info(Clips):
         self.assertIn("no joint found for left_shoulder", skin["complaint"])
         self.assertGreater(skin["frames"], 1)
         self.assertEqual((box["frames"], box["meshes"], box["triangles"]), (0, 1, 12))
-        self.assertIn("holds no animation", box["complaint"])
+        self.assertIn("contains no animation", box["complaint"])
         self.assertIsNone(broken["format"])
         self.assertIn("its own ancestor", broken["complaint"])
         self.assertIsNone(walk["complaint"])
@@ -176,8 +176,8 @@ class Convert(Clips):
             (self.folder / name).unlink()
         fresh = self.folder / "new.bvh"
         self.refuses("convert", WALK, self.folder / "new.fbx", says=[".bvh, .glb, .trc, .csv"])
-        self.refuses("convert", WALK, fresh, "--character", "bear", says=["only GLB holds a character"], leaves=fresh)
-        self.refuses("convert", NO_ANIMATION, fresh, says=["holds no animation"], leaves=fresh)
+        self.refuses("convert", WALK, fresh, "--character", "bear", says=["only GLB files can contain a character"], leaves=fresh)
+        self.refuses("convert", NO_ANIMATION, fresh, says=["contains no animation"], leaves=fresh)
         self.refuses("convert", "builtin:*", fresh, says=[" clips; allowed: one clip"], leaves=fresh)
         limited = subprocess.run(["sh", "-c", 'ulimit -f 8; trap "" XFSZ; exec "$0" clip convert "$1" "$2"', ETUDE, WALK,
                                   fresh], capture_output=True, text=True, timeout=600)
@@ -265,7 +265,7 @@ class Map(Clips):
             odd = re.sub(rf"JOINT {name}\b", f"JOINT ボーン{i}", odd)
         clip = self.write("odd.bvh", odd)
         (told,) = self.info(clip)
-        self.assertIn("found by the skeleton's shape, not by names (confidence ", told["body"]["note"])
+        self.assertIn("roles found by the skeleton's shape instead of by names (confidence ", told["body"]["note"])
         self.assertRegex(told["body"]["roles"]["left_knee"]["joint"], "^ボーン")
         self.assertIn("left_knee = 'ボーン", self.works("info", clip))
         (ours,), limbs = self.info(WALK), ("shoulder", "elbow", "wrist", "hip", "knee", "ankle")

@@ -226,7 +226,7 @@ class Evaluate(EtudeCase):
         for truth, answer, whose in ((wrong, self.shared / "clap.csv", "truth"), (self.shared / "clap.npz", wrong, "answer")):
             self.evaluate(truth, answer, out=self.folder / whose)
             told = next(part for part in self.rows(self.folder / whose)[0]["reason"].split("; ") if "exchange" in part)
-            self.assertEqual(told, "left and right exchange their places from one frame to the next, 2 times (first at 0.67 s): "
+            self.assertEqual(told, "left and right exchange positions from one frame to the next, 2 times (first at 0.67 s): "
                              "left_wrist – right_wrist")
         self.evaluate(self.shared / "clap.npz", self.shared / "clap.csv")
         self.assertNotIn("exchange", self.rows()[0]["reason"])
@@ -372,7 +372,7 @@ class Evaluate(EtudeCase):
         odd = trc([f"Q{j}" for j in range(len(self.names))], self.frames, 30)
         truth, answer = self.write("truth.trc", odd), self.write("answer.trc", odd.replace("mine.trc", "other.trc"))
         said = self.evaluate(truth, answer, code=1).stdout
-        self.assertIn("are not of a known set", said)
+        self.assertIn("belong to no known marker set", said)
         self.assertIn("Give their roles in a joint map (--joint-map), or compare joints of equal names (--joints same)",
                       said)
         self.evaluate(truth, answer, "--joints", "same", "--overwrite")

@@ -189,7 +189,7 @@ class Fbx(MotionFileCase):
         path, places = self.fbx("inactive.fbx", 1, "y", inactive=("LeftArm", "RightForeArm"))
         self.assertLess(self.apart_from_truth(path, places), 1e-4)
         note = json.loads(self.etude("clip", "info", path, "--json").stdout)["clips"][0]["body"]["note"]
-        self.assertIn("RotationActive is not set in 2 joints: their pre-rotations, post-rotations", note)
+        self.assertIn("RotationActive is not set in 2 joints, so Etude ignores the pre-rotations, post-rotations", note)
         path, _ = self.fbx("active.fbx", 1, "y")
         self.assertNotIn("RotationActive", self.etude("clip", "info", path, "--json").stdout)
 
@@ -203,7 +203,7 @@ class Fbx(MotionFileCase):
         for rate, told in ((30, False), (2, True)):
             path, _ = self.fbx("far.fbx", 1, "y", frames=4, rate=rate)
             note = json.loads(self.etude("clip", "info", path, "--json").stdout)["clips"][0]["body"]["note"]
-            self.assertEqual("its keys are up to 0.50 s apart: between keys, the file's curves are replaced by shortest"
+            self.assertEqual("keys are up to 0.50 s apart; between keys, Etude replaces the file's curves by shortest"
                              in note, told, note)
 
     def test_fbx_without_an_animation_is_told_so(self):
@@ -213,7 +213,7 @@ class Fbx(MotionFileCase):
         models = [part for part in re.split(r"(?m)^(?=\t\w+: \d+)", text[:end]) if not part.startswith("\tAnimation")]
         path.write_text("".join(models) + ("" if models[-1].rstrip().endswith("}\n}") else "}\n") + text[end:])
         self.assertLess(start, end)
-        self.refused(path, "rest.fbx: holds no animation, only a figure (joints: ")
+        self.refused(path, "rest.fbx: the file contains no animation, only a character (joints: ")
 
     @unittest.skipUnless(THREE, "ETUDE_THREE names no folder of npm's package three")
     def test_fbx_lies_where_three_js_puts_it(self):
@@ -257,7 +257,7 @@ class Fbx(MotionFileCase):
     def test_an_fbx_file_that_ends_its_reader_ends_nothing_else(self):
         path, _ = self.fbx("circle.fbx", 1, "y")
         path.write_text(path.read_text().replace("Connections:  {", f'Connections:  {{\nC: "OO",{1000 + 3},{1000 + 3}'))
-        self.refused(path, "circle.fbx: a damaged FBX file: its reader ended with signal 11")
+        self.refused(path, "circle.fbx: the FBX file is damaged: its reader ended with signal 11")
 
     def test_a_refusal_does_not_say_the_file_again(self):
         path, _ = self.fbx("unclosed.fbx", 1, "y")
@@ -269,7 +269,7 @@ class Fbx(MotionFileCase):
         for data in (b"; FBX 6.1.0 project file\nFBXHeaderExtension:  {\nFBXVersion: 6100\n}\n",
                      b"Kaydara FBX Binary  \0\x1a\0" + struct.pack("<I", 6100) + bytes(99)):
             path.write_bytes(data)
-            self.refused(path, "an FBX file of version 6; allowed: 7 (of 2011 or later)")
+            self.refused(path, "the FBX file has version 6; allowed: version 7 (2011) or later")
 
 
 if __name__ == "__main__":

@@ -87,8 +87,8 @@ class Forecast(EtudeCase):
                 ([four, "--noise-px", "nan"], "'nan' is not a deviation in px"),
                 ([four, "--middle", "90,0"], "two cameras see no common place within 3 x 3 m around x 90.00, z 0.00"),
                 ([four, "--calibration", "5,0.1"], "--calibration"),
-                ([self.write("rig.txt", "cameras?")], "rig.txt: not a calibration"),
-                ([self.write("mm.yaml", rig([[1000 * x for x in place] for place in CORNERS]))], "m apart; allowed: 0.03 to 100 m, or give the unit by --rig-unit"),
+                ([self.write("rig.txt", "cameras?")], "rig.txt: this is not a calibration"),
+                ([self.write("mm.yaml", rig([[1000 * x for x in place] for place in CORNERS]))], "m apart; allowed: 0.03 to 100 m; use --rig-unit to set the unit"),
                 *(([four, f"--{option}", self.folder / "a.jpg"], f"a.jpg: has the wrong ending; allowed: {ending}")
                   for option, ending in (("picture", ".png"), ("table", ".csv"), ("report", ".html")))):
             with self.subTest(words):
@@ -103,7 +103,7 @@ class Forecast(EtudeCase):
             f"[{name}]\nsize = [1280, 960]\nfov_deg = 70\nposition = [{x}, 3, 2]\nlook_at = [0, 0, 1]\n"
             for name, x in (("left", -2), ("right", 2))))
         said = self.etude("forecast", path).stdout
-        self.assertIn("lengths in m; up is z, as in the format; x is the file's y, z its x, up its z\n  left           x 3.00, z -2.00, 2.00 m high\n"
+        self.assertIn("lengths in m; up is z, as in the format; Etude's x is the file's y, Etude's z is the file's x, and up is the file's z\n  left           x 3.00, z -2.00, 2.00 m high\n"
                       "  right          x 3.00, z 2.00, 2.00 m high\n", said)
         self.assertEqual(self.facts("forecast", path)["middle_m"], [0, 0])
 
@@ -127,7 +127,7 @@ class Transition(EtudeCase):
                     "unbroken", "--overwrite"]
         said = self.etude(*unbroken)
         self.assertEqual((said.returncode, said.stderr), (0, ""))
-        self.assertIn("groove continues: no transition, for comparison; builtin:clap is not played\n", said.stdout)
+        self.assertIn("the clip groove continues without a transition, for comparison; builtin:clap is not played\n", said.stdout)
         self.assertNotIn("then", said.stdout)
         said = self.etude(*unbroken, "--join", "cut")
         self.assertEqual((said.returncode, said.stderr),

@@ -63,7 +63,7 @@ class Formats(MotionFileCase):
             numpy.testing.assert_array_equal(seen[0], other)
 
     def test_amass_that_is_none_is_told_what_lacks(self):
-        self.refused(self.amass("no.npz", 150, "mocap_framerate", True), "allowed: AMASS's poses")
+        self.refused(self.amass("no.npz", 150, "mocap_framerate", True), "allowed: the arrays of AMASS")
         self.refused(self.amass("slow.npz", 156, "speed", True),
                      "states no frame rate (its arrays: poses, speed, trans, gender (no plain numbers)); allowed:")
         bad = self.amass("nan.npz", 156, "mocap_framerate", True, trans=numpy.full((60, 3), numpy.nan))
@@ -83,11 +83,11 @@ class Formats(MotionFileCase):
         body = numpy.load(self.shared_body())
         path = self.folder / "t.npz"
         numpy.savez(path, positions=body["positions"], names=body["names"])
-        self.refused(path, "found no rate_hz (frames per second); allowed: one number from 0.1 to 10000, as numpy.savez(")
+        self.refused(path, "found no rate_hz (frames per second); allowed: rate_hz with one number from 0.1 to 10000, as in numpy.savez(")
         told = self.write("map.yaml", "rate: 50\n")
         self.assertIn("at 50 Hz", self.ends(0, "clip", "info", path, "--map", told).stdout)
         numpy.savez(path, positions=body["positions"], names=body["names"], rate_hz="30")
-        self.refused(path, "rate_hz is not one number; allowed: the frames per second")
+        self.refused(path, "the array rate_hz must be a single number, the frames per second")
         # A body in mm or cm with Z up: declared by options, or by keys of the file.
         z_up = body["positions"][:, :, [0, 2, 1]] * [1, -1, 1]
         for unit, name in (1000, "mm"), (100, "cm"):
@@ -162,7 +162,7 @@ class Formats(MotionFileCase):
         for a, b in zip(ours, bob):
             for name in names:
                 numpy.testing.assert_allclose(b[name] - [2, floor, 0], a[name], atol=1e-5)
-        self.refused(self.c3d(["A", "B"], 3, lambda t, i: (0, 0, 0)), "its markers (A, B) are not of a known set")
+        self.refused(self.c3d(["A", "B"], 3, lambda t, i: (0, 0, 0)), "the markers (A, B) belong to no known marker set")
 
     def body(self, reference):
         """Returns a built-in move (frames × 20 × 3, metres) and its joint names."""
@@ -261,7 +261,7 @@ class Formats(MotionFileCase):
         for name in ("time.csv", "frame.csv", "a.trc"):
             told = self.info(self.folder / name)["clips"][0]
             self.assertEqual((told["frames"], told["rate_hz"]), (60, 30), name)
-            self.assertIn("the times show that 15 of 60 frames are missing, in 1 gap of at most 0.533 s",
+            self.assertIn("by their times, 15 of 60 frames are missing, in 1 gap of at most 0.533 s",
                           told["body"]["note"])
             read = self.joints(self.folder / name)
             self.assertEqual(len(read), 60)
@@ -277,7 +277,7 @@ class Formats(MotionFileCase):
         head = ",".join(f"{name}_{axis}_m" for name in self.body("builtin:sway")[0] for axis in "xyz")
         numpy.savetxt(self.folder / "bare.csv", places.reshape(len(places), -1), delimiter=",", header=head, comments="")
         for name in ("poses.npy", "bare.csv"):
-            self.assertIn("the file states no rate; 30 Hz is assumed", self.etude("clip", "info", self.folder / name).stdout)
+            self.assertIn("the file states no rate, so Etude assumes 30 Hz", self.etude("clip", "info", self.folder / name).stdout)
             told = self.etude("clip", "info", self.folder / name, "--rate", 20).stdout
             self.assertIn("at 20 Hz", told)
             self.assertNotIn("assumed", told)
@@ -287,7 +287,7 @@ class Formats(MotionFileCase):
         path = self.folder / "poses.npy"
         numpy.save(path, (1000 * places).astype("f4"))
         told = self.info(path)["clips"][0]
-        self.assertIn("layout etude, 1 unit = 0.1 cm; the file states no rate; 30 Hz is assumed", told["body"]["note"])
+        self.assertIn("layout etude, 1 unit = 0.1 cm; the file states no rate, so Etude assumes 30 Hz", told["body"]["note"])
         self.assert_read_back(path, places)
         order = ["hip_centre", "right_hip", "right_knee", "right_ankle", "left_hip", "left_knee", "left_ankle", "spine",
                  "shoulder_centre", "head", "head", "left_shoulder", "left_elbow", "left_wrist", "right_shoulder",
@@ -325,7 +325,7 @@ class Formats(MotionFileCase):
                 features[t - 1, 1:3] = (to_body @ (joints[t, 0] - joints[t - 1, 0]))[[0, 2]]
         path, converted = self.folder / "features.npy", self.folder / "joints.npy"
         numpy.save(path, features)
-        self.refused(path, f"{len(joints)} × 263: features of HumanML3D; convert them to joints (docs/clips.md#humanml3d)")
+        self.refused(path, f"{len(joints)} × 263 contains features of HumanML3D; convert the features to joints (docs/clips.md#humanml3d)")
         program = pathlib.Path(__file__).parents[2] / "examples" / "python" / "humanml3d_joints.py"
         subprocess.run([sys.executable, program, path, converted], check=True)
         numpy.testing.assert_allclose(numpy.load(converted), joints, atol=1e-9)
@@ -449,7 +449,7 @@ class Formats(MotionFileCase):
         for a, b in zip(read, self.joints(path)):
             for role in a:
                 numpy.testing.assert_array_equal(b[role], a[role])
-        self.refused(self.motive(places, names, unit="Furlongs"), "Length Units is 'Furlongs'; allowed: Meters")
+        self.refused(self.motive(places, names, unit="Furlongs"), "'Length Units' is 'Furlongs'; allowed: Meters")
         self.refused(self.motive(places, names, space="Local"), "allowed: Global")
 
     def test_the_bones_of_a_vrm_file_are_those_of_its_table(self):
@@ -498,7 +498,7 @@ class Formats(MotionFileCase):
             path.write_bytes(whole)
             edit_glb(path, scale)
             note = self.info(path)["clips"][0]["body"]["note"]
-            self.assertIn(f"removed the frames' scales, which the rest pose does not have; they made the body {factor:g} times as tall", note)
+            self.assertIn(f"Etude removed scales that only the frames have and that made the body {factor:g} times as tall as in the rest pose", note)
             for a, b in zip(before, self.joints(path)):
                 for name in a:
                     numpy.testing.assert_allclose(b[name], a[name], atol=1e-6, err_msg=f"{factor} {name}")
@@ -508,7 +508,7 @@ class Formats(MotionFileCase):
         self.ends(0, "clip", "convert", "builtin:sway", path)
         self.assertNotIn("not read", self.info(path)["clips"][0]["body"]["note"])
         edit_glb(path, lambda scene, _: scene.update({"extensionsUsed": ["KHR_animation_pointer"]}))
-        self.assertIn("animations by KHR_animation_pointer are not read", self.info(path)["clips"][0]["body"]["note"])
+        self.assertIn("Etude does not read animations that use KHR_animation_pointer", self.info(path)["clips"][0]["body"]["note"])
 
     def turned(self, name, unit=1.0):
         """Writes the BVH of the sway in another unit."""
@@ -539,7 +539,7 @@ class Formats(MotionFileCase):
         (channels,) = folder.rglob("*_channels.tsv")
         lines = channels.read_text().splitlines()
         channels.write_text("\n".join(line.replace("global", "other") if line.startswith("head_") else line for line in lines) + "\n")
-        self.assertIn("SpatialAxes ALS and LSA; allowed: the same for all", self.ends(2, "clip", "info", motion).stderr)
+        self.assertIn("SpatialAxes ALS and LSA; allowed: the same SpatialAxes for all", self.ends(2, "clip", "info", motion).stderr)
         axes.write_text("{")
         self.assertIn("_channels.json", self.ends(2, "clip", "info", motion).stderr)
         axes.unlink()
@@ -568,7 +568,7 @@ class Formats(MotionFileCase):
     def test_units_told_that_make_no_body_are_refused(self):
         path = self.turned("metres.bvh")
         result = self.ends(2, "clip", "info", path, "--unit", "cm")
-        self.assertIn("m tall; allowed: 0.4 to 4 m; 1 unit = 100 cm (metre) would give 1.", result.stderr)
+        self.assertIn("m tall; allowed: 0.4 to 4 m; with 1 unit = 100 cm (metre), the body would be 1.", result.stderr)
 
     def test_a_run_is_told_the_unit_and_keeps_it(self):
         clips = [self.turned("child.bvh", unit=50), self.turned("other.bvh", unit=50)]
@@ -579,7 +579,7 @@ class Formats(MotionFileCase):
         self.ends(0, "run", "--from", self.out / "manifest.json", "-o", self.folder / "again")
         self.assertEqual((self.out / "cells.jsonl").read_bytes(), (self.folder / "again" / "cells.jsonl").read_bytes())
         refused = self.ends(2, "run", self.scenario(), "-o", self.folder / "no", "--clips", *clips, "--unit", "mm")
-        self.assertIn("in the unit given (1 unit = 0.1 cm)", refused.stderr)
+        self.assertIn("with the given unit (1 unit = 0.1 cm)", refused.stderr)
 
     def test_a_run_leaves_out_what_is_refused_when_asked(self):
         self.turned("a.bvh"), self.turned("b.bvh")

@@ -153,14 +153,14 @@ class Motions(MotionFileCase):
         told, own = (json.loads(self.etude("clip", "info", clip, "--json").stdout)["clips"][0] for clip in (out, "builtin:clap"))
         self.assertEqual((told["format"], told["rate_hz"], told["frames"]), ("MOT", 30, own["frames"]))
         text = out.read_text()
-        for before, after, says in (("part right_knee after right_hip", "part right_knee after right_foot", "and a part above this line"),
+        for before, after, says in (("part right_knee after right_hip", "part right_knee after right_foot", "and a body part from a line above"),
                                     ("part head ", "part crown ", "part 'crown'"), ("\tknee_angle_r", "\tknee", "'knee_angle_r'"),
                                     ("turns +Z ", "turns +Q ", "turn '+Q'"), ("0.000000\t", "0.000000\tnan\t", "nan"),
                                     ("0.066667\t", "0.010000\t", "do not decrease")):
             self.assertIn(before, text)
             self.assertIn(says, self.refusal("clip", "info", self.write("bad.mot", text.replace(before, after, 1))))
         foreign = self.write("theirs.mot", re.sub(r"(?m)^part .*\n", "", text))
-        self.assertIn("whose model is another file", self.refusal("clip", "info", foreign))
+        self.assertIn("which needs a model from another file", self.refusal("clip", "info", foreign))
 
     def test_angles_have_the_signs_and_limits_of_their_names(self):
         joints = self.joints("builtin:clap")[:1]
@@ -215,7 +215,7 @@ class Motions(MotionFileCase):
 
     def test_teach_is_told_units_of_clips_and_refuses_those_of_sensors(self):
         moves = self.folder / "moves.yaml"
-        self.assertIn("in the unit given", self.refusal("teach", CMU, "--unit", "mm", "-o", moves))
+        self.assertIn("with the given unit", self.refusal("teach", CMU, "--unit", "mm", "-o", moves))
         take = self.write("take.txt", kinect(arms(100)))
         self.assertIn("--unit and --up are allowed only for clips", self.refusal("teach", take, "--unit", "cm", "-o", moves))
         roles = self.write("roles.yaml", "roles:\n  left_hand: RightHand\n")

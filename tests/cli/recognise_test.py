@@ -95,7 +95,7 @@ class Recognise(EtudeCase):
         self.assertIn("name: 'raise'", moves.read_text())
         self.assertIn("etude: --without: unknown move 'lift'; did you mean 'left'? Allowed: left, raise", self.refusal("teach", raised, left, "--without", "lift", "-o",
                                                                      self.folder / "no.yaml"))
-        self.assertIn("nothing to learn from", self.refusal("teach", raised, "--without", "raise", "-o", self.folder / "no.yaml"))
+        self.assertIn("no recording shows a right performance", self.refusal("teach", raised, "--without", "raise", "-o", self.folder / "no.yaml"))
         self.assertFalse((self.folder / "no.yaml").exists())
 
     def test_a_sensor_in_portrait_or_upside_down_is_turned_back_and_that_is_said(self):
@@ -111,9 +111,9 @@ class Recognise(EtudeCase):
                                         timeout=120, input=stdin)
                 found = [json.loads(line) for line in result.stdout.splitlines()]
                 self.assertEqual([(e["move"], e["frame"]) for e in found], [(e["move"], e["frame"]) for e in wanted], name)
-                self.assertRegex(result.stderr, r"sensor rotated by (90|180|270) degrees, rotated back \(--level none keeps it\)")
+                self.assertRegex(result.stderr, r"the sensor was rotated by (90|180|270) degrees, and Etude rotated the positions back \(--level none keeps the rotation\)")
             self.assertNotIn("rotated", self.etude("recognise", file, "--moves", moves, "--level", "none").stderr)
-            self.assertIn("rotated back", self.etude("teach", file, "-o", self.folder / "again.yaml", "--overwrite").stderr)
+            self.assertIn("rotated the positions back", self.etude("teach", file, "-o", self.folder / "again.yaml", "--overwrite").stderr)
             v2 = [row.split() for row in text.splitlines()]
             sheet = self.write("v2.txt", "\n".join(" ".join(row + row[6:9] + 4 * row[21:24]) for row in v2) + "\n")
             self.assertRegex(self.etude("sensor", "stats", sheet).stdout, r"; the sensor is rotated by (90|180|270) degrees")
@@ -140,7 +140,7 @@ class Recognise(EtudeCase):
         self.assertNotIn("F1", told(right), "without a wrong performance it would say nothing")
         mixed = told(right + "take,9,12,raise,rihgt\ntaek,0,1,left,right\n")
         self.assertIn("F1 100.0 %, precision 100.0 %, recall 100.0 %, AUC 100.0 %", mixed)
-        self.assertIn("truth: right 2, rihgt 1 (a fault; did you mean right?)\n", mixed)
+        self.assertIn("truth: right 2, rihgt 1 (Etude reads this as a fault; did you mean right?)\n", mixed)
         self.assertIn("some.csv:5: no recording taek is given\n", mixed)
         self.assertEqual(scores["false_alarms_per_min"], 0)
 
@@ -172,13 +172,13 @@ class Recognise(EtudeCase):
         gaps = [" ".join(["nan"] * 9 + row.split()[9:]) if t % 7 == 0 else row for t, row in enumerate(rows)]
         self.assertEqual(len(self.events(self.write("nan.txt", "\n".join(gaps)), "--moves", moves)), 1)
         fewer = self.write("fewer.txt", "\n".join(" ".join(row.split()[:-3]) for row in rows))
-        self.assertIn("57 numbers in its first row", self.refusal("recognise", fewer, "--moves", moves))
+        self.assertIn("57 numbers in the first row", self.refusal("recognise", fewer, "--moves", moves))
         # A damaged row of a live stream costs only itself.
         damaged = subprocess.run([ETUDE, "recognise", "-", "--moves", moves, "--recogniser", "key-pose"], text=True, timeout=120,
                                  capture_output=True, input="\n".join(rows[:40] + ["x " * 60] + rows[40:]) + "\n")
         self.assertEqual((damaged.returncode, len(damaged.stdout.splitlines())), (0, 1), damaged.stderr)
         self.assertIn("value 1: 'x'", damaged.stderr)
-        self.assertIn("the row is left out", damaged.stderr)
+        self.assertIn("Etude leaves out this row", damaged.stderr)
         self.assertIn("none.txt: no such recording", self.refusal("recognise", "none.txt", "--moves", moves))
         self.assertIn("--moves: is missing", self.refusal("recognise", half))
         self.assertIn("no such file", self.refusal("recognise", half, "--moves", self.folder / "none.yaml"))

@@ -86,11 +86,11 @@ class Sensor(EtudeCase):
         broken = self.folder / "broken.txt"
         broken.write_text("1 2 3\n")
         for arguments, words in (
-                (["stats", broken], "3 values in this row; a Kinect v2 recording has 75"),
+                (["stats", broken], "found 3 values in this row; allowed for a Kinect v2 recording: 75"),
                 (["stats", self.folder / "none.txt"], "none.txt"),
                 (["stats", self.folder / "kinect.txt", "--simulate", "v2"], "--simulate: needs --reference"),
                 (["fit", self.folder / "kinect.txt", "--reference", broken, "-o", self.folder / "s.yaml"],
-                 "3 values in this row; a recording of 17 targets has 119")):
+                 "found 3 values in this row; allowed for a recording of 17 targets: 119")):
             with self.subTest(words):
                 self.assertIn(words, self.sensor(*arguments, code=2).stderr)
         self.assertFalse((self.folder / "s.yaml").exists())

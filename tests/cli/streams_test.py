@@ -148,7 +148,7 @@ class Streams(EtudeCase):
         # A truncated take, with labels beyond its end.
         (takes / "anna.txt").write_text("\n".join((takes / "anna.txt").read_text().splitlines()[:20]) + "\n")
         self.out = self.folder / "none"
-        self.assertIn("allowed: within the recording", self.refusal("run", half, "-o", self.out))
+        self.assertIn("allowed: labels within the recording", self.refusal("run", half, "-o", self.out))
 
     def test_what_cannot_be_is_refused_in_one_line(self):
         takes, labels = self.record()
@@ -169,7 +169,7 @@ class Streams(EtudeCase):
         self.assertIn("'streams' replaces 'clips'", refused(both))
         fewer = takes / "fewer.txt"
         fewer.write_text("\n".join(" ".join(row.split()[:-3]) for row in (takes / "bo.txt").read_text().splitlines()))
-        self.assertIn("57 numbers in its first row", refused(scenario, "--streams", fewer, "--labels", labels))
+        self.assertIn("57 numbers in the first row", refused(scenario, "--streams", fewer, "--labels", labels))
 
     def test_moves_taught_beforehand_judge_one_person(self):
         takes, labels = self.record()

@@ -215,7 +215,7 @@ class Transitions(unittest.TestCase):
                                .positions_m for settings in ({}, {key: fallback}, {key: largest}))
         np.testing.assert_array_equal(ours, same)
         self.assertFalse(np.array_equal(ours, longest))
-        with self.assertRaisesRegex(engine.BadInput, f"setting '{key}' is -1 for 'crossfade'; allowed: {lowest:g} to {largest:g}"):
+        with self.assertRaisesRegex(engine.BadInput, f"setting '{key}' is -1 for method 'crossfade'; allowed: {lowest:g} to {largest:g}"):
             library.make(0, 12, 1, join="crossfade", join_settings={key: -1})
         with self.assertRaisesRegex(engine.BadInput, "setting 'speed' of 'now'; allowed: none"):
             library.make(0, 12, 1, choice="now", choice_settings={"speed": 1})

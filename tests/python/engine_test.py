@@ -257,7 +257,7 @@ class Limits(unittest.TestCase):
                               engine.Limb("c", 1, [1, 0, 0], 1)], [engine.Effector("tip", 2, [1, 0, 0])], [[-1, 1]] * 2)
         for says, within, beyond in (
                 ("allowed: 1 to 1000, 0 to 100", ((mask, 1, 0), (mask, 1000, 100)), ((mask, 0), (mask, 1001), (mask, 3, -.1), (mask, 3, 101))),
-                ("the mask has .* allowed: 1 to 8192 each", ((np.ones((1, 8192), bool),), (np.ones((8192, 1), bool),)),
+                ("the mask has .* allowed: 1 to 8192 pixels on each side", ((np.ones((1, 8192), bool),), (np.ones((8192, 1), bool),)),
                  ((np.ones((0, 1), bool),), (np.ones((1, 8193), bool),), (np.ones((8193, 1), bool),)))):
             for arguments in within:
                 engine.outline(*arguments)
@@ -270,7 +270,7 @@ class Limits(unittest.TestCase):
                 ("a side of 8193 pixels", lambda: engine.PersonFinder(room)),
                 ("iteration limit", lambda: engine.Kinematics(None, 0)),
                 ("tolerance is negative", lambda: engine.Kinematics(None, 1, 0.1, 0.1, -1.0)),
-                ("not a tree", lambda: engine.Kinematics(circle)),
+                ("do not form a tree", lambda: engine.Kinematics(circle)),
                 (r"target_positions_m: .* allowed: \(1, 4, 3\)", lambda: BODY.solve(one, np.zeros((1, 5, 3)))),
                 (r"root_axes: .* allowed: \(1, 3, 3\)", lambda: BODY.limbs(one, root_axes=np.zeros((2, 3, 3)))),
                 ("root_positions_m: value 0 is not finite", lambda: BODY.limbs(one, [np.nan, 0, 0])),

@@ -287,7 +287,7 @@ std::vector<SeenCorner> OpenCvFinder::Find(const ColourImage& picture) {
 std::string OpenCvFinder::Told() const {
   if (!board.is_charuco) return "a chessboard";
   const auto most = std::ranges::max_element(votes);
-  if (*most == 0) return "no marker of any dictionary";
+  if (*most == 0) return "found no ArUco marker of any dictionary";
   int share = 0;
   std::size_t times = 0;
   for (const auto& [hundredths, count] : shares) {
@@ -318,7 +318,7 @@ Result<OpenCvCalibration> CalibrateCamera(std::span<const TargetView> views, con
     case LensModel::kRadial3:
       break;
     case LensModel::kAsInCamera:
-      return Fail({}, "OpenCV's calibrateCamera cannot keep the given camera's lens distortion");
+      return Fail({}, "OpenCV's calibrateCamera cannot keep the lens distortion of the given camera");
   }
   // Convert the views; OpenCV's pixel centres are at integers, ours at half-integers.
   std::vector<std::vector<cv::Point3f>> object_points;

@@ -340,9 +340,11 @@ class ClipReader {
     frame_bytes_ += timing.frames * static_cast<double>(joints * sizeof(LocalTransform));
     if (frame_bytes_ > kMaxFrameBytes) {
       return file_.Refuse(
-          where, "with its {} frames of {} joints, all clips together take {:.0f} MB; allowed: at most {:.0f} MB{}",
+          where,
+          "this animation has {} frames of {} joints, which brings all animations to {:.0f} MB; allowed: at "
+          "most {:.0f} MB{}",
           timing.frames, joints, frame_bytes_ / 1e6, kMaxFrameBytes / 1e6,
-          timing.step > 1 ? fmt::format("; its keys are {:.3g} s apart: are its times in milliseconds?", timing.step)
+          timing.step > 1 ? fmt::format("; the keys are {:.3g} s apart: are the times in milliseconds?", timing.step)
                           : "");
     }
     Clip clip{.name = UniqueName(index), .skeleton = nodes_.skeleton, .rate_hz = timing.rate_hz, .frames = {}};
@@ -356,8 +358,8 @@ class ClipReader {
     }
     constexpr double kLate_s = 0.1;  // some exporters put the first frame at the time of frame 1
     if (timing.start > kLate_s) {
-      remarks_.push_back(
-          fmt::format("the keys of {} begin at {:.3g} s, which becomes time 0", Quote(clip.name), timing.start));
+      remarks_.push_back(fmt::format("the first key of {} is at {:.3g} s; Etude uses this time as time 0",
+                                     Quote(clip.name), timing.start));
     }
     clips_.push_back(std::move(clip));
     return {};
@@ -372,7 +374,7 @@ class ClipReader {
     for (int number = 2; !names_.insert(name).second; ++number) name = fmt::format("{}_{}", base, number);
     if (name != base)
       remarks_.push_back(
-          fmt::format("two animations are called {}: the later one is called {} here", Quote(base), Quote(name)));
+          fmt::format("two animations are named {}; Etude renames the second to {}", Quote(base), Quote(name)));
     return name;
   }
 

@@ -29,10 +29,11 @@ Result<std::string_view> TakeChunk(std::string_view bytes, std::size_t& at, std:
   const std::size_t length = Number(bytes, at);
   const std::uint32_t found = Number(bytes, at + 4);
   if (found != kind) {
-    return Fail(place, "found a chunk of type 0x{:08X} at byte {}; allowed here: 0x{:08X}", found, at, kind);
+    return Fail(place, "found a chunk of type 0x{:08X} at byte {}; allowed: type 0x{:08X}", found, at, kind);
   }
   if (length > left - kChunkHeaderBytes || length % 4 != 0) {
-    return Fail(place, "found a chunk of {} bytes at byte {}; allowed: a multiple of 4, up to the {} bytes that follow",
+    return Fail(place,
+                "found a chunk of {} bytes at byte {}; allowed: a multiple of 4, at most the {} bytes left in the file",
                 length, at, left - kChunkHeaderBytes);
   }
   at += kChunkHeaderBytes + length;
@@ -40,13 +41,16 @@ Result<std::string_view> TakeChunk(std::string_view bytes, std::size_t& at, std:
 }
 
 Result<GltfContainer> OpenGlb(std::string_view bytes, const Place& place) {
-  if (bytes.size() < kHeaderBytes) return Fail(place, "a GLB of {} bytes, but its header alone has 12", bytes.size());
+  if (bytes.size() < kHeaderBytes)
+    return Fail(place,
+                "found a GLB file of {} bytes; allowed: at least 12, the size of the header",
+                bytes.size());
   if (const std::uint32_t version = Number(bytes, 4); version != 2) {
     return Fail(place, "found GLB version {}; allowed: 2", version);
   }
   const std::size_t length = Number(bytes, 8);
   if (length > bytes.size() || length < kHeaderBytes) {
-    return Fail(place, "the GLB announces {} bytes; the file has {}", length, bytes.size());
+    return Fail(place, "the GLB header states {} bytes, but the file has {}", length, bytes.size());
   }
   bytes = bytes.substr(0, length);
   std::size_t at = kHeaderBytes;
@@ -74,7 +78,7 @@ class JsonShape {
           if (depth_ == 1) key_ = json.substr(start, i - start);
           // Refuse escaped keys: an escaped form of "buffers" would not be recognised below.
           if (depth_ == 1 && key_.find('\\') != std::string_view::npos) {
-            return Fail(place, "found the key {} at the top of the JSON; allowed: keys without '\\'", Quote(key_));
+            return Fail(place, "found the top-level JSON key {}; allowed: keys without '\\'", Quote(key_));
           }
           break;
         }
@@ -82,7 +86,7 @@ class JsonShape {
         case '[':
           if (depth_ == 2 && json[i] == '{' && key_ == "buffers") ++buffers_;
           ++values_;
-          if (++depth_ > kMaxNesting) return Fail(place, "JSON nested more than {} levels deep", kMaxNesting);
+          if (++depth_ > kMaxNesting) return Fail(place, "the JSON is nested more than {} levels deep", kMaxNesting);
           break;
         case '}':
         case ']':
@@ -94,7 +98,7 @@ class JsonShape {
         default:
           break;
       }
-      if (values_ > kMaxValues) return Fail(place, "JSON of more than {} values", kMaxValues);
+      if (values_ > kMaxValues) return Fail(place, "the JSON contains more than {} values", kMaxValues);
     }
     return buffers_;
   }
@@ -122,7 +126,9 @@ Result<GltfContainer> OpenGltfContainer(std::string_view bytes, const std::strin
   ASSIGN_OR_RETURN(const auto buffers, JsonShape().CountBuffers(container.json, place));
   // Every buffer without a URI gets a copy of the binary part, so limit the size of all copies together.
   if (static_cast<double>(buffers) * static_cast<double>(container.binary.size()) > kMaxGltfBytes) {
-    return Fail(place, "{} buffers, each with a copy of {} bytes of binary data; allowed: at most {:.0f} MB together",
+    return Fail(place,
+                "found {} buffers, each with a copy of {} bytes of binary data; allowed: at most {:.0f} MB for "
+                "all copies together",
                 buffers, container.binary.size(), kMaxGltfBytes / 1e6);
   }
   return container;

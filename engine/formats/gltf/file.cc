@@ -54,7 +54,7 @@ const char* Name(GltfComponents allowed) {
     case GltfComponents::kFloat:
       return "5126 (float)";
     case GltfComponents::kFloatOrNormalized:
-      return "5126 (float), or 5120 to 5123 (bytes, shorts) when normalized";
+      return "5126 (float), or 5120 to 5123 (normalized bytes and shorts)";
     case GltfComponents::kAny:
       return "5126 (float), 5120 to 5123 (bytes, shorts)";
     case GltfComponents::kUnsigned:
@@ -116,8 +116,8 @@ Result<std::span<const unsigned char>> ViewBytes(const GltfFile& file, int view_
   RETURN_IF_ERROR(file.CheckIndex(view.buffer, model.buffers.size(), view_name + ".buffer"));
   const std::vector<unsigned char>& data = model.buffers[static_cast<std::size_t>(view.buffer)].data;
   if (view.byteOffset > data.size() || view.byteLength > data.size() - view.byteOffset) {
-    return file.Refuse(view_name, "found {} bytes at byte {}; buffer {} holds {} bytes", view.byteLength,
-                       view.byteOffset, view.buffer, data.size());
+    return file.Refuse(view_name, "found {} bytes from byte {} on, but buffer {} contains only {} bytes",
+                       view.byteLength, view.byteOffset, view.buffer, data.size());
   }
   return std::span(data).subspan(view.byteOffset, view.byteLength);
 }
@@ -130,14 +130,16 @@ Result<Elements> Locate(const GltfFile& file, int view_index, std::size_t offset
   const std::string view_name = fmt::format("bufferViews[{}]", view_index);
   const std::size_t stride = view.byteStride == 0 ? size : view.byteStride;
   if (stride < size) {
-    return file.Refuse(view_name + ".byteStride", "found {}; allowed here: at least {}", stride, size);
+    return file.Refuse(view_name + ".byteStride", "found {}; allowed: at least {}", stride, size);
   }
   // The comparisons are arranged so that no product or sum can overflow.
   const bool fits = offset <= view.byteLength && size <= view.byteLength - offset &&
                     count - 1 <= (view.byteLength - offset - size) / stride;
   if (!fits) {
-    return file.Refuse(where, "found {} elements of {} bytes every {} bytes from byte {} on; {} holds {} bytes", count,
-                       size, stride, offset, view_name, view.byteLength);
+    return file.Refuse(where,
+                       "found {} elements of {} bytes with a stride of {} bytes from byte {} on, but {} "
+                       "contains only {} bytes",
+                       count, size, stride, offset, view_name, view.byteLength);
   }
   return Elements{bytes.subspan(offset), stride};
 }

@@ -105,8 +105,9 @@ Result<std::string_view> GltfTextures::BytesOf(const tinygltf::Image& image, con
 
 Result<void> GltfTextures::Take(std::size_t pixels, const std::string& where) {
   if (pixels > pixels_left_) {
-    return file_.Refuse(where, "found {} pixels; allowed in all textures: 64 million, of which {} are left", pixels,
-                        pixels_left_);
+    return file_.Refuse(where,
+                        "found {} pixels; allowed: {} more, because all textures together may have 64 million pixels",
+                        pixels, pixels_left_);
   }
   pixels_left_ -= pixels;
   return {};
@@ -209,12 +210,13 @@ class MeshReader {
     ASSIGN_OR_RETURN(auto bindings, ReadGltfBindings(file_, nodes_, node));
     const tinygltf::Mesh& mesh = model_.meshes[static_cast<std::size_t>(index)];
     if (mesh.primitives.empty()) {
-      return file_.Refuse(fmt::format("meshes[{}].primitives", index), "found none; at least one is needed");
+      return file_.Refuse(fmt::format("meshes[{}].primitives", index), "found none; allowed: at least one");
     }
     bindings_ += bindings.size() * mesh.primitives.size();  // every surface gets a copy of the bindings
     if (bindings_ > kMaxBindings) {
-      return file_.Refuse(where, "with this node's mesh, surfaces depend on {} joints; allowed: at most {}", bindings_,
-                          kMaxBindings);
+      return file_.Refuse(where,
+                          "up to this mesh, the numbers of joints of all surfaces add up to {}; allowed: at most {}",
+                          bindings_, kMaxBindings);
     }
     // Read each primitive as a mesh.
     for (std::size_t i = 0; i < mesh.primitives.size(); ++i) {
@@ -252,7 +254,8 @@ class MeshReader {
     vertices_ += is_flat ? 3 * mesh.triangles.size() : mesh.vertices.size();
     if (vertices_ > kMaxVertices || triangles_ > kMaxTriangles) {
       return file_.Refuse(where,
-                          "with this primitive there are {} vertices and {} triangles; allowed: at most {} and {}",
+                          "the file has {} vertices and {} triangles up to this primitive; allowed: at most {} "
+                          "vertices and {} triangles",
                           vertices_, triangles_, kMaxVertices, kMaxTriangles);
     }
     if (is_flat) Unweld(mesh);

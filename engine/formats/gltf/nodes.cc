@@ -25,7 +25,7 @@ class NodeReader {
   explicit NodeReader(const GltfFile& file) : file_(file), model_(file.model()), count_(model_.nodes.size()) {}
 
   Result<GltfNodes> Read() {
-    if (count_ == 0) return file_.Refuse("nodes", "found none; at least one is needed");
+    if (count_ == 0) return file_.Refuse("nodes", "found none; allowed: at least one");
     for (auto step : {&NodeReader::FindParents, &NodeReader::CheckNesting, &NodeReader::MarkScene,
                       &NodeReader::MarkOutsiders, &NodeReader::MakeJoints}) {
       RETURN_IF_ERROR((this->*step)());
@@ -45,8 +45,9 @@ class NodeReader {
         RETURN_IF_ERROR(file_.CheckIndex(children[i], count_, where));
         int& parent = parents_[children[i]];
         if (parent != kNoIndex) {
-          return file_.Refuse(where, "found node {}, a child of node {} already; allowed: one parent", children[i],
-                              parent);
+          return file_.Refuse(where,
+                              "found node {}, which is already a child of node {}; allowed: one parent",
+                              children[i], parent);
         }
         parent = node;
       }
@@ -58,7 +59,9 @@ class NodeReader {
     for (int node = 0; node < static_cast<int>(count_); ++node) {
       int depth = 1;
       for (int above = parents_[node]; above != kNoIndex; above = parents_[above]) {
-        if (above == node) return file_.Refuse(NodeName(node), "is its own ancestor; allowed: a tree");
+        if (above == node)
+          return file_.Refuse(NodeName(node),
+                              "the node is its own ancestor; allowed: a tree of nodes");
         if (++depth > kMaxLevels) return TooDeep(node);
       }
     }
@@ -70,7 +73,9 @@ class NodeReader {
   Result<void> TooDeep(int node) const {
     std::size_t steps = 0;
     for (int above = parents_[node]; above != kNoIndex; above = parents_[above]) {
-      if (++steps > count_) return file_.Refuse(NodeName(node), "hangs below its own descendants; allowed: a tree");
+      if (++steps > count_)
+        return file_.Refuse(NodeName(node),
+                            "an ancestor of the node is its own ancestor; allowed: a tree of nodes");
     }
     return file_.Refuse(NodeName(node), "nested more than {} levels deep", kMaxLevels);
   }
@@ -92,7 +97,9 @@ class NodeReader {
         const std::string where = fmt::format("scenes[{}].nodes[{}]", scene, i);
         RETURN_IF_ERROR(file_.CheckIndex(open[i], count_, where));
         if (parents_[open[i]] != kNoIndex) {
-          return file_.Refuse(where, "found node {}, a child of node {}; allowed: roots", open[i], parents_[open[i]]);
+          return file_.Refuse(where,
+                              "found node {}, which is a child of node {}; allowed: nodes without a parent",
+                              open[i], parents_[open[i]]);
         }
       }
     }
@@ -146,7 +153,7 @@ class NodeReader {
 
   Result<void> MakeJoints() {
     const auto joints = static_cast<std::size_t>(std::ranges::count(is_joint_, true));
-    if (joints == 0) return file_.Refuse("scenes", "found no nodes in the default one; at least one is needed");
+    if (joints == 0) return file_.Refuse("scenes", "the default scene has no nodes; allowed: at least one");
     if (joints > kMaxJoints) return file_.Refuse("nodes", "found {} joints; allowed: at most {}", joints, kMaxJoints);
     nodes_.joint_of.assign(count_, kNoIndex);
     for (int node = 0; node < static_cast<int>(count_); ++node) {
@@ -209,13 +216,15 @@ class NodeReader {
   Result<LocalTransform> Decompose(const std::vector<double>& m, const std::string& where) const {
     const bool is_affine = std::abs(m[3]) < kMatrixRounding && std::abs(m[7]) < kMatrixRounding &&
                            std::abs(m[11]) < kMatrixRounding && std::abs(m[15] - 1) < kMatrixRounding;
-    if (!is_affine) return file_.Refuse(where, "found a projection; allowed: a last row of 0, 0, 0, 1");
+    if (!is_affine) return file_.Refuse(where, "the matrix contains a projection; allowed: the last row 0, 0, 0, 1");
     LocalTransform local;
     local.translation = {m[12], m[13], m[14]};
     glm::dmat3 axes(m[0], m[1], m[2], m[4], m[5], m[6], m[8], m[9], m[10]);
     for (int k = 0; k < 3; ++k) {
       local.scale[k] = glm::length(axes[k]);
-      if (local.scale[k] < 1e-9) return file_.Refuse(where, "flattens an axis; allowed: translation, rotation, scale");
+      if (local.scale[k] < 1e-9)
+        return file_.Refuse(where,
+                            "the matrix scales an axis to 0; allowed: a product of translation, rotation and scale");
       axes[k] /= local.scale[k];
     }
     if (glm::determinant(axes) < 0) {  // a mirror image: give the negative sign to the scale of x
@@ -224,7 +233,9 @@ class NodeReader {
     }
     const double shear = std::max({std::abs(glm::dot(axes[0], axes[1])), std::abs(glm::dot(axes[1], axes[2])),
                                    std::abs(glm::dot(axes[2], axes[0]))});
-    if (shear > kMatrixRounding) return file_.Refuse(where, "shears; allowed: translation, rotation, scale");
+    if (shear > kMatrixRounding)
+      return file_.Refuse(where,
+                          "the matrix contains a shear; allowed: a product of translation, rotation and scale");
     local.rotation = glm::normalize(glm::quat_cast(axes));
     return local;
   }
@@ -254,8 +265,8 @@ Result<void> CheckGltfPose(const GltfFile& file, const Skeleton& skeleton, const
   for (std::size_t i = 0; i < globals.size(); ++i) {
     const auto& [position, axes] = globals[i];
     if (is_within(position) && is_within(axes[0]) && is_within(axes[1]) && is_within(axes[2])) continue;
-    return file.Refuse(where, "found joint {} beyond ±{:g} in the world", Quote(skeleton.joints[i].name),
-                       kMaxGltfNumber);
+    return file.Refuse(where, "a world coordinate of joint {} is out of range; allowed: ±{:g}",
+                       Quote(skeleton.joints[i].name), kMaxGltfNumber);
   }
   return {};
 }

@@ -70,17 +70,21 @@ bool ReadWholeFile(std::vector<unsigned char>* out, std::string*, const std::str
   Fetcher& fetcher = *static_cast<Fetcher*>(user_data);
   const Place place{fetcher.file};
   if (!StaysInFolder(uri)) {
-    return fetcher.Complain(Fail(place, "names the file {}; allowed: files in its own folder", Quote(uri)).value());
+    return fetcher.Complain(
+        Fail(place, "the file refers to {}; allowed: files in the same folder", Quote(uri)).value());
   }
   if (!*fetcher.fetch) {
-    return fetcher.Complain(Fail(place, "names the file {}; allowed here: data within the file", Quote(uri)).value());
+    return fetcher.Complain(
+        Fail(place, "the file refers to {}; allowed: data inside the file itself", Quote(uri)).value());
   }
   auto bytes = (*fetcher.fetch)(uri);
   if (!bytes) return fetcher.Complain(bytes.error());
   fetcher.bytes_left -= static_cast<double>(bytes->size());
   if (fetcher.bytes_left < 0) {
     return fetcher.Complain(
-        Fail(place, "names files of more than {:.0f} MB in all; {} exceeds the limit", kMaxGltfBytes / 1e6, Quote(uri))
+        Fail(place,
+             "the files that this file refers to exceed {:.0f} MB together at {}; allowed: at most this size",
+             kMaxGltfBytes / 1e6, Quote(uri))
             .value());
   }
   out->assign(bytes->begin(), bytes->end());
@@ -111,7 +115,8 @@ Result<void> ReadOnlyThrough(Fetcher& fetcher, Parser& parser) {
     parser.SetFsCallbacks(callbacks);
   } else if (!parser.SetFsCallbacks(callbacks)) {
     return Fail({fetcher.file},
-                "this version of tinygltf does not accept Etude's functions for reading files, so glTF cannot be read");
+                "Etude cannot read glTF files, because this version of tinygltf does not accept Etude's functions for "
+                "reading files");
   }
   return {};
 }
@@ -187,7 +192,7 @@ Result<void> CheckCounts(const nlohmann::json& json, const std::string& where, c
       const bool may_be_object = key == "indices" && !where.starts_with("meshes");
       if (std::ranges::find(kCounts, key) != kCounts.end() && !value.is_number_unsigned() &&
           !(may_be_object && value.is_object())) {
-        return Fail({file}, "{}: found {}; allowed: a whole number from 0", name, value.dump().substr(0, 40));
+        return Fail({file}, "{}: found {}; allowed: a whole number of 0 or more", name, value.dump().substr(0, 40));
       }
       if (key == "target" && value.is_object() && !(value.contains("path") && value["path"].is_string())) {
         return Fail({file}, "{}.path: found no text; allowed: translation, rotation, scale, weights", name);
@@ -213,7 +218,7 @@ Result<void> CheckIndexLists(const nlohmann::json& json, const std::string& file
       const std::size_t accessor = primitive.value("indices", json[to_accessors].size());
       const auto list = accessor < json[to_accessors].size() ? json[to_accessors][accessor] : nlohmann::json();
       if (!list.is_object() || list.contains("bufferView") || list.contains("sparse")) continue;
-      return Fail({file}, "accessors[{}]: found no bufferView; an index list needs one", accessor);
+      return Fail({file}, "accessors[{}]: found no bufferView; allowed: one bufferView for each index list", accessor);
     }
   }
   return {};
@@ -230,7 +235,7 @@ Result<void> CheckFileNames(const nlohmann::json& json, const std::string& file)
       if (uri.starts_with("data:") || (uri.find('\0') == std::string::npos && uri.find("%00") == std::string::npos)) {
         continue;
       }
-      return Fail({file}, "names the file {}; allowed: files in its own folder", Quote(uri));
+      return Fail({file}, "the file refers to {}; allowed: files in the same folder", Quote(uri));
     }
   }
   return {};
@@ -390,10 +395,10 @@ Result<GltfContent> ReadGltf(std::string_view bytes, const std::string& file, co
   if (std::ranges::find(model->extensionsRequired, kDraco) == model->extensionsRequired.end()) {
     RETURN_IF_ERROR(ReadGltfMeshes(parsed, nodes, decode, content.character));
   } else {
-    content.remarks.emplace_back("compressed meshes (Draco) were left out");
+    content.remarks.emplace_back("Etude left out the meshes, because they are compressed (Draco)");
   }
   const bool has_pointers = std::ranges::count(model->extensionsUsed, "KHR_animation_pointer") > 0;
-  if (has_pointers) content.remarks.emplace_back("animations by KHR_animation_pointer are not read");
+  if (has_pointers) content.remarks.emplace_back("Etude does not read animations that use KHR_animation_pointer");
   ASSIGN_OR_RETURN(auto clips, ReadGltfClips(parsed, nodes, content.remarks));
   content.clips = std::move(clips);
   for (const tinygltf::Skin& skin : model->skins) {

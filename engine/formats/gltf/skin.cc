@@ -54,7 +54,7 @@ Result<Bindings> ReadGltfBindings(GltfFile& file, const GltfNodes& nodes, int no
   RETURN_IF_ERROR(file.CheckIndex(index, model.skins.size(), fmt::format("nodes[{}].skin", node)));
   const tinygltf::Skin& skin = model.skins[static_cast<std::size_t>(index)];
   const std::string name = fmt::format("skins[{}]", index);
-  if (skin.joints.empty()) return file.Refuse(name + ".joints", "found none; at least one is needed");
+  if (skin.joints.empty()) return file.Refuse(name + ".joints", "found none; allowed: at least one");
   Bindings bindings;
   for (const int joint : skin.joints) bindings.push_back({nodes.joint_of[joint]});
   // Read the inverse bind matrices, which are optional.
@@ -62,7 +62,8 @@ Result<Bindings> ReadGltfBindings(GltfFile& file, const GltfNodes& nodes, int no
   const std::string matrices_name = name + ".inverseBindMatrices";
   ASSIGN_OR_RETURN(auto matrices, file.Read(skin.inverseBindMatrices, 16, GltfComponents::kFloat, matrices_name));
   if (matrices.Count() < bindings.size()) {
-    return file.Refuse(matrices_name, "found {} matrices; {} joints need one each", matrices.Count(), bindings.size());
+    return file.Refuse(matrices_name, "found {} matrices for {} joints; allowed: one for each joint", matrices.Count(),
+                       bindings.size());
   }
   for (std::size_t i = 0; i < bindings.size(); ++i) {
     const double* m = matrices[i];
@@ -71,7 +72,7 @@ Result<Bindings> ReadGltfBindings(GltfFile& file, const GltfNodes& nodes, int no
                            std::abs(m[15] - 1) < kRounding;
     if (!is_affine) {
       return file.Refuse(fmt::format("{}[{}]", matrices_name, i),
-                         "found a projection; allowed: a last row of 0, 0, 0, 1");
+                         "the matrix contains a projection; allowed: the last row 0, 0, 0, 1");
     }
     for (int column = 0; column < 4; ++column) {
       for (int row = 0; row < 3; ++row) bindings[i].inverse_bind[column][row] = m[4 * column + row];
@@ -89,7 +90,7 @@ Result<void> ReadGltfWeights(GltfFile& file, const tinygltf::Primitive& primitiv
     const auto weight = primitive.attributes.find(fmt::format("WEIGHTS_{}", set));
     const bool has_joints = joint != primitive.attributes.end();
     if (has_joints != (weight != primitive.attributes.end())) {
-      return file.Refuse(where, "found one of JOINTS_{0} and WEIGHTS_{0}; allowed: both or none", set);
+      return file.Refuse(where, "found only one of JOINTS_{0} and WEIGHTS_{0}; allowed: both or none", set);
     }
     if (!has_joints) break;
     ASSIGN_OR_RETURN(auto joint_numbers,
@@ -100,7 +101,7 @@ Result<void> ReadGltfWeights(GltfFile& file, const tinygltf::Primitive& primitiv
     joints.push_back(std::move(joint_numbers));
     weights.push_back(std::move(*weight_numbers));
   }
-  if (joints.empty()) return file.Refuse(where, "found no JOINTS_0; its skin needs them");
+  if (joints.empty()) return file.Refuse(where, "found a skin, but no JOINTS_0; allowed: both or none");
   // Keep the largest four weights of every vertex.
   for (std::size_t i = 0; i < mesh.vertices.size(); ++i) {
     std::vector<std::pair<int, double>> all;
@@ -111,7 +112,7 @@ Result<void> ReadGltfWeights(GltfFile& file, const tinygltf::Primitive& primitiv
         if (weight == 0 && set > 0) continue;
         if (weight < 0) return file.Refuse(where + ".WEIGHTS", "found {}; allowed: 0 or more", weight);
         if (weight > 0 && joint >= static_cast<double>(mesh.bindings.size())) {
-          return file.Refuse(where + ".JOINTS", "found {} at vertex {}; allowed: 0 to {}", joint, i,
+          return file.Refuse(where + ".JOINTS", "found joint {} at vertex {}; allowed: 0 to {}", joint, i,
                              mesh.bindings.size() - 1);
         }
         all.emplace_back(weight > 0 ? static_cast<int>(joint) : 0, weight);

@@ -78,10 +78,13 @@ class Unprepared final : public PreparedIkSolver {
 IkSolver GaussNewton() {
   IkSolver solver = WithSetting(
       {.name = "gauss-newton",
-       .description = "Gauss-Newton steps that stay near the start, with sweeps if they get stuck (the default)",
+       .description = "Gauss-Newton steps that stay near the start pose, with CCD sweeps if the steps get stuck (the "
+                      "default)",
        .step = "steps"},
       SolveWithOwn<GaussNewtonOptions>(SolveGaussNewton), &SolverSettings::first_sweeps,
-      &GaussNewtonOptions::first_sweeps, Between("first_sweeps", 0, 100, "Sweeps before the first Gauss-Newton step."));
+      &GaussNewtonOptions::first_sweeps,
+      Between("first_sweeps", 0, 100,
+              "Number of CCD sweeps before the first Gauss-Newton step."));
   solver.prepare = [](const KinematicTree& tree) { return std::make_unique<PreparedGaussNewton>(tree); };
   solver.solve_batch = [](const KinematicTree& tree, std::span<const IkProblem> problems, const IkOptions& options) {
     return SolveGaussNewtonBatch(tree, problems, options, Precision::kDouble, GaussNewtonOptionsOf(options));
@@ -103,12 +106,12 @@ std::span<const IkSolver> AllIkSolvers() {
   static const std::vector<IkSolver> solvers = {
       // Cyclic coordinate descent.
       {.name = "ccd",
-       .description = "cyclic coordinate descent, joints decomposed as in paper B",
+       .description = "cyclic coordinate descent, with joints decomposed as in paper B",
        .uses_weights = true,
        .step = "sweeps",
        .solve = SolveCcd},
       {.name = "ccd-hinges",
-       .description = "cyclic coordinate descent, every joint a chain of hinges",
+       .description = "cyclic coordinate descent, with every joint as a chain of hinges",
        .uses_weights = true,
        .step = "sweeps",
        .solve = SolveCcdHinges},
@@ -123,20 +126,20 @@ std::span<const IkSolver> AllIkSolvers() {
       GaussNewton(),
       WithSetting(
           {.name = "levenberg-marquardt",
-           .description =
-               "dense Levenberg-Marquardt steps with restarts, limits as an active set: today's recommended solver",
+           .description = "dense Levenberg-Marquardt steps with restarts and an active set for the limits: the usual "
+                          "recommendation today",
            .step = "steps"},
           SolveWithOwn<LevenbergMarquardtOptions>(SolveLevenbergMarquardt), &SolverSettings::damping_share,
           &LevenbergMarquardtOptions::damping_share,
-          Between("damping_share", 1e-6, 1e3, "The damping of the first step as a share of the sum of squares.")),
+          Between("damping_share", 1e-6, 1e3, "Damping of the first step as a fraction of the sum of squares.")),
       WithSetting({.name = "ceres-lm",
-                   .description = "the Levenberg-Marquardt method of Ceres Solver, limits as bounds",
+                   .description = "the Levenberg-Marquardt method of Ceres Solver, with limits as bounds",
                    .step = "steps"},
                   SolveWithOwn<CeresLmOptions>(SolveCeresLm), &SolverSettings::first_radius,
                   &CeresLmOptions::first_radius,
                   Between("first_radius", 1e-6, 1e12, "Radius of the first trust region.")),
       WithSetting({.name = "damped-least-squares",
-                   .description = "damped Gauss-Newton steps, limits by clamping",
+                   .description = "damped Gauss-Newton steps; angles are clamped to their limits",
                    .step = "steps"},
                   SolveWithOwn<DampedLeastSquaresOptions>(SolveDampedLeastSquares), &SolverSettings::damping,
                   &DampedLeastSquaresOptions::first_damping,
@@ -144,29 +147,33 @@ std::span<const IkSolver> AllIkSolvers() {
       WithSetting(
           {.name = "damped-least-squares-active-set",
            .description =
-               "like damped-least-squares, limits by an active set: other angles compensate for those at their limits",
+               "like damped-least-squares, but with an active set for the limits: other angles compensate for angles "
+               "at their limits",
            .step = "steps"},
           SolveWithOwn<DampedLeastSquaresOptions>(SolveDampedLeastSquaresActiveSet), &SolverSettings::damping,
           &DampedLeastSquaresOptions::first_damping, Between("damping", 1e-9, 1e6, "The damping of the first step.")),
       // Methods that move joints as points.
       {.name = "fabrik",
-       .description = "forward and backward reaching of joints as points, positions only",
+       .description = "forward and backward reaching inverse kinematics (FABRIK): moves joints as points and reaches "
+                      "positions only",
        .uses_axes = false,
        .step = "passes",
        .solve = SolveFabrik},
       // Methods that do not check whether a step lowers the error.
-      WithSetting({.name = "jacobian-pinv",
-                   .description =
-                       "paper B's Jacobian pseudo-inverse, with the start as preferred posture and limits by clamping",
-                   .step = "steps"},
-                  SolveWithOwn<JacobianPinvOptions>(SolveJacobianPinv), &SolverSettings::pinv_damping,
-                  &JacobianPinvOptions::damping,
-                  Between("pinv_damping", 0, 100, "Damping of the pseudo-inverse; 0 as in paper B.")),
+      WithSetting(
+          {.name = "jacobian-pinv",
+           .description = "paper B's Jacobian pseudo-inverse: the start pose is the preferred posture, and angles are "
+                          "clamped to their limits",
+           .step = "steps"},
+          SolveWithOwn<JacobianPinvOptions>(SolveJacobianPinv), &SolverSettings::pinv_damping,
+          &JacobianPinvOptions::damping,
+          Between("pinv_damping", 0, 100, "Damping of the pseudo-inverse. Paper B uses 0.")),
       WithSetting({.name = "jacobian-transpose",
-                   .description = "the Jacobian transpose, with the step length that is best to first order",
+                   .description = "the Jacobian transpose, with the step length that minimises the error to first "
+                                  "order",
                    .step = "steps"},
                   SolveWithOwn<JacobianTransposeOptions>(SolveJacobianTranspose), &SolverSettings::gain,
-                  &JacobianTransposeOptions::gain, Between("gain", 0.01, 2, "Multiplies the length of every step.")),
+                  &JacobianTransposeOptions::gain, Between("gain", 0.01, 2, "Factor on the length of every step.")),
   };
   return solvers;
 }

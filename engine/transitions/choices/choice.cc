@@ -46,22 +46,24 @@ PairSurvey SurveyPairs(const MotionLibrary& library, const TransitionRequest& re
 std::string WhyTaken(const std::string& pair, const TransitionPoint& point, bool is_rear, const PairSurvey& survey,
                      const MatchRules& rules) {
   if (rules.pick == Pick::kFirst) {
-    return fmt::format("first match: {}, d = {:.2f} < {:g}; {} matching pairs, of which {} are nearer but come later",
-                       pair, point.distance.value, rules.threshold, survey.matching, survey.nearer);
+    return fmt::format(
+        "the first match: {}, with the distance d = {:.2f} < {:g}; {} pairs match, and {} of them have "
+        "a smaller distance but come later",
+        pair, point.distance.value, rules.threshold, survey.matching, survey.nearer);
   }
   return fmt::format(
-      "smallest distance{}: {}, d = {:.2f} < {:g}, of {} matching pairs",
-      is_rear ? ", in the clip's rear half, because no pair matches in its front half" : " in the front half", pair,
+      "the smallest distance{}: {}, with d = {:.2f} < {:g}, among {} matching pairs",
+      is_rear ? " in the rear half of the clip, because no pair matches in the front half" : " in the front half", pair,
       point.distance.value, rules.threshold, survey.matching);
 }
 
 std::string WhyNone(const MotionLibrary& library, const TransitionRequest& request, const PairSurvey& survey,
                     const MatchRules& rules) {
   if (survey.allowed.leave.empty()) {
-    return fmt::format("{} has no bridge frame within {:g} s", library.names[request.from], request.budget_s);
+    return fmt::format("the clip {} has no bridge frame within {:g} s", library.names[request.from], request.budget_s);
   }
   if (survey.allowed.enter.empty())
-    return fmt::format("{} has no bridge frame at which it can be entered", library.names[request.to]);
+    return fmt::format("the clip {} has no bridge frame at which a transition may enter it", library.names[request.to]);
   return DescribeNoMatch(survey.nearest, survey.allowed.Pairs(), "bridge frames", rules);
 }
 
@@ -93,7 +95,9 @@ TransitionRecord PlanFuzzyBridge(const MotionLibrary& library, const TransitionR
 TransitionRecord PlanNow(const MotionLibrary& library, const TransitionRequest& request, const MatchRules& rules) {
   TransitionRecord record = DirectTransition(library, request, request.request_frame, 0, rules);
   record.branch = Branch::kNow;
-  record.why = fmt::format("at once into the first frame, whatever the poses; d = {:.2f}", record.distances[0].value);
+  record.why = fmt::format(
+      "the transition goes at once into the first frame, whatever the poses are; d = {:.2f}",
+      record.distances[0].value);
   return record;
 }
 
@@ -104,8 +108,9 @@ TransitionRecord PlanWaitForEnd(const MotionLibrary& library, const TransitionRe
   const int end = library.tagged[request.from].FrameCount() - 1;
   TransitionRecord record = DirectTransition(library, request, end, 0, rules);
   record.branch = Branch::kEnd;
-  record.why = fmt::format("the playing clip ended, after {:.2f} s; d = {:.2f} to the first frame", record.wait_s,
-                           record.distances[0].value);
+  record.why = fmt::format(
+      "the playing clip ended after {:.2f} s; the distance to the first frame is d = {:.2f}",
+      record.wait_s, record.distances[0].value);
   return record;
 }
 
@@ -121,14 +126,14 @@ TransitionRecord PlanUnbroken(const MotionLibrary& library, const TransitionRequ
   TransitionRecord record;
   record.request_frame = frame;
   if (frame >= last) {
-    record.why = fmt::format("{} has no frame left to continue with", library.names[request.from]);
+    record.why = fmt::format("the clip {} has no frames left", library.names[request.from]);
     return record;
   }
   record.branch = Branch::kUnbroken;
   record.segments = {{.clip = request.from, .first = frame, .last = frame, .own = {}},
                      {.clip = request.from, .first = frame, .last = last, .own = {}}};
   record.distances = {ComputeDistance(playing.grades[frame], playing.grades[frame], rules.weights)};
-  record.why = fmt::format("{} continues: no transition, for comparison", library.names[request.from]);
+  record.why = fmt::format("the clip {} continues without a transition, for comparison", library.names[request.from]);
   return record;
 }
 
@@ -158,8 +163,9 @@ TransitionRecord PlanThroughStanding(const MotionLibrary& library, const Transit
   const auto to_itself = [&](const Grades& grades) { return ComputeDistance(grades, grades, rules.weights); };
   record.distances = {to_itself(playing.grades[request.request_frame]), to_itself(next.grades.front())};
   record.wait_s = WaitOf(record.segments, playing.rate_hz);
-  record.why = fmt::format("left at once: {:.2f} s into a standing pose and {:.2f} s into the first frame of {}",
-                           standing / playing.rate_hz, (last - standing) / playing.rate_hz, library.names[request.to]);
+  record.why = fmt::format(
+      "the transition starts at once: {:.2f} s into a standing pose, then {:.2f} s into the first frame of {}",
+      standing / playing.rate_hz, (last - standing) / playing.rate_hz, library.names[request.to]);
   return record;
 }
 
@@ -206,35 +212,46 @@ std::span<const Choice> Table() {
   static const std::array kChoices = {
       // Choices that search for good frames.
       Choice{.name = "fuzzy-bridge",
-             .description = "paper A's: the first bridge frames that match, otherwise through an in-between",
+             .description = "paper A's method: takes the first bridge frames that match; if none match, goes through "
+                            "an in-between clip",
              .matches_poses = true,
              .uses_fuzzy = true,
              .allowed = BridgeFrames,
              .plan = PlanBy<PlanFuzzyBridge>},
       Ranked<PlanFuzzyKovar, PointCloudSettings>(
-          "fuzzy-kovar", "of all frames that match, those with the smallest point-cloud distance (Kovar 2002)", true),
+          "fuzzy-kovar",
+          "among all matching bridge frames, takes the pair with the smallest point-cloud distance (Kovar 2002)",
+          true),
       Ranked<PlanFuzzyWindow, FuzzyWindowSettings>(
-          "fuzzy-window", "of all frames that match, those with the smallest mean fuzzy distance around them", true),
+          "fuzzy-window",
+          "among all matching bridge frames, takes the pair with the smallest mean fuzzy distance in a "
+          "window around the pair",
+          true),
       Ranked<PlanPointCloud, PointCloudSettings>(
-          "point-cloud", "the frames with the smallest point-cloud distance (Kovar 2002)", false),
+          "point-cloud", "takes the pair of frames with the smallest point-cloud distance (Kovar 2002)", false),
       Ranked<PlanMotionMatching, MotionMatchingSettings>(
           "motion-matching",
-          "the frames with the most similar positions and velocities of hands, feet and hips (Clavet 2016)", false),
-      Choice{
-          .name = "played",
-          .description = "the frames and the length of the join whose transition costs the least time and acceleration",
-          .settings = PlayedSettings().Describe(),
-          .plan = PlanWith<PlanPlayed, PlayedSettings>},
+          "takes the pair of frames with the most similar positions and velocities of hands, feet and hips (Clavet "
+          "2016)",
+          false),
+      Choice{.name = "played",
+             .description = "takes the frames and the blend length whose transition costs the least waiting time and "
+                            "acceleration",
+             .settings = PlayedSettings().Describe(),
+             .plan = PlanWith<PlanPlayed, PlayedSettings>},
       // Choices of fixed frames, for comparison.
       Choice{.name = "through-standing",
-             .description = "leaves at once, and goes through a standing pose into the clip's first frame",
+             .description = "leaves the playing clip at once, and goes through a standing pose into the first frame of "
+                            "the wanted clip",
              .plan = PlanBy<PlanThroughStanding>},
-      Choice{.name = "now", .description = "leaves at once, into the clip's first frame", .plan = PlanBy<PlanNow>},
+      Choice{.name = "now",
+             .description = "leaves the playing clip at once, into the first frame of the wanted clip",
+             .plan = PlanBy<PlanNow>},
       Choice{.name = "wait-for-end",
-             .description = "goes from the playing clip's last frame into the clip's first frame",
+             .description = "goes from the last frame of the playing clip into the first frame of the wanted clip",
              .plan = PlanBy<PlanWaitForEnd>},
       Choice{.name = "unbroken",
-             .description = "no transition: the playing clip continues, as a reference for unbroken motion",
+             .description = "makes no transition: the playing clip continues, as a reference for unbroken motion",
              .plan = PlanBy<PlanUnbroken>},
   };
   return kChoices;

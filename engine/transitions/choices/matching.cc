@@ -133,7 +133,8 @@ TransitionRecord PlanByPointCloud(const MotionLibrary& library, const Transition
 template <typename Options>
 typename SettingTable<Options>::Row LeastPlay() {
   return {"least_play_s", &Options::least_play_s, 0, 60,
-          "Minimum time of the wanted clip that must be left to play; its front half may always be entered."};
+          "Minimum time, in seconds, that the wanted clip must still play after the transition. The front half of the "
+          "wanted clip may always be entered."};
 }
 
 }  // namespace

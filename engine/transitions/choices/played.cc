@@ -195,16 +195,17 @@ TransitionRecord PlanThroughClip(const MotionLibrary& library, const TransitionR
                &wanted = library.stances[request.to][allowed.enter.front()];
   // Explain why the two clips cannot be joined.
   const auto describe = [&](int clip, const Stance& stance) {
-    return fmt::format("{} {} with its hips at {:.2f} m", library.names[clip],
+    return fmt::format("in {}, the body {} with the hips at {:.2f} m", library.names[clip],
                        stance.is_down ? "lies, sits or kneels" : "stands", stance.hips);
   };
   const std::string why = fmt::format(
-      "{} whenever it can be left, and {} when it can be entered: no join can {} a body without support",
+      "{} at every frame where the clip can be left, and {} at every frame where the clip can be entered; no join can "
+      "{} a body without support",
       describe(request.from, left), describe(request.to, wanted), wanted.hips > left.hips ? "raise" : "lower");
   // Find a clip that changes the stance.
   const auto through = FindThroughClip(library, request, allowed, options.most_through_s);
   if (!through) {
-    record.why = fmt::format("{}; and no clip shows such a movement within {:g} s", why, options.most_through_s);
+    record.why = fmt::format("{}; and no clip shows this movement within {:g} s", why, options.most_through_s);
     return record;
   }
   // Choose the join into the intermediate clip.
@@ -252,13 +253,15 @@ TransitionRecord PlanThroughClip(const MotionLibrary& library, const TransitionR
 const SettingTable<PlayedOptions>& PlayedSettings() {
   static const SettingTable<PlayedOptions> kSettings(
       {{"excess_per_s", &PlayedOptions::excess_per_s, 0.01, 1000,
-        "Acceleration beyond the clips' own, in centimetres per frame², that costs as much as one second of waiting."},
+        "Acceleration in excess of the acceleration in the clips, in centimetres per frame², that costs as much as one "
+        "second of waiting."},
        {"invented_per_s", &PlayedOptions::invented_per_s, 0.01, 1'000'000,
-        "Distance from the nearer clip, in centimetres over a second, that costs as much as one second of waiting."},
+        "Distance from the nearer clip, in centimetres for one second, that costs as much as one second of waiting."},
        {"most_skipped_s", &PlayedOptions::most_skipped_s, 0, 60,
-        "Maximum time of the wanted clip that may be skipped, in seconds; never more than its first third."},
+        "Maximum time of the wanted clip that may be skipped, in seconds. At most the first third of the wanted clip "
+        "is skipped."},
        {"most_through_s", &PlayedOptions::most_through_s, 0, 60,
-        "Maximum time, in seconds, for which a clip that stands up or lies down is shown on the way."}});
+        "Maximum time, in seconds, for which an intermediate clip that stands up or lies down is shown."}});
   return kSettings;
 }
 
@@ -287,7 +290,7 @@ TransitionRecord PlanPlayed(const MotionLibrary& library, const TransitionReques
   record.candidates =
       ListCandidates(library, request, rules, ranked(best), std::move(others), CandidateOutcome::kWorse);
   record.why = fmt::format(
-      "lowest cost of the transitions tried, equal to {:.2f} s of waiting: {}, joined within {:.2f} s by {}",
+      "the lowest cost among the transitions tried, equal to {:.2f} s of waiting: {}, joined within {:.2f} s by {}",
       best.cost_s, DescribePair(library, request, best.pair.leave, best.pair.enter), preferred.blend_s,
       preferred.way == JoinStyle::kFades ? "a fade" : "minimum-jerk movements");
   return record;

@@ -125,12 +125,12 @@ std::string Explain(const MotionLibrary& library, const TransitionRequest& reque
     const bool is_near = key_point.distance.value < threshold;
     return fmt::format("{} (d = {:.2f}{})", key_point.frame, key_point.distance.value,
                        key_point.matches ? ""
-                       : is_near         ? ", but it has no bridge frame that may be taken"
+                       : is_near         ? ", but no allowed bridge frame"
                                          : fmt::format(", not below {}", threshold));
   };
-  return fmt::format("left at {} {} for the key pose {}, entered from the key pose {} at {} {}",
-                     library.names[request.from], judge(exit), name(exit), name(entrance), library.names[request.to],
-                     judge(entrance));
+  return fmt::format(
+      "the transition leaves {} at frame {} for the key pose {}, and goes from the key pose {} into {} at frame {}",
+      library.names[request.from], judge(exit), name(exit), name(entrance), library.names[request.to], judge(entrance));
 }
 
 }  // namespace
@@ -141,7 +141,7 @@ TransitionRecord ThroughInBetween(const MotionLibrary& library, const Transition
   record.request_frame = request.request_frame;
   record.pairs_seen = pairs_seen;
   if (library.in_betweens.keys.empty()) {
-    record.why = why_not + "; and the library has no in-between";
+    record.why = why_not + "; and the library has no in-between clip";
     return record;
   }
   const TaggedClip &playing = library.tagged[request.from], &next = library.tagged[request.to];

@@ -148,34 +148,38 @@ std::span<const Filler> AllFillers() {
   static const std::vector<Filler> fillers = {
       // Fillers that need no library.
       {.name = "zero-velocity",
-       .description = "the last pose is held",
+       .description = "holds the last pose",
        .fill = [](const Gap& gap, Values) { return std::vector<TreePose>(gap.frames, gap.past.back()); }},
-      {.name = "interpolation", .description = "straight lines and great arcs (lerp, slerp)", .fill = Interpolate},
+      {.name = "interpolation",
+       .description = "interpolates along straight lines and great arcs (lerp, slerp)",
+       .fill = Interpolate},
       {.name = "inertialised",
-       .description = "interpolation plus each end's difference in velocity, which decays like a spring",
-       .settings = {HalfLife(kSpring_s, "The time in which half of a difference is gone.")},
+       .description = "interpolates, and adds the velocity difference at each end, which decays like a spring",
+       .settings = {HalfLife(kSpring_s, "Time in which a difference decays to one half.")},
        .fill = FillByHalfLife<InertialisedAt, kSpring_s>},
       {.name = "dead-blending",
-       .description = "both ends continue with decaying velocities; one fades into the other",
-       .settings = {HalfLife(kDead_s, "The time in which a velocity halves.")},
+       .description = "continues both ends with decaying velocities, and fades from one end to the other",
+       .settings = {HalfLife(kDead_s, "Time in which a velocity decays to one half.")},
        .fill = FillByHalfLife<DeadBlendedAt, kDead_s>},
       {.name = "minimum-jerk",
-       .description = "each joint by the movement of minimum jerk",
+       .description = "moves each joint with minimum jerk",
        .fill = [](const Gap& gap, Values) { return FillEach(gap, LeastJerkAt, LeastJerkAt); }},
       // Fillers that learn from the training clips.
       {.name = "nearest-gap",
-       .description = "dead blending, corrected by its error in the training clips' gap whose ends are nearest",
+       .description = "dead blending, corrected by the error of dead blending in the training gap with the most "
+                      "similar ends",
        .uses_library = true,
        .fill =
            [](const Gap& gap, Values) {
              return gap.library ? gap.library->FillLikeNearest(gap, DeadBlend) : std::vector<TreePose>();
            }},
       {.name = "near-gaps",
-       .description = "dead blending, corrected by its mean error in similar gaps of the training clips",
+       .description = "dead blending, corrected by the mean error of dead blending in similar gaps of the training "
+                      "clips",
        .uses_library = true,
        .fill = FillLikeNear},
       {.name = "planted-feet",
-       .description = "like near-gaps, but feet that bear the body stay in place while the others step",
+       .description = "like near-gaps, but feet that bear the body's weight stay in place while the other feet step",
        .uses_library = true,
        .fill = FillWithPlantedFeet}};
   return fillers;

@@ -31,8 +31,8 @@ BodyPose PoseBetween(const BodyPose& from, const BodyPose& to, double share) {
 
 const SettingTable<CrossfadeOptions>& CrossfadeSettings() {
   static const SettingTable<CrossfadeOptions> kSettings({{"blend_s", &CrossfadeOptions::blend_s, 0, 5,
-                                                          "Seconds after the transition point until the new motion is "
-                                                          "shown alone."}});
+                                                          "Blend length: seconds from the transition point until only "
+                                                          "the new motion is shown."}});
   return kSettings;
 }
 

@@ -61,8 +61,8 @@ Blend InertialiseSpring(const JoinInput& input, const SpringOptions& options) {
 
 const SettingTable<QuinticOptions>& QuinticSettings() {
   static const SettingTable<QuinticOptions> kSettings({{"blend_s", &QuinticOptions::blend_s, 0, 5,
-                                                        "Seconds after the transition point until the new motion is "
-                                                        "shown alone."}});
+                                                        "Blend length: seconds from the transition point until only "
+                                                        "the new motion is shown."}});
   return kSettings;
 }
 
@@ -95,8 +95,9 @@ glm::dvec3 DecayingWay(const glm::dvec3& velocity, double seconds, double half_l
 const SettingTable<DeadOptions>& DeadSettings() {
   static const SettingTable<DeadOptions> kSettings(
       {{"blend_s", &DeadOptions::blend_s, 0, 5,
-        "Seconds after the transition point until the new motion is shown alone."},
-       {"half_life_s", &DeadOptions::half_life_s, 0.01, 10, "The time in which the old motion's velocity halves."}});
+        "Blend length: seconds from the transition point until only the new motion is shown."},
+       {"half_life_s", &DeadOptions::half_life_s, 0.01, 10,
+        "Time in which the velocity of the old motion decays to one half."}});
   return kSettings;
 }
 

@@ -28,18 +28,20 @@ Blend BeginWith(const JoinInput& input, std::span<const double> values) {
 std::span<const JoinKind> Table() {
   static const std::array kJoins = {
       // Joins of papers and games.
-      JoinKind{
-          .name = "cut", .description = "paper A's: a cut; the next frame shown is the new clip's", .begin = CutOver},
+      JoinKind{.name = "cut",
+               .description = "paper A's method: a cut; the next frame shown is a frame of the new clip",
+               .begin = CutOver},
       JoinKind{.name = "crossfade",
                .description = "the old motion fades into the new one (Kovar 2002)",
                .settings = CrossfadeSettings().Describe(),
                .begin = BeginWith<Crossfade, CrossfadeSettings>},
       JoinKind{.name = "inertialised-quintic",
-               .description = "the offset decays along a quintic that does not overshoot (Bollo 2018)",
+               .description = "the offset from the new motion decays along a quintic that does not overshoot (Bollo "
+                              "2018)",
                .settings = QuinticSettings().Describe(),
                .begin = BeginWith<InertialiseQuintic, QuinticSettings>},
       JoinKind{.name = "inertialised-spring",
-               .description = "the offset decays like a critically damped spring (Holden 2020)",
+               .description = "the offset from the new motion decays like a critically damped spring (Holden 2020)",
                .begin = SpringDefaults},
       JoinKind{
           .name = "dead-blending",
@@ -48,12 +50,14 @@ std::span<const JoinKind> Table() {
           .begin = BeginWith<DeadBlending, DeadSettings>},
       // Our own joins.
       JoinKind{.name = "minimum-jerk",
-               .description = "the offset decays along the minimum-jerk quintic, for any velocity",
+               .description = "the offset from the new motion decays along the minimum-jerk quintic, for any initial "
+                              "velocity",
                .settings = MinimumJerkSettings().Describe(),
                .begin = BeginWith<MinimumJerk, MinimumJerkSettings>},
       JoinKind{.name = "planted-feet",
                .description =
-                   "like minimum-jerk, and each foot changes from the old motion's path to the new one's in one step",
+                   "like minimum-jerk, but each foot goes from the path of the old motion to the path of the new "
+                   "motion in one step",
                .settings = MinimumJerkSettings().Describe(),
                .begin = BeginWith<PlantedFeet, MinimumJerkSettings>,
                .align = AlignOnPlantedFeet},

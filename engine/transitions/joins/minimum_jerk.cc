@@ -13,11 +13,12 @@ namespace etude {
 const SettingTable<MinimumJerkOptions>& MinimumJerkSettings() {
   static const SettingTable<MinimumJerkOptions> kSettings(
       {{"blend_s", &MinimumJerkOptions::blend_s, 0, 5,
-        "Seconds after the transition point until the new motion is shown alone, unless the choice sets it."},
+        "Blend length: seconds from the transition point until only the new motion is shown. Some choices set their "
+        "own blend length."},
        {"fades", &MinimumJerkOptions::fades, 0, 1,
         "1: the old motion continues and fades out; 0: its offset from the new motion decays."},
        {"direct", &MinimumJerkOptions::direct, 0, 1,
-        "1: each limb moves with minimum jerk to its pose in the new motion at the end; 0: as `fades` states."}});
+        "1: each limb moves with minimum jerk to its pose at the end of the blend; 0: as `fades` states."}});
   return kSettings;
 }
 

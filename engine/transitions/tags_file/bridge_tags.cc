@@ -78,8 +78,9 @@ bool IsSame(const TaggedFrame& a, const TaggedFrame& b) {
 void CompareClips(const ClipTags& file, const ClipTags& now, TagsComparison& comparison) {
   const std::string name = Quote(file.name);
   if (file.frames != now.frames || file.rate_hz != now.rate_hz) {
-    comparison.differences.push_back(fmt::format("clip {} has {} frames at {} Hz in the file, {} at {} Hz now", name,
-                                                 file.frames, file.rate_hz, now.frames, now.rate_hz));
+    comparison.differences.push_back(
+        fmt::format("clip {} has {} frames at {} Hz in the file, but {} frames at {} Hz now",
+                    name, file.frames, file.rate_hz, now.frames, now.rate_hz));
     return;
   }
   // Compare the bridge frames that are in both sets of tags, and report the others.
@@ -94,12 +95,12 @@ void CompareClips(const ClipTags& file, const ClipTags& now, TagsComparison& com
     ++comparison.bridge_frames;
     if (!IsSame(frame, *found->second)) {
       comparison.differences.push_back(
-          fmt::format("clip {}: frame {} has other tags or grades now", name, frame.frame));
+          fmt::format("clip {}: the tags or grades of frame {} are now different", name, frame.frame));
     }
     frames_now.erase(found);
   }
   for (const auto& [frame, tagged] : frames_now) {
-    comparison.differences.push_back(fmt::format("clip {}: frame {} is now a bridge frame, too", name, frame));
+    comparison.differences.push_back(fmt::format("clip {}: frame {} is now also a bridge frame", name, frame));
   }
 }
 

@@ -66,10 +66,10 @@ int LineOf(std::string_view text, std::size_t at) {
 /// Rejects documents that would make libxml2 expand entities or take quadratic time.
 Result<void> CheckBeforeParsing(std::string_view text, const std::string& file) {
   if (text.find_first_not_of(" \t\r\n") == std::string_view::npos) {
-    return Fail({file, 0, 0}, "is empty; etude bridge writes tags files");
+    return Fail({file, 0, 0}, "the file is empty; use `etude bridge` to write a tags file");
   }
   if (const std::size_t at = text.find("<!DOCTYPE"); at != std::string_view::npos) {
-    return Fail({file, LineOf(text, at), 0}, "a document type declaration; allowed: none (entities are not expanded)");
+    return Fail({file, LineOf(text, at), 0}, "found a document type declaration (<!DOCTYPE); allowed: none");
   }
   // libxml2 takes quadratic time in the number of a tag's attributes, so the length of a tag is limited. The limit
   // allows two names of 4096 bytes whose characters are all written as &quot; entities.
@@ -77,8 +77,9 @@ Result<void> CheckBeforeParsing(std::string_view text, const std::string& file) 
   for (std::size_t start = 0; start < text.size();) {
     const std::size_t next = std::min(text.find('<', start + 1), text.size());
     if (next - start > kMaxTagBytes) {
-      return Fail({file, LineOf(text, start), 0}, "found {} bytes without a new tag; allowed: at most {}", next - start,
-                  kMaxTagBytes);
+      return Fail({file, LineOf(text, start), 0},
+                  "found {} bytes without a new XML tag; allowed: at most {}",
+                  next - start, kMaxTagBytes);
     }
     start = next;
   }
@@ -140,7 +141,7 @@ Result<XmlReader> XmlReader::Open(std::string_view text, std::string_view schema
   int read = 1;
   while (state->reader && read == 1 && !state->complaint) read = xmlTextReaderRead(state->reader.get());
   if (state->complaint) return tl::unexpected(*state->complaint);
-  if (!state->reader || read != 0) return Fail({file, 0, 0}, "cannot be read as XML");
+  if (!state->reader || read != 0) return Fail({file, 0, 0}, "the file cannot be read as XML");
   // Start again with validation.
   state->Start();
   xmlTextReaderSetSchema(state->reader.get(), state->schema.get());
@@ -153,7 +154,7 @@ Result<bool> XmlReader::Next() {
   while (true) {
     const int read = xmlTextReaderRead(reader);
     if (state_->complaint) return tl::unexpected(*state_->complaint);
-    if (read < 0) return Fail({state_->file, state_->Line(), 0}, "cannot be read as XML");
+    if (read < 0) return Fail({state_->file, state_->Line(), 0}, "the file cannot be read as XML");
     if (read == 0) return false;
     if (xmlTextReaderNodeType(reader) == XML_READER_TYPE_ELEMENT) return true;
   }
@@ -262,16 +263,16 @@ class TagsReader {
     for (Feature feature : AllFeatures()) {
       const std::string tag = xml_.Attribute(FeatureName(feature));
       if (tag != TagName(frame.tags, feature)) {
-        return Complain("{} is tagged {}, but its grades give {}", FeatureName(feature), Quote(tag),
+        return Complain("the tag of {} is {}, but the grades give the tag {}", FeatureName(feature), Quote(tag),
                         TagName(frame.tags, feature));
       }
     }
     // The frame must lie in the clip and after the previous one, and its time must follow from its index.
     if (frame.frame >= clip.frames) {
-      return Complain("frame {} of a clip that has {}; frames count from 0", frame.frame, clip.frames);
+      return Complain("found frame {} in a clip of {} frames; frames are counted from 0", frame.frame, clip.frames);
     }
     if (!clip.bridge_frames.empty() && frame.frame <= clip.bridge_frames.back().frame) {
-      return Complain("frame {} after frame {}; bridge frames must ascend", frame.frame,
+      return Complain("found frame {} after frame {}; allowed: increasing numbers of bridge frames", frame.frame,
                       clip.bridge_frames.back().frame);
     }
     const double time_s = Number("time-s"), expected_s = frame.frame / clip.rate_hz;
@@ -295,7 +296,10 @@ class TagsReader {
   void ReadKey() {
     const KeyTag key{xml_.Attribute("clip"), Whole("frame")};
     const auto clip = clip_of_name_.find(key.clip);
-    if (clip == clip_of_name_.end()) return Complain("a key names clip {}, which is not in the file", Quote(key.clip));
+    if (clip == clip_of_name_.end())
+      return Complain(
+          "a key pose refers to clip {}, which is not in the file",
+          Quote(key.clip));
     const bool has_bridge_frames = std::any_of(tags_.clips.begin(), tags_.clips.end(),
                                                [](const ClipTags& tagged) { return !tagged.bridge_frames.empty(); });
     const ClipTags& of_clip = tags_.clips[clip->second];
@@ -303,7 +307,8 @@ class TagsReader {
     const bool is_bridge_frame = std::any_of(of_clip.bridge_frames.begin(), of_clip.bridge_frames.end(), is_it);
     // In a library without bridge frames, any frame may be a key.
     if (has_bridge_frames ? !is_bridge_frame : key.frame >= of_clip.frames) {
-      return Complain("a key names frame {} of clip {}, which is not a bridge frame", key.frame, Quote(key.clip));
+      return Complain("a key pose refers to frame {} of clip {}, which is not a bridge frame", key.frame,
+                      Quote(key.clip));
     }
     tags_.keys.push_back(key);
   }

@@ -45,7 +45,8 @@ Result<void> CheckName(const std::string& name) {
   for (char c : name) fits = fits && static_cast<unsigned char>(c) >= ' ';
   if (fits) return {};
   return Fail({},
-              "the name of a clip is {}; allowed in a tags file: UTF-8 without control characters, up to 4096 bytes",
+              "the name of a clip is {}; allowed in a tags file: at most 4096 bytes of UTF-8 without control "
+              "characters",
               Quote(name));
 }
 

@@ -266,7 +266,7 @@ bool GlbOfFbxByAssimp(std::string_view bytes, std::string& said, FbxKeyFacts& fa
     said = MotionGlb(*scene, own, facts).Bytes();
     return true;
   } catch (const std::exception& error) {
-    said = std::string("an FBX file that cannot be read: ") + error.what();
+    said = std::string("the FBX file cannot be read: ") + error.what();
     return false;
   }
 }

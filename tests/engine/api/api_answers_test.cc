@@ -229,7 +229,8 @@ TEST(ApiFuzzy, BridgesLeaveClipsWherePosesMatch) {
   EXPECT_TRUE(Bridges(clips, {.min_clips = 4}).FramesOf(0).empty()) << "three clips share nothing in four";
   std::vector<Motion> mixed = clips;
   mixed[1].rate_hz = 60;
-  EXPECT_THAT(Complaint([&] { Bridges{mixed}; }), HasSubstr("clip 1: 60 Hz; allowed: the rate of clip 0, 30 Hz"));
+  EXPECT_THAT(Complaint([&] { Bridges{mixed}; }), HasSubstr("the rate of clip 1 is 60 Hz; allowed: 30 Hz, as in clip "
+                                                            "0"));
 }
 
 std::vector<TaughtMove> SmallMoves() {
@@ -282,7 +283,7 @@ TEST(ApiCoach, RefusesWhatIsNotOfTheDance) {
   EXPECT_THAT(refusal({}, std::span(moves).first(1)),
               HasSubstr("found 1 moves; allowed: 2, one for each move of the dance"));
   EXPECT_THAT(refusal({}, std::vector{moves[1], moves[0]}),
-              HasSubstr("move 0 is 'second'; allowed: 'first', the dance's move at this place"));
+              HasSubstr("move 0 is 'second'; allowed: 'first', the move with this number in the dance"));
   EXPECT_THAT(refusal({.policy = "sometimes"}, moves), HasSubstr("policy 'sometimes'; allowed: "));
   EXPECT_THAT(refusal({.choice = "none"}, moves), HasSubstr("choice 'none'; allowed: "));
   EXPECT_THAT(refusal({.right_from = 0.0}, moves), HasSubstr("above 0, up to 1"));

@@ -70,7 +70,7 @@ TEST(ApiSilhouettes, RefusesWhatDoesNotGoTogether) {
   EXPECT_THAT(refused(), HasSubstr("the mask has 307199 pixels; allowed: 640 x 480"));
   masks[0] = masks[1];
   cameras.pop_back();
-  EXPECT_THAT(refused(), HasSubstr("1 cameras, but masks of 2"));
+  EXPECT_THAT(refused(), HasSubstr("found 1 cameras, but masks for 2 cameras"));
 }
 
 /// Returns a standing body that sways by `far` metres to each side.

@@ -48,7 +48,7 @@ TEST(ReadCsv, TakesWhatSpreadsheetsAndLanguagesWrite) {
   EXPECT_THAT(rows->at(1).cells, ElementsAre("", "x, \"y\";z", ""));
   EXPECT_EQ(rows->at(1).line, 3);
   EXPECT_EQ(ReadCsv("", "p.csv")->size(), 0u);
-  EXPECT_EQ(testing::Refusal(ReadCsv("a,b\nc,\"d\n", "p.csv")), "p.csv:2: cell 2: its quotes do not close");
+  EXPECT_EQ(testing::Refusal(ReadCsv("a,b\nc,\"d\n", "p.csv")), "p.csv:2: cell 2 has no closing quotation mark");
 }
 
 }  // namespace

@@ -23,7 +23,7 @@ TEST(CannotWrite, BlamesTheMachineButForTheName) {
 TEST(FailOfMachine, IsAKindOfErrorAndNoNameOfAFile) {
   EXPECT_TRUE(IsOfThisMachine(FailOfMachine("no {}", "pipe").value()));
   EXPECT_EQ(ToString(FailOfMachine("no {}", "pipe").value()), "this machine: no pipe");
-  EXPECT_FALSE(IsOfThisMachine(Fail({"this machine"}, "no pipe").value()));
+  EXPECT_FALSE(IsOfThisMachine(Fail({"this machine"}, "cannot create a pipe").value()));
 }
 
 TEST(CannotRead, BlamesTheMachineForWhatItLacks) {

@@ -63,7 +63,8 @@ TEST(BoardViews, PicturesOfBoardsGiveTwoCamerasBack) {
   }
   EXPECT_EQ(*views.Add(0, "empty", ColourImage(640, 480, {90, 90, 90})), 0u) << "nothing in an empty picture";
   const auto other_size = views.Add(0, "small", ColourImage(320, 240, {90, 90, 90}));
-  EXPECT_EQ(other_size.error().message, "this picture has 320 x 240 pixels, but earlier pictures have 640 x 480");
+  EXPECT_EQ(other_size.error().message,
+            "this picture has 320 x 240 pixels, but earlier pictures of the same camera have 640 x 480");
   auto rig = CalibrateFromPlanes(views.sizes(), views.views());
   ASSERT_TRUE(rig) << ToString(rig.error());
   EXPECT_LT(rig->rms_px, 0.15);

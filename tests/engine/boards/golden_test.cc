@@ -93,7 +93,7 @@ TEST(FindFilmDelays, SaysWhichCameraShowsNoBoard) {
   EXPECT_EQ(FindFilmDelays(std::vector<PictureSize>(2, PictureSize{640, 480}), {}, std::vector<double>(2, 0.2), 0.1)
                 .error()
                 .message,
-            "camera 1 shows no board with four corners or more");
+            "no picture of camera 1 shows a board with four corners or more");
 }
 
 TEST(PrintedBoard, ComplaintsAreAsTheyWere) {

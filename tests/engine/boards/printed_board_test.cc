@@ -182,7 +182,7 @@ TEST(PrintedBoard, IsReadAslantUpsideDownAndInPart) {
   }
   EXPECT_NEAR(chess_corners.sum(), 44109.06, 0.5);
   EXPECT_NEAR(charuco_corners.sum(), 58340.99, 0.5);
-  EXPECT_EQ((*MakePrintedBoardFinder({true, 5, 4, 0.03}))->Told(), "no marker of any dictionary");
+  EXPECT_EQ((*MakePrintedBoardFinder({true, 5, 4, 0.03}))->Told(), "found no ArUco marker of any dictionary");
 }
 
 /// Boards of 6 × 5 corners in front of a camera with a lens: OpenCV recovers all its parameters.
@@ -216,7 +216,7 @@ TEST(CalibrateByOpenCv, FindsEveryNumberOfALens) {
   EXPECT_EQ(pinhole.distortion, Distortion{});
   EXPECT_GT(pinhole.rms_px, 0.3) << "the control";
   EXPECT_EQ(CalibrateByOpenCv(views, {640, 480}, LensModel::kAsInCamera).error().message,
-            "OpenCV's calibrateCamera cannot keep the given camera's lens distortion");
+            "OpenCV's calibrateCamera cannot keep the lens distortion of the given camera");
 }
 
 }  // namespace

@@ -110,7 +110,7 @@ TEST(CameraParameters, RefuseWhatIsNoCamera) {
   for (const auto& [row, other] : {std::pair(0, 2), {0, 1}, {1, 0}}) {
     flat = Recompose(AnyParameters(2));
     flat.h[row] = flat.h[other];
-    EXPECT_EQ(Decompose(flat).error().message, "the camera matrix projects the world onto one line") << row;
+    EXPECT_EQ(Decompose(flat).error().message, "the camera matrix projects all points onto one line") << row;
   }
   ProjectionMatrix far = Recompose(AnyParameters(1));
   far.h[2] = {0, 0, 0, 1};

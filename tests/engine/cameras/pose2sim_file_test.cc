@@ -131,10 +131,11 @@ TEST(Pose2SimFile, ReadsPlannedCameras) {
   EXPECT_LT(glm::distance(*Project(camera, target - glm::dvec3(away, 0, 0)), glm::dvec2(800, 300)), 1e-9);
   EXPECT_LT(Project(camera, target + glm::dvec3(0, 0.5, 0))->y, 299);
   for (const auto& [keys, said] :
-       {std::pair("fov_deg = 180\n" + seat, "camera a: fov_deg is 180; allowed: 1 to 170"),
+       {std::pair("fov_deg = 180\n" + seat, "camera a: 'fov_deg' is 180; allowed: 1 to 170"),
         {seat, "camera a has no fov_deg"},
         {"fov_deg = 90\nposition = [0, 1, 2]\nlook_at = [0, 1, 1]\n",
-         "camera a: look_at is the camera's position, or straight above or below it"},
+         "camera a: 'look_at' is at, above or below the camera's position; allowed: a point at another horizontal "
+         "position"},
         {"fov_deg = 90\nposition = [0, 1]\nlook_at = [0, 1, 1]\n", "camera a: position has 2 numbers; allowed: 3"}}) {
     EXPECT_EQ(planned(keys).error().message, said);
   }

@@ -117,14 +117,14 @@ TEST(RefineCamera, RefusesWhatDoesNotDetermineACamera) {
   const std::vector<PointPair> good = Pairs(TrueCamera(), 40, 4, 0);
   EXPECT_EQ(reason(good), "accepted") << "the control";
   EXPECT_THAT(reason(std::span(good).first(5)), HasSubstr("at least 6"));
-  EXPECT_THAT(reason(std::span(good).first(6)), HasSubstr("12 equations for 14 unknowns"));
+  EXPECT_THAT(reason(std::span(good).first(6)), HasSubstr("12 equations, but there are 14 unknowns"));
   std::vector<PointPair> plane = good, line = good, broken = good, swapped = good;
   for (PointPair& pair : plane) pair = {{pair.world.x, pair.world.y, 0}, pair.pixel};
   EXPECT_THAT(reason(plane), HasSubstr("one plane"));
   for (PointPair& pair : line) pair = {{pair.world.x, 2 * pair.world.x, 0}, pair.pixel};
   EXPECT_THAT(reason(line), HasSubstr("one line"));
   broken[7].pixel.y = std::numeric_limits<double>::infinity();
-  EXPECT_THAT(reason(broken), HasSubstr("point pair 8 is not finite"));
+  EXPECT_THAT(reason(broken), HasSubstr("point pair 8 has a coordinate that is not finite"));
 }
 
 TEST(RefineRig, RefusesViewsThatLeaveTheFocalLengthOpen) {
@@ -157,19 +157,21 @@ TEST(RefineRig, SaysWhatIsWrongWithViews) {
     return testing::Message(RefineRig(guess, views, options));
   };
   EXPECT_EQ(reason({{0, 0, pairs}, {1, 1, pairs}, {0, 1, pairs}}), "accepted");
-  EXPECT_EQ(reason({{0, 0, pairs}, {2, 0, pairs}}), "a view names a camera or board that does not exist");
-  EXPECT_EQ(reason({{0, 0, pairs}, {1, 2, pairs}}), "a view names a camera or board that does not exist");
+  EXPECT_EQ(reason({{0, 0, pairs}, {2, 0, pairs}}), "a view refers to a camera or a board that does not exist");
+  EXPECT_EQ(reason({{0, 0, pairs}, {1, 2, pairs}}), "a view refers to a camera or a board that does not exist");
   EXPECT_EQ(reason({{0, 0, pairs}, {0, 1, pairs}}), "camera 2 has no point");
   EXPECT_EQ(reason({{0, 0, pairs}, {1, 0, pairs}, {1, 1, two}}), "the views do not determine the position of board 2");
-  EXPECT_EQ(reason({{0, 0, two}, {1, 1, two}}), "4 points give 8 equations for 34 unknowns; more points are needed");
+  EXPECT_EQ(reason({{0, 0, two}, {1, 1, two}}),
+            "4 points give 8 equations, but there are 34 unknowns; more points are needed");
   EXPECT_EQ(reason({{0, 0, two}, {1, 1, two}}, {.hold_intrinsics = true}),
-            "4 points give 8 equations for 18 unknowns; more points are needed");
+            "4 points give 8 equations, but there are 18 unknowns; more points are needed");
   std::vector<PointPair> broken = pairs;
   broken[3].world.z = std::numeric_limits<double>::quiet_NaN();
-  EXPECT_EQ(reason({{0, 0, pairs}, {1, 1, broken}}), "camera 2: a point pair is not finite");
+  EXPECT_EQ(reason({{0, 0, pairs}, {1, 1, broken}}), "camera 2: a point pair has a coordinate that is not finite");
   broken[3].world = TrueCamera().p_WC + glm::dvec3(5, 0, 5);
   EXPECT_EQ(reason({{0, 0, broken}, {1, 0, pairs}, {1, 1, pairs}}),
-            "in the first estimate, a camera cannot see one of its points; point pairs may be mixed up");
+            "in the first estimate, a point is behind the camera that saw it; are the world points paired with the "
+            "right pixels?");
 }
 
 }  // namespace

@@ -102,7 +102,8 @@ TEST(RigFile, RefusedWithPlaceAndReason) {
   cameras[1].name = "right";
   const std::string good = WriteRig(cameras);
   EXPECT_EQ(reason(good), "accepted");
-  EXPECT_THAT(reason("hello"), HasSubstr("not a calibration; allowed: a rig file of etude calibrate"));
+  EXPECT_THAT(reason("hello"),
+              HasSubstr("this is not a calibration; allowed: a rig file written by `etude calibrate`"));
   EXPECT_THAT(reason(testing::Replaced(good, "\"right\"", "\"left\"")), HasSubstr("two cameras are named left"));
   EXPECT_THAT(reason(testing::Replaced(good, "   T:", "   S:")), HasSubstr("camera left: no T"));
   EXPECT_EQ(reason(testing::Replaced(kQualisys, "viewrotation=\"0\"", "viewrotation=\"90\"")), "accepted");
@@ -144,7 +145,8 @@ TEST(RigFile, RefusesWhateverNumberIsNotFinite) {
 
 // A mirrored camera has a matrix of orthogonal rows, but the determinant -1.
 TEST(RigFile, RefusesAMirroredCameraInEveryFormatWithAMatrix) {
-  const std::string said = "R is not a rotation matrix; it mirrors: its determinant is -1; allowed: 1";
+  const std::string said =
+      "R is not a rotation matrix; it is a reflection, with the determinant -1; allowed: the determinant 1";
   Camera mirrored = TwoCameras().front().camera;
   mirrored.R_CW = glm::dmat3(-1, 0, 0, 0, 1, 0, 0, 0, 1) * mirrored.R_CW;
   EXPECT_EQ(testing::Message(CameraOf(ParametersOf(mirrored))), said);
@@ -303,9 +305,10 @@ TEST(RigPair, OfColmapIsRefusedWithLineAndReason) {
   EXPECT_EQ(reason(camera, image + "12 34 -1\n" + "2 1 0 0 0 0 0 4 1 b.png\n\n"), "2 cameras");
   EXPECT_THAT(reason("\n1 PIN 640 480 600\n", image), HasSubstr("2: camera model PIN; allowed: FULL_OPENCV, OPENCV"));
   EXPECT_THAT(reason("1 PINHOLE 640 480 600 6oo 320 240\n", image), HasSubstr("'6oo' is not a number"));
-  EXPECT_THAT(reason(camera, "1 1 0 0 0 0 0 3 1\n"), HasSubstr("not an image; allowed: IMAGE_ID"));
+  EXPECT_THAT(reason(camera, "1 1 0 0 0 0 0 3 1\n"),
+              HasSubstr("this line does not describe an image; allowed: IMAGE_ID"));
   EXPECT_THAT(reason(camera, "1 1 0 0 0 0 0 3 2 a.png\n"), HasSubstr("camera 2 is not in cameras.txt"));
-  EXPECT_THAT(reason(camera, "# none\n"), HasSubstr("no image in images.txt"));
+  EXPECT_THAT(reason(camera, "# none\n"), HasSubstr("images.txt contains no image"));
   // Each file is named where it is at fault.
   EXPECT_THAT(reason(camera, "1 1 0 0 0 0 0 x 1 a.png\n"), HasSubstr("images.txt:1: 'x' is not a number"));
   EXPECT_THAT(reason("1 PINHOLE 640 0 600 600 320 240\n", "# 1\n# 2\n" + image),
@@ -325,7 +328,7 @@ TEST(RigPair, OfColmapIsNamedAfterFoldersIfImagesHaveOneName) {
   EXPECT_EQ(names({"cam1/a.png", "cam2/b.png"}), "a b ") << "the images' own names";
   EXPECT_EQ(names({"take/cam1/images/1.png", "take/cam2/images/1.png"}), "cam1 cam2 ");
   EXPECT_THAT(names({"cam1/1.png", "cam1/2.png", "cam2/1.png"}),
-              HasSubstr("images.txt: 3 images, of which some share their name, and some their folder's name"));
+              HasSubstr("images.txt: 3 images do not have different file names or different folder names"));
   EXPECT_THAT(names({"1.png", "cam2/1.png"}), HasSubstr("images.txt: 2 images"));
 }
 

@@ -41,7 +41,7 @@ TEST(CalibrateCameras, NamesTheCameraThatCannotBeCalibrated) {
   auto pairs = ExactPairs();
   pairs[1].resize(5);
   EXPECT_THAT(testing::Message(CalibrateCameras(pairs)),
-              ::testing::StartsWith("camera 2: cannot calibrate a camera: 5 point pairs"));
+              ::testing::StartsWith("camera 2: cannot calibrate a camera: found 5 point pairs"));
 }
 
 /// Two cameras with lenses, and their views of a volume.

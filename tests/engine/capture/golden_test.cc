@@ -110,7 +110,7 @@ TEST(CalibrateCameras, NamesTheCameraOfTooFewPairsByEitherMethod) {
   }
   pairs[1].resize(3);
   EXPECT_EQ(CalibrateCameras(pairs).error().message,
-            "camera 2: cannot calibrate a camera: 3 point pairs; at least 6 are needed");
+            "camera 2: cannot calibrate a camera: found 3 point pairs; allowed: at least 6");
   EXPECT_EQ(RefineCameras(pairs, std::vector<PictureSize>(2, PictureSize{640, 480})).error().message,
             CalibrateCameras(pairs).error().message);
 }

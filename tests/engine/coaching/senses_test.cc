@@ -101,16 +101,16 @@ TEST(CheckDance, SaysWhatIsWrong) {
   EXPECT_EQ(complaint([](Dance&) {}), "nothing");
   EXPECT_EQ(complaint([](Dance& d) { d.repetitions[1].end = d.repetitions[1].first + 2; }), "nothing");
   EXPECT_EQ(complaint([](Dance& d) { d.repetitions[1].end = d.repetitions[1].first + 1; }),
-            ", repetition 1: frames 120 to 121; allowed: at least two frames within 120 to 420");
+            ", repetition 1: found frames 120 to 121; allowed: at least two frames in the range 120 to 420");
   EXPECT_EQ(complaint([](Dance& d) { d.repetitions[3].end = d.motion.poses.size(); }), "nothing");
   EXPECT_EQ(complaint([](Dance& d) { d.repetitions[3].end = 421; }),
-            ", repetition 3: frames 300 to 421; allowed: at least two frames within 300 to 420");
+            ", repetition 3: found frames 300 to 421; allowed: at least two frames in the range 300 to 420");
   EXPECT_EQ(complaint([](Dance& d) { d.repetitions[1].first = 119; }),
-            ", repetition 1: frames 119 to 210; allowed: at least two frames within 120 to 420");
+            ", repetition 1: found frames 119 to 210; allowed: at least two frames in the range 120 to 420");
   EXPECT_EQ(complaint([](Dance& d) { d.repetitions[2].move = -1; }),
-            ", repetition 2: there is no move -1; moves are counted from 0, and the dance has 2");
+            ", repetition 2: there is no move -1; moves are counted from 0, and the dance has 2 moves");
   EXPECT_EQ(complaint([](Dance& d) { d.repetitions[1].move = 2; }),
-            ", repetition 1: there is no move 2; moves are counted from 0, and the dance has 2");
+            ", repetition 1: there is no move 2; moves are counted from 0, and the dance has 2 moves");
   EXPECT_EQ(complaint([](Dance& d) { d.repetitions.clear(); }), " has no repetition");
   EXPECT_EQ(complaint([](Dance& d) { d.moves[1].name = "first"; }), ": two moves are named 'first'");
   EXPECT_EQ(complaint([](Dance& d) { d.moves[0].slow.poses.resize(2); }), "nothing");
@@ -122,11 +122,13 @@ TEST(CheckDance, SaysWhatIsWrong) {
             ": the act 'wake' has 0 frames; allowed: at least 2");
   EXPECT_EQ(complaint([](Dance& d) { d.tags[3].frame = 419; }), "nothing");
   EXPECT_EQ(complaint([](Dance& d) { d.tags[3].frame = 420; }),
-            ": a music-time tag at frame 420, 10 s; allowed: a frame below 420, and a finite time");
-  EXPECT_EQ(complaint([](Dance& d) { d.tags[1].frame = d.tags[0].frame; }),
-            ": music-time tags must ascend; frame 30, 4 s comes after frame 30, 1 s");
+            ": a music-time tag has frame 420 and 10 s; allowed: a frame below 420 and a finite time");
+  EXPECT_EQ(
+      complaint([](Dance& d) { d.tags[1].frame = d.tags[0].frame; }),
+      ": found the music-time tag (frame 30, 4 s) after the tag (frame 30, 1 s); allowed: increasing frames and times");
   EXPECT_EQ(complaint([](Dance& d) { d.tags[1].music_s = d.tags[0].music_s; }),
-            ": music-time tags must ascend; frame 120, 1 s comes after frame 30, 1 s");
+            ": found the music-time tag (frame 120, 1 s) after the tag (frame 30, 1 s); allowed: increasing frames and "
+            "times");
 }
 
 }  // namespace

@@ -82,7 +82,7 @@ TEST(Acclaim, AnglesThatAreImpossibleInTheStatedUnitAreTakenInTheOtherOrSaid) {
     const std::vector<std::string>& remarks = facts.remarks;
     EXPECT_EQ(clip->frames, wanted->frames);
     ASSERT_EQ(remarks.size(), 1u);
-    EXPECT_NE(remarks[0].find("angles are taken as degrees"), std::string::npos);
+    EXPECT_NE(remarks[0].find("reads its angles as degrees"), std::string::npos);
   }
   // Radians that are called degrees could be a nearly still body, so the reader only remarks on them.
   const auto said = [&](const std::string& motion) {
@@ -91,7 +91,7 @@ TEST(Acclaim, AnglesThatAreImpossibleInTheStatedUnitAreTakenInTheOtherOrSaid) {
     return facts.remarks.empty() ? "" : facts.remarks[0];
   };
   EXPECT_EQ(said("1\nroot 5 0 0 0 0 0\nupper 1.6 0 0\n"),
-            "its angles stay within 1.6 degrees; if they are radians, add a line :RADIANS");
+            "no angle is larger than 1.6 degrees; if the file's angles are radians, add the line :RADIANS to the file");
   EXPECT_EQ(said(frames), "");
   EXPECT_EQ(said("1\nroot 5 0 0 0 0 0\nupper 0 0 0\n"), "");
 }
@@ -107,7 +107,8 @@ TEST(Acclaim, ARootThatTurnsOnAndOnMayBeInRadians) {
   const int end = clip->skeleton.Find("lower_end");
   ExpectAcclaimNear(AcclaimGlobals(*clip, 0)[end].position, AcclaimGlobals(*wanted, 0)[end].position);
   ASSERT_EQ(remarks.size(), 1u);
-  EXPECT_EQ(remarks[0], "its root turns by 18.85 radians; if its angles are degrees, add a line :DEGREES");
+  EXPECT_EQ(remarks[0],
+            "the root turns by 18.85 radians; if the file's angles are degrees, add the line :DEGREES to the file");
 }
 
 TEST(Acclaim, ABoneWithoutValuesIsRefusedOrSaid) {
@@ -116,15 +117,16 @@ TEST(Acclaim, ABoneWithoutValuesIsRefusedOrSaid) {
   const auto refusal = [&](const std::string& text) {
     return testing::Refusal(ReadAcclaimMotion(text, *skeleton, "a.amc"));
   };
-  EXPECT_EQ(refusal(head + arm + second), "a.amc: bone 'upper' is missing in the last frames");
+  EXPECT_EQ(refusal(head + arm + second),
+            "a.amc: bone 'upper' is missing in the last frame or frames; allowed: each bone once in each frame");
   const char* const once =
-      "bone 'upper' is twice in this frame, or missing in an earlier frame; allowed: once in each frame";
+      "bone 'upper' appears twice in this frame, or is missing in an earlier frame; allowed: each bone once in each "
+      "frame";
   EXPECT_EQ(refusal(head + second + arm), std::string("a.amc:6:1: ") + once);
   EXPECT_EQ(refusal(head + arm + arm), std::string("a.amc:5:1: ") + once);
   AcclaimFacts facts;
   EXPECT_TRUE(ReadAcclaimMotion(head + second, *skeleton, "a.amc", &facts));
-  EXPECT_EQ(facts.remarks,
-            std::vector<std::string>{"these bones have no values in any frame and keep their rest pose: upper"});
+  EXPECT_EQ(facts.remarks, std::vector<std::string>{"bones without values, which keep their rest pose: upper"});
 }
 
 TEST(Acclaim, AMotionMayStateItsRateAndNameOtherFilesInAnyCaseAndOrder) {
@@ -157,7 +159,7 @@ TEST(Acclaim, AMotionMayStateItsRateAndNameOtherFilesInAnyCaseAndOrder) {
 
 TEST(Acclaim, RefusesWhatHasNoBones) {
   EXPECT_EQ(testing::Refusal(ReadAcclaimSkeleton("", "a.asf")),
-            "a.asf: no bones; allowed: an Acclaim skeleton with :root and :bonedata");
+            "a.asf: found no bones; allowed: an Acclaim skeleton with :root and :bonedata");
 }
 
 }  // namespace

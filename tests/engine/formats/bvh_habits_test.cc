@@ -127,15 +127,16 @@ TEST(BvhHabits, OfARowTooManyAreTold) {
   EXPECT_TRUE(remarks.empty()) << "the control";
   ASSERT_OK(clip, ReadBvh(Replaced(kSmallBvh, "Frames: 2", "Frames: 1"), "small.bvh", &remarks));
   EXPECT_EQ(clip->frames.size(), 1u);
-  EXPECT_EQ(remarks, (std::vector<std::string>{"2 rows, but the file announces 1 frames: the last row was dropped"}));
+  EXPECT_EQ(remarks, (std::vector<std::string>{"found 2 rows, but the file states 1 frames, so the last row is left "
+                                               "out"}));
 }
 
 TEST(BvhHabits, OfAnglesInRadiansAreTold) {
   std::vector<std::string> remarks;
   const std::string radians = Replaced(Replaced(kSmallBvh, "1 2 3 90 0", "1 2 3 1.571 0"), "0 0 0 90 0 0", "0 0 0 1.571 0 0");
   ASSERT_TRUE(ReadBvh(radians, "small.bvh", &remarks));
-  EXPECT_EQ(remarks, (std::vector<std::string>{"no joint rotates by more than 1.6 degrees; BVH needs degrees: if the "
-                                               "file's angles are radians, convert them"}));
+  EXPECT_EQ(remarks, (std::vector<std::string>{"no joint rotates by more than 1.6 degrees; if the file's angles are "
+                                               "radians, convert them to degrees, as BVH requires"}));
 }
 
 TEST(BvhHabits, IncludePlacesInTheChannelsAlone) {
@@ -148,7 +149,8 @@ TEST(BvhHabits, IncludePlacesInTheChannelsAlone) {
   EXPECT_EQ(clip->skeleton.joints[1].rest.translation, glm::dvec3(0, 10, 1));
   EXPECT_EQ(clip->frames[1][1].translation, glm::dvec3(0, 11, 1));
   EXPECT_EQ(remarks, (std::vector<std::string>{
-                         "joints with positions and an OFFSET of 0 take their rest positions from the first frame"}));
+                         "joints with position channels and an OFFSET of 0 get their rest positions from the first "
+                         "frame"}));
   // A body that WriteBvh wrote needs no remark.
   remarks.clear();
   const std::string body = Replaced(Replaced(text, "ROOT Hips", "ROOT hip_centre"), "JOINT Arm", "JOINT spine");
@@ -165,8 +167,8 @@ TEST(BvhHabits, IncludePlacesRelativeToTheOffset) {
   EXPECT_EQ(relative->frames[1][0].translation, glm::dvec3(1, 2, 3)) << "the root's places are the world's";
   EXPECT_EQ(relative->frames[1][1].translation, glm::dvec3(0, 10.5, 0));
   EXPECT_EQ(relative->frames[1][2].translation, glm::dvec3(5, 0, .1));
-  EXPECT_EQ(remarks,
-            (std::vector<std::string>{"the joints' positions are relative to their OFFSETs, which were added"}));
+  EXPECT_EQ(remarks, (std::vector<std::string>{"the position channels are relative to the OFFSETs, so Etude added the "
+                                               "OFFSETs"}));
   // The control: absolute positions replace OFFSETs, also for a joint that moves a little.
   ASSERT_OK(absolute, ReadBvh(head + "1 2 3 0 10 0 5 0 0\n1 2 3 0 10.5 0 5 0 .1\n", "absolute.bvh", &remarks));
   EXPECT_EQ(absolute->frames[1][1].translation, glm::dvec3(0, 10.5, 0));
@@ -190,13 +192,15 @@ TEST(BvhHabits, FrameTimesOfFewDigitsAreTakenAndSaid) {
   // 1 / 30 s - 0.033 s = 1 / 3000 s, in 600 frames 0.2 s.
   EXPECT_EQ(RemarksOnFrameTime("0.033", 600),
             std::vector<std::string>{
-                "the Frame Time 0.033 has few digits: it is read as 30.303 Hz, but may be a rounded 1 / 30 s; at 30 Hz "
-                "the 600 frames last 0.2 s longer; `--rate 30` (in convert `--file-rate`) sets this rate"});
-  for (const auto& [time, likely] : {std::pair("0.017", "1 / 60 s; at 60 Hz the 600 frames last 0.2 s sho"),
-                                     {"0.016", "1 / 60 s; at 60 Hz the 600 frames last 0.4 s longer"},
-                                     {"0.0083", "1 / 120 s; at 120 Hz the 600 frames last 0.02 s longer"},
-                                     {"0.042", "1 / 24 s; at 24 Hz the 600 frames last 0.2 s shorter"},
-                                     {"0.0334", "a rounded 1 / 29.97 s;"}}) {
+                "the Frame Time 0.033 has few digits. Etude reads it as 30.303 Hz, but it may be 1 / 30 s, rounded. At "
+                "30 Hz the 600 frames would last 0.2 s longer. Use `--rate 30` (for `etude clip convert`: "
+                "`--file-rate`) to set this rate"});
+  for (const auto& [time, likely] :
+       {std::pair("0.017", "1 / 60 s, rounded. At 60 Hz the 600 frames would last 0.2 s sho"),
+        {"0.016", "1 / 60 s, rounded. At 60 Hz the 600 frames would last 0.4 s longer"},
+        {"0.0083", "1 / 120 s, rounded. At 120 Hz the 600 frames would last 0.02 s longer"},
+        {"0.042", "1 / 24 s, rounded. At 24 Hz the 600 frames would last 0.2 s shorter"},
+        {"0.0334", "it may be 1 / 29.97 s, rounded."}}) {
     const auto remarks = RemarksOnFrameTime(time, 600);
     ASSERT_EQ(remarks.size(), 1u) << time;
     EXPECT_THAT(remarks[0], ::testing::HasSubstr(likely));

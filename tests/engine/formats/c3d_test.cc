@@ -85,7 +85,8 @@ TEST(C3d, TellsOfDataBeyondTheLastFrame) {
   writer.header_frames = 40;
   ASSERT_OK(read, ReadC3d(writer.Write(), "a.c3d"));
   EXPECT_EQ(read->markers.frames.size(), 40u);
-  EXPECT_EQ(read->markers.remark, "data of 60 more frames follow the 40 that its header states; they were not read");
+  EXPECT_EQ(read->markers.remark,
+            "the file contains 60 frames more than the 40 that its header states; Etude did not read them");
   writer.header_frames = 100;
   std::string padded = writer.Write();
   padded.resize(padded.size() + 2000, '\0');
@@ -105,19 +106,22 @@ TEST(C3d, HasAsManyFramesAsPointFramesTells) {
     std::size_t held, header, told, trial, read;
     const char* remark;
   };
-  const char* const cropped = "POINT:FRAMES states 20 frames, which is used; TRIAL states 40; the file holds 20";
-  for (const Case& one : {Case{40, 40, 40, 40, 40, ""}, Case{20, 20, 20, 40, 20, cropped},
-                          Case{20, 40, 20, 0, 20,
-                               "POINT:FRAMES states 20 frames, which is used; its header states 40; the file holds 20"},
-                          Case{40, 40, 40, 20, 40,
-                               "POINT:FRAMES states 40 frames, which is used; TRIAL states 20; the file holds 40"},
-                          Case{70'000, 65'535, 65'535, 70'000, 70'000, ""},
-                          Case{70'000, 65'535, 70'000 - 65'536, 70'000, 70'000, ""}}) {
+  const char* const cropped =
+      "POINT:FRAMES states 20 frames, but TRIAL states 40 and the file contains 20; Etude uses the first number";
+  for (const Case& one :
+       {Case{40, 40, 40, 40, 40, ""}, Case{20, 20, 20, 40, 20, cropped},
+        Case{20, 40, 20, 0, 20,
+             "POINT:FRAMES states 20 frames, but its header states 40 and the file contains 20; "
+             "Etude uses the first number"},
+        Case{40, 40, 40, 20, 40,
+             "POINT:FRAMES states 40 frames, but TRIAL states 20 and the file contains 40; Etude "
+             "uses the first number"},
+        Case{70'000, 65'535, 65'535, 70'000, 70'000, ""}, Case{70'000, 65'535, 70'000 - 65'536, 70'000, 70'000, ""}}) {
     ASSERT_OK(read, ReadC3d(writer(one.held, one.header, one.told, one.trial), "a.c3d"));
     EXPECT_EQ(read->markers.frames.size(), one.read);
     EXPECT_EQ(read->markers.remark, one.remark);
   }
-  EXPECT_EQ(C3dComplaint(writer(20, 20, 40, 20)), "a.c3d: is cut short: it contains 20 of 40 frames");
+  EXPECT_EQ(C3dComplaint(writer(20, 20, 40, 20)), "a.c3d: the file ends too early: it contains 20 of 40 frames");
 }
 
 TEST(C3d, LeavesOutThePointsThatAreNoPositions) {
@@ -132,7 +136,7 @@ TEST(C3d, LeavesOutThePointsThatAreNoPositions) {
   writer.types = "Angle   TURN    MARKER  BODY    ";
   EXPECT_THAT(ReadC3d(writer.Write(), "a.c3d")->markers.names, ::testing::ElementsAre("LSHO", "RSHO", "COFM"));
   writer.lists.push_back({"SCALARS", writer.labels});
-  EXPECT_THAT(C3dComplaint(writer.Write()), HasSubstr("contains no points (angles, forces and"));
+  EXPECT_THAT(C3dComplaint(writer.Write()), HasSubstr("contains no points (Etude does not read angles, forces and"));
 }
 
 TEST(C3d, TakesWhatIsNoNumberForAGap) {
@@ -154,15 +158,16 @@ TEST(C3d, TakesNoMoreNamesThanThereArePoints) {
 TEST(C3d, RefusesWhatIsDamaged) {
   const std::string good = C3dWriter(kIntel, true).Write();
   EXPECT_EQ(C3dComplaint("HIERARCHY"), "a.c3d: no C3D file");
-  EXPECT_EQ(C3dComplaint(good.substr(0, good.size() - 20)), "a.c3d: is cut short: it contains 2 of 3 frames");
+  EXPECT_EQ(C3dComplaint(good.substr(0, good.size() - 20)),
+            "a.c3d: the file ends too early: it contains 2 of 3 frames");
   std::string other = good;
   other[512 + 3] = 7;
-  EXPECT_THAT(C3dComplaint(other), HasSubstr("written by processor type 7; allowed: 84 (Intel), 85 (DEC), 86 (MIPS)"));
+  EXPECT_THAT(C3dComplaint(other), HasSubstr("the processor type is 7; allowed: 84 (Intel), 85 (DEC), 86 (MIPS)"));
   C3dWriter furlongs(kIntel, true), none(kIntel, true), flat(kIntel, true);
   furlongs.unit = "fl";
   none.points = 0;
   flat.scale = 0;
-  EXPECT_EQ(C3dComplaint(furlongs.Write()), "a.c3d: units are 'fl'; allowed: m, cm, mm, in, ft");
+  EXPECT_EQ(C3dComplaint(furlongs.Write()), "a.c3d: found units 'fl'; allowed: m, cm, mm, in, ft");
   EXPECT_THAT(C3dComplaint(none.Write()), HasSubstr("contains no points"));
   EXPECT_THAT(C3dComplaint(flat.Write()), HasSubstr("POINT:SCALE is"));
   for (std::size_t cut = 0; cut < good.size(); cut += 37) EXPECT_NE(C3dComplaint(good.substr(0, cut)), "(read)") << cut;

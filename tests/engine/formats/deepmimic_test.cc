@@ -91,8 +91,8 @@ TEST(DeepMimic, RefusesWhatItIsNot) {
   EXPECT_THAT(DeepMimicComplaint("{\"Frames\": []}"), HasSubstr("no frames"));
   EXPECT_THAT(DeepMimicComplaint(Motion({{0.04, 1, 2}})), HasSubstr("Frames[0] has 3 numbers; allowed: 44"));
   EXPECT_THAT(DeepMimicComplaint(Motion({Standing(), Standing(0.05), Standing()})),
-              HasSubstr("Frames[1][0]: a frame that lasts 0.05 s"));
-  EXPECT_THAT(DeepMimicComplaint(Motion({Standing(0)})), HasSubstr("a frame that lasts 0 s; allowed: 0.0001 to 1 s"));
+              HasSubstr("Frames[1][0]: the frame lasts 0.05 s"));
+  EXPECT_THAT(DeepMimicComplaint(Motion({Standing(0)})), HasSubstr("the frame lasts 0 s; allowed: 0.0001 to 1 s"));
   std::vector<double> flat = Standing();
   flat[4] = 0;
   EXPECT_THAT(DeepMimicComplaint(Motion({flat})), HasSubstr("a quaternion of length 0"));

@@ -77,9 +77,9 @@ TEST(JointCsv, RowsAreReadOneByOneAsInTheFile) {
   EXPECT_EQ(row->places[Index(Role::kHead)], glm::dvec3(1.5, 2, 3));
   EXPECT_TRUE(ReadJointCsvRow("1;1;2;3;run", columns, "m.csv")) << "the control";
   EXPECT_EQ(testing::Refusal(ReadJointCsvRow("1;1;far;3;run", columns, "m.csv")),
-            "m.csv:2: value 3: 'far'; allowed: a number, or nan for a missing one");
+            "m.csv:column 2: found value 3: 'far'; allowed: a number, or nan for a missing value");
   EXPECT_EQ(testing::Refusal(ReadJointCsvRow("1;2e9;2;3;run", columns, "m.csv")),
-            "m.csv:2: value 2: 2000000000; allowed: a number within ±1e+09, or nan for a missing one");
+            "m.csv:2: value 2: found 2000000000; allowed: a number within ±1e+09, or nan for a missing value");
 }
 
 TEST(JointCsv, TakesTabsDecimalCommasQuotesAndTimesSince1970AndLeavesTextsOut) {
@@ -94,33 +94,34 @@ TEST(JointCsv, TakesTabsDecimalCommasQuotesAndTimesSince1970AndLeavesTextsOut) {
     EXPECT_EQ(read->frames[0][Index(Role::kHead)], glm::dvec3(1.5, -2.25, 3)) << separator << point;
     EXPECT_EQ(read->frames[1][Index(Role::kHead)], glm::dvec3(4.5, 5, 6));
     EXPECT_EQ(read->times_s, (std::vector<double>{0, 0.25}));
-    EXPECT_EQ(read->remark, std::string("its times begin at 1600000000 s: they are counted from its first row; ") +
-                                (point == ',' ? "its numbers have decimal commas; " : "") +
-                                "columns with text are left out: label, head_note");
+    EXPECT_EQ(read->remark, std::string("the times begin at 1600000000 s; Etude counts time from the first row; ") +
+                                (point == ',' ? "Etude read commas as decimal points; " : "") +
+                                "Etude left out columns that contain text: label, head_note");
   }
   const auto read = [](const std::string& text) { return testing::Refusal(ReadJointCsv(text, "m.csv")); };
   // Commas that separate thousands.
   const std::string few = "head_x_m;head_y_m;head_z_m\n";
   EXPECT_EQ(
       read(few + "12.5;1;2\n3.5;1,891;2\n"),
-      "m.csv:3:5: value 2: '1,891' has a thousands separator, because other numbers have a decimal point, as 12.5; "
-      "allowed: numbers without one, e.g. 1234.5");
+      "m.csv:3:5: value 2: '1,891' has a thousands separator, because other numbers have a decimal point, such as "
+      "12.5; allowed: numbers without thousands separators, such as 1234.5");
   EXPECT_EQ(read(few + "1;998;2\n3;1,001;2\n"),
-            "m.csv:3:3: value 2: '1,001' has a thousands separator; allowed: numbers without one, e.g. 1234.5");
+            "m.csv:3:3: value 2: '1,001' has a thousands separator; allowed: numbers without thousands separators, "
+            "such as 1234.5");
   for (const char* number : {"1,234.5", "1.234,5", "1,234,567"}) {
     EXPECT_EQ(
         read(few + "1;2;3\n1;" + number + ";3\n"),
-        fmt::format("m.csv:3:3: value 2: '{}'; allowed: a number within ±1e+09, without a thousands separator, or "
-                    "nan for a missing one",
+        fmt::format("m.csv:3:3: value 2: found '{}'; allowed: a number within ±1e+09, without a thousands separator, "
+                    "or nan for a missing value",
                     number));
   }
   EXPECT_TRUE(ReadJointCsv(few + "1;865,636;2\n0;1,234;2\n", "m.csv")) << "the control: each column is alike";
   EXPECT_TRUE(ReadJointCsv(few + "0,5;1,234;2\n1.5;1;2\n", "m.csv")) << "0,5 is a decimal comma";
   EXPECT_EQ(read("head_x_m,head_y_m,head_z_m\n0,1,0,2,0,3\n"),
-            "m.csv:1: 3 headings, but 6 columns; if numbers have decimal commas, columns must be separated by "
+            "m.csv:1: 3 headings, but 6 columns; if the numbers have decimal commas, separate the columns by "
             "semicolons or tabs");
   EXPECT_EQ(read("head_x_m,head_y_m,head_z_m\n1,far,2\n"),
-            "m.csv:2: head_y_m: 'far'; allowed: a number, or nan for a missing one");
+            "m.csv:column 2: found head_y_m: 'far'; allowed: a number, or nan for a missing value");
   // A hundred text columns are ignored; with more, the table is refused.
   const auto texts = [&](int count) {
     std::string text = "head_x_m,head_y_m,head_z_m", row = "\n1,2,3";

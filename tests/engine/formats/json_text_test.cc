@@ -19,13 +19,13 @@ TEST(JsonText, IsReadAsItStands) {
 }
 
 TEST(JsonText, SaysWhereItEndsToBeAny) {
-  EXPECT_EQ(JsonComplaint("[1,\n 2, x]"), "f:2:5: not JSON from here on");
-  EXPECT_EQ(JsonComplaint("[1"), "f:1:3: not JSON from here on");
-  EXPECT_EQ(JsonComplaint(""), "f:1:1: not JSON from here on");
+  EXPECT_EQ(JsonComplaint("[1,\n 2, x]"), "f:2:5: from this place on, the text is not valid JSON");
+  EXPECT_EQ(JsonComplaint("[1"), "f:1:3: from this place on, the text is not valid JSON");
+  EXPECT_EQ(JsonComplaint(""), "f:1:1: from this place on, the text is not valid JSON");
 }
 
 TEST(JsonText, DoesNotEndAtAZeroByte) {
-  EXPECT_EQ(JsonComplaint("[1]\n\0, 2]"sv), "f:2:1: a zero byte, which JSON must not contain");
+  EXPECT_EQ(JsonComplaint("[1]\n\0, 2]"sv), "f:2:1: found a zero byte; allowed: JSON text without zero bytes");
 }
 
 TEST(JsonText, RefusesNumbersThatNoDoubleHolds) { EXPECT_NE(JsonComplaint("[1e999]"), ""); }

@@ -70,11 +70,13 @@ TEST(KinectText, NamesTheLineOfWhatItRefuses) {
   EXPECT_TRUE(KinectComplaint(good + "\nx" + good.substr(1)).starts_with("k.txt:2:1: value 1"));
   EXPECT_TRUE(KinectComplaint(good + "\ninf" + good.substr(3)).starts_with("k.txt:2:1: value 1"));
   EXPECT_TRUE(KinectComplaint(Row(0, true) + "\n" + Row(4000, true)).starts_with("k.txt:2: joint 0 is 4000"));
-  EXPECT_NE(KinectComplaint("1 2 3\n").find("3 values in this row; a Kinect v2 recording has 75"), std::string::npos);
+  EXPECT_NE(KinectComplaint("1 2 3\n").find("found 3 values in this row; allowed for a Kinect v2 recording: 75"),
+            std::string::npos);
   std::string tiny;
   for (int i = 0; i < 75; ++i) tiny += "0.002 ";
   EXPECT_EQ(KinectComplaint(tiny),
-            "k.txt: all joints are within 0.00346 m of the sensor; allowed: positions in metres");
+            "k.txt: all joints are within 0.00346 m of the sensor, so the positions are probably not in metres; "
+            "allowed: positions in metres");
   EXPECT_EQ(KinectComplaint(""), "k.txt: no rows of numbers");
   EXPECT_EQ(KinectComplaint("# only remarks\n"), "k.txt: no rows of numbers");
 }

@@ -70,7 +70,7 @@ TEST(MotionBids, OfOthersHasItsUnitsItsOrderAndItsGaps) {
   ASSERT_TRUE(read) << ToString(read.error());
   EXPECT_EQ(read->frames[0][0], glm::dvec3(1, 2, 0.5));
   EXPECT_FALSE(read->frames[1][0]);
-  EXPECT_EQ(read->remark, "1 channels that are not positions are left out");
+  EXPECT_EQ(read->remark, "Etude left out 1 channels that are not positions");
 }
 
 TEST(MotionBids, LatencyIsTheClockAndMissingValuesAreGaps) {
@@ -87,7 +87,8 @@ TEST(MotionBids, LatencyIsTheClockAndMissingValuesAreGaps) {
     ASSERT_EQ(place.has_value(), k != 10 && (k < 20 || k >= 26)) << k;
     EXPECT_EQ(place.value_or(glm::dvec3((1000 + k) * 0.001, 2, 0.5)), glm::dvec3((1000 + k) * 0.001, 2, 0.5));
   }
-  EXPECT_THAT(read->remark, HasSubstr("SamplingFrequency states 60 Hz, but the channel LATENCY runs at 50 Hz"));
+  EXPECT_THAT(read->remark, HasSubstr("SamplingFrequency states 60 Hz, but the times in the channel LATENCY give 50 "
+                                      "Hz"));
   EXPECT_THAT(read->remark, HasSubstr("6 of 60 frames are missing"));
   // A missing time is refused.
   rows.replace(rows.rfind('\t') + 1, 6, "-9999");
@@ -112,13 +113,14 @@ TEST(MotionBids, SaysWhatIsWrong) {
   EXPECT_THAT(reason("1\t2\n", kChannels), HasSubstr("m.tsv:1: 2 columns, but 4 channels in c.tsv"));
   EXPECT_THAT(reason(row, with("units", "unit")), HasSubstr("c.tsv:1: no column units"));
   EXPECT_THAT(reason(row, with("mm", "furlong")),
-              HasSubstr("c.tsv:2: units are 'furlong'; allowed for POS: m, cm, mm, in, ft"));
-  EXPECT_THAT(reason(row, with("\tx\t", "\tw\t")), HasSubstr("found component 'w'; allowed for POS: x, y, z"));
+              HasSubstr("c.tsv:2: found units 'furlong'; allowed for channels of type POS: m, cm, mm, in, ft"));
+  EXPECT_THAT(reason(row, with("\tx\t", "\tw\t")), HasSubstr("found component 'w'; allowed for channels of type POS: "
+                                                             "x, y, z"));
   EXPECT_THAT(reason(row, with("\ty\t", "\tz\t")), HasSubstr("c.tsv:4: the point 'a' has two channels for z"));
   EXPECT_THAT(reason("1\t2\t3\n", with("a_y\tPOS\ty\ta\tm\n", "")),
               HasSubstr("'a' needs channels for x, y and z, but some are missing"));
   EXPECT_THAT(reason("x\ty\tz\tq\n" + row, kChannels),
-              HasSubstr("found a line of headings; allowed: only rows of numbers"));
+              HasSubstr("found a line with column names; allowed: only rows of numbers"));
 }
 
 }  // namespace

@@ -101,12 +101,14 @@ TEST(Npy, RefusesWhatIsDamagedOrNoNumbers) {
   EXPECT_FALSE(IsNpy(good.substr(1)));
   EXPECT_THAT(reason(good.substr(1)), HasSubstr("is not a .npy file"));
   EXPECT_THAT(reason(good.substr(0, 11)), HasSubstr("is not a .npy file"));
-  EXPECT_THAT(reason(good.substr(0, 40)), HasSubstr("its header is cut short"));
-  EXPECT_THAT(reason(good.substr(0, good.size() - 8)), HasSubstr("has 1 numbers; its shape requires 2"));
+  EXPECT_THAT(reason(good.substr(0, 40)), HasSubstr("the array's header ends too early"));
+  EXPECT_THAT(reason(good.substr(0, good.size() - 8)), HasSubstr("the array has 1 numbers, but its shape requires 2"));
   EXPECT_THAT(reason(NpyOf<double>("<f8", "two", {1, 2})), HasSubstr("its shape is 'two'"));
-  EXPECT_THAT(reason(NpyOf<double>("<f8", "536870912, 2", {1, 2})), HasSubstr("has more numbers than can be read"));
+  EXPECT_THAT(reason(NpyOf<double>("<f8", "536870912, 2", {1, 2})), HasSubstr("the array has more numbers than Etude "
+                                                                              "can read"));
   for (const char* type : {"|O", "<c8", "<U4"}) {
-    EXPECT_THAT(reason(NpyOf<double>(type, "2,", {1, 2})), HasSubstr("does not contain plain numbers")) << type;
+    EXPECT_THAT(reason(NpyOf<double>(type, "2,", {1, 2})), HasSubstr("the array contains other data than numbers"))
+        << type;
   }
 }
 
@@ -164,7 +166,7 @@ TEST(Amass, TakesTheRateThatIsToldAndRefusesNone) {
   npz.arrays.erase("mocap_framerate");
   EXPECT_EQ(ReadAmass(npz, "a.npz", 50)->rate_hz, 50);
   EXPECT_THAT(testing::Refusal(ReadAmass(npz, "a.npz")),
-              HasSubstr("states no frame rate (its arrays: poses, trans); allowed: mocap_framerate"));
+              HasSubstr("states no frame rate (its arrays: poses, trans); allowed: the array mocap_framerate"));
 }
 
 TEST(Amass, TakesTimesAndJointsByThemselves) {
@@ -179,7 +181,7 @@ TEST(Amass, TakesTimesAndJointsByThemselves) {
   npz.arrays.erase("mocap_framerate");
   EXPECT_EQ(ReadAmass(npz, "a.npz")->rate_hz, 2);
   npz.arrays["times"].values = {3, 3};
-  EXPECT_THAT(testing::Refusal(ReadAmass(npz, "a.npz")), HasSubstr("all times in times are equal"));
+  EXPECT_THAT(testing::Refusal(ReadAmass(npz, "a.npz")), HasSubstr("all times in the array times are equal"));
 }
 
 TEST(Amass, RefusesArraysThatAreNoMotion) {
@@ -191,23 +193,29 @@ TEST(Amass, RefusesArraysThatAreNoMotion) {
   };
   EXPECT_EQ(reason([](Npz&) {}), "(read)");
   EXPECT_THAT(reason([](Npz& npz) { npz.arrays.erase("trans"); }),
-              HasSubstr("found the arrays mocap_framerate, poses; allowed: AMASS's poses"));
-  EXPECT_THAT(reason([](Npz& npz) { npz.arrays["poses"].shape = {4, 78}; }), HasSubstr("(frames × 72, 156 or 165)"));
+              HasSubstr("found the arrays mocap_framerate, poses; allowed: the arrays of AMASS"));
+  EXPECT_THAT(reason([](Npz& npz) {
+                npz.arrays["poses"].shape = {4, 78};
+              }),
+              HasSubstr("poses, frames × 72, 156 or 165"));
   EXPECT_THAT(reason([](Npz& npz) {
                 npz.arrays["trans"] = {{1, 3}, {1, 2, 3}};
               }),
-              HasSubstr("trans has 1 frames; poses has 2"));
+              HasSubstr("the array trans has 1 frames, but the array poses has 2"));
   EXPECT_THAT(reason([](Npz& npz) { npz.arrays["poses"] = {{0, 156}, {}}; }), HasSubstr("no frames"));
   EXPECT_THAT(reason([](Npz& npz) { npz.arrays["mocap_framerate"].values = {0.5}; }), HasSubstr("the rate is 0.5 Hz"));
   EXPECT_EQ(reason([](Npz& npz) { npz.arrays["mocap_framerate"].values = {10000}; }), "(read)");
   EXPECT_THAT(reason([](Npz& npz) { npz.arrays["mocap_framerate"].values = {10001}; }),
               HasSubstr("mocap_framerate is 10001; allowed: 0.1 to 10000 Hz"));
-  EXPECT_THAT(reason([](Npz& npz) { npz.arrays["trans"].values[4] = 2e6; }), HasSubstr("trans of frame 1 is 2000000"));
-  EXPECT_THAT(reason([](Npz& npz) { npz.arrays["poses"].values[3] = NAN; }), HasSubstr("poses of frame 0 is nan"));
+  EXPECT_THAT(reason([](Npz& npz) { npz.arrays["trans"].values[4] = 2e6; }),
+              HasSubstr("array trans, frame 1: found 2000000"));
+  EXPECT_THAT(reason([](Npz& npz) { npz.arrays["poses"].values[3] = NAN; }),
+              HasSubstr("array poses, frame 0: found nan"));
   EXPECT_THAT(
       reason([](Npz& npz) { npz.arrays["poses"].values[156 + 4] = -90; }),
       HasSubstr(
-          "poses of frame 1 rotates left_hip by 90 radians; allowed: at most 12.57 (4π); are the values degrees?"));
+          "in frame 1, the array poses rotates left_hip by 90 radians; allowed: at most 12.57 (4π); are the values "
+          "degrees?"));
 }
 
 std::string MotiveTake(const std::string& unit = "Centimeters", const std::string& type = "Bone") {
@@ -244,7 +252,7 @@ TEST(MotiveCsv, TakesTheRateThatIsTold) {
   };
   EXPECT_EQ(reason("Export Frame Rate,60.0", "Export Frame Rate,"), "(read)") << "Capture Frame Rate counts";
   EXPECT_THAT(reason("Export Frame Rate,60.0", "Export Frame Rate,20000"),
-              HasSubstr("Export Frame Rate is missing or out of range; allowed: above 0, up to 10000 Hz"));
+              HasSubstr("'Export Frame Rate' is missing or out of range; allowed: above 0, up to 10000 Hz"));
 }
 
 }  // namespace

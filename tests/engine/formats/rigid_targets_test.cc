@@ -33,7 +33,7 @@ TEST(RigidTargets, TakesQuaternionsOfLengthZeroForUnseenTargetsAndRefusesOddOnes
   ASSERT_OK(unseen, ReadRigidTargets(TargetRow(1, 0), "v.txt"));
   EXPECT_FALSE((*unseen)[0][3]);
   EXPECT_EQ(testing::Refusal(ReadRigidTargets(TargetRow(1) + "\n" + TargetRow(1, 2), "v.txt")),
-            "v.txt:2: target 0: a quaternion of length 2; allowed: 1");
+            "v.txt:2: target 0: the quaternion has length 2; allowed: 1");
   EXPECT_FALSE(ReadRigidTargets("1 2 3\n", "v.txt"));
 }
 

@@ -117,13 +117,14 @@ TEST(RowClock, TimesInOtherUnitsGetTheirRate) {
   EXPECT_EQ(wrong->rate_hz, 30);
   EXPECT_THAT(wrong->remark,
               HasSubstr("the column Time is taken as milliseconds, because as seconds rows would be more"));
-  EXPECT_THAT(wrong->remark, HasSubstr("DataRate states 25 Hz, but the column Time runs at 30 Hz, which is used"));
+  EXPECT_THAT(wrong->remark, HasSubstr("DataRate states 25 Hz, but the times in the column Time give 30 Hz, which is "
+                                       "used"));
 }
 
 TEST(RowClock, HundredthsThatMayBeMillisecondsAreSaid) {
   ASSERT_OK(laid, LayOnClock(RowsCounted(30, 1e-2), "a"));
   EXPECT_NEAR(laid->rate_hz, 300, 1e-6);
-  EXPECT_THAT(laid->remark, HasSubstr("the rate is 300 Hz (as hundredths of a second, it would be 30 Hz; `--rate`, in "
+  EXPECT_THAT(laid->remark, HasSubstr("the rate is 300 Hz (in hundredths of a second, it would be 30 Hz; `--rate`, in "
                                       "convert `--file-rate`, sets it)"));
 }
 
@@ -139,10 +140,10 @@ TEST(RowClock, RatesAboveTenKilohertzAreRefused) {
 TEST(RowClock, EqualTimesLeaveTheStatedRate) {
   ASSERT_OK(laid, LayOnClock(RowsAt(std::vector<double>(20, 4.0), 30), "a"));
   EXPECT_EQ(laid->rate_hz, 30);
-  EXPECT_EQ(laid->remark, "all times in the column Time are equal; DataRate states 30 Hz, which is used");
+  EXPECT_EQ(laid->remark, "all times in the column Time are equal, so Etude uses the rate that DataRate states, 30 Hz");
   ASSERT_OK(brief, LayOnClock(RowsAt(TimesAt(30, 14), 60), "a"));
   EXPECT_EQ(brief->remark,
-            "DataRate states 60 Hz, which is used, but the column Time runs at 30 Hz: 14 rows are too few to tell");
+            "DataRate states 60 Hz, which is used, but the times in the column Time give 30 Hz (from only 14 rows)");
 }
 
 TEST(RowClock, TimesMayBePrintedWithFewDecimals) {
@@ -165,7 +166,7 @@ TEST(RowClock, TimesThatSeveralRowsShareByRoundingKeepTheirRate) {
       EXPECT_NEAR(laid->rate_hz, rate, told > 0 ? 1e-9 : 0.13) << "untold, 119.88 Hz may be 120";
       EXPECT_EQ(laid->frames.size(), 600u);
       EXPECT_LT(FarthestFromCurve(*laid), told > 0 || rate > 119.9 ? 1e-9 : 0.02);
-      EXPECT_THAT(laid->remark, HasSubstr("its times are rounded to 0.01 s, so several rows have the same time"));
+      EXPECT_THAT(laid->remark, HasSubstr("the times are rounded to 0.01 s, so several rows have the same time"));
     }
   }
   // The control: at 100 Hz, a repeated time is a repeated row.
@@ -173,7 +174,7 @@ TEST(RowClock, TimesThatSeveralRowsShareByRoundingKeepTheirRate) {
   times.insert(times.begin() + 30, times[30]);
   ASSERT_OK(twice, LayOnClock(RowsAt(times, 0, 0.01), "a"));
   EXPECT_EQ(twice->rate_hz, 100);
-  EXPECT_EQ(twice->remark, "1 rows repeat another row's time; the last row of each time is used");
+  EXPECT_EQ(twice->remark, "1 rows have the same time as another row; Etude uses the last row of each time");
 }
 
 TEST(RowClock, CoarseTimesKeepTheirRateBesideHoles) {
@@ -204,7 +205,8 @@ TEST(RowClock, CoarseTimesKeepTheirRateBesideHoles) {
   ASSERT_OK(twice, LayOnClock(RowsAt(times, 0, 0.01), "a"));
   EXPECT_EQ(twice->rate_hz, 100);
   EXPECT_EQ(twice->frames.size(), 200u);
-  EXPECT_THAT(twice->remark, HasSubstr("1 rows repeat another row's time; the last row of each time is used"));
+  EXPECT_THAT(twice->remark, HasSubstr("1 rows have the same time as another row; Etude uses the last row of each "
+                                       "time"));
 }
 
 TEST(RowClock, TimesSince1970AndInSmallerUnitsCountFromTheFirstRow) {
@@ -216,7 +218,7 @@ TEST(RowClock, TimesSince1970AndInSmallerUnitsCountFromTheFirstRow) {
     ASSERT_OK(laid, LayOnClock(std::move(rows), "a"));
     EXPECT_EQ(laid->rate_hz, 60) << unit;
     EXPECT_EQ(laid->frames.size(), 90u);
-    EXPECT_THAT(laid->remark, HasSubstr("its times begin at 1600000000 s: they are counted from its first row"));
+    EXPECT_THAT(laid->remark, HasSubstr("the times begin at 1600000000 s; Etude counts time from the first row"));
     EXPECT_THAT(laid->remark, HasSubstr(unit));
     EXPECT_NEAR(laid->start_s.value_or(0), 1.6e9, 1e-3) << "the file's own clock";
   }
@@ -239,7 +241,7 @@ TEST(RowClock, UnevenTimesAreInterpolatedAndTold) {
   for (int k = 0; k < 90; ++k) times.push_back(k / 30.0 + 0.01 * std::sin(1.7 * k) + 0.01);
   ASSERT_OK(laid, LayOnClock(RowsAt(times), "a"));
   EXPECT_NEAR(laid->rate_hz, 30, 0.1);
-  EXPECT_THAT(laid->remark, HasSubstr("uneven times: "));
+  EXPECT_THAT(laid->remark, HasSubstr("the times are uneven, so Etude interpolates "));
   for (const auto& frame : laid->frames) EXPECT_TRUE(frame[0]);
   EXPECT_LT(FarthestFromCurve(*laid, times.front()), 0.005) << "as even rows they are 12 mm off";
 }
@@ -255,7 +257,7 @@ TEST(RowClock, RowsInBurstsAreEvenlySpaced) {
       EXPECT_NEAR(laid->rate_hz, 30, 1e-9);
       EXPECT_EQ(laid->frames.size(), 300u);
       EXPECT_LT(FarthestFromCurve(*laid), 1e-9);
-      EXPECT_THAT(laid->remark, HasSubstr("its times come in bursts"));
+      EXPECT_THAT(laid->remark, HasSubstr("rows arrive in bursts"));
     }
   }
 }
@@ -275,7 +277,7 @@ TEST(RowClock, JitterMakesNoRowMissing) {
 TEST(RowClock, TheRateThatAHeaderTellsYieldsToTheTimes) {
   ASSERT_OK(other, LayOnClock(RowsAt(TimesAt(29.97, 300), 30), "a"));
   EXPECT_NEAR(other->rate_hz, 29.97, 1e-9);
-  EXPECT_EQ(other->remark, "DataRate states 30 Hz, but the column Time runs at 29.97 Hz, which is used");
+  EXPECT_EQ(other->remark, "DataRate states 30 Hz, but the times in the column Time give 29.97 Hz, which is used");
   EXPECT_LT(FarthestFromCurve(*other), 1e-9);
   ASSERT_OK(missing, LayOnClock(RowsAt(TimesAt(30, 60, 20, 35), 30), "a"));
   EXPECT_EQ(missing->rate_hz, 30) << "a mean rate would be 22.4 Hz";
@@ -289,7 +291,7 @@ TEST(RowClock, OfEqualTimesTheLastCounts) {
   ASSERT_OK(laid, LayOnClock(std::move(rows), "a"));
   EXPECT_EQ(laid->frames.size(), 40u);
   EXPECT_LT(FarthestFromCurve(*laid), 1e-9);
-  EXPECT_EQ(laid->remark, "1 rows repeat another row's time; the last row of each time is used");
+  EXPECT_EQ(laid->remark, "1 rows have the same time as another row; Etude uses the last row of each time");
 }
 
 TEST(RowClock, RefusesWhatIsNoClock) {
@@ -303,13 +305,12 @@ TEST(RowClock, RefusesWhatIsNoClock) {
   const double nan = std::nan("");
   EXPECT_EQ(reason({0, 0.1, 0.05}), "a:4: the time 0.05 s follows 0.1 s; allowed: times that do not decrease");
   EXPECT_EQ(reason({0, nan, 0.1}), "a:3: this row has no time, but other rows have one");
-  EXPECT_EQ(reason({0, 0.1, 700}),
-            "a:4: the time 700 s follows 0.1 s; allowed: a clock that advances by at most 600 s per row");
+  EXPECT_EQ(reason({0, 0.1, 700}), "a:4: the time 700 s follows 0.1 s; allowed: at most 600 s between rows");
   EXPECT_THAT(reason({0, 1e-4, 2e-4, 500}, 3),
-              HasSubstr("allowed: 1e+07 missing values in total, with 3 values per frame"));
+              HasSubstr("allowed: 1e+07 missing values in total, at 3 values per frame"));
   EXPECT_EQ(
       reason({0, 0, 0, 0, 0, 0, 1, 2, 2, 2, 2, 2, 2}),
-      "a: 13 rows have only 3 different times; allowed: times with more decimals, or frame numbers instead of times");
+      "a: 13 rows have only 3 different times; allowed: times with enough decimals, or frame numbers instead of times");
   EXPECT_EQ(reason({nan, nan, nan}), "no complaint");
   EXPECT_EQ(reason({4, 4, 4}), "no complaint") << "a column that tells nothing";
 }
@@ -351,7 +352,7 @@ TEST(RowClock, OfMotiveIsItsColumnTimeElseItsFrameNumbers) {
     EXPECT_FALSE(take->frames[110][0]);
     EXPECT_LT(FarthestFromCurve(*take), 2e-6);
     EXPECT_THAT(take->remark,
-                HasSubstr("210 rows, but Total Exported Frames is 240; the times show that 30 of 240 frames"));
+                HasSubstr("found 210 rows, but 'Total Exported Frames' is 240; by their times, 30 of 240 frames"));
   }
 }
 
@@ -404,7 +405,7 @@ TEST(RowClock, FrameNumbersThatBeginLaterAreSaidWhereThereAreNoTimes) {
     return LayOnClock(std::move(rows), "a")->remark;
   };
   EXPECT_EQ(remark(11, false),
-            "its rows have no times, and their frame numbers begin at 11; the first row gets time 0");
+            "the rows have frame numbers from 11 on, but no times; Etude gives the first row time 0");
   for (const double usual : {0.0, 1.0}) EXPECT_EQ(remark(usual, false), "");
   EXPECT_EQ(remark(11, true), "");
 }

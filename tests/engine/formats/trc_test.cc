@@ -83,13 +83,12 @@ TEST(ReadTrc, TakesTheRateOfItsTimesWhereDataRateIsAnother) {
   ASSERT_OK(read, ReadTrc(AtFiftyHertz(100, 60), "a.trc"));
   EXPECT_EQ(read->rate_hz, 50);
   EXPECT_EQ(read->start_s, 7) << "the first time of the file";
-  EXPECT_EQ(read->remark, "DataRate states 100 Hz, but the column Time runs at 50 Hz, which is used");
+  EXPECT_EQ(read->remark, "DataRate states 100 Hz, but the times in the column Time give 50 Hz, which is used");
   const auto alike = ReadTrc(AtFiftyHertz(51, 60), "a.trc"), brief = ReadTrc(AtFiftyHertz(100, 20), "a.trc");
   EXPECT_EQ(alike->rate_hz, 50) << "at the end they are a frame apart";
   EXPECT_EQ(brief->rate_hz, 100) << "so few times tell no rate";
-  EXPECT_EQ(
-      brief->remark,
-      "DataRate states 100 Hz, which is used, but the column Time runs at 50 Hz: 20 rows are too few to tell");
+  EXPECT_EQ(brief->remark,
+            "DataRate states 100 Hz, which is used, but the times in the column Time give 50 Hz (from only 20 rows)");
 }
 
 TEST(ReadTrc, SaysWhereFrameNumbersJumpAndTimesDoNot) {
@@ -100,8 +99,8 @@ TEST(ReadTrc, SaysWhereFrameNumbersJumpAndTimesDoNot) {
     text.replace(text.rfind(old), old.size(), fmt::format("\n{}\t", t + 20));
   }
   EXPECT_EQ(ReadTrc(text, "a.trc")->remark,
-            "the frame numbers go from 30 to 51, but the column Time advances by 0.02 s, the time of 1 frames; the "
-            "times are used");
+            "the frame numbers go from 30 to 51, but the times in the column Time advance by 0.02 s, the duration of 1 "
+            "frames; Etude uses the times");
 }
 
 TEST(ReadTrc, RefusesARowThatLacksACoordinate) {
@@ -181,7 +180,7 @@ TEST(ReadTrc, TakesDecimalCommasAndSaysSo) {
   ASSERT_OK(pointed, ReadTrc(WriteTrc(Steps(), "steps"), "a.trc"));
   ASSERT_OK(read, ReadTrc(commas, "a.trc"));
   EXPECT_EQ(read->frames, pointed->frames);
-  EXPECT_EQ(read->remark, "its numbers have decimal commas");
+  EXPECT_EQ(read->remark, "Etude read commas as decimal points");
   EXPECT_EQ(pointed->remark, "");
   // A control: a comma between thousands, beside times with decimal points.
   std::string thousands = WriteTrc(Steps(), "steps");

@@ -55,8 +55,7 @@ TEST(MedianBody, HasTheBonesOfMostFrames) {
 TEST(MedianBody, SaysWhichBoneNobodySaw) {
   std::vector<LandmarkPositions> frames = Walk(0);
   for (LandmarkPositions& frame : frames) frame[Index(Landmark::kRightElbow)].reset();
-  EXPECT_THAT(testing::Message(MedianBody(frames)),
-              HasSubstr("no frame shows right_elbow and right_shoulder together"));
+  EXPECT_THAT(testing::Message(MedianBody(frames)), HasSubstr("no frame shows both right_elbow and right_shoulder"));
 }
 
 TEST(FitPerson, GivesAKnownMotionBack) {

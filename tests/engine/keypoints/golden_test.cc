@@ -63,7 +63,7 @@ TEST(KeypointsGolden, PeopleRecoveredAndAdjusted) {
 
 TEST(MedianBody, SaysWhatNoFrameShows) {
   const auto none = MedianBody(std::vector<LandmarkPositions>(3));
-  EXPECT_EQ(none.error().message, "no frame shows spine and hip_centre together");
+  EXPECT_EQ(none.error().message, "no frame shows both spine and hip_centre");
 }
 
 }  // namespace

@@ -163,15 +163,17 @@ TEST(GuessSession, LeavesASessionThatIsAsSaid) {
 TEST(GuessSession, ReadsKeypointsAsTheyWereMeant) {
   const double side = 1280, bar = 0.5 * (1280 - 720);
   const std::vector<std::pair<std::string, std::function<glm::dvec2(glm::dvec2)>>> mistakes = {
-      {"keypoints count v from the picture's bottom", [](glm::dvec2 p) { return glm::dvec2(p.x, 720 - p.y); }},
+      {"keypoints have their origin at the bottom of the picture",
+       [](glm::dvec2 p) { return glm::dvec2(p.x, 720 - p.y); }},
       {"keypoints have x and y exchanged", [](glm::dvec2 p) { return glm::dvec2(p.y, p.x); }},
       {"keypoints of all films are mirrored", [](glm::dvec2 p) { return glm::dvec2(1280 - p.x, p.y); }},
-      {"keypoints are relative to a square around the picture",
+      {"keypoint coordinates are fractions of the side of a square around the picture",
        [&](glm::dvec2 p) { return (p + glm::dvec2(0, bar)) / side * kPicture; }},
-      {"keypoints are relative to the picture's longer side", [&](glm::dvec2 p) { return p / side * kPicture; }},
-      {"keypoints are of pictures 0.5 times as large", [](glm::dvec2 p) { return 0.5 * p; }},
-      {"keypoints are of pictures 1.5 times as large", [](glm::dvec2 p) { return 1.5 * p; }},
-      {"keypoints are of pictures 3 times as large", [](glm::dvec2 p) { return 3.0 * p; }}};
+      {"keypoint coordinates are fractions of the longer side of the picture",
+       [&](glm::dvec2 p) { return p / side * kPicture; }},
+      {"keypoints belong to pictures 0.5 times as large", [](glm::dvec2 p) { return 0.5 * p; }},
+      {"keypoints belong to pictures 1.5 times as large", [](glm::dvec2 p) { return 1.5 * p; }},
+      {"keypoints belong to pictures 3 times as large", [](glm::dvec2 p) { return 3.0 * p; }}};
   const auto truth = FilmedWalker();
   for (const auto& [told, mistake] : mistakes) {
     auto films = truth;
@@ -240,7 +242,7 @@ TEST(GuessSession, FindsWhichFilmsWereExchanged) {
   auto films = FilmedWalker();
   std::swap(films[1].camera, films[3].camera);
   const SessionGuess guess = GuessSession(films, kFilms, glm::dmat3(1), 0.1);
-  EXPECT_THAT(guess.mended, StartsWith("films or keypoints of cam2 and cam4 are exchanged: "));
+  EXPECT_THAT(guess.mended, StartsWith("the films or the keypoints of cam2 and cam4 are exchanged: "));
   EXPECT_EQ(guess.cameras[1].p_WC, Pinholes()[1].p_WC);
   EXPECT_EQ(guess.cameras[3].p_WC, Pinholes()[3].p_WC);
 }
@@ -249,10 +251,10 @@ TEST(GuessSession, ReadsPosesOfOtherConventions) {
   const glm::dmat3 R_WF(0, 0, 1, 1, 0, 0, 0, 1, 0);  // Z up in the file
   const glm::dmat3 opengl(1, 0, 0, 0, -1, 0, 0, 0, -1);
   for (const auto& [is_inverse, is_opengl, told] :
-       {std::tuple(true, false, "the rig's poses transform from its cameras to the world: "),
-        {false, true, "the rig's cameras look along -z, y up: "},
+       {std::tuple(true, false, "the poses in the rig file are from camera to world: "),
+        {false, true, "the rig's cameras look along -z, with y up: "},
         {true, true,
-         "the rig's poses transform from its cameras to the world, and the cameras look along -z, y up: "}}) {
+         "the poses in the rig file are from camera to world, and the cameras look along -z, with y up: "}}) {
     auto films = FilmedWalker();
     for (PictureOfFilm& film : films) {
       Camera& camera = film.camera;  // the other convention, p_C = R p_F + t

@@ -65,8 +65,8 @@ TEST(PlaceRig, LeavesARigAsItIsWhoseUnitAndAxesFitThePerson) {
   EXPECT_NEAR(place->stature_m, 1.7, 1e-9);
   EXPECT_EQ(
       place->told,
-      "lengths in m (legs of 0.85 m from hip to ankle); up is y (the person leans 5° from it), the floor as in the "
-      "file");
+      "lengths in m (legs of 0.85 m from hip to ankle); up is y (the person leans 5° from this axis); the floor is as "
+      "in the file");
 }
 
 TEST(PlaceRig, FindsTheUnitThatMakesItAPerson) {
@@ -76,14 +76,15 @@ TEST(PlaceRig, FindsTheUnitThatMakesItAPerson) {
     EXPECT_DOUBLE_EQ(place->scale, metres) << name;
     EXPECT_NEAR(place->stature_m, 1.7, 1e-9) << name;
     EXPECT_THAT(place->told,
-                HasSubstr(std::string("lengths in ") + name + " (found: legs of 0.85 m from hip to ankle; in m "));
+                HasSubstr(std::string("lengths in ") + name +
+                          " (this unit gives legs of 0.85 m from hip to ankle; in m the legs would be "));
   }
   const auto child = PlaceRig(SomeRig(), Stander([](glm::dvec3 p) { return p * 350.0; }), kPlaceRate, {});
   EXPECT_DOUBLE_EQ(child.value().scale, 0.001) << "0.6 m tall: nobody else's unit makes that";
   EXPECT_THAT(
       testing::Message(PlaceRig(SomeRig(), Stander([](glm::dvec3 p) { return p * 1e5; }), kPlaceRate, {})),
-      HasSubstr("the legs are 8.5e+04 units long from hip to ankle, which is no person's length in m, cm, mm, inch, "
-                "foot; for a person of 1.7 m: about --rig-unit 1e-05"));
+      HasSubstr("the legs are 8.5e+04 units long from hip to ankle, which is impossible for a person in each of the "
+                "units m, cm, mm, inch, foot; for a person of 1.7 m, use about --rig-unit 1e-05"));
 }
 
 TEST(PlaceRig, TakesTheUnitThatIsToldAndNoOtherPersonThanOne) {
@@ -91,20 +92,20 @@ TEST(PlaceRig, TakesTheUnitThatIsToldAndNoOtherPersonThanOne) {
   rig.has_unit = false;
   const auto points = Stander([](glm::dvec3 p) { return p * 4.0; });
   EXPECT_THAT(testing::Message(PlaceRig(rig, points, kPlaceRate, {})),
-              HasSubstr("for a person of 1.7 m it is about 0.25 m"));
+              HasSubstr("for a person of 1.7 m, the unit is about 0.25 m"));
   ASSERT_OK(told, PlaceRig(rig, points, kPlaceRate, {.unit = "0.3"}));
   EXPECT_DOUBLE_EQ(told->scale, 0.3);
   EXPECT_THAT(told->told, HasSubstr("lengths in units of 0.3 m (as given; legs of 1.02 m from hip to ankle)"));
   for (const char* unit : {"mm", "0.4"}) {
     EXPECT_THAT(testing::Message(PlaceRig(rig, points, kPlaceRate, {.unit = unit})),
-                HasSubstr("allowed: 0.25 to 1.1 m; for a person of 1.7 m: about --rig-unit 0.25"))
+                HasSubstr("allowed: 0.25 to 1.1 m; for a person of 1.7 m, use about --rig-unit 0.25"))
         << unit;
   }
   // If a person's legs are 12 % short, the message suggests the correct unit, and not a scale that lengthens the legs.
   const auto shorter = Stander([](glm::dvec3 p) { return 0.88 * p; });
   EXPECT_EQ(testing::Message(PlaceRig(SomeRig(), shorter, kPlaceRate, {.unit = "mm"})),
-            "in mm the person would have legs of 0.000748 m from hip to ankle; allowed: 0.25 to 1.1 m; --rig-unit m "
-            "gives legs of 0.748 m");
+            "with lengths in mm, the person would have legs of 0.000748 m from hip to ankle; allowed: 0.25 to 1.1 m; "
+            "--rig-unit m gives legs of 0.748 m");
 }
 
 TEST(PlaceRig, FindsTheAxisThatIsUpAndTheFloorUnderTheFeet) {
@@ -115,7 +116,7 @@ TEST(PlaceRig, FindsTheAxisThatIsUpAndTheFloorUnderTheFeet) {
         PlaceRig(SomeRig(), Stander([&](glm::dvec3 p) { return R * (p + glm::dvec3(0, 0.5, 0)); }, 6), kPlaceRate, {});
     ASSERT_TRUE(place) << name;
     EXPECT_THAT(place->told, HasSubstr(std::string("up is ") + name + " (found: resting feet)"));
-    EXPECT_THAT(place->told, HasSubstr("the floor under the feet"));
+    EXPECT_THAT(place->told, HasSubstr("the floor is under the feet"));
     const glm::dvec3 floor = (*place)(R * glm::dvec3(0.3, 0.5, 0.2)), above = (*place)(R * glm::dvec3(0.3, 1.5, 0.2));
     EXPECT_NEAR(floor.y, 0, 1e-9) << name;
     EXPECT_LT(glm::distance(above - floor, glm::dvec3(0, 1, 0)), 1e-9) << name;
@@ -129,8 +130,8 @@ TEST(PlaceRig, PutsAWorldThatIsACamerasFrameSquareToTheFloorOfTheFeet) {
   const auto to_camera = [&](glm::dvec3 p) { return first.R_CW * (p - first.p_WC); };
   for (const double lean_deg : {0.0, 8.0}) {
     ASSERT_OK(place, PlaceRig(rig, Stander(to_camera, lean_deg), kPlaceRate, {}));
-    EXPECT_THAT(place->told, HasSubstr("up is found from resting feet, to within 1."));
-    EXPECT_THAT(place->told, HasSubstr("(the world was cam1's own frame)"));
+    EXPECT_THAT(place->told, HasSubstr("the up direction is found from resting feet, to within 1."));
+    EXPECT_THAT(place->told, HasSubstr("(the world frame was that of camera cam1)"));
     for (const glm::dvec3 p : {glm::dvec3(0), glm::dvec3(0.8, 0, 0.6), glm::dvec3(0, 1.7, 0)}) {
       EXPECT_NEAR((*place)(to_camera(p)).y, p.y, 0.003) << lean_deg;
     }
@@ -142,8 +143,8 @@ TEST(PlaceRig, TellsOfAFloorThatIsOffLevelAndLevelsItWhenAsked) {
   ASSERT_OK(kept, PlaceRig(SomeRig(), tilted, kPlaceRate, {}));
   EXPECT_TRUE(kept->IsNone());
   EXPECT_THAT(kept->told,
-              HasSubstr("; according to resting feet, up is 12° away from this axis: if that is right, give --rig-up "
-                        "floor"));
+              HasSubstr("; according to resting feet, the up direction is 12° away from this axis; if the up direction "
+                        "is right, use --rig-up floor"));
   ASSERT_OK(level, PlaceRig(SomeRig(), tilted, kPlaceRate, {.up = "floor"}));
   const glm::dvec3 up = level->R * TurnAboutX(12) * glm::dvec3(0, 1, 0);
   EXPECT_GT(up.y, std::cos(Radians(0.1)));
@@ -157,7 +158,7 @@ TEST(PlaceRig, RefusesAPersonUpsideDownAndFramesWithoutOne) {
   const auto down = PlaceRig(SomeRig(), points, kPlaceRate, {.up = "-y"});
   ASSERT_FALSE(down);
   EXPECT_THAT(down.error().message, HasSubstr("with -y up, everything would be upside down: this axis is 180° away "
-                                              "from the up direction, which is known from "));
+                                              "from the up direction found from "));
   ASSERT_OK(side, PlaceRig(SomeRig(), points, kPlaceRate, {.up = "x"})) << "lying is allowed";
   EXPECT_LT(glm::distance(side->R * glm::dvec3(1, 0, 0), glm::dvec3(0, 1, 0)), 1e-12);
   EXPECT_NEAR(glm::determinant(side->R), 1, 1e-12);
@@ -185,21 +186,28 @@ TEST(PlaceRig, WithoutAPersonTakesWhatIsTold) {
   EXPECT_DOUBLE_EQ(PlaceRig(rig, {.unit = "mm"})->scale, 0.1);
   EXPECT_THAT(PlaceRig(rig, {.up = "floor"}).error().message, HasSubstr("the rig does not show which direction is up; give"));
   rig.cameras.push_back({"eye", Camera{}});
-  EXPECT_THAT(PlaceRig(rig, {}).error().message, HasSubstr("the rig does not show which direction is up in eye's own frame"));
+  EXPECT_THAT(PlaceRig(rig, {}).error().message, HasSubstr("the rig does not show which direction is up, because the "
+                                                           "world frame is that of camera eye"));
   rig.has_unit = false;
-  EXPECT_THAT(PlaceRig(rig, {.up = "y"}).error().message, HasSubstr("Pose2Sim's lengths have no unit"));
+  EXPECT_THAT(PlaceRig(rig, {.up = "y"}).error().message,
+              HasSubstr("a calibration of the format Pose2Sim has no unit of length"));
   EXPECT_TRUE(PlaceRig(rig, {.unit = "inch", .up = "y"}));
 }
 
 TEST(PlaceRig, TellsWhichAxesOfTheFileAreOurs) {
   RigFile rig = SomeRig();
   rig.R_WF = glm::dmat3(0, 0, 1, 1, 0, 0, 0, 1, 0);  // (x, y, z) of the file is our (y, z, x)
-  EXPECT_EQ(PlaceRig(rig, {})->told, "lengths in m; up is z, as in the format; x is the file's y, z its x, up its z");
+  EXPECT_EQ(PlaceRig(rig, {})->told,
+            "lengths in m; up is z, as in the format; Etude's x is the file's y, Etude's z is "
+            "the file's x, and up is the file's z");
   EXPECT_EQ(PlaceRig(rig, {.unit = "mm", .up = "-y", .floor = "0.2"})->told,
-            "lengths in mm; up is -y (as given), the floor at height 0.2 m; x is the file's z, z its x, up its -y");
+            "lengths in mm; up is -y (as given); the floor is at height 0.2 m; Etude's x is the file's z, Etude's z is "
+            "the file's x, and up is the file's -y");
   EXPECT_EQ(PlaceRig(SomeRig(), {})->told, "lengths in m; up is y, as in the format") << "the axes are the same";
   ASSERT_OK(seen, PlaceRig(rig, Stander([](glm::dvec3 p) { return p; }), kPlaceRate, {}));
-  EXPECT_THAT(seen->told, ::testing::EndsWith("the floor as in the file; x is the file's y, z its x, up its z"));
+  EXPECT_THAT(seen->told,
+              ::testing::EndsWith("the floor is as in the file; Etude's x is the file's y, Etude's z is the "
+                                  "file's x, and up is the file's z"));
 }
 
 /// Returns four cameras around a person, 1 to 3 m high, in a file whose axes are `R_FW` times ours, but whose format
@@ -248,7 +256,8 @@ TEST(PlaceRig, NamesCamerasBelowTheFloor) {
   EXPECT_EQ(PlaceRig(rig, {})->doubt, "") << "within the error of a calibration";
   rig.cameras[1].camera.p_WC.y = -0.84;
   const std::string said =
-      "cameras lie below the floor: c2 by 0.84 m; --rig-up sets the rig's up axis, and --floor its floor";
+      "cameras are below the floor: c2 by 0.84 m; use --rig-up to set the rig's up axis, and --floor to set the height "
+      "of the floor";
   EXPECT_EQ(PlaceRig(rig, {})->doubt, said);
   EXPECT_EQ(PlaceRig(rig, Stander([](glm::dvec3 p) { return p; }), kPlaceRate, {})->doubt, said);
   EXPECT_THAT(PlaceRig(RigOnItsSide(glm::dmat3(1)), {.up = "-y"})->doubt, HasSubstr("c1 by 2.20 m, c2 by 1.50 m"));
@@ -263,10 +272,11 @@ TEST(PlaceRig, RefusesDistancesThatNoRigHas) {
   };
   for (const double metres : {0.0, 0.05, 4.0, 90.0}) EXPECT_TRUE(PlaceRig(apart(metres), {})) << metres;
   EXPECT_EQ(PlaceRig(apart(6122), {}).error().message,
-            "with lengths in m, the rig's cameras are 6122 m apart; allowed: 0.03 to 100 m, or give the unit by "
-            "--rig-unit; 6.12 m in mm");
-  EXPECT_THAT(PlaceRig(apart(400), {}).error().message, HasSubstr("--rig-unit; 4 m in cm, 10.2 m in inch"));
-  EXPECT_THAT(PlaceRig(apart(0.004), {}).error().message, ::testing::EndsWith("or give the unit by --rig-unit"));
+            "with lengths in m, the rig's cameras are 6122 m apart; allowed: 0.03 to 100 m; use --rig-unit to set the "
+            "unit: 6.12 m apart with mm");
+  EXPECT_THAT(PlaceRig(apart(400), {}).error().message,
+              HasSubstr("--rig-unit to set the unit: 4 m apart with cm, 10.2 m apart with inch"));
+  EXPECT_THAT(PlaceRig(apart(0.004), {}).error().message, ::testing::EndsWith("use --rig-unit to set the unit"));
   EXPECT_TRUE(PlaceRig(apart(6122), {.unit = "m"})) << "who gives the unit is believed";
 }
 
@@ -274,11 +284,12 @@ TEST(PlaceRig, RefusesWordsThatMeanNothing) {
   EXPECT_TRUE(CheckPlace({.unit = "0.0254", .up = "-x", .floor = "-1.5"}));
   for (const char* unit : {"metre", "0", "-1", "1m", "inf", ""}) {
     EXPECT_THAT(testing::Message(CheckPlace({.unit = unit})),
-                HasSubstr("allowed: auto, m, cm, mm, inch, foot, or metres in one unit"))
+                HasSubstr("allowed: auto, m, cm, mm, inch, foot, or the metres in one unit"))
         << unit;
   }
   EXPECT_THAT(CheckPlace({.up = "w"}).error().message, HasSubstr("allowed: auto, floor, x, y, z, -x, -y, -z"));
-  EXPECT_THAT(CheckPlace({.floor = "low"}).error().message, HasSubstr("allowed: auto, keep, feet, or its height"));
+  EXPECT_THAT(CheckPlace({.floor = "low"}).error().message,
+              HasSubstr("allowed: auto, keep, feet, or the height of the floor"));
 }
 
 TEST(Placed, CamerasShowPlacedPointsWhereTheyShowedThemBefore) {

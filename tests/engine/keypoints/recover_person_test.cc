@@ -190,11 +190,11 @@ TEST(RecoverPerson, RefusesWhatIsNoSession) {
   const double sine = std::sin(Radians(10)), cosine = std::cos(Radians(10));
   moved[1].R_CW = glm::transpose(glm::dmat3(1, 0, 0, 0, cosine, -sine, 0, sine, cosine)) * moved[1].R_CW;
   EXPECT_THAT(testing::Message(Recover(moved, std::span(people).first(2), WalkOptions())),
-              HasSubstr("no person is seen consistently"));
+              HasSubstr("no two cameras see the same person at the same place"));
   RecoverPersonOptions third = WalkOptions();
   third.person = 2;
   EXPECT_THAT(Recover(cameras, people, third).error().message,
-              HasSubstr("there is no person 3; people seen by two cameras or more: 2"));
+              HasSubstr("there is no person 3; number of people seen by two or more cameras: 2"));
 }
 
 TEST(BridgePoints, FillsShortGapsStraightAndNoLongOnes) {

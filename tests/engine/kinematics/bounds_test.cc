@@ -59,24 +59,26 @@ TEST(Faults, BeginRightBeyondTheirBounds) {
   using O = IkOptions;
   EXPECT_EQ(fault([](T&, P& p, O&) { p.start.root_position.y = 1e6; }), "");
   EXPECT_EQ(fault([](T&, P& p, O&) { p.start.root_position.y = 1.0001e6; }),
-            "the root's position is not finite or too large, or its axes are not orthonormal");
+            "the root's position is not finite or too large, or the root's axes are not orthonormal");
   EXPECT_EQ(fault([](T&, P& p, O&) { p.start.root_frame[0] *= 1 + 0.9e-6; }), "");
   EXPECT_EQ(fault([](T&, P& p, O&) { p.start.root_frame[0] *= 1 + 1.1e-6; }),
-            "the root's position is not finite or too large, or its axes are not orthonormal");
+            "the root's position is not finite or too large, or the root's axes are not orthonormal");
   EXPECT_EQ(fault([](T&, P& p, O&) { p.start.angles[3] = -1e6; }), "");
   EXPECT_EQ(fault([](T&, P& p, O&) { p.start.angles[3] = -1.0001e6; }), "a start angle is not finite");
   EXPECT_EQ(fault([](T&, P& p, O&) { p.limits[3] = {0.5, 0.5}; }), "");
   EXPECT_EQ(fault([](T&, P& p, O&) {
               p.limits[3] = {0.5, 0.4999};
             }),
-            "a limit is not finite or too large, or its lower bound is above its upper bound");
+            "an angle limit is not finite or too large, or a lower limit is above the upper limit");
   EXPECT_EQ(fault([](T&, P& p, O&) { p.targets[1].axis_weights.y = 1e6; }), "");
   EXPECT_EQ(fault([](T&, P& p, O&) { p.targets[1].position_weight = 1.1e6; }),
             "a target is invalid; allowed: a finite position, orthonormal axes, finite weights of 0 or more");
   EXPECT_EQ(fault([](T&, P& p, O&) { p.targets[2].axis_weights.y = -1e-9; }),
             "a target is invalid; allowed: a finite position, orthonormal axes, finite weights of 0 or more");
-  EXPECT_EQ(fault([](T&, P& p, O&) { p.targets.pop_back(); }), "targets do not fit the tree");
-  EXPECT_EQ(fault([](T&, P& p, O&) { p.limits.pop_back(); }), "angles or limits do not fit the tree");
+  EXPECT_EQ(fault([](T&, P& p, O&) { p.targets.pop_back(); }),
+            "the number of targets is not the tree's number of end effectors");
+  EXPECT_EQ(fault([](T&, P& p, O&) { p.limits.pop_back(); }),
+            "the number of angles or limits is not the tree's number of degrees of freedom");
   EXPECT_EQ(fault([](T&, P&, O& o) { o.angle_change_tolerance = 0; }), "");
   EXPECT_EQ(fault([](T&, P&, O& o) { o.angle_change_tolerance = -1e-9; }),
             "the angle-change tolerance is negative or not finite");
@@ -88,15 +90,17 @@ TEST(Faults, BeginRightBeyondTheirBounds) {
   EXPECT_EQ(fault([](T& t, P&, O&) { t.effectors[0].p_LE = glm::dvec3(0); }), "a limb has no length");
   for (const int joint : {-1, static_cast<int>(kBodyTreeJointCount)}) {
     EXPECT_EQ(fault([&](T& t, P&, O&) { t.effectors[3].joint = joint; }),
-              "the joints are not a tree that begins with its root");
+              "the joints do not form a tree whose first joint is the root");
   }
   EXPECT_EQ(fault([](T& t, P&, O&) { t.effectors[3].joint = 0; }), "");
   EXPECT_EQ(fault([](T& t, P&, O&) { t.joints[0].dof_count = 1; }),
-            "the joints are not a tree that begins with its root");
+            "the joints do not form a tree whose first joint is the root");
   EXPECT_EQ(fault([](T& t, P&, O&) { t.joints[5].dof_count = 4; }),
-            "the joints are not a tree that begins with its root");
-  EXPECT_EQ(fault([](T& t, P&, O&) { t.joints[5].parent = 5; }), "the joints are not a tree that begins with its root");
-  EXPECT_EQ(fault([](T& t, P&, O&) { t.limits.push_back({}); }), "the joints are not a tree that begins with its root");
+            "the joints do not form a tree whose first joint is the root");
+  EXPECT_EQ(fault([](T& t, P&, O&) { t.joints[5].parent = 5; }),
+            "the joints do not form a tree whose first joint is the root");
+  EXPECT_EQ(fault([](T& t, P&, O&) { t.limits.push_back({}); }),
+            "the joints do not form a tree whose first joint is the root");
   KinematicTree few;
   few.joints = {{}, {.name = "", .parent = 0, .p_PJ = {0, 0, 1}, .dof_count = 3}};
   few.limits.resize(3);

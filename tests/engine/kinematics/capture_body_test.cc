@@ -147,7 +147,7 @@ TEST(CaptureBody, RefusesWhatIsNoBody) {
   RestBody apart = PlainRestBody();
   apart.joints.push_back({"lost", -1, {3, 0, 0}});
   apart.roles[Index(kLeftHand)].joint = static_cast<int>(apart.joints.size()) - 1;
-  EXPECT_THAT(testing::Message(FittedBody(apart)), ::testing::HasSubstr("is not connected with its pelvis"));
+  EXPECT_THAT(testing::Message(FittedBody(apart)), ::testing::HasSubstr("is not connected to the pelvis"));
   RestBody flat = PlainRestBody();
   for (const Role hip : {kLeftHip, kRightHip}) flat.roles[Index(hip)].position = flat.roles[Index(kHipCentre)].position;
   for (RestBody::Joint& joint : flat.joints) {

@@ -234,7 +234,7 @@ TEST(MakeRecogniser, RefusesMovesItCannotBeTaughtAndSaysWhatIsAllowed) {
   EXPECT_EQ(complaint({without_pose}), "recogniser key-pose: move 'raise' has no key pose");
   EXPECT_EQ(complaint({without_target}), "recogniser key-pose: a key pose of move 'raise' has no target");
   EXPECT_EQ(complaint({exact}), "recogniser key-pose: a target of move 'raise' has no tolerance above 0");
-  EXPECT_EQ(complaint({endless}), "move 'raise' lasts 61 s; allowed: above 0, up to 60");
+  EXPECT_EQ(complaint({endless}), "move 'raise' lasts 61 s; allowed: above 0, up to 60 s");
 }
 
 TEST(FollowStream, RefusesWindowsThatItCannotFollow) {
@@ -244,12 +244,13 @@ TEST(FollowStream, RefusesWindowsThatItCannotFollow) {
     return testing::Message(FollowStream(*recogniser, kTaught.size(), seen, asked));
   };
   EXPECT_EQ(complaint({{kRaise, {15, 75}}, {kHang, {75, 75}}, {kHang, {75, 90}}}), "accepted");  // the control
-  EXPECT_EQ(complaint({{2, {15, 75}}}), "move number 2 is asked for, but 2 moves were taught (numbers count from 0)");
+  EXPECT_EQ(complaint({{2, {15, 75}}}),
+            "move number 2 is requested, but only 2 moves were taught; moves are counted from 0");
   for (const FrameInterval window : {FrameInterval{-1, 9}, FrameInterval{9, 8}, FrameInterval{0, 91}}) {
     EXPECT_THAT(complaint({{kRaise, window}}), HasSubstr(", but the stream has 90 frames"));
   }
   EXPECT_EQ(complaint({{kRaise, {15, 75}}, {kHang, {74, 80}}}),
-            "a move is requested from frame 74 on, but the request before it lasts until 75");
+            "a move is requested from frame 74 on, but the previous request lasts until frame 75");
 }
 
 TEST(JudgeWindow, OfNoFramesIsNothing) {

@@ -72,7 +72,7 @@ TEST(ArrayTimes, PlaceTheFramesWithOrWithoutARate) {
       EXPECT_LT(FarthestFromCurve(*motion), 1e-9);
       for (std::size_t f = 0; f < 120; ++f) EXPECT_EQ(std::isnan(motion->At(f, 3).y), f >= 40 && f < 60) << f;
       EXPECT_THAT(motion->notes,
-                  ElementsAre("the times show that 20 of 120 frames are missing, in 1 gap of at most 0.7 s"));
+                  ElementsAre("by their times, 20 of 120 frames are missing, in 1 gap of at most 0.7 s"));
     }
   }
   // Times in milliseconds that begin late.
@@ -95,7 +95,8 @@ TEST(ArrayTimes, ThatContradictTheRateAreUsedAndSaid) {
   npz.arrays["rate_hz"] = {.shape = {}, .values = {60}};
   ASSERT_OK(motion, ReadRawNpz(npz, "a.npz"));
   EXPECT_EQ(motion->rate_hz, 30);
-  EXPECT_THAT(motion->notes, ElementsAre("rate_hz states 60 Hz, but the array times runs at 30 Hz, which is used"));
+  EXPECT_THAT(motion->notes, ElementsAre("rate_hz states 60 Hz, but the times in the array times give 30 Hz, which is "
+                                         "used"));
   EXPECT_EQ(ReadRawNpz(npz, "a.npz", {.rate_hz = 25})->rate_hz, 25) << "the user's rate overrules both";
 }
 
@@ -123,8 +124,9 @@ TEST(ArrayTimes, ThatAreNoClockAreRefused) {
     return testing::Refusal(ReadRawNpz(npz, "a.npz"));
   };
   EXPECT_THAT(refusal("times", std::vector<double>(119, 0)),
-              HasSubstr("times has 119 values, and positions have 120 frames; allowed: one time for each frame"));
-  EXPECT_THAT(refusal("times", std::vector<double>(120, 3)), HasSubstr("all times in times are equal"));
+              HasSubstr("the array times has 119 values, but the positions have 120 frames; allowed: one time for each "
+                        "frame"));
+  EXPECT_THAT(refusal("times", std::vector<double>(120, 3)), HasSubstr("all times in the array times are equal"));
   std::vector<double> backwards = Times(false);
   backwards[9] = 0;
   EXPECT_THAT(refusal("times", backwards), HasSubstr("allowed: times that do not decrease"));

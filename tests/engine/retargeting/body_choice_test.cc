@@ -104,10 +104,10 @@ TEST(ChooseBody, NamesTheBodiesThatAreLeftOut) {
   Bend(clip, "Bob:");
   ASSERT_OK(second, ChooseBody(clip, "a.glb"));
   EXPECT_EQ(second->doubt,
-            "the file contains a second body, with the left hip 'Ann:LeftUpLeg'; the body with 'Bob:LeftUpLeg' is used "
-            "(--joint-map chooses another)");
+            "the file contains a second body with the left hip 'Ann:LeftUpLeg'; Etude uses the body with "
+            "'Bob:LeftUpLeg' (use --joint-map to choose another body)");
   ASSERT_OK(more, ChooseBody(People({"Ann:", "Bob:", "Cas:"}), "a.glb"));
-  EXPECT_THAT(more->doubt, HasSubstr("2 other bodies, with the left hips 'Bob:LeftUpLeg', 'Cas:LeftUpLeg'; the body"));
+  EXPECT_THAT(more->doubt, HasSubstr("2 other bodies with the left hips 'Bob:LeftUpLeg', 'Cas:LeftUpLeg'; the body"));
   ASSERT_OK(alone, ChooseBody(People({"Ann:"}), "a.glb"));
   EXPECT_EQ(alone->doubt, "");
 }

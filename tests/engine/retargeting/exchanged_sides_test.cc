@@ -52,7 +52,7 @@ TEST(Exchanges, AreFoundAtTheFramesWhereTheyWereMade) {
   EXPECT_THAT(Found(frames),
               ElementsAre(std::pair(kLeftShoulder, 30u), std::pair(kLeftKnee, 20u), std::pair(kLeftKnee, 40u)));
   EXPECT_THAT(DescribeExchangedJoints(frames, kRate_hz),
-              HasSubstr("left and right exchange their places from one frame to the next, 3 times (first at 0.67 s): "
+              HasSubstr("left and right exchange positions from one frame to the next, 3 times (first at 0.67 s): "
                         "left_shoulder – right_shoulder, left_knee – right_knee"));
   // A single frame, and frames beside a gap.
   frames = Dance("boxing");
@@ -87,9 +87,8 @@ TEST(Exchanges, OfAnyTwoJointsAreFoundAndNameOnlyTheseTwo) {
   EXPECT_GT(pairs, 100);
   std::vector<JointPositions> frames = Dance("boxing");
   for (std::size_t f = 20; f < 40; ++f) std::swap(frames[f][Index(kLeftWrist)], frames[f][Index(kLeftElbow)]);
-  EXPECT_EQ(
-      DescribeExchangedJoints(frames, kRate_hz),
-      "joints exchange their places from one frame to the next, 2 times (first at 0.67 s): left_elbow – left_wrist");
+  EXPECT_EQ(DescribeExchangedJoints(frames, kRate_hz),
+            "joints exchange positions from one frame to the next, 2 times (first at 0.67 s): left_elbow – left_wrist");
 }
 
 TEST(Exchanges, AreNoneOfPeopleWhoCrossTheirArms) {

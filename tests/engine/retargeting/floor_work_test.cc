@@ -329,8 +329,8 @@ TEST(FloorWork, PeopleWhoSitAreUprightWhateverTheUsualAxis) {
     for (const bool is_z_up : {false, true}) {
       const UpFinding found = is_z_up ? FindUp(z_up, kRate_hz, ArrayUp()) : FindUp(y_up, kRate_hz, C3dUp(0, false));
       EXPECT_EQ(AxisName(found.axis), is_z_up != may_lie_on_side ? "Z" : "Y") << quarters;
-      EXPECT_THAT(found.doubt,
-                  HasSubstr(may_lie_on_side ? "or lies with bent hips and knees" : "because of the posture"));
+      EXPECT_THAT(found.doubt, HasSubstr(may_lie_on_side ? "or lies with bent hips and knees"
+                                                         : "Etude assumes from the posture that"));
     }
     // Controls: the usual axis is right.
     EXPECT_EQ(FindUp(z_up, kRate_hz, AmassUp()).doubt, "");
@@ -377,8 +377,8 @@ TEST(ScreenEntry, LosesAgainstAWalkingBodyOnly) {
     for (const UpRule& rule : {C3dUp('Y', false), MotiveUp()}) {
       const UpFinding walk = FindUp(Film({"walk", &Walking}, quarters, true), kRate_hz, rule);
       EXPECT_EQ(AxisName(walk.axis), "Z") << quarters;
-      EXPECT_EQ(walk.doubt, "the body walks upright along Z, which is taken to be up, although Y is " + rule.source +
-                                "; --up sets another axis");
+      EXPECT_EQ(walk.doubt, "the body walks upright along Z, so Etude takes this axis as up, although Y is " +
+                                rule.source + "; --up sets another axis");
       for (const Act& act : {Act{"in bed", &LyingInBed}, Act{"lying", &LyingAway}, Act{"bench", &PressingOnABench},
                              Act{"cobra", &LiftingTheChest}, Act{"push-ups", &PushingUp}, Act{"swim", &Swimming},
                              Act{"crawling", &Crawling}, Act{"standing", &StandingStill}, Act{"walk", &Walking}}) {

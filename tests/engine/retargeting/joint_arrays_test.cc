@@ -62,8 +62,8 @@ TEST(JointArrays, InAnotherOrderThanTheLayoutsAreRefusedWithTheOneThatFits) {
                                                 {"h36m", 17u, "coco"}}) {
       const NumberArray array = InOrderOf(JointsOfLayout(layout, joints), 60, noise_m, dice);
       const auto wrong = JointsOfArray(array, usual, "a.npy");
-      EXPECT_EQ(testing::Refusal(wrong), fmt::format("a.npy: in the layout {}, its limbs have impossible lengths; "
-                                                     "allowed: a.npy#{}, whose limbs fit",
+      EXPECT_EQ(testing::Refusal(wrong), fmt::format("a.npy: in the layout {}, limbs have impossible lengths; allowed: "
+                                                     "a.npy#{}, in which the limbs have possible lengths",
                                                      usual, layout))
           << noise_m;
       ASSERT_OK(right, JointsOfArray(array, layout, "a.npy"));
@@ -83,7 +83,7 @@ TEST(JointArrays, InAnotherOrderThanTheLayoutsAreRefusedWithTheOneThatFits) {
   }
   // Jaw and eye are no hands.
   EXPECT_THAT(testing::Refusal(JointsOfArray(InOrderOf(JointsOfLayout("smplx", 24), 9, 0, dice), {}, "a.npy")),
-              HasSubstr("a.npy#smplx, whose limbs fit"));
+              HasSubstr("a.npy#smplx, in which the limbs have possible lengths"));
 }
 
 TEST(JointArrays, OfTwoPeopleInOnePictureAreDoubted) {
@@ -97,8 +97,8 @@ TEST(JointArrays, OfTwoPeopleInOnePictureAreDoubted) {
   };
   EXPECT_EQ(
       doubt(2, {0.6, 0, 0.8}, 0),
-      "from each of its 2 frames to the next, most joints jump by at least 100 cm: does the first axis count people "
-      "instead of frames?");
+      "in each of the 2 frames, most joints jump by at least 100 cm to the next frame: does the first axis of the "
+      "array count people instead of frames?");
   EXPECT_EQ(doubt(1, {1, 0, 0}, 0), "");
   EXPECT_EQ(doubt(2, {0.2, 0, 0}, 0.02), "") << "runs at 6 m/s";
   EXPECT_EQ(doubt(40, {1, 0, 0}, 0), "") << "a film";

@@ -100,7 +100,7 @@ TEST(JointMap, RefusesTwoHalvesWithoutACommonJoint) {
   Skeleton halves = testing::PersonSkeleton();
   halves.joints[halves.Find("RightUpLeg")].parent = -1;
   EXPECT_EQ(testing::Message(FindJointMap(halves, "halves.bvh")),
-            "'LeftUpLeg' and 'RightUpLeg', the hips, have no common ancestor");
+            "the hips, 'LeftUpLeg' and 'RightUpLeg', have no common ancestor");
 }
 
 TEST(JointMap, RefusesAKneeThatDoesNotHangFromItsHip) {
@@ -108,13 +108,14 @@ TEST(JointMap, RefusesAKneeThatDoesNotHangFromItsHip) {
   crossed.joints[crossed.Find("RightLeg")].parent = crossed.Find("LeftUpLeg");
   EXPECT_EQ(
       testing::Message(FindJointMap(crossed, "crossed.bvh")),
-      "the role right_knee has the joint 'RightLeg', which does not descend from 'RightUpLeg', the joint of right_hip");
+      "the role right_knee has the joint 'RightLeg', which does not descend from 'RightUpLeg', the joint of the role "
+      "right_hip");
 }
 
 TEST(JointMap, RefusesTwoHipsOnOneSide) {
   Skeleton lopsided = testing::PersonSkeleton();
   lopsided.joints[lopsided.Find("RightUpLeg")].rest.translation.x = 3;
-  EXPECT_THAT(testing::Message(FindJointMap(lopsided, "lopsided.bvh")), HasSubstr("lie on the same side of 'Hips'"));
+  EXPECT_THAT(testing::Message(FindJointMap(lopsided, "lopsided.bvh")), HasSubstr("are on the same side of 'Hips'"));
 }
 
 TEST(JointMap, ComposesTipsThatTheFileHasAtUnbelievableDistances) {
@@ -432,8 +433,8 @@ TEST(JointMap, TakesFeetThatHangFromControlsInsteadOfTheLegs) {
   Skeleton crossed = testing::PersonSkeleton();
   crossed.joints[crossed.Find("RightFoot")].parent = crossed.Find("LeftLeg");
   EXPECT_EQ(testing::Message(FindJointMap(crossed, "crossed.glb")),
-            "the role right_ankle has the joint 'RightFoot', which does not descend from 'RightLeg', the joint of "
-            "right_knee");
+            "the role right_ankle has the joint 'RightFoot', which does not descend from 'RightLeg', the joint of the "
+            "role right_knee");
 }
 
 TEST(JointMap, TakesTaughtJointsBeforeAnyName) {
@@ -444,7 +445,8 @@ TEST(JointMap, TakesTaughtJointsBeforeAnyName) {
   const JointMapOverrides taught{{{kLeftElbow, {"Hoof", {}}}, {kRightAnkle, {"Wheel", {}}}, {kLeftHand, {"LeftHand", {}}}}};
   EXPECT_EQ(
       testing::Message(FindJointMap(horse, "horse.bvh", &taught)),
-      "the role left_hand has the joint 'LeftHand', which does not descend from 'LeftHand', the joint of left_wrist")
+      "the role left_hand has the joint 'LeftHand', which does not descend from 'LeftHand', the joint of the role "
+      "left_wrist")
       << "taught joints are checked as well";
 
   const JointMapOverrides better{{{kLeftElbow, {"Hoof", {}}}, {kRightAnkle, {"Wheel", {}}}, {kHead, {"Head", {}}}}};
@@ -460,7 +462,7 @@ TEST(JointMap, RefusesATaughtHeadOrSpineThatIsPartOfALimb) {
     const JointMapOverrides taught{{{role, {joint, {}}}}};
     EXPECT_EQ(testing::Message(FindJointMap(person, "person.bvh", &taught)),
               std::string("the role ") + std::string(RoleName(role)) + " has the joint '" + joint +
-                  "', which is part of a limb; allowed: a joint of trunk, neck or head");
+                  "', which is part of a limb; allowed: a joint of the trunk, the neck or the head");
   }
 }
 

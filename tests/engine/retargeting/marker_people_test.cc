@@ -127,7 +127,7 @@ TEST(MarkerPeople, WhoLackMarkersAreSaid) {
       ASSERT_OK(bodies, FindMarkerBodies(take, "a.trc"));
       ASSERT_EQ(bodies->size(), 1u);
       EXPECT_THAT(bodies->front().Note(), HasSubstr("more markers with the same names (" + second("Head") +
-                                                    ", …) may belong to another person: they are not used"));
+                                                    ", …), because they may belong to another person"));
       EXPECT_NEAR(bodies->front().motion.poses[0][Role::kRightAnkle].x, -.09, 1e-9) << "not mixed";
     }
   }

@@ -111,7 +111,7 @@ TEST(Markers, OfOurOwnNamesAreTheJointsAsTheyWereWritten) {
     for (auto& place : frame) place->y += 0.7;
   }
   const auto moved = FindMarkerBodies(take, "a.trc"), kept = FindMarkerBodies(take, "a.trc", {.keep_floor = true});
-  EXPECT_EQ(moved->front().Note(), "Etude's joints; the floor was at 72 cm: moved to 0");
+  EXPECT_EQ(moved->front().Note(), "Etude's joints; Etude moved the floor from 72 cm to 0");
   EXPECT_EQ(kept->front().Note(), "Etude's joints");
   EXPECT_NEAR(kept->front().motion.poses[0][Role::kHipCentre].y, 1.6, 1e-12);
 }
@@ -247,7 +247,7 @@ TEST(MarkersUp, OfPeopleWhoLieCrawlOrStandOnTheirHandsIsTheFormatsAxis) {
       EXPECT_LT(OffUp(trc->front(), poses), 1e-9) << trc->front().Note();
       EXPECT_LT(OffUp(c3d->front(), poses), 1e-9) << c3d->front().Note();
       EXPECT_THAT(trc->front().up.doubt,
-                  HasSubstr("Y is the usual axis of TRC files, so it is assumed; --up sets another axis"));
+                  HasSubstr("Y is the usual axis of TRC files, so Etude assumes this axis; --up sets another axis"));
     }
   }
 }
@@ -266,7 +266,7 @@ TEST(MarkersUp, OfPeopleWithRaisedArmsInAFileWhoseAxesPointDownIsNotThatOfAHands
   const auto down = [](glm::dvec3 p) { return glm::dvec3(p.x, -p.y, -p.z); };
   ASSERT_OK(trc, FindMarkerBodies(Keypoints(poses, down), "a.trc", {.up = TrcUp()}));
   EXPECT_LT(OffUp(trc->front(), poses), 1e-9) << trc->front().Note();
-  EXPECT_THAT(trc->front().up.doubt, HasSubstr("−Y is assumed to be up"));
+  EXPECT_THAT(trc->front().up.doubt, HasSubstr("Etude assumes from the posture that −Y is up"));
 }
 
 TEST(Markers, WithNumbersForGapsTwiceTheSameNameOrExchangedSidesAreSaid) {
@@ -283,12 +283,13 @@ TEST(Markers, WithNumbersForGapsTwiceTheSameNameOrExchangedSidesAreSaid) {
   // A gap marked by a number such as -9999 must not move the floor.
   MarkerMotion far = markers;
   for (std::size_t t = 10; t < 14; ++t) far.frames[t].front() = glm::dvec3(-9999);
-  EXPECT_THAT(changes(far), HasSubstr("4 positions a hundred times as far away as the others are taken as gaps"));
-  EXPECT_THAT(changes(far), Not(HasSubstr("floor was at -")));
+  EXPECT_THAT(changes(far), HasSubstr("Etude treats 4 positions as missing, because they are a hundred times as far "
+                                      "away as the others"));
+  EXPECT_THAT(changes(far), Not(HasSubstr("Etude moved the floor from -")));
   MarkerMotion twice = markers;
   twice.names.push_back(twice.names.front());
   for (auto& frame : twice.frames) frame.push_back(frame.front());
-  EXPECT_THAT(changes(twice), HasSubstr("several markers are called " + twice.names.front()));
+  EXPECT_THAT(changes(twice), HasSubstr("several markers have the name " + twice.names.front()));
   const auto mirrored = [](glm::dvec3 p) { return glm::dvec3(-p.x, p.y, p.z); };
   EXPECT_THAT(changes(Keypoints(poses, mirrored)), HasSubstr("left and right are exchanged, or an axis is mirrored"));
 }
@@ -323,7 +324,7 @@ TEST(Markers, ThatAreExchangedBetweenLeftAndRightAreNamed) {
       std::swap(*std::ranges::find(markers.names, "L" + name), *std::ranges::find(markers.names, "R" + name));
       pairs.push_back(fmt::format("L{0} – R{0}", name));
     }
-    EXPECT_THAT(note(markers), HasSubstr("left and right look exchanged, because limbs cross: " + Join(pairs)));
+    EXPECT_THAT(note(markers), HasSubstr("left and right are probably exchanged, because limbs cross: " + Join(pairs)));
   }
 }
 
@@ -343,7 +344,8 @@ TEST(Markers, ThatAreNotUsedDoNotDecideWhichAreFarAway) {
   EXPECT_EQ(changes(take), "40 frames; Etude's joints");
   // The control: a used marker that is lost is still a gap.
   for (std::size_t t = 10; t < 14; ++t) take.frames[t].front() = glm::dvec3(0, -9999, 0);
-  EXPECT_THAT(changes(take), HasSubstr("4 positions a hundred times as far away as the others are taken as gaps"));
+  EXPECT_THAT(changes(take), HasSubstr("Etude treats 4 positions as missing, because they are a hundred times as far "
+                                       "away as the others"));
 }
 
 TEST(Markers, OfThreeEqualNumbersThatRecurAreGaps) {
@@ -352,7 +354,8 @@ TEST(Markers, OfThreeEqualNumbersThatRecurAreGaps) {
     for (std::size_t t = 10; t < 14; ++t) take.frames[t][Index(Role::kLeftHand)] = gap;
     ASSERT_OK(bridged, FindMarkerBodies(take, "a.trc"));
     EXPECT_LT(FurthestJoint(bridged->front().motion), 0.1);
-    EXPECT_THAT(bridged->front().Note(), HasSubstr("4 repeated positions of three equal numbers are taken as gaps"));
+    EXPECT_THAT(bridged->front().Note(), HasSubstr("Etude treats 4 repeated positions of three equal numbers as "
+                                                   "missing"));
   }
   // A marker may pass such a point once.
   MarkerMotion once = OwnJoints();
@@ -369,9 +372,9 @@ TEST(Markers, OfALimbThatAreAlwaysAtZeroAreGaps) {
     const auto bodies = FindMarkerBodies(changed, "a.trc", {.up = TrcUp()});
     return bodies ? bodies->front().Note() : ToString(bodies.error());
   };
-  EXPECT_THAT(at_zero("LBigToe"), HasSubstr("left_foot; 60 positions at 0, 0, 0 are taken as gaps"));
+  EXPECT_THAT(at_zero("LBigToe"), HasSubstr("left_foot; Etude treats 60 positions at (0, 0, 0) as missing"));
   EXPECT_THAT(at_zero("LKnee"), HasSubstr("lacks left_knee"));
-  EXPECT_THAT(at_zero("LKnee"), HasSubstr("; 60 positions at 0, 0, 0 are taken as gaps"));
+  EXPECT_THAT(at_zero("LKnee"), HasSubstr("; Etude treats 60 positions at (0, 0, 0) as missing"));
 }
 
 TEST(Markers, ThatNoFrameShowsAreAbsent) {
@@ -393,8 +396,8 @@ TEST(MarkersUp, OfPeopleWhoStandOnTheirHeadsIsSaidToBeTheOther) {
   const auto down = [](glm::dvec3 p) { return glm::dvec3(p.x, -p.y, -p.z); };
   ASSERT_OK(motive, FindMarkerBodies(Keypoints(poses, down), "a.csv", {.up = MotiveUp()}));
   EXPECT_EQ(motive->front().up.doubt,
-            "the body stands along −Y, but Y is the convention of Motive's exports; allowed: Y or Z, so the file must "
-            "be rotated first");
+            "the body stands along −Y, but Y is the convention of Motive's exports; --up allows only Y or Z, so rotate "
+            "the file first");
 }
 
 TEST(MarkersUp, OfPeopleWhoLieAndThenStandIsTheAxisThatKeepsTheFloor) {
@@ -423,7 +426,7 @@ TEST(MarkersUp, OfPeopleWhoStandOrWalkIsTheirAxisAndItsDoubtIsSaid) {
     EXPECT_LT(OffUp(yup->front(), poses), 1e-9) << yup->front().Note();
     EXPECT_EQ(zup->front().up.evidence, UpEvidence::kPosture);
     EXPECT_EQ(zup->front().up.doubt,
-              "Z is assumed to be up because of the posture, although Y is the usual axis of TRC files; --up sets "
+              "Etude assumes from the posture that Z is up, although Y is the usual axis of TRC files; --up sets "
               "another axis");
     EXPECT_THAT(zup->front().Note(), HasSubstr("turned upright from Z up (its posture)"));
   }
@@ -468,9 +471,11 @@ TEST(Markers, OfTwoSetsTheBetterCountAndTheOtherCanBeChosen) {
   EXPECT_THAT(
       best->front().Note(),
       HasSubstr(
-          "OpenCap's augmented markers, not OpenPose BODY_25, which the file also contains (--marker-set body_25)"));
+          "OpenCap's augmented markers (the file also contains OpenPose BODY_25; --marker-set body_25 chooses this "
+          "set)"));
   EXPECT_THAT(best->front().Note(),
-              HasSubstr("joint centres moved under the skin, distances from their markers in cm: shoulders"));
+              HasSubstr("Etude placed joint centres under the skin, at these distances from the markers in cm: "
+                        "shoulders"));
   for (const Role role : {kLeftShoulder, kLeftElbow, kRightWrist, kLeftKnee, kRightAnkle}) {
     EXPECT_LT(glm::distance(best->front().motion.poses[3][role], poses[3][role] - glm::dvec3(0, 0.02, 0)), 0.002)
         << RoleName(role);
@@ -486,9 +491,9 @@ TEST(Markers, TakeTheUnitThatIsTold) {
   take.metres_per_unit = 0.001;
   ASSERT_OK(told, FindMarkerBodies(take, "a.trc", {.metres_per_unit = 0.002}));
   EXPECT_NEAR(told->front().motion.poses[0][Role::kHipCentre].y, 0.88, 1e-9);
-  EXPECT_THAT(told->front().Note(), HasSubstr("1 unit = 0.2 cm (given), instead of the file's 0.1 cm"));
+  EXPECT_THAT(told->front().Note(), HasSubstr("1 unit = 0.2 cm (given), instead of 0.1 cm as in the file"));
   EXPECT_THAT(ToString(FindMarkerBodies(take, "a.trc", {.metres_per_unit = 1}).error()),
-              HasSubstr("a.trc: in the unit given (1 unit = 100 cm) the body is"));
+              HasSubstr("a.trc: with the given unit (1 unit = 100 cm), the body is"));
 }
 
 TEST(Markers, AtZeroAreGapsUnlessTheyAreAlwaysThere) {
@@ -497,7 +502,7 @@ TEST(Markers, AtZeroAreGapsUnlessTheyAreAlwaysThere) {
   ASSERT_OK(bridged, FindMarkerBodies(take, "a.trc"));
   EXPECT_LT(FurthestJoint(bridged->front().motion), 1e-12);
   EXPECT_EQ(bridged->front().Note(),
-            "Etude's joints; 4 positions interpolated in gaps; 4 positions at 0, 0, 0 are taken as gaps");
+            "Etude's joints; 4 positions interpolated in gaps; Etude treats 4 positions at (0, 0, 0) as missing");
   MarkerMotion rooted = OwnJoints();
   for (auto& frame : rooted.frames) {
     const glm::dvec3 root = *frame[Index(Role::kHipCentre)];
@@ -515,14 +520,14 @@ TEST(Markers, InAWrongUnitAreTakenForAPersonOrRefused) {
     ASSERT_OK(bodies, FindMarkerBodies(take, "a.trc"));
     EXPECT_LT(FurthestJoint(bodies->front().motion), 1e-12);
     EXPECT_THAT(bodies->front().Note(),
-                HasSubstr(fmt::format("m tall: all lengths are multiplied by {:g}", 1 / factor)));
+                HasSubstr(fmt::format("m tall, so Etude multiplies all lengths by {:g}", 1 / factor)));
   }
   MarkerMotion take = OwnJoints();
   for (auto& frame : take.frames) {
     for (auto& place : frame) *place *= 4;
   }
   EXPECT_THAT(testing::Refusal(FindMarkerBodies(take, "a.trc")),
-              HasSubstr("a.trc: its markers show a body 6.65 m tall"));
+              HasSubstr("a.trc: the markers show a body 6.65 m tall"));
 }
 
 TEST(Markers, InAUnitThatMakesADwarfOrAGiantAreSaidWithTheLikelyUnit) {
@@ -536,10 +541,10 @@ TEST(Markers, InAUnitThatMakesADwarfOrAGiantAreSaidWithTheLikelyUnit) {
     return bodies ? bodies->front().Note() : ToString(bodies.error());
   };
   EXPECT_EQ(note(1, .01), "Etude's joints");
-  EXPECT_THAT(note(.01 / .0254, .01), HasSubstr("1 unit is taken to be 1 cm; 1 unit = 2.54 cm (inch) would "
-                                                "give 1.66 m"));
-  EXPECT_THAT(note(2.4, .0254), HasSubstr("1 unit is taken to be 2.54 cm; 1 unit = 1 cm (centimetre) would "
-                                        "give 1.57 m"));
+  EXPECT_THAT(note(.01 / .0254, .01), HasSubstr("Etude uses 1 unit = 1 cm; with 1 unit = 2.54 cm (inch), the body "
+                                                "would be 1.66 m tall"));
+  EXPECT_THAT(note(2.4, .0254), HasSubstr("Etude uses 1 unit = 2.54 cm; with 1 unit = 1 cm (centimetre), the body "
+                                          "would be 1.57 m tall"));
 }
 
 TEST(Markers, OfPlugInGaitGiveJointsInsideTheLimbs) {
@@ -569,9 +574,10 @@ TEST(Markers, OfPlugInGaitGiveJointsInsideTheLimbs) {
   EXPECT_EQ(body.name, "Me");
   EXPECT_THAT(
       body.Note(),
-      HasSubstr("Plug-in Gait; joint centres moved under the skin, distances from their markers in cm: knees "));
+      HasSubstr("Plug-in Gait; Etude placed joint centres under the skin, at these distances from the markers in cm: "
+                "knees "));
   EXPECT_THAT(body.Note(), HasSubstr("by the lengths of the limbs; placed by rule: hip_centre"));
-  EXPECT_THAT(body.Note(), HasSubstr("the floor was at 2 cm: moved to 0"));
+  EXPECT_THAT(body.Note(), HasSubstr("Etude moved the floor from 2 cm to 0"));
   const BodyPose& pose = body.motion.poses.front();
   const double depth = 2 * f, width = 2 * a;
   const glm::dvec3 hip = pose[Role::kLeftHip];
@@ -631,16 +637,16 @@ TEST(Markers, GapsAreBridgedAndLongOnesCutOff) {
   EXPECT_EQ(bodies->front().motion.poses.size(), 25u);
   EXPECT_LT(FurthestJoint(bodies->front().motion), 1e-12) << "the sway is straight";
   EXPECT_EQ(bodies->front().Note(),
-            "Etude's joints; 4 positions interpolated in gaps; only frames 1 to 25 of 40 are used (elsewhere joints "
-            "are missing "
-            "for over 1 s)");
+            "Etude's joints; 4 positions interpolated in gaps; Etude uses only frames 1 to 25 of 40, because joints "
+            "are missing in other frames for over 1 s");
 }
 
 TEST(Markers, LostAtTheBeginningAndTheEndAreNotSaidToBeLostForLong) {
   MarkerMotion take = OwnJoints();
   for (const std::size_t t : {0, 1, 39}) take.frames[t][Index(Role::kLeftWrist)].reset();
   EXPECT_EQ(FindMarkerBodies(take, "a.trc")->front().Note(),
-            "Etude's joints; only frames 3 to 39 of 40 are used (joints are missing before and after these)");
+            "Etude's joints; Etude uses only frames 3 to 39 of 40, because joints are missing before and after these "
+            "frames");
 }
 
 TEST(Markers, ThatTwoPeopleExchangeAreNamedInBothBodies) {
@@ -664,7 +670,7 @@ TEST(Markers, ThatTwoPeopleExchangeAreNamedInBothBodies) {
     return *bodies;
   };
   for (const MarkerBody& body : bodies_of(false, true)) {
-    EXPECT_THAT(body.Note(), HasSubstr("markers of two people exchange their places from one frame to the next, once "
+    EXPECT_THAT(body.Note(), HasSubstr("markers of two people exchange positions from one frame to the next, once "
                                        "(first at 0.10 s): "));
     EXPECT_THAT(body.Note(), HasSubstr("Ann:left_wrist"));
     EXPECT_THAT(body.Note(), HasSubstr("Bob:left_wrist"));
@@ -691,9 +697,9 @@ TEST(Markers, OfNoKnownSetAreRefusedWithWhatIsLacking) {
   MarkerMotion take = OwnJoints();
   take.names[Index(Role::kLeftKnee)] = "knee";
   const auto refused = FindMarkerBodies(take, "a.c3d");
-  EXPECT_THAT(testing::Refusal(refused), HasSubstr("a.c3d: its markers (hip_centre, "));
+  EXPECT_THAT(testing::Refusal(refused), HasSubstr("a.c3d: the markers (hip_centre, "));
   EXPECT_THAT(testing::Refusal(refused),
-              HasSubstr("are not of a known set (nearest: Etude's joints lacks left_knee); known: "));
+              HasSubstr("belong to no known marker set (nearest: Etude's joints lacks left_knee); allowed: "));
 }
 
 /// Markers with the joint names of Bandai-Namco's skeleton. The neck is not one of the needed joints.
@@ -724,7 +730,7 @@ TEST(Markers, PlayTheRolesThatTheUserGives) {
     options.roles[one.role] = one.name;
   }
   EXPECT_THAT(testing::Refusal(FindMarkerBodies(Take(odd), "a.trc")),
-              HasSubstr("a joint map (--joint-map) states which"));
+              HasSubstr("use a joint map (--joint-map) to state which"));
   ASSERT_OK(bodies, FindMarkerBodies(Take(odd), "a.trc", options));
   EXPECT_THAT(bodies->front().Note(), HasSubstr("the joint map; placed by rule: hip_centre, spine, head"));
   EXPECT_EQ(bodies->front().shown.At(7, bodies->front().shown.roles[Index(Role::kShoulderCentre)]),

@@ -120,7 +120,7 @@ TEST(OpenSimMotion, RowsThatAreMissingAreGapsOfTheirLength) {
   std::string note;
   ASSERT_OK(read, ReadOpenSimMotion(all, "a.mot", &note));
   ASSERT_EQ(read->poses.size(), move->motion.poses.size());
-  EXPECT_THAT(note, HasSubstr("the times show that 15 of"));
+  EXPECT_THAT(note, HasSubstr("by their times, 15 of"));
   EXPECT_LT(glm::distance(read->poses[40][kLeftWrist], move->motion.poses[40][kLeftWrist]), 1e-5);
   // Within a gap, joints move linearly.
   const glm::dvec3 a = move->motion.poses[19][kLeftWrist], b = move->motion.poses[35][kLeftWrist];
@@ -166,8 +166,10 @@ TEST(OpenSimMotion, TheUnitOfAnglesIsReadOrSaid) {
   for (const char* unit : {"inDegrees=yes\n", "inDegrees=YES\n", "indegrees = Yes\n"}) {
     EXPECT_EQ(noted(degrees, unit), "") << unit;
   }
-  EXPECT_THAT(noted(degrees, ""), HasSubstr("no line inDegrees: angles are taken as degrees (the largest is"));
-  EXPECT_THAT(noted(radians, ""), HasSubstr("no line inDegrees: angles are taken as radians (the largest is"));
+  EXPECT_THAT(noted(degrees, ""),
+              HasSubstr("the file has no line inDegrees, so Etude reads the angles as degrees (the largest is"));
+  EXPECT_THAT(noted(radians, ""),
+              HasSubstr("the file has no line inDegrees, so Etude reads the angles as radians (the largest is"));
   // A unit that the angles contradict is refused, or said.
   const auto read = [](const std::string& text, std::string* note = nullptr) {
     return ReadOpenSimMotion(text, "a.mot", note);
@@ -289,7 +291,7 @@ TEST(JointArrays, OfSam3dBodyAreTurnedFromTheCamerasFrame) {
   const auto read = [&] { return JointsOfSam(arrays, "a.npz", note); };
   ASSERT_OK(still, read());
   EXPECT_EQ((*still)->values[3 * 70 + 3], 1);
-  EXPECT_THAT(note, HasSubstr("so it stays in place"));
+  EXPECT_THAT(note, HasSubstr("the body stays in place"));
   // The axis of the only person of each picture may be left out, in each of the two arrays.
   for (const bool has_people : {false, true}) {
     arrays.arrays["pred_cam_t"] = {.shape = {2, 3}, .values = {0, 0, 3, 0.25, 0.5, 4}};
@@ -300,16 +302,18 @@ TEST(JointArrays, OfSam3dBodyAreTurnedFromTheCamerasFrame) {
     EXPECT_EQ((*moved)->values[2], -3);
     EXPECT_EQ(std::vector<double>(&(*moved)->values[213], &(*moved)->values[216]),
               (std::vector<double>{1.25, -0.5, -4}));
-    EXPECT_EQ(note, "SAM 3D Body's arrays in the camera's frame, turned to Y up as if the camera were level");
+    EXPECT_EQ(note,
+              "SAM 3D Body's arrays are in the camera's frame; Etude rotated them to Y up, assuming a level camera");
   }
   // Other shapes are refused.
   arrays.arrays["pred_cam_t"].shape = {3, 2};
   EXPECT_EQ(testing::Refusal(read()),
-            "a.npz: pred_cam_t 3 × 2, pred_keypoints_3d 2 × 1 × 70 × 3; allowed: frames × 3 and frames × joints × 3, "
-            "as many frames in both");
+            "a.npz: the array pred_cam_t has the shape 3 × 2, and pred_keypoints_3d the shape 2 × 1 × 70 × 3; allowed: "
+            "frames × 3 and frames × joints × 3, with the same number of frames");
   arrays.arrays["pred_keypoints_3d"].shape = {1, 2, 70, 3};
   EXPECT_EQ(testing::Refusal(read()),
-            "a.npz: pred_keypoints_3d 1 × 2 × 70 × 3; allowed: frames × joints × 3, one person");
+            "a.npz: the array pred_keypoints_3d has the shape 1 × 2 × 70 × 3; allowed: frames × joints × 3, for one "
+            "person");
   ASSERT_OK(none, JointsOfSam({}, "a.npz", note));
   EXPECT_FALSE(*none);
   // The same joints as a bare array: the body stands on its head unless Y is declared up.
@@ -494,7 +498,7 @@ TEST(BodyNpz, OnItsHandsStaysAHandstandAndAFootAlwaysAtZeroIsNotSeen) {
   ASSERT_OK(gaps, ReadRawNpz(arrays, "a.npz", {.up = UpAxis::kY}));
   EXPECT_FALSE(IsSeen(gaps->At(5, Index(kLeftFoot))));
   EXPECT_TRUE(IsSeen(gaps->At(5, Index(kRightFoot))));
-  EXPECT_THAT(gaps->notes, ::testing::ElementsAre(HasSubstr("positions at 0, 0, 0 are taken as gaps")));
+  EXPECT_THAT(gaps->notes, ::testing::ElementsAre(HasSubstr("positions at (0, 0, 0) as missing")));
 }
 
 TEST(BodyNpz, IsRefusedBeyondItsLimits) {
@@ -522,7 +526,8 @@ TEST(BodyNpz, IsRefusedBeyondItsLimits) {
   std::erase(pickled.skipped, "names");
   EXPECT_TRUE(ReadRawNpz(pickled, "a.npz"));
   pickled.skipped.emplace_back("names");
-  EXPECT_THAT(testing::Refusal(ReadRawNpz(pickled, "a.npz")), HasSubstr("names: not a list of texts; allowed: a list"));
+  EXPECT_THAT(testing::Refusal(ReadRawNpz(pickled, "a.npz")),
+              HasSubstr("the array 'names' is not a list of texts; allowed: a list"));
 }
 
 }  // namespace

@@ -92,9 +92,8 @@ TEST(SkinMarkers, AreMovedToTheCentresByTheFilesWidths) {
   const MovedMarkers moved = MovedFrom({.07, .05, .045, .06}, ElbowMarker::kOutside, sizes);
   EXPECT_LT(moved.worst, 0.016);
   EXPECT_EQ(moved.said,
-            "joint centres moved under the skin, distances from their markers in cm: knees 7.0, ankles 5.0, elbows "
-            "4.5, shoulders 6.0 by the "
-            "file's widths");
+            "Etude placed joint centres under the skin, at these distances from the markers in cm: knees 7.0, ankles "
+            "5.0, elbows 4.5, shoulders 6.0 by the file's widths");
 }
 
 TEST(SkinMarkers, AreMovedByTheLimbsLengthsWithoutWidths) {
@@ -107,7 +106,7 @@ TEST(SkinMarkers, AreMovedByTheLimbsLengthsWithoutWidths) {
 TEST(SkinMarkers, OnTheElbowsPointAreToldByUpperArmsThatKeepTheirLength) {
   const MovedMarkers moved = MovedFrom({.05, .035, .045, .045}, ElbowMarker::kPoint, {});
   EXPECT_LT(moved.worst, 0.016);
-  EXPECT_THAT(moved.said, HasSubstr("elbow markers taken to be on the point of the elbow"));
+  EXPECT_THAT(moved.said, HasSubstr("Etude assumes that the elbow markers are on the point of the elbow"));
 }
 
 TEST(SkinMarkers, FollowTheWandsOfThighsAndShanks) {

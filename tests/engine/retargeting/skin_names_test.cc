@@ -96,7 +96,8 @@ TEST(HelenHayes, GivesTheHipsOfThePelvisWhateverItsNamesLookLike) {
     EXPECT_LT(glm::distance(bodies->front().motion.poses.front()[kLeftHip] + glm::dvec3(0, bodies->front().floor, 0),
                             StandingSubject()[kLeftHip]),
               1e-9);
-    EXPECT_THAT(bodies->front().Note(), HasSubstr("skin markers (Helen Hayes); joint centres moved under the skin"));
+    EXPECT_THAT(bodies->front().Note(),
+                HasSubstr("skin markers (Helen Hayes); Etude placed joint centres under the skin"));
     EXPECT_EQ(bodies->front().markers[Index(kLeftHip)].size(), 3u) << "two spines and the sacrum";
     EXPECT_EQ(bodies->front().markers[Index(kLeftKnee)], std::vector{std::string(left) + "Knee"});
     EXPECT_TRUE(bodies->front().markers[Index(kSpine)].empty()) << "by rule";
@@ -126,9 +127,9 @@ TEST(HelenHayes, WithoutAPelvisTakesTheFilesHipCentresOrIsRefused) {
   std::erase_if(markers, [](const Placed& one) { return one.role == kHipCentre; });
   const std::string refusal = testing::Refusal(FindMarkerBodies(Take(markers), "a.trc"));
   EXPECT_THAT(refusal,
-              HasSubstr("nearest: skin markers (Helen Hayes) lacks left_hip, right_hip; a marker on a thigh, a "
-                        "shank or an upper arm is no joint"));
-  EXPECT_THAT(refusal, HasSubstr("a joint map (--joint-map) states which markers are the joints"));
+              HasSubstr("nearest: skin markers (Helen Hayes) lacks left_hip, right_hip; markers on thighs, shanks and "
+                        "upper arms do not determine joints"));
+  EXPECT_THAT(refusal, HasSubstr("use a joint map (--joint-map) to state which markers are the joints"));
   markers.push_back({"V_?Hip_JC", kLeftHip});
   ASSERT_OK(bodies, FindMarkerBodies(Take(markers), "a.trc"));
   EXPECT_LT(Furthest(bodies->front()).first, 0.02);
@@ -210,8 +211,8 @@ TEST(SkinMarkers, HaveTheirOwnSizeInMessagesAboutTheUnit) {
     for (auto& place : frame) *place *= 0.001;
   }
   EXPECT_THAT(FindMarkerBodies(take, "a.c3d")->front().Note(),
-              HasSubstr(fmt::format("in the file's unit the body would be {:.3g} m tall: all lengths are "
-                                    "multiplied by 1000",
+              HasSubstr(fmt::format("with the file's unit, the body would be {:.3g} m tall, so Etude multiplies all "
+                                    "lengths by 1000",
                                     stature / 1000)));
   EXPECT_THAT(testing::Refusal(FindMarkerBodies(take, "a.c3d", {.metres_per_unit = 0.001})),
               HasSubstr(fmt::format("the body is {:.3g} m tall", stature / 1000)));
@@ -220,9 +221,11 @@ TEST(SkinMarkers, HaveTheirOwnSizeInMessagesAboutTheUnit) {
 TEST(AThighMarker, BetweenPelvisAndKneeIsNeverAHip) {
   std::vector<Placed> markers = HelenHayes();
   std::erase_if(markers, [](const Placed& one) { return one.role == kHipCentre || one.name == "?Shank"; });
-  EXPECT_THAT(testing::Refusal(FindMarkerBodies(Take(markers), "a.trc")),
-              HasSubstr("L.Thigh is on the thigh, not at the hip: its distance from L.Knee is 0.49 times the distance "
-                        "from there to L.Ankle; allowed: "));
+  EXPECT_THAT(
+      testing::Refusal(FindMarkerBodies(Take(markers), "a.trc")),
+      HasSubstr(
+          "L.Thigh is on the thigh instead of the hip, because its distance from L.Knee is 0.49 times the distance "
+          "from that marker to L.Ankle; allowed: "));
   // The control: "thigh" at the hip, as bones are called.
   for (Placed& one : markers) {
     if (one.name == "?Thigh") one = {"?Thigh", kLeftHip};

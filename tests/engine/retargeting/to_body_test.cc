@@ -53,7 +53,7 @@ TEST(ToBodyMotion, RecognisesTheUnitByTheBodysStature) {
 TEST(ToBodyMotion, ScalesABodyOfNoKnownUnitToACommonStature) {
   ASSERT_OK(body, Convert(AtRest(Scaled(1e-4))));
   EXPECT_NEAR(Stature(body->motion.poses[0]), 1.70, 1e-12);
-  EXPECT_THAT(body->Note(), HasSubstr("unknown unit, scaled to a stature of 1.70 m"));
+  EXPECT_THAT(body->Note(), HasSubstr("unknown unit; Etude scaled the body to a height of 1.70 m"));
 }
 
 TEST(ToBodyMotion, TakesSmallBodiesInMillimetresForWhatASensorSaw) {
@@ -82,14 +82,14 @@ TEST(ToBodyMotion, ChildrenKeepTheirStatureIfTheFileStatesMetres) {
     ASSERT_OK(body, convert(units * adult_m, true));
     EXPECT_EQ(body->unit, unit);
     EXPECT_NEAR(Stature(body->motion.poses[0]), *unit == 'u' ? 1.70 : adult_m, 1e-9);
-    EXPECT_THAT(
-        body->doubts,
-        ::testing::ElementsAre(HasSubstr(fmt::format(
-            "by the unit that the file or its format states, the body is {:.3g} m tall; this unit", units * adult_m))));
+    EXPECT_THAT(body->doubts,
+                ::testing::ElementsAre(HasSubstr(fmt::format(
+                    "the unit that the file or the file format states, because the body would be {:.3g} m tall",
+                    units * adult_m))));
   }
   // Inches in a file that states centimetres: 0.69 m, with an adult's long legs.
   ASSERT_OK(body, convert(adult_m / 2.54, true));
-  EXPECT_THAT(body->doubts, ::testing::ElementsAre(HasSubstr("its legs are an adult's share of that height")));
+  EXPECT_THAT(body->doubts, ::testing::ElementsAre(HasSubstr("the legs have an adult's proportion of the height")));
 }
 
 TEST(ToBodyMotion, DropsATPoseThatTheMotionJumpsAwayFrom) {
@@ -172,13 +172,13 @@ TEST(ToBodyMotion, TellsWhichRolesItComposed) {
   Skeleton person = testing::PersonSkeleton();
   person.joints[person.Find("LeftHand_End")].rest.translation = {0, 0, 0};
   ASSERT_OK(body, Convert(AtRest(person)));
-  EXPECT_THAT(body->Note(), HasSubstr("; joints that are not in the file, composed: left_hand"));
+  EXPECT_THAT(body->Note(), HasSubstr("; joints that are not in the file, so Etude constructed them: left_hand"));
 }
 
 TEST(ToBodyMotion, TakesTheUnitThatIsGiven) {
   ASSERT_OK(body, Convert(AtRest(Scaled(1)), {.metres_per_unit = 0.02}));
   EXPECT_EQ(body->unit, "given");
-  EXPECT_THAT(body->Note(), HasSubstr("1 unit = 2 cm (given); the body is 3.48 m tall in the unit given"));
+  EXPECT_THAT(body->Note(), HasSubstr("1 unit = 2 cm (given); with the given unit, the body is 3.48 m tall"));
   EXPECT_NEAR(Stature(body->motion.poses[0]), 2 * 1.60 / 0.92, 1e-12);
 }
 
@@ -206,7 +206,7 @@ TEST(ToBodyMotion, TurnsZUpFilesUprightAndKeepsWhoFacesWhereAndWhatIsLeft) {
   EXPECT_EQ(body->up, UpAxis::kZ);
   EXPECT_EQ(expected->up, UpAxis::kY);
   EXPECT_EQ(body->Note(),
-            "1 unit = 1 cm (centimetre); turned upright from Z up (the axis along which it stands at rest)");
+            "1 unit = 1 cm (centimetre); turned upright from Z up (the axis along which the body stands at rest)");
   EXPECT_LT(WorstJointDistance(body->motion.poses[2], expected->motion.poses[2]), 1e-12);
   // With another declared axis it lies on its back.
   ASSERT_OK(lying, Convert(clip, {.up = UpAxis::kY}));
@@ -242,7 +242,7 @@ TEST(ToBodyMotion, TellsWhereItFoundTheFloor) {
   for (LocalPose& frame : clip.frames) frame[0].translation.y += 40;
   ASSERT_OK(body, Convert(clip));
   EXPECT_NEAR(body->floor, 40, 1e-12);
-  EXPECT_EQ(body->Note(), "1 unit = 1 cm (centimetre); the floor was at 40 cm: moved to 0");
+  EXPECT_EQ(body->Note(), "1 unit = 1 cm (centimetre); Etude moved the floor from 40 cm to 0");
   ASSERT_OK(kept, Convert(clip, {.keep_floor = true}));
   EXPECT_EQ(kept->floor, 0);
   EXPECT_NEAR(kept->motion.poses[0][kLeftFoot].y, 0.4, 1e-12);
@@ -277,7 +277,7 @@ TEST(ToBodyMotion, RefusesSwappedSides) {
   Skeleton mirrored = testing::PersonSkeleton();
   for (Joint& joint : mirrored.joints) joint.rest.translation.x *= -1;
   EXPECT_EQ(testing::Refusal(Convert(AtRest(mirrored))),
-            "person.bvh: the feet point backwards: left and right are exchanged, or the axes are left-handed");
+            "person.bvh: the feet point backwards, so left and right are exchanged, or the axes are left-handed");
 
   Skeleton mixed = testing::PersonSkeleton();
   for (Joint& joint : mixed.joints) {
@@ -286,7 +286,7 @@ TEST(ToBodyMotion, RefusesSwappedSides) {
     if (joint.name.ends_with("Hand")) joint.rest.translation.x *= -1;
   }
   EXPECT_EQ(testing::Message(Convert(AtRest(mixed))),
-            "the left arm is on the side of the right leg: left and right are exchanged");
+            "the left arm is on the side of the right leg, so left and right are exchanged");
 }
 
 TEST(ToBodyMotion, RefusesKneesThatBendBackwardsWhereFeetAreComposed) {
@@ -364,7 +364,7 @@ TEST(ToBodyMotion, UndoesAScaleOnTheHipsThatTheRestPoseHasNot) {
     ASSERT_OK(body, Convert(clip));
     EXPECT_NEAR(Stature(body->motion.poses[0]), 1.60 / 0.92, 1e-9) << scale;
     EXPECT_THAT(body->Note(),
-                HasSubstr(fmt::format("the frames show a body {:.3g} times as tall as the rest pose", scale)));
+                HasSubstr(fmt::format("in the frames, the body is {:.3g} times as tall as in the rest pose", scale)));
   }
   Clip alike = AtRest(Scaled(0.01), 3);
   for (LocalPose& frame : alike.frames) frame[0].scale = glm::dvec3(1.05);
@@ -377,12 +377,12 @@ TEST(ToBodyMotion, TellsOfFramesThatShowAnotherSizeThanTheRestPose) {
   const BodyOptions whole{.drop_t_pose = false};
   const auto larger = Convert(clip, whole);
   EXPECT_EQ(larger->unit, "metre");
-  EXPECT_THAT(larger->Note(), HasSubstr("the frames show a body 1.2 times as tall as the rest pose"));
+  EXPECT_THAT(larger->Note(), HasSubstr("in the frames, the body is 1.2 times as tall as in the rest pose"));
   for (std::size_t f = 0; f < 30; ++f) clip.frames[f][0].scale = glm::dvec3(1);
   EXPECT_THAT(Convert(clip, whole)->Note(), ::testing::Not(HasSubstr("times")))
       << "one that is squashed in a few frames";
   for (std::size_t f = 30; f < 40; ++f) clip.frames[f][0].scale = glm::dvec3(2);
-  EXPECT_THAT(Convert(clip, whole)->Note(), HasSubstr("its size changes between frames by a factor of 2"));
+  EXPECT_THAT(Convert(clip, whole)->Note(), HasSubstr("the size of the body changes between frames by a factor of 2"));
 }
 
 TEST(ToBodyMotion, KeepsTheUnitOfItsFileWhereOneClipStretchesTheBody) {
@@ -396,18 +396,19 @@ TEST(ToBodyMotion, KeepsTheUnitOfItsFileWhereOneClipStretchesTheBody) {
   const auto body = Convert(stretched, told);
   EXPECT_EQ(body->metres_per_unit, 1);
   EXPECT_THAT(body->Note(),
-              HasSubstr("its frames show a body 1.5 times as tall as the median over all frames of the file"));
+              HasSubstr("in this clip, the body is 1.5 times as tall as in the median frame of the file"));
   EXPECT_NE(Convert(stretched)->metres_per_unit, 1) << "alone it has no other measure";
 }
 
 TEST(ToBodyMotion, RefusesAUnitUnderWhichTheBodyIsNone) {
   EXPECT_EQ(testing::Message(Convert(AtRest(Scaled(0.01)), {.metres_per_unit = 0.01})),
-            "in the unit given (1 unit = 1 cm) the body is 0.0174 m tall; allowed: 0.4 to 4 m; 1 unit = 100 cm "
-            "(metre) would give 1.74 m");
+            "with the given unit (1 unit = 1 cm), the body is 0.0174 m tall; allowed: 0.4 to 4 m; with 1 unit = 100 cm "
+            "(metre), the body would be 1.74 m tall");
   EXPECT_FALSE(Convert(AtRest(Scaled(1)), {.metres_per_unit = 1}));
   ASSERT_OK(child, Convert(AtRest(Scaled(1)), {.metres_per_unit = 0.0055}));
   EXPECT_THAT(child->Note(),
-              HasSubstr("the body is 0.96 m tall in the unit given; 1 unit = 1 cm (centimetre) would give 1.74 m"));
+              HasSubstr("with the given unit, the body is 0.96 m tall; with 1 unit = 1 cm (centimetre), the body would "
+                        "be 1.74 m tall"));
   EXPECT_EQ(Convert(AtRest(Scaled(1)), {.metres_per_unit = 0.01})->Note(), "1 unit = 1 cm (given)");
 }
 
@@ -416,8 +417,8 @@ TEST(ToBodyMotion, UnderstandsPushUps) {
   for (LocalPose& frame : clip.frames) frame[0].rotation = Turn(Radians(80), {1, 0, 0});
   ASSERT_OK(body, Convert(clip));
   EXPECT_EQ(body->up, UpAxis::kY);
-  EXPECT_THAT(body->Note(), HasSubstr("the body lies along Z: Y is assumed to be up"));
-  EXPECT_THAT(body->Note(), Not(HasSubstr("rotated first")));
+  EXPECT_THAT(body->Note(), HasSubstr("the body lies along Z, and Etude assumes that Y is up"));
+  EXPECT_THAT(body->Note(), Not(HasSubstr("rotate the file first")));
 }
 
 TEST(ToBodyMotion, TellsThatABodyLiesWhoseUpAxisNobodyKnows) {
@@ -426,9 +427,10 @@ TEST(ToBodyMotion, TellsThatABodyLiesWhoseUpAxisNobodyKnows) {
     Skeleton lying = testing::PersonSkeleton();
     for (Joint& joint : lying.joints) joint.rest.translation = turn * joint.rest.translation;
     ASSERT_OK(body, Convert(AtRest(lying)));
-    EXPECT_THAT(body->Note(), HasSubstr(std::string("the body lies along ") + axis +
-                                        ", also at rest: Y is assumed to be up; a "
-                                        "file with another up axis must be rotated first"));
+    EXPECT_THAT(body->Note(),
+                HasSubstr(std::string("the body lies along ") + axis +
+                          ", also at rest, and Etude assumes that Y is up; if another axis is up, rotate the file "
+                          "first"));
   }
 }
 
@@ -438,7 +440,7 @@ TEST(ToBodyMotion, RefusesASkeletonThatCollapsesInMotion) {
     for (const char* joint : {"LeftForeArm", "RightForeArm", "LeftLeg", "RightLeg"}) At(clip, f, joint).translation = {};
   }
   EXPECT_THAT(testing::Message(Convert(clip)),
-              HasSubstr("4 of its 8 limbs have no length (left_shoulder to left_elbow"));
+              HasSubstr("4 of the body's 8 limbs have no length (left_shoulder to left_elbow"));
   // The control: one limb may be missing.
   for (std::size_t f = 0; f < 3; ++f) {
     At(clip, f, "RightForeArm").translation = {-29, 0, 0};
@@ -452,7 +454,7 @@ TEST(ToBodyMotion, SaysEveryChangeByItself) {
   for (LocalPose& frame : clip.frames) frame[0].translation.y += 17.5;
   ASSERT_OK(body, Convert(clip));
   EXPECT_THAT(body->changes, ::testing::ElementsAre("1 unit = 1 cm (centimetre)", "resampled from 60 to 30 Hz",
-                                                    "the floor was at 17.5 cm: moved to 0"));
+                                                    "Etude moved the floor from 17.5 cm to 0"));
 }
 
 TEST(ToBodyMotion, TakesTheFormatsAxisBeforePostureAndTheUsersBeforeBoth) {
@@ -492,14 +494,14 @@ TEST(ToBodyMotion, SaysThatTheRootTravelsInAnotherUnit) {
        {std::pair(0.01, "100:"), {1 / 2.54, "2.54:"}, {1 / 17.72, "17.72:"}, {1 / 5.644, "5.644:"}, {100.0, "0.01:"}}) {
     ASSERT_OK(body, Convert(StiffWalk(factor)));
     EXPECT_THAT(body->doubts,
-                ::testing::ElementsAre(HasSubstr(fmt::format("the root's positions are multiplied by {}", said))));
+                ::testing::ElementsAre(HasSubstr(fmt::format("the root's positions were multiplied by {}", said))));
   }
   // A gliding statue is no reason for doubt, except at a hundred metres a second.
   Clip glides = AtRest(testing::PersonSkeleton(), 60);
   for (std::size_t f = 0; f < 60; ++f) At(glides, f, "Hips").translation.z = 5.0 * static_cast<double>(f);
   EXPECT_THAT(Convert(glides)->doubts, ::testing::IsEmpty());
   for (std::size_t f = 0; f < 60; ++f) At(glides, f, "Hips").translation.z *= 100;
-  EXPECT_THAT(Convert(glides)->doubts, ::testing::ElementsAre(HasSubstr("seem to have a smaller unit than the limbs")));
+  EXPECT_THAT(Convert(glides)->doubts, ::testing::ElementsAre(HasSubstr("have a smaller unit than the limbs")));
 }
 
 TEST(ToBodyMotion, SaysAnImpossibleHeightAndNoChangeOfRateThatReadsAlike) {
@@ -515,7 +517,7 @@ TEST(ToBodyMotion, SaysAnImpossibleHeightAndNoChangeOfRateThatReadsAlike) {
   // A child of a year is as small as an adult in a wrong unit may seem, but its legs are shorter.
   BodyPose adult = testing::BodyAtRest(testing::PersonSkeleton(), *FindJointMap(testing::PersonSkeleton(), "a.bvh"));
   for (glm::dvec3& joint : adult.joints) joint *= .004;
-  EXPECT_THAT(DescribeImpossibleHeight({&adult, 1}), HasSubstr("its legs are an adult's share of that height"));
+  EXPECT_THAT(DescribeImpossibleHeight({&adult, 1}), HasSubstr("the legs have an adult's proportion of the height"));
   BodyPose child = adult;
   for (const Role role : {Role::kLeftKnee, Role::kLeftAnkle, Role::kRightKnee, Role::kRightAnkle}) {
     const bool is_left = role == Role::kLeftKnee || role == Role::kLeftAnkle;
@@ -528,10 +530,10 @@ TEST(ToBodyMotion, SaysAnImpossibleHeightAndNoChangeOfRateThatReadsAlike) {
 TEST(ToBodyMotion, RefusesWhatGivesNoMotion) {
   EXPECT_THAT(testing::Message(Convert(AtRest(testing::PersonSkeleton(), 0))), HasSubstr("no frames"));
 
-  EXPECT_THAT(testing::Message(Convert(AtRest(Scaled(1e-12)))), HasSubstr("needed: joints that lie apart"));
+  EXPECT_THAT(testing::Message(Convert(AtRest(Scaled(1e-12)))), HasSubstr("allowed: joints at different positions"));
 
   EXPECT_EQ(testing::Message(Convert(AtRest(testing::PersonSkeleton(), 400, 1), {.rate_hz = 1e6})),
-            "399 s at 1e+06 Hz are too many poses; allowed: at most 500000");
+            "399 s at 1e+06 Hz are too many poses; allowed: at most 500000 poses");
 
   Clip flying = AtRest(testing::PersonSkeleton(), 2);
   At(flying, 1, "Hips").translation.x = 1e300;
@@ -543,8 +545,7 @@ TEST(ToBodyMotion, RefusesWhatGivesNoMotion) {
       << "the T-pose's frames count";
 
   EXPECT_EQ(testing::Message(Convert(AtRest(testing::PersonSkeleton(), 400, 0.1))),
-            "the clip lasts 3990 s; allowed: at most 3600 s; its frames are 10 s apart: does the file count in "
-            "milliseconds?");
+            "the clip lasts 3990 s; allowed: at most 3600 s; frames are 10 s apart: are the times in milliseconds?");
 }
 
 }  // namespace

@@ -67,7 +67,7 @@ TEST(UpAxis, OfAmassInACamerasFrameIsDoubted) {
   EXPECT_EQ(doubt(StandingPerson()),
             "the body stands along Y, but Z is the convention of AMASS; --up sets another axis");
   EXPECT_EQ(doubt(Turned(StandingPerson(), kPi, {1, 0, 0})),
-            "the body stands along −Y, but Z is the convention of AMASS; allowed: Y or Z, so the file must be rotated "
+            "the body stands along −Y, but Z is the convention of AMASS; --up allows only Y or Z, so rotate the file "
             "first");
   EXPECT_EQ(doubt(Turned(StandingPerson(), kPi / 2, {0, 0, 1})), "") << "lies along X";
 }

@@ -48,10 +48,12 @@ std::vector<std::string> RemarksOn(const std::string& text) {
 TEST(BodyJumps, AnotherPersonUnderTheSameNameIsSaid) {
   // Two people 1.2 m apart: exchanged once, and in every second row.
   const std::string once = KinectV1Text(Aside([](int t) { return t < 30 ? 0 : 1.2; }));
-  EXPECT_THAT(RemarksOn(once), ElementsAre("the body jumps by 1.20 m at 1.00 s, as if another person were read"));
+  EXPECT_THAT(RemarksOn(once), ElementsAre("the body jumps by 1.20 m at 1.00 s; has the sensor changed to another "
+                                           "person?"));
   const std::string often = KinectV1Text(Aside([](int t) { return t % 2 == 0 ? 0 : 1.2; }));
   EXPECT_THAT(RemarksOn(often),
-              ElementsAre("the body jumps 59 times, first by 1.20 m at 0.03 s, as if another person were read"));
+              ElementsAre("the body jumps 59 times, first by 1.20 m at 0.03 s; has the sensor changed to another "
+                          "person?"));
   // Over frames without a body, at 15 Hz, and by exchanged ids of NTU.
   std::string lost = often, nobody;
   for (int i = 0; i < 60; ++i) nobody += "0 ";
@@ -103,8 +105,8 @@ std::vector<std::string> LiveRemarks(const std::string& text, std::size_t& frame
 TEST(LiveStream, AnotherPersonIsSaidOnce) {
   std::size_t frames = 0;
   EXPECT_THAT(LiveRemarks(KinectV1Text(Aside([](int t) { return t < 40 || t % 2 == 0 ? 0 : 1.2; })), frames),
-              ElementsAre("the body jumps by 1.20 m at 1.37 s, as if another person were read; later jumps are not "
-                          "reported"));
+              ElementsAre("the body jumps by 1.20 m at 1.37 s; has the sensor changed to another person?; Etude does "
+                          "not report later jumps"));
   EXPECT_EQ(frames, 60u);
 }
 
@@ -114,12 +116,13 @@ TEST(LiveStream, ARowWhoseTimeIsALittleEarlierIsLeftOut) {
   const std::string back = AllReplaced(rows, "\n1320 ", "\n1254 ");
   std::size_t frames = 0;
   EXPECT_THAT(LiveRemarks(back, frames),
-              ElementsAre("the time 1.254 s in line 41 follows 1.287 s; rows with an earlier "
-                          "time are left out"));
+              ElementsAre("the time 1.254 s in line 41 follows 1.287 s; Etude leaves out rows with a time before the "
+                          "latest time"));
   EXPECT_EQ(frames, 59u);  // 59 steps of 33 ms, at 30 Hz
   // A clock that begins again ends the stream.
   EXPECT_THAT(LiveRemarks(rows + rows, frames),
-              ElementsAre("-:61: the clock goes back by 1.95 s, from 1.947 s to 0 s; allowed: at most 1 s"));
+              ElementsAre("-:61: the clock goes back by 1.95 s, from 1.947 s to 0 s; allowed: to go back by at most 1 "
+                          "s"));
 }
 
 TEST(Streams, ClocksOfTicksAreRecognised) {
@@ -134,15 +137,17 @@ TEST(Streams, ClocksOfTicksAreRecognised) {
     int k = 0;
     for (std::string line; std::getline(lines, line); ++k) text += fmt::format("{:.0f} {}\n", first + k * step, line);
     EXPECT_EQ(frames(text), 60u) << first;
-    EXPECT_THAT(RemarksOn(text), ElementsAre(HasSubstr("the rate is then 30 Hz; as "))) << first;
+    EXPECT_THAT(RemarksOn(text), ElementsAre(HasSubstr("which gives a rate of 30 Hz; as "))) << first;
   }
-  EXPECT_THAT(RemarksOn(WithClock(rows, 0, 1)), ElementsAre("the first column counts frames at 30 Hz"));
+  EXPECT_THAT(RemarksOn(WithClock(rows, 0, 1)), ElementsAre("Etude reads the first column as frame numbers at 30 Hz"));
   // Rates of Kinects have no doubt, other rates have one: 5 Hz in microseconds, 3 Hz and 200 Hz in milliseconds.
   EXPECT_THAT(RemarksOn(WithClock(rows, 0, 200000)), IsEmpty());
-  EXPECT_THAT(RemarksOn(WithClock(rows, 0, 333)), ElementsAre(StartsWith("its times give 3 Hz, which no Kinect has")));
-  EXPECT_THAT(RemarksOn(WithClock(rows, 0.5, 5.0)), ElementsAre(StartsWith("its times give 200 Hz, which no Kinect")));
+  EXPECT_THAT(RemarksOn(WithClock(rows, 0, 333)),
+              ElementsAre(StartsWith("the times give a rate of 3 Hz, but a Kinect has")));
+  EXPECT_THAT(RemarksOn(WithClock(rows, 0.5, 5.0)),
+              ElementsAre(StartsWith("the times give a rate of 200 Hz, but a Kinect")));
   std::size_t live = 0;
-  EXPECT_THAT(LiveRemarks(WithClock(rows, 0, 333), live), ElementsAre(StartsWith("its times give 3 Hz")));
+  EXPECT_THAT(LiveRemarks(WithClock(rows, 0, 333), live), ElementsAre(StartsWith("the times give a rate of 3 Hz")));
 }
 
 TEST(Streams, DecimalCommasBetweenSemicolonsAreRead) {
@@ -155,14 +160,14 @@ TEST(Streams, DecimalCommasBetweenSemicolonsAreRead) {
       for (char& c : commas) c = c == ' ' ? separator : c == '.' ? ',' : c;
       ASSERT_OK(wanted, ReadStreamRecording(points, "s"));
       ASSERT_OK(read, ReadStreamRecording(commas, "s"));
-      EXPECT_THAT(read->remarks, ElementsAre("its numbers have decimal commas"));
+      EXPECT_THAT(read->remarks, ElementsAre("Etude read commas as decimal points"));
       ASSERT_EQ(read->frames.size(), wanted->frames.size());
       for (std::size_t t = 0; t < read->frames.size(); ++t) {
         EXPECT_EQ(read->frames[t].places, wanted->frames[t].places) << t;
         EXPECT_EQ(read->frames[t].time_s, wanted->frames[t].time_s) << t;
       }
       std::size_t frames = 0;
-      EXPECT_THAT(LiveRemarks(commas, frames), ElementsAre("its numbers have decimal commas"));
+      EXPECT_THAT(LiveRemarks(commas, frames), ElementsAre("Etude read commas as decimal points"));
       EXPECT_EQ(frames, MakeStream(*wanted, "s").value().stream.frames.size());
     }
   }
@@ -194,9 +199,9 @@ TEST(Streams, BodiesWithoutIdsAreToldApartByNearness) {
   const std::string text = TwoWithoutIds(one, other);
   for (const int body : {0, 1}) {
     ASSERT_OK(read, ReadStreamRecording(text, "s", {.body = body}));
-    EXPECT_THAT(read->remarks, Contains("several bodies of one frame have no id (first in frame 0); each continues the "
-                                        "body that was nearest before"));
-    EXPECT_THAT(read->remarks, Contains(fmt::format("the file has 2 bodies; body {} is read", body)));
+    EXPECT_THAT(read->remarks, Contains("several bodies of one frame have no id (first in frame 0); Etude reads each "
+                                        "of these bodies as the nearest body of the frames before"));
+    EXPECT_THAT(read->remarks, Contains(fmt::format("the file has 2 bodies; Etude reads body {}", body)));
     const BodyMotion& wanted = body == 0 ? one : other;
     for (std::size_t t = 0; t < 60; ++t) {
       EXPECT_NEAR(read->frames[t].places[0]->x, wanted.poses[t].joints[0].x, 1e-5) << t;
@@ -204,7 +209,8 @@ TEST(Streams, BodiesWithoutIdsAreToldApartByNearness) {
   }
   // Both are in all frames, so the one that moves most is read, and said to be that one.
   EXPECT_THAT(RemarksOn(text),
-              Contains("the file has 2 bodies; body 0 is read, which moves most; 2 bodies are in equally many frames"));
+              Contains("the file has 2 bodies; Etude reads body 0, because it moves most (2 bodies are in equally many "
+                       "frames)"));
 }
 
 TEST(Streams, TwoBodiesThatExchangeTheirIdsAreReadOnAsTheSamePeople) {
@@ -227,7 +233,7 @@ TEST(Streams, TwoBodiesThatExchangeTheirIdsAreReadOnAsTheSamePeople) {
                           is_exchanged ? a2[t] : a1[t], is_exchanged ? b1[t] : b2[t]);
   }
   ASSERT_OK(read, ReadStreamRecording("{\"frames\":[" + frames + "]}", "s", {.body = 0}));
-  EXPECT_THAT(read->remarks, Contains(StartsWith("two bodies exchange their ids in frame 20")));
+  EXPECT_THAT(read->remarks, Contains(StartsWith("two bodies exchange ids in frame 20")));
   for (std::size_t t = 0; t < 60; ++t) EXPECT_NEAR(read->frames[t].places[0]->x, one.poses[t].joints[0].x, 1e-5) << t;
 }
 
@@ -247,8 +253,10 @@ TEST(Streams, OneIdOfTwoBodiesInAFrameIsTwoPeople) {
   const std::string both = "4\n1\n" + a[0] + "2\n" + b[1] + a[1] + "2\n" + a[2] + b[2] + "1\n" + a[3];
   ASSERT_OK(read, ReadStreamRecording(both, "s"));
   EXPECT_THAT(read->remarks, ElementsAre("several bodies of one frame have the id 72057594037931101 (first in frame "
-                                         "1); each continues the body that was nearest before",
-                                         "the file has 2 bodies; body 0 is read, which is in the most frames"));
+                                         "1); Etude reads each of these bodies as the nearest body of the frames "
+                                         "before",
+                                         "the file has 2 bodies; Etude reads body 0, because it is in the most "
+                                         "frames"));
   for (const RecordedFrame& frame : read->frames) EXPECT_NEAR(frame.places[0]->x, 0, 1e-9);
 }
 
@@ -267,8 +275,8 @@ TEST(Streams, ConfidencesMayBeNames) {
   }
   EXPECT_EQ(ToString(read("\"none\"").error()), "s: no frame shows a body");
   EXPECT_EQ(ToString(read("\"sure\"").error()),
-            "s: a body of frame 0 has the confidence 'sure'; allowed: 0 to 3, or K4ABT_JOINT_CONFIDENCE_NONE, _LOW, "
-            "_MEDIUM or _HIGH");
+            "s: a body in frame 0 has the confidence level 'sure'; allowed: 0 to 3, or K4ABT_JOINT_CONFIDENCE_NONE, "
+            "_LOW, _MEDIUM or _HIGH");
 }
 
 }  // namespace

@@ -83,7 +83,8 @@ TEST(LiveStream, OfEqualTimesTheFirstCountsAsInARecording) {
   ASSERT_OK(recording, ReadStreamRecording(twice, "s"));
   EXPECT_EQ(recording->frames.size(), 90u);
   EXPECT_THAT(recording->remarks,
-              ::testing::Contains("1 frames repeat another frame's time; the first frame of each time is used"));
+              ::testing::Contains("1 frames have the same time as another frame; Etude uses the first frame of each "
+                                  "time"));
 }
 
 TEST(LiveStream, TakesTheClocksTextsAndCommasOfTables) {
@@ -124,8 +125,9 @@ TEST(LiveStream, ASensorUpsideDownIsTurnedBackAndSaid) {
   for (std::size_t at = 0; at < text.size(); at = text.find('\n', at) + 1) {
     ASSERT_TRUE(live.Take(std::string_view(text).substr(at, text.find('\n', at) - at), frames));
   }
-  EXPECT_THAT(live.TakeRemarks(),
-              ::testing::ElementsAre(::testing::StartsWith("sensor rotated by 180 degrees, rotated back")));
+  EXPECT_THAT(
+      live.TakeRemarks(),
+      ::testing::ElementsAre(::testing::StartsWith("the sensor was rotated by 180 degrees, and Etude rotated")));
   EXPECT_TRUE(live.TakeRemarks().empty());
 }
 
@@ -156,7 +158,7 @@ TEST(LiveStream, ADamagedRowIsLeftOutAndSaidOnce) {
     }
     EXPECT_THAT(remarks, ::testing::Contains(::testing::AllOf(
                              ::testing::StartsWith("line 41: "),
-                             ::testing::EndsWith("; the row is left out, and later damaged rows too"))));
+                             ::testing::EndsWith("; Etude leaves out this row and later damaged rows"))));
     EXPECT_EQ(std::ranges::count_if(remarks, [](const auto& remark) { return remark.starts_with("line "); }), 1);
     EXPECT_EQ(frames.size(), 60u);
   }

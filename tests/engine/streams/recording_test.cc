@@ -102,7 +102,8 @@ TEST(Streams, AClockMayCountMicrosecondsMillisecondsSecondsOrFrames) {
   EXPECT_NEAR(sixth.start_s, 252 / 30.0, 1e-9);
   const auto read = ReadStreamRecording(WithClock(rows, 252, 6), "s");
   EXPECT_EQ(read->remarks,
-            std::vector<std::string>{"the first column counts frames at 30 Hz, with one row for every 6 frames"});
+            std::vector<std::string>{"Etude reads the first column as frame numbers at 30 Hz, with one row for every 6 "
+                                     "frames"});
   // Whole milliseconds at 60 Hz, and fractions of milliseconds at any rate, are read as milliseconds.
   EXPECT_EQ(Made(WithClock(rows, 1000, 17)).stream.frames.size(), 31u);
   EXPECT_EQ(Made(WithClock(rows, 1000.5, 8)).stream.frames.size(), 15u);
@@ -123,7 +124,8 @@ TEST(Streams, ClocksInAnotherUnitAreRefused) {
   };
   EXPECT_EQ(Made(scaled(1)).stream.frames.size(), 60u);
   EXPECT_TRUE(ComplaintOf(scaled(1e-3)).find("Hz; allowed: 1 to 10000 Hz") != std::string::npos);
-  EXPECT_TRUE(ComplaintOf(scaled(1e3)).find("its times give 0.03 Hz; allowed: 1 to 10000 Hz") != std::string::npos);
+  EXPECT_TRUE(ComplaintOf(scaled(1e3)).find("the times give a rate of 0.03 Hz; allowed: 1 to 10000 Hz") !=
+              std::string::npos);
   EXPECT_EQ(ComplaintOf(scaled(1e3), {.rate_hz = 30}), "accepted");
 }
 
@@ -232,7 +234,7 @@ TEST(Streams, TablesMayCountMillisecondsOrSince1970) {
   std::string trc = WriteTrc(motion, "a");
   std::replace(trc.begin() + static_cast<std::ptrdiff_t>(trc.find("\n1\t")), trc.end(), '.', ',');
   EXPECT_LT(FurthestFrom(motion, Made(trc).stream), 1e-5);
-  EXPECT_EQ(ReadStreamRecording(trc, "s")->remarks, std::vector<std::string>{"its numbers have decimal commas"});
+  EXPECT_EQ(ReadStreamRecording(trc, "s")->remarks, std::vector<std::string>{"Etude read commas as decimal points"});
 }
 
 TEST(Streams, OfSeveralBodiesTheOneSeenLongestIsTakenUnlessAnotherIsAskedFor) {
@@ -243,7 +245,8 @@ TEST(Streams, OfSeveralBodiesTheOneSeenLongestIsTakenUnlessAnotherIsAskedFor) {
   const std::string text = "3\n1\n" + other + "2\n" + other + body + "1\n" + body + "";
   EXPECT_EQ(ReadStreamRecording(text, "s")->remarks.size(), 1u);
   EXPECT_TRUE(ReadStreamRecording(text, "s", {.body = 1})->frames[0].places[0] == std::nullopt);
-  EXPECT_EQ(ComplaintOf(text, {.body = 2}), "s: there is no body 2; bodies in the file, counted from 0: 2");
+  EXPECT_EQ(ComplaintOf(text, {.body = 2}),
+            "s: there is no body 2; the file has 2 bodies, counted from 0");
 }
 
 /// Returns one body of a frame in NTU's text, under another name and `aside` metres to the side.
@@ -269,28 +272,26 @@ TEST(Streams, ABodyThatGoesOnUnderAnotherNameIsOnePerson) {
   };
   ASSERT_OK(joined, ReadStreamRecording(text(0.1, 2), "s", {.body = 0}));
   EXPECT_EQ(shown(*joined), 19);
-  EXPECT_EQ(joined->remarks.front(), "body 11 continues as body 22 from frame 13 on; both are read as one person");
-  EXPECT_EQ(joined->remarks.back(), "the file has 2 bodies; body 0 is read");
+  EXPECT_EQ(joined->remarks.front(), "body 11 continues as body 22 from frame 13 on; Etude reads both as one person");
+  EXPECT_EQ(joined->remarks.back(), "the file has 2 bodies; Etude reads body 0");
   // A person a metre aside is not joined to the first, nor is one who appears while the first is still seen.
   const auto other = ReadStreamRecording(text(1, 2), "s", {.body = 0});
   EXPECT_EQ(shown(*other), 11);
-  EXPECT_EQ(other->remarks, std::vector<std::string>{"the file has 3 bodies; body 0 is read"});
+  EXPECT_EQ(other->remarks, std::vector<std::string>{"the file has 3 bodies; Etude reads body 0"});
   const std::string both = "2\n2\n" + NtuBody("11", 0) + NtuBody("22", 0.1) + "1\n" + NtuBody("22", 0.1);
   EXPECT_EQ(ReadStreamRecording(both, "s")->remarks,
-            std::vector<std::string>{"the file has 2 bodies; body 1 is read, which is in the most frames"});
+            std::vector<std::string>{"the file has 2 bodies; Etude reads body 1, because it is in the most frames"});
 }
 
 TEST(Streams, MarkersOfOtherNamesAreTold) {
   const std::string trc = WriteTrc(WavingMotion(2), "m");
   EXPECT_EQ(ComplaintOf(std::string(trc).replace(trc.find("head"), 4, "C7")),
-            "s:4: unknown marker names 'C7'; needed but missing: head (`etude clip convert` knows other sets of "
-            "markers)");
+            "s:4: unknown marker names 'C7'; missing markers: head; `etude clip convert` can read other marker sets");
   MarkerMotion markers;
   for (int i = 0; i < 39; ++i) markers.names.push_back(fmt::format("M{}", i));
   markers.frames.resize(2, std::vector<std::optional<glm::dvec3>>(39, glm::dvec3(1)));
   const std::string complaint = ComplaintOf(WriteTrc(markers, "m"));
-  EXPECT_NE(complaint.find("'M7' and 31 more; needed but missing: hip_centre, spine"), std::string::npos)
-      << complaint;
+  EXPECT_NE(complaint.find("'M7' and 31 more; missing markers: hip_centre, spine"), std::string::npos) << complaint;
 }
 
 TEST(Streams, JointsThatAreNeverShownAndTimesThatRunBackAreRefused) {
@@ -306,7 +307,8 @@ TEST(Streams, NobodyAndTooSmallOrTooLargeBodiesAreRefused) {
   BodyMotion giant = WavingMotion(2);
   for (auto& joint : giant.poses[0].joints) joint *= 4.0;
   for (auto& joint : giant.poses[1].joints) joint *= 4.0;
-  EXPECT_NE(ComplaintOf(KinectV1Text(giant)).find("the trunk is 1.88"), std::string::npos)
+  EXPECT_NE(ComplaintOf(KinectV1Text(giant)).find("the distance from hip centre to shoulder centre is 1.88"),
+            std::string::npos)
       << ComplaintOf(KinectV1Text(giant));
 }
 

@@ -100,7 +100,7 @@ TEST(StreamMaker, ASensorInPortraitOrUpsideDownIsTurnedBackAndThatIsSaid) {
     for (int quarters = 1; quarters < 4; ++quarters) {
       const auto made = MakeStream(TurnedAbout(upright, quarters), "s").value();
       EXPECT_EQ(made.level.turn_deg, 360 - 90 * quarters);
-      EXPECT_EQ(Describe(made.level).find(fmt::format("sensor rotated by {} degrees, rotated back", 360 - 90 * quarters)),
+      EXPECT_EQ(Describe(made.level).find(fmt::format("the sensor was rotated by {} degrees", 360 - 90 * quarters)),
                 0u);
       EXPECT_NEAR(made.level.tilt_deg, tilt_deg, 1e-6);
       for (const Role role : AllRoles()) {
@@ -125,7 +125,9 @@ TEST(StreamMaker, WhoLiesOrFallsBeforeALevelSensorIsNotTurnedButSaidToBeFarFromU
     EXPECT_EQ(level.turn_deg, 0);
     EXPECT_EQ(level.R_WF, glm::dmat3(1));
     EXPECT_NEAR(level.trunk_deg, 90, 1e-6);
-    EXPECT_EQ(Describe(level).find("up as in the file (although trunks are 90 degrees from it: "), 0u);
+    EXPECT_EQ(Describe(level).find(
+                  "the up direction is as in the file (although trunks are 90 degrees from this direction: "),
+              0u);
   }
   // A person who stood before, and now lies on a side.
   StreamRecording falling = WavingBeforeKinect();

@@ -70,12 +70,13 @@ TEST(TeachMove, TakesTheShortestAndTheLongestAndSaysWhatIsBeyond) {
     return move ? "span " + std::to_string(move->span_s) : move.error().message;
   };
   EXPECT_EQ(complaint(0.5, 30), "span 0.650000");
-  EXPECT_EQ(complaint(0.4, 30), "a performance of 'm' shows a body for 0.40 s; needed: 0.5 s");
+  EXPECT_EQ(complaint(0.4, 30), "a performance of 'm' shows a body for only 0.40 s; allowed: at least 0.5 s");
   EXPECT_EQ(complaint(50, 2), "span 60.000000");
   EXPECT_EQ(complaint(60, 2), "span 60.000000");
   EXPECT_EQ(complaint(60.5, 2),
-            "a performance of 'm' lasts 60.5 s; allowed: at most 60 s; use labels to mark where each begins and ends");
-  EXPECT_EQ(TeachMove("m", {}).error().message, "move 'm' has no right performance to learn from");
+            "a performance of 'm' lasts 60.5 s; allowed: at most 60 s; use labels to mark where each performance "
+            "begins and ends");
+  EXPECT_EQ(TeachMove("m", {}).error().message, "move 'm' has no right performance from which Etude could learn");
 }
 
 }  // namespace

@@ -126,8 +126,8 @@ TEST(RecoverUnmarked, SeesNobodyWhereNothingMoves) {
   const auto found =
       RecoverUnmarked({.cameras = film.cameras, .pictures = film.pictures, .rooms = {}, .stature_m = {}});
   EXPECT_EQ(testing::Message(found),
-            "there is no frame in which two films show a moving person; a person who never moves cannot be "
-            "distinguished from the room");
+            "no frame shows a moving person in two films; Etude cannot distinguish a person who never moves from the "
+            "room");
 }
 
 }  // namespace

@@ -174,7 +174,7 @@ void Fbx(std::string_view bytes) {
   const auto motion = reader->Read(bytes, kFile);
   if (!motion) {
     const std::string told = motion.error().message;
-    Require(!told.starts_with("an FBX file, but assimp is missing"), told.c_str());
+    Require(!told.starts_with("reading an FBX file needs assimp, which is missing"), told.c_str());
     constexpr std::size_t kLongest = 320;
     Require(!told.empty() && told.size() < kLongest && ToString(motion.error()).find('\n') == std::string::npos,
             "a refusal is one short line");

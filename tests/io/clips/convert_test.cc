@@ -72,7 +72,7 @@ TEST_F(ConvertTest, OfMarkersToASkeletonSaysWhatTheirReaderChanged) {
   const std::string trc = Write("raised.trc", WriteTrc(raised, "raised"));
   for (const MotionFormat format : {MotionFormat::kBvh, MotionFormat::kGlb, MotionFormat::kCsv}) {
     ASSERT_OK(converted, ConvertClips(*ReadClips(trc), format, {}));
-    EXPECT_THAT(converted->changes, ::testing::Contains(HasSubstr("the floor was at ")));
+    EXPECT_THAT(converted->changes, ::testing::Contains(HasSubstr("Etude moved the floor from ")));
   }
 }
 
@@ -93,7 +93,7 @@ TEST_F(ConvertTest, FormatsWithAClockKeepWhenAMotionBegins) {
     EXPECT_NEAR(*back->front().made->start_s, 6.5, 1e-6) << name;
   }
   ASSERT_OK(bvh, ConvertClips(*ReadClips(trc), MotionFormat::kBvh, options));
-  EXPECT_THAT(bvh->changes, ::testing::Contains("time 0 of the output is 6.5 s of the input"));
+  EXPECT_THAT(bvh->changes, ::testing::Contains("time 0 of the output is the time 6.5 s of the input"));
 }
 
 TEST_F(ConvertTest, BvhToGlbIsInMetresAndComesBackAsTheSamePlaces) {
@@ -153,7 +153,8 @@ TEST_F(ConvertTest, ABearDancesInAGlbWithItsMeshes) {
   ASSERT_EQ(bear.clips.size(), 1u);
   EXPECT_EQ(bear.clips[0].name, "clap");
   EXPECT_EQ(bear.clips[0].frames.size(), LoadBuiltinMove("clap")->motion.poses.size());
-  EXPECT_THAT(Complaint("builtin:clap", MotionFormat::kBvh, options), HasSubstr("only GLB holds a character"));
+  EXPECT_THAT(Complaint("builtin:clap", MotionFormat::kBvh, options),
+              HasSubstr("only GLB files can contain a character"));
 }
 
 TEST_F(ConvertTest, SeveralAnimationsBecomeAGlbOrAComplaint) {
@@ -161,12 +162,12 @@ TEST_F(ConvertTest, SeveralAnimationsBecomeAGlbOrAComplaint) {
   const std::string dance = Write("dance.gltf", GltfWithAnimations("numbers.bin"));
   EXPECT_EQ(ReadBack(Convert(dance, MotionFormat::kGlb)).clips.size(), 2u);
   EXPECT_THAT(Complaint(dance, MotionFormat::kBvh),
-              HasSubstr("choose one of the 2 with FILE#NAME: Armature|Jump, Armature|Walk"));
+              HasSubstr("choose one of the 2 animations with FILE#NAME: Armature|Jump, Armature|Walk"));
 }
 
 TEST_F(ConvertTest, WithoutAUnitThereIsNoGlb) {
   const std::string path = Write("two.bvh", kTwoJoints);
-  EXPECT_THAT(Complaint(path, MotionFormat::kGlb), HasSubstr("--unit must state"));
+  EXPECT_THAT(Complaint(path, MotionFormat::kGlb), HasSubstr("use --unit to state the unit"));
   ConvertOptions options;
   options.open.body.metres_per_unit = 0.01;
   options.open.body.up = UpAxis::kZ;

@@ -145,8 +145,10 @@ TEST(FbxTakes, TheBaseLayerIsReadAndLayersThatChangeItAreTold) {
                             Baked("Fix", 0, 1, other, Number("BlendMode", 1) + Number("Weight", 60))}) {
     const Waved waved = Read(ArmFile({base, layer}));
     ExpectHand(waved, 0, 1, Truth);
-    EXPECT_THAT(waved.remark,
-                HasSubstr("clip 'Wave': its animation layer 'Base' is used; other layers are left out: 'Fix'; bake"));
+    EXPECT_THAT(
+        waved.remark,
+        HasSubstr(
+            "clip 'Wave': Etude uses only the animation layer 'Base' and leaves out the other layers ('Fix'); bake"));
   }
   for (const char* silent : {"Weight", "Mute"}) {
     const Waved waved = Read(ArmFile({base, Baked("Fix", 0, 1, other, Number(silent, *silent == 'W' ? 0 : 1))}));
@@ -166,15 +168,13 @@ TEST(FbxTakes, ALayerThatOverridesTheBaseFullyReplacesIt) {
   }
   const Waved solo = Read(ArmFile({base, Baked("Only", 0, 1, other, Number("Solo", 1))}));
   ExpectHand(solo, 0, 1, place);
-  EXPECT_THAT(solo.remark, HasSubstr("its motion is that of the animation layer 'Only' alone"));
+  EXPECT_THAT(solo.remark, HasSubstr("Etude uses only the animation layer 'Only'"));
 }
 
 TEST(FbxTakes, KeysOutsideOfTheTimeSpanAreLeftOutAndTold) {
   const ArmLayer keys = Baked("Base", 0, 2, Angle);
   const std::string preset = Preset(Span(0, 0));
-  const auto cut = [](double seconds) {
-    return fmt::format("(LocalStart to LocalStop) are left out: up to {:.2f} s", seconds);
-  };
+  const auto cut = [](double seconds) { return fmt::format("(LocalStart to LocalStop), up to {:.2f} s", seconds); };
   for (const auto& [from_s, to_s] : {std::pair(0.5, 1.5), {1.0, 2.0}, {0.0, 1.0}}) {
     const Waved waved = Read(ArmFile({keys}, {.span = Span(from_s, to_s)}));
     ExpectHand(waved, from_s, to_s, Truth, fmt::format("{} s", from_s));
@@ -204,7 +204,7 @@ TEST(FbxTakes, KeysOutsideOfTheTimeSpanAreLeftOutAndTold) {
   }
   const Waved beside = Read(ArmFile({keys}, {.span = Span(5, 6)}));
   ExpectHand(beside, 0, 2, Truth);
-  EXPECT_THAT(beside.remark, HasSubstr("contains no key, so all keys are used"));
+  EXPECT_THAT(beside.remark, HasSubstr("contains no key, so Etude uses all keys"));
 }
 
 TEST(FbxTakes, SparseKeysCountBeyondTheTimeSpan) {
@@ -302,7 +302,7 @@ TEST(FbxTakes, LayersAndSpansOfBinaryFilesChangeInPlace) {
   for (const std::uint32_t version : {7400u, 7700u}) {
     std::string changed;
     const auto remarks = PrepareTakes(TwoLayers(version, kSecond, 3 * kSecond, 1), changed);
-    EXPECT_THAT(remarks, testing::ElementsAre(HasSubstr("'Base' is used; other layers are left out: 'Fix'")));
+    EXPECT_THAT(remarks, testing::ElementsAre(HasSubstr("'Base' and leaves out the other layers ('Fix')")));
     EXPECT_TRUE(changed == TwoLayers(version, kSecond - margin, 3 * kSecond + margin, 0)) << version;
     EXPECT_TRUE(PrepareTakes(TwoLayers(version, 0, kSecond, 0), changed).empty()) << "the control: one layer";
     EXPECT_TRUE(changed == TwoLayers(version, -margin, kSecond + margin, 0));

@@ -50,18 +50,18 @@ TEST_F(OpenClipTest, AClockOfMillisecondsAndARateThatNoFileStatesAreSaid) {
   std::string slow(kTwoJoints);
   slow.replace(slow.find("Time: 0.1"), 9, "Time: 8.3");
   EXPECT_THAT(ReadClips(Write("a.bvh", slow))->at(0).remarks,
-              ElementsAre("its frames are 8.3 s apart: does the file count in milliseconds or in frames? `--rate` (in "
-                          "convert `--file-rate`) states the rate"));
+              ElementsAre("frames are 8.3 s apart: are the times in milliseconds, or are they frame numbers? Use "
+                          "`--rate` (for `etude clip convert`: `--file-rate`) to set the rate"));
   slow.replace(slow.find("Time: 8.3"), 9, "Time: 1.0");
   EXPECT_THAT(ReadClips(Write("a.bvh", slow))->at(0).remarks,
-              ElementsAre(::testing::StartsWith("its frames are 1 s apart: does the file count")));
+              ElementsAre(::testing::StartsWith("frames are 1 s apart: are the times in milliseconds")));
   EXPECT_THAT(ReadClips(Write("b.bvh", kTwoJoints))->at(0).remarks, ElementsAre());
   const std::string asf =
       ":root\norder TX\nposition 0 0 0\n:bonedata\nbegin\nname a\ndirection 1 0 0\nlength 1\nend\n:hierarchy\nbegin\n"
       "root a\nend\n";
   Write("c.asf", asf);
   const std::string motion = Write("c.amc", ":FULLY-SPECIFIED\n1\nroot 1\n2\nroot 2\n");
-  EXPECT_THAT(ReadClips(motion)->at(0).remarks, ElementsAre("the file states no rate; 120 Hz is assumed"));
+  EXPECT_THAT(ReadClips(motion)->at(0).remarks, ElementsAre("the file states no rate, so Etude assumes 120 Hz"));
 }
 
 TEST_F(OpenClipTest, EveryAnimationIsAClipOfItsOwn) {
@@ -78,7 +78,7 @@ TEST_F(OpenClipTest, AnimationsOfOneNameAndASecondBodyAreSaid) {
   ASSERT_OK(clips, ReadClips(Write("same.gltf", gltf)));
   EXPECT_EQ(clips->at(1).name, "same#Armature|Jump_2");
   EXPECT_THAT(clips->at(0).remarks,
-              ElementsAre("two animations are called 'Armature|Jump': the later one is called 'Armature|Jump_2' here"));
+              ElementsAre("two animations are named 'Armature|Jump'; Etude renames the second to 'Armature|Jump_2'"));
   // Two people on one skeleton; readers number joints of the same name.
   Clip pair = RigClip({.rate_hz = 30, .poses = {StandingPose(), StandingPose()}}, StandingPose(), "pair");
   SourceClip source{.name = "one", .source = "one.glb", .format = ClipFormat::kGlb, .clip = pair};
@@ -97,8 +97,8 @@ TEST_F(OpenClipTest, AnimationsOfOneNameAndASecondBodyAreSaid) {
   const auto both = UnderstandClip(source, {});
   ASSERT_TRUE(both) << ToString(both.error());
   EXPECT_THAT(both->body.doubts,
-              ElementsAre("the file contains a second body, with the left hip "
-                          "'left_hip#2'; the body with 'left_hip' is used (--joint-map chooses another)"));
+              ElementsAre("the file contains a second body with the left hip 'left_hip#2'; Etude uses the body with "
+                          "'left_hip' (use --joint-map to choose another body)"));
 }
 
 TEST_F(OpenClipTest, AnAnimationIsChosenByNameOrByItsEnd) {
@@ -112,7 +112,8 @@ TEST_F(OpenClipTest, AnAnimationIsChosenByNameOrByItsEnd) {
 }
 
 TEST_F(OpenClipTest, FilesWithoutMotionAndChoicesWithoutMeaningAreRefused) {
-  EXPECT_THAT(Complaint(Write("figure.gltf", GltfWith(""))), HasSubstr("holds no animation, only a figure (joints: 2"));
+  EXPECT_THAT(Complaint(Write("figure.gltf", GltfWith(""))),
+              HasSubstr("the file contains no animation, only a character (joints: 2"));
   EXPECT_THAT(Complaint(Write("a.bvh", kTwoJoints) + "#Jump"), HasSubstr("a BVH file has only one motion"));
 }
 
@@ -191,31 +192,32 @@ TEST_F(ClipFileTest, TheFormatIsToldByContentNotByName) {
 }
 
 TEST_F(ClipFileTest, WhatIsNeitherIsToldWithWhatIsAllowed) {
-  EXPECT_NE(Complaint(Write("x.bvh", "hello\n")).find("x.bvh:1:1: a file that begins with 'hello'; allowed: BVH"),
+  EXPECT_NE(Complaint(Write("x.bvh", "hello\n")).find("x.bvh:1:1: found a file that begins with 'hello'; allowed: BVH"),
             std::string::npos);
   EXPECT_NE(Complaint(Write("empty.glb", "")).find("an empty file"), std::string::npos);
-  EXPECT_NE(Complaint(Write("a.fbx", "Kaydara FBX Binary  ...")).find("a damaged FBX file: "), std::string::npos);
+  EXPECT_NE(Complaint(Write("a.fbx", "Kaydara FBX Binary  ...")).find("the FBX file is damaged: "), std::string::npos);
   for (const auto& [bytes, told] : std::vector<std::pair<std::string, const char*>>{
            {"\x1f\x8b\x08", "a gzip file: unpack it"},
-           {"\x80\x04}.", "a pickled Python object, which is never opened"},
+           {"\x80\x04}.", "a pickled Python object, which Etude does not open"},
            {"\xff\xfeH", "text in UTF-16: save it as UTF-8"},
            {"version https://git-lfs.github.com/spec/v1\n", "a pointer of Git LFS"},
            {"Coordinates\n", "an OpenSim table"},
            {"my walk.sto\nversion=1\nendheader\n", "an OpenSim table"},
            {":version 1.10\n:name x\n", "an Acclaim skeleton"},
-           {"Vocaloid Motion Data 0002", "a motion of MikuMikuDance (.vmd), whose model is another file"},
-           {"#usda 1.0\n", "a USD scene: export glTF"},
-           {"NO_OF_FRAMES\t100\n", "Qualisys' TSV: export C3D from QTM"},
-           {"\xEF\xBB\xBFTrajectories\n100\n", "Vicon's CSV: export C3D from Nexus"},
+           {"Vocaloid Motion Data 0002", "a motion of MikuMikuDance (.vmd), which needs a model from another file"},
+           {"#usda 1.0\n", "a USD scene: export it as glTF"},
+           {"NO_OF_FRAMES\t100\n", "Qualisys' TSV: in QTM, export C3D"},
+           {"\xEF\xBB\xBFTrajectories\n100\n", "Vicon's CSV: in Nexus, export C3D"},
            {"# by hand\n[Header]\nFileType htr\n[SegmentNames&Hierarchy]\n", "Motion Analysis' HTR"},
-           {"<?xml version=\"1.0\"?>\n<mvnx version=\"4\">", "Xsens' MVNX: export BVH"},
+           {"<?xml version=\"1.0\"?>\n<mvnx version=\"4\">", "Xsens' MVNX: in MVN, export BVH"},
            {"<?xml version=\"1.0\"?>\n<COLLADA>", "a Collada scene"},
-           {"<?xml version=\"1.0\"?>\n<thing/>", "XML of an unknown kind"},
-           {std::string("\0\0\0 ftypisom", 12), "a film, picture or sound, not a motion"},
-           {std::string("\x55\xaa\0\1", 4), "a binary file of an unknown kind; export BVH, FBX or C3D"},
+           {"<?xml version=\"1.0\"?>\n<thing/>", "XML of an unknown type"},
+           {std::string("\0\0\0 ftypisom", 12), "a film, a picture or a sound"},
+           {std::string("\x55\xaa\0\1", 4), "a binary file of an unknown type: export BVH, FBX or C3D"},
            {"{\"Bodies\": []}", "JSON that is neither glTF (it has no \"asset\")"},
-           {"[{\"keypoints\": []}]", "a JSON list; write joints with numpy.save"},
-           {"frame,x,y,z\n", "a table that begins with 'frame,x,y,z'; one of joints has columns left_wrist_x_m"}}) {
+           {"[{\"keypoints\": []}]", "a JSON list: for joint positions, use numpy.save"},
+           {"frame,x,y,z\n",
+            "a table that begins with 'frame,x,y,z': for joint positions, use columns such as left_wrist_x_m"}}) {
     EXPECT_NE(Complaint(Write("other", bytes)).find(told), std::string::npos) << told;
   }
   EXPECT_NE(Complaint(folder_.path().string()).find("is no file"), std::string::npos);
@@ -225,7 +227,8 @@ TEST_F(ClipFileTest, WhatIsNeitherIsToldWithWhatIsAllowed) {
 TEST_F(ClipFileTest, AFileThatIsTooLargeIsRefusedBeforeItIsRead) {
   const std::string path = Write("huge.bvh", "HIERARCHY");
   std::filesystem::resize_file(path, kMaxClipFileBytes + 1);  // a sparse file, which takes no space
-  EXPECT_NE(Complaint(path).find("found 501 MB; allowed: clips of at most 500 MB"), std::string::npos);
+  EXPECT_NE(Complaint(path).find("found 501 MB; allowed: at most 500 MB for a motion and its files together"),
+            std::string::npos);
 }
 
 TEST_F(ClipFileTest, BuffersAreReadFromTheFilesOwnFolder) {
@@ -233,7 +236,7 @@ TEST_F(ClipFileTest, BuffersAreReadFromTheFilesOwnFolder) {
   ASSERT_OK(file, ReadClipFile(Write("a.gltf", GltfWithAnimations("deeper/numbers.bin"))));
   EXPECT_EQ(file->clips.size(), 2u);
   EXPECT_NE(Complaint(Write("b.gltf", GltfWithAnimations("absent.bin")))
-                .find("cannot read the file 'absent.bin', to which it refers: No such"),
+                .find("Etude cannot read 'absent.bin', to which this file refers: No such"),
             std::string::npos);
 }
 
@@ -245,7 +248,7 @@ TEST_F(ClipFileTest, NothingOutsideTheFolderIsRead) {
   // The control: a link within the folder is followed.
   EXPECT_TRUE(ReadClipFile(Write("inside/fine.gltf", GltfWithAnimations("fine.bin"))));
   EXPECT_NE(
-      Complaint(Write("inside/a.gltf", GltfWithAnimations("link.bin"))).find("a link that leads out of the folder"),
+      Complaint(Write("inside/a.gltf", GltfWithAnimations("link.bin"))).find("the path is a link to another folder"),
       std::string::npos);
   for (const std::string uri : {"../outside/numbers.bin", "%2e%2e/outside/numbers.bin", "/etc/hostname",
                                 "file:///etc/hostname", "http://localhost/numbers.bin"}) {

@@ -175,10 +175,10 @@ TEST_F(RawMotionsTest, MarkersOfNoKnownSetHaveNoRolesUnlessAJointMapNamesThem) {
   EXPECT_EQ(raw->joints, odd.names);
   EXPECT_NEAR(glm::distance(raw->At(2, 2), StandingPose()[Role::kShoulderCentre]), 0, 1e-5) << "metres, Y up";
   ASSERT_EQ(raw->notes.size(), 2u);
-  EXPECT_THAT(raw->notes[0], HasSubstr("its markers (Q0, Q1, "));
+  EXPECT_THAT(raw->notes[0], HasSubstr("the markers (Q0, Q1, "));
   EXPECT_EQ(raw->notes[1], "Z is up (told)");
   // For any use but a comparison, markers of unknown names are refused.
-  EXPECT_THAT(testing::Refusal(OpenBodyInPlace(trc, told)), HasSubstr("are not of a known set"));
+  EXPECT_THAT(testing::Refusal(OpenBodyInPlace(trc, told)), HasSubstr("belong to no known marker set"));
   // With a joint map of the needed joints they are read as a body, from a marker file and from an array.
   told.roles.emplace();
   using enum Role;
@@ -273,7 +273,7 @@ TEST_F(RawMotionsTest, KimodosArraysKeepTheirRotationsAndContacts) {
   std::map<std::string, NumberArray> wrong = arrays;
   wrong["foot_contacts"] = {{2, 4}, std::vector<double>(8, 1)};
   EXPECT_THAT(testing::Refusal(OpenRawMotion(Write("w.npz", WriteNpz(wrong, {})), {})),
-              HasSubstr("foot_contacts 2 × 4; allowed: 4 × 4"));
+              HasSubstr("the shape of foot_contacts is 2 × 4; allowed: 4 × 4"));
 }
 
 TEST_F(RawMotionsTest, KimodosWholeSkeletonHasItsFingersAndTheSameRoles) {
@@ -328,7 +328,8 @@ TEST_F(RawMotionsTest, KimodosMotionsOfSmplXHaveTheStatedRateOrTheModels) {
   std::vector<std::string> remarks;
   const Clip clip = read({}, remarks);
   EXPECT_EQ(clip.rate_hz, 30);
-  EXPECT_EQ(remarks, std::vector<std::string>{"Kimodo's arrays state no rate; 30 Hz is taken, its model's rate"});
+  EXPECT_EQ(remarks, std::vector<std::string>{"the file states no frame rate, so Etude uses 30 Hz, the rate of "
+                                              "Kimodo's model"});
   EXPECT_EQ(clip.skeleton.joints[21].name, "right_wrist");
   ComputeGlobals(clip.skeleton, clip.frames[1], globals);
   for (std::size_t j = 0; j < 22; ++j) {

@@ -130,7 +130,7 @@ TEST_F(FilesInside, ThatArePipesAreNotWaitedFor) {
     EXPECT_THAT(ToString(ReadWholeFile(path).error()), HasSubstr("is no file"));
     EXPECT_THAT(ToString(OpenFile(path, O_WRONLY | O_APPEND).error()), HasSubstr("is no file"));
   }
-  EXPECT_THAT(ToString(PlainFilesBelow(Inside(theirs_)).error()), HasSubstr("is neither a file nor a folder"));
+  EXPECT_THAT(ToString(PlainFilesBelow(Inside(theirs_)).error()), HasSubstr("this is neither a file nor a folder"));
 }
 
 TEST(FileLines, AreThoseOfTheFileHoweverItIsCutIntoParts) {

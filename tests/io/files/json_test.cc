@@ -67,7 +67,7 @@ TEST(Cbor, ReadsBackTheSame) {
 TEST(Cbor, RefusesDeepNestingBeforeItTakesTheStack) {
   for (const char list : {'\x81', '\xa1', '\x9f', '\x7f', '\x5f', '\xc1'}) {
     EXPECT_THAT(ToString(ReadCbor(std::string(1'000'000, list), "a.pack").error()),
-                HasSubstr("not CBOR in the form that Etude writes"));
+                HasSubstr("not CBOR as Etude writes it"));
   }
   EXPECT_TRUE(ReadCbor(std::string(99, '\x81') + "\x80", "x"));
   EXPECT_FALSE(ReadCbor(std::string(100, '\x81') + "\x80", "x"));

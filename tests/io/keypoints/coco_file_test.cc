@@ -44,7 +44,7 @@ TEST_F(CocoFile, TakesImagesInTheOrderOfTheNumbersInTheirNames) {
                            Name([](int k) { return fmt::format("{}.png", k); })}) {
     ASSERT_OK(film, ReadKeypoints(Images(lexical, name), ""));
     EXPECT_EQ(Noses(*film), wanted) << name(3);
-    EXPECT_THAT(film->told, HasSubstr("images are listed in another order than the numbers in their names"));
+    EXPECT_THAT(film->told, HasSubstr("the file lists the images in another order than the numbers in their names"));
   }
   const auto in_order = ReadKeypoints(Images({0, 1, 2}, [](int k) { return fmt::format("{}.png", k); }), "");
   EXPECT_EQ(in_order->told, "");
@@ -86,17 +86,17 @@ TEST_F(CocoFile, LeavesOutWhatShowsNoPersonAndCountsIt) {
   for (const auto& frame : film->frames) EXPECT_EQ(frame.size(), 1u);
   EXPECT_EQ(
       film->told,
-      "annotations without keypoints are left out: 2; annotations of the category ball are left out, because their "
-      "keypoints are not a person's: 1");
+      "Etude left out annotations without keypoints: 2; Etude left out annotations of the category ball, because their "
+      "keypoints are not those of a person: 1");
   // If nothing else is there, the reason is an error.
   const std::string image = R"({"images": [{"id": 1}], "annotations": [)";
   EXPECT_THAT(Reason(Write("a.json", image + R"({"image_id": 1, "bbox": [1, 2, 3, 4]}]})")),
               HasSubstr("none of 1 annotations has a list 'keypoints'"));
   EXPECT_THAT(Reason(Write("b.json", image + R"({"image_id": 1, "keypoints": [1, 2, 2]}]})")),
-              HasSubstr("1 keypoints a person; allowed: coco (17)"));
+              HasSubstr("1 keypoints per person; allowed: coco (17)"));
   // A person with too few keypoints among others is still an error.
   EXPECT_THAT(Reason(Images({0, 1}, name, R"(, {"image_id": 1, "category_id": 1, "keypoints": [1, 2, 2]})")),
-              HasSubstr("1 keypoints a person"));
+              HasSubstr("1 keypoints per person"));
 }
 
 }  // namespace

@@ -68,7 +68,7 @@ TEST_F(FrameNumbers, AListWithoutNumbersHasTheFramesThatItLists) {
   const auto none = [](int) { return ""; };
   EXPECT_EQ(Noses(List(Range(3, 8), none), 12), (std::vector<double>{3, 4, 5, 6, 7, 8})) << "none is added";
   EXPECT_THAT(Reason(List(Range(3, 8), [](int k) { return k == 5 ? "" : fmt::format("\"frame\": {}, ", k); })),
-              HasSubstr("entry 2 has no frame number, but the first has one"));
+              HasSubstr("entry 2 has no frame number, but the first entry has one"));
 }
 
 TEST_F(FrameNumbers, EntriesOfOneFrameAreItsPeople) {
@@ -98,12 +98,14 @@ TEST_F(FrameNumbers, BeyondTheFilmAreNumbersOfALongerOne) {
   const auto id = [](int k) { return fmt::format("\"frame_id\": {}, ", k + 100); };
   std::string told;
   EXPECT_EQ(Noses(List(Range(0, 11), id), 12, &told), OfTwelve(Range(0, 11)));
-  EXPECT_THAT(told, HasSubstr("frames are numbered 100 to 111, and the film has 12; number 100 is assumed to be its"));
+  EXPECT_THAT(
+      told,
+      HasSubstr("frame numbers go from 100 to 111, and the film has 12 frames; Etude assumes that number 100 is the"));
   EXPECT_EQ(Noses(List({0, 1, 5, 11}, id), 12), OfTwelve({0, 1, 5, 11}));
   const auto fifth = [](int k) { return fmt::format("\"frame_id\": {}, ", 5 * k + 10); };
   EXPECT_EQ(Noses(List({0, 1, 2, 5, 11}, fifth), 12), OfTwelve({0, 1, 2, 5, 11}));
   EXPECT_THAT(Reason(List(Range(0, 9), id), "", {.frames = 12}),
-              HasSubstr("frames are numbered 100 to 109, but the film has 12; allowed: numbers from 0 or 1"));
+              HasSubstr("frame numbers go from 100 to 109, but the film has 12 frames; allowed: numbers from 0 or 1"));
 }
 
 TEST_F(FrameNumbers, OfFilesWithGapsAreTheFilmsFrames) {
@@ -121,7 +123,9 @@ TEST_F(FrameNumbers, OfFilesWithGapsAreTheFilmsFrames) {
   EXPECT_EQ(Noses(folder({0, 2, 8, 10}, 0), 12), OfTwelve({0, 2, 8, 10})) << "with a gap";
   EXPECT_EQ(Noses(folder(Range(0, 11, 3), 1), 12), OfTwelve(Range(0, 11, 3))) << "counted from 1";
   EXPECT_EQ(Noses(folder(Range(2, 11, 3), 0), 12, &told), OfTwelve(Range(2, 11, 3)));
-  EXPECT_THAT(told, HasSubstr("files are numbered 2 to 11, and the film has 12 frames; the numbers are assumed to be"));
+  EXPECT_THAT(
+      told,
+      HasSubstr("file numbers go from 2 to 11, and the film has 12 frames; Etude assumes that the numbers count"));
   // Files that break off, and files of a longer film, are not extended.
   EXPECT_EQ(Noses(folder(Range(0, 4, 2), 0), 12).size(), 3u);
   EXPECT_EQ(Noses(folder(Range(0, 8), 0), 12).size(), 9u);

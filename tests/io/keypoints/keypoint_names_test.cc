@@ -96,16 +96,16 @@ TEST_F(KeypointNamesOfFiles, OfManyPointsOfAHandAreNotTheHand) {
 TEST_F(KeypointNamesOfFiles, ThatAreNotKnownOrContradictTheLayoutAreRefused) {
   const std::vector<std::string> own = {"鼻", "a", "b", "c", "d", "e", "f", "g", "h",
                                         "i",  "j", "k", "l", "m", "n", "o", "p"};
-  EXPECT_THAT(Reason(Coco(own, 17)), HasSubstr("only 0 of the 17 names of keypoints are known: 鼻, a, b"));
+  EXPECT_THAT(Reason(Coco(own, 17)), HasSubstr("only 0 of the 17 keypoint names (鼻, a, b"));
   EXPECT_THAT(Reason(Coco(own, 17)), HasSubstr("allowed: at least 12 of Nose, LEye"));
   EXPECT_EQ(ReadAt(Landmark::kLeftEye, own, 17, "coco"), 1) << "what is said counts";
   const std::vector<std::string> reversed(coco_.rbegin(), coco_.rend());
   EXPECT_THAT(Reason(Coco(reversed, 17), "coco"),
-              HasSubstr("keypoint 1 is named right_ankle in the file, but is Nose in the layout coco"));
+              HasSubstr("keypoint 1 has the name right_ankle in the file, but is Nose in the layout coco"));
   // Names of another number than the keypoints: the layout, if they do not contradict it.
   EXPECT_EQ(ReadAt(Landmark::kLeftEye, coco_, 26), 1);
   EXPECT_THAT(Reason(Coco(reversed, 26)), HasSubstr("allowed: a name for each keypoint"));
-  EXPECT_THAT(Reason(Coco(coco_, 19)), HasSubstr("19 keypoints a person, but 17 names: nose, left_eye"));
+  EXPECT_THAT(Reason(Coco(coco_, 19)), HasSubstr("found 19 keypoints per person, but 17 names (nose, left_eye"));
 }
 
 TEST_F(KeypointNamesOfFiles, AreReadFromMmposeAndFromPoints) {

@@ -41,7 +41,8 @@ TEST_F(ReadPeople, FramesWithoutAFileAreFramesWithoutPeople) {
       }
     }
     EXPECT_EQ(film->told,
-              "numbers or times show that 15 of 60 frames are missing; these frames are taken to show nobody");
+              "by the frame numbers or times, 15 of 60 frames are missing; Etude assumes that these frames show "
+              "nobody");
   }
   // If a film has as many frames as there are files, each file is a frame; else the files' numbers are frames.
   EXPECT_EQ(ReadKeypoints(folder_.path() / "a", "", {.frames = 45})->frames.size(), 45u);
@@ -65,7 +66,8 @@ TEST_F(ReadPeople, FramesAreLaidOnTheirTimes) {
     EXPECT_TRUE(film->frames[27].empty());
     EXPECT_EQ(film->frames[35][0][Landmark::kNose].pixel.x, 35.5);
     EXPECT_EQ(film->told,
-              "numbers or times show that 15 of 60 frames are missing; these frames are taken to show nobody");
+              "by the frame numbers or times, 15 of 60 frames are missing; Etude assumes that these frames show "
+              "nobody");
     EXPECT_EQ(ReadKeypoints(list(key, unit), "", {.frames = 45})->frames.size(), 45u);
   }
 }
@@ -112,9 +114,10 @@ TEST_F(ReadPeople, TakesWhatPythonWritesOfKeypointsThatWereNotSeen) {
 
 TEST_F(ReadPeople, AsksWhichOrderTwentyFiveKeypointsHave) {
   Write("a/1.json", OpenPose(25));
-  EXPECT_THAT(Reason(folder_.path() / "a"), HasSubstr("body_25 or body_25b; choose one by --layout"));
+  EXPECT_THAT(Reason(folder_.path() / "a"), HasSubstr("body_25 or body_25b; use --layout to choose one"));
   EXPECT_EQ(Reason(folder_.path() / "a", "body_25"), "accepted");
-  EXPECT_THAT(Reason(folder_.path() / "a", "coco"), HasSubstr("25 keypoints a person, not coco; allowed: coco (17)"));
+  EXPECT_THAT(Reason(folder_.path() / "a", "coco"),
+              HasSubstr("found 25 keypoints per person, which do not fit the layout coco; allowed: coco (17)"));
 }
 
 TEST_F(ReadPeople, KnowsTheOrderOfOpenPosesBody25ByItsMidHip) {
@@ -140,17 +143,18 @@ TEST_F(ReadPeople, KnowsTheOrderOfOpenPosesBody25ByItsMidHip) {
   ASSERT_OK(film, ReadKeypoints(folder_.path() / "a", ""));
   EXPECT_THAT(film->told, HasSubstr("body_25"));
   EXPECT_EQ(film->frames[0][0][Landmark::kRightHip].pixel, glm::dvec2(90.5, 100.5));
-  EXPECT_THAT(Reason(folder_.path() / "b"), HasSubstr("choose one by --layout"));
+  EXPECT_THAT(Reason(folder_.path() / "b"), HasSubstr("to choose one of them"));
   EXPECT_EQ(Reason(folder_.path() / "a", "body_25b"), "accepted") << "what is said counts";
   // A layout that the keypoints contradict is doubted; the other one is not.
   const auto doubt = [&](const char* people_in, const char* layout) {
     return ReadKeypoints(folder_.path() / people_in, layout).value().doubt;
   };
   EXPECT_EQ(doubt("a", "body_25b"),
-            "read as layout body_25b, the right elbow lies between the left wrist and the right hip in 4 of 4 people; "
-            "try --layout body_25");
+            "in the layout body_25b, the right elbow would be between the left wrist and the right hip in 4 of 4 "
+            "people; try --layout body_25");
   EXPECT_EQ(doubt("b", "body_25"),
-            "read as layout body_25, the mid-hip lies between the hips in only 0 of 4 people; try --layout body_25b");
+            "in the layout body_25, the mid-hip would be between the hips in only 0 of 4 people; try --layout "
+            "body_25b");
   EXPECT_EQ(doubt("a", "body_25") + doubt("b", "body_25b") + doubt("a", ""), "");
 }
 
@@ -190,8 +194,9 @@ TEST_F(ReadPeople, ReadsResultsOfAlphaPoseAndCocoInTheFramesThatTheirImagesName)
   EXPECT_EQ(from_one->told, "");
   const auto within = ReadKeypoints(Write("within.json", "[" + result("1", "10") + "]"), "", film);
   EXPECT_EQ(within->frames[1].size(), 1u);
-  EXPECT_THAT(within->told, HasSubstr("assumed to be counted from 0"));
-  EXPECT_THAT(Reason(Write("noname.json", "[" + result("\"last\"", "1") + "]")), HasSubstr("image_id has no number"));
+  EXPECT_THAT(within->told, HasSubstr("assumes that the numbers count from 0"));
+  EXPECT_THAT(Reason(Write("noname.json", "[" + result("\"last\"", "1") + "]")),
+              HasSubstr("the image_id of a result contains no number"));
 }
 
 TEST_F(ReadPeople, ReadsMmposeByTheNamesThatItGives) {
@@ -259,13 +264,15 @@ TEST_F(ReadPeople, ConfidentKeypointsDecideWhetherCoordinatesAreShares) {
   };
   const auto nose = [](const PeopleOfFilm& people) { return people.frames[0][0][Landmark::kNose].pixel; };
   EXPECT_EQ(read(0, 0, 0).told,
-            "keypoints lie between 0 and 1, so they are taken as fractions of the picture's 640 x 480 pixels");
+            "keypoint coordinates are between 0 and 1, so Etude reads them as fractions of the picture's 640 x 480 "
+            "pixels");
   // The last two of MediaPipe's landmarks, the toes, lie below the picture.
   for (const double sure : {0.02, 0.9}) {
     const PeopleOfFilm toes = read(2, 1.25, sure);
     EXPECT_EQ(nose(toes), glm::dvec2(160, 240)) << sure;
     EXPECT_EQ(toes.frames[0][0][Landmark::kLeftBigToe].pixel, glm::dvec2(800, 600));
-    EXPECT_THAT(toes.told, HasSubstr("keypoints lie between 0 and 1, all but 2 of 21, so they are taken")) << sure;
+    EXPECT_THAT(toes.told, HasSubstr("keypoint coordinates are between 0 and 1, all but 2 of 21, so Etude reads them"))
+        << sure;
   }
   const PeopleOfFilm pixels = read(33, 200, 0.9);
   EXPECT_EQ(nose(pixels), glm::dvec2(200.5, 200.5));
@@ -282,22 +289,22 @@ TEST_F(ReadPeople, TakesTheRangeOfOpenPosesScaleFour) {
   EXPECT_EQ(film->frames[0][0][Landmark::kNose].pixel, glm::dvec2(480, 120));
   EXPECT_EQ(film->frames[0][0][Landmark::kLeftAnkle].pixel, glm::dvec2(480, 360));
   EXPECT_EQ(film->told,
-            "keypoints lie between -1 and 1, so -1 and 1 are taken as the edges of the picture of 640 x 480 pixels "
-            "(OpenPose's --keypoint_scale 4)");
+            "keypoint coordinates are between -1 and 1, so Etude reads -1 and 1 as the edges of the picture of 640 x "
+            "480 pixels (OpenPose's --keypoint_scale 4)");
 }
 
 TEST_F(ReadPeople, RefusesWithTheFileAndTheReason) {
   EXPECT_THAT(Reason(Write("a.json", "{")), HasSubstr("a.json"));
-  EXPECT_THAT(Reason(Write("b.json", "[]")), HasSubstr("no lists 'images' and 'annotations'"));
+  EXPECT_THAT(Reason(Write("b.json", "[]")), HasSubstr("the lists 'images' and 'annotations' are missing"));
   EXPECT_THAT(Reason(Write("c.json", R"({"images": [], "annotations": []})")), HasSubstr("no image"));
   EXPECT_THAT(Reason(Write("d.json", R"({"images": [{"id": 1}, {"id": 1}], "annotations": []})")),
               HasSubstr("two images"));
   Write("e/1.json", OpenPose(17, "1, \"x\", 1"));
-  EXPECT_THAT(Reason(folder_.path() / "e"), HasSubstr("a keypoint's number is \"x\""));
+  EXPECT_THAT(Reason(folder_.path() / "e"), HasSubstr("a number of a keypoint is \"x\""));
   Write("f/1.json", OpenPose(17, "1, 1e300, 1"));
-  EXPECT_THAT(Reason(folder_.path() / "f"), HasSubstr("a keypoint's number is 1e+300"));
+  EXPECT_THAT(Reason(folder_.path() / "f"), HasSubstr("a number of a keypoint is 1e+300"));
   Write("g/note.txt", "");
-  EXPECT_THAT(Reason(folder_.path() / "g"), HasSubstr("no .json file in it"));
+  EXPECT_THAT(Reason(folder_.path() / "g"), HasSubstr("the folder contains no .json file"));
 }
 
 TEST_F(ReadPeople, FindsTheEntryOfAFilm) {
@@ -307,8 +314,9 @@ TEST_F(ReadPeople, FindsTheEntryOfAFilm) {
   Write("cam2_b.json", "");
   EXPECT_EQ(EntryOfFilm(folder_.path(), "cam1")->filename(), "cam1_json");
   EXPECT_EQ(EntryOfFilm(folder_.path(), "cam10")->filename(), "cam10.json");
-  EXPECT_THAT(EntryOfFilm(folder_.path(), "cam2").error().message, HasSubstr("cam2.json and cam2_b.json both begin"));
-  EXPECT_THAT(EntryOfFilm(folder_.path(), "cam3").error().message, HasSubstr("no file in it begins"));
+  EXPECT_THAT(EntryOfFilm(folder_.path(), "cam2").error().message, HasSubstr("cam2.json and cam2_b.json, begin"));
+  EXPECT_THAT(EntryOfFilm(folder_.path(), "cam3").error().message,
+              HasSubstr("the folder contains no file for the film"));
 }
 
 // Detectron2's scores are ratios without an upper limit: one peak must not hide all other keypoints.
@@ -338,7 +346,7 @@ TEST_F(ReadPeople, ScoresHaveKnownNamesOrAreRefused) {
     ASSERT_OK(film, ReadKeypoints(list(key), ""));
     EXPECT_EQ(film->frames.at(0).at(0)[Landmark::kLeftHip].confidence, 0.02) << key;
   }
-  EXPECT_THAT(Reason(list("surety")), HasSubstr("a keypoint has the number 'surety' beside x and y"));
+  EXPECT_THAT(Reason(list("surety")), HasSubstr("a keypoint has the number 'surety' in addition to x and y"));
   const auto lists = [&](const std::string& key, const std::string& point) {
     std::string points, scores;
     for (int i = 0; i < 17; ++i) {
@@ -350,8 +358,9 @@ TEST_F(ReadPeople, ScoresHaveKnownNamesOrAreRefused) {
   };
   ASSERT_OK(film, ReadKeypoints(lists("kpt_scores", "[3, 4]"), ""));
   EXPECT_EQ(film->frames.at(0).at(0)[Landmark::kLeftHip].confidence, 0.02);
-  EXPECT_THAT(Reason(lists("sureties", "[3, 4]")), HasSubstr("a person has the list 'sureties' beside the keypoints"));
-  EXPECT_THAT(Reason(lists("keypoint_scores", "[0.3, 0.4, 0.5]")), HasSubstr("3 coordinates beside a score"));
+  EXPECT_THAT(Reason(lists("sureties", "[3, 4]")),
+              HasSubstr("a person has the list 'sureties' in addition to the keypoints"));
+  EXPECT_THAT(Reason(lists("keypoint_scores", "[0.3, 0.4, 0.5]")), HasSubstr("3 coordinates in addition to a score"));
 }
 
 TEST_F(ReadPeople, NamesTheProgramsWhoseFilesAreNotRead) {

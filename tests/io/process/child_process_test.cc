@@ -95,8 +95,8 @@ TEST(ChildProcess, AProgramThatCannotBeStartedIsAnError) {
     return testing::Refusal(ChildProcess::Start({.program = program, .arguments = {}, .error_file = ""}));
   };
   EXPECT_EQ(complaint("/no/such/program"), "/no/such/program: no such program: No such file or directory");
-  EXPECT_EQ(complaint("/etc/passwd"), "/etc/passwd: is not an executable program");
-  EXPECT_EQ(complaint("/tmp"), "/tmp: is not an executable program");
+  EXPECT_EQ(complaint("/etc/passwd"), "/etc/passwd: this file is not an executable program");
+  EXPECT_EQ(complaint("/tmp"), "/tmp: this file is not an executable program");
   EXPECT_THAT(complaint("no-such-program"), HasSubstr("no program 'no-such-program' in PATH ("));
   const std::string script = ::testing::TempDir() + "no_interpreter";
   std::ofstream(script) << "#!/no/such/interpreter\n";

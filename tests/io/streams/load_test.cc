@@ -60,7 +60,7 @@ TEST(MatchLabels, CutsByTimeAndShiftsClocks) {
 TEST(MatchLabels, RefusesTimesOutsideAndLabelsOfNothing) {
   const auto late = ReadLabels("clip,from_s,to_s,move,truth\na,1,2,m,right\na,2,9,m,right\n", "l");
   EXPECT_EQ(ToString(MatchLabels(*late, "l", TwoStreams()).error()),
-            "l:3: a label from 2.000 to 9.000 s of a; allowed: within the recording, which lasts 3.000 s");
+            "l:3: found a label from 2.000 to 9.000 s of a; allowed: labels within the recording, which lasts 3.000 s");
   // No frame lies in these: the last frame is at 2.967 s.
   for (const auto& [times, told] : {std::pair("3,3.4", "from 3.000 to 3.400 s"),
                                     {"3.2,3.4", "from 3.200 to 3.400 s"},
@@ -68,7 +68,8 @@ TEST(MatchLabels, RefusesTimesOutsideAndLabelsOfNothing) {
                                     {"3,", "at 3.000 s"}}) {
     const auto beyond = ReadLabels(fmt::format("clip,from_s,to_s,move,truth\na,{},m,right\n", times), "l");
     EXPECT_EQ(testing::Refusal(MatchLabels(*beyond, "l", TwoStreams())),
-              fmt::format("l:2: a label {} of a; allowed: within the recording, which lasts 3.000 s", told));
+              fmt::format("l:2: found a label {} of a; allowed: labels within the recording, which lasts 3.000 s",
+                          told));
   }
   for (const char* times : {"2.99,3.4", "-0.4,0.01", "0,3", "2.99,"}) {
     const auto within = ReadLabels(fmt::format("clip,from_s,to_s,move,truth\na,{},m,right\n", times), "l");
@@ -76,7 +77,7 @@ TEST(MatchLabels, RefusesTimesOutsideAndLabelsOfNothing) {
   }
   const auto other = ReadLabels("clip,from_s,to_s,move,truth\nz,1,2,m,right\n", "l");
   EXPECT_EQ(ToString(MatchLabels(*other, "l", TwoStreams()).error()),
-            "l: no label belongs to a given recording, such as a");
+            "l: no label belongs to any of the given recordings, such as a");
 }
 
 TEST(MatchLabels, RefusesTwoLabelsOfOnePerformance) {
@@ -84,7 +85,8 @@ TEST(MatchLabels, RefusesTwoLabelsOfOnePerformance) {
     return MatchLabels(*ReadLabels("clip,from_s,to_s,move,truth\n" + rows, "l"), "l", TwoStreams());
   };
   EXPECT_EQ(ToString(match("a,1,2,m,right\nb,1,2,m,right\na,1.2,2.1,m,half\n").error()),
-            "l:4: line 2 already labels this performance of m (a, at 1.200 s); allowed: one label");
+            "l:4: line 2 already labels this performance of m (a, at 1.200 s); allowed: one label for each "
+            "performance");
   EXPECT_TRUE(match("a,1,2,m,right\na,1.6,2.6,m,half\n")) << "less than half of each performance is common";
   EXPECT_TRUE(match("a,1,2,m,right\na,1,2,n,right\n")) << "another move may be performed at the same time";
 }
@@ -99,11 +101,12 @@ TEST(DescribeLabels, TellsWhatLabelsAndRecordingsDoNotShare) {
   using Lines = std::vector<std::string>;
   EXPECT_EQ(lines("ah_clap1,,,clap,right\nah_hammer1,,,hammer,right\n"), Lines{});
   EXPECT_EQ(lines("zz,,,wave,right\nah_clap1,,,clap,right\nah_hamer1,,,hammer,right\n"),
-            (Lines{"l:4: no recording ah_hamer1 is given; did you mean ah_hammer1?; 2 such labels are left out",
+            (Lines{"l:4: no recording ah_hamer1 is given; Etude leaves out did you mean ah_hammer1?; 2 labels without "
+                   "a recording",
                    "l: no label for ah_hammer1"}));
-  EXPECT_EQ(
-      lines("ah_clap1,,,clap,rihgt\nah_hammer1,,,hammer,right\nah_hammer1,1,2,hammer,half\nzz,,,wave,odd\n"),
-      (Lines{"l:5: no recording zz is given", "l: truth: right 1, half 1, rihgt 1 (a fault; did you mean right?)"}));
+  EXPECT_EQ(lines("ah_clap1,,,clap,rihgt\nah_hammer1,,,hammer,right\nah_hammer1,1,2,hammer,half\nzz,,,wave,odd\n"),
+            (Lines{"l:5: no recording zz is given",
+                   "l: truth: right 1, half 1, rihgt 1 (Etude reads this as a fault; did you mean right?)"}));
 }
 
 TEST(DescribeLabels, DoubtsLabelsThatMayBeTimesOfTheRecordingsClock) {
@@ -114,8 +117,9 @@ TEST(DescribeLabels, DoubtsLabelsThatMayBeTimesOfTheRecordingsClock) {
   };
   EXPECT_EQ(
       lines("a,1.5,2,m,right\na,2.2,3,m,right\n"),
-      std::vector<std::string>{"l: doubtful: the clock of a begins at 1.000 s, and no label begins earlier; from_s and "
-                               "to_s count from the first frame: if yours count by that clock, subtract 1.000 s"});
+      std::vector<std::string>{"l: doubtful: the clock of a begins at 1.000 s, and no label begins before this time. "
+                               "Etude counts from_s and to_s from the first frame; if your labels use the recording's "
+                               "clock, subtract 1.000 s"});
   EXPECT_TRUE(lines("a,0.5,1,m,right\na,2.2,3,m,right\n").empty()) << "the first label begins before the clock does";
 }
 
@@ -125,9 +129,11 @@ TEST(DescribeLabels, DoubtsTwoMovesAtOneTimeAndNamesThatDifferInCase) {
   };
   using Lines = std::vector<std::string>;
   EXPECT_EQ(lines("a,1,2,m,right\na,1.2,2,n,right\n"),
-            Lines{"l:4: doubtful: line 3 labels the same time of a as m, this line as n; both are used as right"});
+            Lines{"l:4: doubtful: line 3 labels the same time of a as the move m, but this line labels it as n; Etude "
+                  "uses both as right performances"});
   EXPECT_EQ(lines("a,1,2,M,right\n"),
-            Lines{"l:3: doubtful: the moves m and M differ in case only; they are two moves"});
+            Lines{"l:3: doubtful: the names of the moves m and M differ only in capital letters; Etude reads them as "
+                  "two moves"});
   EXPECT_EQ(lines("a,0,2,m,right\na,1.2,1.8,n,right\n"), Lines{}) << "a short move may be a part of a long one";
   EXPECT_EQ(lines("a,1,2,m,right\na,2,3,n,right\n"), Lines{});
 }
@@ -225,7 +231,7 @@ TEST(LoadStreams, SidesThatAreExchangedInAPartOfARecordingAreSaid) {
   EXPECT_EQ(description(move->motion).find("exchange"), std::string::npos) << description(move->motion);
   BodyMotion wrong = move->motion;
   for (std::size_t f = 20; f < 40; ++f) std::swap(wrong.poses[f][Role::kLeftKnee], wrong.poses[f][Role::kRightKnee]);
-  EXPECT_NE(description(wrong).find("left and right exchange their places from one frame to the next, 2 times (first at "
+  EXPECT_NE(description(wrong).find("left and right exchange positions from one frame to the next, 2 times (first at "
                                     "0.67 s): left_knee – right_knee"),
             std::string::npos)
       << description(wrong);

@@ -231,7 +231,8 @@ TEST(Film, IsItsPosterAndTheReasonWhenItCannotBeEncoded) {
   EXPECT_TRUE(film.poster.png.starts_with("\x89PNG"));
   EXPECT_THAT(film.why_not, HasSubstr("only this picture"));
   const std::string element = FilmElement(film, true);
-  EXPECT_THAT(element, HasSubstr("nothing &lt;much&gt; No film could be made, only this picture"));
+  EXPECT_THAT(element,
+              HasSubstr("nothing &lt;much&gt; Etude made only this picture, because it could not make the film"));
   EXPECT_THAT(element, Not(HasSubstr("<video")));
   const Film whole = Shoot(scene, fs::path(::testing::TempDir()) / "etude_still" / "film.mp4");
   EXPECT_EQ(whole.why_not, "");

@@ -121,9 +121,9 @@ TEST(Yardstick, IsNobodyWhereNothingIsCompared) {
 TEST(LeftOut, IsSaidOnlyWhenSomethingIs) {
   EXPECT_EQ(LeftOutWords(40, 40, "methods", "a file"), "");
   EXPECT_EQ(LeftOutWords(1240, 40, "methods", "a file"),
-            "1,200 more methods are not shown here; a file has all of them.");
+            "1,200 more methods are not shown here; all of them are in a file.");
   EXPECT_EQ(LeftOutHtml(41, 40, "methods", "<a>"),
-            "<p class=\"quiet legend\">1 more methods are not shown here; &lt;a&gt; has all of them.</p>");
+            "<p class=\"quiet legend\">1 more methods are not shown here; all of them are in &lt;a&gt;.</p>");
 }
 
 }  // namespace

@@ -198,7 +198,7 @@ TEST_F(ReadMasksTest, SayWhatLooksWrong) {
   Add("2.png", Rectangle(20, 40, 255, 2 * kWidth));
   EXPECT_THAT(Reason(), HasSubstr("2.png: the mask has 192 x 64 pixels, but the film films/cam1.mp4 has 96 x 64"));
   std::filesystem::rename(folder_.path() / "cam1_masks", folder_.path() / "cam2_masks");
-  EXPECT_THAT(Reason(), HasSubstr("no file in it begins with the film's name cam1"));
+  EXPECT_THAT(Reason(), HasSubstr("the folder contains no file for the film cam1"));
 }
 
 TEST_F(ReadMasksTest, AsksForOneOfSeveralGreysOrColours) {

@@ -58,7 +58,8 @@ TEST_F(TransitionFileTest, SaysWhatIsWrong) {
   EXPECT_THAT(WriteTransition(options).error().message, HasSubstr("--at 99: builtin:groove plays from 0.00 to "));
   options = Groove();
   options.output = "out.xyz";
-  EXPECT_THAT(ToString(WriteTransition(options).error()), HasSubstr("out.xyz: is not the name of a format"));
+  EXPECT_THAT(ToString(WriteTransition(options).error()),
+              HasSubstr("out.xyz: Etude cannot write files with this ending"));
   options = Groove();
   options.to = "builtin:nothing";
   EXPECT_FALSE(WriteTransition(options));

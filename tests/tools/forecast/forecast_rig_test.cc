@@ -58,7 +58,7 @@ TEST_F(ForecastRigTest, NamesCamerasThatLookAwayOrLieBelowTheFloor) {
   cameras[1].camera.p_WC.y = -0.5;
   ASSERT_OK(low, Of(cameras));
   ASSERT_EQ(low->doubts.size(), 1u);
-  EXPECT_THAT(low->doubts[0], ::testing::StartsWith("doubtful: cameras lie below the floor: cam2 by 0.50 m;"));
+  EXPECT_THAT(low->doubts[0], ::testing::StartsWith("doubtful: cameras are below the floor: cam2 by 0.50 m;"));
 }
 
 TEST_F(ForecastRigTest, PutsAnotherCameraAcrossTwoThatFaceEachOther) {

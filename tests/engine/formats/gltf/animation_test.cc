@@ -208,13 +208,14 @@ TEST(GltfAnimation, ALateBeginningAndTimesInMillisecondsAreSaid) {
     return Read(Animated({{"translation", "LINEAR", {start, start + 1, start + 2}, {0, 0, 0, 1, 0, 0, 0, 0, 0}}}))
         .remarks;
   };
-  EXPECT_THAT(begins_at(2), ::testing::ElementsAre("the keys of 'Move' begin at 2 s, which becomes time 0"));
+  EXPECT_THAT(begins_at(2), ::testing::ElementsAre("the first key of 'Move' is at 2 s; Etude uses this time as time "
+                                                   "0"));
   EXPECT_THAT(begins_at(1.f / 24), ::testing::IsEmpty()) << "as of exporters that count frames from 1";
   // Six hours in milliseconds, with an uneven step.
   const auto refused = ReadGltf(
       Animated({{"translation", "LINEAR", {0, 33, 70, 21.6e6f}, {0, 0, 0, 1, 0, 0, 0, 0, 0, 1, 0, 0}}}), "a.glb", {});
   ASSERT_FALSE(refused);
-  EXPECT_THAT(refused.error().message, ::testing::HasSubstr("s apart: are its times in milliseconds?"));
+  EXPECT_THAT(refused.error().message, ::testing::HasSubstr("s apart: are the times in milliseconds?"));
 }
 
 TEST(GltfAnimation, TakesTheRateFromWhatMoves) {

@@ -89,11 +89,11 @@ const std::map<std::string, std::string> kRefused = {
     {"glTF2/IndexOutOfRange/AllIndicesOutOfRange.gltf", "indices: found vertex 65535 in element 0; allowed: 0 to 23"},
     {"glTF2/IndexOutOfRange/IndexOutOfRange.gltf", "indices: found vertex 255 in element 0; allowed: 0 to 23"},
     {"glTF2/MissingBin/BoxTextured.gltf", "BoxTextured0.bin: no such file"},
-    {"glTF2/RecursiveNodes/RecursiveNodes.gltf", "nodes[0]: is its own ancestor; allowed: a tree"},
+    {"glTF2/RecursiveNodes/RecursiveNodes.gltf", "nodes[0]: the node is its own ancestor; allowed: a tree of nodes"},
     {"glTF2/SchemaFailures/sceneWrongType.gltf", "BoxTextured0.bin: no such file"},
-    {"glTF2/TestNoRootNode/NoScene.gltf", "nodes: found none; at least one is needed"},
-    {"glTF2/TestNoRootNode/SceneWithoutNodes.gltf", "nodes: found none; at least one is needed"},
-    {"glTF2/wrongTypes/badArray.gltf", "meshes[0].primitives: found none; at least one is needed"},
+    {"glTF2/TestNoRootNode/NoScene.gltf", "nodes: found none; allowed: at least one"},
+    {"glTF2/TestNoRootNode/SceneWithoutNodes.gltf", "nodes: found none; allowed: at least one"},
+    {"glTF2/wrongTypes/badArray.gltf", "meshes[0].primitives: found none; allowed: at least one"},
     {"glTF2/wrongTypes/badNumber.gltf", "not glTF 2.0: 'index' property is missing in NormalTextureInfo"},
 };
 // clang-format on

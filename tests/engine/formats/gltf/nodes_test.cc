@@ -85,7 +85,7 @@ TEST(GltfNodes, ThatOnlyHoldASkinnedMeshAreNoJoints) {
 
 TEST(GltfNodes, MustBeInTheDefaultScene) {
   EXPECT_THAT(testing::GlbComplaint(Glb(R"({"asset":{"version":"2.0"},"scenes":[{}],"nodes":[{}]})")),
-              ::testing::HasSubstr("scenes: found no nodes in the default one; at least one is needed"));
+              ::testing::HasSubstr("scenes: the default scene has no nodes; allowed: at least one"));
 }
 
 TEST(GltfNodes, WithoutNamesAreNumbered) {

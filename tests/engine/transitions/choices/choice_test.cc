@@ -53,8 +53,8 @@ TEST(FuzzyBridge, TellsOfThePairsItDidNotTake) {
   expect(3, 2, 19, 3.05, CandidateOutcome::kTooFar);
   expect(4, 3, 0, 0.05, CandidateOutcome::kLater);
   EXPECT_EQ(record.why,
-            "first match: still frame 0 (0.00 s after the request) and between frame 0, d = 0.05 < 0.4; 15 "
-            "matching pairs, of which 1 are nearer but come later");
+            "the first match: still frame 0 (0.00 s after the request) and between frame 0, with the distance d = 0.05 "
+            "< 0.4; 15 pairs match, and 1 of them have a smaller distance but come later");
 }
 
 TEST(FuzzyBridge, TakesTheSmallestDistanceWhenToldTo) {
@@ -74,8 +74,8 @@ TEST(FuzzyBridge, SaysHowNearTheNearestWasWhenNoneMatches) {
   const TransitionRecord record = Plan("fuzzy-bridge", {.from = 0, .request_frame = 0, .to = 1});
   EXPECT_TRUE(record.segments.empty());
   EXPECT_EQ(record.why,
-            "no match among 4 pairs of bridge frames: the nearest has d = 2.00, not below 0.4; and the library has no "
-            "in-between");
+            "no match among 4 pairs of bridge frames: the smallest distance is d = 2.00, which is not below 0.4; and "
+            "the library has no in-between clip");
 }
 
 TEST(AbruptChoices, GoToTheFirstFrameNowOrAtTheEnd) {
@@ -85,12 +85,12 @@ TEST(AbruptChoices, GoToTheFirstFrameNowOrAtTheEnd) {
   EXPECT_EQ(now.segments[1].first, 0);
   EXPECT_EQ(now.wait_s, 0);
   EXPECT_NEAR(now.distances[0].value, 2 - 0.85, 1e-12);
-  EXPECT_EQ(now.why, "at once into the first frame, whatever the poses; d = 1.15");
+  EXPECT_EQ(now.why, "the transition goes at once into the first frame, whatever the poses are; d = 1.15");
 
   const TransitionRecord end = Plan("wait-for-end", {.from = 2, .request_frame = 8, .to = 1});
   EXPECT_EQ(end.segments[0].last, 20);
   EXPECT_NEAR(end.wait_s, 12 / 30.0, 1e-12);
-  EXPECT_EQ(end.why, "the playing clip ended, after 0.40 s; d = 0.05 to the first frame");
+  EXPECT_EQ(end.why, "the playing clip ended after 0.40 s; the distance to the first frame is d = 0.05");
 }
 
 }  // namespace

@@ -158,7 +158,7 @@ TEST(InBetween, NeedsKeys) {
   EXPECT_TRUE(record.segments.empty());
   EXPECT_EQ(record.branch, Branch::kNone);
   EXPECT_EQ(record.pairs_seen, 7);
-  EXPECT_EQ(record.why, "no match; and the library has no in-between");
+  EXPECT_EQ(record.why, "no match; and the library has no in-between clip");
 }
 
 TEST(InBetween, ConnectsTheBuiltInClipsInBoundedTime) {

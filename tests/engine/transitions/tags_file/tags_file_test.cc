@@ -108,7 +108,7 @@ TEST(TagsFile, IsRefusedBeforeItTakesMinutes) {
   std::string attributes = "\n<bridge-tags";
   for (int i = 0; i < 100'000; ++i) attributes += " a" + std::to_string(i) + "=\"1\"";
   const Error error = Complaint(attributes + "/>");
-  EXPECT_THAT(error.message, HasSubstr("bytes without a new tag"));
+  EXPECT_THAT(error.message, HasSubstr("bytes without a new XML tag"));
   EXPECT_EQ(error.place.line, 2);
   EXPECT_THAT(Complaint(" \n").message, HasSubstr("is empty"));
   EXPECT_EQ(ToString(Complaint(" \n").place), "tags.xml") << "nothing has no line";
@@ -275,8 +275,8 @@ TEST(TagsFile, IsReadWithTagsOfUpTo65536Bytes) {
     return Complaint(Replaced(text, tag, tag + std::string(bytes, ' ')) + "<").message;
   };
   const std::size_t from = text.find("<fuzzy-system"), others = text.find('<', from + 1) - from;
-  EXPECT_THAT(complaint(65536 - others), ::testing::Not(HasSubstr("without a new tag")));
-  EXPECT_THAT(complaint(65537 - others), HasSubstr("found 65537 bytes without a new tag; allowed: at most 65536"));
+  EXPECT_THAT(complaint(65536 - others), ::testing::Not(HasSubstr("without a new XML tag")));
+  EXPECT_THAT(complaint(65537 - others), HasSubstr("found 65537 bytes without a new XML tag; allowed: at most 65536"));
 }
 
 TEST(TagsComparison, SaysEveryDifferenceByItsName) {
