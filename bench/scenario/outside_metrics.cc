@@ -222,7 +222,7 @@ std::vector<std::string> ReadHeadline(Fields& fields, const TaskKind& kind, std:
     }
     MetricInfo& info = read->info;
     if (info.label.empty()) info.label = info.id;
-    info.domain = "A metric of the run's own";
+    info.domain = "A metric that the scenario defines itself";
     if (auto added = AddMetric(info); !added) fields.Complain(item.place, added.error().message);
     known.push_back(info.id);
     NoteMetric(fields, kind.name, known, info.id, item.place, names);

@@ -38,7 +38,7 @@ constexpr Mark kMarks[] = {
     {"Rar!", "a RAR archive: unpack it"},
     {"ustar", "a tar archive: unpack it", 257},
     {"\x28\xb5\x2f\xfd", "a zstd file: unpack it; if it is a Blender scene, export BVH or glTF from Blender"},
-    {"\x80", "a pickled Python object, which Etude does not open for safety: write the arrays with numpy.savez"},
+    {"\x80", "a pickled Python object, which can run code, so Etude does not open it; write the arrays with numpy.savez"},
     {"\x89HDF", "an HDF5 file: write the arrays with numpy.savez"},
     {"MATLAB", "a MATLAB file: write the arrays with numpy.savez"},
     {"\xff\xfe", kUtf16},
