@@ -198,7 +198,7 @@ TEST_F(ClipFileTest, WhatIsNeitherIsToldWithWhatIsAllowed) {
   EXPECT_NE(Complaint(Write("a.fbx", "Kaydara FBX Binary  ...")).find("the FBX file is damaged: "), std::string::npos);
   for (const auto& [bytes, told] : std::vector<std::pair<std::string, const char*>>{
            {"\x1f\x8b\x08", "a gzip file: unpack it"},
-           {"\x80\x04}.", "a pickled Python object, which Etude does not open"},
+           {"\x80\x04}.", "a pickled Python object, which can run code"},
            {"\xff\xfeH", "text in UTF-16: save it as UTF-8"},
            {"version https://git-lfs.github.com/spec/v1\n", "a pointer of Git LFS"},
            {"Coordinates\n", "an OpenSim table"},
