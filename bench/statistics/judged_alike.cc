@@ -10,17 +10,23 @@
 namespace etude {
 namespace {
 
-/// Returns true if an input of the metric begins with `begin` and ends with `end`.
-bool Takes(const MetricInfo& metric, std::string_view begin, std::string_view end) {
-  return std::ranges::any_of(metric.inputs, [&](const MetricInput& input) {
-    return input.key.starts_with(begin) && input.key.ends_with(end);
-  });
-}
+/// The data that a metric needs, by its inputs. A scenario's own metric states no inputs; it sees the joints.
+struct Needs {
+  explicit Needs(const MetricInfo& metric) : joints(metric.inputs.empty()) {
+    for (const auto& [key, meaning] : metric.inputs) {
+      joints = joints || key == "found" || key == "truth" || key.ends_with("_turns") || key.ends_with("_angles");
+      root = root || key.ends_with("_root");
+      truth = truth || key.starts_with("tru");
+    }
+  }
+  bool joints, root = false, truth = false;
+};
 
-/// Returns the parts that matter for a metric: all, or all but the root if the metric needs no root.
-std::vector<std::string> PartsOf(const JudgedPair::Side& side, bool needs_root) {
+/// Returns the parts that matter for a metric.
+std::vector<std::string> PartsOf(const JudgedPair::Side& side, const Needs& needs) {
   std::vector<std::string> parts = *side.parts;
-  if (!needs_root) std::erase_if(parts, [](const std::string& part) { return part.starts_with(kRootPart); });
+  std::erase_if(parts,
+                [&](const std::string& part) { return part.starts_with(kRootPart) ? !needs.root : !needs.joints; });
   return parts;
 }
 
@@ -49,8 +55,8 @@ double PartsApart(const std::vector<std::string>& one, const std::vector<std::st
 }
 
 /// Returns the rate on which a metric's value depends.
-double RateOf(const JudgedPair::Side& side, bool compares_with_truth) {
-  return compares_with_truth && side.compared_hz > 0 ? side.compared_hz : side.rate_hz;
+double RateOf(const JudgedPair::Side& side, const Needs& needs) {
+  return needs.truth && side.compared_hz > 0 ? side.compared_hz : side.rate_hz;
 }
 
 }  // namespace
@@ -58,9 +64,9 @@ double RateOf(const JudgedPair::Side& side, bool compares_with_truth) {
 std::string WhyNotAlike(const MetricInfo& metric, const std::vector<JudgedPair>& worlds, const std::string& baseline,
                         const std::string& method) {
   if (metric.is_success || worlds.empty()) return "";
-  const bool needs_root = Takes(metric, "", "_root"), compares_with_truth = Takes(metric, "tru", "");
+  const Needs needs(metric);
   const auto rates = [&](const JudgedPair& world) {
-    return std::pair(RateOf(world.baseline, compares_with_truth), RateOf(world.method, compares_with_truth));
+    return std::pair(RateOf(world.baseline, needs), RateOf(world.method, needs));
   };
   const auto is_faster = [&](const JudgedPair& world) {
     constexpr double kTolerance = 0.01;
@@ -69,7 +75,7 @@ std::string WhyNotAlike(const MetricInfo& metric, const std::vector<JudgedPair>&
   };
   const auto parts_apart = [&](const JudgedPair& world) {
     if (*world.baseline.parts == *world.method.parts) return 0.0;
-    return PartsApart(PartsOf(world.baseline, needs_root), PartsOf(world.method, needs_root));
+    return PartsApart(PartsOf(world.baseline, needs), PartsOf(world.method, needs));
   };
   const auto has_other_parts = [&](const JudgedPair& world) { return parts_apart(world) > 0; };
   // Measure how far apart the judged parts, rates and shares are; a few worlds of many hardly matter.
@@ -89,7 +95,7 @@ std::string WhyNotAlike(const MetricInfo& metric, const std::vector<JudgedPair>&
   const std::string where =
       others < worlds.size() ? fmt::format(", in {} of {} worlds", others, worlds.size()) : std::string();
   if (const auto other = std::ranges::find_if(worlds, has_other_parts); other != worlds.end()) {
-    const auto one = PartsOf(other->baseline, needs_root), two = PartsOf(other->method, needs_root);
+    const auto one = PartsOf(other->baseline, needs), two = PartsOf(other->method, needs);
     const std::string only_baseline = OnlyIn(one, two, baseline), only_method = OnlyIn(two, one, method);
     return fmt::format("not judged alike: {}{}{}{}", only_baseline,
                        only_baseline.empty() || only_method.empty() ? "" : "; ", only_method, where);

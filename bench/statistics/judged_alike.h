@@ -19,7 +19,7 @@ struct JudgedPair {
 };
 
 /// Returns why the values of two methods cannot be compared, although both have values: other parts of the truth were
-/// judged (joints or, if the metric needs it, the root), another share of it, or, if the metric depends on the rate,
+/// judged (joints and the root, if the metric needs them), another share of it, or, if the metric depends on the rate,
 /// frames of rates that differ by more than 1 %. A metric that compares answer and truth depends on the rate at which
 /// they are compared; a metric of the answer alone, on the answer's own rate. The metric's inputs say what it needs.
 /// Another root and another rate count as 100 %. Returns "" if the mean difference over the worlds is below

@@ -115,12 +115,17 @@ TEST(JudgedAlike, EachMetricHasItsOwnShareAndMayDependOnTheRate) {
             "not judged alike: “a” has 60 Hz, “b” 30 Hz, and the value depends on the rate");
 }
 
-TEST(JudgedAlike, AnotherRootMattersOnlyToMetricsThatNeedARoot) {
+TEST(JudgedAlike, OtherPartsMatterOnlyToMetricsThatNeedThem) {
   const ConditionSummary summary =
       SummaryWith([](int, CellResult& result) { result.judged.parts.back() = "root midway between the hips"; });
   EXPECT_EQ(Of(summary, kError).verdict, Verdict::kBetter);
   EXPECT_EQ(Of(summary, kJitter).verdict, Verdict::kBetter);
   EXPECT_EQ(Of(summary, kRootError).verdict, Verdict::kUndecided);
+  const std::vector<std::string> both = {"head", "left_wrist", "root pelvis"}, head = {"head", "root pelvis"};
+  for (const char* id : {"rte@wham", "pfc@edge", "skating_ratio@gmd", "contact_f1"})
+    EXPECT_EQ(WhyNotAlike(*FindMetric(id), {{{&both}, {&head}}}, "a", "b"), "") << id << " needs no wrist";
+  for (const char* id : {kError, kRootError, kJitter, "bend_error_deg", "angle_rmse_deg", "npss", "floating_mm"})
+    EXPECT_NE(WhyNotAlike(*FindMetric(id), {{{&both}, {&head}}}, "a", "b"), "") << id;
   const auto needs_root = [](const std::string& id) {
     const std::vector<std::string> one = {"root a"}, other = {"root b"};
     return WhyNotAlike(*FindMetric(id), {{{&one}, {&other}}}, "a", "b") != "";
