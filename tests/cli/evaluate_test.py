@@ -126,13 +126,13 @@ class Evaluate(EtudeCase):
         for out, moved in (then, 0.04), (now, 0.02):
             for i in range(8):
                 frames = [[[p[0] * (1 + i / 50), p[1] + moved, p[2]] for p in frame] for frame in self.frames]
-                for frame in frames if out == now else []:
+                for frame in frames[::2] if out == now else []:  # the wrist is hidden in every second frame
                     frame[self.names.index("left_wrist")] = None
                 self.trc_file(f"m/{i}.trc", frames)
             self.evaluate(self.folder / "t", f"m={self.folder}/m", out=out)
         moves = {move["metric"]: move for move in self.facts("compare", then, now)["moves"]}
         self.assertEqual(moves["mpjpe_unaligned_mm"]["movement"], "undecided")
-        self.assertIn("not judged alike: “before” is judged on 100.0 % of what the truth shows, “now” on 95.0 %",
+        self.assertIn("not judged alike: “before” is judged on 100.0 % of what the truth shows, “now” on 97.5 %",
                       moves["mpjpe_unaligned_mm"]["not_alike"])
         self.assertEqual(moves["seen_share"]["movement"], "worse")
         self.assertNotIn("not_alike", moves["seen_share"])
