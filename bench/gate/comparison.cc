@@ -148,7 +148,7 @@ std::string WhyNotAlike(const SnapshotValues& before, const SnapshotCells& cells
                         const SnapshotCells& others) {
   std::vector<JudgedPair> judged;
   const auto side = [&](const JudgedOn& one) {
-    return JudgedPair::Side{&one.parts, one.rate_hz, one.ShareOf(before.metric)};
+    return JudgedPair::Side{&one.parts, one.rate_hz, one.compared_hz, one.ShareOf(before.metric)};
   };
   for (std::size_t t = 0; t < std::min(cells.judged.size(), others.judged.size()); ++t) {
     if (before.values[t] && after.values[t]) judged.push_back({side(cells.judged[t]), side(others.judged[t])});

@@ -10,7 +10,6 @@ namespace etude {
 namespace {
 
 constexpr double kUnseen = std::numeric_limits<double>::quiet_NaN();
-constexpr double kMinFitted = 3;  // fewer points do not determine a rotation
 
 bool BothSeen(const glm::dvec3& a, const glm::dvec3& b) { return !std::isnan(a.x) && !std::isnan(b.x); }
 

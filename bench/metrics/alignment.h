@@ -26,6 +26,9 @@ enum class Alignment {
   kFrameScaled,  ///< as kFrame, but the fit is a similarity (PA-MPJPE)
 };
 
+/// The smallest number of points to which a transformation is fitted; fewer do not determine a rotation.
+inline constexpr double kMinFitted = 3;
+
 /// The transformations that align the frames of an answer. A frame has none if too little is seen to find one: an
 /// alignment by the root needs the root in answer and truth, and a fit needs three joints that are seen in both.
 struct FrameFits {

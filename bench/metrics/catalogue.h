@@ -55,7 +55,7 @@ struct MetricInfo {
   std::string weight = {};  ///< the metric that weights the cells in a mean; "" = all cells count alike
   Reading reading = Reading::kAmount;
   bool is_success = false;  ///< the value says how far a cell reached its task's goal; status `ok` does not say this
-  bool by_rate = false;     ///< the value depends on the answer's frame rate; values of two rates are not compared
+  bool by_rate = false;     ///< the value depends on the frame rate; values of two rates are not compared
   double practical = 0;     ///< the smallest difference that matters, in the metric's unit
   std::string definition;   ///< the definition in one sentence
 

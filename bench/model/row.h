@@ -80,10 +80,16 @@ struct JudgedOn {
   double rate_hz = 0;              ///< the rate of the answer's frames; 0: the task does not say
   /// By metric, the share of what the truth shows on which the value was measured. Metrics not listed have the share 1.
   std::vector<std::pair<std::string, double>> shares;
+  /// The rate of the frames at which answer and truth are compared, which is lower than `rate_hz` if the truth has
+  /// fewer frames; 0: `rate_hz`.
+  double compared_hz = 0;
 
   double ShareOf(std::string_view metric) const;
   bool operator==(const JudgedOn&) const = default;
 };
+
+/// How the part of JudgedOn begins that names the root.
+inline constexpr std::string_view kRootPart = "root ";
 
 /// The mean difference of two methods' judged shares from which on their values are not compared: one frame in a
 /// hundred. Page, `compare` and `gate` use it.

@@ -6,6 +6,7 @@
 #include <string_view>
 
 #include "bench/recordings/record_fields.h"
+#include "engine/base/names.h"
 
 namespace etude {
 
@@ -56,28 +57,19 @@ Result<Record> ReadRecord(const std::string& text, const std::string& file) {
   return read;
 }
 
-/// Returns the name in lower case and without spaces: people write their name in different ways on different pages.
-std::string Compared(std::string_view rater) {
-  std::string letters;
-  for (const char c : rater) {
-    if (c != ' ') letters += c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
-  }
-  return letters;
-}
-
 Result<void> AddAnswers(BlindAnswers answers, const std::string& file, std::vector<BlindAnswers>& all) {
   constexpr std::array<std::string_view, 4> kAllowed = {"left", "right", "same", ""};
   for (std::size_t i = 0; i < answers.preferred.size(); ++i) {
     if (std::ranges::find(kAllowed, answers.preferred[i]) != kAllowed.end()) continue;
     return Fail({file}, "preferred[{}]: '{}'; allowed: left, right, same, or an empty text", i, answers.preferred[i]);
   }
-  const std::string rater = Compared(answers.rater);
+  const std::string rater = ComparedName(answers.rater);
   if (rater.empty())
     return Fail({file},
                 "rater: the name is empty; needed: the rater's name, which must be the same "
                 "in all files of this rater");
   for (const BlindAnswers& other : all) {
-    if (Compared(other.rater) != rater) continue;
+    if (ComparedName(other.rater) != rater) continue;
     answers.rater = other.rater;
     if (other.page != answers.page) continue;
     return Fail({file}, "is a second file with answers of '{}' to the page {}; allowed: one file for each rater",

@@ -36,12 +36,14 @@ Json EncodeJudged(const JudgedOn& judged) {
   Json json = Json::object();
   if (!judged.parts.empty()) json["parts"] = judged.parts;
   if (judged.rate_hz > 0) json["rate_hz"] = judged.rate_hz;
+  if (judged.compared_hz > 0) json["compared_hz"] = judged.compared_hz;
   for (const auto& [metric, share] : judged.shares) json["shares"][metric] = share;
   return json;
 }
 
 JudgedOn DecodeJudged(const Json& json) {
-  JudgedOn judged{json.value("parts", std::vector<std::string>{}), json.value("rate_hz", 0.0), {}};
+  JudgedOn judged{
+      json.value("parts", std::vector<std::string>{}), json.value("rate_hz", 0.0), {}, json.value("compared_hz", 0.0)};
   const Json shares = json.value("shares", Json::object());
   for (const auto& [metric, share] : shares.items()) judged.shares.emplace_back(metric, share.get<double>());
   return judged;

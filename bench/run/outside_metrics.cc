@@ -1,5 +1,6 @@
 #include "bench/run/outside_metrics.h"
 
+#include <algorithm>
 #include <cmath>
 #include <nlohmann/json.hpp>
 
@@ -7,6 +8,7 @@
 #include "bench/run/outside_programs.h"
 #include "bench/tasks/base/answer_fields.h"
 #include "bench/tasks/base/pose_json.h"
+#include "bench/tasks/registry.h"
 #include "engine/base/machine.h"
 
 namespace etude {
@@ -52,6 +54,12 @@ Measured ReadValue(const std::string& id, const OutsideReply& reply) {
   return {Status::kOk, {id, value->get<double>(), ""}};
 }
 
+/// Returns the value of the task's success metric.
+std::optional<double> SuccessOf(const CellResult& result, const std::string& task) {
+  const auto found = std::ranges::find(result.metrics, FindTaskKind(task)->success, &MetricValue::id);
+  return found == result.metrics.end() ? std::nullopt : found->value;
+}
+
 std::string Show(const std::optional<double>& value) { return value ? fmt::format("{}", *value) : "null"; }
 
 }  // namespace
@@ -82,10 +90,14 @@ std::string OutsideMetrics::Measure(const std::string& cell, CellResult& result)
   auto json = EncodeMotions(*result.recording);
   if (!json) json = Json::object();  // the same error is reported when the cell's line is encoded
   const Payload told = PayloadOf(*std::move(json));
+  // If the task says what a cell was judged on, a program sees the share of it that the task's success measures.
+  const std::optional<double> seen = SuccessOf(result, scenario_.scenario().task);
   for (std::size_t m = 0; m < programs_.size(); ++m) {
     const OutsideReply reply = Ask(m, cell, told);
     if (!reply.was_asked) return reply.reason;
-    result.metrics.push_back(ReadValue(scenario_.scenario().outside_metrics[m].info.id, reply).value);
+    const std::string& id = scenario_.scenario().outside_metrics[m].info.id;
+    result.metrics.push_back(ReadValue(id, reply).value);
+    if (!result.judged.parts.empty() && seen && *seen < 1) result.judged.shares.emplace_back(id, *seen);
   }
   return "";
 }

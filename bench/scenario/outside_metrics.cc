@@ -25,16 +25,22 @@ constexpr std::string_view kTaskWithoutMotion = "pose-distance";
 bool IsMetricId(const std::string& name) {
   const auto plain = [](char c) { return (c >= 'a' && c <= 'z') || (c >= '0' && c <= '9') || c == '_'; };
   return !name.empty() && name.size() <= 60 && name[0] >= 'a' && std::ranges::all_of(name, plain) &&
-         !name.starts_with("digest_") && std::ranges::find(kRowKeys, name) == std::end(kRowKeys);
+         !name.starts_with("digest_");
 }
 
 void ReadName(Fields& metric, OutsideMetric& own) {
   own.info.id = own.program.name = metric.RequiredText("name");
-  if (!metric.ok() || IsMetricId(own.info.id)) return;
-  metric.Complain(metric.node().Find("name")->place,
-                  fmt::format("'{}' is not a valid metric name; allowed: at most 60 lower-case letters, digits and "
-                              "'_'; the first must be a letter, and the name must not be a key of result rows",
-                              own.info.id));
+  if (!metric.ok()) return;
+  const Place& place = metric.node().Find("name")->place;
+  if (std::ranges::find(kRowKeys, own.info.id) != std::end(kRowKeys)) {
+    metric.Complain(
+        place, fmt::format("'{}' is a key of every row of results; choose another name for the metric", own.info.id));
+  } else if (!IsMetricId(own.info.id)) {
+    metric.Complain(place,
+                    fmt::format("'{}' is not a valid metric name; allowed: at most 60 lower-case letters, digits and "
+                                "'_'; the first must be a letter, and the name must not begin with 'digest_'",
+                                own.info.id));
+  }
 }
 
 /// Replaces `frames` and `joints_m` of a track by `poses`. A joint without positions is put at the origin.

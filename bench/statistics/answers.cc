@@ -26,14 +26,20 @@ int CountAnswers(const Study& study) {
 bool IsDecided(Verdict verdict) { return verdict == Verdict::kBetter || verdict == Verdict::kWorse; }
 
 /// Returns the metric by which a step of an answer is judged. The metric is a share of worlds; its practical threshold
-/// is Study::success_matters.
-MetricInfo ShareMetric(const Study& study, const std::string& id) {
+/// is `matters`.
+MetricInfo ShareMetric(const std::string& id, double matters) {
   MetricInfo metric = *FindMetric(id);
   metric.direction = Direction::kHigherIsBetter;
   metric.aggregate = Aggregate::kMean;
   metric.reading = metric.reading == Reading::kAmount ? Reading::kYesNo : metric.reading;  // the tail is always a share
-  metric.practical = study.success_matters;
+  metric.practical = matters;
   return metric;
+}
+
+MetricInfo SuccessMetric(const Study& study) { return ShareMetric(study.success, study.success_matters); }
+/// `value` is the metric of which the worlds are far better or worse.
+MetricInfo TailMetric(const Study& study, const std::string& value) {
+  return ShareMetric(value, study.gate.tail.share);
 }
 
 /// Returns a cell's success: its value, or 0 if the cell failed without a value. Returns nullopt if the cell was
@@ -120,11 +126,11 @@ class Measurer {
     // Compare success; a failed cell counts 0.
     const PairedWorlds successes = study_.success.empty() ? PairedWorlds() : SuccessesOf(pairing, study_.success);
     if (!successes.pairs.empty()) {
-      answer.success = Compare(successes, ShareMetric(study_, study_.success), purpose("success"));
+      answer.success = Compare(successes, SuccessMetric(study_), purpose("success"));
     }
     if (value.empty()) return answer;
     // Compare the value in the worlds in which both methods succeeded.
-    if (!successes.pairs.empty() && AreShares(successes.pairs, ShareMetric(study_, study_.success))) {
+    if (!successes.pairs.empty() && AreShares(successes.pairs, SuccessMetric(study_))) {
       PairedWorlds both;
       both.not_alike = values.not_alike;
       for (std::size_t i = 0; i < values.pairs.size(); ++i) {
@@ -144,7 +150,7 @@ class Measurer {
     const MetricInfo& metric = *FindMetric(value);
     if (!values.pairs.empty() && metric.direction != Direction::kNeither && metric.reading == Reading::kAmount) {
       const PairedWorlds far = FarOff(values, metric, study_.gate.tail.times);
-      answer.tail = Compare(far, ShareMetric(study_, value), purpose("tail"));
+      answer.tail = Compare(far, TailMetric(study_, value), purpose("tail"));
     }
     return answer;
   }
@@ -230,9 +236,9 @@ void JudgeFamilyOfAnswers(const Study& study, std::vector<ConditionSummary>& con
   for (ConditionSummary& condition : conditions) {
     for (Answer& answer : condition.*answers) family.push_back(&answer);
   }
-  JudgeStep(family, &Answer::success, study.unit, [&](const Answer&) { return ShareMetric(study, study.success); });
+  JudgeStep(family, &Answer::success, study.unit, [&](const Answer&) { return SuccessMetric(study); });
   JudgeStep(family, &Answer::both_succeed, study.unit, [](const Answer& a) { return *FindMetric(a.value_metric); });
-  JudgeStep(family, &Answer::tail, study.unit, [&](const Answer& a) { return ShareMetric(study, a.value_metric); });
+  JudgeStep(family, &Answer::tail, study.unit, [&](const Answer& a) { return TailMetric(study, a.value_metric); });
   for (ConditionSummary& condition : conditions) {
     for (Answer& answer : condition.*answers) {
       const auto value = std::ranges::find_if(condition.*comparisons, [&](const Comparison& c) {
@@ -259,7 +265,7 @@ std::optional<Comparison> CompareSuccess(const Study& study, const ConditionTabl
   const std::vector<const MethodColumns*> others(static_cast<std::size_t>(table.trials()), &table.Of(other));
   const PairedWorlds worlds = SuccessesOf({&table.Of(method), others}, study.success);
   if (worlds.pairs.empty()) return std::nullopt;
-  return ComparePaired(worlds.pairs, ShareMetric(study, study.success), seed,
+  return ComparePaired(worlds.pairs, SuccessMetric(study), seed,
                        PurposeOf(study.scenario, table.condition, "success", other, method));
 }
 

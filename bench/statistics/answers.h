@@ -53,7 +53,7 @@ std::optional<Comparison> CompareSuccess(const Study& study, const ConditionTabl
 /// rivals. The first of these steps with a verdict "better" or "worse" decides the answer:
 ///   success   by at least Study::success_matters
 ///   value     the verdict over all worlds, unless the verdict over the worlds where both succeeded contradicts it
-///   tail      by at least Study::success_matters
+///   tail      by at least TailRule::share
 /// If no step decides, the answer is the verdict on the value, or on success if there is no value. The answer is "no
 /// difference" only if the verdict on success is not open.
 void JudgeAnswers(const Study& study, std::vector<ConditionSummary>& conditions);

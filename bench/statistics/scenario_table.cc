@@ -104,10 +104,12 @@ void MethodColumns::AddJudged(const JudgedOn& judged, std::size_t trial) {
   if (judged.parts.empty()) return;
   parts_.resize(statuses_.size());
   rates_.resize(statuses_.size());
+  compared_rates_.resize(statuses_.size());
   auto parts = std::ranges::find(all_parts_, judged.parts);
   if (parts == all_parts_.end()) parts = all_parts_.insert(parts, judged.parts);
   parts_[trial] = 1 + static_cast<std::size_t>(parts - all_parts_.begin());
   rates_[trial] = judged.rate_hz;
+  compared_rates_[trial] = judged.compared_hz;
   for (const auto& [metric, share] : judged.shares) {
     std::vector<double>* column = shares_.Find(metric);
     if (column == nullptr) column = &shares_.Add(metric, std::vector<double>(statuses_.size(), kNone));
@@ -120,7 +122,7 @@ std::optional<JudgedPair::Side> MethodColumns::JudgedAt(const std::string& metri
   if (parts_.empty() || parts_[at] == 0) return std::nullopt;
   const std::vector<double>* shares = shares_.Find(metric);
   const double share = shares == nullptr || std::isnan((*shares)[at]) ? 1 : (*shares)[at];
-  return JudgedPair::Side{&all_parts_[parts_[at] - 1], rates_[at], share};
+  return JudgedPair::Side{&all_parts_[parts_[at] - 1], rates_[at], compared_rates_[at], share};
 }
 
 std::optional<double> MethodColumns::ValueAt(const std::string& metric, int trial) const {

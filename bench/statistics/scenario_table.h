@@ -45,7 +45,7 @@ class MethodColumns {
   // What the cells were judged on (JudgedOn). The columns are empty if no cell says it.
   std::vector<std::vector<std::string>> all_parts_;  ///< each list of parts once
   std::vector<std::size_t> parts_;                   ///< by trial, 1 + an index in all_parts_; 0 = the cell has none
-  std::vector<double> rates_;
+  std::vector<double> rates_, compared_rates_;
   CyclicLookup<std::vector<double>> shares_;  ///< shares by metric and trial; NaN = 1
 };
 

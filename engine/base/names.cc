@@ -60,6 +60,14 @@ std::string Join(std::span<const std::string> items, std::string_view separator)
   return fmt::format("{}", fmt::join(items, separator));
 }
 
+std::string ComparedName(std::string_view name) {
+  std::string letters;
+  for (const char c : name) {
+    if (c != ' ') letters += c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
+  }
+  return letters;
+}
+
 std::string Quote(std::string_view text) {
   if (text.empty()) return "the end of the line or file";
   constexpr std::size_t kShown = 40;

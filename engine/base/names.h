@@ -18,6 +18,10 @@ std::string UnknownName(std::string_view kind, std::string_view name, std::span<
 /// Joins items as in "a, b, c".
 std::string Join(std::span<const std::string> items, std::string_view separator = ", ");
 
+/// Returns a person's name as it is compared: in lower case and without spaces, because people write it in different
+/// ways.
+std::string ComparedName(std::string_view name);
+
 /// Formats a word for complaints: quoted, shortened, unprintable characters as `?`; an empty text becomes "the end of
 /// the line or file".
 std::string Quote(std::string_view text);

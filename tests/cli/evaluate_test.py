@@ -119,6 +119,43 @@ class Evaluate(EtudeCase):
         self.assertGreater(rows["slow"]["mpjpe_unaligned_mm"], 5, "a motion at half its rate is another motion")
         self.assertIn("(the truth has 30 Hz, the answer 15 Hz)", rows["slow"]["reason"])
 
+    def test_two_runs_that_were_not_judged_alike_say_it(self):
+        for i in range(8):
+            self.trc_file(f"t/{i}.trc", [[[p[0] * (1 + i / 50), p[1], p[2]] for p in frame] for frame in self.frames])
+        then, now = self.folder / "then", self.folder / "now"
+        for out, moved in (then, 0.04), (now, 0.02):
+            for i in range(8):
+                frames = [[[p[0] * (1 + i / 50), p[1] + moved, p[2]] for p in frame] for frame in self.frames]
+                for frame in frames[::2] if out == now else []:  # the wrist is hidden in every second frame
+                    frame[self.names.index("left_wrist")] = None
+                self.trc_file(f"m/{i}.trc", frames)
+            self.evaluate(self.folder / "t", f"m={self.folder}/m", out=out)
+        moves = {move["metric"]: move for move in self.facts("compare", then, now)["moves"]}
+        self.assertEqual(moves["mpjpe_unaligned_mm"]["movement"], "undecided")
+        self.assertIn("not judged alike: “before” is judged on 100.0 % of what the truth shows, “now” on 97.5 %",
+                      moves["mpjpe_unaligned_mm"]["not_alike"])
+        self.assertEqual(moves["seen_share"]["movement"], "worse")
+        self.assertNotIn("not_alike", moves["seen_share"])
+        # The control: both runs show the same.
+        for i in range(8):
+            self.trc_file(f"m/{i}.trc", [[[p[0] * (1 + i / 50), p[1] + 0.02, p[2]] for p in frame] for frame in self.frames])
+        self.evaluate(self.folder / "t", f"m={self.folder}/m", out=self.folder / "all")
+        moves = {move["metric"]: move for move in self.facts("compare", then, self.folder / "all")["moves"]}
+        self.assertEqual(moves["mpjpe_unaligned_mm"]["movement"], "better")
+        self.assertNotIn("not_alike", moves["mpjpe_unaligned_mm"])
+
+    def test_equal_truths_are_one_unit_unless_worlds_are_units(self):
+        for name in "a", "b":
+            self.trc_file(f"t/{name}.trc", self.frames)
+            self.trc_file(f"m/{name}.trc", [[[p[0] + 0.02, p[1], p[2]] for p in frame] for frame in self.frames])
+        text = f"scenario: s\nquestion: q?\ntask: evaluation\ntruth: ['{self.folder}/t']\nmethods: [{{name: m, answers: ['{self.folder}/m']}}]\n"
+        for unit, units, says in (("clip", ["a"], "so the two are one unit"),
+                                  ("world", None, "but each is a unit of its own (unit: world)")):
+            rows = self.run_suite(self.write("s.yaml", text + f"unit: {unit}\n"), out=self.folder / unit)
+            self.assertIn(f"; the truth is that of a, {says}", rows[1]["reason"])
+            self.assertNotIn("the truth is that of", rows[0]["reason"])
+            self.assertEqual([row.get("units") for row in rows], [units, units])
+
     def test_a_file_more_changes_no_other_and_a_changed_one_is_told(self):
         for name in "b", "d":
             self.trc_file(f"t/{name}.trc", self.frames)

@@ -74,7 +74,8 @@ for line in sys.stdin:
     reply = {"type": told["type"] if told["type"] == "hello" else "ready", "protocol": 1, "name": "own", "version": "1"}
     if told["type"] == "problem":
         extras = told["problem"]["extras"]
-        pairs = [(a[i:i + 3], b[i:i + 3]) for a, b in zip(extras["truth"], extras["answer"]) for i in range(0, len(a), 3)]
+        pairs = [(a[i:i + 3], b[i:i + 3]) for a, b in zip(extras["truth"], extras["answer"]) for i in range(0, len(a), 3)
+                 if None not in b[i:i + 3]]
         reply = {"type": "answer", "id": told["id"], "answer": {"value": 1000 * sum(math.dist(a, b) for a, b in pairs) / len(pairs)}}
     print(json.dumps(reply), flush=True)
 """
@@ -289,10 +290,25 @@ class OwnMetrics(EtudeCase):
         self.assertAlmostEqual(row["mine"], 100, delta=1e-6)
         self.assertAlmostEqual(row["mine"], row["mpjpe_unaligned_mm"], delta=1e-6)
 
+    def test_own_metrics_of_files_have_the_share_that_the_answer_shows(self):
+        (self.folder / "m.py").write_text(FILES_METRIC)
+        scenario = self.write("files.yaml", "scenario: files\nquestion: Who hides?\ntask: evaluation\ntruth: ['builtin:acts']\n"
+                              "methods: [{name: moved, control: true, moved_cm: 10}, {name: hidden, control: true, hidden_percent: 20}]\n"
+                              f"metrics: [mpjpe_unaligned_mm, {{name: mine, exec: [python3, {self.folder}/m.py], unit: mm}}]\n")
+        for row in self.run_suite(scenario):
+            shares = row["judged"].get("shares", {})
+            self.assertEqual(shares.get("mine", 1), row["seen_share"])
+            self.assertEqual(row["seen_share"] < 0.9, row["method"] == "hidden")
+        comparisons = json.loads((self.out / "summary.json").read_text())["scenarios"][0]["conditions"][0]["comparisons"]
+        mine, = [one for one in comparisons if one["metric"] == "mine"]
+        self.assertEqual(mine["verdict"], "undecided")
+        self.assertIn("not judged alike: “moved” is judged on 100.0 %", mine["why_open"])
+
     def test_what_cannot_be_is_refused_with_its_place(self):
         program = "exec: [python3, m.py]"
         for metrics, says in ((f"[{{name: iterations, {program}}}]", "'iterations' is the id of a built-in metric"),
-                              (f"[{{name: cell, {program}}}]", "'cell' is not a valid metric name"),
+                              (f"[{{name: judged, {program}}}]", "'judged' is a key of every row of results"),
+                              (f"[{{name: A, {program}}}]", "'A' is not a valid metric name"),
                               (f"[{{name: a, {program}}}, {{name: a, {program}}}]", "is listed twice"),
                               ("[{name: a}]", "'exec'"), (f"[{{name: a, {program}, colour: red}}]", "'colour'"),
                               (f"[{{name: a, {program}, vectors: [{{cell: {{}}}}]}}]", "a list 'tracks'"),

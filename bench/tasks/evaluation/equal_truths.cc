@@ -12,17 +12,16 @@ namespace {
 
 constexpr double kSame_m = 0.001;  // tolerance; files may round to a tenth of a millimetre
 
-/// Some positions of a motion, by which it is recognised.
+/// Some or all positions of a motion, by which it is recognised.
 struct Sketch {
   std::size_t world = 0, frames = 0, joints = 0;
   std::vector<glm::dvec3> points;
 };
 
-/// Returns the positions of up to 30 joints in up to 12 frames, evenly chosen.
-Sketch SketchOf(const RawMotion& motion, std::size_t world) {
-  constexpr std::size_t kMaxFrames = 12, kMaxJoints = 30;
+/// Returns the positions of up to `max_joints` joints in up to `max_frames` frames, evenly chosen.
+Sketch SketchOf(const RawMotion& motion, std::size_t world, std::size_t max_frames = 12, std::size_t max_joints = 30) {
   Sketch sketch{world, motion.FrameCount(), motion.joints.size(), {}};
-  const std::size_t frames = std::min(kMaxFrames, sketch.frames), joints = std::min(kMaxJoints, sketch.joints);
+  const std::size_t frames = std::min(max_frames, sketch.frames), joints = std::min(max_joints, sketch.joints);
   for (std::size_t f = 0; f < frames; ++f) {
     for (std::size_t j = 0; j < joints; ++j) {
       const std::size_t frame = frames == 1 ? 0 : f * (sketch.frames - 1) / (frames - 1);
@@ -49,6 +48,15 @@ bool AreEqual(const Sketch& a, const Sketch& b) {
   return true;
 }
 
+/// Returns true if a truth equals that of a file in all frames and joints.
+bool IsEqual(const RawMotion& truth, const std::string& other_file, const OpenOptions& opening) {
+  const auto other = OpenRawMotion(other_file, opening);
+  const auto all_of = [](const RawMotion& motion) {
+    return SketchOf(motion, 0, motion.FrameCount(), motion.joints.size());
+  };
+  return other && AreEqual(all_of(*other), all_of(truth));
+}
+
 }  // namespace
 
 void FindEqualTruths(std::vector<JudgedFiles>& worlds, const OpenOptions& opening) {
@@ -59,8 +67,10 @@ void FindEqualTruths(std::vector<JudgedFiles>& worlds, const OpenOptions& openin
     Sketch sketch = SketchOf(*truth, w);
     const double radius = RadiusOf(sketch);
     const auto end = known.upper_bound(radius + kSame_m);
-    const auto same = std::find_if(known.lower_bound(radius - kSame_m), end,
-                                   [&](const auto& other) { return AreEqual(other.second, sketch); });
+    // Compare the sketches first, because they are at hand.
+    const auto same = std::find_if(known.lower_bound(radius - kSame_m), end, [&](const auto& other) {
+      return AreEqual(other.second, sketch) && IsEqual(*truth, worlds[other.second.world].truth, opening);
+    });
     if (same == end) {
       known.emplace(radius, std::move(sketch));
       continue;

@@ -4,6 +4,7 @@
 #include <iterator>
 
 #include "bench/model/recording.h"
+#include "bench/model/unit.h"
 #include "bench/recordings/evaluation_extras.h"
 #include "bench/tasks/base/file_task.h"
 #include "bench/tasks/base/read_methods.h"
@@ -24,17 +25,18 @@ namespace {
 struct EvaluationStudy : FileStudy<EvaluationOptions, EvaluationMethod> {
   EvaluationSideData side;
   bool has_only_controls = false;
+  bool are_worlds_units = false;
 };
 
 /// Returns a recording of both motions. It contains the judged joints only.
 Recording RecordingOf(const MatchedMotions& matched) {
   EvaluationExtras extras;
-  extras.truth.rate_hz = matched.shown ? matched.shown_rate_hz : matched.pair.rate_hz;
+  extras.truth.rate_hz = matched.shown ? matched.shown->rate_hz : matched.pair.rate_hz;
   extras.truth.joints = matched.joints;
   extras.truth.parents = matched.parents;
   extras.answer = extras.truth;
-  extras.truth.positions = matched.shown ? matched.shown->first.positions : matched.pair.truth.positions;
-  extras.answer.positions = matched.shown ? matched.shown->second.positions : matched.pair.found.positions;
+  extras.truth.positions = matched.shown ? matched.shown->truth.positions : matched.pair.truth.positions;
+  extras.answer.positions = matched.shown ? matched.shown->answer.positions : matched.pair.found.positions;
   return {{}, WriteEvaluationExtras(extras)};
 }
 
@@ -93,7 +95,9 @@ class EvaluationWorld final : public FileWorld {
     const EvaluationSideData side = study_.has_only_controls ? SideDataOf(*matched, study_.side) : study_.side;
     CellResult result = JudgeMotion(*matched, side);
     if (!files_.same_as.empty()) {
-      result.reason += fmt::format("; the truth is that of {}, so the two are one unit", files_.same_as);
+      result.reason += fmt::format(
+          "; the truth is that of {}, {}", files_.same_as,
+          study_.are_worlds_units ? "but each is a unit of its own (unit: world)" : "so the two are one unit");
     }
     if (keeps_motion_) result.recording = RecordingOf(*matched);
     return result;
@@ -110,6 +114,8 @@ Result<std::unique_ptr<Task>> MakeEvaluationTask(TaskInput& input) {
   EvaluationConditionFields().Read(input.condition, study.options);
   ASSIGN_OR_RETURN(study.methods, ReadMethods(input, "evaluation", EvaluationMethodFields()));
   study.has_only_controls = std::ranges::all_of(study.methods, &EvaluationMethod::is_control);
+  const Node* unit = input.condition.node().Find("unit");
+  study.are_worlds_units = unit != nullptr && unit->scalar == SamplingUnitName(SamplingUnit::kWorld);
   RETURN_IF_ERROR(CheckFiles(input.condition.node(), study.options));
   RETURN_IF_ERROR(study.TakeFiles(input));
   if (!study.options.statistics.empty()) {

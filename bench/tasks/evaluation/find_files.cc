@@ -269,15 +269,6 @@ bool Matches(std::string_view pattern, std::string_view text) {
   return pattern.find_first_not_of('*', p) == std::string_view::npos;
 }
 
-/// Returns a person's name in lower case and without spaces, as `etude blind` compares the names of raters.
-std::string ComparedName(std::string_view name) {
-  std::string letters;
-  for (const char c : name) {
-    if (c != ' ') letters += c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
-  }
-  return letters;
-}
-
 }  // namespace
 
 std::optional<std::string> PersonIn(std::string_view pattern, std::string_view name) {

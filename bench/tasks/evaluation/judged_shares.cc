@@ -3,6 +3,9 @@
 #include <algorithm>
 #include <cmath>
 #include <initializer_list>
+#include <span>
+
+#include "bench/metrics/alignment.h"
 
 namespace etude {
 namespace {
@@ -45,6 +48,28 @@ double CountRuns(const Mask& mask, std::size_t length) {
   return count;
 }
 
+/// Returns the number of windows of `length` frames that a mask of one column shows wholly. Windows follow each other
+/// from the first frame on.
+double CountWindows(const Mask& mask, std::size_t length) {
+  double count = 0;
+  for (std::size_t first = 0; first + length <= mask.seen.size(); first += length) {
+    count += std::ranges::count(&mask.seen[first], &mask.seen[first] + length, 0) == 0 ? 1 : 0;
+  }
+  return count;
+}
+
+/// Returns a mask without the segments of `length` frames to which no alignment can be fitted, because their first
+/// `fitted` frames show fewer than kMinFitted positions.
+Mask WithFit(Mask mask, std::size_t length, std::size_t fitted) {
+  const std::size_t step = length * mask.columns;
+  for (std::size_t first = 0; first < mask.seen.size(); first += step) {
+    const std::span segment = std::span(mask.seen).subspan(first, std::min(step, mask.seen.size() - first));
+    const auto points = std::ranges::count(segment.first(std::min(fitted * mask.columns, segment.size())), 1);
+    if (static_cast<double>(points) < kMinFitted) std::ranges::fill(segment, 0);
+  }
+  return mask;
+}
+
 /// Collects the shares of metrics.
 class Shares {
  public:
@@ -52,7 +77,10 @@ class Shares {
 
   /// Adds the share of the runs of `length` frames in `shown` that `both` has, too.
   void Add(std::initializer_list<const char*> metrics, const Mask& both, const Mask& shown, std::size_t length = 1) {
-    const double all = CountRuns(shown, length), share = all > 0 ? CountRuns(both, length) / all : 1;
+    AddCounts(metrics, CountRuns(both, length), CountRuns(shown, length));
+  }
+  void AddCounts(std::initializer_list<const char*> metrics, double both, double shown) {
+    const double share = shown > 0 ? both / shown : 1;
     for (const char* metric : metrics) {
       if (share < 1) judged_.shares.emplace_back(metric, share);
     }
@@ -63,7 +91,7 @@ class Shares {
 };
 
 /// Adds the metrics that compare the two motions' positions.
-void AddErrors(const EvaluatedPair& pair, const PairFits& fits, Shares& shares) {
+void AddErrors(const EvaluatedPair& pair, Shares& shares) {
   const std::size_t n = pair.truth.points, count = pair.truth.positions.size();
   const auto &found = pair.found.positions, &truth = pair.truth.positions;
   if (std::ranges::all_of(found, IsSeen) && std::ranges::all_of(pair.found_root, IsSeen)) return;  // all shares are 1
@@ -75,16 +103,17 @@ void AddErrors(const EvaluatedPair& pair, const PairFits& fits, Shares& shares) 
   shares.Add({"mpjpe_unaligned_mm", "mpjpe_first_frame_mm", "mpjpe_first_frame_scaled_mm", "mpjpe_take_mm",
               "mpjpe_take_scaled_mm"},
              both, shown);
-  const auto fitted = [&](const FrameFits& found_fits) {
-    return with(both, [&](std::size_t frame) { return found_fits.At(frame).has_value(); });
+  const auto add_fitted = [&](std::initializer_list<const char*> metrics, std::size_t length, std::size_t fitted) {
+    shares.Add(metrics, WithFit(both, length, fitted), WithFit(shown, length, fitted));
   };
-  shares.Add({"mpjpe_each_frame_mm", "mpjpe_each_frame_scaled_mm"}, fitted(fits.Of(Alignment::kFrame)), shown);
-  shares.Add({"w_mpjpe_mm@wham"}, fitted(fits.OfSegments(kSegmentFrames, 2)), shown);
-  shares.Add({"wa_mpjpe_mm@wham"}, fitted(fits.OfSegments(kSegmentFrames, kSegmentFrames)), shown);
+  add_fitted({"mpjpe_each_frame_mm", "mpjpe_each_frame_scaled_mm"}, 1, 1);
+  add_fitted({"w_mpjpe_mm@wham"}, kSegmentFrames, 2);
+  add_fitted({"wa_mpjpe_mm@wham"}, kSegmentFrames, kSegmentFrames);
   shares.Add({"accel_error_mm@human_dynamics", "accel_error_mps2"}, both, shown, 3);
   const Mask whole = WholeFrames(both), whole_truth = WholeFrames(shown);
   shares.Add({"l2q@lafan1", "l2p@lafan1"}, whole, whole_truth);
-  shares.Add({"npss@lafan1", "npss"}, whole, whole_truth, kWindowFrames);
+  shares.AddCounts({"npss@lafan1", "npss"}, CountWindows(whole, kWindowFrames),
+                   CountWindows(whole_truth, kWindowFrames));
   if (pair.true_root.empty()) return;
   const auto &found_root = pair.found_root, &true_root = pair.true_root;
   const Mask rooted = with(both, [&](std::size_t f) { return AreSeen(found_root[f], true_root[f]); });
@@ -142,11 +171,11 @@ void AddOfAnswer(const EvaluatedPair& own, Shares& shares) {
 
 }  // namespace
 
-JudgedOn JudgedOf(const MatchedMotions& matched, const PairFits& fits) {
-  JudgedOn judged{matched.joints, matched.OwnFrames().rate_hz, {}};
-  if (!matched.root.empty()) judged.parts.push_back("root " + matched.root);
+JudgedOn JudgedOf(const MatchedMotions& matched) {
+  JudgedOn judged{matched.joints, matched.OwnFrames().rate_hz, {}, matched.own ? matched.pair.rate_hz : 0};
+  if (!matched.root.empty()) judged.parts.push_back(std::string(kRootPart) + matched.root);
   Shares shares(judged);
-  AddErrors(matched.pair, fits, shares);
+  AddErrors(matched.pair, shares);
   AddAngles(matched, shares);
   AddOfAnswer(matched.OwnFrames(), shares);
   return judged;

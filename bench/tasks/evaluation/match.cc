@@ -241,7 +241,7 @@ std::string NoteOn(const RawMotion& truth, const RawMotion& answer, const std::s
   if (!HaveSameRate(truth, answer)) {
     note += fmt::format(" (the truth has {:g} Hz, the answer {:g} Hz)", truth.rate_hz, answer.rate_hz);
   }
-  if (matched.is_interpolated) note += ", for which the truth was interpolated";
+  if (matched.is_interpolated) note += ", for which the truth was interpolated, so acceleration errors have no value";
   if (matched.lag) note += ", " + NoteOn(*matched.lag);
   if (!clock.empty()) note += ", " + clock;
   // One surplus frame is not mentioned: in motions of equal length, the answer's last frame lies after the truth's last
@@ -334,9 +334,8 @@ Result<MatchedMotions> Match(const RawMotion& given_truth, const RawMotion& give
   }
   if (judged.rate_hz != truth_rate_hz || judged.is_interpolated || !judged.own.empty()) {
     matched.shown = {Columns(truth, of_truth, frames),
-                     Columns(Sampled(answer, truth_rate_hz, start_s, frames), of_answer, frames)};
+                     Columns(Sampled(answer, truth_rate_hz, start_s, frames), of_answer, frames), truth_rate_hz};
   }
-  matched.shown_rate_hz = truth_rate_hz;
   if (count > 0) matched.own_start_s = judged.of_truth.front() / truth_rate_hz;
   if (!judged.own.empty()) {
     matched.own_start_s = judged.own.front() / answer.rate_hz - start_s;

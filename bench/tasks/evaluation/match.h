@@ -3,7 +3,6 @@
 #include <array>
 #include <string>
 #include <string_view>
-#include <utility>
 #include <vector>
 
 #include "bench/metrics/evaluation.h"
@@ -14,14 +13,18 @@
 
 namespace etude {
 
+/// Truth and answer at the truth's times, to show them; the answer is interpolated.
+struct ShownMotions {
+  PointTracks truth, answer;
+  double rate_hz = 0;
+};
+
 /// A truth and an answer, matched joint by joint and frame by frame, with a note on the changes made to the answer.
 struct MatchedMotions {
   EvaluatedPair pair;
   /// The answer alone at all its frames within the truth, if it has more frames than the truth; else `pair` has them.
   std::optional<EvaluatedPair> own = {};
-  /// Truth and answer at the truth's times, to show them, if `pair` has other times; the answer is interpolated.
-  std::optional<std::pair<PointTracks, PointTracks>> shown = {};
-  double shown_rate_hz = 0;
+  std::optional<ShownMotions> shown = {};  ///< the motions to show, if `pair` does not have the truth's times
   double own_start_s = 0;            ///< the time of the first frame of OwnFrames, in seconds after the truth's first
   bool is_interpolated = false;      ///< true: the truth has no frames at these times, so it was interpolated
   bool is_even = true;               ///< true: the frames of `pair` follow each other at equal times

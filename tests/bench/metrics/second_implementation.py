@@ -15,13 +15,14 @@ from independent import transition
 DOMAINS = [ik, tracking, capture, transition, support, body, pose_distance, detection, coach, evaluation, plausibility]
 METRICS = {name: function for domain in DOMAINS for name, function in domain.METRICS.items()}
 NEWER = {"natural_share": 3, "solved_practical": 2, "solved_tight": 2, "iterations_par2": 2, "fk_evaluations_par2": 2,
-         "frames_solved": 2, "frames_solved_tight": 2, "skipped_s": 2, "seen_share": 2,
+         "frames_solved": 2, "frames_solved_tight": 2, "skipped_s": 2,
          # a flight needs a possible take-off
          "unsupported_frames": 4, "supported_share": 4, "clean_share": 5, "zmp_off_cm": 2, "slip_mps2": 2,
          "glide_cm": 2, "balance_cm": 3,
-         # the root is the file's own root joint
+         # answers are judged at their own frames; in version 3, the root is also the file's own root joint
+         **dict.fromkeys(evaluation.METRICS, 2), "lag_ms": 1,
          **dict.fromkeys(["mpjpe_root_mm", "mpjpe_root_scaled_mm", "pck_150mm@mpi_inf_3dhp", "auc_150mm@mpi_inf_3dhp", "rte@wham",
-                          "accel_error_mps2@wham", "pfc@edge"], 2),
+                          "accel_error_mps2@wham", "pfc@edge"], 3),
          # version 2 also counts torn joints, skating on one foot, and further kinds of pops as faults
          **dict.fromkeys(["faults", "skates_share", "skates_max_cmps", "pops", "pops_max_cm", "fault_free", "within_limits"],
                          2)}  # all other metrics are of version 1

@@ -1,4 +1,7 @@
+#include <nlohmann/json.hpp>
+
 #include "bench/metrics/catalogue.h"
+#include "bench/results/row_json.h"
 #include "bench/scenario/study_of.h"
 #include "bench/tasks/registry.h"
 #include "tests/bench/scenario/parse.h"
@@ -7,6 +10,7 @@ namespace etude {
 namespace {
 
 using ::testing::ElementsAre;
+using ::testing::HasSubstr;
 
 TEST(Scenario, ComparesEachMethodWithTheFirstOrTheOneItNames) {
   const Scenario scenario =
@@ -78,6 +82,19 @@ TEST(Scenario, NamesWhatSuccessIsOrTakesTheTasks) {
   EXPECT_EQ(study.success, "solved_tight");
   EXPECT_EQ(study.success_matters, 0.1);
   EXPECT_EQ(ParseOne(kHead + kMethods + "success: {matters: 0.02}\n").success, "solved_practical");
+}
+
+TEST(Scenario, RefusesAMetricWithTheNameOfAKeyOfRows) {
+  Row row{"s", "ik", {}, 0, "", {"a unit"}, "a", CellResult::Ended(Status::kOk, "")};
+  row.result.Missing("position_error_cm", "none");
+  row.result.judged.parts = {"head"};
+  const Json json = EncodeRow(row);
+  EXPECT_TRUE(json.contains("judged") && json.contains("units") && json.contains("null_reasons"));
+  for (const auto& [key, value] : json.items()) {
+    if (key == "position_error_cm") continue;
+    EXPECT_THAT(Complaint(kHead + kMethods + "metrics: [{name: " + key + ", exec: [x]}]\n"),
+                HasSubstr("'" + key + "' is a key of every row of results; choose another name for the metric"));
+  }
 }
 
 TEST(Scenario, OfEveryTaskHasASuccessThatItsCellsReport) {

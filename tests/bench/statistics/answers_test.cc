@@ -232,6 +232,19 @@ TEST(Answer, LooksAtTheTailLast) {
   EXPECT_EQ(summary.conditions.front().answers[1].verdict, Verdict::kNoDifference);
 }
 
+TEST(Answer, OfTheTailHasItsOwnThreshold) {
+  // b is far worse in 12 of 400 worlds: 3 %.
+  const auto world = [](int trial) -> std::array<CellValues, 3> {
+    return {{{1, 1}, {1, trial < 12 ? 100 : 1 + 0.001 * (trial % 3)}, {1, 1}}};
+  };
+  Study study = IkStudy(400);
+  study.success_matters = 0.01;  // as in task evaluation
+  EXPECT_EQ(AnswerOf(study, world).decided_by, AnswerStep::kNone);
+  study.success_matters = 0.5;
+  study.gate.tail.share = 0.02;
+  EXPECT_EQ(AnswerOf(study, world).decided_by, AnswerStep::kTail);
+}
+
 TEST(Answer, AgainstTheStrongestRivalIsJudgedAlike) {
   const ScenarioSummary summary = SummaryOf(IkStudy(60), [](int trial) -> std::array<CellValues, 3> {
     return {{{1, 5}, {trial % 2 == 0 ? 1.0 : 0.0, 2}, {1, 3}}};

@@ -75,8 +75,10 @@ TEST(JudgedAlike, NoMethodIsBetterByFewerJointsOrAnotherRoot) {
     EXPECT_EQ(comparison.beyond.verdict, Verdict::kUndecided);
     EXPECT_EQ(
         comparison.why_open,
-        "not judged alike: only “a” is judged on left_wrist, root pelvis; only “b” is judged on root midway between "
-        "the hips");
+        comparison.metric == kRootError
+            ? "not judged alike: only “a” is judged on left_wrist, root pelvis; only “b” is judged on root midway "
+              "between the hips"
+            : "not judged alike: only “a” is judged on left_wrist");
     EXPECT_EQ(comparison.beyond.why_open, comparison.why_open);
   }
   EXPECT_EQ(summary.answers.front().verdict, Verdict::kUndecided);
@@ -111,6 +113,45 @@ TEST(JudgedAlike, EachMetricHasItsOwnShareAndMayDependOnTheRate) {
   EXPECT_EQ(Of(summary, kJitter).verdict, Verdict::kUndecided);
   EXPECT_EQ(Of(summary, kJitter).why_open,
             "not judged alike: “a” has 60 Hz, “b” 30 Hz, and the value depends on the rate");
+}
+
+TEST(JudgedAlike, OtherPartsMatterOnlyToMetricsThatNeedThem) {
+  const ConditionSummary summary =
+      SummaryWith([](int, CellResult& result) { result.judged.parts.back() = "root midway between the hips"; });
+  EXPECT_EQ(Of(summary, kError).verdict, Verdict::kBetter);
+  EXPECT_EQ(Of(summary, kJitter).verdict, Verdict::kBetter);
+  EXPECT_EQ(Of(summary, kRootError).verdict, Verdict::kUndecided);
+  const std::vector<std::string> both = {"head", "left_wrist", "root pelvis"}, head = {"head", "root pelvis"};
+  for (const char* id : {"rte@wham", "pfc@edge", "skating_ratio@gmd", "contact_f1"})
+    EXPECT_EQ(WhyNotAlike(*FindMetric(id), {{{&both}, {&head}}}, "a", "b"), "") << id << " needs no wrist";
+  for (const char* id : {kError, kRootError, kJitter, "bend_error_deg", "angle_rmse_deg", "npss", "floating_mm"})
+    EXPECT_NE(WhyNotAlike(*FindMetric(id), {{{&both}, {&head}}}, "a", "b"), "") << id;
+  const auto needs_root = [](const std::string& id) {
+    const std::vector<std::string> one = {"root a"}, other = {"root b"};
+    return WhyNotAlike(*FindMetric(id), {{{&one}, {&other}}}, "a", "b") != "";
+  };
+  for (const char* id : {"mpjpe_root_scaled_mm", "pck_150mm@mpi_inf_3dhp", "auc_150mm@mpi_inf_3dhp", "rte@wham",
+                         "accel_error_mps2@wham", "pfc@edge"})
+    EXPECT_TRUE(needs_root(id)) << id;
+  for (const char* id : {"w_mpjpe_mm@wham", "accel_error_mps2", "bend_error_deg", "npss", "contact_f1"})
+    EXPECT_FALSE(needs_root(id)) << id;
+}
+
+TEST(JudgedAlike, TheRateIsThatAtWhichAMetricIsMeasured) {
+  // b has twice the rate of the truth and of a, so both are compared with the truth at 60 Hz.
+  const std::vector<std::string> parts = {"head"};
+  const std::vector<JudgedPair> worlds = {{{&parts, 60, 0}, {&parts, 120, 60}}};
+  for (const char* id : {"accel_error_mps2", "accel_error_mm@human_dynamics", "accel_error_mps2@wham", "npss",
+                         "npss@lafan1", "w_mpjpe_mm@wham", "wa_mpjpe_mm@wham", "rte@wham", kError})
+    EXPECT_EQ(WhyNotAlike(*FindMetric(id), worlds, "a", "b"), "") << id;
+  for (const char* id : {kJitter, "skating_ratio@gmd", "skate_from_height_mps@kimodo", "skate_from_contacts_mps@kimodo",
+                         "pfc@edge", "beat_alignment@bailando", "beat_alignment@mint"}) {
+    EXPECT_EQ(WhyNotAlike(*FindMetric(id), worlds, "a", "b"),
+              "not judged alike: “a” has 60 Hz, “b” 120 Hz, and the value depends on the rate")
+        << id;
+  }
+  // The control: b is compared at half the rate.
+  EXPECT_NE(WhyNotAlike(*FindMetric("accel_error_mps2"), {{{&parts, 60, 0}, {&parts, 30, 0}}}, "a", "b"), "");
 }
 
 TEST(JudgedAlike, AnExpectationIsUndecidedAsWell) {

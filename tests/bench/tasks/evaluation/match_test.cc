@@ -403,8 +403,9 @@ TEST(Match, TimesOfOneClockBelongTogether) {
   EXPECT_NEAR(ValueIn(between, "mpjpe_unaligned_mm"), 0, 1e-9);
   EXPECT_THAT(
       between.reason,
-      HasSubstr("at 30 Hz, for which the truth was interpolated, the truth begins at 10 s, the answer begins at "
-                "10.01 s: judged by these clocks"));
+      HasSubstr(
+          "at 30 Hz, for which the truth was interpolated, so acceleration errors have no value, the truth begins "
+          "at 10 s, the answer begins at 10.01 s: judged by these clocks"));
   EXPECT_NEAR(ValueIn(ResultOf(truth, moved(begins(10.5, 50, 50), 0.5)), "mpjpe_unaligned_mm"), 0, 1e-9);
   // If a clock is missing, or the two have no time in common, the first frames are matched.
   const CellResult none = ResultOf(truth, Gliding(30, 60));
