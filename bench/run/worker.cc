@@ -1,7 +1,5 @@
 #include "bench/run/worker.h"
 
-#include <malloc.h>
-
 #include <Eigen/Core>
 #include <cerrno>
 #include <csignal>
@@ -29,13 +27,6 @@ namespace {
 /// Fixes the cache sizes from which Eigen chooses its block sizes. The order of Eigen's sums depends on the block
 /// sizes, so fixed sizes give the same bytes on every machine.
 void FixEigenBlocking() { Eigen::setCpuCacheSizes(32 * 1024, 256 * 1024, 2 * 1024 * 1024); }
-
-/// Tells the C library to keep up to 64 MiB of freed memory for the next cell. Otherwise, getting new pages, which the
-/// kernel fills with zeros, would take a quarter of the time of reading files.
-void KeepFreedMemory() {
-  mallopt(M_MMAP_THRESHOLD, 32 << 20);
-  mallopt(M_TRIM_THRESHOLD, 64 << 20);
-}
 
 int GiveUp(const Error& error) {
   std::cerr << ToString(error) << '\n';
@@ -120,7 +111,6 @@ Result<void> Work(std::istream& in, std::ostream& out) {
 
 int RunWorker(std::istream& in, std::ostream& out) {
   FixEigenBlocking();
-  KeepFreedMemory();
   AdoptOrphans();
   // A job scheduler signals every process of a job, but only the supervisor decides when workers stop. So ignore these
   // signals.

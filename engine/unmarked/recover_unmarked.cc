@@ -144,7 +144,8 @@ class Recovery {
     rooms_.clear();
     for (std::size_t c = 0; c < take_.cameras.size(); ++c) {
       const std::vector<ColourImage> pictures = PicturesOf(c, frames);
-      std::vector<Activity> activity = MotionActivity(pictures, motion);
+      if (motion_.size() == c) motion_.push_back(MotionActivity(pictures, motion));
+      std::vector<Activity> activity = motion_[c];
       for (std::size_t i = 0; i < track.frames.size(); ++i) {
         AddNearness(track, i, c, activity[i]);
       }
@@ -310,6 +311,7 @@ class Recovery {
   double stature_;
   std::vector<ProjectionMatrix> matrices_;
   std::vector<ColourImage> rooms_;
+  std::vector<std::vector<Activity>> motion_;  ///< [camera][frame]: the activity in the frames of EstimateRooms
   std::vector<std::vector<Mask>> masks_;
   std::vector<std::vector<Silhouette>> silhouettes_;  ///< silhouettes of the frames tracked last
   std::vector<ProjectedCapsule> flesh_;
