@@ -152,6 +152,24 @@ Result<std::vector<FinishedScenario>> LoadScenarios(const FilePath& path) {
 
 bool WantsTimes(const FinishedScenario& scenario) { return !scenario.study.gate.time_ratios.empty(); }
 
+Result<FinishedRun> ReadFinishedRun(const fs::path& folder, Sealing sealing, Held held) {
+  FinishedRun run;
+  if (Exists(Inside(folder) / kJournalFile)) {
+    run.incomplete.push_back(fmt::format("the run was not finished, or is still running ({} exists)", kJournalFile));
+    return run;
+  }
+  const auto load = held == Held::kAll ? LoadRun : LoadRunRowByRow;
+  ASSIGN_OR_RETURN(run.data, load(folder, sealing));
+  ASSIGN_OR_RETURN(run.scenarios, LoadScenarios(Inside(folder) / "manifest.json"));
+  RETURN_IF_ERROR(CheckStillThere(folder, run.data));
+  RETURN_IF_ERROR(CheckRows(run, {(folder / "cells.jsonl").string(), 0, 0}));
+  const bool has_times = CountRows(run.data) > 0 && CpuSecondsOf(run.data, RowAt(run.data, 0), 0).has_value();
+  if (!has_times && std::any_of(run.scenarios.begin(), run.scenarios.end(), WantsTimes)) {
+    return Fail({(folder / "timings.jsonl").string(), 0, 0}, "contains no times, which a gate of this run needs");
+  }
+  return run;
+}
+
 }  // namespace
 
 FinishedScenario FinishScenario(const Scenario& scenario, const ScenarioSetup& setup,
@@ -211,28 +229,6 @@ Result<FinishedRun> RunInProcess(const Rehearsal& rehearsal, std::uint64_t seed)
   }
   return run;
 }
-
-namespace {
-
-Result<FinishedRun> ReadFinishedRun(const fs::path& folder, Sealing sealing, Held held) {
-  FinishedRun run;
-  if (Exists(Inside(folder) / kJournalFile)) {
-    run.incomplete.push_back(fmt::format("the run was not finished, or is still running ({} exists)", kJournalFile));
-    return run;
-  }
-  const auto load = held == Held::kAll ? LoadRun : LoadRunRowByRow;
-  ASSIGN_OR_RETURN(run.data, load(folder, sealing));
-  ASSIGN_OR_RETURN(run.scenarios, LoadScenarios(Inside(folder) / "manifest.json"));
-  RETURN_IF_ERROR(CheckStillThere(folder, run.data));
-  RETURN_IF_ERROR(CheckRows(run, {(folder / "cells.jsonl").string(), 0, 0}));
-  const bool has_times = CountRows(run.data) > 0 && CpuSecondsOf(run.data, RowAt(run.data, 0), 0).has_value();
-  if (!has_times && std::any_of(run.scenarios.begin(), run.scenarios.end(), WantsTimes)) {
-    return Fail({(folder / "timings.jsonl").string(), 0, 0}, "contains no times, which a gate of this run needs");
-  }
-  return run;
-}
-
-}  // namespace
 
 Result<FinishedRun> LoadFinishedRun(const fs::path& folder, Sealing sealing, Held held) {
   const FolderBegun begun(folder);

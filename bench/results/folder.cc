@@ -250,26 +250,6 @@ Result<RunData> ReadOutline(const fs::path& path, Sealing sealing) {
   return run;
 }
 
-}  // namespace
-
-FolderBegun::FolderBegun(const fs::path& folder) : folder_(folder), number_(NumberOf(folder)) {}
-bool FolderBegun::IsThere() const { return NumberOf(folder_) == number_; }
-tl::unexpected<Error> FolderBegun::WasReplaced() const {
-  return Fail({folder_.string()}, "was replaced by another run while it was read");
-}
-
-Result<RunData> LoadRunOutline(const fs::path& path, Sealing sealing) {
-  const FolderBegun begun(path);
-  return begun.Tell(ReadOutline(path, sealing));
-}
-
-Result<void> CheckStillThere(const fs::path& folder, const RunData& run) {
-  if (SealText(Inside(folder)) == run.seal) return {};
-  return Fail({folder.string()}, "was replaced by another run while it was read");
-}
-
-namespace {
-
 Result<RunData> ReadRun(const fs::path& folder, Sealing sealing) {
   ASSIGN_OR_RETURN(auto run, LoadRunOutline(folder, sealing));
   if (run.source) {
@@ -311,6 +291,22 @@ Result<void> ReadRows(const fs::path& folder, Sealing sealing,
 }
 
 }  // namespace
+
+FolderBegun::FolderBegun(const fs::path& folder) : folder_(folder), number_(NumberOf(folder)) {}
+bool FolderBegun::IsThere() const { return NumberOf(folder_) == number_; }
+tl::unexpected<Error> FolderBegun::WasReplaced() const {
+  return Fail({folder_.string()}, "was replaced by another run while it was read");
+}
+
+Result<RunData> LoadRunOutline(const fs::path& path, Sealing sealing) {
+  const FolderBegun begun(path);
+  return begun.Tell(ReadOutline(path, sealing));
+}
+
+Result<void> CheckStillThere(const fs::path& folder, const RunData& run) {
+  if (SealText(Inside(folder)) == run.seal) return {};
+  return Fail({folder.string()}, "was replaced by another run while it was read");
+}
 
 Result<RunData> LoadRun(const fs::path& folder, Sealing sealing) {
   const FolderBegun begun(folder);

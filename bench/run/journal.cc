@@ -65,6 +65,20 @@ Result<bool> AddCell(const CellLineHead& head, const LineInFile& line, const Pla
   return true;
 }
 
+/// Returns the first undamaged copy of the head. The file begins with two copies.
+Result<JournalHead> ReadHead(FileLines lines, const std::string& path) {
+  std::string line;
+  int read = 0;
+  while (read < kHeads) {
+    ASSIGN_OR_RETURN(const bool has_line, lines.Next(line));
+    if (!has_line || !lines.had_end()) break;
+    ++read;
+    if (HasRightSum(line)) return DecodeHead(line, {path, read, 0});
+  }
+  if (read == 0) return Fail({path, 0, 0}, "cannot be read, or is empty");
+  return Fail({path, 1, 0}, "not the header of a journal, and no copy of a header follows");
+}
+
 }  // namespace
 
 std::vector<bool> CellTable::Done() const {
@@ -191,24 +205,6 @@ Result<void> Journal::Sync() {
   synced_at_ = Clock::now();
   return {};
 }
-
-namespace {
-
-/// Returns the first undamaged copy of the head. The file begins with two copies.
-Result<JournalHead> ReadHead(FileLines lines, const std::string& path) {
-  std::string line;
-  int read = 0;
-  while (read < kHeads) {
-    ASSIGN_OR_RETURN(const bool has_line, lines.Next(line));
-    if (!has_line || !lines.had_end()) break;
-    ++read;
-    if (HasRightSum(line)) return DecodeHead(line, {path, read, 0});
-  }
-  if (read == 0) return Fail({path, 0, 0}, "cannot be read, or is empty");
-  return Fail({path, 1, 0}, "not the header of a journal, and no copy of a header follows");
-}
-
-}  // namespace
 
 Result<JournalHead> ReadJournalHead(const fs::path& folder) {
   const FilePath path = Inside(folder) / kJournalFile;

@@ -98,6 +98,41 @@ Result<Seed> DecodeSeed(const Json& json, const Place& place) {
   return Fail(place, "'seed' must be a whole number, or 'secret' and a digest, found {}", json.dump());
 }
 
+Result<int> TrialsOf(const Json& scenario, const Place& place) {
+  const Json& trials = scenario.at("trials");
+  if (trials.is_number_integer() && trials >= 1 && trials <= kMaxCells) return trials.get<int>();
+  return Fail(place, "'trials' must be a whole number from 1 to {}, found {}", kMaxCells, trials.dump());
+}
+
+/// Loads the recordings from which a scenario's worlds are made. Returns null if the worlds are not made from
+/// recordings. Recordings that are left out are added to `refused`, unless it is null.
+Result<std::unique_ptr<LabelledStreams>> LoadRecordings(const ScenarioSetup& setup, const StreamSource& source,
+                                                        const ClipLibrary& clips, const SourceTexts& texts,
+                                                        std::vector<RefusedClip>* refused = nullptr) {
+  if (setup.streams.empty() && setup.labels.empty()) return nullptr;
+  LabelTexts labels;
+  for (const std::string& file : setup.labels) {
+    const auto text = texts.find(file);
+    if (text == texts.end()) return Fail({setup.file, 0, 0}, "the content of the file '{}' was not kept", file);
+    labels[file] = text->second;
+  }
+  std::vector<NamedStream> streams = StreamsOf(clips);
+  if (!setup.streams.empty()) {
+    ASSIGN_OR_RETURN(const auto how, OpenOptionsOf(setup, texts));
+    ASSIGN_OR_RETURN(auto loaded, LoadStreams(setup.streams, source.reading, source.making, how));
+    streams = std::move(loaded.streams);
+    if (refused != nullptr) {
+      for (const Error& error : loaded.refused) refused->push_back({error.place.file, ToString(error)});
+    }
+    // A stream is sensor data, whatever its format. Remove its motion, so that no simulated sensor adds errors to data
+    // that a sensor has already measured.
+    for (NamedStream& stream : streams) stream.motion.reset();
+  }
+  if (streams.empty()) return Fail({setup.file, 0, 0}, "'labels' needs the 'streams' or 'clips' that it labels");
+  ASSIGN_OR_RETURN(auto labelled, LabelStreams(std::move(streams), labels));
+  return std::make_unique<LabelledStreams>(std::move(labelled));
+}
+
 }  // namespace
 
 Json EncodeSetup(const SuiteSetup& setup) {
@@ -137,16 +172,6 @@ Json EncodeSetup(const SuiteSetup& setup) {
   if (setup.scored) json["scored"] = {{"method", setup.scored->name}, {"alone", setup.scored->alone}};
   return json;
 }
-
-namespace {
-
-Result<int> TrialsOf(const Json& scenario, const Place& place) {
-  const Json& trials = scenario.at("trials");
-  if (trials.is_number_integer() && trials >= 1 && trials <= kMaxCells) return trials.get<int>();
-  return Fail(place, "'trials' must be a whole number from 1 to {}, found {}", kMaxCells, trials.dump());
-}
-
-}  // namespace
 
 Result<SuiteSetup> DecodeSetup(const Json& json, const Place& place) {
   SuiteSetup setup;
@@ -227,39 +252,6 @@ Result<void> FindFiles(const Scenario& scenario, const SourceTexts& texts, Scena
   }
   return {};
 }
-
-namespace {
-
-/// Loads the recordings from which a scenario's worlds are made. Returns null if the worlds are not made from
-/// recordings. Recordings that are left out are added to `refused`, unless it is null.
-Result<std::unique_ptr<LabelledStreams>> LoadRecordings(const ScenarioSetup& setup, const StreamSource& source,
-                                                        const ClipLibrary& clips, const SourceTexts& texts,
-                                                        std::vector<RefusedClip>* refused = nullptr) {
-  if (setup.streams.empty() && setup.labels.empty()) return nullptr;
-  LabelTexts labels;
-  for (const std::string& file : setup.labels) {
-    const auto text = texts.find(file);
-    if (text == texts.end()) return Fail({setup.file, 0, 0}, "the content of the file '{}' was not kept", file);
-    labels[file] = text->second;
-  }
-  std::vector<NamedStream> streams = StreamsOf(clips);
-  if (!setup.streams.empty()) {
-    ASSIGN_OR_RETURN(const auto how, OpenOptionsOf(setup, texts));
-    ASSIGN_OR_RETURN(auto loaded, LoadStreams(setup.streams, source.reading, source.making, how));
-    streams = std::move(loaded.streams);
-    if (refused != nullptr) {
-      for (const Error& error : loaded.refused) refused->push_back({error.place.file, ToString(error)});
-    }
-    // A stream is sensor data, whatever its format. Remove its motion, so that no simulated sensor adds errors to data
-    // that a sensor has already measured.
-    for (NamedStream& stream : streams) stream.motion.reset();
-  }
-  if (streams.empty()) return Fail({setup.file, 0, 0}, "'labels' needs the 'streams' or 'clips' that it labels");
-  ASSIGN_OR_RETURN(auto labelled, LabelStreams(std::move(streams), labels));
-  return std::make_unique<LabelledStreams>(std::move(labelled));
-}
-
-}  // namespace
 
 bool IsFilmed(const Scenario& scenario) {
   return std::ranges::any_of(scenario.conditions, [](const Condition& condition) {

@@ -30,30 +30,6 @@ bool HasDisc(const Marks& marks, Role role) {
   return false;
 }
 
-}  // namespace
-
-std::vector<MarkedJoint> MarkedJointsOf(const Marks& marks, const MarkErrors& errors) {
-  std::vector<MarkedJoint> joints;
-  // Collect the ends of strokes and the discs.
-  for (std::size_t i = 0; i < kStrokeCount; ++i) {
-    if (!marks.strokes[i]) continue;
-    const glm::dmat2 information = InformationOfEnd(*marks.strokes[i], errors);
-    joints.push_back({StrokeMarks()[i].from, marks.strokes[i]->a, information});
-    if (!HasDisc(marks, StrokeMarks()[i].to)) joints.push_back({StrokeMarks()[i].to, marks.strokes[i]->b, information});
-  }
-  const glm::dmat2 of_disc(1 / (errors.mark_error_px * errors.mark_error_px));
-  for (std::size_t i = 0; i < kEffectorCount; ++i) {
-    if (marks.effectors[i]) joints.push_back({EffectorMarks()[i].role, *marks.effectors[i], of_disc});
-  }
-  // Divide the information among all marks of one joint, because the annotator places all these marks by one decision.
-  std::array<int, kRoleCount> count{};
-  for (const MarkedJoint& joint : joints) ++count[Index(joint.role)];
-  for (MarkedJoint& joint : joints) joint.information /= static_cast<double>(count[Index(joint.role)]);
-  return joints;
-}
-
-namespace {
-
 using enum Role;
 
 // The sightings of each role in one frame. A role has one sighting per picture that shows the role, fused from all
@@ -152,6 +128,26 @@ std::optional<glm::dvec3> AcrossOf(const OptionalJoints& joints) {
 double YawOf(const glm::dvec3& across) { return std::atan2(-across.z, across.x); }
 
 }  // namespace
+
+std::vector<MarkedJoint> MarkedJointsOf(const Marks& marks, const MarkErrors& errors) {
+  std::vector<MarkedJoint> joints;
+  // Collect the ends of strokes and the discs.
+  for (std::size_t i = 0; i < kStrokeCount; ++i) {
+    if (!marks.strokes[i]) continue;
+    const glm::dmat2 information = InformationOfEnd(*marks.strokes[i], errors);
+    joints.push_back({StrokeMarks()[i].from, marks.strokes[i]->a, information});
+    if (!HasDisc(marks, StrokeMarks()[i].to)) joints.push_back({StrokeMarks()[i].to, marks.strokes[i]->b, information});
+  }
+  const glm::dmat2 of_disc(1 / (errors.mark_error_px * errors.mark_error_px));
+  for (std::size_t i = 0; i < kEffectorCount; ++i) {
+    if (marks.effectors[i]) joints.push_back({EffectorMarks()[i].role, *marks.effectors[i], of_disc});
+  }
+  // Divide the information among all marks of one joint, because the annotator places all these marks by one decision.
+  std::array<int, kRoleCount> count{};
+  for (const MarkedJoint& joint : joints) ++count[Index(joint.role)];
+  for (MarkedJoint& joint : joints) joint.information /= static_cast<double>(count[Index(joint.role)]);
+  return joints;
+}
 
 std::vector<JointMeasurements> MeasureJoints(const MeasureInputs& inputs, const MarkErrors& errors) {
   assert(inputs.cameras.size() >= 2 && inputs.marks.size() == inputs.cameras.size());

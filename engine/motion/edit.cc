@@ -66,42 +66,6 @@ std::vector<std::string> IfGlued(std::string_view name) {
   return others;
 }
 
-}  // namespace
-
-std::string OtherSide(std::string_view name) {
-  for (std::size_t at = StartOfName(name); at < name.size();) {
-    if (!IsLetter(name[at])) {
-      ++at;
-      continue;
-    }
-    const std::size_t end = EndOfWord(name, at);
-    const std::string_view word = name.substr(at, end - at);
-    const bool is_numbered = word.size() == 1 && end < name.size() && IsDigit(name[end]);  // such as the vertebra "L5"
-    for (const SideWord& turn : kSideWords) {
-      if (word == turn.from && !is_numbered) return Replaced(name, at, turn);
-    }
-    at = end;
-  }
-  return std::string(name);
-}
-
-Skeleton WithSidesSwapped(Skeleton skeleton) {
-  std::vector<std::string> names;
-  for (const Joint& joint : skeleton.joints) {
-    std::string& name = names.emplace_back(OtherSide(joint.name));
-    if (name != joint.name) continue;
-    for (std::string& other : IfGlued(joint.name)) {
-      if (skeleton.Find(other) < 0) continue;
-      name = std::move(other);
-      break;
-    }
-  }
-  for (std::size_t i = 0; i < names.size(); ++i) skeleton.joints[i].name = std::move(names[i]);
-  return skeleton;
-}
-
-namespace {
-
 constexpr glm::dquat kNoTurn{1, 0, 0, 0};
 
 /// Replaces a transform T by its mirror image M T M, M = diag(−1, 1, 1).
@@ -156,6 +120,38 @@ std::string UnusedName(const Skeleton& skeleton, std::string name) {
 }
 
 }  // namespace
+
+std::string OtherSide(std::string_view name) {
+  for (std::size_t at = StartOfName(name); at < name.size();) {
+    if (!IsLetter(name[at])) {
+      ++at;
+      continue;
+    }
+    const std::size_t end = EndOfWord(name, at);
+    const std::string_view word = name.substr(at, end - at);
+    const bool is_numbered = word.size() == 1 && end < name.size() && IsDigit(name[end]);  // such as the vertebra "L5"
+    for (const SideWord& turn : kSideWords) {
+      if (word == turn.from && !is_numbered) return Replaced(name, at, turn);
+    }
+    at = end;
+  }
+  return std::string(name);
+}
+
+Skeleton WithSidesSwapped(Skeleton skeleton) {
+  std::vector<std::string> names;
+  for (const Joint& joint : skeleton.joints) {
+    std::string& name = names.emplace_back(OtherSide(joint.name));
+    if (name != joint.name) continue;
+    for (std::string& other : IfGlued(joint.name)) {
+      if (skeleton.Find(other) < 0) continue;
+      name = std::move(other);
+      break;
+    }
+  }
+  for (std::size_t i = 0; i < names.size(); ++i) skeleton.joints[i].name = std::move(names[i]);
+  return skeleton;
+}
 
 Clip Resample(const Clip& clip, double rate_hz) {
   assert(rate_hz > 0 && !clip.frames.empty());

@@ -82,28 +82,6 @@ bool IsTrunkTwisted(std::span<const JointPositions> frames) {
   return seen > 0 && opposite >= kNearlyAll * seen;
 }
 
-}  // namespace
-
-std::vector<Role> FindExchangedJoints(std::span<const JointPositions> frames) {
-  std::vector<Role> exchanged, others;
-  for (const auto& chain : kChains) {
-    // If each of the first two limbs of a chain may cross, the two count as crossing.
-    std::array<Crossing, 3> limbs;
-    for (std::size_t i = 0; i < limbs.size(); ++i) limbs[i] = CrossingOf(frames, chain[i], chain[i + 1]);
-    if (limbs[0].may_be && limbs[1].may_be) limbs[0].is_certain = limbs[1].is_certain = true;
-    bool is_exchanged = chain[0] == kLeftHip && IsTrunkTwisted(frames);
-    for (std::size_t i = 0; i < chain.size(); ++i) {
-      if (i > 0 && limbs[i - 1].is_certain) is_exchanged = !is_exchanged;
-      const auto shows = [&](const JointPositions& frame) { return frame[Index(chain[i])].has_value(); };
-      const bool is_seen = std::ranges::any_of(frames, shows);
-      if (is_seen) (is_exchanged ? exchanged : others).push_back(chain[i]);
-    }
-  }
-  return exchanged.size() <= others.size() ? exchanged : others;
-}
-
-namespace {
-
 constexpr double kMinExchangeApart_m = 0.05, kMinExchangeRate_hz = 10;
 
 /// An exchange of two points, and the distances that they move if their names are exchanged.
@@ -164,6 +142,24 @@ std::vector<std::pair<Role, Role>> PairsOfJoints() {
 }
 
 }  // namespace
+
+std::vector<Role> FindExchangedJoints(std::span<const JointPositions> frames) {
+  std::vector<Role> exchanged, others;
+  for (const auto& chain : kChains) {
+    // If each of the first two limbs of a chain may cross, the two count as crossing.
+    std::array<Crossing, 3> limbs;
+    for (std::size_t i = 0; i < limbs.size(); ++i) limbs[i] = CrossingOf(frames, chain[i], chain[i + 1]);
+    if (limbs[0].may_be && limbs[1].may_be) limbs[0].is_certain = limbs[1].is_certain = true;
+    bool is_exchanged = chain[0] == kLeftHip && IsTrunkTwisted(frames);
+    for (std::size_t i = 0; i < chain.size(); ++i) {
+      if (i > 0 && limbs[i - 1].is_certain) is_exchanged = !is_exchanged;
+      const auto shows = [&](const JointPositions& frame) { return frame[Index(chain[i])].has_value(); };
+      const bool is_seen = std::ranges::any_of(frames, shows);
+      if (is_seen) (is_exchanged ? exchanged : others).push_back(chain[i]);
+    }
+  }
+  return exchanged.size() <= others.size() ? exchanged : others;
+}
 
 std::vector<Exchange> FindExchanges(std::span<const JointPositions> frames, double rate_hz) {
   if (rate_hz < kMinExchangeRate_hz) return {};

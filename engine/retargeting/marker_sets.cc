@@ -112,66 +112,11 @@ std::vector<MarkerSet> MakeSets() {
   return sets;
 }
 
-}  // namespace
-
-const std::vector<MarkerSet>& MarkerSets() {
-  static const std::vector<MarkerSet> sets = MakeSets();
-  return sets;
-}
-
-bool HasAll(const MarkerColumns& columns, std::span<const std::string> markers) {
-  return std::ranges::all_of(markers, [&](const std::string& marker) { return columns.contains(marker); });
-}
-
-std::optional<std::array<std::string, 4>> PelvisOf(const MarkerSet& set, const MarkerColumns& columns) {
-  std::array<std::string, 4> markers = set.pelvis;
-  if (!set.sacrum.empty() && !HasAll(columns, markers)) markers[2] = markers[3] = set.sacrum;
-  return !markers.front().empty() && HasAll(columns, markers) ? std::optional(std::move(markers)) : std::nullopt;
-}
-
-std::vector<std::string> MarkersOfRole(const MarkerSet& set, const MarkerColumns& columns, Role role) {
-  for (const MarkerRule& rule : set.rules) {
-    if (rule.role == role && HasAll(columns, rule.markers)) return rule.markers;
-  }
-  if (role != Role::kLeftHip && role != Role::kRightHip) return {};
-  const auto pelvis = PelvisOf(set, columns);
-  if (!pelvis) return {};
-  std::vector<std::string> markers(pelvis->begin(), pelvis->end());
-  markers.erase(std::ranges::unique(markers).begin(), markers.end());
-  return markers;
-}
-
-bool LiesUnderSkin(const MarkerSet& set, Role role) {
-  const bool is_shoulder = role == Role::kLeftShoulder || role == Role::kRightShoulder;
-  const auto is_single = [&](const MarkerRule& rule) {
-    return rule.role == role && rule.markers.size() == 1 && !rule.is_joint;
-  };
-  return (is_shoulder ? set.has_skin_shoulders : set.has_skin_limbs) && std::ranges::any_of(set.rules, is_single);
-}
-
-bool Determines(const MarkerSet& set, const MarkerColumns& columns, Role role) {
-  return !MarkersOfRole(set, columns, role).empty();
-}
-
-std::vector<std::string> MissingFrom(const MarkerSet& set, const MarkerColumns& columns) {
-  std::vector<std::string> lacks;
-  for (const Role role : kNeededJoints) {
-    if (!Determines(set, columns, role)) lacks.emplace_back(RoleName(role));
-  }
-  return lacks;
-}
-
-namespace {
-
 /// Returns the markers that determine one knee.
 std::vector<std::string> KneeMarkers(const MarkerSet& set) {
   const auto rule = std::ranges::find(set.rules, Role::kLeftKnee, &MarkerRule::role);
   return rule == set.rules.end() ? std::vector<std::string>{} : rule->markers;
 }
-
-}  // namespace
-
-namespace {
 
 /// Chooses among MarkerSets.
 ChosenSet ChooseKnown(const MarkerColumns& columns, const std::string& wanted) {
@@ -263,6 +208,53 @@ void TakeJointsOfDataSet(const MarkerColumns& columns, std::span<const std::stri
 }
 
 }  // namespace
+
+const std::vector<MarkerSet>& MarkerSets() {
+  static const std::vector<MarkerSet> sets = MakeSets();
+  return sets;
+}
+
+bool HasAll(const MarkerColumns& columns, std::span<const std::string> markers) {
+  return std::ranges::all_of(markers, [&](const std::string& marker) { return columns.contains(marker); });
+}
+
+std::optional<std::array<std::string, 4>> PelvisOf(const MarkerSet& set, const MarkerColumns& columns) {
+  std::array<std::string, 4> markers = set.pelvis;
+  if (!set.sacrum.empty() && !HasAll(columns, markers)) markers[2] = markers[3] = set.sacrum;
+  return !markers.front().empty() && HasAll(columns, markers) ? std::optional(std::move(markers)) : std::nullopt;
+}
+
+std::vector<std::string> MarkersOfRole(const MarkerSet& set, const MarkerColumns& columns, Role role) {
+  for (const MarkerRule& rule : set.rules) {
+    if (rule.role == role && HasAll(columns, rule.markers)) return rule.markers;
+  }
+  if (role != Role::kLeftHip && role != Role::kRightHip) return {};
+  const auto pelvis = PelvisOf(set, columns);
+  if (!pelvis) return {};
+  std::vector<std::string> markers(pelvis->begin(), pelvis->end());
+  markers.erase(std::ranges::unique(markers).begin(), markers.end());
+  return markers;
+}
+
+bool LiesUnderSkin(const MarkerSet& set, Role role) {
+  const bool is_shoulder = role == Role::kLeftShoulder || role == Role::kRightShoulder;
+  const auto is_single = [&](const MarkerRule& rule) {
+    return rule.role == role && rule.markers.size() == 1 && !rule.is_joint;
+  };
+  return (is_shoulder ? set.has_skin_shoulders : set.has_skin_limbs) && std::ranges::any_of(set.rules, is_single);
+}
+
+bool Determines(const MarkerSet& set, const MarkerColumns& columns, Role role) {
+  return !MarkersOfRole(set, columns, role).empty();
+}
+
+std::vector<std::string> MissingFrom(const MarkerSet& set, const MarkerColumns& columns) {
+  std::vector<std::string> lacks;
+  for (const Role role : kNeededJoints) {
+    if (!Determines(set, columns, role)) lacks.emplace_back(RoleName(role));
+  }
+  return lacks;
+}
 
 ChosenSet ChooseSet(const MarkerColumns& columns, std::span<const std::string> names, const std::string& wanted,
                     const std::map<Role, std::string>& roles) {

@@ -135,19 +135,6 @@ class AzureReader {
   bool tells_states_ = false;
 };
 
-}  // namespace
-
-Result<StreamRecording> ReadAzureKinect(std::string_view text, const std::string& file, const StreamReading& reading) {
-  ASSIGN_OR_RETURN(const Json root, ParseJsonText(text, file));
-  try {
-    return AzureReader(root, file).Read(reading);
-  } catch (const Json::exception& error) {
-    return Fail({file}, "not JSON of the Azure Kinect body tracking's offline processor: {}", error.what());
-  }
-}
-
-namespace {
-
 /// Reads NTU RGB+D's text: the number of frames; for each frame the number of bodies; for each body its id, nine
 /// numbers, the number of joints (25, in the Kinect v2's order), and for each joint x y z in metres, two pixels, a
 /// quaternion and the SDK's tracking state (Shahroudy et al. 2016, the data set's read_skeleton_file).
@@ -234,6 +221,15 @@ class NtuReader {
 };
 
 }  // namespace
+
+Result<StreamRecording> ReadAzureKinect(std::string_view text, const std::string& file, const StreamReading& reading) {
+  ASSIGN_OR_RETURN(const Json root, ParseJsonText(text, file));
+  try {
+    return AzureReader(root, file).Read(reading);
+  } catch (const Json::exception& error) {
+    return Fail({file}, "not JSON of the Azure Kinect body tracking's offline processor: {}", error.what());
+  }
+}
 
 Result<StreamRecording> ReadNtuSkeleton(std::string_view text, const std::string& file, const StreamReading& reading) {
   return NtuReader(text, file).Read(reading);

@@ -103,50 +103,6 @@ Result<std::vector<bool>> ContactsIn(const std::string& reference, std::size_t f
   return contacts.value_or(std::vector<bool>{});
 }
 
-}  // namespace
-
-Result<RawMotion> RawMotionOf(SourceClip source, const OpenOptions& options, bool keeps_rig) {
-  const std::string name = source.source;
-  const ClipFormat format = source.format;
-  RawMotion raw;
-  if (source.shown != nullptr) {
-    raw = *source.shown;
-  } else {
-    // UnderstandClip finds roles, unit and up axis; the resampled motion and the floor that it computes are not used
-    // here.
-    const bool is_body = source.format == ClipFormat::kBuiltin || source.made.has_value();
-    const std::optional<double> start_s = source.made ? source.made->start_s : std::nullopt;
-    OpenOptions how = options;
-    how.body.drop_t_pose = false;
-    how.body.floor = 0;
-    ASSIGN_OR_RETURN(const auto opened, UnderstandClip(std::move(source), how));
-    raw = OfSkeleton(opened.source.clip, opened.body.metres_per_unit, opened.body.up);
-    raw.start_s = start_s;
-    for (const Role role : AllRoles()) {
-      const bool is_composed = std::ranges::find(opened.map.composed, role) != opened.map.composed.end();
-      if (!is_composed) raw.roles[Index(role)] = opened.map[role].joint;
-    }
-    const JointMapOverrides* told = options.roles ? &*options.roles : nullptr;
-    if (!is_body && !CarriesAsPelvis(raw, opened.map, told)) raw.roles[Index(Role::kHipCentre)] = -1;
-    if (is_body && !keeps_rig) {
-      raw.rotations.clear();  // RigClip computed these rotations; the file has none
-      raw.rest_rotations.clear();
-      raw.rest_positions.clear();
-    } else {
-      raw.notes = NotesOn(opened);
-    }
-  }
-  raw.name = name;
-  if (raw.roles[Index(Role::kHipCentre)] < 0) AddMidwayHips(raw);
-  if (format == ClipFormat::kNpz || format == ClipFormat::kAmass) {
-    ASSIGN_OR_RETURN(raw.contacts, ContactsIn(name, raw.FrameCount()));
-  }
-  if (raw.positions.empty()) return Fail({name}, "no frames; at least one is needed");
-  return raw;
-}
-
-namespace {
-
 /// Returns true if a reference is the name of a ZIP file, as .npz files are.
 bool BeginsAsZip(const std::string& reference) {
   std::string head(4, '\0');
@@ -201,6 +157,46 @@ Result<RawMotion> OfArrays(const Npz& arrays, const std::string& reference, cons
 }
 
 }  // namespace
+
+Result<RawMotion> RawMotionOf(SourceClip source, const OpenOptions& options, bool keeps_rig) {
+  const std::string name = source.source;
+  const ClipFormat format = source.format;
+  RawMotion raw;
+  if (source.shown != nullptr) {
+    raw = *source.shown;
+  } else {
+    // UnderstandClip finds roles, unit and up axis; the resampled motion and the floor that it computes are not used
+    // here.
+    const bool is_body = source.format == ClipFormat::kBuiltin || source.made.has_value();
+    const std::optional<double> start_s = source.made ? source.made->start_s : std::nullopt;
+    OpenOptions how = options;
+    how.body.drop_t_pose = false;
+    how.body.floor = 0;
+    ASSIGN_OR_RETURN(const auto opened, UnderstandClip(std::move(source), how));
+    raw = OfSkeleton(opened.source.clip, opened.body.metres_per_unit, opened.body.up);
+    raw.start_s = start_s;
+    for (const Role role : AllRoles()) {
+      const bool is_composed = std::ranges::find(opened.map.composed, role) != opened.map.composed.end();
+      if (!is_composed) raw.roles[Index(role)] = opened.map[role].joint;
+    }
+    const JointMapOverrides* told = options.roles ? &*options.roles : nullptr;
+    if (!is_body && !CarriesAsPelvis(raw, opened.map, told)) raw.roles[Index(Role::kHipCentre)] = -1;
+    if (is_body && !keeps_rig) {
+      raw.rotations.clear();  // RigClip computed these rotations; the file has none
+      raw.rest_rotations.clear();
+      raw.rest_positions.clear();
+    } else {
+      raw.notes = NotesOn(opened);
+    }
+  }
+  raw.name = name;
+  if (raw.roles[Index(Role::kHipCentre)] < 0) AddMidwayHips(raw);
+  if (format == ClipFormat::kNpz || format == ClipFormat::kAmass) {
+    ASSIGN_OR_RETURN(raw.contacts, ContactsIn(name, raw.FrameCount()));
+  }
+  if (raw.positions.empty()) return Fail({name}, "no frames; at least one is needed");
+  return raw;
+}
 
 Result<std::string> DigestOfFile(const std::string& reference, const OpenOptions& options) {
   if (reference.starts_with(kBuiltinPrefix)) return Digest().Add(std::string_view(reference)).Hex();

@@ -16,6 +16,21 @@ namespace {
 
 bool IsDigit(char c) { return c >= '0' && c <= '9'; }
 
+/// Moves the i-th frame to `indices[i]`; indices ascend. `count` is the number of frames afterwards. Adds a note if
+/// frames are missing.
+void MoveFrames(std::span<const std::size_t> indices, std::size_t count, PeopleOfFilm& film) {
+  SeenPeople frames(count);
+  for (std::size_t i = 0; i < indices.size(); ++i) frames[indices[i]] = std::move(film.frames[i]);
+  if (count > indices.size()) {
+    film.Tell(
+        fmt::format("numbers or times show that {} of {} frames are missing; these frames are taken to show nobody",
+                    count - indices.size(), count));
+  }
+  film.frames = std::move(frames);
+}
+
+constexpr std::size_t kMaxSpread = 10;  // maximum number of frames per entry of a list
+
 }  // namespace
 
 bool NaturallyBefore(std::string_view x, std::string_view y) {
@@ -112,25 +127,6 @@ Result<PeopleOfFilm> FilmOfNumbers(std::map<long, std::vector<SeenPerson>> numbe
   }
   return film;
 }
-
-namespace {
-
-/// Moves the i-th frame to `indices[i]`; indices ascend. `count` is the number of frames afterwards. Adds a note if
-/// frames are missing.
-void MoveFrames(std::span<const std::size_t> indices, std::size_t count, PeopleOfFilm& film) {
-  SeenPeople frames(count);
-  for (std::size_t i = 0; i < indices.size(); ++i) frames[indices[i]] = std::move(film.frames[i]);
-  if (count > indices.size()) {
-    film.Tell(
-        fmt::format("numbers or times show that {} of {} frames are missing; these frames are taken to show nobody",
-                    count - indices.size(), count));
-  }
-  film.frames = std::move(frames);
-}
-
-constexpr std::size_t kMaxSpread = 10;  // maximum number of frames per entry of a list
-
-}  // namespace
 
 void LayByTimes(const std::vector<double>& times, const FilmOfKeypoints& of, PeopleOfFilm& film) {
   std::vector<double> steps;

@@ -18,29 +18,6 @@ namespace {
 constexpr double kHalfPixel = 0.5;
 constexpr double kMaxListedPixel = 1e6;
 
-}  // namespace
-
-const Json* Member(const Json& json, const char* name) {
-  const auto found = json.is_object() ? json.find(name) : json.end();
-  return json.is_object() && found != json.end() ? &*found : nullptr;
-}
-
-const Json* FirstMember(const Json& json, std::initializer_list<const char*> names) {
-  for (const char* name : names) {
-    if (const Json* member = Member(json, name)) return member;
-  }
-  return nullptr;
-}
-
-std::vector<std::string> TextsOf(const Json* list) {
-  std::vector<std::string> texts;
-  if (list == nullptr || !list->is_array()) return texts;
-  for (const Json& text : *list) texts.push_back(text.is_string() ? text.get<std::string>() : "");
-  return texts;
-}
-
-namespace {
-
 /// Returns true if the names differ only in their numbers.
 bool AreOnlyNumbered(std::vector<std::string> names) {
   for (std::string& name : names) std::erase_if(name, [](char c) { return c >= '0' && c <= '9'; });
@@ -76,6 +53,25 @@ std::vector<Landmark> LandmarksOf(const std::vector<std::string>& names) {
 }
 
 }  // namespace
+
+const Json* Member(const Json& json, const char* name) {
+  const auto found = json.is_object() ? json.find(name) : json.end();
+  return json.is_object() && found != json.end() ? &*found : nullptr;
+}
+
+const Json* FirstMember(const Json& json, std::initializer_list<const char*> names) {
+  for (const char* name : names) {
+    if (const Json* member = Member(json, name)) return member;
+  }
+  return nullptr;
+}
+
+std::vector<std::string> TextsOf(const Json* list) {
+  std::vector<std::string> texts;
+  if (list == nullptr || !list->is_array()) return texts;
+  for (const Json& text : *list) texts.push_back(text.is_string() ? text.get<std::string>() : "");
+  return texts;
+}
 
 KeypointNames::KeypointNames(std::vector<std::string> stated) {
   if (stated.empty() || AreOnlyNumbered(stated)) return;
@@ -190,23 +186,6 @@ Result<std::span<const Landmark>> OrderOf(std::size_t count, const std::string& 
   return std::span(chosen->landmarks);
 }
 
-}  // namespace
-
-Result<SeenPerson> ToPerson(const std::vector<Keypoint>& points, const std::string& layout, const KeypointNames& names,
-                            const Place& place) {
-  ASSIGN_OR_RETURN(const auto order, OrderOf(points.size(), layout, names, place));
-  SeenPerson person;
-  for (std::size_t i = 0; i < order.size(); ++i) {
-    const bool is_seen = points[i].confidence > 0 && points[i].pixel != glm::dvec2(kHalfPixel);
-    if (order[i] != Landmark::kNoLandmark && is_seen) {
-      person[order[i]] = {points[i].pixel, std::min(points[i].confidence, 1.0)};
-    }
-  }
-  return person;
-}
-
-namespace {
-
 std::optional<double> NumberOf(const Json* json) {
   if (json == nullptr || !json->is_number()) return std::nullopt;
   const double value = json->get<double>();
@@ -279,7 +258,26 @@ const Json* KeypointsOf(const Json& person) {
   return FirstMember(person, {"keypoints", "pose_keypoints_2d", "pose_keypoints", "pose_landmarks", "landmarks"});
 }
 
+Result<SeenPerson> PersonOfList(const Json& json, const std::string& layout, const KeypointNames& names,
+                                const Place& place) {
+  ASSIGN_OR_RETURN(const ListedPerson listed, PointsOf(json, place));
+  return ToPerson(listed.points, layout, listed.names.names.empty() ? names : listed.names, place);
+}
+
 }  // namespace
+
+Result<SeenPerson> ToPerson(const std::vector<Keypoint>& points, const std::string& layout, const KeypointNames& names,
+                            const Place& place) {
+  ASSIGN_OR_RETURN(const auto order, OrderOf(points.size(), layout, names, place));
+  SeenPerson person;
+  for (std::size_t i = 0; i < order.size(); ++i) {
+    const bool is_seen = points[i].confidence > 0 && points[i].pixel != glm::dvec2(kHalfPixel);
+    if (order[i] != Landmark::kNoLandmark && is_seen) {
+      person[order[i]] = {points[i].pixel, std::min(points[i].confidence, 1.0)};
+    }
+  }
+  return person;
+}
 
 bool HasKeypoints(const Json& person) {
   const Json* list = KeypointsOf(person);
@@ -309,16 +307,6 @@ Result<ListedPerson> PointsOf(const Json& person, const Place& place) {
   }
   return listed;
 }
-
-namespace {
-
-Result<SeenPerson> PersonOfList(const Json& json, const std::string& layout, const KeypointNames& names,
-                                const Place& place) {
-  ASSIGN_OR_RETURN(const ListedPerson listed, PointsOf(json, place));
-  return ToPerson(listed.points, layout, listed.names.names.empty() ? names : listed.names, place);
-}
-
-}  // namespace
 
 Result<std::vector<SeenPerson>> PeopleOfList(const Json& list, const std::string& layout, const KeypointNames& names,
                                              const Place& place) {

@@ -65,45 +65,6 @@ Result<void> RefuseLinks(const std::string& reference, std::span<const std::stri
   return {};
 }
 
-}  // namespace
-
-std::string NameOfReference(const std::string& reference) {
-  if (reference.starts_with(kBuiltinPrefix)) return reference.substr(kBuiltinPrefix.size());
-  const SplitReference split = Split(reference);
-  std::string stem = fs::path(split.path).stem().string();
-  // In a BIDS data set, the tracking system distinguishes truth and answers, so it is not part of the name.
-  if (const std::size_t at = stem.find("_tracksys-"); at != std::string::npos && split.path.ends_with(kBidsEnding)) {
-    stem.erase(at, stem.find('_', at + 1) - at);
-    stem.resize(stem.rfind('_'));
-  }
-  return split.animation ? stem + "#" + *split.animation : stem;
-}
-
-Result<std::vector<std::string>> ExpandFiles(const std::vector<std::string>& references, Links links,
-                                             const Place& place) {
-  std::vector<std::string> files;
-  for (const std::string& reference : references) {
-    std::error_code none;
-    if (fs::is_directory(reference, none) && reference.find('#') == std::string::npos) {
-      const std::vector<std::string> inside = FilesIn(reference);
-      for (const std::string& file : inside) {
-        if (!CheckUtf8(file, "")) return Fail(place, "{} has a name that is not UTF-8 text", Quote(file));
-      }
-      if (links == Links::kRefused) RETURN_IF_ERROR(RefuseLinks(reference, inside, place));
-      if (inside.empty()) return Fail(place, "folder '{}' holds no motion file (.bvh, .npz, …)", reference);
-      files.insert(files.end(), inside.begin(), inside.end());
-    } else {
-      ASSIGN_OR_RETURN(const auto expanded, ExpandReference(reference, place, kMaxPairs));
-      if (links == Links::kRefused) RETURN_IF_ERROR(RefuseLinks(reference, expanded, place));
-      files.insert(files.end(), expanded.begin(), expanded.end());
-    }
-    if (files.size() > kMaxPairs) return Fail(place, "more than {} files", kMaxPairs);
-  }
-  return files;
-}
-
-namespace {
-
 /// Returns the references by their names. Fails if two references have the same name.
 Result<std::map<std::string, std::string>> ByName(const std::vector<std::string>& references, const Place& place) {
   std::map<std::string, std::string> named;
@@ -275,6 +236,41 @@ std::string ComparedName(std::string_view name) {
 }
 
 }  // namespace
+
+std::string NameOfReference(const std::string& reference) {
+  if (reference.starts_with(kBuiltinPrefix)) return reference.substr(kBuiltinPrefix.size());
+  const SplitReference split = Split(reference);
+  std::string stem = fs::path(split.path).stem().string();
+  // In a BIDS data set, the tracking system distinguishes truth and answers, so it is not part of the name.
+  if (const std::size_t at = stem.find("_tracksys-"); at != std::string::npos && split.path.ends_with(kBidsEnding)) {
+    stem.erase(at, stem.find('_', at + 1) - at);
+    stem.resize(stem.rfind('_'));
+  }
+  return split.animation ? stem + "#" + *split.animation : stem;
+}
+
+Result<std::vector<std::string>> ExpandFiles(const std::vector<std::string>& references, Links links,
+                                             const Place& place) {
+  std::vector<std::string> files;
+  for (const std::string& reference : references) {
+    std::error_code none;
+    if (fs::is_directory(reference, none) && reference.find('#') == std::string::npos) {
+      const std::vector<std::string> inside = FilesIn(reference);
+      for (const std::string& file : inside) {
+        if (!CheckUtf8(file, "")) return Fail(place, "{} has a name that is not UTF-8 text", Quote(file));
+      }
+      if (links == Links::kRefused) RETURN_IF_ERROR(RefuseLinks(reference, inside, place));
+      if (inside.empty()) return Fail(place, "folder '{}' holds no motion file (.bvh, .npz, …)", reference);
+      files.insert(files.end(), inside.begin(), inside.end());
+    } else {
+      ASSIGN_OR_RETURN(const auto expanded, ExpandReference(reference, place, kMaxPairs));
+      if (links == Links::kRefused) RETURN_IF_ERROR(RefuseLinks(reference, expanded, place));
+      files.insert(files.end(), expanded.begin(), expanded.end());
+    }
+    if (files.size() > kMaxPairs) return Fail(place, "more than {} files", kMaxPairs);
+  }
+  return files;
+}
 
 std::optional<std::string> PersonIn(std::string_view pattern, std::string_view name) {
   const std::size_t at = pattern.find(kPerson);

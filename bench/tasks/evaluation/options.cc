@@ -23,6 +23,13 @@ constexpr std::string_view kLspJoints[] = {
     "right_ankle", "right_knee",     "right_hip",     "left_hip",   "left_knee",  "left_ankle",      "right_wrist",
     "right_elbow", "right_shoulder", "left_shoulder", "left_elbow", "left_wrist", "shoulder_centre", "head"};
 
+/// Adds an error for keys without effect: `answers` if the method is a control, the keys of `spoiler` if it is not.
+void CheckControl(Fields& fields, EvaluationMethod& method) {
+  if (method.is_control && !method.answers.empty()) fields.Complain(fields.node().place, "a control has no 'answers'");
+  if (!method.is_control && method.spoiler != Spoiler{})
+    fields.Complain(fields.node().place, "keys that add errors to the truth need 'control: true'");
+}
+
 }  // namespace
 
 std::vector<std::string> JointSetNames() {
@@ -84,17 +91,6 @@ Result<void> CheckFiles(const Node& condition, const EvaluationOptions& options)
   if (trials == nullptr) return {};
   return Fail(trials->place, "'trials' has no use in task evaluation: each pair is judged once");
 }
-
-namespace {
-
-/// Adds an error for keys without effect: `answers` if the method is a control, the keys of `spoiler` if it is not.
-void CheckControl(Fields& fields, EvaluationMethod& method) {
-  if (method.is_control && !method.answers.empty()) fields.Complain(fields.node().place, "a control has no 'answers'");
-  if (!method.is_control && method.spoiler != Spoiler{})
-    fields.Complain(fields.node().place, "keys that add errors to the truth need 'control: true'");
-}
-
-}  // namespace
 
 const FieldTable<EvaluationMethod>& EvaluationMethodFields() {
   using Method = EvaluationMethod;

@@ -19,6 +19,42 @@ double RoundedDegrees(double radians) {
   return std::round(Degrees(radians) * kSteps) / kSteps;
 }
 
+constexpr double kRounding = 1e-9;
+
+bool IsSame(const TaggedFrame& a, const TaggedFrame& b) {
+  if (a.tags != b.tags || a.clips != b.clips || std::abs(a.difference - b.difference) > kRounding) return false;
+  return std::equal(a.grades.begin(), a.grades.end(), b.grades.begin(),
+                    [](double x, double y) { return std::abs(x - y) <= kRounding; });
+}
+
+void CompareClips(const ClipTags& file, const ClipTags& now, TagsComparison& comparison) {
+  const std::string name = Quote(file.name);
+  if (file.frames != now.frames || file.rate_hz != now.rate_hz) {
+    comparison.differences.push_back(fmt::format("clip {} has {} frames at {} Hz in the file, {} at {} Hz now", name,
+                                                 file.frames, file.rate_hz, now.frames, now.rate_hz));
+    return;
+  }
+  // Compare the bridge frames that are in both sets of tags, and report the others.
+  std::map<int, const TaggedFrame*> frames_now;
+  for (const TaggedFrame& frame : now.bridge_frames) frames_now[frame.frame] = &frame;
+  for (const TaggedFrame& frame : file.bridge_frames) {
+    const auto found = frames_now.find(frame.frame);
+    if (found == frames_now.end()) {
+      comparison.differences.push_back(fmt::format("clip {}: frame {} is no longer a bridge frame", name, frame.frame));
+      continue;
+    }
+    ++comparison.bridge_frames;
+    if (!IsSame(frame, *found->second)) {
+      comparison.differences.push_back(
+          fmt::format("clip {}: frame {} has other tags or grades now", name, frame.frame));
+    }
+    frames_now.erase(found);
+  }
+  for (const auto& [frame, tagged] : frames_now) {
+    comparison.differences.push_back(fmt::format("clip {}: frame {} is now a bridge frame, too", name, frame));
+  }
+}
+
 }  // namespace
 
 std::string MembershipsDigest(const FuzzySystem& system) {
@@ -64,46 +100,6 @@ BridgeTags CollectTags(const TaggedLibrary& library, std::span<const std::string
   }
   return tags;
 }
-
-namespace {
-
-constexpr double kRounding = 1e-9;
-
-bool IsSame(const TaggedFrame& a, const TaggedFrame& b) {
-  if (a.tags != b.tags || a.clips != b.clips || std::abs(a.difference - b.difference) > kRounding) return false;
-  return std::equal(a.grades.begin(), a.grades.end(), b.grades.begin(),
-                    [](double x, double y) { return std::abs(x - y) <= kRounding; });
-}
-
-void CompareClips(const ClipTags& file, const ClipTags& now, TagsComparison& comparison) {
-  const std::string name = Quote(file.name);
-  if (file.frames != now.frames || file.rate_hz != now.rate_hz) {
-    comparison.differences.push_back(fmt::format("clip {} has {} frames at {} Hz in the file, {} at {} Hz now", name,
-                                                 file.frames, file.rate_hz, now.frames, now.rate_hz));
-    return;
-  }
-  // Compare the bridge frames that are in both sets of tags, and report the others.
-  std::map<int, const TaggedFrame*> frames_now;
-  for (const TaggedFrame& frame : now.bridge_frames) frames_now[frame.frame] = &frame;
-  for (const TaggedFrame& frame : file.bridge_frames) {
-    const auto found = frames_now.find(frame.frame);
-    if (found == frames_now.end()) {
-      comparison.differences.push_back(fmt::format("clip {}: frame {} is no longer a bridge frame", name, frame.frame));
-      continue;
-    }
-    ++comparison.bridge_frames;
-    if (!IsSame(frame, *found->second)) {
-      comparison.differences.push_back(
-          fmt::format("clip {}: frame {} has other tags or grades now", name, frame.frame));
-    }
-    frames_now.erase(found);
-  }
-  for (const auto& [frame, tagged] : frames_now) {
-    comparison.differences.push_back(fmt::format("clip {}: frame {} is now a bridge frame, too", name, frame));
-  }
-}
-
-}  // namespace
 
 TagsComparison CompareTags(const BridgeTags& file, const BridgeTags& now) {
   TagsComparison comparison;
