@@ -6,6 +6,7 @@
 #include <string_view>
 
 #include "bench/recordings/record_fields.h"
+#include "engine/base/text.h"
 
 namespace etude {
 
@@ -58,7 +59,7 @@ Result<Record> ReadRecord(const std::string& text, const std::string& file) {
 std::string Compared(std::string_view rater) {
   std::string letters;
   for (const char c : rater) {
-    if (c != ' ') letters += c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
+    if (c != ' ') letters += ToLower(c);
   }
   return letters;
 }

@@ -158,9 +158,9 @@ std::string Indented(std::string_view text) {
 
 /// Makes a valid key of FileStorage: a word that begins with a letter.
 std::string FileStorageName(std::string name) {
-  const auto is_letter = [](char c) { return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || c == '_'; };
+  const auto is_letter = [](char c) { return IsLower(c) || IsUpper(c) || c == '_'; };
   for (char& c : name) {
-    if (!is_letter(c) && !(c >= '0' && c <= '9')) c = '_';
+    if (!is_letter(c) && !IsDigit(c)) c = '_';
   }
   if (name.empty() || !is_letter(name.front()) || name == "cameras") name.insert(0, "camera_");
   return name;

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "engine/base/nearest_rotation.h"
+#include "engine/base/text.h"
 #include "engine/motion/clip.h"
 
 namespace etude {
@@ -30,10 +31,7 @@ constexpr std::array<SideWord, 10> kSideWords = {{
     {"R", "L"},
 }};
 
-bool IsLower(char c) { return c >= 'a' && c <= 'z'; }
-bool IsUpper(char c) { return c >= 'A' && c <= 'Z'; }
 bool IsLetter(char c) { return IsLower(c) || IsUpper(c); }
-bool IsDigit(char c) { return c >= '0' && c <= '9'; }
 
 /// Returns the index after the namespace, such as "mixamorig:" in "mixamorig:LeftArm".
 std::size_t StartOfName(std::string_view name) { return name.find_last_of(':') + 1; }

@@ -4,15 +4,12 @@
 #include <cmath>
 #include <limits>
 
+#include "engine/base/text.h"
+
 namespace etude {
 namespace {
 
 constexpr double kSameFrame = 1e-6;  // in frames; a tolerance for rounding errors if both rates are equal
-
-bool EqualsIgnoringCase(std::string_view a, std::string_view b) {
-  const auto lower = [](char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c; };
-  return std::ranges::equal(a, b, {}, lower, lower);
-}
 
 /// Returns the position of a joint at the fraction `u` of the way from the frame `from` to the next
 /// (Inbetween::kCubic).

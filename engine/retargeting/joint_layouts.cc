@@ -50,9 +50,8 @@ constexpr std::string_view kMhrJoints =
 std::optional<double> LengthOf(std::span<const glm::dvec3> positions, const JointLayout& layout, Role from, Role to) {
   const auto column_of = [&](Role role) {
     const std::string name(RoleName(role));  // "left_hip", or "LHip" in layouts of marker names
-    std::string marker = {static_cast<char>(name[0] - 'a' + 'A'),
-                          static_cast<char>(name[name.find('_') + 1] - 'a' + 'A')};
-    marker += name.substr(name.find('_') + 2);
+    const std::size_t part = name.find('_') + 1;
+    const std::string marker = std::string{ToUpper(name[0]), ToUpper(name[part])} + name.substr(part + 1);
     return static_cast<std::size_t>(
         std::ranges::find_if(layout.joints, [&](std::string_view one) { return one == name || one == marker; }) -
         layout.joints.begin());

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "engine/base/names.h"
+#include "engine/base/text.h"
 #include "engine/retargeting/data_set_names.h"
 #include "engine/retargeting/limb_finder.h"
 #include "engine/retargeting/skin_names.h"
@@ -286,13 +287,7 @@ ChosenSet ChooseSet(const MarkerColumns& columns, std::span<const std::string> n
   return chosen;
 }
 
-std::string MarkerKey(std::string_view name) {
-  std::string key(name.substr(name.rfind(':') + 1));
-  for (char& c : key) {
-    if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
-  }
-  return key;
-}
+std::string MarkerKey(std::string_view name) { return InLowerCase(std::string(name.substr(name.rfind(':') + 1))); }
 
 std::string NamesOfMarkerSets() {
   std::vector<std::string> names;

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "engine/base/names.h"
+#include "engine/base/text.h"
 #include "engine/formats/json_text.h"
 #include "engine/formats/text_scanner.h"
 #include "engine/streams/bodies.h"
@@ -40,8 +41,7 @@ constexpr std::string_view kConfidences[] = {"NONE", "LOW", "MEDIUM", "HIGH"};
 /// nullopt for another name.
 std::optional<double> ConfidenceAt(const Json& list, std::size_t i) {
   if (!list[i].is_string()) return NumberAt(list, i).value_or(0);
-  std::string name = list[i].get<std::string>();
-  for (char& c : name) c = c >= 'a' && c <= 'z' ? static_cast<char>(c - 'a' + 'A') : c;
+  const std::string name = InUpperCase(list[i].get<std::string>());
   const auto found = std::ranges::find(kConfidences, std::string_view(name).substr(name.rfind('_') + 1));
   if (found == std::end(kConfidences)) return std::nullopt;
   return static_cast<double>(found - std::begin(kConfidences));

@@ -8,6 +8,7 @@
 #include <set>
 
 #include "engine/base/names.h"
+#include "engine/base/text.h"
 #include "engine/base/utf8.h"
 #include "engine/formats/acclaim.h"
 #include "engine/formats/amass.h"
@@ -358,8 +359,7 @@ Result<ClipFile> ReadClipFile(const std::string& path, const std::optional<std::
     read.has_rate = facts.has_rate;
     return read;
   }
-  constexpr std::string_view kBvhStart = "HIERARCHY";
-  if (!std::ranges::equal(first.text, kBvhStart, {}, [](char c) { return c >= 'a' && c <= 'z' ? c - 'a' + 'A' : c; })) {
+  if (!EqualsIgnoringCase(first.text, "HIERARCHY")) {
     return Fail(
         scanner.At(first),
         "{}; allowed: BVH (it begins with HIERARCHY), glTF 2.0 (.glb, .gltf), FBX, Acclaim's .amc, AMASS's .npz, "

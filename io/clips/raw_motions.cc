@@ -6,6 +6,7 @@
 
 #include "engine/base/digest.h"
 #include "engine/base/names.h"
+#include "engine/base/text.h"
 #include "engine/base/utf8.h"
 #include "engine/formats/kimodo.h"
 #include "engine/formats/npz.h"
@@ -62,8 +63,7 @@ RawMotion OfSkeleton(const Clip& clip, double unit, UpAxis up) {
 /// roles name the hip centre.
 bool CarriesAsPelvis(const RawMotion& raw, const JointMap& map, const JointMapOverrides* told) {
   if (told != nullptr && told->joints.contains(Role::kHipCentre)) return true;
-  std::string name = raw.joints[map[Role::kHipCentre].joint];
-  std::ranges::transform(name, name.begin(), [](char c) { return c >= 'A' && c <= 'Z' ? char(c - 'A' + 'a') : c; });
+  const std::string name = InLowerCase(raw.joints[map[Role::kHipCentre].joint]);
   if (name.ends_with("hips") || name.ends_with("pelvis")) return true;
   // Distance from the hips' middle in thigh lengths. Pelvises of 4 libraries: ≤ 0.33; OpenNI's torso: 0.44–0.50.
   constexpr double kMaxThighs = 0.4;

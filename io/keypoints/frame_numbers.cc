@@ -9,12 +9,11 @@
 #include <numeric>
 
 #include "engine/base/order_statistics.h"
+#include "engine/base/text.h"
 #include "engine/formats/row_clock.h"
 
 namespace etude {
 namespace {
-
-bool IsDigit(char c) { return c >= '0' && c <= '9'; }
 
 /// Moves the i-th frame to `indices[i]`; indices ascend. `count` is the number of frames afterwards. Adds a note if
 /// frames are missing.

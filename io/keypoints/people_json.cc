@@ -10,6 +10,7 @@
 #include <nlohmann/json.hpp>
 #include <optional>
 
+#include "engine/base/text.h"
 #include "io/keypoints/frame_numbers.h"
 
 namespace etude {
@@ -20,7 +21,7 @@ constexpr double kMaxListedPixel = 1e6;
 
 /// Returns true if the names differ only in their numbers.
 bool AreOnlyNumbered(std::vector<std::string> names) {
-  for (std::string& name : names) std::erase_if(name, [](char c) { return c >= '0' && c <= '9'; });
+  for (std::string& name : names) std::erase_if(name, IsDigit);
   return std::ranges::all_of(names, [&](const std::string& name) { return name == names.front(); });
 }
 

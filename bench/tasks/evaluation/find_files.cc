@@ -6,6 +6,7 @@
 #include "bench/tasks/evaluation/options.h"
 #include "engine/base/csv.h"
 #include "engine/base/names.h"
+#include "engine/base/text.h"
 #include "engine/base/utf8.h"
 #include "io/clips/references.h"
 
@@ -230,7 +231,7 @@ bool Matches(std::string_view pattern, std::string_view text) {
 std::string ComparedName(std::string_view name) {
   std::string letters;
   for (const char c : name) {
-    if (c != ' ') letters += c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
+    if (c != ' ') letters += ToLower(c);
   }
   return letters;
 }
