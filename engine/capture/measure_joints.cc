@@ -5,6 +5,7 @@
 #include <cassert>
 #include <cmath>
 
+#include "engine/base/gaps.h"
 #include "engine/base/order_statistics.h"
 #include "engine/cameras/robust_triangulation.h"
 #include "engine/kinematics/limb_lengths.h"
@@ -59,21 +60,17 @@ bool IsMeasured(const PointMeasurement& measurement) { return measurement.inform
 // Fills the gaps of a track linearly, and holds its first and last values.
 std::vector<std::optional<glm::dvec3>> BridgeTrack(std::span<const std::optional<glm::dvec3>> track) {
   std::vector<std::optional<glm::dvec3>> bridged(track.begin(), track.end());
-  // `before` is the last measured frame.
-  std::optional<std::size_t> before;
-  for (std::size_t k = 0; k < track.size(); ++k) {
-    if (!track[k]) continue;
-    for (std::size_t i = before ? *before + 1 : 0; i < k; ++i) {
-      if (!before) {
-        bridged[i] = track[k];
-      } else {
-        const double share = static_cast<double>(i - *before) / static_cast<double>(k - *before);
-        bridged[i] = glm::mix(*track[*before], *track[k], share);
-      }
-    }
-    before = k;
+  const auto is_measured = [&](std::size_t frame) { return track[frame].has_value(); };
+  FillGaps(track.size(), track.size(), is_measured,
+           [&](std::size_t from, std::size_t frame, std::size_t to, double share) {
+             bridged[frame] = glm::mix(*track[from], *track[to], share);
+           });
+  for (std::size_t i = 1; i < bridged.size(); ++i) {
+    if (!bridged[i]) bridged[i] = bridged[i - 1];
   }
-  for (std::size_t i = before ? *before + 1 : track.size(); i < track.size(); ++i) bridged[i] = track[*before];
+  for (std::size_t i = bridged.size(); i-- > 1;) {
+    if (!bridged[i - 1]) bridged[i - 1] = bridged[i];
+  }
   return bridged;
 }
 

@@ -67,10 +67,16 @@ const Json* FirstMember(const Json& json, std::initializer_list<const char*> nam
   return nullptr;
 }
 
+std::string TextOf(const Json* json) { return json != nullptr && json->is_string() ? json->get<std::string>() : ""; }
+
+std::optional<double> NumberOf(const Json* json) {
+  return json != nullptr && json->is_number() ? std::optional(json->get<double>()) : std::nullopt;
+}
+
 std::vector<std::string> TextsOf(const Json* list) {
   std::vector<std::string> texts;
   if (list == nullptr || !list->is_array()) return texts;
-  for (const Json& text : *list) texts.push_back(text.is_string() ? text.get<std::string>() : "");
+  for (const Json& text : *list) texts.push_back(TextOf(&text));
   return texts;
 }
 
@@ -187,16 +193,15 @@ Result<std::span<const Landmark>> OrderOf(std::size_t count, const std::string& 
   return std::span(chosen->landmarks);
 }
 
-std::optional<double> NumberOf(const Json* json) {
-  if (json == nullptr || !json->is_number()) return std::nullopt;
-  const double value = json->get<double>();
-  return std::abs(value) <= kMaxListedPixel ? std::optional(value) : std::nullopt;
+std::optional<double> PixelOf(const Json* json) {
+  const auto value = NumberOf(json);
+  return value && std::abs(*value) <= kMaxListedPixel ? value : std::nullopt;
 }
 
 /// Reads a point with named coordinates; a point without numbers was not seen. Fails if a number beside the
 /// coordinates may be a score under a name that is not known.
 Result<Keypoint> PointOf(const Json& json, const Place& place) {
-  const auto x = NumberOf(Member(json, "x")), y = NumberOf(Member(json, "y"));
+  const auto x = PixelOf(Member(json, "x")), y = PixelOf(Member(json, "y"));
   const Json* sure = FirstMember(json, {"visibility", "score", "confidence", "conf", "likelihood", "probability",
                                         "prob", "keypoint_score", "kp_score", "c", "p", "v"});
   for (const auto& [key, value] : json.items()) {
@@ -205,7 +210,7 @@ Result<Keypoint> PointOf(const Json& json, const Place& place) {
     return Fail(place, "a keypoint has the number '{}' beside x and y; allowed: score, confidence or visibility", key);
   }
   if (!x || !y) return Keypoint{};
-  return Keypoint{glm::dvec2(*x, *y) + kHalfPixel, sure == nullptr ? 1 : NumberOf(sure).value_or(0)};
+  return Keypoint{glm::dvec2(*x, *y) + kHalfPixel, sure == nullptr ? 1 : PixelOf(sure).value_or(0)};
 }
 
 /// Returns the list of a person's scores; null if there is none. Fails if another list of numbers, as long as the list
@@ -231,16 +236,16 @@ Result<std::vector<Keypoint>> PointsOfPairs(const Json& list, const Json* scores
   for (std::size_t i = 0; i < list.size(); ++i) {
     const Json& pair = list[i];
     if (!pair.is_array() || pair.size() < 2) return Fail(place, "a keypoint is {}; allowed: [x, y]", ShowJson(pair));
-    const auto x = NumberOf(&pair[0]), y = NumberOf(&pair[1]);
+    const auto x = PixelOf(&pair[0]), y = PixelOf(&pair[1]);
     double sure = 1;
     if (scores != nullptr && scores->is_array() && scores->size() == list.size()) {
       if (pair.size() > 2 && pair[2] != (*scores)[i]) {
         return Fail(place, "a keypoint has {} coordinates beside a score: {}; allowed: pixels of one picture, [x, y]",
                     pair.size(), ShowJson(pair));
       }
-      sure = NumberOf(&(*scores)[i]).value_or(0);
+      sure = PixelOf(&(*scores)[i]).value_or(0);
     } else if (pair.size() > 2) {
-      sure = NumberOf(&pair[2]).value_or(0);
+      sure = PixelOf(&pair[2]).value_or(0);
     }
     points.push_back(x && y ? Keypoint{glm::dvec2(*x, *y) + kHalfPixel, sure} : Keypoint{});
   }
@@ -301,8 +306,7 @@ Result<ListedPerson> PointsOf(const Json& person, const Place& place) {
     for (const Json& point : *list) {
       ASSIGN_OR_RETURN(const Keypoint read, PointOf(point, place));
       listed.points.push_back(read);
-      const Json* name = Member(point, "name");
-      names.push_back(name != nullptr && name->is_string() ? name->get<std::string>() : "");
+      names.push_back(TextOf(Member(point, "name")));
     }
     listed.names = KeypointNames(std::move(names));
   }
