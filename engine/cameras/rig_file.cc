@@ -224,8 +224,6 @@ std::string WithoutDirective(std::string_view text) {
   return plain;
 }
 
-const glm::dmat3 kYUpOfZUp(0, 0, 1, 1, 0, 0, 0, 1, 0);  // (x, y, z) of the file is our (y, z, x)
-
 // Recognises the format of `text` by its first characters or by its keys, and reads the rig.
 Result<RigFile> Read(std::string_view text, const std::string& file) {
   const std::size_t first = text.find_first_not_of(" \t\r\n");

@@ -16,9 +16,9 @@
 #include "engine/base/result.h"
 #include "engine/base/text.h"
 #include "engine/formats/bvh.h"
+#include "engine/formats/row_rates.h"
 #include "engine/formats/text_scanner.h"
 #include "engine/formats/unique_names.h"
-#include "engine/formats/usual_rates.h"
 #include "engine/motion/body.h"
 #include "engine/motion/clip.h"
 

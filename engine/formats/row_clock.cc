@@ -10,7 +10,6 @@
 #include "engine/base/names.h"
 #include "engine/base/order_statistics.h"
 #include "engine/formats/row_rates.h"
-#include "engine/formats/usual_rates.h"
 
 namespace etude {
 namespace {

@@ -236,8 +236,6 @@ std::string DescribeFewFrames(const MarkerMotion& motion) {
       motion.frames.size(), 100 * least);
 }
 
-std::string WriteBodyNpz(const BodyMotion& motion, const BodyPose& rest) { return WriteBodyNpz(motion, rest, 0); }
-
 std::string WriteBodyNpz(const BodyMotion& motion, const BodyPose& rest, double start_s) {
   const Clip clip = RigClip(motion, rest, "");
   const std::size_t frames = motion.poses.size();

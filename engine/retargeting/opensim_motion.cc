@@ -406,10 +406,6 @@ Result<BodyMotion> ReadOpenSimMotion(std::string_view bytes, const std::string& 
   return motion;
 }
 
-std::string WriteOpenSimMotion(const BodyMotion& motion, const BodyPose& rest, std::string name) {
-  return WriteOpenSimMotion(motion, rest, std::move(name), 0);
-}
-
 std::string WriteOpenSimMotion(const BodyMotion& motion, const BodyPose& rest, std::string name, double start_s) {
   const std::vector<WrittenPart> parts = WrittenParts();
   const Clip rig = RigClip(motion, rest, name);

@@ -9,7 +9,6 @@
 #include "engine/formats/number_rows.h"
 #include "engine/formats/row_rates.h"
 #include "engine/formats/time_scale.h"
-#include "engine/formats/usual_rates.h"
 #include "engine/streams/format_readers.h"
 
 namespace etude {
