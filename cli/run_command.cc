@@ -167,6 +167,31 @@ Json FactsOf(const RunOutcome& outcome, const Shard& shard, const RunData* run) 
           {"without_answer", std::move(silent)}};
 }
 
+}  // namespace
+
+int ShowOutcome(const RunOutcome& outcome) {
+  auto run = LoadRunOutline(outcome.folder);
+  const auto has_skipped = [](const ScenarioSummary& scenario) {
+    return std::ranges::any_of(scenario.conditions, IsSkipped);
+  };
+  if (run && std::ranges::any_of(run->scenarios, has_skipped)) run = LoadRun(outcome.folder);  // rows hold the reasons
+  if (!run) return Complain(run.error());
+  PrintSummary(*run);
+  const std::string folder = outcome.folder.string();
+  const bool has_silent = std::ranges::any_of(run->scenarios, HasSilentMethod);
+  if (has_silent) {
+    const auto finished = LoadFinishedRun(outcome.folder);
+    if (!finished) return Complain(finished.error());
+    PrintList("\nMethods without an answer:", DescribeSilentMethods(*finished));
+  }
+  PrintAnswers(*run);
+  fmt::print("\n{} of {} cells ok{} in {:.1f} s: {}\nNext: etude report {}\n", outcome.cells_ok, outcome.cells,
+             UnsolvedInWords(*run), outcome.seconds, folder, folder);
+  return outcome.cells_ok > 0 && !has_silent ? kSuccess : kNothingWorked;
+}
+
+namespace {
+
 /// Warns if no lock keeps a second run from writing into the folder.
 void TellUnlocked(const RunOutcome& outcome) {
   if (outcome.why_unlocked.empty()) return;
@@ -196,6 +221,36 @@ int PrintOutcome(const RunOutcome& outcome, const Shard& shard, int code) {
   const auto printed = PrintFacts("run", FactsOf(outcome, shard, run ? &*run : nullptr));
   return printed ? code : Complain(printed.error());
 }
+
+}  // namespace
+
+Result<std::optional<RunOutcome>> RunWithProgress(RunOptions options) {
+  // Run the scenarios; Ctrl-C requests a stop.
+  std::optional<Interrupt> interrupt(std::in_place);
+  options.stop = interrupt->requested();
+  ProgressBar bar;
+  ASSIGN_OR_RETURN(auto outcome, Run(options, [&](const Progress& progress) { bar.Show(progress); }));
+  interrupt.reset();  // everything is written, so from here on Ctrl-C ends the program
+  // Report a folder without a lock, and what was changed, left out or ignored.
+  TellUnlocked(outcome);
+  TellChanges(outcome.changes);
+  for (const RefusedClip& one : outcome.refused) Complain({{one.clip}, "left out: " + one.why});
+  const std::string folder = outcome.folder.string();
+  for (const int line : outcome.damaged_lines) {
+    Complain({{(outcome.folder / kJournalFile).string(), line, 0},
+              "this line is ignored: it is damaged, or another line holds the same cell"});
+  }
+  if (outcome.fence.starts_with("none")) Complain({{}, "outside methods ran without a fence: " + outcome.fence});
+  // If the run was stopped, say that the finished cells are kept for --resume.
+  if (!outcome.stopped) return std::optional(std::move(outcome));
+  const std::size_t kept = outcome.cells + outcome.cells_answered;
+  TellStopped({{},
+               kept == 0 ? "stopped before any cell ended; nothing is kept"
+                         : fmt::format("stopped; cells kept in {1}: {0}; --resume continues", kept, folder)});
+  return std::optional<RunOutcome>();
+}
+
+namespace {
 
 int RunCommand(const RunOptions& options, bool as_json) {
   StdoutToStderr aside(as_json);
@@ -237,53 +292,6 @@ void AddOtherLibraries(CLI::App& command, bool& other_libraries) {
 }
 
 }  // namespace
-
-int ShowOutcome(const RunOutcome& outcome) {
-  auto run = LoadRunOutline(outcome.folder);
-  const auto has_skipped = [](const ScenarioSummary& scenario) {
-    return std::ranges::any_of(scenario.conditions, IsSkipped);
-  };
-  if (run && std::ranges::any_of(run->scenarios, has_skipped)) run = LoadRun(outcome.folder);  // rows hold the reasons
-  if (!run) return Complain(run.error());
-  PrintSummary(*run);
-  const std::string folder = outcome.folder.string();
-  const bool has_silent = std::ranges::any_of(run->scenarios, HasSilentMethod);
-  if (has_silent) {
-    const auto finished = LoadFinishedRun(outcome.folder);
-    if (!finished) return Complain(finished.error());
-    PrintList("\nMethods without an answer:", DescribeSilentMethods(*finished));
-  }
-  PrintAnswers(*run);
-  fmt::print("\n{} of {} cells ok{} in {:.1f} s: {}\nNext: etude report {}\n", outcome.cells_ok, outcome.cells,
-             UnsolvedInWords(*run), outcome.seconds, folder, folder);
-  return outcome.cells_ok > 0 && !has_silent ? kSuccess : kNothingWorked;
-}
-
-Result<std::optional<RunOutcome>> RunWithProgress(RunOptions options) {
-  // Run the scenarios; Ctrl-C requests a stop.
-  std::optional<Interrupt> interrupt(std::in_place);
-  options.stop = interrupt->requested();
-  ProgressBar bar;
-  ASSIGN_OR_RETURN(auto outcome, Run(options, [&](const Progress& progress) { bar.Show(progress); }));
-  interrupt.reset();  // everything is written, so from here on Ctrl-C ends the program
-  // Report a folder without a lock, and what was changed, left out or ignored.
-  TellUnlocked(outcome);
-  TellChanges(outcome.changes);
-  for (const RefusedClip& one : outcome.refused) Complain({{one.clip}, "left out: " + one.why});
-  const std::string folder = outcome.folder.string();
-  for (const int line : outcome.damaged_lines) {
-    Complain({{(outcome.folder / kJournalFile).string(), line, 0},
-              "this line is ignored: it is damaged, or another line holds the same cell"});
-  }
-  if (outcome.fence.starts_with("none")) Complain({{}, "outside methods ran without a fence: " + outcome.fence});
-  // If the run was stopped, say that the finished cells are kept for --resume.
-  if (!outcome.stopped) return std::optional(std::move(outcome));
-  const std::size_t kept = outcome.cells + outcome.cells_answered;
-  TellStopped({{},
-               kept == 0 ? "stopped before any cell ended; nothing is kept"
-                         : fmt::format("stopped; cells kept in {1}: {0}; --resume continues", kept, folder)});
-  return std::optional<RunOutcome>();
-}
 
 void DefineRun(CLI::App& app, const std::string& command_line, Action& action) {
   // Define the options that choose worlds, workers and outputs.

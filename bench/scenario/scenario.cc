@@ -95,39 +95,6 @@ SamplingUnit ReadUnit(Fields& fields, const TaskKind& kind) {
   return ValueNamed(kSamplingUnits, fields.Choice("unit", names, names.front()));
 }
 
-Result<Scenario> ParseScenario(const Node& node, const std::string& file) {
-  Fields fields(node, "a scenario");
-  Scenario scenario;
-  scenario.file = file;
-  ScenarioFields().Read(fields, scenario);
-  if (const TaskKind* kind = FindTaskKind(scenario.task)) {
-    // Mark the task's keys as known. The task reads their values.
-    for (const KeyInfo& key : kind->condition_keys) fields.Raw(key.key);
-  }
-  RETURN_IF_ERROR(fields.Finish());
-  return scenario;
-}
-
-Result<std::vector<Scenario>> ParseAll(const std::string& file, const TextOf& text_of) {
-  ASSIGN_OR_RETURN(const auto nodes, CollectScenarios(file, text_of));
-  std::vector<Scenario> scenarios;
-  std::size_t values = 0;
-  for (const Node& node : nodes) {
-    ASSIGN_OR_RETURN(auto scenario, ParseScenario(node, file));
-    values += scenario.conditions.size() * CountValues(node);
-    if (values > kMaxFileValues) {
-      return Fail(node.place, "with this scenario, the conditions of the file hold more than {} values",
-                  kMaxFileValues);
-    }
-    for (const Scenario& other : scenarios) {
-      if (other.name != scenario.name) continue;
-      return Fail(node.Find("scenario")->place, "two scenarios of this file are named '{}'", other.name);
-    }
-    scenarios.push_back(std::move(scenario));
-  }
-  return scenarios;
-}
-
 }  // namespace
 
 const FieldTable<StreamSource>& ReadingFields() {
@@ -342,6 +309,43 @@ std::vector<ScenarioProgram> ProgramsIn(const Scenario& scenario) {
   for (const OutsideMetric& metric : scenario.outside_metrics) programs.push_back({&metric.program, "metric"});
   return programs;
 }
+
+namespace {
+
+Result<Scenario> ParseScenario(const Node& node, const std::string& file) {
+  Fields fields(node, "a scenario");
+  Scenario scenario;
+  scenario.file = file;
+  ScenarioFields().Read(fields, scenario);
+  if (const TaskKind* kind = FindTaskKind(scenario.task)) {
+    // Mark the task's keys as known. The task reads their values.
+    for (const KeyInfo& key : kind->condition_keys) fields.Raw(key.key);
+  }
+  RETURN_IF_ERROR(fields.Finish());
+  return scenario;
+}
+
+Result<std::vector<Scenario>> ParseAll(const std::string& file, const TextOf& text_of) {
+  ASSIGN_OR_RETURN(const auto nodes, CollectScenarios(file, text_of));
+  std::vector<Scenario> scenarios;
+  std::size_t values = 0;
+  for (const Node& node : nodes) {
+    ASSIGN_OR_RETURN(auto scenario, ParseScenario(node, file));
+    values += scenario.conditions.size() * CountValues(node);
+    if (values > kMaxFileValues) {
+      return Fail(node.place, "with this scenario, the conditions of the file hold more than {} values",
+                  kMaxFileValues);
+    }
+    for (const Scenario& other : scenarios) {
+      if (other.name != scenario.name) continue;
+      return Fail(node.Find("scenario")->place, "two scenarios of this file are named '{}'", other.name);
+    }
+    scenarios.push_back(std::move(scenario));
+  }
+  return scenarios;
+}
+
+}  // namespace
 
 Result<std::vector<Scenario>> ReadScenarios(const std::string& file, SourceTexts& texts) {
   return ParseAll(file, [&](const std::string& path, const Place& asked_at) -> Result<std::string> {
