@@ -154,16 +154,6 @@ std::string ConditionFloats(const ScenarioSummary& scenario, const ConditionSumm
   return text + Float(caption, table);
 }
 
-}  // namespace
-
-std::string ScenarioLatex(const RunData& run, const ScenarioSummary& scenario) {
-  std::string text = fmt::format("{}% Etude {}.\n", kHead, run.program_version);
-  for (const ConditionSummary& condition : scenario.conditions) text += ConditionFloats(scenario, condition);
-  return text + PaperALatex(scenario) + PaperBLatex(run, scenario);
-}
-
-namespace {
-
 std::string MissingText(const RunData& run, const ScenarioSummary& scenario, const ConditionSummary& condition,
                         const MethodSummary& method, const MetricSummary& metric) {
   if (metric.missing == 0) return "";
@@ -171,6 +161,12 @@ std::string MissingText(const RunData& run, const ScenarioSummary& scenario, con
 }
 
 }  // namespace
+
+std::string ScenarioLatex(const RunData& run, const ScenarioSummary& scenario) {
+  std::string text = fmt::format("{}% Etude {}.\n", kHead, run.program_version);
+  for (const ConditionSummary& condition : scenario.conditions) text += ConditionFloats(scenario, condition);
+  return text + PaperALatex(scenario) + PaperBLatex(run, scenario);
+}
 
 std::string NumberTableCsv(const RunData& run, const ScenarioSummary& scenario) {
   Table table;

@@ -17,8 +17,7 @@ namespace fs = std::filesystem;
 constexpr std::size_t kMaxNameLength = 120;  // bytes; file systems allow up to 255
 
 bool IsPlain(char c) {
-  const bool is_letter = (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z');
-  return is_letter || (c >= '0' && c <= '9') || std::string_view("._=,+-").find(c) != std::string_view::npos;
+  return IsLower(c) || IsUpper(c) || IsDigit(c) || std::string_view("._=,+-").find(c) != std::string_view::npos;
 }
 
 std::string TrialName(int trial) { return fmt::format("{:03}", trial); }
@@ -26,11 +25,8 @@ std::string TrialName(int trial) { return fmt::format("{:03}", trial); }
 /// Returns the name of the world to which an answer file belongs: "007" for "7.json", "007.json" and "007.JSON".
 /// Returns nullopt if the extension is not .json.
 std::optional<std::string> WorldOf(const fs::path& name) {
-  std::string extension = name.extension().string();
-  std::transform(extension.begin(), extension.end(), extension.begin(),
-                 [](char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c; });
   const std::string stem = name.stem().string();
-  if (extension != ".json") return std::nullopt;
+  if (!EqualsIgnoringCase(name.extension().string(), ".json")) return std::nullopt;
   const auto trial = ParseNumber<int>(stem);
   return trial && *trial >= 0 ? TrialName(*trial) : stem;
 }

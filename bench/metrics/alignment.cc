@@ -70,6 +70,22 @@ std::optional<Similarity> WithScale(const std::optional<Similarity>& fit, const 
       .scale = 1, .rotation = fit->rotation, .translation = moments.target_mean - fit->rotation * moments.mean};
 }
 
+/// Writes the error of each joint in one frame, millimetres, into `errors`.
+void WriteErrorsMm(const EvaluatedPair& pair, std::size_t frame, const std::optional<Similarity>& fit, double* errors) {
+  constexpr double kToMillimetres = 1000;
+  const auto found = pair.found.Frame(frame), truth = pair.truth.Frame(frame);
+  if (!fit) {
+    std::fill_n(errors, found.size(), kUnseen);
+    return;
+  }
+  const glm::dmat3 turn = fit->scale * fit->rotation;
+  const glm::dvec3 move = fit->translation;
+  // NaN propagates: the error is NaN for a joint that is not seen in the answer or in the truth.
+  for (std::size_t j = 0; j < found.size(); ++j) {
+    errors[j] = kToMillimetres * glm::length(turn * found[j] + move - truth[j]);
+  }
+}
+
 }  // namespace
 
 std::optional<Similarity> Fit(const PointMoments& moments, bool with_scale) {
@@ -157,26 +173,6 @@ FrameFits PairFits::OfSegments(std::size_t length, std::size_t fitted) const {
   }
   return found;
 }
-
-namespace {
-
-/// Writes the error of each joint in one frame, millimetres, into `errors`.
-void WriteErrorsMm(const EvaluatedPair& pair, std::size_t frame, const std::optional<Similarity>& fit, double* errors) {
-  constexpr double kToMillimetres = 1000;
-  const auto found = pair.found.Frame(frame), truth = pair.truth.Frame(frame);
-  if (!fit) {
-    std::fill_n(errors, found.size(), kUnseen);
-    return;
-  }
-  const glm::dmat3 turn = fit->scale * fit->rotation;
-  const glm::dvec3 move = fit->translation;
-  // NaN propagates: the error is NaN for a joint that is not seen in the answer or in the truth.
-  for (std::size_t j = 0; j < found.size(); ++j) {
-    errors[j] = kToMillimetres * glm::length(turn * found[j] + move - truth[j]);
-  }
-}
-
-}  // namespace
 
 std::vector<double> JointErrorsMm(const EvaluatedPair& pair, const FrameFits& fits) {
   std::vector<double> errors(pair.found.positions.size());

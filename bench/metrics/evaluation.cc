@@ -16,6 +16,18 @@ constexpr double kUnseen = std::numeric_limits<double>::quiet_NaN();
 
 bool BothSeen(const glm::dvec3& a, const glm::dvec3& b) { return !std::isnan(a.x) && !std::isnan(b.x); }
 
+/// Returns the mean length of `vector_at(frame, joint)` over all joints and the frames [begin, end).
+template <typename VectorAt>
+std::optional<double> MeanLength(std::size_t begin, std::size_t end, std::size_t joints, const VectorAt& vector_at) {
+  SeenMean mean;
+  std::vector<double> lengths(joints);
+  for (std::size_t f = begin; f < end; ++f) {
+    for (std::size_t j = 0; j < joints; ++j) lengths[j] = glm::length(vector_at(f, j));
+    mean.Add(lengths);
+  }
+  return mean.Value();
+}
+
 }  // namespace
 
 void SeenMean::Add(std::span<const double> values) {
@@ -92,22 +104,6 @@ std::optional<double> SeenShare(const EvaluatedPair& pair) {
   if (shown == 0) return std::nullopt;
   return static_cast<double>(both) / static_cast<double>(shown);
 }
-
-namespace {
-
-/// Returns the mean length of `vector_at(frame, joint)` over all joints and the frames [begin, end).
-template <typename VectorAt>
-std::optional<double> MeanLength(std::size_t begin, std::size_t end, std::size_t joints, const VectorAt& vector_at) {
-  SeenMean mean;
-  std::vector<double> lengths(joints);
-  for (std::size_t f = begin; f < end; ++f) {
-    for (std::size_t j = 0; j < joints; ++j) lengths[j] = glm::length(vector_at(f, j));
-    mean.Add(lengths);
-  }
-  return mean.Value();
-}
-
-}  // namespace
 
 std::optional<double> AccelerationError(const PointTracks& found, const PointTracks& truth) {
   assert(found.positions.size() == truth.positions.size());

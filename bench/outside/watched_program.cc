@@ -32,6 +32,19 @@ Result<Descriptor> OpenLog(const std::filesystem::path& file) {
   return OpenFile(path, O_WRONLY | O_APPEND | O_CREAT);
 }
 
+// The interval between samples of resources, and between checks that the program still runs.
+constexpr std::chrono::milliseconds kSampleInterval{20};
+
+tl::unexpected<OutsideFailure> NotStarted(const Error& error) {
+  // If this machine caused the error, leave out the error's place, because the caller's message names the machine.
+  return tl::unexpected<OutsideFailure>(
+      {Status::kFailed, IsOfThisMachine(error) ? error.message : ToString(error), false});
+}
+
+tl::unexpected<OutsideFailure> TooMuch(std::string reason) {
+  return tl::unexpected<OutsideFailure>({Status::kOutOfMemory, std::move(reason)});
+}
+
 }  // namespace
 
 ErrorLog::ErrorLog(std::string file) : file_(std::move(file)) {
@@ -109,23 +122,6 @@ void ErrorLog::Save() {
   }
   if (::ftruncate(memory_, 0) != 0) return;
 }
-
-namespace {
-
-// The interval between samples of resources, and between checks that the program still runs.
-constexpr std::chrono::milliseconds kSampleInterval{20};
-
-tl::unexpected<OutsideFailure> NotStarted(const Error& error) {
-  // If this machine caused the error, leave out the error's place, because the caller's message names the machine.
-  return tl::unexpected<OutsideFailure>(
-      {Status::kFailed, IsOfThisMachine(error) ? error.message : ToString(error), false});
-}
-
-tl::unexpected<OutsideFailure> TooMuch(std::string reason) {
-  return tl::unexpected<OutsideFailure>({Status::kOutOfMemory, std::move(reason)});
-}
-
-}  // namespace
 
 OutsideFailure TookTooLong(double seconds) {
   return {Status::kTimeout, fmt::format("took longer than {:g} s", seconds)};

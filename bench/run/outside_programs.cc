@@ -124,33 +124,6 @@ Json DigestsOf(const MethodEntry& program) {
   return files;
 }
 
-}  // namespace
-
-Result<void> AddPrograms(std::span<const PreparedScenario> scenarios, const Fence& fence, Json& manifest) {
-  // The folder for the programs' standard error, which the reason of a failure quotes.
-  std::optional<TemporaryFolder> errors;
-  for (std::size_t s = 0; s < scenarios.size(); ++s) {
-    for (const ScenarioProgram& program : ProgramsIn(scenarios[s].scenario())) {
-      if (!errors) {
-        AdoptOrphans();  // so that processes that outlive a program become children of this process, which ends them
-        ASSIGN_OR_RETURN(errors, TemporaryFolder::Make("greetings"));
-      }
-      OutsideMethod started(OptionsOf(scenarios[s], program, errors->path().string(), fence));
-      const OutsideReply reply = started.Greet();
-      if (!reply.was_asked) {
-        return FailOfMachine("{} {} of {}: {}", program.role, program.entry->name, scenarios[s].scenario().name,
-                             reply.reason);
-      }
-      manifest["scenarios"][s]["programs"][(program.IsMetric() ? "metric " : "") + program.entry->name] = {
-          {"greeting", reply.status == Status::kOk ? Json(started.ProgramName()) : Json()},
-          {"files", DigestsOf(*program.entry)}};
-    }
-  }
-  return {};
-}
-
-namespace {
-
 fs::path Canonical(const fs::path& path) {
   std::error_code error;
   const fs::path canonical = fs::weakly_canonical(fs::absolute(path, error), error);
@@ -212,6 +185,29 @@ Json Texts(const std::vector<fs::path>& paths) {
 }
 
 }  // namespace
+
+Result<void> AddPrograms(std::span<const PreparedScenario> scenarios, const Fence& fence, Json& manifest) {
+  // The folder for the programs' standard error, which the reason of a failure quotes.
+  std::optional<TemporaryFolder> errors;
+  for (std::size_t s = 0; s < scenarios.size(); ++s) {
+    for (const ScenarioProgram& program : ProgramsIn(scenarios[s].scenario())) {
+      if (!errors) {
+        AdoptOrphans();  // so that processes that outlive a program become children of this process, which ends them
+        ASSIGN_OR_RETURN(errors, TemporaryFolder::Make("greetings"));
+      }
+      OutsideMethod started(OptionsOf(scenarios[s], program, errors->path().string(), fence));
+      const OutsideReply reply = started.Greet();
+      if (!reply.was_asked) {
+        return FailOfMachine("{} {} of {}: {}", program.role, program.entry->name, scenarios[s].scenario().name,
+                             reply.reason);
+      }
+      manifest["scenarios"][s]["programs"][(program.IsMetric() ? "metric " : "") + program.entry->name] = {
+          {"greeting", reply.status == Status::kOk ? Json(started.ProgramName()) : Json()},
+          {"files", DigestsOf(*program.entry)}};
+    }
+  }
+  return {};
+}
 
 Result<Fence> FenceFor(std::span<const PreparedScenario> scenarios, const OutsideRules& rules, const fs::path& folder,
                        const std::optional<SecretKey>& key) {

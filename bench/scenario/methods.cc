@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "bench/keys/key_schema.h"
+#include "engine/base/text.h"
 #include "io/files/json.h"
 
 namespace etude {
@@ -108,10 +109,7 @@ Result<MethodEntry> ReadMethod(const Node& node, const TaskKind& kind) {
 }  // namespace
 
 bool IsPlainName(const std::string& name) {
-  const auto plain = [](char c) {
-    return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '-' || c == '_' ||
-           c == '.';
-  };
+  const auto plain = [](char c) { return IsLower(c) || IsUpper(c) || IsDigit(c) || c == '-' || c == '_' || c == '.'; };
   return !name.empty() && name.size() <= 80 && name[0] != '.' && name[0] != '-' &&
          std::all_of(name.begin(), name.end(), plain);
 }

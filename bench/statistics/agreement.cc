@@ -5,15 +5,12 @@
 #include <cmath>
 #include <map>
 
-#include "bench/statistics/bootstrap.h"
-#include "bench/statistics/distributions.h"
-#include "sim/random/stream.h"
+#include "bench/statistics/bootstrap_units.h"
 
 namespace etude {
 namespace {
 
 constexpr std::size_t kFigures = 5;
-constexpr std::size_t kAgreementResamples = 1999;
 
 using Figures = std::array<std::optional<double>, kFigures>;  ///< RMSE, bias, lower and upper limit of agreement, ICC
 
@@ -50,36 +47,6 @@ Figures FiguresOf(std::span<const AgreementSums> units) {
   return figures;
 }
 
-/// Returns the confidence interval of each figure by resampling units.
-std::array<std::optional<Interval>, kFigures> FigureIntervals(std::span<const AgreementSums> units,
-                                                              const Figures& figures, std::uint64_t seed,
-                                                              const std::string& purpose) {
-  std::array<std::optional<Interval>, kFigures> intervals;
-  if (static_cast<int>(units.size()) < kMinSample) return intervals;
-  std::array<std::vector<double>, kFigures> replicates, jackknife;
-  const auto add = [](const Figures& found, std::array<std::vector<double>, kFigures>& lists) {
-    for (std::size_t k = 0; k < kFigures; ++k) {
-      if (found[k]) lists[k].push_back(KeepThirtyBits(*found[k]));
-    }
-  };
-  RandomStream dice({seed, "bootstrap", 0}, purpose);
-  std::vector<AgreementSums> drawn(units.size());
-  for (std::size_t i = 0; i < kAgreementResamples; ++i) {
-    for (AgreementSums& one : drawn) one = units[dice.IndexBelow(units.size())];
-    add(FiguresOf(drawn), replicates);
-  }
-  for (std::size_t left_out = 0; left_out < units.size(); ++left_out) {
-    std::vector<AgreementSums> others(units.begin(), units.end());
-    others.erase(others.begin() + static_cast<std::ptrdiff_t>(left_out));
-    add(FiguresOf(others), jackknife);
-  }
-  for (std::size_t k = 0; k < kFigures; ++k) {
-    if (!figures[k] || replicates[k].empty()) continue;
-    intervals[k] = BcaInterval(replicates[k], KeepThirtyBits(*figures[k]), jackknife[k]);
-  }
-  return intervals;
-}
-
 }  // namespace
 
 CurveAgreement MeasureAgreement(std::span<const AgreementSums> pairs, std::span<const std::string> units,
@@ -94,7 +61,7 @@ CurveAgreement MeasureAgreement(std::span<const AgreementSums> pairs, std::span<
   std::vector<AgreementSums> sums;
   for (const auto& [unit, of_unit] : by_unit) sums.push_back(of_unit);
   const Figures figures = FiguresOf(sums);
-  const auto intervals = FigureIntervals(sums, figures, seed, purpose);
+  const auto intervals = BootstrapUnits<AgreementSums>(sums, figures, {{seed, "bootstrap", 0}, purpose}, FiguresOf);
   CurveAgreement agreement;
   agreement.units = static_cast<int>(sums.size());
   AgreementFigure* const targets[kFigures] = {&agreement.rmse, &agreement.bias, &agreement.low, &agreement.high,

@@ -7,16 +7,14 @@
 #include <numeric>
 #include <span>
 
-#include "bench/statistics/bootstrap.h"
+#include "bench/statistics/bootstrap_units.h"
 #include "bench/statistics/distributions.h"
-#include "sim/random/stream.h"
 
 namespace etude {
 namespace {
 
 constexpr int kMaxPasses = 10'000;
 constexpr double kSettled = 1e-12;
-constexpr std::size_t kRaterResamples = 1999;
 constexpr double kOneSided = 0.01;
 
 /// The answers of one rater, counted as wins of methods and as choices of the left and the right side.
@@ -58,32 +56,6 @@ std::vector<std::optional<double>> SharesOf(std::span<const Rater* const> raters
   WinTable wins = EmptyTable(raters.front()->wins.size());
   for (const Rater* rater : raters) AddTo(wins, rater->wins);
   return SharesOf(wins);
-}
-
-void FillIntervals(std::span<const Rater* const> raters, std::uint64_t seed, std::vector<PreferredMethod>& methods) {
-  if (static_cast<int>(raters.size()) < kMinSample) return;
-  std::vector<std::vector<double>> replicates(methods.size()), jackknife(methods.size());
-  const auto add = [](const std::vector<std::optional<double>>& shares, std::vector<std::vector<double>>& lists) {
-    for (std::size_t m = 0; m < lists.size(); ++m) {
-      if (shares[m]) lists[m].push_back(*shares[m]);
-    }
-  };
-  RandomStream dice({seed, "bootstrap", 0}, "raters");
-  std::vector<const Rater*> drawn(raters.size());
-  for (std::size_t i = 0; i < kRaterResamples; ++i) {
-    for (const Rater*& one : drawn) one = raters[dice.IndexBelow(raters.size())];
-    add(SharesOf(drawn), replicates);
-  }
-  for (std::size_t left_out = 0; left_out < raters.size(); ++left_out) {
-    std::vector<const Rater*> others(raters.begin(), raters.end());
-    others.erase(others.begin() + static_cast<std::ptrdiff_t>(left_out));
-    add(SharesOf(others), jackknife);
-  }
-  for (std::size_t m = 0; m < methods.size(); ++m) {
-    if (methods[m].share && !replicates[m].empty()) {
-      methods[m].interval = BcaInterval(replicates[m], *methods[m].share, jackknife[m]);
-    }
-  }
 }
 
 /// Returns 1 if the metric is better for the left film, −1 for the right one, and 0 for values that differ by rounding
@@ -183,13 +155,14 @@ Preferences MeasurePreferences(const BlindFiles& files, std::uint64_t seed) {
     }
   }
   const auto shares = SharesOf(wins);
+  const auto of_raters = [](std::span<const Rater* const> some) { return SharesOf(some); };
+  const auto intervals = BootstrapUnits<const Rater*>(all, shares, {{seed, "bootstrap", 0}, "raters"}, of_raters);
   for (std::size_t i = 0; i < names.size(); ++i) {
     const double won = std::accumulate(wins[i].begin(), wins[i].end(), 0.0);
     double lost = 0;
     for (const std::vector<double>& row : wins) lost += row[i];
-    found.methods.push_back({names[i], won, won + lost, shares[i], std::nullopt});
+    found.methods.push_back({names[i], won, won + lost, shares[i], intervals[i]});
   }
-  FillIntervals(all, seed, found.methods);
   std::ranges::stable_sort(found.methods, std::greater(), &PreferredMethod::share);
   // Count how often each metric agrees with the raters.
   for (const BlindKey& key : files.keys) {

@@ -82,6 +82,58 @@ std::string BestOther(const Study& study, const ConditionTable& table, const Com
   return candidates.empty() ? "" : candidates.front()->name();
 }
 
+/// Adds one world to `paired`: a pair, or one more world without a pair.
+void AddWorld(const MethodColumns& baseline, const MethodColumns& method, const std::string& metric, int trial,
+              PairedWorlds& paired) {
+  // A cell that was never run counts as skipped.
+  const auto skipped = [&](const MethodColumns& columns) {
+    return columns.StatusAt(trial).value_or(Status::kSkipped) == Status::kSkipped;
+  };
+  const auto failed = [&](const MethodColumns& columns) {
+    return !skipped(columns) && columns.StatusAt(trial) != Status::kOk;
+  };
+  const auto of_baseline = baseline.ValueAt(metric, trial), of_method = method.ValueAt(metric, trial);
+  if (of_baseline && of_method) {
+    paired.pairs.push_back({*of_baseline, *of_method});
+    paired.trials.push_back(trial);
+  } else if (of_baseline) {
+    ++paired.only_baseline;
+    if (failed(method)) paired.method_failed.push_back(trial);
+  } else if (of_method) {
+    ++paired.only_method;
+    if (failed(baseline)) paired.baseline_failed.push_back(trial);
+  } else if (!skipped(baseline) || !skipped(method)) {
+    ++paired.neither;
+  }
+}
+
+/// Returns why the pairs of a metric cannot be compared (WhyNotAlike). `baseline_at(trial)` is the other method.
+template <typename BaselineAt>
+std::string WhyNotAlike(const PairedWorlds& paired, const std::string& metric, const BaselineAt& baseline_at,
+                        const MethodColumns& method, const std::string& name_of_baseline) {
+  std::vector<JudgedPair> judged;
+  for (const int trial : paired.trials) {
+    const auto theirs = baseline_at(trial).JudgedAt(metric, trial), mine = method.JudgedAt(metric, trial);
+    if (theirs && mine) judged.push_back({*theirs, *mine});
+  }
+  return judged.empty() ? "" : WhyNotAlike(*FindMetric(metric), judged, name_of_baseline, method.name());
+}
+
+/// Multiplies the values of each pair by the world's weight (MetricInfo::weight) divided by the mean weight. The plain
+/// mean of differences then is the weighted mean, and the tests are weighted, too. All cells of a world have the same
+/// weight, because the weight depends on the truth alone. Does nothing for metrics without weights.
+void WeighPairs(const MethodColumns& method, const std::string& metric, PairedWorlds& paired) {
+  const MetricInfo* info = FindMetric(metric);
+  if (info == nullptr || info->weight.empty()) return;
+  double sum = 0;
+  const auto weight_of = [&](int trial) { return method.ValueAt(info->weight, trial).value_or(0); };
+  for (const int trial : paired.trials) sum += weight_of(trial);
+  for (std::size_t i = 0; i < paired.pairs.size() && sum > 0; ++i) {
+    const double factor = weight_of(paired.trials[i]) * static_cast<double>(paired.pairs.size()) / sum;
+    paired.pairs[i] = {factor * paired.pairs[i].baseline, factor * paired.pairs[i].method};
+  }
+}
+
 }  // namespace
 
 int HalfOf(const ConditionTable& table, int trial) {
@@ -195,62 +247,6 @@ void ScenarioTable::Add(const Row& row) {
     if (known == table->units.end()) table->units.push_back(name);
   }
 }
-
-namespace {
-
-/// Adds one world to `paired`: a pair, or one more world without a pair.
-void AddWorld(const MethodColumns& baseline, const MethodColumns& method, const std::string& metric, int trial,
-              PairedWorlds& paired) {
-  // A cell that was never run counts as skipped.
-  const auto skipped = [&](const MethodColumns& columns) {
-    return columns.StatusAt(trial).value_or(Status::kSkipped) == Status::kSkipped;
-  };
-  const auto failed = [&](const MethodColumns& columns) {
-    return !skipped(columns) && columns.StatusAt(trial) != Status::kOk;
-  };
-  const auto of_baseline = baseline.ValueAt(metric, trial), of_method = method.ValueAt(metric, trial);
-  if (of_baseline && of_method) {
-    paired.pairs.push_back({*of_baseline, *of_method});
-    paired.trials.push_back(trial);
-  } else if (of_baseline) {
-    ++paired.only_baseline;
-    if (failed(method)) paired.method_failed.push_back(trial);
-  } else if (of_method) {
-    ++paired.only_method;
-    if (failed(baseline)) paired.baseline_failed.push_back(trial);
-  } else if (!skipped(baseline) || !skipped(method)) {
-    ++paired.neither;
-  }
-}
-
-/// Returns why the pairs of a metric cannot be compared (WhyNotAlike). `baseline_at(trial)` is the other method.
-template <typename BaselineAt>
-std::string WhyNotAlike(const PairedWorlds& paired, const std::string& metric, const BaselineAt& baseline_at,
-                        const MethodColumns& method, const std::string& name_of_baseline) {
-  std::vector<JudgedPair> judged;
-  for (const int trial : paired.trials) {
-    const auto theirs = baseline_at(trial).JudgedAt(metric, trial), mine = method.JudgedAt(metric, trial);
-    if (theirs && mine) judged.push_back({*theirs, *mine});
-  }
-  return judged.empty() ? "" : WhyNotAlike(*FindMetric(metric), judged, name_of_baseline, method.name());
-}
-
-/// Multiplies the values of each pair by the world's weight (MetricInfo::weight) divided by the mean weight. The plain
-/// mean of differences then is the weighted mean, and the tests are weighted, too. All cells of a world have the same
-/// weight, because the weight depends on the truth alone. Does nothing for metrics without weights.
-void WeighPairs(const MethodColumns& method, const std::string& metric, PairedWorlds& paired) {
-  const MetricInfo* info = FindMetric(metric);
-  if (info == nullptr || info->weight.empty()) return;
-  double sum = 0;
-  const auto weight_of = [&](int trial) { return method.ValueAt(info->weight, trial).value_or(0); };
-  for (const int trial : paired.trials) sum += weight_of(trial);
-  for (std::size_t i = 0; i < paired.pairs.size() && sum > 0; ++i) {
-    const double factor = weight_of(paired.trials[i]) * static_cast<double>(paired.pairs.size()) / sum;
-    paired.pairs[i] = {factor * paired.pairs[i].baseline, factor * paired.pairs[i].method};
-  }
-}
-
-}  // namespace
 
 PairedWorlds PairsOf(const ConditionTable& table, const std::string& baseline, const std::string& method,
                      const std::string& metric) {

@@ -59,20 +59,6 @@ TransitionWay WayOf(const TransitionOptions& options) {
   return way;
 }
 
-}  // namespace
-
-TransitionWay WayNamed(const std::string& choice, const std::string& join) {
-  return {.choice = &ChoiceNamed(choice), .join = &JoinNamed(join)};
-}
-
-std::vector<std::string> TransitionChoices() { return ChoiceNames(); }
-std::vector<std::string> TransitionJoins() { return JoinNames(); }
-
-std::vector<NumberSetting> TransitionChoiceSettings(const std::string& choice) { return ChoiceNamed(choice).settings; }
-std::vector<NumberSetting> TransitionJoinSettings(const std::string& join) { return JoinNamed(join).settings; }
-
-namespace {
-
 etude::BodyProportions ToEngineProportions(const BodyProportions& told) {
   constexpr double kLowest = 0.1, kHighest = 10;  // range of the hips' height, metres
   if (!(told.hip_height >= kLowest && told.hip_height <= kHighest)) {
@@ -84,6 +70,16 @@ etude::BodyProportions ToEngineProportions(const BodyProportions& told) {
 }
 
 }  // namespace
+
+TransitionWay WayNamed(const std::string& choice, const std::string& join) {
+  return {.choice = &ChoiceNamed(choice), .join = &JoinNamed(join)};
+}
+
+std::vector<std::string> TransitionChoices() { return ChoiceNames(); }
+std::vector<std::string> TransitionJoins() { return JoinNames(); }
+
+std::vector<NumberSetting> TransitionChoiceSettings(const std::string& choice) { return ChoiceNamed(choice).settings; }
+std::vector<NumberSetting> TransitionJoinSettings(const std::string& join) { return JoinNamed(join).settings; }
 
 struct TransitionLibrary::Library {
   MotionLibrary clips;

@@ -18,19 +18,6 @@ bool BeginsFormula(std::string_view text) {
   return !text.empty() && std::ranges::find(kSigns, FirstCharacter(text).code) != kSigns.end();
 }
 
-}  // namespace
-
-std::string CsvText(std::string_view text) {
-  std::string field = Visible(text);
-  if (BeginsFormula(field)) field.insert(0, 1, '\'');
-  if (field.find_first_of(",;\"") == std::string::npos) return field;
-  std::string quoted = "\"";
-  for (const char c : field) quoted += c == '"' ? std::string("\"\"") : std::string(1, c);
-  return quoted + '"';
-}
-
-namespace {
-
 /// Takes the first cell and the separator behind it off a row. Sets `is_last` if no separator is behind it. Returns
 /// nullopt if the cell begins with a quote and does not end with one.
 std::optional<std::string> TakeCell(std::string_view& row, char separator, bool& is_last) {
@@ -58,6 +45,15 @@ std::optional<std::string> TakeCell(std::string_view& row, char separator, bool&
 }
 
 }  // namespace
+
+std::string CsvText(std::string_view text) {
+  std::string field = Visible(text);
+  if (BeginsFormula(field)) field.insert(0, 1, '\'');
+  if (field.find_first_of(",;\"") == std::string::npos) return field;
+  std::string quoted = "\"";
+  for (const char c : field) quoted += c == '"' ? std::string("\"\"") : std::string(1, c);
+  return quoted + '"';
+}
 
 Result<std::vector<CsvRow>> ReadCsv(std::string_view text, const std::string& file) {
   text = WithoutByteOrderMark(text);

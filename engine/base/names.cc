@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cctype>
 
+#include "engine/base/text.h"
 #include "engine/base/utf8.h"
 
 namespace etude {
@@ -13,9 +14,7 @@ namespace {
 
 /// Returns the Damerau-Levenshtein distance in its "optimal string alignment" form, ignoring case.
 int EditDistance(std::string_view a, std::string_view b) {
-  const auto same = [](char x, char y) {
-    return std::tolower(static_cast<unsigned char>(x)) == std::tolower(static_cast<unsigned char>(y));
-  };
+  const auto same = [](char x, char y) { return ToLower(x) == ToLower(y); };
   std::vector<std::vector<int>> cost(a.size() + 1, std::vector<int>(b.size() + 1));
   for (std::size_t i = 0; i <= a.size(); ++i) cost[i][0] = static_cast<int>(i);
   for (std::size_t j = 0; j <= b.size(); ++j) cost[0][j] = static_cast<int>(j);
@@ -63,7 +62,7 @@ std::string Join(std::span<const std::string> items, std::string_view separator)
 std::string ComparedName(std::string_view name) {
   std::string letters;
   for (const char c : name) {
-    if (c != ' ') letters += c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
+    if (c != ' ') letters += ToLower(c);
   }
   return letters;
 }

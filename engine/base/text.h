@@ -5,10 +5,29 @@
 #include <cmath>
 #include <cstddef>
 #include <optional>
+#include <string>
 #include <string_view>
 #include <vector>
 
 namespace etude {
+
+// Letters and digits of ASCII, in every locale.
+constexpr bool IsLower(char c) { return c >= 'a' && c <= 'z'; }
+constexpr bool IsUpper(char c) { return c >= 'A' && c <= 'Z'; }
+constexpr bool IsDigit(char c) { return c >= '0' && c <= '9'; }
+constexpr char ToLower(char c) { return IsUpper(c) ? static_cast<char>(c - 'A' + 'a') : c; }
+constexpr char ToUpper(char c) { return IsLower(c) ? static_cast<char>(c - 'a' + 'A') : c; }
+inline std::string InLowerCase(std::string text) {
+  std::ranges::transform(text, text.begin(), ToLower);
+  return text;
+}
+inline std::string InUpperCase(std::string text) {
+  std::ranges::transform(text, text.begin(), ToUpper);
+  return text;
+}
+inline bool EqualsIgnoringCase(std::string_view a, std::string_view b) {
+  return std::ranges::equal(a, b, {}, ToLower, ToLower);
+}
 
 /// Returns the text without the spaces, tabs and carriage returns at its ends.
 inline std::string_view Trimmed(std::string_view text) {

@@ -87,6 +87,16 @@ glm::dmat2 JacobianOf(const Distortion& d, const glm::dvec2& ray) {
           (Distort(d, ray + y) - Distort(d, ray - y)) / (2 * kStep)};
 }
 
+/// Returns the ray (x, y, 1), in the camera's frame, of a pinhole's pixel; PixelOf is its inverse.
+glm::dvec2 RayOf(const Intrinsics& in, const glm::dvec2& pixel) {
+  const double y = (pixel.y - in.cy) / in.fy;
+  return {(pixel.x - in.cx - in.skew * y) / in.fx, y};
+}
+
+glm::dvec2 PixelOf(const Intrinsics& in, const glm::dvec2& ray) {
+  return {in.fx * ray.x + in.skew * ray.y + in.cx, in.fy * ray.y + in.cy};
+}
+
 }  // namespace
 
 glm::dvec2 Distort(const Distortion& d, const glm::dvec2& ray) {
@@ -145,20 +155,6 @@ std::optional<glm::dvec2> Project(const ProjectionMatrix& matrix, const glm::dve
   if (!(p.z > kOnThePlane)) return std::nullopt;
   return glm::dvec2(p.x / p.z, p.y / p.z);
 }
-
-namespace {
-
-/// Returns the ray (x, y, 1), in the camera's frame, of a pinhole's pixel; PixelOf is its inverse.
-glm::dvec2 RayOf(const Intrinsics& in, const glm::dvec2& pixel) {
-  const double y = (pixel.y - in.cy) / in.fy;
-  return {(pixel.x - in.cx - in.skew * y) / in.fx, y};
-}
-
-glm::dvec2 PixelOf(const Intrinsics& in, const glm::dvec2& ray) {
-  return {in.fx * ray.x + in.skew * ray.y + in.cx, in.fy * ray.y + in.cy};
-}
-
-}  // namespace
 
 std::optional<glm::dvec2> Project(const Camera& camera, const glm::dvec3& p_WQ) {
   const auto pixel = Project(MatrixOf(camera), p_WQ);

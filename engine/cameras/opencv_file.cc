@@ -79,6 +79,13 @@ Result<Distortion> DistortionOf(const OpenCvParameters& p) {
                     .tau_y = c[13]};
 }
 
+std::string Matrix(std::string_view name, int rows, int columns, const std::vector<double>& values) {
+  std::vector<std::string> texts;
+  for (const double value : values) texts.push_back(RealText(value, "."));
+  return fmt::format("{}: !!opencv-matrix\n   rows: {}\n   cols: {}\n   dt: d\n   data: [ {} ]\n", name, rows, columns,
+                     fmt::join(texts, ", "));
+}
+
 }  // namespace
 
 OpenCvParameters ParametersOf(const Camera& camera) {
@@ -143,17 +150,6 @@ std::string RealText(double value, std::string_view point) {
   if (text.find_first_of(".en") == std::string::npos) text += point;
   return text;
 }
-
-namespace {
-
-std::string Matrix(std::string_view name, int rows, int columns, const std::vector<double>& values) {
-  std::vector<std::string> texts;
-  for (const double value : values) texts.push_back(RealText(value, "."));
-  return fmt::format("{}: !!opencv-matrix\n   rows: {}\n   cols: {}\n   dt: d\n   data: [ {} ]\n", name, rows, columns,
-                     fmt::join(texts, ", "));
-}
-
-}  // namespace
 
 std::string WriteOpenCvCamera(const Camera& camera) {
   const OpenCvParameters p = ParametersOf(camera);

@@ -24,6 +24,9 @@ struct OpenCvParameters {
   bool is_fisheye = false;
 };
 
+/// Rotates from a world with Z up to ours: (x, y, z) becomes (y, z, x).
+inline const glm::dmat3 kYUpOfZUp(0, 0, 1, 1, 0, 0, 0, 1, 0);
+
 /// Returns the camera's parameters, with 5, 8, 12 or 14 distortion coefficients: the smallest of these counts that
 /// keeps all coefficients other than 0. A fisheye camera always has 4.
 OpenCvParameters ParametersOf(const Camera& camera);

@@ -14,9 +14,6 @@
 namespace etude {
 namespace {
 
-/// Rotates our world (Y up) into Pose2Sim's (Z up): (x, y, z) becomes (z, x, y).
-const glm::dmat3 kZUpOfYUp = glm::transpose(glm::dmat3(0, 0, 1, 1, 0, 0, 0, 1, 0));
-
 std::string Vector(std::span<const double> values) {
   std::string text;
   for (const double value : values) text += (text.empty() ? "[ " : ", ") + RealText(value, ".0");
@@ -36,7 +33,7 @@ std::string Table(const NamedCamera& named) {
   const OpenCvParameters p = ParametersOf(named.camera);
   const std::vector<double>& K = p.camera_matrix;
   const std::size_t all = p.distortion.size(), coefficients = all == 5 && p.distortion[4] == 0 ? 4 : all;
-  const glm::dvec3 rotation = RodriguesOf(p.R * glm::transpose(kZUpOfYUp));
+  const glm::dvec3 rotation = RodriguesOf(p.R * kYUpOfZUp);
   const auto row = [&](std::size_t i) { return Vector(std::span(K).subspan(3 * i, 3)); };
   return fmt::format("[{0}]\nname = \"{0}\"\nsize = {1}\nmatrix = [ {2}, {3}, {4}]\n", named.name,
                      Vector(std::array{p.width, p.height}), row(0), row(1), row(2)) +
@@ -109,7 +106,7 @@ Result<OpenCvParameters> ReadPlanned(const std::string& name, const Keys& keys, 
                    ValuesOf(name, keys, {{"size", 2}, {"fov_deg", 1}, {"position", 3}, {"look_at", 3}}, place));
   const auto point = [&](const char* key) {
     const auto& v = values[key];
-    return glm::transpose(kZUpOfYUp) * glm::dvec3(v[0], v[1], v[2]);
+    return kYUpOfZUp * glm::dvec3(v[0], v[1], v[2]);
   };
   const glm::dvec3 p_WC = point("position"), p_WT = point("look_at");
   const double fov = values["fov_deg"][0], width = values["size"][0], height = values["size"][1];
@@ -150,7 +147,7 @@ Result<OpenCvParameters> ReadCalibrated(const std::string& name, const Keys& key
                           .height = values["size"][1],
                           .camera_matrix = values["matrix"],
                           .distortion = values["distortions"],
-                          .R = Orthonormal(*R) * kZUpOfYUp,
+                          .R = Orthonormal(*R) * glm::transpose(kYUpOfZUp),
                           .T = {t[0], t[1], t[2]},
                           .is_fisheye = fisheye != keys.end() && fisheye->second == "true"};
 }

@@ -158,9 +158,9 @@ std::string Indented(std::string_view text) {
 
 /// Makes a valid key of FileStorage: a word that begins with a letter.
 std::string FileStorageName(std::string name) {
-  const auto is_letter = [](char c) { return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || c == '_'; };
+  const auto is_letter = [](char c) { return IsLower(c) || IsUpper(c) || c == '_'; };
   for (char& c : name) {
-    if (!is_letter(c) && !(c >= '0' && c <= '9')) c = '_';
+    if (!is_letter(c) && !IsDigit(c)) c = '_';
   }
   if (name.empty() || !is_letter(name.front()) || name == "cameras") name.insert(0, "camera_");
   return name;
@@ -223,8 +223,6 @@ std::string WithoutDirective(std::string_view text) {
   if (plain.starts_with("%YAML:")) plain.replace(0, std::min(plain.find('\n'), plain.size()), "#");
   return plain;
 }
-
-const glm::dmat3 kYUpOfZUp(0, 0, 1, 1, 0, 0, 0, 1, 0);  // (x, y, z) of the file is our (y, z, x)
 
 // Recognises the format of `text` by its first characters or by its keys, and reads the rig.
 Result<RigFile> Read(std::string_view text, const std::string& file) {

@@ -36,9 +36,8 @@ Result<std::vector<double>> MatrixAt(const Node& camera, std::string_view key, s
 
 namespace {
 
-/// Rotates from the file's axes to ours as if the file had Z up. This is not so for OpenCV's stereo pair and COLMAP;
-/// their up axis must be found separately (PlacementOptions::up).
-const glm::dmat3 kOursOfZUp(0, 0, 1, 1, 0, 0, 0, 1, 0);
+// All these files are read as if they had Z up (kYUpOfZUp). This is not so for OpenCV's stereo pair and COLMAP; their
+// up axis must be found separately (PlacementOptions::up).
 
 /// Makes the camera in our world; the picture size is 0 × 0 if the file states none.
 Result<NamedCamera> CameraIn(const std::string& name, OpenCvParameters p, const glm::dmat3& R_WF, const Place& place) {
@@ -57,7 +56,7 @@ Result<RigFile> ReadEasyMocap(const Node& intrinsics, const Node& extrinsics) {
   const Node* names = intrinsics.Find("names");
   if (names == nullptr) return Fail(intrinsics.place, "no list 'names'");
   ASSIGN_OR_RETURN(const auto listed, AsTexts(*names));
-  RigFile rig{.cameras = {}, .format = "EasyMocap", .R_WF = kOursOfZUp};
+  RigFile rig{.cameras = {}, .format = "EasyMocap", .R_WF = kYUpOfZUp};
   for (const std::string& name : listed) {
     OpenCvParameters p;
     ASSIGN_OR_RETURN(p.camera_matrix, MatrixAt(intrinsics, "K_" + name, 3, 3));
@@ -81,7 +80,7 @@ Result<RigFile> ReadEasyMocap(const Node& intrinsics, const Node& extrinsics) {
 }
 
 Result<RigFile> ReadOpenCvStereo(const Node& intrinsics, const Node& extrinsics) {
-  RigFile rig{.cameras = {}, .format = "OpenCV stereo", .R_WF = kOursOfZUp};
+  RigFile rig{.cameras = {}, .format = "OpenCV stereo", .R_WF = kYUpOfZUp};
   for (const char* number : {"1", "2"}) {
     OpenCvParameters p;
     ASSIGN_OR_RETURN(p.camera_matrix, MatrixAt(intrinsics, std::string("M") + number, 3, 3));
@@ -229,7 +228,7 @@ Result<RigFile> ReadColmap(std::string_view cameras, std::string_view images, co
     ASSIGN_OR_RETURN(inside[line.words.front()], InsideOf(line));
     lines[line.words.front()] = line.number;
   }
-  RigFile rig{.cameras = {}, .format = "COLMAP", .R_WF = kOursOfZUp, .has_unit = false};
+  RigFile rig{.cameras = {}, .format = "COLMAP", .R_WF = kYUpOfZUp, .has_unit = false};
   std::vector<std::string> paths;
   // Each image has two lines; the second one lists its points and is skipped.
   bool is_points = false;

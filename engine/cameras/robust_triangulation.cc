@@ -109,35 +109,6 @@ std::optional<DistanceOfView> DistancesFrom(std::span<const Sighting> sightings,
   return distances;
 }
 
-}  // namespace
-
-std::vector<std::size_t> AgreeingViews(std::span<const Sighting> sightings, double tolerance_px,
-                                       std::span<const double> weights) {
-  assert(weights.empty() || weights.size() == sightings.size());
-  return LargestConsensus(sightings.size(), tolerance_px, weights,
-                          [&](std::size_t i, std::size_t j) { return DistancesFrom(sightings, i, j); });
-}
-
-std::vector<std::size_t> AgreeingViews(std::span<const LimbSighting> sightings, double tolerance_px) {
-  std::vector<Sighting> begins, ends;
-  for (const LimbSighting& sighting : sightings) {
-    begins.push_back({sighting.matrix, sighting.stroke.a});
-    ends.push_back({sighting.matrix, sighting.stroke.b});
-  }
-  return LargestConsensus(sightings.size(), tolerance_px, {},
-                          [&](std::size_t i, std::size_t j) -> std::optional<DistanceOfView> {
-                            auto distances = DistancesFrom(begins, i, j);
-                            const auto others = DistancesFrom(ends, i, j);
-                            if (!distances || !others) return std::nullopt;
-                            for (std::size_t k = 0; k < distances->size(); ++k) {
-                              (*distances)[k] = std::max((*distances)[k], (*others)[k]);
-                            }
-                            return distances;
-                          });
-}
-
-namespace {
-
 double DistancePx(const Sighting& sighting, const glm::dvec3& p_WQ) {
   const auto pixel = Project(sighting.matrix, p_WQ);
   return pixel ? glm::distance(*pixel, sighting.pixel) : std::numeric_limits<double>::infinity();
@@ -170,6 +141,31 @@ std::optional<glm::dvec3> PointOf(std::span<const WeightedSighting> sightings, c
 }
 
 }  // namespace
+
+std::vector<std::size_t> AgreeingViews(std::span<const Sighting> sightings, double tolerance_px,
+                                       std::span<const double> weights) {
+  assert(weights.empty() || weights.size() == sightings.size());
+  return LargestConsensus(sightings.size(), tolerance_px, weights,
+                          [&](std::size_t i, std::size_t j) { return DistancesFrom(sightings, i, j); });
+}
+
+std::vector<std::size_t> AgreeingViews(std::span<const LimbSighting> sightings, double tolerance_px) {
+  std::vector<Sighting> begins, ends;
+  for (const LimbSighting& sighting : sightings) {
+    begins.push_back({sighting.matrix, sighting.stroke.a});
+    ends.push_back({sighting.matrix, sighting.stroke.b});
+  }
+  return LargestConsensus(sightings.size(), tolerance_px, {},
+                          [&](std::size_t i, std::size_t j) -> std::optional<DistanceOfView> {
+                            auto distances = DistancesFrom(begins, i, j);
+                            const auto others = DistancesFrom(ends, i, j);
+                            if (!distances || !others) return std::nullopt;
+                            for (std::size_t k = 0; k < distances->size(); ++k) {
+                              (*distances)[k] = std::max((*distances)[k], (*others)[k]);
+                            }
+                            return distances;
+                          });
+}
 
 std::optional<RobustPoint> TriangulateRobustly(std::span<const WeightedSighting> sightings,
                                                const RobustOptions& options) {

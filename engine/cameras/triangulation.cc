@@ -62,6 +62,17 @@ TriangulatedPoint TriangulateWeighted(std::span<const Sighting> sightings, std::
   return {PointStatus::kOk, p_WQ, residual};
 }
 
+/// Returns the inverse of the matrix's left 3 × 3 block. The inverse maps pixels to directions in the world.
+glm::dmat3 DirectionsOf(const ProjectionMatrix& matrix) {
+  const auto& h = matrix.h;
+  return glm::inverse(
+      glm::transpose(glm::dmat3(h[0][0], h[0][1], h[0][2], h[1][0], h[1][1], h[1][2], h[2][0], h[2][1], h[2][2])));
+}
+
+glm::dvec3 CentreOf(const ProjectionMatrix& matrix, const glm::dmat3& directions) {
+  return -(directions * glm::dvec3(matrix.h[0][3], matrix.h[1][3], matrix.h[2][3]));
+}
+
 }  // namespace
 
 std::optional<SightLine> SightLineOf(const Sighting& sighting) {
@@ -96,21 +107,6 @@ TriangulatedPoint TriangulateByPixels(std::span<const Sighting> sightings) {
   }
   return point;
 }
-
-namespace {
-
-/// Returns the inverse of the matrix's left 3 × 3 block. The inverse maps pixels to directions in the world.
-glm::dmat3 DirectionsOf(const ProjectionMatrix& matrix) {
-  const auto& h = matrix.h;
-  return glm::inverse(
-      glm::transpose(glm::dmat3(h[0][0], h[0][1], h[0][2], h[1][0], h[1][1], h[1][2], h[2][0], h[2][1], h[2][2])));
-}
-
-glm::dvec3 CentreOf(const ProjectionMatrix& matrix, const glm::dmat3& directions) {
-  return -(directions * glm::dvec3(matrix.h[0][3], matrix.h[1][3], matrix.h[2][3]));
-}
-
-}  // namespace
 
 std::optional<EpipolarGeometry> EpipolarGeometry::Of(const ProjectionMatrix& first, const ProjectionMatrix& second) {
   const glm::dmat3 from_a = DirectionsOf(first), from_b = DirectionsOf(second);

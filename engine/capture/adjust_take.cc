@@ -32,38 +32,6 @@ void AddLengths(const LimbLengths& lengths, TakeBody& made) {
   }
 }
 
-}  // namespace
-
-LimbLengths LimbLengthsOf(std::span<const double> lengths) {
-  assert(lengths.size() == kLimbLengths.size());
-  LimbLengths limbs;
-  for (std::size_t i = 0; i < kLimbLengths.size(); ++i) limbs.*kLimbLengths[i].length = lengths[i];
-  return limbs;
-}
-
-std::array<double, 10> ListOf(const LimbLengths& lengths) {
-  std::array<double, 10> list{};
-  for (std::size_t i = 0; i < list.size(); ++i) list[i] = lengths.*kLimbLengths[i].length;
-  return list;
-}
-
-TakeBody MakeTakeBody(const LimbLengths& lengths) {
-  TakeBody made;
-  made.body = PaperBody(lengths);
-  made.measurable.tree = made.body.tree;
-  made.points.fill(-1);
-  for (const Role role : AllRoles()) {
-    if (role == Role::kHipCentre || role == Role::kSpine) continue;
-    const TreePoint& place = made.body.roles[Index(role)];
-    made.points[Index(role)] = static_cast<int>(made.measurable.points.size());
-    made.measurable.points.push_back({place.joint, place.p_LQ});
-  }
-  AddLengths(lengths, made);
-  return made;
-}
-
-namespace {
-
 /// Returns one start pose per frame, as the root's pose and joint angles. A frame whose joints give no pose takes the
 /// pose of the frame before it; the frames before the first pose take the first pose. Returns an empty list if no frame
 /// gives a pose.
@@ -99,36 +67,6 @@ std::vector<BundleMark> MarksOf(const MeasureInputs& pictures, const TakeBody& b
   }
   return marks;
 }
-
-}  // namespace
-
-BundleSmoothness SmoothnessOf(const TakeBody& body, double rate_hz) {
-  BundleSmoothness smoothness;
-  smoothness.rate_hz = rate_hz;
-  using enum Role;
-  for (const Role role :
-       {kLeftHip, kRightHip, kLeftShoulder, kRightShoulder, kLeftWrist, kRightWrist, kLeftAnkle, kRightAnkle}) {
-    smoothness.points.push_back(body.points[Index(role)]);
-  }
-  return smoothness;
-}
-
-AdjustedTake AdjustTake(const AdjustTakeInputs& inputs, const AdjustTakeOptions& options) {
-  const TakeBody body = MakeTakeBody(inputs.lengths);
-  AdjustedTake take;
-  take.body = body.body;
-  const std::vector<TreeState> start = StartOf(body.body, inputs.start);
-  if (start.empty()) return take;
-  const std::vector<BundleMark> marks = MarksOf(inputs.pictures, body, options.marks);
-  const BundleSolution solution =
-      AdjustBundle({.body = body.measurable, .start = start, .marks = marks}, options.bundle);
-  take.is_solved = solution.is_solved;
-  take.states = solution.states;
-  if (options.bundle.adjusts_lengths) take.body = PaperBody(LimbLengthsOf(solution.lengths));
-  return take;
-}
-
-namespace {
 
 using enum Role;
 
@@ -220,6 +158,60 @@ std::vector<std::size_t> ChooseFrames(std::span<const OptionalJoints> joints, st
 }
 
 }  // namespace
+
+LimbLengths LimbLengthsOf(std::span<const double> lengths) {
+  assert(lengths.size() == kLimbLengths.size());
+  LimbLengths limbs;
+  for (std::size_t i = 0; i < kLimbLengths.size(); ++i) limbs.*kLimbLengths[i].length = lengths[i];
+  return limbs;
+}
+
+std::array<double, 10> ListOf(const LimbLengths& lengths) {
+  std::array<double, 10> list{};
+  for (std::size_t i = 0; i < list.size(); ++i) list[i] = lengths.*kLimbLengths[i].length;
+  return list;
+}
+
+TakeBody MakeTakeBody(const LimbLengths& lengths) {
+  TakeBody made;
+  made.body = PaperBody(lengths);
+  made.measurable.tree = made.body.tree;
+  made.points.fill(-1);
+  for (const Role role : AllRoles()) {
+    if (role == Role::kHipCentre || role == Role::kSpine) continue;
+    const TreePoint& place = made.body.roles[Index(role)];
+    made.points[Index(role)] = static_cast<int>(made.measurable.points.size());
+    made.measurable.points.push_back({place.joint, place.p_LQ});
+  }
+  AddLengths(lengths, made);
+  return made;
+}
+
+BundleSmoothness SmoothnessOf(const TakeBody& body, double rate_hz) {
+  BundleSmoothness smoothness;
+  smoothness.rate_hz = rate_hz;
+  using enum Role;
+  for (const Role role :
+       {kLeftHip, kRightHip, kLeftShoulder, kRightShoulder, kLeftWrist, kRightWrist, kLeftAnkle, kRightAnkle}) {
+    smoothness.points.push_back(body.points[Index(role)]);
+  }
+  return smoothness;
+}
+
+AdjustedTake AdjustTake(const AdjustTakeInputs& inputs, const AdjustTakeOptions& options) {
+  const TakeBody body = MakeTakeBody(inputs.lengths);
+  AdjustedTake take;
+  take.body = body.body;
+  const std::vector<TreeState> start = StartOf(body.body, inputs.start);
+  if (start.empty()) return take;
+  const std::vector<BundleMark> marks = MarksOf(inputs.pictures, body, options.marks);
+  const BundleSolution solution =
+      AdjustBundle({.body = body.measurable, .start = start, .marks = marks}, options.bundle);
+  take.is_solved = solution.is_solved;
+  take.states = solution.states;
+  if (options.bundle.adjusts_lengths) take.body = PaperBody(LimbLengthsOf(solution.lengths));
+  return take;
+}
 
 std::optional<LimbLengths> MeasureLengths(const MeasureInputs& pictures, std::span<const JointMeasurements> measured,
                                           const MeasureLengthsOptions& options) {

@@ -25,26 +25,6 @@ void KeepAgreeing(std::span<const ProjectionMatrix> cameras, double tolerance_px
   }
 }
 
-}  // namespace
-
-std::vector<std::vector<Marks>> AgreeingMarks(std::span<const ProjectionMatrix> cameras,
-                                              std::span<const std::vector<Marks>> marks, double tolerance_px) {
-  std::vector<std::vector<Marks>> agreeing(marks.begin(), marks.end());
-  for (std::size_t frame = 0; frame < agreeing.front().size(); ++frame) {
-    for (std::size_t i = 0; i < kEffectorCount; ++i) {
-      KeepAgreeing<Sighting>(
-          cameras, tolerance_px, [&](std::size_t camera) -> auto& { return agreeing[camera][frame].effectors[i]; });
-    }
-    for (std::size_t i = 0; i < kStrokeCount; ++i) {
-      KeepAgreeing<LimbSighting>(
-          cameras, tolerance_px, [&](std::size_t camera) -> auto& { return agreeing[camera][frame].strokes[i]; });
-    }
-  }
-  return agreeing;
-}
-
-namespace {
-
 /// Measures the marks of one frame.
 class FrameMeasurer {
  public:
@@ -113,6 +93,22 @@ class FrameMeasurer {
 };
 
 }  // namespace
+
+std::vector<std::vector<Marks>> AgreeingMarks(std::span<const ProjectionMatrix> cameras,
+                                              std::span<const std::vector<Marks>> marks, double tolerance_px) {
+  std::vector<std::vector<Marks>> agreeing(marks.begin(), marks.end());
+  for (std::size_t frame = 0; frame < agreeing.front().size(); ++frame) {
+    for (std::size_t i = 0; i < kEffectorCount; ++i) {
+      KeepAgreeing<Sighting>(
+          cameras, tolerance_px, [&](std::size_t camera) -> auto& { return agreeing[camera][frame].effectors[i]; });
+    }
+    for (std::size_t i = 0; i < kStrokeCount; ++i) {
+      KeepAgreeing<LimbSighting>(
+          cameras, tolerance_px, [&](std::size_t camera) -> auto& { return agreeing[camera][frame].strokes[i]; });
+    }
+  }
+  return agreeing;
+}
 
 std::vector<FrameMeasurement> MeasureFrames(const MeasureInputs& inputs, const MeasureOptions& options) {
   assert(inputs.cameras.size() >= 2 && inputs.marks.size() == inputs.cameras.size());

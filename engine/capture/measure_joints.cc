@@ -5,6 +5,7 @@
 #include <cassert>
 #include <cmath>
 
+#include "engine/base/gaps.h"
 #include "engine/base/order_statistics.h"
 #include "engine/cameras/robust_triangulation.h"
 #include "engine/kinematics/limb_lengths.h"
@@ -29,30 +30,6 @@ bool HasDisc(const Marks& marks, Role role) {
   }
   return false;
 }
-
-}  // namespace
-
-std::vector<MarkedJoint> MarkedJointsOf(const Marks& marks, const MarkErrors& errors) {
-  std::vector<MarkedJoint> joints;
-  // Collect the ends of strokes and the discs.
-  for (std::size_t i = 0; i < kStrokeCount; ++i) {
-    if (!marks.strokes[i]) continue;
-    const glm::dmat2 information = InformationOfEnd(*marks.strokes[i], errors);
-    joints.push_back({StrokeMarks()[i].from, marks.strokes[i]->a, information});
-    if (!HasDisc(marks, StrokeMarks()[i].to)) joints.push_back({StrokeMarks()[i].to, marks.strokes[i]->b, information});
-  }
-  const glm::dmat2 of_disc(1 / (errors.mark_error_px * errors.mark_error_px));
-  for (std::size_t i = 0; i < kEffectorCount; ++i) {
-    if (marks.effectors[i]) joints.push_back({EffectorMarks()[i].role, *marks.effectors[i], of_disc});
-  }
-  // Divide the information among all marks of one joint, because the annotator places all these marks by one decision.
-  std::array<int, kRoleCount> count{};
-  for (const MarkedJoint& joint : joints) ++count[Index(joint.role)];
-  for (MarkedJoint& joint : joints) joint.information /= static_cast<double>(count[Index(joint.role)]);
-  return joints;
-}
-
-namespace {
 
 using enum Role;
 
@@ -83,21 +60,17 @@ bool IsMeasured(const PointMeasurement& measurement) { return measurement.inform
 // Fills the gaps of a track linearly, and holds its first and last values.
 std::vector<std::optional<glm::dvec3>> BridgeTrack(std::span<const std::optional<glm::dvec3>> track) {
   std::vector<std::optional<glm::dvec3>> bridged(track.begin(), track.end());
-  // `before` is the last measured frame.
-  std::optional<std::size_t> before;
-  for (std::size_t k = 0; k < track.size(); ++k) {
-    if (!track[k]) continue;
-    for (std::size_t i = before ? *before + 1 : 0; i < k; ++i) {
-      if (!before) {
-        bridged[i] = track[k];
-      } else {
-        const double share = static_cast<double>(i - *before) / static_cast<double>(k - *before);
-        bridged[i] = glm::mix(*track[*before], *track[k], share);
-      }
-    }
-    before = k;
+  const auto is_measured = [&](std::size_t frame) { return track[frame].has_value(); };
+  FillGaps(track.size(), track.size(), is_measured,
+           [&](std::size_t from, std::size_t frame, std::size_t to, double share) {
+             bridged[frame] = glm::mix(*track[from], *track[to], share);
+           });
+  for (std::size_t i = 1; i < bridged.size(); ++i) {
+    if (!bridged[i]) bridged[i] = bridged[i - 1];
   }
-  for (std::size_t i = before ? *before + 1 : track.size(); i < track.size(); ++i) bridged[i] = track[*before];
+  for (std::size_t i = bridged.size(); i-- > 1;) {
+    if (!bridged[i - 1]) bridged[i - 1] = bridged[i];
+  }
   return bridged;
 }
 
@@ -152,6 +125,26 @@ std::optional<glm::dvec3> AcrossOf(const OptionalJoints& joints) {
 double YawOf(const glm::dvec3& across) { return std::atan2(-across.z, across.x); }
 
 }  // namespace
+
+std::vector<MarkedJoint> MarkedJointsOf(const Marks& marks, const MarkErrors& errors) {
+  std::vector<MarkedJoint> joints;
+  // Collect the ends of strokes and the discs.
+  for (std::size_t i = 0; i < kStrokeCount; ++i) {
+    if (!marks.strokes[i]) continue;
+    const glm::dmat2 information = InformationOfEnd(*marks.strokes[i], errors);
+    joints.push_back({StrokeMarks()[i].from, marks.strokes[i]->a, information});
+    if (!HasDisc(marks, StrokeMarks()[i].to)) joints.push_back({StrokeMarks()[i].to, marks.strokes[i]->b, information});
+  }
+  const glm::dmat2 of_disc(1 / (errors.mark_error_px * errors.mark_error_px));
+  for (std::size_t i = 0; i < kEffectorCount; ++i) {
+    if (marks.effectors[i]) joints.push_back({EffectorMarks()[i].role, *marks.effectors[i], of_disc});
+  }
+  // Divide the information among all marks of one joint, because the annotator places all these marks by one decision.
+  std::array<int, kRoleCount> count{};
+  for (const MarkedJoint& joint : joints) ++count[Index(joint.role)];
+  for (MarkedJoint& joint : joints) joint.information /= static_cast<double>(count[Index(joint.role)]);
+  return joints;
+}
 
 std::vector<JointMeasurements> MeasureJoints(const MeasureInputs& inputs, const MarkErrors& errors) {
   assert(inputs.cameras.size() >= 2 && inputs.marks.size() == inputs.cameras.size());

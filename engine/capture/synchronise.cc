@@ -34,6 +34,37 @@ std::optional<ParabolaMinimum> FitParabola(const std::function<std::optional<dou
   return ParabolaMinimum{shift, bend * shift * shift};
 }
 
+using Pixel = OptionalPixel;
+
+Pixel BeginOf(const std::optional<PixelSegment>& stroke) { return stroke ? Pixel(stroke->a) : std::nullopt; }
+Pixel EndOf(const std::optional<PixelSegment>& stroke) { return stroke ? Pixel(stroke->b) : std::nullopt; }
+
+/// Returns the mean squared epipolar distance between the marks of two cameras if the second is late by `offset`
+/// frames; nullopt if they have too few marks in common.
+std::optional<double> Misfit(const EpipolarGeometry& geometry, std::span<const Marks> first,
+                             std::span<const Marks> second, double max_px, double offset) {
+  double sum = 0;
+  int count = 0;
+  const auto add = [&](const Pixel& a, const Pixel& b) {
+    if (!a || !b) return;
+    const double px = std::min(std::abs(geometry.DistancePx(*a, *b)), max_px);
+    sum += px * px;
+    ++count;
+  };
+  for (std::size_t k = 0; k < first.size(); ++k) {
+    const Marks there = MarksAt(second, static_cast<double>(k) - offset);
+    const Marks& here = first[k];
+    for (std::size_t i = 0; i < kEffectorCount; ++i) add(here.effectors[i], there.effectors[i]);
+    for (std::size_t i = 0; i < kStrokeCount; ++i) {
+      add(BeginOf(here.strokes[i]), BeginOf(there.strokes[i]));
+      add(EndOf(here.strokes[i]), EndOf(there.strokes[i]));
+    }
+  }
+  constexpr int kMinPairs = 30;
+  if (count < kMinPairs) return std::nullopt;
+  return sum / count;
+}
+
 }  // namespace
 
 ClockOffset FindOffset(const std::function<std::optional<double>(int offset)>& misfit, int max_frames) {
@@ -72,41 +103,6 @@ OptionalPixel PixelBetween(const OptionalPixel& a, const OptionalPixel& b, const
   return u * u * (1 + 2 * t) * *b + t * t * (3 - 2 * t) * *c + 0.5 * t * u * u * (*c - *a) -
          0.5 * t * t * u * (*d - *b);
 }
-
-namespace {
-
-using Pixel = OptionalPixel;
-
-Pixel BeginOf(const std::optional<PixelSegment>& stroke) { return stroke ? Pixel(stroke->a) : std::nullopt; }
-Pixel EndOf(const std::optional<PixelSegment>& stroke) { return stroke ? Pixel(stroke->b) : std::nullopt; }
-
-/// Returns the mean squared epipolar distance between the marks of two cameras if the second is late by `offset`
-/// frames; nullopt if they have too few marks in common.
-std::optional<double> Misfit(const EpipolarGeometry& geometry, std::span<const Marks> first,
-                             std::span<const Marks> second, double max_px, double offset) {
-  double sum = 0;
-  int count = 0;
-  const auto add = [&](const Pixel& a, const Pixel& b) {
-    if (!a || !b) return;
-    const double px = std::min(std::abs(geometry.DistancePx(*a, *b)), max_px);
-    sum += px * px;
-    ++count;
-  };
-  for (std::size_t k = 0; k < first.size(); ++k) {
-    const Marks there = MarksAt(second, static_cast<double>(k) - offset);
-    const Marks& here = first[k];
-    for (std::size_t i = 0; i < kEffectorCount; ++i) add(here.effectors[i], there.effectors[i]);
-    for (std::size_t i = 0; i < kStrokeCount; ++i) {
-      add(BeginOf(here.strokes[i]), BeginOf(there.strokes[i]));
-      add(EndOf(here.strokes[i]), EndOf(there.strokes[i]));
-    }
-  }
-  constexpr int kMinPairs = 30;
-  if (count < kMinPairs) return std::nullopt;
-  return sum / count;
-}
-
-}  // namespace
 
 Marks MarksAt(std::span<const Marks> track, double frame) {
   const double last = static_cast<double>(track.size()) - 1;

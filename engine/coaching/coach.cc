@@ -14,6 +14,13 @@ namespace {
 constexpr double kTogether = 0.15, kApart = 0.4;
 constexpr int kTogetherFrames = 2, kSwingFrames = 15;
 
+/// The body counts as moving if the mean distance of the tracked joints from their rest positions exceeds this limit
+/// (ours). A resting body moves by millimetres, while an inferred limb can jump by decimetres, so only the mean over
+/// tracked joints counts.
+constexpr double kMovingMetres = 0.025;
+/// The smoothing factor per frame of the rest positions; it corresponds to a time constant of half a second.
+constexpr double kFollowing = 1.0 / 15;
+
 }  // namespace
 
 bool SeeClap(const SensedFrame& frame, ClapState& state) {
@@ -34,17 +41,6 @@ bool SeeClap(const SensedFrame& frame, ClapState& state) {
   state.together = gap < kTogether && left.y > hips && right.y > hips ? state.together + 1 : 0;
   return state.together == kTogetherFrames && state.since_apart <= kSwingFrames;
 }
-
-namespace {
-
-/// The body counts as moving if the mean distance of the tracked joints from their rest positions exceeds this limit
-/// (ours). A resting body moves by millimetres, while an inferred limb can jump by decimetres, so only the mean over
-/// tracked joints counts.
-constexpr double kMovingMetres = 0.025;
-/// The smoothing factor per frame of the rest positions; it corresponds to a time constant of half a second.
-constexpr double kFollowing = 1.0 / 15;
-
-}  // namespace
 
 bool SeeMotion(const SensedFrame& frame, StillnessState& state) {
   ++state.frames;

@@ -35,6 +35,62 @@ ShownPath CutTo(const BodyPose& left, const BodyMotion& wanted, bool home) {
   return path;
 }
 
+/// Returns the move that applies `inner` first, then `outer`.
+FloorMove After(const FloorMove& outer, const FloorMove& inner) {
+  const glm::dvec3 shift = outer.Apply(glm::dvec3(inner.x, 0, inner.z));
+  return {.yaw = outer.yaw + inner.yaw, .x = shift.x, .z = shift.z};
+}
+
+/// Returns the floor move of the path's clip in the world.
+FloorMove ClipPlace(const Playback& playback) { return After(playback.place, playback.path->place); }
+
+BodyPose DancePose(const Dance& dance, double frame) {
+  const auto& poses = dance.motion.poses;
+  const auto last = static_cast<double>(poses.size() - 1);
+  const double at = std::clamp(frame, 0.0, last);
+  const auto before = static_cast<std::size_t>(at);
+  return PoseBetween(poses[before], poses[std::min(before + 1, poses.size() - 1)], at - std::floor(at));
+}
+
+/// Returns a frame of a path. After the path's last frame, its clip continues: a loop is repeated; any other clip keeps
+/// its last pose.
+BodyPose PathPose(const Playback& playback, const DanceLibrary& library, std::size_t frame) {
+  const ShownPath& path = *playback.path;
+  if (frame < path.frames.size()) return playback.place.Apply(path.frames[frame]);
+  const std::vector<BodyPose>& clip = library.library().motions[path.clip].poses;
+  const std::size_t since = static_cast<std::size_t>(path.clip_frame) + frame - path.entered;
+  const std::size_t index = library.IsLoop(path.clip) ? since % clip.size() : std::min(since, clip.size() - 1);
+  return ClipPlace(playback).Apply(clip[index]);
+}
+
+/// The point at which a transition leaves the playing clip: the clip, the last whole frame that was shown, the fraction
+/// of a frame that was shown after this frame, and the place of the clip on the floor.
+struct Leaving {
+  int clip = 0;
+  int frame = 0;
+  double beyond = 0;
+  FloorMove place;
+};
+
+Leaving LeavingOf(const Playback& playback, const DanceLibrary& library) {
+  Leaving leaving;
+  double frame = 0;
+  if (playback.path) {
+    const PlayedClip played = PlayedOf(playback, library);
+    leaving.clip = played.clip;
+    leaving.place = ClipPlace(playback);
+    frame = played.frame;
+  } else {
+    leaving.clip = library.ClipLeaving(library.RepetitionAt(playback.dance_frame));
+    frame = playback.dance_frame - static_cast<double>(library.DanceFrameOf(leaving.clip));
+  }
+  const auto last = static_cast<double>(library.library().motions[leaving.clip].poses.size() - 1);
+  frame = std::clamp(frame, 0.0, last);
+  leaving.frame = static_cast<int>(frame);
+  leaving.beyond = frame - std::floor(frame);
+  return leaving;
+}
+
 }  // namespace
 
 DanceTransitions::DanceTransitions(const DanceLibrary& library, TransitionWay way)
@@ -106,66 +162,6 @@ std::shared_ptr<const ShownPath> DanceTransitions::Splice(int from, int frame, c
   path->record = record;
   return path;
 }
-
-namespace {
-
-/// Returns the move that applies `inner` first, then `outer`.
-FloorMove After(const FloorMove& outer, const FloorMove& inner) {
-  const glm::dvec3 shift = outer.Apply(glm::dvec3(inner.x, 0, inner.z));
-  return {.yaw = outer.yaw + inner.yaw, .x = shift.x, .z = shift.z};
-}
-
-/// Returns the floor move of the path's clip in the world.
-FloorMove ClipPlace(const Playback& playback) { return After(playback.place, playback.path->place); }
-
-BodyPose DancePose(const Dance& dance, double frame) {
-  const auto& poses = dance.motion.poses;
-  const auto last = static_cast<double>(poses.size() - 1);
-  const double at = std::clamp(frame, 0.0, last);
-  const auto before = static_cast<std::size_t>(at);
-  return PoseBetween(poses[before], poses[std::min(before + 1, poses.size() - 1)], at - std::floor(at));
-}
-
-/// Returns a frame of a path. After the path's last frame, its clip continues: a loop is repeated; any other clip keeps
-/// its last pose.
-BodyPose PathPose(const Playback& playback, const DanceLibrary& library, std::size_t frame) {
-  const ShownPath& path = *playback.path;
-  if (frame < path.frames.size()) return playback.place.Apply(path.frames[frame]);
-  const std::vector<BodyPose>& clip = library.library().motions[path.clip].poses;
-  const std::size_t since = static_cast<std::size_t>(path.clip_frame) + frame - path.entered;
-  const std::size_t index = library.IsLoop(path.clip) ? since % clip.size() : std::min(since, clip.size() - 1);
-  return ClipPlace(playback).Apply(clip[index]);
-}
-
-/// The point at which a transition leaves the playing clip: the clip, the last whole frame that was shown, the fraction
-/// of a frame that was shown after this frame, and the place of the clip on the floor.
-struct Leaving {
-  int clip = 0;
-  int frame = 0;
-  double beyond = 0;
-  FloorMove place;
-};
-
-Leaving LeavingOf(const Playback& playback, const DanceLibrary& library) {
-  Leaving leaving;
-  double frame = 0;
-  if (playback.path) {
-    const PlayedClip played = PlayedOf(playback, library);
-    leaving.clip = played.clip;
-    leaving.place = ClipPlace(playback);
-    frame = played.frame;
-  } else {
-    leaving.clip = library.ClipLeaving(library.RepetitionAt(playback.dance_frame));
-    frame = playback.dance_frame - static_cast<double>(library.DanceFrameOf(leaving.clip));
-  }
-  const auto last = static_cast<double>(library.library().motions[leaving.clip].poses.size() - 1);
-  frame = std::clamp(frame, 0.0, last);
-  leaving.frame = static_cast<int>(frame);
-  leaving.beyond = frame - std::floor(frame);
-  return leaving;
-}
-
-}  // namespace
 
 PlayedClip PlayedOf(const Playback& playback, const DanceLibrary& library) {
   const ShownPath& path = *playback.path;

@@ -280,33 +280,6 @@ Result<LocalTransform> ReadTransform(const AcclaimLines& lines, const AcclaimSke
   return local;
 }
 
-}  // namespace
-
-bool IsAcclaimMotion(std::string_view text) {
-  AcclaimLines lines(text.substr(0, 4096), "");
-  const auto is_of_motion = [&](const char* section) { return lines.IsSection(section); };
-  if (!lines.Next() || !lines.IsSection()) return false;
-  if (std::ranges::any_of(std::array{":FULLY-SPECIFIED", ":DEGREES", ":RADIANS"}, is_of_motion)) return true;
-  while (lines.IsSection()) {
-    if (!lines.Next()) return false;
-  }
-  return lines.words.size() == 1 && lines.Number(0).has_value();
-}
-
-Result<AcclaimSkeleton> ReadAcclaimSkeleton(std::string_view text, const std::string& file) {
-  SkeletonReader reader(text, file, false);
-  auto read = reader.Read();
-  if (!read || !reader.ExceedsRadians()) return read;
-  read = SkeletonReader(text, file, true).Read();
-  if (read) {
-    read->remark =
-        "the skeleton file states radians, but Etude reads its angles as degrees, because some angles exceed 4π";
-  }
-  return read;
-}
-
-namespace {
-
 /// The frames of a motion, and the largest angles of its root and of all other bones in the file's unit.
 struct AcclaimFrames {
   Clip clip;
@@ -394,6 +367,29 @@ Result<AcclaimFrames> ReadFrames(std::string_view text, const AcclaimSkeleton& s
 }
 
 }  // namespace
+
+bool IsAcclaimMotion(std::string_view text) {
+  AcclaimLines lines(text.substr(0, 4096), "");
+  const auto is_of_motion = [&](const char* section) { return lines.IsSection(section); };
+  if (!lines.Next() || !lines.IsSection()) return false;
+  if (std::ranges::any_of(std::array{":FULLY-SPECIFIED", ":DEGREES", ":RADIANS"}, is_of_motion)) return true;
+  while (lines.IsSection()) {
+    if (!lines.Next()) return false;
+  }
+  return lines.words.size() == 1 && lines.Number(0).has_value();
+}
+
+Result<AcclaimSkeleton> ReadAcclaimSkeleton(std::string_view text, const std::string& file) {
+  SkeletonReader reader(text, file, false);
+  auto read = reader.Read();
+  if (!read || !reader.ExceedsRadians()) return read;
+  read = SkeletonReader(text, file, true).Read();
+  if (read) {
+    read->remark =
+        "the skeleton file states radians, but Etude reads its angles as degrees, because some angles exceed 4π";
+  }
+  return read;
+}
 
 Result<Clip> ReadAcclaimMotion(std::string_view text, const AcclaimSkeleton& skeleton, const std::string& file,
                                AcclaimFacts* facts) {

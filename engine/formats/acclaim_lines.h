@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "engine/base/result.h"
+#include "engine/base/text.h"
 #include "engine/formats/text_scanner.h"
 
 namespace etude {
@@ -36,10 +37,9 @@ class AcclaimLines {
   }
 
   bool Is(std::string_view first) const { return !words.empty() && words.front().text == first; }
-  /// Returns true if the first word is `section`, which is in capital letters, in any case.
+  /// Returns true if the first word is `section`, in any case.
   bool IsSection(std::string_view section) const {
-    const auto upper = [](char c) { return c >= 'a' && c <= 'z' ? static_cast<char>(c - 'a' + 'A') : c; };
-    return !words.empty() && std::ranges::equal(words.front().text, section, {}, upper);
+    return !words.empty() && EqualsIgnoringCase(words.front().text, section);
   }
   bool IsSection() const { return !words.empty() && words.front().text.starts_with(':'); }
   Place At(std::size_t word = 0) const {

@@ -49,23 +49,6 @@ const std::array<SmplJoint, kJoints + 5> kSmpl = {{{"pelvis", -1, {0, 0, 0}},
                                                    {"left_hand_end", 20, {0.18, 0, 0}, true},
                                                    {"right_hand_end", 21, {-0.18, 0, 0}, true}}};
 
-}  // namespace
-
-Skeleton SmplSkeleton() {
-  Skeleton skeleton;
-  for (const SmplJoint& joint : kSmpl) {
-    skeleton.joints.push_back({.name = joint.name,
-                               .parent = joint.parent,
-                               .rest = {.translation = joint.offset},
-                               .is_end_site = joint.is_end_site});
-  }
-  // The recordings have Z up and rotate the pelvis accordingly, so the rest pose rotates the pelvis in the same way.
-  skeleton.joints.front().rest.rotation = glm::angleAxis(kPi / 2, glm::dvec3(1, 0, 0));
-  return skeleton;
-}
-
-namespace {
-
 glm::dquat TurnOf(const double* axis_times_angle) {
   const glm::dvec3 turn(axis_times_angle[0], axis_times_angle[1], axis_times_angle[2]);
   const double angle = glm::length(turn);
@@ -80,6 +63,19 @@ std::size_t WidthOf(const NumberArray* array) {
 }
 
 }  // namespace
+
+Skeleton SmplSkeleton() {
+  Skeleton skeleton;
+  for (const SmplJoint& joint : kSmpl) {
+    skeleton.joints.push_back({.name = joint.name,
+                               .parent = joint.parent,
+                               .rest = {.translation = joint.offset},
+                               .is_end_site = joint.is_end_site});
+  }
+  // The recordings have Z up and rotate the pelvis accordingly, so the rest pose rotates the pelvis in the same way.
+  skeleton.joints.front().rest.rotation = glm::angleAxis(kPi / 2, glm::dvec3(1, 0, 0));
+  return skeleton;
+}
 
 Result<Clip> ReadAmass(const Npz& npz, const std::string& file, std::optional<double> told_hz,
                        std::vector<std::string>* remarks) {

@@ -14,10 +14,11 @@
 #include "engine/base/names.h"
 #include "engine/base/order_statistics.h"
 #include "engine/base/result.h"
+#include "engine/base/text.h"
 #include "engine/formats/bvh.h"
+#include "engine/formats/row_rates.h"
 #include "engine/formats/text_scanner.h"
 #include "engine/formats/unique_names.h"
-#include "engine/formats/usual_rates.h"
 #include "engine/motion/body.h"
 #include "engine/motion/clip.h"
 
@@ -45,13 +46,6 @@ constexpr int kMaxChannels = 6;
 constexpr std::array<std::string_view, kMaxChannels> kChannelNames = {"Xposition", "Yposition", "Zposition",
                                                                       "Xrotation", "Yrotation", "Zrotation"};
 
-char Lower(char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c; }
-
-/// Returns true if two words are equal ignoring case (ASCII).
-bool SameWord(std::string_view a, std::string_view b) {
-  return std::ranges::equal(a, b, [](char x, char y) { return Lower(x) == Lower(y); });
-}
-
 class HierarchyReader {
  public:
   explicit HierarchyReader(TextScanner& scanner) : scanner_(scanner) {}
@@ -61,10 +55,10 @@ class HierarchyReader {
     RETURN_IF_ERROR(Expect("ROOT"));
     RETURN_IF_ERROR(ReadJoint(-1, 1));
     const Token after = scanner_.Next();
-    if (SameWord(after.text, "ROOT")) {
+    if (EqualsIgnoringCase(after.text, "ROOT")) {
       return Fail(scanner_.At(after), "found a second ROOT; allowed: one skeleton per file");
     }
-    if (!SameWord(after.text, "MOTION")) return Unexpected(after, "MOTION after the root's closing '}'");
+    if (!EqualsIgnoringCase(after.text, "MOTION")) return Unexpected(after, "MOTION after the root's closing '}'");
     if (hierarchy_.channels.empty()) {
       return Fail(scanner_.At(after), "no joint has channels; at least one is needed");
     }
@@ -78,7 +72,7 @@ class HierarchyReader {
 
   Result<void> Expect(std::string_view word) {
     const Token token = scanner_.Next();
-    if (!SameWord(token.text, word)) return Unexpected(token, word);
+    if (!EqualsIgnoringCase(token.text, word)) return Unexpected(token, word);
     return {};
   }
 
@@ -104,16 +98,16 @@ class HierarchyReader {
       if (token.text == "}") {
         if (!has_offset) return Unexpected(token, "OFFSET, which every joint needs");
         return {};
-      } else if (SameWord(token.text, "OFFSET") && !has_offset) {
+      } else if (EqualsIgnoringCase(token.text, "OFFSET") && !has_offset) {
         has_offset = true;
         ok = ReadOffset(index);
-      } else if (SameWord(token.text, "CHANNELS") && !has_channels && !has_children) {
+      } else if (EqualsIgnoringCase(token.text, "CHANNELS") && !has_channels && !has_children) {
         has_channels = true;
         ok = ReadChannels(index);
-      } else if (SameWord(token.text, "JOINT")) {
+      } else if (EqualsIgnoringCase(token.text, "JOINT")) {
         has_children = true;
         ok = ReadJoint(index, depth + 1);
-      } else if (SameWord(token.text, "End")) {
+      } else if (EqualsIgnoringCase(token.text, "End")) {
         has_children = true;
         ok = ReadEndSite(index, token, depth + 1);
       } else {
@@ -164,8 +158,8 @@ class HierarchyReader {
     std::array<bool, kMaxChannels> seen{};
     for (int i = 0; i < count; ++i) {
       const Token token = scanner_.Next();
-      const auto known =
-          std::ranges::find_if(kChannelNames, [&](std::string_view name) { return SameWord(name, token.text); });
+      const auto known = std::ranges::find_if(
+          kChannelNames, [&](std::string_view name) { return EqualsIgnoringCase(name, token.text); });
       if (known == kChannelNames.end()) {
         return Unexpected(token, fmt::format("{} channels out of {}", count, fmt::join(kChannelNames, ", ")));
       }
@@ -235,7 +229,7 @@ std::string DescribeRoughTime(const Token& printed, double seconds, double frame
 Result<void> ExpectWords(TextScanner& scanner, std::initializer_list<std::string_view> words) {
   for (std::string_view word : words) {
     const Token token = scanner.Next();
-    if (!SameWord(token.text, word)) {
+    if (!EqualsIgnoringCase(token.text, word)) {
       return Fail(scanner.At(token), "found {}; expected {}, as in \"Frames: <count>\" and \"Frame Time: <seconds>\"",
                   Quote(token.text), Quote(word));
     }

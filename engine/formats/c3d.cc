@@ -13,6 +13,7 @@
 #include <utility>
 
 #include "engine/base/names.h"
+#include "engine/base/text.h"
 #include "engine/formats/c3d_parameters.h"
 #include "engine/formats/length_units.h"
 
@@ -102,8 +103,7 @@ std::set<std::string> LabelsOfOtherQuantities(const C3dParameters& parameters) {
   for (const std::string_view type : kTypes) lists.insert(std::string(type) + "S");
   // The entries of TYPE_GROUPS are pairs: a type, and the name of the list.
   auto groups = parameters.Texts("POINT:TYPE_GROUPS", kMaxGroups);
-  const auto upper = [](char c) { return c >= 'a' && c <= 'z' ? static_cast<char>(c - 'a' + 'A') : c; };
-  for (std::string& name : groups) std::ranges::transform(name, name.begin(), upper);
+  for (std::string& name : groups) name = InUpperCase(std::move(name));
   for (std::size_t i = 0; i + 1 < groups.size(); i += 2) {
     const bool is_other = std::ranges::any_of(kTypes, [&](std::string_view t) { return groups[i].starts_with(t); });
     if (is_other) lists.insert(groups[i + 1]);

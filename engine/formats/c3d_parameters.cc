@@ -6,6 +6,8 @@
 #include <cstdlib>
 #include <utility>
 
+#include "engine/base/text.h"
+
 namespace etude {
 
 int C3dBytes::Integer(std::size_t at) const { return static_cast<std::int16_t>(Word(at)); }
@@ -44,8 +46,7 @@ C3dParameters::C3dParameters(const C3dBytes& bytes, std::size_t at) : bytes_(byt
     const auto id = static_cast<std::int8_t>(bytes.Byte(record + 1));
     const auto letters = static_cast<std::size_t>(std::abs(length));
     if (letters == 0 || id == 0) break;
-    std::string name = bytes.Text(record + 2, letters);
-    std::ranges::transform(name, name.begin(), [](char c) { return c >= 'a' && c <= 'z' ? c - 'a' + 'A' : c; });
+    const std::string name = InUpperCase(bytes.Text(record + 2, letters));
     const std::size_t offset_at = record + 2 + letters;
     if (id < 0) {
       group_names[-id] = name;

@@ -3,11 +3,10 @@
 #include <algorithm>
 
 #include "engine/base/names.h"
+#include "engine/base/text.h"
 
 namespace etude {
 namespace {
-
-bool IsDigit(char c) { return c >= '0' && c <= '9'; }
 
 /// Returns true for 1 to 3 digits, of which the first is not 0.
 bool IsShortNumber(std::string_view text) {

@@ -120,8 +120,6 @@ JointCsvRow RowOf(std::span<const double> values, const JointCsvColumns& columns
 
 }  // namespace
 
-std::string WriteJointCsv(const BodyMotion& motion) { return WriteJointCsv(motion, 0); }
-
 std::string WriteJointCsv(const BodyMotion& motion, double start_s) {
   std::string text = "frame,time_s";
   const auto out = std::back_inserter(text);

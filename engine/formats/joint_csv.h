@@ -15,10 +15,9 @@
 namespace etude {
 
 /// Writes a motion as comma-separated values below one line of headings: `frame` (from 0), `time_s`, then
-/// `hip_centre_x_m`, `hip_centre_y_m`, … for every role. Values are in metres, Y up, with all digits.
-std::string WriteJointCsv(const BodyMotion& motion);
-/// Writes times from `start_s` on.
-std::string WriteJointCsv(const BodyMotion& motion, double start_s);
+/// `hip_centre_x_m`, `hip_centre_y_m`, … for every role. Values are in metres, Y up, with all digits. Times count from
+/// `start_s`.
+std::string WriteJointCsv(const BodyMotion& motion, double start_s = 0);
 
 /// The columns of a joint CSV file, found by their headings.
 struct JointCsvColumns {

@@ -4,6 +4,8 @@
 #include <string>
 #include <utility>
 
+#include "engine/base/text.h"
+
 namespace etude {
 
 std::optional<double> MetresOfUnit(std::string_view name) {
@@ -13,10 +15,8 @@ std::optional<double> MetresOfUnit(std::string_view name) {
       {"mm", 0.001},   {"millimeters", 0.001}, {"millimetres", 0.001},
       {"in", 0.0254},  {"inches", 0.0254},     {"ft", 0.3048},
       {"feet", 0.3048}};
-  std::string lower(name);
-  std::ranges::transform(lower, lower.begin(), [](char c) { return c >= 'A' && c <= 'Z' ? c - 'A' + 'a' : c; });
   for (const auto& [unit, metres] : kUnits) {
-    if (unit == lower) return metres;
+    if (EqualsIgnoringCase(unit, name)) return metres;
   }
   return std::nullopt;
 }

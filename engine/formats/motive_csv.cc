@@ -133,7 +133,7 @@ Result<MarkerMotion> ReadMotiveCsv(std::string_view text, const std::string& fil
   }
   // If no row has a time, the frame numbers give the times.
   if (std::ranges::all_of(rows.times_s, [](double time) { return std::isnan(time); })) {
-    rows.times_s = TimesOfNumbers(rows.numbers, *rate);
+    TakeTimesFromNumbers(rows, *rate);
   }
   return LayOnClock(std::move(rows), file);
 }

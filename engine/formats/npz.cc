@@ -184,6 +184,41 @@ Result<std::string> Unpack(zip_t* archive, zip_uint64_t member, std::uint64_t& l
   return bytes;
 }
 
+template <typename Number>
+void Put(std::string& bytes, Number number) {
+  bytes.append(reinterpret_cast<const char*>(&number), sizeof number);
+}
+
+std::string NpyOfNumbers(const NumberArray& array) {
+  std::string bytes = NpyHead("<f8", array.shape);
+  bytes.reserve(bytes.size() + 8 * array.values.size());
+  for (const double value : array.values) Put(bytes, value);
+  return bytes;
+}
+
+/// Writes ASCII texts in NumPy's form: four bytes for each letter, all texts of one length.
+std::string NpyOfTexts(const std::vector<std::string>& texts) {
+  std::size_t width = 1;
+  for (const std::string& text : texts) width = std::max(width, text.size());
+  std::string bytes = NpyHead("<U" + std::to_string(width), std::vector{texts.size()});
+  for (const std::string& text : texts) {
+    for (std::size_t i = 0; i < width; ++i) {
+      Put<std::uint32_t>(bytes, i < text.size() ? static_cast<unsigned char>(text[i]) : 0);
+    }
+  }
+  return bytes;
+}
+
+/// Returns `made`, a result of the ZIP library. Throws std::bad_alloc if it is null, because writing into memory can
+/// only fail for lack of memory.
+template <typename Made>
+Made Needed(Made made) {
+  if (!made) throw std::bad_alloc();
+  return made;
+}
+
+using Source = std::unique_ptr<zip_source_t, decltype(&zip_source_free)>;
+
 }  // namespace
 
 bool IsNpy(std::string_view bytes) { return bytes.starts_with(kNpyMagic); }
@@ -283,45 +318,6 @@ Result<Npz> ReadNpz(std::string_view bytes, const std::string& file) {
   }
   return read;
 }
-
-namespace {
-
-template <typename Number>
-void Put(std::string& bytes, Number number) {
-  bytes.append(reinterpret_cast<const char*>(&number), sizeof number);
-}
-
-std::string NpyOfNumbers(const NumberArray& array) {
-  std::string bytes = NpyHead("<f8", array.shape);
-  bytes.reserve(bytes.size() + 8 * array.values.size());
-  for (const double value : array.values) Put(bytes, value);
-  return bytes;
-}
-
-/// Writes ASCII texts in NumPy's form: four bytes for each letter, all texts of one length.
-std::string NpyOfTexts(const std::vector<std::string>& texts) {
-  std::size_t width = 1;
-  for (const std::string& text : texts) width = std::max(width, text.size());
-  std::string bytes = NpyHead("<U" + std::to_string(width), std::vector{texts.size()});
-  for (const std::string& text : texts) {
-    for (std::size_t i = 0; i < width; ++i) {
-      Put<std::uint32_t>(bytes, i < text.size() ? static_cast<unsigned char>(text[i]) : 0);
-    }
-  }
-  return bytes;
-}
-
-/// Returns `made`, a result of the ZIP library. Throws std::bad_alloc if it is null, because writing into memory can
-/// only fail for lack of memory.
-template <typename Made>
-Made Needed(Made made) {
-  if (!made) throw std::bad_alloc();
-  return made;
-}
-
-using Source = std::unique_ptr<zip_source_t, decltype(&zip_source_free)>;
-
-}  // namespace
 
 std::string WriteNpz(const std::map<std::string, NumberArray>& numbers,
                      const std::map<std::string, std::vector<std::string>>& texts) {

@@ -53,9 +53,8 @@ void DropEmptyEnd(std::vector<std::string_view>& words, std::size_t columns) {
 
 bool MeansMissing(std::string_view word) {
   constexpr std::string_view kMeanings[] = {"nan", "-nan", "na", "n/a", "null"};
-  const auto same = [](char a, char b) { return (a | 0x20) == (b | 0x20); };
   return word.empty() ||
-         std::ranges::any_of(kMeanings, [&](std::string_view one) { return std::ranges::equal(word, one, same); });
+         std::ranges::any_of(kMeanings, [&](std::string_view one) { return EqualsIgnoringCase(word, one); });
 }
 
 std::optional<double> NumberOf(std::string_view word) {

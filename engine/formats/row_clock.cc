@@ -10,7 +10,6 @@
 #include "engine/base/names.h"
 #include "engine/base/order_statistics.h"
 #include "engine/formats/row_rates.h"
-#include "engine/formats/usual_rates.h"
 
 namespace etude {
 namespace {
@@ -357,6 +356,12 @@ std::string DescribeOtherNumbers(const MarkerRows& rows) {
 
 }  // namespace
 
+void TakeTimesFromNumbers(MarkerRows& rows, double rate_hz) {
+  rows.times_s = TimesOfNumbers(rows.numbers, rate_hz);
+  rows.has_clock = false;
+  rows.first_number = rows.numbers.empty() ? 0 : rows.numbers.front();
+}
+
 Result<MarkerMotion> LayOnClock(MarkerRows rows, const std::string& file) {
   MarkerMotion& markers = rows.markers;
   const std::optional<double> told = rows.rate_name.empty() ? std::nullopt : std::optional(markers.rate_hz);
@@ -400,11 +405,7 @@ Result<MarkerMotion> LayOnClock(const JointCsv& csv, const std::string& file) {
                   .lines = csv.lines};
   for (const Role role : AllRoles()) rows.markers.names.emplace_back(RoleName(role));
   for (const auto& frame : csv.frames) rows.markers.frames.emplace_back(frame.begin(), frame.end());
-  rows.has_clock = csv.rate_hz.has_value();
-  if (!rows.has_clock) {
-    rows.times_s = TimesOfNumbers(csv.numbers, kJudgedRateHz);
-    rows.first_number = csv.numbers.empty() ? 0 : csv.numbers.front();
-  }
+  if (!csv.rate_hz) TakeTimesFromNumbers(rows, kJudgedRateHz);
   ASSIGN_OR_RETURN(auto laid, LayOnClock(std::move(rows), file));
   if (laid.start_s) *laid.start_s += csv.scale.first * csv.scale.seconds;
   return laid;

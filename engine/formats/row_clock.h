@@ -57,6 +57,9 @@ struct MarkerRows {
   std::string rate_name = "";   ///< the header that gives `markers.rate_hz`; "" if none does
   std::string time_name = "the column Time";  ///< the column or channel of the times, as messages name it
 };
+/// Computes the times of the rows from their frame numbers at the rate `rate_hz` (TimesOfNumbers), because they have no
+/// clock.
+void TakeTimesFromNumbers(MarkerRows& rows, double rate_hz);
 /// Places markers on frames by their times, whose unit FindTimeScale finds. In a frame whose row is missing, no marker
 /// counts as seen. The remark says what was changed. Fails like GridOfRows.
 Result<MarkerMotion> LayOnClock(MarkerRows rows, const std::string& file);

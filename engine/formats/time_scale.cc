@@ -9,19 +9,12 @@
 
 #include "engine/base/names.h"
 #include "engine/base/order_statistics.h"
-#include "engine/formats/usual_rates.h"
+#include "engine/formats/row_rates.h"
 
 namespace etude {
 namespace {
 
-/// A unit in which files count time.
-struct TimeUnit {
-  double seconds = 1;
-  const char* name = "seconds";
-};
 constexpr TimeUnit kSeconds{}, kHundredths = {1e-2, "hundredths of a second"};
-constexpr TimeUnit kSmallUnits[] = {
-    {1e-3, "milliseconds"}, {1e-6, "microseconds"}, {1e-7, "ticks of 100 ns"}, {1e-9, "nanoseconds"}};
 
 /// Returns the unit in which a step between rows agrees with the stated rate; nullopt if there is none. A step of 1 may
 /// also be a frame.

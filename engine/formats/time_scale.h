@@ -6,6 +6,15 @@
 
 namespace etude {
 
+/// A unit in which files count time.
+struct TimeUnit {
+  double seconds = 1;
+  const char* name = "seconds";
+};
+/// The units of clocks that count in small steps, the largest first.
+inline constexpr TimeUnit kSmallUnits[] = {
+    {1e-3, "milliseconds"}, {1e-6, "microseconds"}, {1e-7, "ticks of 100 ns"}, {1e-9, "nanoseconds"}};
+
 /// The origin and the unit of a file's times.
 struct TimeScale {
   double first = 0;         ///< the time in the file that becomes 0 s

@@ -234,9 +234,7 @@ Result<MarkerRows> ReadTrcRows(std::string_view text, const std::string& file) {
   }
   // If no row has a time, the frame numbers give the times.
   if (std::ranges::all_of(rows.times_s, [](double time) { return std::isnan(time); })) {
-    rows.times_s = TimesOfNumbers(rows.numbers, header.rate_hz);
-    rows.has_clock = false;
-    rows.first_number = rows.numbers.empty() ? 0 : rows.numbers.front();
+    TakeTimesFromNumbers(rows, header.rate_hz);
     if (header.rate_hz == 0) return Fail({file, 3, 0}, "DataRate is 0, and the rows have no times");
   }
   return rows;

@@ -182,10 +182,8 @@ constexpr std::size_t kMaxPoseNameBytes = 40;
 
 /// Returns true if a name needs no quotes in a file or in tables.
 bool IsPoseName(const std::string& name) {
-  const auto is_plain = [](char c) {
-    return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == ' ' || c == '-';
-  };
-  const auto is_letter = [](char c) { return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z'); };
+  const auto is_letter = [](char c) { return IsLower(c) || IsUpper(c); };
+  const auto is_plain = [&](char c) { return is_letter(c) || IsDigit(c) || c == ' ' || c == '-'; };
   return !name.empty() && name.size() <= kMaxPoseNameBytes && std::ranges::all_of(name, is_plain) &&
          is_letter(name.front()) && name.back() != ' ';
 }
@@ -263,8 +261,7 @@ constexpr std::size_t kMaxNameBytes = 80;
 
 bool IsPlainName(const std::string& name) {
   const auto is_plain = [](char c) {
-    return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '-' || c == '_' ||
-           c == '.';
+    return IsLower(c) || IsUpper(c) || IsDigit(c) || c == '-' || c == '_' || c == '.';
   };
   return name.size() <= kMaxNameBytes && std::ranges::all_of(name, is_plain);
 }

@@ -42,14 +42,6 @@ struct CutAt {
   }
 };
 
-}  // namespace
-
-double GradeOf(const Shape& shape, double input) { return std::visit(At{input}, shape); }
-
-Cut CutOf(const Shape& shape, double grade) { return std::visit(CutAt{grade}, shape); }
-
-namespace {
-
 using enum Feature;
 
 constexpr std::array<Term, kTermCount> kTerms = {{
@@ -66,43 +58,6 @@ constexpr std::array<std::size_t, kFeatureCount + 1> kFirstTerm = [] {
   for (std::size_t k = 0; k < kFeatureCount; ++k) first[k + 1] += first[k];
   return first;
 }();
-
-}  // namespace
-
-std::span<const Term, kTermCount> AllTerms() { return kTerms; }
-
-std::size_t FirstTermOf(Feature feature) { return kFirstTerm[static_cast<std::size_t>(feature)]; }
-
-std::span<const Term> TermsOf(Feature feature) {
-  const std::size_t k = static_cast<std::size_t>(feature);
-  return std::span(kTerms).subspan(kFirstTerm[k], kFirstTerm[k + 1] - kFirstTerm[k]);
-}
-
-Grades Fuzzify(const PoseFeatures& features, const Memberships& memberships) {
-  Grades grades{};
-  for (std::size_t i = 0; i < kTermCount; ++i) {
-    const std::size_t k = static_cast<std::size_t>(kTerms[i].feature);
-    const Universe& universe = memberships.universes[k];
-    grades[i] = GradeOf(memberships.shapes[i], std::clamp(features.values[k], universe.low, universe.high));
-  }
-  return grades;
-}
-
-Tags ChooseTags(const Grades& grades) {
-  Tags tags{};
-  for (std::size_t k = 0; k < kFeatureCount; ++k) {
-    const auto first = grades.begin() + kFirstTerm[k];
-    const auto last = grades.begin() + kFirstTerm[k + 1];
-    tags[k] = static_cast<std::uint8_t>(std::max_element(first, last) - first);
-  }
-  return tags;
-}
-
-std::string_view TagName(const Tags& tags, Feature feature) {
-  return TermsOf(feature)[tags[static_cast<std::size_t>(feature)]].name;
-}
-
-namespace {
 
 /// A kind of shape, with its name in files and the numbers that define it.
 struct ShapeKind {
@@ -158,6 +113,43 @@ Result<std::vector<double>> ReadNumbers(const Node& node, const ShapeKind& kind)
 }
 
 }  // namespace
+
+double GradeOf(const Shape& shape, double input) { return std::visit(At{input}, shape); }
+
+Cut CutOf(const Shape& shape, double grade) { return std::visit(CutAt{grade}, shape); }
+
+std::span<const Term, kTermCount> AllTerms() { return kTerms; }
+
+std::size_t FirstTermOf(Feature feature) { return kFirstTerm[static_cast<std::size_t>(feature)]; }
+
+std::span<const Term> TermsOf(Feature feature) {
+  const std::size_t k = static_cast<std::size_t>(feature);
+  return std::span(kTerms).subspan(kFirstTerm[k], kFirstTerm[k + 1] - kFirstTerm[k]);
+}
+
+Grades Fuzzify(const PoseFeatures& features, const Memberships& memberships) {
+  Grades grades{};
+  for (std::size_t i = 0; i < kTermCount; ++i) {
+    const std::size_t k = static_cast<std::size_t>(kTerms[i].feature);
+    const Universe& universe = memberships.universes[k];
+    grades[i] = GradeOf(memberships.shapes[i], std::clamp(features.values[k], universe.low, universe.high));
+  }
+  return grades;
+}
+
+Tags ChooseTags(const Grades& grades) {
+  Tags tags{};
+  for (std::size_t k = 0; k < kFeatureCount; ++k) {
+    const auto first = grades.begin() + kFirstTerm[k];
+    const auto last = grades.begin() + kFirstTerm[k + 1];
+    tags[k] = static_cast<std::uint8_t>(std::max_element(first, last) - first);
+  }
+  return tags;
+}
+
+std::string_view TagName(const Tags& tags, Feature feature) {
+  return TermsOf(feature)[tags[static_cast<std::size_t>(feature)]].name;
+}
 
 Result<Shape> ReadShape(const Node& node, const Universe& universe) {
   // Read the kind and its numbers.

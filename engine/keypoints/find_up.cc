@@ -87,20 +87,14 @@ class Sum {
   glm::dvec2 right_{0};
 };
 
-/// Returns the mean of two landmarks; nullopt if one is missing.
-std::optional<glm::dvec3> Middle(const LandmarkPositions& at, Landmark a, Landmark b) {
-  const auto &p = at[Index(a)], &q = at[Index(b)];
-  return p && q ? std::optional(0.5 * (*p + *q)) : std::nullopt;
-}
-
 /// Returns the mean direction from ankles to shoulders over the frames in which the person is straight; nullopt if the
 /// person is never straight.
 std::optional<glm::dvec3> StraightPerson(std::span<const LandmarkPositions> points) {
   constexpr double kStraight = 0.97;
   glm::dvec3 sum(0);
   for (const LandmarkPositions& at : points) {
-    const auto shoulders = Middle(at, kLeftShoulder, kRightShoulder), hips = Middle(at, kLeftHip, kRightHip),
-               knees = Middle(at, kLeftKnee, kRightKnee), ankles = Middle(at, kLeftAnkle, kRightAnkle);
+    const auto shoulders = MiddleOf(at, kLeftShoulder, kRightShoulder), hips = MiddleOf(at, kLeftHip, kRightHip),
+               knees = MiddleOf(at, kLeftKnee, kRightKnee), ankles = MiddleOf(at, kLeftAnkle, kRightAnkle);
     if (!shoulders || !hips || !knees || !ankles) continue;
     // Use the lengths of the limbs themselves; distances between midpoints are too short if the legs stride.
     double legs = 0;
@@ -131,7 +125,7 @@ std::optional<glm::dvec3> CentreOfMass(const LandmarkPositions& at) {
                                     {{kLeftElbow, kRightElbow}, {kLeftWrist, kRightWrist}, 0.044, 0.682}};
   glm::dvec3 sum(0);
   for (const Part& part : kParts) {
-    const auto from = Middle(at, part.from[0], part.from[1]), to = Middle(at, part.to[0], part.to[1]);
+    const auto from = MiddleOf(at, part.from[0], part.from[1]), to = MiddleOf(at, part.to[0], part.to[1]);
     if (!from || !to) return std::nullopt;
     sum += part.share * glm::mix(*from, *to, part.along);
   }
@@ -199,7 +193,7 @@ class Cues {
         straight_(StraightPerson(points)),
         flight_(Flight(points, rate_hz, metre)) {
     for (const LandmarkPositions& at : points) {
-      if (const auto hip = Middle(at, kLeftHip, kRightHip)) hips_.push_back(*hip);
+      if (const auto hip = MiddleOf(at, kLeftHip, kRightHip)) hips_.push_back(*hip);
     }
   }
 

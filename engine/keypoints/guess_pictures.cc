@@ -37,12 +37,6 @@ PixelFit FitOf(const PictureOfFilm& film, const Guess& guess) {
   return fit;
 }
 
-std::vector<ProjectionMatrix> MatricesOf(std::span<const PictureOfFilm> films) {
-  std::vector<ProjectionMatrix> matrices;
-  for (const PictureOfFilm& film : films) matrices.push_back(MatrixOf(film.camera));
-  return matrices;
-}
-
 class Guesser {
  public:
   Guesser(std::span<const PictureOfFilm> films, double min_confidence)
@@ -225,6 +219,12 @@ class Guesser {
 };
 
 }  // namespace
+
+std::vector<ProjectionMatrix> MatricesOf(std::span<const PictureOfFilm> films) {
+  std::vector<ProjectionMatrix> matrices;
+  for (const PictureOfFilm& film : films) matrices.push_back(MatrixOf(film.camera));
+  return matrices;
+}
 
 PictureOfFilm Turned(PictureOfFilm film, int turns) {
   film.fit = FitOf(film, {.quarter_turns = turns});

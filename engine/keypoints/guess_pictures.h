@@ -26,6 +26,9 @@ struct PictureGuess {
   std::string told;  ///< explanation for users; "" if `fit` is as declared
 };
 
+/// Returns the matrices of the films' cameras, in the same order.
+std::vector<ProjectionMatrix> MatricesOf(std::span<const PictureOfFilm> films);
+
 /// Returns `film` with keypoints that are of pictures turned clockwise by `turns` more quarter turns than declared.
 PictureOfFilm Turned(PictureOfFilm film, int turns);
 

@@ -199,12 +199,6 @@ class FreeFitter {
     return distances;
   }
 
-  static std::vector<ProjectionMatrix> MatricesOf(const Films& films) {
-    std::vector<ProjectionMatrix> matrices;
-    for (const PictureOfFilm& film : films) matrices.push_back(MatrixOf(film.camera));
-    return matrices;
-  }
-
   Films films_;
   double least_confidence_;
   PairGeometry geometry_;

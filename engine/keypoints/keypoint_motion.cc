@@ -5,17 +5,13 @@
 #include <cmath>
 
 #include "engine/base/angles.h"
+#include "engine/base/gaps.h"
 #include "engine/base/order_statistics.h"
 
 namespace etude {
 namespace {
 
 using enum Landmark;
-
-std::optional<glm::dvec3> Middle(const std::optional<glm::dvec3>& a, const std::optional<glm::dvec3>& b) {
-  if (!a || !b) return std::nullopt;
-  return 0.5 * (*a + *b);
-}
 
 /// The joints of one side whose positions may have to be guessed, and the joints from which they are guessed.
 struct SideRoles {
@@ -39,6 +35,11 @@ std::optional<glm::dvec3> FacingOf(const RoleVectors& joints) {
 }
 
 }  // namespace
+
+std::optional<glm::dvec3> MiddleOf(const LandmarkPositions& places, Landmark a, Landmark b) {
+  const auto &p = places[Index(a)], &q = places[Index(b)];
+  return p && q ? std::optional(0.5 * (*p + *q)) : std::nullopt;
+}
 
 std::vector<TriangulatedLandmark> TriangulateLandmarks(std::span<const ProjectionMatrix> cameras,
                                                        const MatchedPerson& person, const TriangulateOptions& options) {
@@ -93,17 +94,11 @@ std::vector<LandmarkPositions> TriangulatePerson(std::span<const ProjectionMatri
 
 void BridgePoints(std::span<LandmarkPositions> frames, std::size_t max_gap) {
   for (std::size_t i = 0; i < kLandmarkCount; ++i) {
-    std::optional<std::size_t> last;
-    for (std::size_t frame = 0; frame < frames.size(); ++frame) {
-      if (!frames[frame][i]) continue;
-      if (last && frame - *last > 1 && frame - *last - 1 <= max_gap) {
-        const glm::dvec3 from = *frames[*last][i], to = *frames[frame][i];
-        for (std::size_t k = *last + 1; k < frame; ++k) {
-          frames[k][i] = glm::mix(from, to, static_cast<double>(k - *last) / static_cast<double>(frame - *last));
-        }
-      }
-      last = frame;
-    }
+    FillGaps(
+        frames.size(), max_gap, [&](std::size_t frame) { return frames[frame][i].has_value(); },
+        [&](std::size_t from, std::size_t frame, std::size_t to, double share) {
+          frames[frame][i] = glm::mix(*frames[from][i], *frames[to][i], share);
+        });
   }
 }
 
@@ -144,11 +139,11 @@ RoleVectors JointsOf(const LandmarkPositions& marks) {
     if (!hand && elbow && wrist) hand = *wrist + kHandOfForearm * (*wrist - *elbow);
   }
   // Compute the joints between landmarks.
-  joints[Index(Role::kHipCentre)] = Middle(at(kLeftHip), at(kRightHip));
-  joints[Index(Role::kShoulderCentre)] = Middle(at(kLeftShoulder), at(kRightShoulder));
+  joints[Index(Role::kHipCentre)] = MiddleOf(marks, kLeftHip, kRightHip);
+  joints[Index(Role::kShoulderCentre)] = MiddleOf(marks, kLeftShoulder, kRightShoulder);
   auto& head = joints[Index(Role::kHead)];
   head = at(kHead);
-  if (!head) head = Middle(at(kLeftEar), at(kRightEar));
+  if (!head) head = MiddleOf(marks, kLeftEar, kRightEar);
   if (!head) head = at(kNose);
   // If the head or a foot is missing, guess it.
   const auto &hips = joints[Index(Role::kHipCentre)], &shoulders = joints[Index(Role::kShoulderCentre)];

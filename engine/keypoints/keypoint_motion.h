@@ -16,6 +16,9 @@ namespace etude {
 /// The positions of the known landmarks in the world, metres.
 using LandmarkPositions = std::array<std::optional<glm::dvec3>, kLandmarkCount>;
 
+/// Returns the mean of two landmarks; nullopt if one is missing.
+std::optional<glm::dvec3> MiddleOf(const LandmarkPositions& places, Landmark a, Landmark b);
+
 struct TriangulateOptions {
   double min_confidence = 0.1;  ///< keypoints of lower confidence are ignored
   RobustOptions robust;

@@ -84,14 +84,6 @@ class Follower {
   const FollowOptions& options_;
 };
 
-}  // namespace
-
-std::vector<PersonTrack> FollowPeople(const SeenPeople& people, const FollowOptions& options) {
-  return Follower(people, options).Follow();
-}
-
-namespace {
-
 /// A person tracked in one of the cameras.
 struct Track : PersonTrack {
   std::size_t camera = 0;
@@ -258,6 +250,10 @@ class PersonMatcher {
 };
 
 }  // namespace
+
+std::vector<PersonTrack> FollowPeople(const SeenPeople& people, const FollowOptions& options) {
+  return Follower(people, options).Follow();
+}
 
 std::vector<MatchedPerson> MatchPeople(std::span<const ProjectionMatrix> cameras, std::span<const SeenPeople> people,
                                        const MatchOptions& options) {

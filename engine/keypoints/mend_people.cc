@@ -48,16 +48,6 @@ void SwapGroup(SeenPerson& person, std::size_t group) {
   for (const auto& [left, right] : PairsOf(group)) std::swap(person[left], person[right]);
 }
 
-}  // namespace
-
-SeenPerson WithSidesSwapped(const SeenPerson& person) {
-  SeenPerson swapped = person;
-  for (std::size_t group = 0; group < kGroups; ++group) SwapGroup(swapped, group);
-  return swapped;
-}
-
-namespace {
-
 class Mender {
  public:
   Mender(std::span<const ProjectionMatrix> cameras, std::span<const SeenPeople> people, double min_confidence,
@@ -385,6 +375,12 @@ class Mender {
 };
 
 }  // namespace
+
+SeenPerson WithSidesSwapped(const SeenPerson& person) {
+  SeenPerson swapped = person;
+  for (std::size_t group = 0; group < kGroups; ++group) SwapGroup(swapped, group);
+  return swapped;
+}
 
 std::vector<Mend> MendPerson(std::span<const ProjectionMatrix> cameras, std::span<const SeenPeople> people,
                              double min_confidence, MatchedPerson& person) {

@@ -88,9 +88,7 @@ const KeypointLayout* FindKeypointLayout(std::string_view name) {
 Landmark LandmarkOfName(std::string_view name) {
   std::string bare;
   for (const char c : name) {
-    // Keep only the letters, in lower case.
-    if (c >= 'a' && c <= 'z') bare += c;
-    if (c >= 'A' && c <= 'Z') bare += static_cast<char>(c - 'A' + 'a');
+    if (IsLower(c) || IsUpper(c)) bare += ToLower(c);
   }
   // Handle names that differ from ours by more than the word for the side.
   if (bare == "midhip" || bare == "hip" || bare == "pelvis" || bare == "root") return Landmark::kMidHip;
@@ -108,9 +106,8 @@ Landmark LandmarkOfName(std::string_view name) {
   const bool has_side_at_end = bare.ends_with('l') || bare.ends_with('r');
   const std::string turned = has_side_at_end ? bare.back() + bare.substr(0, bare.size() - 1) : bare;
   for (std::size_t i = 0; i < kLandmarkCount; ++i) {
-    std::string own(kNames[i]);
-    for (char& c : own) c = c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
-    if (own == bare || own == turned) return static_cast<Landmark>(i);
+    if (const std::string own = InLowerCase(std::string(kNames[i])); own == bare || own == turned)
+      return static_cast<Landmark>(i);
   }
   return Landmark::kNoLandmark;
 }

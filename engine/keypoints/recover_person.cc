@@ -38,21 +38,6 @@ std::optional<double> MedianBone(std::span<const RoleVectors> frames, const Bone
   return (is_below ? kSpineShare : 1 - kSpineShare) * *trunk;
 }
 
-}  // namespace
-
-void NameHead(CaptureBody& body) {
-  const auto head = std::ranges::find(body.skeleton, "head_end", &CaptureBody::ClipJoint::name);
-  if (head == body.skeleton.end()) return;
-  CaptureBody::ClipJoint end = *head;
-  end.parent = static_cast<int>(head - body.skeleton.begin());
-  end.offset = glm::dvec3(0);
-  head->name = "head";
-  head->is_end = false;
-  body.skeleton.push_back(end);
-}
-
-namespace {
-
 PoseTargets TargetsOf(const RoleVectors& joints, const BodyPose& completed) {
   PoseTargets wanted{.places = completed, .weights = {}};
   for (std::size_t i = 0; i < kRoleCount; ++i) wanted.weights[i] = joints[i] ? 1 : kUnseen;
@@ -79,7 +64,28 @@ TreeState MoveRoot(const CaptureBody& body, const PoseFitter& fitter, const Pose
   return state;
 }
 
+/// Gives each frame without a state the last state before this frame; a frame before the first state gets the first
+/// state. Precondition: at least one frame has a state.
+std::vector<TreeState> HoldStates(std::span<const std::optional<TreeState>> states) {
+  const auto first = std::ranges::find_if(states, [](const auto& state) { return state.has_value(); });
+  assert(first != states.end());
+  std::vector<TreeState> held;
+  for (const auto& state : states) held.push_back(state ? *state : held.empty() ? **first : held.back());
+  return held;
+}
+
 }  // namespace
+
+void NameHead(CaptureBody& body) {
+  const auto head = std::ranges::find(body.skeleton, "head_end", &CaptureBody::ClipJoint::name);
+  if (head == body.skeleton.end()) return;
+  CaptureBody::ClipJoint end = *head;
+  end.parent = static_cast<int>(head - body.skeleton.begin());
+  end.offset = glm::dvec3(0);
+  head->name = "head";
+  head->is_end = false;
+  body.skeleton.push_back(end);
+}
 
 Result<CaptureBody> BodyOfBones(const std::array<double, kRoleCount>& lengths) {
   BodyPose straight;  // only the lengths of its bones are used
@@ -123,20 +129,6 @@ std::vector<std::optional<TreeState>> FitPerson(const CaptureBody& body, std::sp
   }
   return states;
 }
-
-namespace {
-
-/// Gives each frame without a state the last state before this frame; a frame before the first state gets the first
-/// state. Precondition: at least one frame has a state.
-std::vector<TreeState> HoldStates(std::span<const std::optional<TreeState>> states) {
-  const auto first = std::ranges::find_if(states, [](const auto& state) { return state.has_value(); });
-  assert(first != states.end());
-  std::vector<TreeState> held;
-  for (const auto& state : states) held.push_back(state ? *state : held.empty() ? **first : held.back());
-  return held;
-}
-
-}  // namespace
 
 SeenPeople UndistortPeople(const Camera& camera, SeenPeople people) {
   for (auto& frame : people) {

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "engine/base/nearest_rotation.h"
+#include "engine/base/text.h"
 #include "engine/motion/clip.h"
 
 namespace etude {
@@ -30,10 +31,7 @@ constexpr std::array<SideWord, 10> kSideWords = {{
     {"R", "L"},
 }};
 
-bool IsLower(char c) { return c >= 'a' && c <= 'z'; }
-bool IsUpper(char c) { return c >= 'A' && c <= 'Z'; }
 bool IsLetter(char c) { return IsLower(c) || IsUpper(c); }
-bool IsDigit(char c) { return c >= '0' && c <= '9'; }
 
 /// Returns the index after the namespace, such as "mixamorig:" in "mixamorig:LeftArm".
 std::size_t StartOfName(std::string_view name) { return name.find_last_of(':') + 1; }
@@ -65,42 +63,6 @@ std::vector<std::string> IfGlued(std::string_view name) {
   }
   return others;
 }
-
-}  // namespace
-
-std::string OtherSide(std::string_view name) {
-  for (std::size_t at = StartOfName(name); at < name.size();) {
-    if (!IsLetter(name[at])) {
-      ++at;
-      continue;
-    }
-    const std::size_t end = EndOfWord(name, at);
-    const std::string_view word = name.substr(at, end - at);
-    const bool is_numbered = word.size() == 1 && end < name.size() && IsDigit(name[end]);  // such as the vertebra "L5"
-    for (const SideWord& turn : kSideWords) {
-      if (word == turn.from && !is_numbered) return Replaced(name, at, turn);
-    }
-    at = end;
-  }
-  return std::string(name);
-}
-
-Skeleton WithSidesSwapped(Skeleton skeleton) {
-  std::vector<std::string> names;
-  for (const Joint& joint : skeleton.joints) {
-    std::string& name = names.emplace_back(OtherSide(joint.name));
-    if (name != joint.name) continue;
-    for (std::string& other : IfGlued(joint.name)) {
-      if (skeleton.Find(other) < 0) continue;
-      name = std::move(other);
-      break;
-    }
-  }
-  for (std::size_t i = 0; i < names.size(); ++i) skeleton.joints[i].name = std::move(names[i]);
-  return skeleton;
-}
-
-namespace {
 
 constexpr glm::dquat kNoTurn{1, 0, 0, 0};
 
@@ -156,6 +118,38 @@ std::string UnusedName(const Skeleton& skeleton, std::string name) {
 }
 
 }  // namespace
+
+std::string OtherSide(std::string_view name) {
+  for (std::size_t at = StartOfName(name); at < name.size();) {
+    if (!IsLetter(name[at])) {
+      ++at;
+      continue;
+    }
+    const std::size_t end = EndOfWord(name, at);
+    const std::string_view word = name.substr(at, end - at);
+    const bool is_numbered = word.size() == 1 && end < name.size() && IsDigit(name[end]);  // such as the vertebra "L5"
+    for (const SideWord& turn : kSideWords) {
+      if (word == turn.from && !is_numbered) return Replaced(name, at, turn);
+    }
+    at = end;
+  }
+  return std::string(name);
+}
+
+Skeleton WithSidesSwapped(Skeleton skeleton) {
+  std::vector<std::string> names;
+  for (const Joint& joint : skeleton.joints) {
+    std::string& name = names.emplace_back(OtherSide(joint.name));
+    if (name != joint.name) continue;
+    for (std::string& other : IfGlued(joint.name)) {
+      if (skeleton.Find(other) < 0) continue;
+      name = std::move(other);
+      break;
+    }
+  }
+  for (std::size_t i = 0; i < names.size(); ++i) skeleton.joints[i].name = std::move(names[i]);
+  return skeleton;
+}
 
 Clip Resample(const Clip& clip, double rate_hz) {
   assert(rate_hz > 0 && !clip.frames.empty());

@@ -4,14 +4,23 @@
 #include <cmath>
 #include <limits>
 
+#include "engine/base/text.h"
+
 namespace etude {
 namespace {
 
 constexpr double kSameFrame = 1e-6;  // in frames; a tolerance for rounding errors if both rates are equal
 
-bool EqualsIgnoringCase(std::string_view a, std::string_view b) {
-  const auto lower = [](char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c; };
-  return std::ranges::equal(a, b, {}, lower, lower);
+/// Returns the position of a joint at the fraction `u` of the way from the frame `from` to the next
+/// (Inbetween::kCubic).
+glm::dvec3 CubicAt(const RawMotion& motion, std::size_t from, double u, std::size_t joint) {
+  const glm::dvec3 &b = motion.At(from, joint), &c = motion.At(from + 1, joint);
+  glm::dvec3 a = from > 0 ? motion.At(from - 1, joint) : NotSeen();
+  glm::dvec3 d = from + 2 < motion.FrameCount() ? motion.At(from + 2, joint) : NotSeen();
+  if (!IsSeen(a) && !IsSeen(d)) return b + u * (c - b);
+  if (!IsSeen(a)) a = 3.0 * (b - c) + d;
+  if (!IsSeen(d)) d = 3.0 * (c - b) + a;
+  return b + 0.5 * u * (c - a + u * (2.0 * a - 5.0 * b + 4.0 * c - d + u * (3.0 * (b - c) + d - a)));
 }
 
 }  // namespace
@@ -59,22 +68,6 @@ bool HasOwnRoot(const RawMotion& motion) {
 }
 
 glm::dvec3 NotSeen() { return glm::dvec3(std::numeric_limits<double>::quiet_NaN()); }
-
-namespace {
-
-/// Returns the position of a joint at the fraction `u` of the way from the frame `from` to the next
-/// (Inbetween::kCubic).
-glm::dvec3 CubicAt(const RawMotion& motion, std::size_t from, double u, std::size_t joint) {
-  const glm::dvec3 &b = motion.At(from, joint), &c = motion.At(from + 1, joint);
-  glm::dvec3 a = from > 0 ? motion.At(from - 1, joint) : NotSeen();
-  glm::dvec3 d = from + 2 < motion.FrameCount() ? motion.At(from + 2, joint) : NotSeen();
-  if (!IsSeen(a) && !IsSeen(d)) return b + u * (c - b);
-  if (!IsSeen(a)) a = 3.0 * (b - c) + d;
-  if (!IsSeen(d)) d = 3.0 * (c - b) + a;
-  return b + 0.5 * u * (c - a + u * (2.0 * a - 5.0 * b + 4.0 * c - d + u * (3.0 * (b - c) + d - a)));
-}
-
-}  // namespace
 
 RawMotion AtFrames(const RawMotion& motion, std::span<const double> times, double rate_hz, Inbetween inbetween) {
   RawMotion sampled = motion;

@@ -21,17 +21,6 @@ BodyPose VelocityAt(std::span<const BodyPose> poses, int frame, double rate_hz) 
   return velocity;
 }
 
-}  // namespace
-
-std::vector<BodyPose> JointVelocities(std::span<const BodyPose> poses, double rate_hz) {
-  std::vector<BodyPose> velocities;
-  velocities.reserve(poses.size());
-  for (int f = 0; f < static_cast<int>(poses.size()); ++f) velocities.push_back(VelocityAt(poses, f, rate_hz));
-  return velocities;
-}
-
-namespace {
-
 double FloorSpeed(const glm::dvec3& velocity) { return std::hypot(velocity.x, velocity.z); }
 
 /// Returns a flag for each frame: true if the mass centre's downward acceleration is SupportRules::min_fall or more.
@@ -138,6 +127,13 @@ void MarkFlights(std::span<const BodyPose> shown, int first, double rate_hz, con
 }
 
 }  // namespace
+
+std::vector<BodyPose> JointVelocities(std::span<const BodyPose> poses, double rate_hz) {
+  std::vector<BodyPose> velocities;
+  velocities.reserve(poses.size());
+  for (int f = 0; f < static_cast<int>(poses.size()); ++f) velocities.push_back(VelocityAt(poses, f, rate_hz));
+  return velocities;
+}
 
 std::vector<Bearing> FindBearing(std::span<const BodyPose> poses, double rate_hz, const SupportRules& rules) {
   const std::vector<BodyPose> velocities = JointVelocities(poses, rate_hz);

@@ -56,26 +56,6 @@ class DtwFollower final : public StepFollower {
   std::vector<SubsequenceAligner> in_window_;
 };
 
-}  // namespace
-
-std::unique_ptr<Recogniser> MakeDtwRecogniser(std::span<const TaughtMove> taught, const TrackingWeights& weights,
-                                              const DtwOptions& options) {
-  std::vector<Examples> moves;
-  for (const TaughtMove& move : taught) {
-    Examples& examples = moves.emplace_back();
-    examples.longest = static_cast<int>(std::ceil(move.span_s * kStepsPerSecond));
-    for (const SkeletonStream& example : move.examples) {
-      auto pattern = DescribeStream(example, PoseParts::kJoints);
-      if (!pattern.empty()) examples.patterns.push_back(std::move(pattern));
-    }
-  }
-  return MakeRecogniser([moves = std::move(moves), weights, options](double rate_hz) {
-    return std::make_unique<DtwFollower>(moves, weights, options, rate_hz);
-  });
-}
-
-namespace {
-
 using Pattern = std::vector<PoseVector>;
 constexpr double kFar = std::numeric_limits<double>::infinity();
 
@@ -247,6 +227,22 @@ class NearestFollower final : public StepFollower {
 };
 
 }  // namespace
+
+std::unique_ptr<Recogniser> MakeDtwRecogniser(std::span<const TaughtMove> taught, const TrackingWeights& weights,
+                                              const DtwOptions& options) {
+  std::vector<Examples> moves;
+  for (const TaughtMove& move : taught) {
+    Examples& examples = moves.emplace_back();
+    examples.longest = static_cast<int>(std::ceil(move.span_s * kStepsPerSecond));
+    for (const SkeletonStream& example : move.examples) {
+      auto pattern = DescribeStream(example, PoseParts::kJoints);
+      if (!pattern.empty()) examples.patterns.push_back(std::move(pattern));
+    }
+  }
+  return MakeRecogniser([moves = std::move(moves), weights, options](double rate_hz) {
+    return std::make_unique<DtwFollower>(moves, weights, options, rate_hz);
+  });
+}
 
 std::unique_ptr<Recogniser> MakeNearestRecogniser(std::span<const TaughtMove> taught, const TrackingWeights& weights) {
   std::vector<Example> examples;

@@ -73,6 +73,21 @@ std::unique_ptr<Recogniser> MakePoseSequenceRecogniser(std::span<const TaughtMov
       [sequences = std::move(sequences)](double rate_hz) { return std::make_unique<Follower>(sequences, rate_hz); });
 }
 
+/// Returns the overlap of a feature's membership grades at two inputs, in [0, 1].
+double Overlap(Feature feature, double seen, double taught, const Memberships& memberships) {
+  const Universe& universe = memberships.universes[static_cast<std::size_t>(feature)];
+  const std::size_t first = FirstTermOf(feature), last = first + TermsOf(feature).size();
+  double common = 0, all = 0;
+  for (std::size_t term = first; term < last; ++term) {
+    const Shape& shape = memberships.shapes[term];
+    const double a = GradeOf(shape, std::clamp(seen, universe.low, universe.high));
+    const double b = GradeOf(shape, std::clamp(taught, universe.low, universe.high));
+    common += std::min(a, b);
+    all += std::max(a, b);
+  }
+  return all > 0 ? common / all : 1.0;
+}
+
 }  // namespace
 
 PoseSequence::PoseSequence(std::size_t poses, int hold_frames, int span_frames)
@@ -161,25 +176,6 @@ std::unique_ptr<Recogniser> MakeKeyPoseRecogniser(std::span<const TaughtMove> ta
                                       return MatchOf(frame, pose, weights, options);
                                     });
 }
-
-namespace {
-
-/// Returns the overlap of a feature's membership grades at two inputs, in [0, 1].
-double Overlap(Feature feature, double seen, double taught, const Memberships& memberships) {
-  const Universe& universe = memberships.universes[static_cast<std::size_t>(feature)];
-  const std::size_t first = FirstTermOf(feature), last = first + TermsOf(feature).size();
-  double common = 0, all = 0;
-  for (std::size_t term = first; term < last; ++term) {
-    const Shape& shape = memberships.shapes[term];
-    const double a = GradeOf(shape, std::clamp(seen, universe.low, universe.high));
-    const double b = GradeOf(shape, std::clamp(taught, universe.low, universe.high));
-    common += std::min(a, b);
-    all += std::max(a, b);
-  }
-  return all > 0 ? common / all : 1.0;
-}
-
-}  // namespace
 
 double RuleStrength(const FeatureFrame& frame, const TaughtPose& pose, const TrackingWeights& weights,
                     const Memberships& memberships) {

@@ -168,40 +168,6 @@ BoostedTrees FitRound(std::span<const PerformanceMeasures> performances, std::sp
   return model;
 }
 
-}  // namespace
-
-double DecisionTree::Value(const PerformanceMeasures& of) const {
-  std::size_t node = 0;
-  while (node < kNodes) {
-    node = 2 * node + (of[static_cast<std::size_t>(measures[node])] <= limits[node] ? 1 : 2);
-  }
-  return leaves[node - kNodes];
-}
-
-double BoostedTrees::Probability(const PerformanceMeasures& of) const {
-  double log_odds = bias;
-  for (const DecisionTree& tree : trees) log_odds += tree.Value(of);
-  return Sigmoid(log_odds);
-}
-
-BoostedTrees FitBoostedTrees(std::span<const LabelledBag> bags, const BoostingOptions& options) {
-  const auto right = std::ranges::count_if(bags, &LabelledBag::is_right);
-  if (right == 0 || right == static_cast<std::ptrdiff_t>(bags.size())) return {};
-  std::vector<PerformanceMeasures> chosen;
-  for (const LabelledBag& bag : bags) chosen.push_back(bag.performances.front());
-  BoostedTrees model;
-  for (int round = 0; round < options.rounds; ++round) {
-    model = FitRound(chosen, bags, options);
-    for (std::size_t i = 0; i < bags.size(); ++i) {
-      chosen[i] = *std::ranges::max_element(bags[i].performances, {},
-                                            [&](const PerformanceMeasures& each) { return model.Probability(each); });
-    }
-  }
-  return model;
-}
-
-namespace {
-
 constexpr std::size_t kNumbersPerTree = 2 * DecisionTree::kNodes + DecisionTree::kLeaves;
 constexpr double kMaxNumber = 1e12;
 
@@ -271,7 +237,45 @@ Result<BoostedTrees> ReadTrees(Fields& file, const std::string& key) {
   return model;
 }
 
+LearntModel ReadBuiltin(std::string_view name) {
+  const EmbeddedText* file = FindByName(BuiltinLearntModelFiles(), name, StemOf);
+  assert(file != nullptr);
+  auto read = ReadLearntModel(file->text, std::string(file->name));
+  assert(read);  // a test proves that the built-in files can be read
+  return *std::move(read);
+}
+
 }  // namespace
+
+double DecisionTree::Value(const PerformanceMeasures& of) const {
+  std::size_t node = 0;
+  while (node < kNodes) {
+    node = 2 * node + (of[static_cast<std::size_t>(measures[node])] <= limits[node] ? 1 : 2);
+  }
+  return leaves[node - kNodes];
+}
+
+double BoostedTrees::Probability(const PerformanceMeasures& of) const {
+  double log_odds = bias;
+  for (const DecisionTree& tree : trees) log_odds += tree.Value(of);
+  return Sigmoid(log_odds);
+}
+
+BoostedTrees FitBoostedTrees(std::span<const LabelledBag> bags, const BoostingOptions& options) {
+  const auto right = std::ranges::count_if(bags, &LabelledBag::is_right);
+  if (right == 0 || right == static_cast<std::ptrdiff_t>(bags.size())) return {};
+  std::vector<PerformanceMeasures> chosen;
+  for (const LabelledBag& bag : bags) chosen.push_back(bag.performances.front());
+  BoostedTrees model;
+  for (int round = 0; round < options.rounds; ++round) {
+    model = FitRound(chosen, bags, options);
+    for (std::size_t i = 0; i < bags.size(); ++i) {
+      chosen[i] = *std::ranges::max_element(bags[i].performances, {},
+                                            [&](const PerformanceMeasures& each) { return model.Probability(each); });
+    }
+  }
+  return model;
+}
 
 Result<LearntModel> ReadLearntModel(std::string_view text, const std::string& file) {
   ASSIGN_OR_RETURN(const Node node, ParseYaml(text, file));
@@ -295,18 +299,6 @@ std::string WriteLearntModel(const LearntModel& model) {
   return fmt::format("measures: {}\n", kMeasuresVersion) + WriteTrees("asked", model.asked) +
          WriteTrees("spotted", model.spotted);
 }
-
-namespace {
-
-LearntModel ReadBuiltin(std::string_view name) {
-  const EmbeddedText* file = FindByName(BuiltinLearntModelFiles(), name, StemOf);
-  assert(file != nullptr);
-  auto read = ReadLearntModel(file->text, std::string(file->name));
-  assert(read);  // a test proves that the built-in files can be read
-  return *std::move(read);
-}
-
-}  // namespace
 
 const LearntModel& BuiltinLearntModel() {
   static const LearntModel model = ReadBuiltin("learnt");

@@ -170,6 +170,15 @@ PathClock MeasureClock(std::span<const StepPair> path) {
           .worst = worst};
 }
 
+/// Calls `relate(own, difference)` for every measure: `own` is the index of the measure, and `difference` the index at
+/// which the measure's difference from the person's usual value is stored.
+template <typename Relate>
+void ForEachOwn(const Relate& relate) {
+  for (const MeasureSlice& slice : {kOwnMeasures, kClockSlice, kRigidSlice}) {
+    for (std::size_t i = 0; i < slice.count; ++i) relate(slice.first + i, slice.Beyond().first + i);
+  }
+}
+
 }  // namespace
 
 PerformanceMeasures Measure(const AlignedPerformance& performance) {
@@ -203,19 +212,6 @@ PerformanceMeasures Measure(const AlignedPerformance& performance) {
   }
   return measures;
 }
-
-namespace {
-
-/// Calls `relate(own, difference)` for every measure: `own` is the index of the measure, and `difference` the index at
-/// which the measure's difference from the person's usual value is stored.
-template <typename Relate>
-void ForEachOwn(const Relate& relate) {
-  for (const MeasureSlice& slice : {kOwnMeasures, kClockSlice, kRigidSlice}) {
-    for (std::size_t i = 0; i < slice.count; ++i) relate(slice.first + i, slice.Beyond().first + i);
-  }
-}
-
-}  // namespace
 
 int RigidComparison::TaughtAt(int seen, std::size_t pace, int lag) {
   return static_cast<int>(std::lround((seen - lag) / kPaces[pace]));

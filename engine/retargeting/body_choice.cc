@@ -8,7 +8,6 @@
 #include <utility>
 #include <vector>
 
-#include "engine/base/angles.h"
 #include "engine/base/names.h"
 #include "engine/retargeting/map_file.h"
 
@@ -90,7 +89,8 @@ std::vector<FoundBody> FindBodies(const Clip& clip, JointMap first) {
 }
 
 bool IsMoved(const Clip& clip, const FoundBody& body) {
-  constexpr double kTurn = Radians(0.5), kSlideOfThigh = 0.01;
+  constexpr double kHalfTurnCosine = 0.99999048;  // cosine of 0.25°: a turn of 0.5°
+  constexpr double kSlideOfThigh = 0.01;
   std::vector<GlobalTransform> globals;
   ComputeGlobals(clip.skeleton, clip.frames.front(), globals);
   const BodyPose pose = Evaluate(body.map, globals);
@@ -98,8 +98,8 @@ bool IsMoved(const Clip& clip, const FoundBody& body) {
   return std::ranges::any_of(body.joints, [&](int joint) {
     const LocalTransform& first = clip.frames.front()[joint];
     return std::ranges::any_of(clip.frames, [&](const LocalPose& frame) {
-      const double turn = 2 * std::acos(std::min(1.0, std::abs(glm::dot(frame[joint].rotation, first.rotation))));
-      return turn > kTurn || glm::distance(frame[joint].translation, first.translation) > slide;
+      const double cosine = std::abs(glm::dot(frame[joint].rotation, first.rotation));  // of half the turn
+      return cosine < kHalfTurnCosine || glm::distance(frame[joint].translation, first.translation) > slide;
     });
   });
 }

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <map>
 
+#include "engine/base/text.h"
+
 namespace etude {
 namespace {
 
@@ -77,9 +79,8 @@ std::string PlainJointName(std::string_view name) {
                                          "ankle",    "foot",  "toe",    "heel",  "eye", "bigtoe",
                                          "smalltoe", "ear",   "collar", "thorax"};
   std::string plain;
-  for (char c : name.substr(name.rfind(':') + 1)) {
-    if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
-    if ((c >= 'a' && c <= 'z') || (c >= '0' && c <= '9') || static_cast<unsigned char>(c) >= 0x80) plain += c;
+  for (const char c : InLowerCase(std::string(name.substr(name.rfind(':') + 1)))) {
+    if (IsLower(c) || IsDigit(c) || static_cast<unsigned char>(c) >= 0x80) plain += c;
   }
   if (plain == "hipcentre") return "hip_centre";
   if (plain == "shouldercentre") return "shoulder_centre";

@@ -82,28 +82,6 @@ bool IsTrunkTwisted(std::span<const JointPositions> frames) {
   return seen > 0 && opposite >= kNearlyAll * seen;
 }
 
-}  // namespace
-
-std::vector<Role> FindExchangedJoints(std::span<const JointPositions> frames) {
-  std::vector<Role> exchanged, others;
-  for (const auto& chain : kChains) {
-    // If each of the first two limbs of a chain may cross, the two count as crossing.
-    std::array<Crossing, 3> limbs;
-    for (std::size_t i = 0; i < limbs.size(); ++i) limbs[i] = CrossingOf(frames, chain[i], chain[i + 1]);
-    if (limbs[0].may_be && limbs[1].may_be) limbs[0].is_certain = limbs[1].is_certain = true;
-    bool is_exchanged = chain[0] == kLeftHip && IsTrunkTwisted(frames);
-    for (std::size_t i = 0; i < chain.size(); ++i) {
-      if (i > 0 && limbs[i - 1].is_certain) is_exchanged = !is_exchanged;
-      const auto shows = [&](const JointPositions& frame) { return frame[Index(chain[i])].has_value(); };
-      const bool is_seen = std::ranges::any_of(frames, shows);
-      if (is_seen) (is_exchanged ? exchanged : others).push_back(chain[i]);
-    }
-  }
-  return exchanged.size() <= others.size() ? exchanged : others;
-}
-
-namespace {
-
 constexpr double kMinExchangeApart_m = 0.05, kMinExchangeRate_hz = 10;
 
 /// An exchange of two points, and the distances that they move if their names are exchanged.
@@ -163,7 +141,49 @@ std::vector<std::pair<Role, Role>> PairsOfJoints() {
   return pairs;
 }
 
+/// Finds the frames in which two points exchange their places. Unseen points do not count.
+std::vector<std::size_t> FindExchangesOf(std::span<const MarkerPosition> one, std::span<const MarkerPosition> other,
+                                         double rate_hz) {
+  std::vector<std::size_t> found;
+  if (rate_hz < kMinExchangeRate_hz) return found;
+  const auto place = [](std::span<const MarkerPosition> track) {
+    return [track](std::size_t f) -> const MarkerPosition& { return track[f]; };
+  };
+  const auto moves = [&](std::size_t f) { return Moves(one[f - 1], one[f]) && Moves(other[f - 1], other[f]); };
+  for (const Candidate& candidate : CandidatesOf(std::min(one.size(), other.size()), place(one), place(other), moves)) {
+    found.push_back(candidate.frame);
+  }
+  return found;
+}
+
+/// Returns "`what` exchange their places from one frame to the next, 2 times (first at 1.20 s): " and the pairs.
+/// `times` are frames.
+std::string DescribeExchanges(std::string_view what, const std::set<std::size_t>& times, double rate_hz,
+                              const std::vector<std::string>& pairs) {
+  return fmt::format("{} exchange positions from one frame to the next, {} (first at {:.2f} s): {}", what,
+                     times.size() == 1 ? "once" : fmt::format("{} times", times.size()),
+                     static_cast<double>(*times.begin()) / rate_hz, Join(pairs));
+}
+
 }  // namespace
+
+std::vector<Role> FindExchangedJoints(std::span<const JointPositions> frames) {
+  std::vector<Role> exchanged, others;
+  for (const auto& chain : kChains) {
+    // If each of the first two limbs of a chain may cross, the two count as crossing.
+    std::array<Crossing, 3> limbs;
+    for (std::size_t i = 0; i < limbs.size(); ++i) limbs[i] = CrossingOf(frames, chain[i], chain[i + 1]);
+    if (limbs[0].may_be && limbs[1].may_be) limbs[0].is_certain = limbs[1].is_certain = true;
+    bool is_exchanged = chain[0] == kLeftHip && IsTrunkTwisted(frames);
+    for (std::size_t i = 0; i < chain.size(); ++i) {
+      if (i > 0 && limbs[i - 1].is_certain) is_exchanged = !is_exchanged;
+      const auto shows = [&](const JointPositions& frame) { return frame[Index(chain[i])].has_value(); };
+      const bool is_seen = std::ranges::any_of(frames, shows);
+      if (is_seen) (is_exchanged ? exchanged : others).push_back(chain[i]);
+    }
+  }
+  return exchanged.size() <= others.size() ? exchanged : others;
+}
 
 std::vector<Exchange> FindExchanges(std::span<const JointPositions> frames, double rate_hz) {
   if (rate_hz < kMinExchangeRate_hz) return {};
@@ -196,27 +216,6 @@ std::vector<Exchange> FindExchanges(std::span<const JointPositions> frames, doub
   return found;
 }
 
-std::vector<std::size_t> FindExchangesOf(std::span<const MarkerPosition> one, std::span<const MarkerPosition> other,
-                                         double rate_hz) {
-  std::vector<std::size_t> found;
-  if (rate_hz < kMinExchangeRate_hz) return found;
-  const auto place = [](std::span<const MarkerPosition> track) {
-    return [track](std::size_t f) -> const MarkerPosition& { return track[f]; };
-  };
-  const auto moves = [&](std::size_t f) { return Moves(one[f - 1], one[f]) && Moves(other[f - 1], other[f]); };
-  for (const Candidate& candidate : CandidatesOf(std::min(one.size(), other.size()), place(one), place(other), moves)) {
-    found.push_back(candidate.frame);
-  }
-  return found;
-}
-
-std::string DescribeExchanges(std::string_view what, const std::set<std::size_t>& times, double rate_hz,
-                              const std::vector<std::string>& pairs) {
-  return fmt::format("{} exchange positions from one frame to the next, {} (first at {:.2f} s): {}", what,
-                     times.size() == 1 ? "once" : fmt::format("{} times", times.size()),
-                     static_cast<double>(*times.begin()) / rate_hz, Join(pairs));
-}
-
 std::string DescribeExchangedJoints(std::span<const JointPositions> frames, double rate_hz,
                                     const std::function<std::string(Role)>& name_of) {
   const auto pair_of = [&](Role left) { return name_of(left) + " – " + name_of(Mirrored(left)); };
@@ -242,6 +241,32 @@ std::string DescribeExchangedJoints(std::span<const JointPositions> frames, doub
 
 std::string DescribeExchangedJoints(std::span<const JointPositions> frames, double rate_hz) {
   return DescribeExchangedJoints(frames, rate_hz, [](Role role) { return std::string(RoleName(role)); });
+}
+
+std::string DescribeExchangedMarkers(const MarkerMotion& markers, const MarkerColumns& one,
+                                     const MarkerColumns& other) {
+  constexpr std::size_t kListed = 4;
+  const auto track_of = [&](std::size_t column) {
+    std::vector<MarkerPosition> track;
+    for (const auto& frame : markers.frames) track.push_back(frame[column]);
+    return track;
+  };
+  std::vector<std::string> pairs;
+  std::set<std::size_t> times;
+  for (const auto& [key, column] : one) {
+    const auto same = other.find(key);
+    if (same == other.end()) continue;
+    const auto frames = FindExchangesOf(track_of(column), track_of(same->second), markers.rate_hz);
+    if (frames.empty()) continue;
+    times.insert(frames.begin(), frames.end());
+    pairs.push_back(markers.names[column] + " – " + markers.names[same->second]);
+  }
+  if (times.empty()) return "";
+  if (pairs.size() > kListed) {
+    pairs.resize(kListed);
+    pairs.emplace_back("…");
+  }
+  return DescribeExchanges("markers of two people", times, markers.rate_hz, pairs);
 }
 
 bool PointFeetBackwards(std::span<const BodyPose> poses) {

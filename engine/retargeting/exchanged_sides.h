@@ -2,13 +2,13 @@
 
 #include <cstddef>
 #include <functional>
-#include <set>
 #include <span>
 #include <string>
-#include <string_view>
 #include <vector>
 
+#include "engine/formats/trc.h"
 #include "engine/motion/body.h"
+#include "engine/retargeting/marker_sets.h"
 #include "engine/retargeting/skin_markers.h"
 
 namespace etude {
@@ -34,20 +34,15 @@ struct Exchange {
 /// the one for which the sum is least. Joints nearer than 5 cm to each other and rates below 10 Hz are not judged.
 /// Exchanges of three joints are not found. `frames` are in metres.
 std::vector<Exchange> FindExchanges(std::span<const JointPositions> frames, double rate_hz);
-/// Finds the frames in which two points exchange their places, by the same rule. Unseen points do not count.
-std::vector<std::size_t> FindExchangesOf(std::span<const MarkerPosition> one, std::span<const MarkerPosition> other,
-                                         double rate_hz);
-
-/// Returns "`what` exchange their places from one frame to the next, 2 times (first at 1.20 s): " and the pairs.
-/// `times` are frames.
-std::string DescribeExchanges(std::string_view what, const std::set<std::size_t>& times, double rate_hz,
-                              const std::vector<std::string>& pairs);
-
 /// Returns a message for the user about all that FindExchangedJoints and FindExchanges find; "" if that is nothing.
 /// `name_of` returns the name of a joint for the message.
 std::string DescribeExchangedJoints(std::span<const JointPositions> frames, double rate_hz,
                                     const std::function<std::string(Role)>& name_of);
 std::string DescribeExchangedJoints(std::span<const JointPositions> frames, double rate_hz);
+
+/// Returns a message for the user about markers of one name that two people exchange from one frame to the next, by the
+/// rule of FindExchanges; "" if there are none. `one` and `other` are the columns of the two people in `markers`.
+std::string DescribeExchangedMarkers(const MarkerMotion& markers, const MarkerColumns& one, const MarkerColumns& other);
 
 /// Returns true if the toes of both feet point backwards in nearly all frames: left and right are exchanged, or an axis
 /// is mirrored.

@@ -11,6 +11,7 @@
 
 #include "engine/base/names.h"
 #include "engine/base/order_statistics.h"
+#include "engine/base/text.h"
 #include "engine/formats/array_clock.h"
 #include "engine/retargeting/array_evidence.h"
 #include "engine/retargeting/data_set_names.h"
@@ -40,9 +41,7 @@ std::optional<glm::dvec3> PlaceIn(const NumberArray& array, std::size_t index) {
 std::string TextOf(const Npz& arrays, const std::string& name) {
   const auto found = arrays.texts.find(name);
   if (found == arrays.texts.end() || found->second.size() != 1) return "";
-  std::string text = found->second.front();
-  std::ranges::transform(text, text.begin(), [](char c) { return c >= 'A' && c <= 'Z' ? char(c - 'A' + 'a') : c; });
-  return text;
+  return InLowerCase(found->second.front());
 }
 
 /// Returns the length of the arrays' unit in metres; appends each assumption to `notes`.
@@ -247,8 +246,6 @@ std::string DescribeFewFrames(const MarkerMotion& motion) {
       "array count people instead of frames?",
       motion.frames.size(), 100 * least);
 }
-
-std::string WriteBodyNpz(const BodyMotion& motion, const BodyPose& rest) { return WriteBodyNpz(motion, rest, 0); }
 
 std::string WriteBodyNpz(const BodyMotion& motion, const BodyPose& rest, double start_s) {
   const Clip clip = RigClip(motion, rest, "");

@@ -44,10 +44,8 @@ Result<std::optional<NumberArray>> JointsOfSam(const Npz& arrays, const std::str
 /// Writes a body's motion as an .npz file. Its arrays are `names`, and in the order of `names`: `positions` (T × 20 ×
 /// 3, metres, Y up), `translations` (T × 20 × 3) and `rotations` (T × 20 × 4, w x y z) relative to each joint's parent,
 /// `offsets` (at rest, 20 × 3) and `parents` (−1 for the root); also `rate_hz`, `unit` and `up`. All rotations are the
-/// identity in `rest`.
-std::string WriteBodyNpz(const BodyMotion& motion, const BodyPose& rest);
-/// Writes times from `start_s` on.
-std::string WriteBodyNpz(const BodyMotion& motion, const BodyPose& rest, double start_s);
+/// identity in `rest`. If `start_s` is not 0, there are also `times`, which count from it.
+std::string WriteBodyNpz(const BodyMotion& motion, const BodyPose& rest, double start_s = 0);
 
 /// Returns true if the arrays hold positions of joints, as WriteBodyNpz writes them.
 bool IsBodyNpz(const Npz& arrays);

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 #include <limits>
 #include <optional>
 
@@ -50,9 +49,8 @@ constexpr std::string_view kMhrJoints =
 std::optional<double> LengthOf(std::span<const glm::dvec3> positions, const JointLayout& layout, Role from, Role to) {
   const auto column_of = [&](Role role) {
     const std::string name(RoleName(role));  // "left_hip", or "LHip" in layouts of marker names
-    std::string marker = {static_cast<char>(name[0] - 'a' + 'A'),
-                          static_cast<char>(name[name.find('_') + 1] - 'a' + 'A')};
-    marker += name.substr(name.find('_') + 2);
+    const std::size_t part = name.find('_') + 1;
+    const std::string marker = std::string{ToUpper(name[0]), ToUpper(name[part])} + name.substr(part + 1);
     return static_cast<std::size_t>(
         std::ranges::find_if(layout.joints, [&](std::string_view one) { return one == name || one == marker; }) -
         layout.joints.begin());
@@ -67,17 +65,17 @@ std::optional<double> LengthOf(std::span<const glm::dvec3> positions, const Join
   return lengths.empty() ? std::nullopt : std::optional(UpperMedian(std::move(lengths)));
 }
 
-/// Returns the worst misfit of the layout's lengths to a person's, as the logarithm of a ratio. Left and right limbs
+/// Returns the worst misfit of the layout's lengths to a person's, as a ratio of at least 1. Left and right limbs
 /// should be equally long. Upper arm and forearm, and thigh and shank, may differ by a factor of 1.35. A hand should be
 /// no longer than the forearm. Lengths that are not known have the misfit `unknown`.
 double MisfitOf(std::span<const glm::dvec3> positions, const JointLayout& layout, double unknown) {
   using enum Role;
-  constexpr double kProportion = 0.3;  // the logarithm of 1.35
+  constexpr double kProportion = 1.35;
   constexpr std::array<std::array<Role, 4>, 2> kLimbs = {
       {{kLeftShoulder, kLeftElbow, kLeftWrist, kLeftHand}, {kLeftHip, kLeftKnee, kLeftAnkle, kLeftAnkle}}};
-  double worst = 0;
+  double worst = 1;
   const auto compare = [&](std::optional<double> one, std::optional<double> other, double allowed) {
-    worst = std::max(worst, one && other ? std::abs(std::log(*one / *other)) - allowed : unknown);
+    worst = std::max(worst, one && other ? std::max(*one / *other, *other / *one) / allowed : unknown);
   };
   for (const auto& [upper, middle, end, tip] : kLimbs) {
     std::array<std::optional<double>, 2> uppers, lowers;
@@ -87,10 +85,10 @@ double MisfitOf(std::span<const glm::dvec3> positions, const JointLayout& layout
       lowers[is_left] = LengthOf(positions, layout, of(middle), of(end));
       compare(uppers[is_left], lowers[is_left], kProportion);
       const auto hand = tip == end ? std::nullopt : LengthOf(positions, layout, of(end), of(tip));
-      if (hand && lowers[is_left]) worst = std::max(worst, std::log(*hand / *lowers[is_left]));
+      if (hand && lowers[is_left]) worst = std::max(worst, *hand / *lowers[is_left]);
     }
-    compare(uppers[0], uppers[1], 0);
-    compare(lowers[0], lowers[1], 0);
+    compare(uppers[0], uppers[1], 1);
+    compare(lowers[0], lowers[1], 1);
   }
   return worst;
 }
@@ -174,16 +172,16 @@ std::vector<std::string> JointsOfLayout(std::string_view layout, std::size_t joi
 }
 
 const JointLayout* FindBetterLayout(std::span<const glm::dvec3> positions, const JointLayout& used) {
-  constexpr double kMinMisfit = 0.5, kMaxShare = 1.0 / 3;
-  const double misfit = MisfitOf(positions, used, 0);
+  constexpr double kMinMisfit = 1.65;
+  const double misfit = MisfitOf(positions, used, 1);
   if (misfit < kMinMisfit) return nullptr;
   const JointLayout* best = nullptr;
-  double least = kMaxShare * misfit;
+  double least = misfit;  // the cube of the other layout's misfit must be less
   for (const JointLayout& other : JointLayouts()) {
     if (other.joints.size() != used.joints.size() || other.name == used.name) continue;
-    const double its = MisfitOf(positions, other, std::numeric_limits<double>::infinity());
-    if (its >= least) continue;
-    least = its;
+    const double its = MisfitOf(positions, other, std::numeric_limits<double>::infinity()), cube = its * its * its;
+    if (cube >= least) continue;
+    least = cube;
     best = &other;
   }
   return best;

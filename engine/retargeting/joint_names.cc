@@ -4,6 +4,8 @@
 #include <array>
 #include <utility>
 
+#include "engine/base/text.h"
+
 namespace etude {
 namespace {
 
@@ -117,9 +119,6 @@ constexpr std::size_t kMaxSuffixes = 2;
 constexpr std::size_t kMaxNameLength = 64;
 constexpr std::size_t kMaxFound = 16;
 
-bool IsLower(char c) { return c >= 'a' && c <= 'z'; }
-bool IsUpper(char c) { return c >= 'A' && c <= 'Z'; }
-bool IsDigit(char c) { return c >= '0' && c <= '9'; }
 bool IsBeyondAscii(char c) { return static_cast<unsigned char>(c) >= 0x80; }
 
 /// Returns a UTF-8 name with Latin-1's accented letters replaced by plain letters. The accent may be a separate
@@ -161,7 +160,7 @@ std::vector<std::string> WordsOf(std::string_view name) {
     const char c = name[i];
     const bool is_part = IsLower(c) || IsUpper(c) || IsDigit(c) || IsBeyondAscii(c);
     if (is_part && (!is_inside || BeginsWord(name, i))) words.emplace_back();
-    if (is_part) words.back() += IsUpper(c) ? static_cast<char>(c - 'A' + 'a') : c;
+    if (is_part) words.back() += ToLower(c);
     is_inside = is_part;
   }
   return words;
@@ -189,8 +188,7 @@ std::span<const std::string_view> HeadNames() { return kHeadNames; }
 
 Finger FingerOf(std::string_view name) {
   name.remove_prefix(name.find_last_of(":|") + 1);
-  std::string letters(name);
-  for (char& c : letters) c = IsUpper(c) ? static_cast<char>(c - 'A' + 'a') : c;
+  const std::string letters = InLowerCase(std::string(name));
   for (const auto& [part, finger] : kFingerNames) {
     if (letters.find(part) != std::string::npos) return finger;
   }

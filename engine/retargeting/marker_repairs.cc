@@ -23,12 +23,11 @@ namespace {
 bool IsZero(const MarkerPosition& place) { return place && *place == glm::dvec3(0); }
 
 /// Returns true if a marker set assigns this marker to an arm or a leg.
-bool IsOfLimb(std::string name) {
-  name = name.substr(name.rfind(':') + 1);
-  std::ranges::transform(name, name.begin(), [](char c) { return c >= 'A' && c <= 'Z' ? char(c - 'A' + 'a') : c; });
+bool IsOfLimb(std::string_view name) {
+  const std::string key = MarkerKey(name);
   return std::ranges::any_of(MarkerSets(), [&](const MarkerSet& set) {
     return std::ranges::any_of(set.rules, [&](const MarkerRule& rule) {
-      return rule.role != Mirrored(rule.role) && std::ranges::find(rule.markers, name) != rule.markers.end();
+      return rule.role != Mirrored(rule.role) && std::ranges::find(rule.markers, key) != rule.markers.end();
     });
   });
 }

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "engine/base/names.h"
+#include "engine/base/text.h"
 #include "engine/retargeting/data_set_names.h"
 #include "engine/retargeting/limb_finder.h"
 #include "engine/retargeting/skin_names.h"
@@ -112,66 +113,11 @@ std::vector<MarkerSet> MakeSets() {
   return sets;
 }
 
-}  // namespace
-
-const std::vector<MarkerSet>& MarkerSets() {
-  static const std::vector<MarkerSet> sets = MakeSets();
-  return sets;
-}
-
-bool HasAll(const MarkerColumns& columns, std::span<const std::string> markers) {
-  return std::ranges::all_of(markers, [&](const std::string& marker) { return columns.contains(marker); });
-}
-
-std::optional<std::array<std::string, 4>> PelvisOf(const MarkerSet& set, const MarkerColumns& columns) {
-  std::array<std::string, 4> markers = set.pelvis;
-  if (!set.sacrum.empty() && !HasAll(columns, markers)) markers[2] = markers[3] = set.sacrum;
-  return !markers.front().empty() && HasAll(columns, markers) ? std::optional(std::move(markers)) : std::nullopt;
-}
-
-std::vector<std::string> MarkersOfRole(const MarkerSet& set, const MarkerColumns& columns, Role role) {
-  for (const MarkerRule& rule : set.rules) {
-    if (rule.role == role && HasAll(columns, rule.markers)) return rule.markers;
-  }
-  if (role != Role::kLeftHip && role != Role::kRightHip) return {};
-  const auto pelvis = PelvisOf(set, columns);
-  if (!pelvis) return {};
-  std::vector<std::string> markers(pelvis->begin(), pelvis->end());
-  markers.erase(std::ranges::unique(markers).begin(), markers.end());
-  return markers;
-}
-
-bool LiesUnderSkin(const MarkerSet& set, Role role) {
-  const bool is_shoulder = role == Role::kLeftShoulder || role == Role::kRightShoulder;
-  const auto is_single = [&](const MarkerRule& rule) {
-    return rule.role == role && rule.markers.size() == 1 && !rule.is_joint;
-  };
-  return (is_shoulder ? set.has_skin_shoulders : set.has_skin_limbs) && std::ranges::any_of(set.rules, is_single);
-}
-
-bool Determines(const MarkerSet& set, const MarkerColumns& columns, Role role) {
-  return !MarkersOfRole(set, columns, role).empty();
-}
-
-std::vector<std::string> MissingFrom(const MarkerSet& set, const MarkerColumns& columns) {
-  std::vector<std::string> lacks;
-  for (const Role role : kNeededJoints) {
-    if (!Determines(set, columns, role)) lacks.emplace_back(RoleName(role));
-  }
-  return lacks;
-}
-
-namespace {
-
 /// Returns the markers that determine one knee.
 std::vector<std::string> KneeMarkers(const MarkerSet& set) {
   const auto rule = std::ranges::find(set.rules, Role::kLeftKnee, &MarkerRule::role);
   return rule == set.rules.end() ? std::vector<std::string>{} : rule->markers;
 }
-
-}  // namespace
-
-namespace {
 
 /// Chooses among MarkerSets.
 ChosenSet ChooseKnown(const MarkerColumns& columns, const std::string& wanted) {
@@ -264,6 +210,53 @@ void TakeJointsOfDataSet(const MarkerColumns& columns, std::span<const std::stri
 
 }  // namespace
 
+const std::vector<MarkerSet>& MarkerSets() {
+  static const std::vector<MarkerSet> sets = MakeSets();
+  return sets;
+}
+
+bool HasAll(const MarkerColumns& columns, std::span<const std::string> markers) {
+  return std::ranges::all_of(markers, [&](const std::string& marker) { return columns.contains(marker); });
+}
+
+std::optional<std::array<std::string, 4>> PelvisOf(const MarkerSet& set, const MarkerColumns& columns) {
+  std::array<std::string, 4> markers = set.pelvis;
+  if (!set.sacrum.empty() && !HasAll(columns, markers)) markers[2] = markers[3] = set.sacrum;
+  return !markers.front().empty() && HasAll(columns, markers) ? std::optional(std::move(markers)) : std::nullopt;
+}
+
+std::vector<std::string> MarkersOfRole(const MarkerSet& set, const MarkerColumns& columns, Role role) {
+  for (const MarkerRule& rule : set.rules) {
+    if (rule.role == role && HasAll(columns, rule.markers)) return rule.markers;
+  }
+  if (role != Role::kLeftHip && role != Role::kRightHip) return {};
+  const auto pelvis = PelvisOf(set, columns);
+  if (!pelvis) return {};
+  std::vector<std::string> markers(pelvis->begin(), pelvis->end());
+  markers.erase(std::ranges::unique(markers).begin(), markers.end());
+  return markers;
+}
+
+bool LiesUnderSkin(const MarkerSet& set, Role role) {
+  const bool is_shoulder = role == Role::kLeftShoulder || role == Role::kRightShoulder;
+  const auto is_single = [&](const MarkerRule& rule) {
+    return rule.role == role && rule.markers.size() == 1 && !rule.is_joint;
+  };
+  return (is_shoulder ? set.has_skin_shoulders : set.has_skin_limbs) && std::ranges::any_of(set.rules, is_single);
+}
+
+bool Determines(const MarkerSet& set, const MarkerColumns& columns, Role role) {
+  return !MarkersOfRole(set, columns, role).empty();
+}
+
+std::vector<std::string> MissingFrom(const MarkerSet& set, const MarkerColumns& columns) {
+  std::vector<std::string> lacks;
+  for (const Role role : kNeededJoints) {
+    if (!Determines(set, columns, role)) lacks.emplace_back(RoleName(role));
+  }
+  return lacks;
+}
+
 ChosenSet ChooseSet(const MarkerColumns& columns, std::span<const std::string> names, const std::string& wanted,
                     const std::map<Role, std::string>& roles) {
   ChosenSet chosen = ChooseKnown(columns, wanted);
@@ -294,13 +287,7 @@ ChosenSet ChooseSet(const MarkerColumns& columns, std::span<const std::string> n
   return chosen;
 }
 
-std::string MarkerKey(std::string_view name) {
-  std::string key(name.substr(name.rfind(':') + 1));
-  for (char& c : key) {
-    if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
-  }
-  return key;
-}
+std::string MarkerKey(std::string_view name) { return InLowerCase(std::string(name.substr(name.rfind(':') + 1))); }
 
 std::string NamesOfMarkerSets() {
   std::vector<std::string> names;

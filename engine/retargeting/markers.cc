@@ -9,10 +9,10 @@
 #include <set>
 #include <string_view>
 
+#include "engine/base/gaps.h"
 #include "engine/base/names.h"
 #include "engine/base/order_statistics.h"
 #include "engine/motion/statistics.h"
-#include "engine/retargeting/exchanged_people.h"
 #include "engine/retargeting/exchanged_sides.h"
 #include "engine/retargeting/marker_people.h"
 #include "engine/retargeting/marker_repairs.h"
@@ -29,19 +29,12 @@ constexpr double kMaxGap_s = 1;
 
 /// Fills gaps of at most `most` frames by linear interpolation; returns the number of filled frames.
 int BridgeGaps(std::vector<JointPositions>& frames, std::size_t joint, std::size_t most) {
-  int filled = 0;
-  std::optional<std::size_t> last;
-  for (std::size_t t = 0; t < frames.size(); ++t) {
-    if (!frames[t][joint]) continue;
-    if (last && t - *last > 1 && t - *last <= most + 1) {
-      const glm::dvec3 from = *frames[*last][joint], to = *frames[t][joint];
-      for (std::size_t k = *last + 1; k < t; ++k, ++filled) {
-        frames[k][joint] = from + static_cast<double>(k - *last) / static_cast<double>(t - *last) * (to - from);
-      }
-    }
-    last = t;
-  }
-  return filled;
+  const auto at = [&](std::size_t frame) -> MarkerPosition& { return frames[frame][joint]; };
+  return FillGaps(
+      frames.size(), most, [&](std::size_t frame) { return at(frame).has_value(); },
+      [&](std::size_t from, std::size_t frame, std::size_t to, double share) {
+        at(frame) = *at(from) + share * (*at(to) - *at(from));
+      });
 }
 
 /// Sets the hip joint centres by the regression of Harrington et al. (2007), "Prediction of the hip joint centre in
@@ -307,12 +300,6 @@ std::optional<MarkerBody> BodyAt(double scale, const MarkerMotion& markers, cons
   return body;
 }
 
-double MiddleStature(const BodyMotion& motion) {
-  std::vector<double> statures;
-  for (const BodyPose& pose : motion.poses) statures.push_back(Stature(pose));
-  return LowerPercentile(std::move(statures), 0.5);
-}
-
 /// Makes the body in the file's unit. If the body's size is implausible, multiplies the unit by the power of ten that
 /// gives a person's size, and states this in the note. Fails if no power of ten gives such a size.
 Result<std::optional<MarkerBody>> BodyOf(const MarkerMotion& markers, const MarkerSet& set,
@@ -326,7 +313,7 @@ Result<std::optional<MarkerBody>> BodyOf(const MarkerMotion& markers, const Mark
     body->changes.push_back(fmt::format("1 unit = {:.4g} cm (given), instead of {:.4g} cm as in the file",
                                         100 * *options.metres_per_unit, 100 * markers.metres_per_unit));
   }
-  const double told = MiddleStature(body->motion);
+  const double told = MedianStature(body->motion.poses);
   if (told >= kMinStature && told <= kMaxStature) {
     const bool is_odd = !DescribeImpossibleHeight(body->motion.poses).empty();
     std::string likely = is_odd ? DescribeLikelyUnit(told, told_scale * markers.metres_per_unit) : "";
@@ -337,7 +324,7 @@ Result<std::optional<MarkerBody>> BodyOf(const MarkerMotion& markers, const Mark
   double own = told;
   if (told < kMinStature) {
     if (const auto large = BodyAt(1000 * told_scale, markers, set, columns, options)) {
-      own = MiddleStature(large->motion) / 1000;
+      own = MedianStature(large->motion.poses) / 1000;
     }
   }
   if (options.metres_per_unit) {
@@ -347,7 +334,7 @@ Result<std::optional<MarkerBody>> BodyOf(const MarkerMotion& markers, const Mark
   for (const double scale : {1000.0, 100.0, 10.0, 0.1, 0.01, 0.001}) {
     auto scaled = BodyAt(scale, markers, set, columns, options);
     if (!scaled) continue;
-    const double stature = MiddleStature(scaled->motion);
+    const double stature = MedianStature(scaled->motion.poses);
     if (stature < kMinPerson || stature > kMaxPerson) continue;
     scaled->changes.push_back(
         fmt::format("with the file's unit, the body would be {:.3g} m tall, so Etude multiplies all lengths by {:g}",

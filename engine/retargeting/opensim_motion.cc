@@ -12,6 +12,7 @@
 
 #include "engine/base/angles.h"
 #include "engine/base/names.h"
+#include "engine/base/text.h"
 #include "engine/formats/row_clock.h"
 #include "engine/formats/text_scanner.h"
 #include "engine/kinematics/body_tree.h"
@@ -275,7 +276,7 @@ Result<void> FindColumns(TextScanner& scanner, AngleTable& table, std::size_t& c
 
 /// Reads the unit of angles from a line of the header, given without blanks; other lines are skipped.
 Result<void> ReadUnit(std::string line, const Place& place, AngleTable& table) {
-  for (char& c : line) c = c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
+  line = InLowerCase(std::move(line));
   if (!line.starts_with("indegrees")) return {};
   const bool is_degrees = line == "indegrees=yes";
   if (!is_degrees && line != "indegrees=no") {
@@ -413,10 +414,6 @@ Result<BodyMotion> ReadOpenSimMotion(std::string_view bytes, const std::string& 
     if (note != nullptr && !said.empty()) *note += (note->empty() ? "" : "; ") + said;
   }
   return motion;
-}
-
-std::string WriteOpenSimMotion(const BodyMotion& motion, const BodyPose& rest, std::string name) {
-  return WriteOpenSimMotion(motion, rest, std::move(name), 0);
 }
 
 std::string WriteOpenSimMotion(const BodyMotion& motion, const BodyPose& rest, std::string name, double start_s) {

@@ -23,10 +23,8 @@ namespace etude {
 /// continuous from frame to frame, without jumps of full turns.
 ///
 /// All rotations are the identity in `rest`. The limbs have the directions of the motion's limbs but the lengths of
-/// `rest`. `name` is written to the header with control characters replaced by '_'.
-std::string WriteOpenSimMotion(const BodyMotion& motion, const BodyPose& rest, std::string name);
-/// Writes times from `start_s` on.
-std::string WriteOpenSimMotion(const BodyMotion& motion, const BodyPose& rest, std::string name, double start_s);
+/// `rest`. `name` is written to the header with control characters replaced by '_'. Times count from `start_s`.
+std::string WriteOpenSimMotion(const BodyMotion& motion, const BodyPose& rest, std::string name, double start_s = 0);
 
 /// Returns true if these bytes are a .mot file that contains the model of its angles.
 bool HasModelOfAngles(std::string_view bytes);

@@ -15,31 +15,6 @@ namespace {
 
 using enum Role;
 
-}  // namespace
-
-glm::dvec3 Upright(const glm::dvec3& point, UpAxis up) {
-  return up == UpAxis::kY ? point : glm::dvec3(point.x, point.z, -point.y);
-}
-
-BodyPose Upright(BodyPose pose, UpAxis up) {
-  for (glm::dvec3& joint : pose.joints) joint = Upright(joint, up);
-  return pose;
-}
-
-glm::dvec3 BodyAxis(const BodyPose& pose) {
-  const glm::dvec3 axis = pose[kHead] - 0.5 * (pose[kLeftAnkle] + pose[kRightAnkle]);
-  const double length = glm::length(axis);
-  return length > 0 ? axis / length : glm::dvec3(0);
-}
-
-glm::dvec3 MeanBodyAxis(std::span<const BodyPose> poses) {
-  glm::dvec3 sum(0);
-  for (const BodyPose& pose : poses) sum += BodyAxis(pose);
-  return sum / static_cast<double>(poses.size());
-}
-
-namespace {
-
 glm::dvec3 Direction(const glm::dvec3& v) {
   const double length = glm::length(v);
   return length > 0 ? v / length : glm::dvec3(0);
@@ -104,6 +79,27 @@ Sides MeasureSides(std::span<const BodyPose> poses) {
 }
 
 }  // namespace
+
+glm::dvec3 Upright(const glm::dvec3& point, UpAxis up) {
+  return up == UpAxis::kY ? point : glm::dvec3(point.x, point.z, -point.y);
+}
+
+BodyPose Upright(BodyPose pose, UpAxis up) {
+  for (glm::dvec3& joint : pose.joints) joint = Upright(joint, up);
+  return pose;
+}
+
+glm::dvec3 BodyAxis(const BodyPose& pose) {
+  const glm::dvec3 axis = pose[kHead] - 0.5 * (pose[kLeftAnkle] + pose[kRightAnkle]);
+  const double length = glm::length(axis);
+  return length > 0 ? axis / length : glm::dvec3(0);
+}
+
+glm::dvec3 MeanBodyAxis(std::span<const BodyPose> poses) {
+  glm::dvec3 sum(0);
+  for (const BodyPose& pose : poses) sum += BodyAxis(pose);
+  return sum / static_cast<double>(poses.size());
+}
 
 Result<double> CheckSides(std::span<const BodyPose> poses, const JointMap& map, const std::string& file) {
   const Sides sides = MeasureSides(poses);

@@ -59,36 +59,6 @@ bool DescendsFromPelvis(const RestBody& rest) {
   });
 }
 
-}  // namespace
-
-RestBody MeasureBody(const Clip& clip, const JointMap& map, const BodyConversion& body) {
-  const Measured measured = Measure(clip, std::min(body.dropped_frames, clip.frames.size() - 1));
-  std::vector<GlobalTransform> globals;
-  ComputeGlobals(clip.skeleton, measured.rest, globals);
-  BodyPose pose = Upright(Evaluate(map, globals), body.up);
-  const FloorMove ahead{.yaw = -Heading(pose)};
-  const auto in_world = [&](const glm::dvec3& upright) { return body.metres_per_unit * ahead.Apply(upright); };
-
-  // Keep the joints that rotate; others are merged into their parents.
-  RestBody rest;
-  std::vector<int> index(globals.size());  // for each joint of the skeleton: the body's joint with which it moves
-  for (std::size_t i = 0; i < globals.size(); ++i) {
-    const Joint& joint = clip.skeleton.joints[i];
-    if (joint.parent >= 0 && !measured.turns[i]) {
-      index[i] = index[joint.parent];
-      continue;
-    }
-    index[i] = static_cast<int>(rest.joints.size());
-    rest.joints.push_back({.name = joint.name,
-                           .parent = joint.parent < 0 ? -1 : index[joint.parent],
-                           .position = in_world(Upright(globals[i].position, body.up))});
-  }
-  for (const Role role : AllRoles()) rest.roles[Index(role)] = {index[map[role].joint], in_world(pose[role])};
-  return DescendsFromPelvis(rest) ? rest : RestBodyOf(body.motion.poses);
-}
-
-namespace {
-
 using enum Role;
 
 /// Returns the sum of the lengths of thigh and shank.
@@ -183,6 +153,32 @@ void ShiftDown(BodyPose& pose, double drop) {
 }
 
 }  // namespace
+
+RestBody MeasureBody(const Clip& clip, const JointMap& map, const BodyConversion& body) {
+  const Measured measured = Measure(clip, std::min(body.dropped_frames, clip.frames.size() - 1));
+  std::vector<GlobalTransform> globals;
+  ComputeGlobals(clip.skeleton, measured.rest, globals);
+  BodyPose pose = Upright(Evaluate(map, globals), body.up);
+  const FloorMove ahead{.yaw = -Heading(pose)};
+  const auto in_world = [&](const glm::dvec3& upright) { return body.metres_per_unit * ahead.Apply(upright); };
+
+  // Keep the joints that rotate; others are merged into their parents.
+  RestBody rest;
+  std::vector<int> index(globals.size());  // for each joint of the skeleton: the body's joint with which it moves
+  for (std::size_t i = 0; i < globals.size(); ++i) {
+    const Joint& joint = clip.skeleton.joints[i];
+    if (joint.parent >= 0 && !measured.turns[i]) {
+      index[i] = index[joint.parent];
+      continue;
+    }
+    index[i] = static_cast<int>(rest.joints.size());
+    rest.joints.push_back({.name = joint.name,
+                           .parent = joint.parent < 0 ? -1 : index[joint.parent],
+                           .position = in_world(Upright(globals[i].position, body.up))});
+  }
+  for (const Role role : AllRoles()) rest.roles[Index(role)] = {index[map[role].joint], in_world(pose[role])};
+  return DescendsFromPelvis(rest) ? rest : RestBodyOf(body.motion.poses);
+}
 
 BodyMotion Retarget(const BodyMotion& motion, const BodyPose& body) {
   BodyMotion retargeted{.rate_hz = motion.rate_hz, .poses = {}};

@@ -178,14 +178,10 @@ AxisStance MeasureStance(const StanceFrames& frames, const glm::dvec3& up) {
     travelling += 1;
     stance.steps += std::min(moved(kLeftAnkle), moved(kRightAnkle)) < kStands * hips ? 1 : 0;
   }
-  stance.upright /= count;
-  stance.balanced /= count;
-  stance.straight /= count;
-  stance.tall /= count;
-  stance.propped /= count;
-  stance.on_hands /= count;
-  stance.seated /= count;
-  stance.on_side /= count;
+  for (double* share : {&stance.upright, &stance.balanced, &stance.straight, &stance.tall, &stance.propped,
+                        &stance.on_hands, &stance.seated, &stance.on_side}) {
+    *share /= count;
+  }
   stance.hip_rise = RangeOf(hips_up) / frames.stature;
   stance.shoulder_rise = RangeOf(shoulders_up) / frames.stature;
   stance.ankle_way = std::min(RangeOf(left_ankle), RangeOf(right_ankle)) / frames.stature;

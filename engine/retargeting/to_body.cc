@@ -98,7 +98,7 @@ std::size_t CountForeignTPose(const Clip& clip, BodySampler& sampler, UpAxis up)
 }
 
 template <typename Measure>
-std::vector<double> OverFrames(const std::vector<BodyPose>& poses, Measure measure) {
+std::vector<double> OverFrames(std::span<const BodyPose> poses, Measure measure) {
   std::vector<double> values;
   values.reserve(poses.size());
   for (const BodyPose& pose : poses) values.push_back(measure(pose));
@@ -139,8 +139,6 @@ Result<std::vector<BodyPose>> Resampled(const Clip& clip, BodySampler& sampler, 
   }
   return poses;
 }
-
-double MedianStature(const std::vector<BodyPose>& poses) { return LowerPercentile(OverFrames(poses, Stature), 0.5); }
 
 /// Returns the unit in which `stature` is a human's, or null if there is no such unit.
 const Unit* UnitOf(double stature) {
@@ -310,6 +308,8 @@ std::vector<std::string> ChangesOf(const BodyConversion& done, const JointMap& m
 
 }  // namespace
 
+double MedianStature(std::span<const BodyPose> poses) { return LowerPercentile(OverFrames(poses, Stature), 0.5); }
+
 glm::dmat4 WorldFromFile(const BodyConversion& body) {
   const auto turned = [&](const glm::dvec3& axis) { return glm::dvec4(Upright(axis, body.up), 0); };
   const glm::dmat4 upright(turned({1, 0, 0}), turned({0, 1, 0}), turned({0, 0, 1}), glm::dvec4(0, 0, 0, 1));
@@ -371,12 +371,11 @@ std::string DescribeImpossibleHeight(std::span<const BodyPose> poses) {
   // at most 0.41 of its stature; an adult's are about half.
   constexpr double kLeast_m = 0.5, kMost_m = 2.75, kMaxInfant_m = 0.85, kMaxInfantLegs = 0.46;
   if (poses.empty()) return "";
-  const std::vector<BodyPose> all(poses.begin(), poses.end());
-  const double stature = MedianStature(all);
+  const double stature = MedianStature(poses);
   if (stature < kLeast_m || stature > kMost_m) {
     return fmt::format("the body is {:.3g} m tall, which is not a person's height; is the file's unit right?", stature);
   }
-  const double legs = LowerPercentile(OverFrames(all, LeftLegLength), 0.5);
+  const double legs = LowerPercentile(OverFrames(poses, LeftLegLength), 0.5);
   if (stature > kMaxInfant_m || legs < kMaxInfantLegs * stature) return "";
   return fmt::format(
       "the body is {:.3g} m tall, but the legs have an adult's proportion of the height; is the file's unit right?",

@@ -110,6 +110,9 @@ glm::dmat4 WorldFromFile(const BodyConversion& body);
 /// Describes a change of the rate for users; "" if both rates are printed alike.
 std::string DescribeResampling(double from_hz, double to_hz);
 
+/// Returns the median stature over the poses, in their unit.
+double MedianStature(std::span<const BodyPose> poses);
+
 /// Returns a message for the user if no person is as tall as this body in its median frame (under 0.5 m or over 2.75
 /// m), or if the body is under 0.85 m tall and has an adult's long legs; otherwise "".
 std::string DescribeImpossibleHeight(std::span<const BodyPose> poses);

@@ -15,6 +15,20 @@ namespace {
 constexpr double kSpreadOfPeople = 0.15;  // standard deviation of people's thickness, as a share of the average
 constexpr double kMaxChange = 0.15;       // largest relative change of a part's thickness in one pass
 
+// A search uses losses with a wider reach than the final fit, and fewer iterations.
+constexpr double kWideReach = 3;  // factor on every reach in SilhouetteCostOptions
+constexpr int kCoarseSteps = 8, kFineSteps = 12;
+constexpr double kSpeedKept = 0.6;  // share of the last change that is extrapolated to the next frame
+
+// Returns the point triangulated from the silhouettes' centres; nullopt if the triangulation fails.
+std::optional<glm::dvec3> FindMiddle(const MomentViews& views) {
+  std::vector<Sighting> sightings;
+  for (const SilhouetteView& view : views) sightings.push_back({view.matrix, view.silhouette->centre});
+  const TriangulatedPoint middle = Triangulate(sightings);
+  if (middle.status != PointStatus::kOk) return std::nullopt;
+  return middle.position;
+}
+
 }  // namespace
 
 ThicknessEstimate::ThicknessEstimate(const SilhouetteBody& body)
@@ -51,24 +65,6 @@ SilhouetteBody ThicknessEstimate::Apply() const {
   }
   return body;
 }
-
-namespace {
-
-// A search uses losses with a wider reach than the final fit, and fewer iterations.
-constexpr double kWideReach = 3;  // factor on every reach in SilhouetteCostOptions
-constexpr int kCoarseSteps = 8, kFineSteps = 12;
-constexpr double kSpeedKept = 0.6;  // share of the last change that is extrapolated to the next frame
-
-// Returns the point triangulated from the silhouettes' centres; nullopt if the triangulation fails.
-std::optional<glm::dvec3> FindMiddle(const MomentViews& views) {
-  std::vector<Sighting> sightings;
-  for (const SilhouetteView& view : views) sightings.push_back({view.matrix, view.silhouette->centre});
-  const TriangulatedPoint middle = Triangulate(sightings);
-  if (middle.status != PointStatus::kOk) return std::nullopt;
-  return middle.position;
-}
-
-}  // namespace
 
 MomentFitter::MomentFitter(const SilhouetteBody& body, const TrackOptions& options) : body_(body), options_(options) {
   wide_ = {.cost = options.cost, .max_iterations = kCoarseSteps};

@@ -88,39 +88,6 @@ std::vector<double> SquaresAlongColumns(const Mask& mask) {
   return squares;
 }
 
-}  // namespace
-
-Image<float> SignedDistances(const Mask& mask) {
-  const std::vector<double> squares = SquaresAlongColumns(mask);
-  Image<float> distances(mask.width, mask.height);
-  const double farthest = mask.width + mask.height;
-  // For each run of equal pixels in a row, combine the distances along the columns: each column gives one parabola of
-  // the envelope. The pixels directly before and after the run have the other value, so columns beyond these two pixels
-  // contain no nearer pixel of that value.
-  const int longest = mask.width + 2;
-  Envelope envelope(longest);
-  std::vector<double> heights(longest), nearest(longest);
-  for (int y = 0; y < mask.height; ++y) {
-    const std::size_t row = static_cast<std::size_t>(y) * mask.width;
-    for (int begin = 0, end = 0; begin < mask.width; begin = end) {
-      const bool inside = mask.pixels[row + begin] != 0;
-      while (end < mask.width && (mask.pixels[row + end] != 0) == inside) ++end;
-      const int size = end - begin + 2;
-      heights[0] = begin > 0 ? 0 : Envelope::kNone;
-      std::copy_n(&squares[row + begin], end - begin, &heights[1]);
-      heights[size - 1] = end < mask.width ? 0 : Envelope::kNone;
-      envelope.Fill(heights, size, nearest);
-      for (int x = begin; x < end; ++x) {
-        const double away = std::min(std::sqrt(nearest[x - begin + 1]) - 0.5, farthest);
-        distances.pixels[row + x] = static_cast<float>(inside ? -away : away);
-      }
-    }
-  }
-  return distances;
-}
-
-namespace {
-
 // Returns true if one of the four neighbours within the picture is unset. The picture's edge is not an outline.
 bool IsOutline(const Mask& mask, int x, int y) {
   const auto unset = [&](int i, int j) { return mask.Contains(i, j) && mask.At(i, j) == 0; };
@@ -239,6 +206,35 @@ void SortIntoBlocks(const std::vector<OutlinePoint>& outline, std::span<int> poi
 }
 
 }  // namespace
+
+Image<float> SignedDistances(const Mask& mask) {
+  const std::vector<double> squares = SquaresAlongColumns(mask);
+  Image<float> distances(mask.width, mask.height);
+  const double farthest = mask.width + mask.height;
+  // For each run of equal pixels in a row, combine the distances along the columns: each column gives one parabola of
+  // the envelope. The pixels directly before and after the run have the other value, so columns beyond these two pixels
+  // contain no nearer pixel of that value.
+  const int longest = mask.width + 2;
+  Envelope envelope(longest);
+  std::vector<double> heights(longest), nearest(longest);
+  for (int y = 0; y < mask.height; ++y) {
+    const std::size_t row = static_cast<std::size_t>(y) * mask.width;
+    for (int begin = 0, end = 0; begin < mask.width; begin = end) {
+      const bool inside = mask.pixels[row + begin] != 0;
+      while (end < mask.width && (mask.pixels[row + end] != 0) == inside) ++end;
+      const int size = end - begin + 2;
+      heights[0] = begin > 0 ? 0 : Envelope::kNone;
+      std::copy_n(&squares[row + begin], end - begin, &heights[1]);
+      heights[size - 1] = end < mask.width ? 0 : Envelope::kNone;
+      envelope.Fill(heights, size, nearest);
+      for (int x = begin; x < end; ++x) {
+        const double away = std::min(std::sqrt(nearest[x - begin + 1]) - 0.5, farthest);
+        distances.pixels[row + x] = static_cast<float>(inside ? -away : away);
+      }
+    }
+  }
+  return distances;
+}
 
 OutlineColumns MakeColumns(const std::vector<OutlinePoint>& outline) {
   OutlineColumns columns;

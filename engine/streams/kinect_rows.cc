@@ -8,7 +8,7 @@
 #include "engine/base/order_statistics.h"
 #include "engine/formats/number_rows.h"
 #include "engine/formats/row_rates.h"
-#include "engine/formats/usual_rates.h"
+#include "engine/formats/time_scale.h"
 #include "engine/streams/format_readers.h"
 
 namespace etude {
@@ -74,17 +74,9 @@ bool CountsWhole(const NumberRows& table) {
   return true;
 }
 
-/// A unit of a clock.
-struct ClockUnit {
-  double seconds;
-  const char* name;
-};
-constexpr ClockUnit kClockUnits[] = {
-    {1e-3, "milliseconds"}, {1e-6, "microseconds"}, {1e-7, "ticks of 100 ns"}, {1e-9, "nanoseconds"}};
-
 /// Returns the length in seconds of the first column's unit, by the median step between rows (in bursts, by
 /// the mean step `mean_step`). A step below 1 counts seconds. Integers with a step below 16 are frame numbers at 30 Hz,
-/// because no skeleton sensor is faster than 60 Hz. Larger steps have the largest unit of `kClockUnits` that gives a
+/// because no skeleton sensor is faster than 60 Hz. Larger steps have the largest unit of `kSmallUnits` that gives a
 /// rate of a Kinect, or else the largest that gives at least 1 Hz. A remark states frame numbers, ticks and
 /// nanoseconds. Returns nullopt if the clock stands still or its steps are too large.
 std::optional<double> SecondsPerCount(const NumberRows& table, const std::optional<double>& mean_step,
@@ -104,13 +96,13 @@ std::optional<double> SecondsPerCount(const NumberRows& table, const std::option
     return 1 / kJudgedRateHz;
   }
   // Choose among the units of clocks.
-  const auto rate_in = [&](const ClockUnit& unit) { return 1 / (step * unit.seconds); };
-  const auto* unit =
-      std::ranges::find_if(kClockUnits, [&](const ClockUnit& one) { return IsKinectRate(rate_in(one)); });
-  if (unit == std::end(kClockUnits)) {
-    unit = std::ranges::find_if(kClockUnits, [&](const ClockUnit& one) { return rate_in(one) >= kMinMotionRate_hz; });
+  const auto rate_in = [&](const TimeUnit& unit) { return 1 / (step * unit.seconds); };
+  const auto* unit = std::ranges::find_if(kSmallUnits, IsKinectRate, rate_in);
+  if (unit == std::end(kSmallUnits)) {
+    unit = std::ranges::find_if(
+        kSmallUnits, [](double rate) { return rate >= kMinMotionRate_hz; }, rate_in);
   }
-  if (unit == std::end(kClockUnits)) return std::nullopt;
+  if (unit == std::end(kSmallUnits)) return std::nullopt;
   if (unit->seconds < 1e-6) {
     remarks.push_back(
         fmt::format("Etude reads the first column as {}, which gives a rate of {:.3g} Hz; as {}, the rate would be "

@@ -16,7 +16,6 @@
 #include "engine/formats/row_clock.h"
 #include "engine/formats/row_rates.h"
 #include "engine/formats/trc.h"
-#include "engine/formats/usual_rates.h"
 #include "engine/streams/body_jumps.h"
 #include "engine/streams/format_readers.h"
 

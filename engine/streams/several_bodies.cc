@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "engine/base/names.h"
+#include "engine/base/text.h"
 #include "engine/formats/json_text.h"
 #include "engine/formats/text_scanner.h"
 #include "engine/streams/bodies.h"
@@ -40,8 +41,7 @@ constexpr std::string_view kConfidences[] = {"NONE", "LOW", "MEDIUM", "HIGH"};
 /// nullopt for another name.
 std::optional<double> ConfidenceAt(const Json& list, std::size_t i) {
   if (!list[i].is_string()) return NumberAt(list, i).value_or(0);
-  std::string name = list[i].get<std::string>();
-  for (char& c : name) c = c >= 'a' && c <= 'z' ? static_cast<char>(c - 'a' + 'A') : c;
+  const std::string name = InUpperCase(list[i].get<std::string>());
   const auto found = std::ranges::find(kConfidences, std::string_view(name).substr(name.rfind('_') + 1));
   if (found == std::end(kConfidences)) return std::nullopt;
   return static_cast<double>(found - std::begin(kConfidences));
@@ -137,21 +137,6 @@ class AzureReader {
   bool tells_states_ = false;
 };
 
-}  // namespace
-
-Result<StreamRecording> ReadAzureKinect(std::string_view text, const std::string& file, const StreamReading& reading) {
-  ASSIGN_OR_RETURN(const Json root, ParseJsonText(text, file));
-  try {
-    return AzureReader(root, file).Read(reading);
-  } catch (const Json::exception& error) {
-    return Fail({file},
-                "this is not JSON written by the offline processor of Azure Kinect body tracking: {}",
-                error.what());
-  }
-}
-
-namespace {
-
 /// Reads NTU RGB+D's text: the number of frames; for each frame the number of bodies; for each body its id, nine
 /// numbers, the number of joints (25, in the Kinect v2's order), and for each joint x y z in metres, two pixels, a
 /// quaternion and the SDK's tracking state (Shahroudy et al. 2016, the data set's read_skeleton_file).
@@ -238,6 +223,16 @@ class NtuReader {
 };
 
 }  // namespace
+
+Result<StreamRecording> ReadAzureKinect(std::string_view text, const std::string& file, const StreamReading& reading) {
+  ASSIGN_OR_RETURN(const Json root, ParseJsonText(text, file));
+  try {
+    return AzureReader(root, file).Read(reading);
+  } catch (const Json::exception& error) {
+    return Fail({file}, "this is not JSON written by the offline processor of Azure Kinect body tracking: {}",
+                error.what());
+  }
+}
 
 Result<StreamRecording> ReadNtuSkeleton(std::string_view text, const std::string& file, const StreamReading& reading) {
   return NtuReader(text, file).Read(reading);

@@ -153,6 +153,25 @@ StreamLevel LevelOf(std::span<const RecordedFrame> frames, double rate_hz) {
   return level;
 }
 
+using enum Role;
+
+constexpr double kMaxGap_s = 0.2, kMaxLoss_s = 600, kSameTime = 5e-4;
+
+bool ShowsBody(const RecordedFrame& frame) {
+  return std::ranges::any_of(frame.places, [](const auto& place) { return place.has_value(); });
+}
+
+/// Interpolates between two frames. The result lacks a joint if one of the two frames lacks it.
+RecordedFrame Between(const RecordedFrame& a, const RecordedFrame& b, double part) {
+  RecordedFrame frame;
+  for (std::size_t i = 0; i < kRoleCount; ++i) {
+    if (!a.places[i] || !b.places[i]) continue;
+    frame.places[i] = glm::mix(*a.places[i], *b.places[i], part);
+    frame.states[i] = std::max(a.states[i], b.states[i]);
+  }
+  return frame;
+}
+
 }  // namespace
 
 StreamLevel EstimateLevel(std::span<const RecordedFrame> frames, double rate_hz) {
@@ -192,29 +211,6 @@ std::string Describe(const StreamLevel& level) {
   return fmt::format("{}the up direction is {} ({}); the floor is {:.2f} m below the sensor", turn, by, how,
                      -level.floor_m);
 }
-
-namespace {
-
-using enum Role;
-
-constexpr double kMaxGap_s = 0.2, kMaxLoss_s = 600, kSameTime = 5e-4;
-
-bool ShowsBody(const RecordedFrame& frame) {
-  return std::ranges::any_of(frame.places, [](const auto& place) { return place.has_value(); });
-}
-
-/// Interpolates between two frames. The result lacks a joint if one of the two frames lacks it.
-RecordedFrame Between(const RecordedFrame& a, const RecordedFrame& b, double part) {
-  RecordedFrame frame;
-  for (std::size_t i = 0; i < kRoleCount; ++i) {
-    if (!a.places[i] || !b.places[i]) continue;
-    frame.places[i] = glm::mix(*a.places[i], *b.places[i], part);
-    frame.states[i] = std::max(a.states[i], b.states[i]);
-  }
-  return frame;
-}
-
-}  // namespace
 
 StreamMaker::StreamMaker(const StreamLevel& level, const StreamOptions& options, std::string file)
     : level_(level), options_(options), file_(std::move(file)) {}

@@ -10,6 +10,7 @@
 #include <set>
 
 #include "engine/base/names.h"
+#include "engine/base/text.h"
 #include "engine/recognition/recognise.h"
 
 namespace etude {
@@ -54,11 +55,6 @@ Result<void> RefuseTwice(const std::vector<LabelledPart>& parts, const std::stri
 int FirstSeen(const SkeletonStream& stream) {
   const auto first = std::ranges::find_if(stream.frames, &SensedFrame::body_seen);
   return first == stream.frames.end() ? 0 : static_cast<int>(first - stream.frames.begin());
-}
-
-std::string InLowerCase(std::string text) {
-  for (char& c : text) c = c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
-  return text;
 }
 
 /// Describes what the labels' authors may not have meant: two right performances of different moves of which more than

@@ -27,53 +27,6 @@ SilhouetteBody WithThicknessOf(SilhouetteBody adult, const SilhouetteBody& body,
   return adult;
 }
 
-}  // namespace
-
-LimbLengths AdultLengths(double stature_m) {
-  constexpr double kStature = 1.74;
-  LimbLengths lengths;
-  for (const auto& [name, length] : kLimbLengths) lengths.*length *= stature_m / kStature;
-  return lengths;
-}
-
-double FitStature(const SilhouetteBody& body, double stature_m, std::span<const PosedViews> moments,
-                  const FitOptions& options) {
-  constexpr std::array kScales = {0.94, 0.96, 0.98, 1.0, 1.02, 1.04, 1.06};
-  // For every scale of the stature, sum the cost over the moments (pictures of one time).
-  const SilhouetteBody average = MakeSilhouetteBody(AdultLengths(stature_m));
-  std::array<double, kScales.size()> costs{};
-  FitWorkspace workspace;
-  for (std::size_t i = 0; i < kScales.size(); ++i) {
-    const SilhouetteBody adult =
-        WithThicknessOf(MakeSilhouetteBody(AdultLengths(kScales[i] * stature_m)), body, average);
-    for (const PosedViews& moment : moments) {
-      costs[i] += FitSilhouettes(adult, moment.views, moment.state, nullptr, options, workspace).picture_cost;
-    }
-  }
-  const auto best = static_cast<std::size_t>(std::ranges::min_element(costs) - costs.begin());
-  if (best == 0 || best + 1 == kScales.size()) return kScales[best] * stature_m;
-  // Take the minimum of the parabola through the best scale and its neighbours.
-  const double below = costs[best - 1] - costs[best], above = costs[best + 1] - costs[best];
-  const double step = kScales[1] - kScales[0];
-  const double shift = below + above > 0 ? 0.5 * step * (below - above) / (below + above) : 0;
-  return (kScales[best] + shift) * stature_m;
-}
-
-std::vector<SeenJoint> SeenJointsOf(const SeenPerson& person, double sigma_px) {
-  std::vector<SeenJoint> joints;
-  for (const auto& [landmark, role] : kJointLandmarks) {
-    const Keypoint& keypoint = person[landmark];
-    if (!(keypoint.confidence > 0)) continue;
-    joints.push_back({role, keypoint.pixel, sigma_px / std::sqrt(std::min(1.0, keypoint.confidence))});
-  }
-  std::ranges::stable_partition(joints, [](const SeenJoint& joint) {  // the hands come last
-    return joint.role != Role::kLeftHand && joint.role != Role::kRightHand;
-  });
-  return joints;
-}
-
-namespace {
-
 // The default options of engine/silhouettes are tuned in pixels of a camera with twice the resolution of these masks.
 constexpr double kMaskPixel = 2;
 constexpr double kUsualStature = 1.70;  // metres
@@ -318,6 +271,49 @@ class Recovery {
 };
 
 }  // namespace
+
+LimbLengths AdultLengths(double stature_m) {
+  constexpr double kStature = 1.74;
+  LimbLengths lengths;
+  for (const auto& [name, length] : kLimbLengths) lengths.*length *= stature_m / kStature;
+  return lengths;
+}
+
+double FitStature(const SilhouetteBody& body, double stature_m, std::span<const PosedViews> moments,
+                  const FitOptions& options) {
+  constexpr std::array kScales = {0.94, 0.96, 0.98, 1.0, 1.02, 1.04, 1.06};
+  // For every scale of the stature, sum the cost over the moments (pictures of one time).
+  const SilhouetteBody average = MakeSilhouetteBody(AdultLengths(stature_m));
+  std::array<double, kScales.size()> costs{};
+  FitWorkspace workspace;
+  for (std::size_t i = 0; i < kScales.size(); ++i) {
+    const SilhouetteBody adult =
+        WithThicknessOf(MakeSilhouetteBody(AdultLengths(kScales[i] * stature_m)), body, average);
+    for (const PosedViews& moment : moments) {
+      costs[i] += FitSilhouettes(adult, moment.views, moment.state, nullptr, options, workspace).picture_cost;
+    }
+  }
+  const auto best = static_cast<std::size_t>(std::ranges::min_element(costs) - costs.begin());
+  if (best == 0 || best + 1 == kScales.size()) return kScales[best] * stature_m;
+  // Take the minimum of the parabola through the best scale and its neighbours.
+  const double below = costs[best - 1] - costs[best], above = costs[best + 1] - costs[best];
+  const double step = kScales[1] - kScales[0];
+  const double shift = below + above > 0 ? 0.5 * step * (below - above) / (below + above) : 0;
+  return (kScales[best] + shift) * stature_m;
+}
+
+std::vector<SeenJoint> SeenJointsOf(const SeenPerson& person, double sigma_px) {
+  std::vector<SeenJoint> joints;
+  for (const auto& [landmark, role] : kJointLandmarks) {
+    const Keypoint& keypoint = person[landmark];
+    if (!(keypoint.confidence > 0)) continue;
+    joints.push_back({role, keypoint.pixel, sigma_px / std::sqrt(std::min(1.0, keypoint.confidence))});
+  }
+  std::ranges::stable_partition(joints, [](const SeenJoint& joint) {  // the hands come last
+    return joint.role != Role::kLeftHand && joint.role != Role::kRightHand;
+  });
+  return joints;
+}
 
 Result<UnmarkedMotion> RecoverUnmarked(const UnmarkedTake& take, const UnmarkedOptions& options) {
   assert(take.cameras.size() >= 2);

@@ -93,6 +93,16 @@ float RoomAt(Rgb8 room, Rgb8 pixel) {
   return likelihood;
 }
 
+constexpr std::size_t kPixelsAtOnce = 512;
+
+/// Returns the chroma; grey has the hue of pure red, as in `DetectChange`.
+Chroma ChromaOrPureRed(Rgb8 colour) {
+  constexpr int kPureRed = Chroma(Rgb8{255, 0, 0}).x;
+  Chroma chroma(colour);
+  chroma.x = chroma.IsGrey() ? kPureRed : chroma.x;
+  return chroma;
+}
+
 }  // namespace
 
 ColourLikelihood::ColourLikelihood(const ColourImage& background)
@@ -186,20 +196,6 @@ void ColourLikelihood::TellColours() {
     likelihoods_[i] = static_cast<float>(std::log((1 - kAnyColour) * shares[i] / worn_sum_ + kAny));
   }
 }
-
-namespace {
-
-constexpr std::size_t kPixelsAtOnce = 512;
-
-/// Returns the chroma; grey has the hue of pure red, as in `DetectChange`.
-Chroma ChromaOrPureRed(Rgb8 colour) {
-  constexpr int kPureRed = Chroma(Rgb8{255, 0, 0}).x;
-  Chroma chroma(colour);
-  chroma.x = chroma.IsGrey() ? kPureRed : chroma.x;
-  return chroma;
-}
-
-}  // namespace
 
 Mask PersonAmong(Mask changed, const PersonOptions& options) {
   if (options.pieces == PersonPieces::kLarge) {

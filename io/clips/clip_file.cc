@@ -8,6 +8,7 @@
 #include <set>
 
 #include "engine/base/names.h"
+#include "engine/base/text.h"
 #include "engine/base/utf8.h"
 #include "engine/formats/acclaim.h"
 #include "engine/formats/amass.h"
@@ -78,11 +79,12 @@ Result<ColourImage> DecodeTexture(std::string_view bytes, std::size_t max_pixels
   return bytes.starts_with("\x89PNG") ? DecodeColourPng(bytes, max_pixels) : ReadJpeg(bytes, max_pixels);
 }
 
-ClipFile FileOfOne(ClipFormat format, Clip clip) {
+ClipFile FileOfOne(ClipFormat format, Clip clip, std::vector<std::string> remarks = {}) {
   ClipFile file{.format = format,
                 .figure = {.name = clip.name, .skeleton = clip.skeleton, .materials = {}, .meshes = {}},
                 .clips = {}};
   file.clips.push_back(std::move(clip));
+  file.remarks = std::move(remarks);
   return file;
 }
 
@@ -227,6 +229,87 @@ Result<ClipFile> FileOfArray(const NumberArray& array, const std::optional<std::
   return file;
 }
 
+/// Reads arrays: bodies that Etude wrote, motions of AMASS and Kimodo, or positions of joints.
+Result<ClipFile> FileOfArrays(std::string_view bytes, const std::optional<std::string>& layout, const std::string& path,
+                              const OpenOptions& options) {
+  ASSIGN_OR_RETURN(const auto arrays, ReadNpz(bytes, path));
+  if (IsBodyNpz(arrays)) {
+    ASSIGN_OR_RETURN(const auto raw, ReadRawNpz(arrays, path, ToldOfArrays(options)));
+    if (const auto motion = BodyOf(raw)) {
+      std::vector<std::string> notes = {"Etude's own arrays"};
+      notes.insert(notes.end(), raw.notes.begin(), raw.notes.end());
+      if (auto crossing = DescribeExchangedJoints(RolesIn(raw), raw.rate_hz); !crossing.empty()) {
+        notes.push_back(std::move(crossing));
+      }
+      ClipFile file = FileOfBody(ClipFormat::kNpz, *motion, path, std::move(notes));
+      file.bodies[0].start_s = raw.start_s;
+      file.bodies[0].is_floor_known = !raw.is_of_camera;
+      if (const auto up = ToldUp(options)) file.bodies[0].up = {.axis = AxisOf(*up), .evidence = UpEvidence::kTold};
+      return file;
+    }
+    // If the joints are not the twenty canonical ones, or if tracks have gaps, find the body by the joints' names.
+    return FileOfJoints(ClipFormat::kNpz, raw, path, options);
+  }
+  const std::optional<double> told_hz = ToldOfArrays(options).rate_hz;
+  std::vector<std::string> remarks;
+  if (IsKimodoNpz(arrays)) {
+    ASSIGN_OR_RETURN(auto clip, ReadKimodo(arrays, path, told_hz, remarks));
+    ClipFile file = FileOfOne(ClipFormat::kNpz, std::move(clip), std::move(remarks));
+    file.roles = JointMapOverrides{.joints = {}, .metres_per_unit = 1, .up = UpAxis::kY};
+    return file;
+  }
+  std::string note;
+  ASSIGN_OR_RETURN(const auto joints, JointsOfSam(arrays, path, note));
+  if (joints) {
+    ArrayClock clock;
+    if (!told_hz) {
+      ASSIGN_OR_RETURN(clock, ClockOfArrays(arrays, joints->shape[0], path));
+    }
+    return FileOfArray(*joints, layout, path, options, std::move(clock), note);
+  }
+  ASSIGN_OR_RETURN(auto clip, ReadAmass(arrays, path, told_hz, &remarks));
+  return FileOfOne(ClipFormat::kAmass, std::move(clip), std::move(remarks));
+}
+
+constexpr std::string_view kBidsEnd = "_motion.tsv";
+
+/// Reads Motion-BIDS: a table of numbers; two files beside it, or in folders above, hold the columns' names and the
+/// rate.
+Result<ClipFile> FileOfBids(std::string_view bytes, const std::string& path, const OpenOptions& options,
+                            CappedReader& reader) {
+  const std::string stem = path.substr(0, path.size() - kBidsEnd.size());
+  const std::string named = NearestOr(FindBidsFiles(path, "channels.tsv"), stem + "_channels.tsv");
+  ASSIGN_OR_RETURN(const auto channels, reader.Read(named));
+  ASSIGN_OR_RETURN(const BidsFacts facts, ReadBidsFacts(path, stem, reader));
+  ASSIGN_OR_RETURN(auto joints, ReadMotionBids(bytes, channels, facts, {path, named}));
+  ASSIGN_OR_RETURN(auto up, UpOfBids(path, FramesOfBids(channels), reader));
+  return FileOfMarkers(ClipFormat::kBids, std::move(joints), path, ToldOfMarkers(options, std::move(up)));
+}
+
+/// Reads glTF, GLB, and FBX, which is converted to GLB first.
+Result<ClipFile> FileOfScene(ClipFormat format, std::string_view bytes, const std::string& path, CappedReader& reader) {
+  const bool is_fbx = format == ClipFormat::kFbx;
+  ClipFile file;
+  file.format = format;
+  FbxMotion fbx;
+  if (is_fbx) {
+    ASSIGN_OR_RETURN(fbx, ReadFbx(bytes, path));
+    file.remarks.push_back("read by " + fbx.reader);
+    if (!fbx.remark.empty()) file.remarks.push_back(fbx.remark);
+  }
+  auto read = ReadGltf(
+      is_fbx ? fbx.glb : bytes, path, [&](const std::string& uri) { return ReadBeside(path, uri, reader); },
+      DecodeTexture);
+  if (!read && is_fbx) return Fail({path}, "the motion of the FBX file cannot be used: {}", read.error().message);
+  ASSIGN_OR_RETURN(auto content, std::move(read));
+  for (std::string& remark : content.remarks) file.remarks.push_back(std::move(remark));
+  file.figure = std::move(content.character);
+  file.clips = std::move(content.clips);
+  file.roles = RolesOfBones(content.bones, file.figure.skeleton);
+  file.skinned = std::move(content.skinned);
+  return file;
+}
+
 }  // namespace
 
 std::string_view FormatName(ClipFormat format) {
@@ -245,71 +328,18 @@ Result<ClipFile> ReadClipFile(const std::string& path, const std::optional<std::
   const bool has_text = scanner.SkipToText();
   const Token first = has_text ? scanner.Next() : Token{};
 
-  ClipFile file;
-  // Try arrays: bodies that Etude wrote, motions of AMASS and Kimodo, or positions of joints.
-  if (IsZip(bytes)) {
-    ASSIGN_OR_RETURN(const auto arrays, ReadNpz(bytes, path));
-    if (IsBodyNpz(arrays)) {
-      ASSIGN_OR_RETURN(const auto raw, ReadRawNpz(arrays, path, ToldOfArrays(options)));
-      if (const auto motion = BodyOf(raw)) {
-        std::vector<std::string> notes = {"Etude's own arrays"};
-        notes.insert(notes.end(), raw.notes.begin(), raw.notes.end());
-        if (auto crossing = DescribeExchangedJoints(RolesIn(raw), raw.rate_hz); !crossing.empty()) {
-          notes.push_back(std::move(crossing));
-        }
-        file = FileOfBody(ClipFormat::kNpz, *motion, path, std::move(notes));
-        file.bodies[0].start_s = raw.start_s;
-        file.bodies[0].is_floor_known = !raw.is_of_camera;
-        if (const auto up = ToldUp(options)) file.bodies[0].up = {.axis = AxisOf(*up), .evidence = UpEvidence::kTold};
-        return file;
-      }
-      // If the joints are not the twenty canonical ones, or if tracks have gaps, find the body by the joints' names.
-      return FileOfJoints(ClipFormat::kNpz, raw, path, options);
-    }
-    const std::optional<double> told_hz = ToldOfArrays(options).rate_hz;
-    std::vector<std::string> remarks;
-    if (IsKimodoNpz(arrays)) {
-      ASSIGN_OR_RETURN(auto clip, ReadKimodo(arrays, path, told_hz, remarks));
-      file = FileOfOne(ClipFormat::kNpz, std::move(clip));
-      file.roles = JointMapOverrides{.joints = {}, .metres_per_unit = 1, .up = UpAxis::kY};
-      file.remarks = std::move(remarks);
-      return file;
-    }
-    std::string note;
-    ASSIGN_OR_RETURN(const auto joints, JointsOfSam(arrays, path, note));
-    if (joints) {
-      ArrayClock clock;
-      if (!told_hz) {
-        ASSIGN_OR_RETURN(clock, ClockOfArrays(arrays, joints->shape[0], path));
-      }
-      return FileOfArray(*joints, layout, path, options, std::move(clock), note);
-    }
-    ASSIGN_OR_RETURN(auto clip, ReadAmass(arrays, path, told_hz, &remarks));
-    file = FileOfOne(ClipFormat::kAmass, std::move(clip));
-    file.remarks = std::move(remarks);
-    return file;
-  }
+  // Try arrays and tables of numbers.
+  if (IsZip(bytes)) return FileOfArrays(bytes, layout, path, options);
   if (IsNpy(bytes)) {
     ASSIGN_OR_RETURN(const auto array, ReadNpy(bytes, path));
     return FileOfArray(array, layout, path, options);
   }
-  // Try Motion-BIDS: a table of numbers; two files beside it, or in folders above, hold the columns' names and the
-  // rate.
-  constexpr std::string_view kBidsEnd = "_motion.tsv";
-  if (path.ends_with(kBidsEnd)) {
-    const std::string stem = path.substr(0, path.size() - kBidsEnd.size());
-    const std::string named = NearestOr(FindBidsFiles(path, "channels.tsv"), stem + "_channels.tsv");
-    ASSIGN_OR_RETURN(const auto channels, reader.Read(named));
-    ASSIGN_OR_RETURN(const BidsFacts facts, ReadBidsFacts(path, stem, reader));
-    ASSIGN_OR_RETURN(auto joints, ReadMotionBids(bytes, channels, facts, {path, named}));
-    ASSIGN_OR_RETURN(auto up, UpOfBids(path, FramesOfBids(channels), reader));
-    return FileOfMarkers(ClipFormat::kBids, std::move(joints), path, ToldOfMarkers(options, std::move(up)));
-  }
+  if (path.ends_with(kBidsEnd)) return FileOfBids(bytes, path, options, reader);
   // Try markers, and recordings of runs.
   if (auto read = ReadMarkers(bytes, path)) {
     ASSIGN_OR_RETURN(auto markers, *std::move(read));
-    ASSIGN_OR_RETURN(file, FileOfMarkers(markers.format, std::move(markers.markers), path,
-                                         ToldOfMarkers(options, std::move(markers.rule))));
+    ASSIGN_OR_RETURN(auto file, FileOfMarkers(markers.format, std::move(markers.markers), path,
+                                              ToldOfMarkers(options, std::move(markers.rule))));
     file.has_rate = markers.has_rate;
     return file;
   }
@@ -320,7 +350,7 @@ Result<ClipFile> ReadClipFile(const std::string& path, const std::optional<std::
     std::string note = "the angles belong to the model in the file's header";
     double start_s = 0;
     ASSIGN_OR_RETURN(const auto motion, ReadOpenSimMotion(bytes, path, &note, &start_s));
-    file = FileOfBody(ClipFormat::kMot, motion, path, {note});
+    ClipFile file = FileOfBody(ClipFormat::kMot, motion, path, {note});
     file.bodies[0].start_s = start_s;
     return file;
   }
@@ -328,42 +358,22 @@ Result<ClipFile> ReadClipFile(const std::string& path, const std::optional<std::
     ASSIGN_OR_RETURN(auto clip, ReadDeepMimicMotion(bytes, path));
     return FileOfOne(ClipFormat::kDeepMimic, std::move(clip));
   }
-  // Try glTF, GLB, and FBX, which is converted to GLB first.
-  const bool is_fbx = IsFbx(bytes);
+  // Try scenes.
   if (first.text == "{" && bytes.find("\"asset\"") == std::string::npos) {
     return Fail(scanner.At(first), "{}", DescribeOtherFile(bytes, first.text));
   }
-  if (is_fbx || bytes.starts_with("glTF") || first.text == "{") {
-    file.format = is_fbx ? ClipFormat::kFbx : first.text == "{" ? ClipFormat::kGltf : ClipFormat::kGlb;
-    FbxMotion fbx;
-    if (is_fbx) {
-      ASSIGN_OR_RETURN(fbx, ReadFbx(bytes, path));
-      file.remarks.push_back("read by " + fbx.reader);
-      if (!fbx.remark.empty()) file.remarks.push_back(fbx.remark);
-    }
-    auto read = ReadGltf(
-        is_fbx ? fbx.glb : bytes, path, [&](const std::string& uri) { return ReadBeside(path, uri, reader); },
-        DecodeTexture);
-    if (!read && is_fbx) return Fail({path}, "the motion of the FBX file cannot be used: {}", read.error().message);
-    ASSIGN_OR_RETURN(auto content, std::move(read));
-    for (std::string& remark : content.remarks) file.remarks.push_back(std::move(remark));
-    file.figure = std::move(content.character);
-    file.clips = std::move(content.clips);
-    file.roles = RolesOfBones(content.bones, file.figure.skeleton);
-    file.skinned = std::move(content.skinned);
-    return file;
-  }
+  if (first.text == "{") return FileOfScene(ClipFormat::kGltf, bytes, path, reader);
+  if (bytes.starts_with("glTF")) return FileOfScene(ClipFormat::kGlb, bytes, path, reader);
+  if (IsFbx(bytes)) return FileOfScene(ClipFormat::kFbx, bytes, path, reader);
   // Try Acclaim and BVH; the complaint of the BVH reader describes any other file.
   if (IsAcclaimMotion(bytes)) {
     AcclaimFacts facts;
     ASSIGN_OR_RETURN(auto clip, ReadAcclaim(bytes, path, reader, facts));
-    ClipFile read = FileOfOne(ClipFormat::kAcclaim, std::move(clip));
-    read.remarks = std::move(facts.remarks);
-    read.has_rate = facts.has_rate;
-    return read;
+    ClipFile file = FileOfOne(ClipFormat::kAcclaim, std::move(clip), std::move(facts.remarks));
+    file.has_rate = facts.has_rate;
+    return file;
   }
-  constexpr std::string_view kBvhStart = "HIERARCHY";
-  if (!std::ranges::equal(first.text, kBvhStart, {}, [](char c) { return c >= 'a' && c <= 'z' ? c - 'a' + 'A' : c; })) {
+  if (!EqualsIgnoringCase(first.text, "HIERARCHY")) {
     return Fail(
         scanner.At(first),
         "found {}; allowed: BVH (it begins with HIERARCHY), glTF 2.0 (.glb, .gltf), FBX, Acclaim's .amc, AMASS's .npz, "
@@ -371,10 +381,9 @@ Result<ClipFile> ReadClipFile(const std::string& path, const std::optional<std::
         "DeepMimic's motions",
         DescribeOtherFile(bytes, first.text));
   }
-  ASSIGN_OR_RETURN(auto clip, ReadBvh(bytes, path, &file.remarks, ToldOfArrays(options).rate_hz));
-  ClipFile read = FileOfOne(ClipFormat::kBvh, std::move(clip));
-  read.remarks = std::move(file.remarks);
-  return read;
+  std::vector<std::string> remarks;
+  ASSIGN_OR_RETURN(auto clip, ReadBvh(bytes, path, &remarks, ToldOfArrays(options).rate_hz));
+  return FileOfOne(ClipFormat::kBvh, std::move(clip), std::move(remarks));
 }
 
 }  // namespace etude

@@ -96,8 +96,8 @@ std::optional<std::string> ReceiveBlock(int socket, std::size_t maximum, bool& i
   return ReceiveAll(socket, bytes.data(), size) ? std::optional(std::move(bytes)) : std::nullopt;
 }
 
-/// Runs in the child process. Answers each file with kSaidGlb, six lines (the reader's name, and the numbers of
-/// FbxKeyFacts) and the GLB file; or with kSaidComplaint and a complaint.
+/// Runs in the child process. Answers each file with kSaidGlb, the bytes of FbxKeyFacts, a line with the reader's name
+/// and the GLB file; or with kSaidComplaint and a complaint.
 int ReadFilesInChild(int socket) {
   Limit(RLIMIT_AS, MappedBytes() + kMemoryBytes);
   Limit(RLIMIT_CORE, 0);
@@ -122,9 +122,8 @@ int ReadFilesInChild(int socket) {
     std::string said = missing;
     FbxKeyFacts facts;
     const bool went_well = read != nullptr && read(*bytes, said, facts);
-    const std::string head = went_well ? fmt::format("{}{}\n{}\n{}\n{}\n{}\n{}\n", kSaidGlb, name, facts.longest_s,
-                                                     facts.step_s, facts.turn_deg, facts.cut_s, facts.empty_spans)
-                                       : std::string(1, kSaidComplaint);
+    std::string head(1, went_well ? kSaidGlb : kSaidComplaint);
+    if (went_well) head.append(reinterpret_cast<const char*>(&facts), sizeof facts).append(name + "\n");
     if (!SendBlock(socket, head + said)) break;
   }
   return 0;
@@ -207,16 +206,11 @@ Result<FbxMotion> FbxReader::Read(std::string_view bytes, const std::string& pat
   bool is_too_long = false;
   if (SendBlock(child_->socket(), bytes)) said = ReceiveBlock(child_->socket(), kMaxGlbBytes, is_too_long);
   // The child answered: return its GLB file or its complaint.
-  if (said && said->starts_with(kSaidGlb)) {
-    std::string_view rest = *said;
-    FbxMotion motion{.glb = "", .reader = std::string(TakeLine(rest).substr(1))};
-    const auto number = [&] { return ParseNumber<double>(TakeLine(rest)).value_or(0); };
+  if (said && said->starts_with(kSaidGlb) && said->size() > sizeof(FbxKeyFacts)) {
     FbxKeyFacts facts;
-    facts.longest_s = number();
-    facts.step_s = number();
-    facts.turn_deg = number();
-    facts.cut_s = number();
-    facts.empty_spans = static_cast<int>(number());
+    std::memcpy(&facts, said->data() + 1, sizeof facts);
+    std::string_view rest = std::string_view(*said).substr(1 + sizeof facts);
+    FbxMotion motion{.glb = "", .reader = std::string(TakeLine(rest))};
     motion.glb = rest;
     std::vector<std::string> remarks = std::move(prepared.remarks);
     Describe(facts, remarks);

@@ -6,6 +6,7 @@
 
 #include "engine/base/digest.h"
 #include "engine/base/names.h"
+#include "engine/base/text.h"
 #include "engine/base/utf8.h"
 #include "engine/formats/kimodo.h"
 #include "engine/formats/npz.h"
@@ -62,8 +63,7 @@ RawMotion OfSkeleton(const Clip& clip, double unit, UpAxis up) {
 /// roles name the hip centre.
 bool CarriesAsPelvis(const RawMotion& raw, const JointMap& map, const JointMapOverrides* told) {
   if (told != nullptr && told->joints.contains(Role::kHipCentre)) return true;
-  std::string name = raw.joints[map[Role::kHipCentre].joint];
-  std::ranges::transform(name, name.begin(), [](char c) { return c >= 'A' && c <= 'Z' ? char(c - 'A' + 'a') : c; });
+  const std::string name = InLowerCase(raw.joints[map[Role::kHipCentre].joint]);
   if (name.ends_with("hips") || name.ends_with("pelvis")) return true;
   // Distance from the hips' middle in thigh lengths. Pelvises of 4 libraries: ≤ 0.33; OpenNI's torso: 0.44–0.50.
   constexpr double kMaxThighs = 0.4;
@@ -102,50 +102,6 @@ Result<std::vector<bool>> ContactsIn(const std::string& reference, std::size_t f
   ASSIGN_OR_RETURN(const auto contacts, ReadFootContacts(arrays, frames, path));
   return contacts.value_or(std::vector<bool>{});
 }
-
-}  // namespace
-
-Result<RawMotion> RawMotionOf(SourceClip source, const OpenOptions& options, bool keeps_rig) {
-  const std::string name = source.source;
-  const ClipFormat format = source.format;
-  RawMotion raw;
-  if (source.shown != nullptr) {
-    raw = *source.shown;
-  } else {
-    // UnderstandClip finds roles, unit and up axis; the resampled motion and the floor that it computes are not used
-    // here.
-    const bool is_body = source.format == ClipFormat::kBuiltin || source.made.has_value();
-    const std::optional<double> start_s = source.made ? source.made->start_s : std::nullopt;
-    OpenOptions how = options;
-    how.body.drop_t_pose = false;
-    how.body.floor = 0;
-    ASSIGN_OR_RETURN(const auto opened, UnderstandClip(std::move(source), how));
-    raw = OfSkeleton(opened.source.clip, opened.body.metres_per_unit, opened.body.up);
-    raw.start_s = start_s;
-    for (const Role role : AllRoles()) {
-      const bool is_composed = std::ranges::find(opened.map.composed, role) != opened.map.composed.end();
-      if (!is_composed) raw.roles[Index(role)] = opened.map[role].joint;
-    }
-    const JointMapOverrides* told = options.roles ? &*options.roles : nullptr;
-    if (!is_body && !CarriesAsPelvis(raw, opened.map, told)) raw.roles[Index(Role::kHipCentre)] = -1;
-    if (is_body && !keeps_rig) {
-      raw.rotations.clear();  // RigClip computed these rotations; the file has none
-      raw.rest_rotations.clear();
-      raw.rest_positions.clear();
-    } else {
-      raw.notes = NotesOn(opened);
-    }
-  }
-  raw.name = name;
-  if (raw.roles[Index(Role::kHipCentre)] < 0) AddMidwayHips(raw);
-  if (format == ClipFormat::kNpz || format == ClipFormat::kAmass) {
-    ASSIGN_OR_RETURN(raw.contacts, ContactsIn(name, raw.FrameCount()));
-  }
-  if (raw.positions.empty()) return Fail({name}, "the motion has no frames; allowed: at least one");
-  return raw;
-}
-
-namespace {
 
 /// Returns true if a reference is the name of a ZIP file, as .npz files are.
 bool BeginsAsZip(const std::string& reference) {
@@ -201,6 +157,46 @@ Result<RawMotion> OfArrays(const Npz& arrays, const std::string& reference, cons
 }
 
 }  // namespace
+
+Result<RawMotion> RawMotionOf(SourceClip source, const OpenOptions& options, bool keeps_rig) {
+  const std::string name = source.source;
+  const ClipFormat format = source.format;
+  RawMotion raw;
+  if (source.shown != nullptr) {
+    raw = *source.shown;
+  } else {
+    // UnderstandClip finds roles, unit and up axis; the resampled motion and the floor that it computes are not used
+    // here.
+    const bool is_body = source.format == ClipFormat::kBuiltin || source.made.has_value();
+    const std::optional<double> start_s = source.made ? source.made->start_s : std::nullopt;
+    OpenOptions how = options;
+    how.body.drop_t_pose = false;
+    how.body.floor = 0;
+    ASSIGN_OR_RETURN(const auto opened, UnderstandClip(std::move(source), how));
+    raw = OfSkeleton(opened.source.clip, opened.body.metres_per_unit, opened.body.up);
+    raw.start_s = start_s;
+    for (const Role role : AllRoles()) {
+      const bool is_composed = std::ranges::find(opened.map.composed, role) != opened.map.composed.end();
+      if (!is_composed) raw.roles[Index(role)] = opened.map[role].joint;
+    }
+    const JointMapOverrides* told = options.roles ? &*options.roles : nullptr;
+    if (!is_body && !CarriesAsPelvis(raw, opened.map, told)) raw.roles[Index(Role::kHipCentre)] = -1;
+    if (is_body && !keeps_rig) {
+      raw.rotations.clear();  // RigClip computed these rotations; the file has none
+      raw.rest_rotations.clear();
+      raw.rest_positions.clear();
+    } else {
+      raw.notes = NotesOn(opened);
+    }
+  }
+  raw.name = name;
+  if (raw.roles[Index(Role::kHipCentre)] < 0) AddMidwayHips(raw);
+  if (format == ClipFormat::kNpz || format == ClipFormat::kAmass) {
+    ASSIGN_OR_RETURN(raw.contacts, ContactsIn(name, raw.FrameCount()));
+  }
+  if (raw.positions.empty()) return Fail({name}, "the motion has no frames; allowed: at least one");
+  return raw;
+}
 
 Result<std::string> DigestOfFile(const std::string& reference, const OpenOptions& options) {
   if (reference.starts_with(kBuiltinPrefix)) return Digest().Add(std::string_view(reference)).Hex();

@@ -30,6 +30,51 @@ bool ReceiveByte(int socket) {
   return ReceiveAll(socket, &byte, 1);
 }
 
+/// The file of a click track. The file exists only while the film is encoded.
+class SoundFile {
+ public:
+  static Result<SoundFile> Make(const Scene& scene) {
+    SoundFile sound;
+    const std::vector<double> beats = scene.Beats();
+    if (beats.empty()) return sound;
+    constexpr int kSoundRate = 44100;
+    ASSIGN_OR_RETURN(sound.folder_, TemporaryFolder::Make("sound"));
+    sound.path_ = sound.folder_->path() / "clicks.wav";
+    const double seconds = static_cast<double>(scene.Frames()) / kFilmRate;
+    RETURN_IF_ERROR(
+        WriteFileAtomically(sound.path_, WriteWav(ClickTrack(beats, seconds, kSoundRate), kSoundRate), OnDisk::kLater));
+    return sound;
+  }
+  const std::filesystem::path& path() const { return path_; }  ///< path of the file; empty for a silent film
+
+ private:
+  SoundFile() = default;
+  std::optional<TemporaryFolder> folder_;
+  std::filesystem::path path_;
+};
+
+Result<std::string> Encode(Scene& scene, const FilePath& path, const FilmWatch& watch) {
+  ASSIGN_OR_RETURN(const SoundFile sound, SoundFile::Make(scene));
+  const auto draw = [&](int frame) { return scene.Draw(frame); };
+  ASSIGN_OR_RETURN(const bool is_whole, EncodeFrames(path, scene.Frames(), kFilmRate, draw, watch, sound.path()));
+  if (!is_whole) return Fail({}, "it was stopped");
+  return ReadWholeFile(path);
+}
+
+Result<bool> EncodeDrawn(const FilePath& path, int frames, double rate_hz, FilmWorkers workers, const FilmWatch& watch,
+                         const std::filesystem::path& sound) {
+  ASSIGN_OR_RETURN(auto encoder,
+                   Encoder::Start(path, workers.width(), workers.height(), rate_hz, sound, Encoder::Form::kI420));
+  for (int frame = 0; frame < frames; ++frame) {
+    if (watch.IsStopped()) return false;
+    ASSIGN_OR_RETURN(const auto picture, workers.Next());
+    RETURN_IF_ERROR(encoder.Add(picture));
+    watch.Tell(path.whole(), static_cast<std::size_t>(frame + 1), static_cast<std::size_t>(frames));
+  }
+  RETURN_IF_ERROR(encoder.Finish());
+  return true;
+}
+
 }  // namespace
 
 void FilmWorkers::Unmap::operator()(std::uint8_t* memory) const { munmap(memory, bytes); }
@@ -124,55 +169,6 @@ Result<std::span<const std::uint8_t>> FilmWorkers::Next() {
   ++next_;
   return SlotOf(worker, workers_[worker].taken).picture;
 }
-
-namespace {
-
-/// The file of a click track. The file exists only while the film is encoded.
-class SoundFile {
- public:
-  static Result<SoundFile> Make(const Scene& scene) {
-    SoundFile sound;
-    const std::vector<double> beats = scene.Beats();
-    if (beats.empty()) return sound;
-    constexpr int kSoundRate = 44100;
-    ASSIGN_OR_RETURN(sound.folder_, TemporaryFolder::Make("sound"));
-    sound.path_ = sound.folder_->path() / "clicks.wav";
-    const double seconds = static_cast<double>(scene.Frames()) / kFilmRate;
-    RETURN_IF_ERROR(
-        WriteFileAtomically(sound.path_, WriteWav(ClickTrack(beats, seconds, kSoundRate), kSoundRate), OnDisk::kLater));
-    return sound;
-  }
-  const std::filesystem::path& path() const { return path_; }  ///< path of the file; empty for a silent film
-
- private:
-  SoundFile() = default;
-  std::optional<TemporaryFolder> folder_;
-  std::filesystem::path path_;
-};
-
-Result<std::string> Encode(Scene& scene, const FilePath& path, const FilmWatch& watch) {
-  ASSIGN_OR_RETURN(const SoundFile sound, SoundFile::Make(scene));
-  const auto draw = [&](int frame) { return scene.Draw(frame); };
-  ASSIGN_OR_RETURN(const bool is_whole, EncodeFrames(path, scene.Frames(), kFilmRate, draw, watch, sound.path()));
-  if (!is_whole) return Fail({}, "it was stopped");
-  return ReadWholeFile(path);
-}
-
-Result<bool> EncodeDrawn(const FilePath& path, int frames, double rate_hz, FilmWorkers workers, const FilmWatch& watch,
-                         const std::filesystem::path& sound) {
-  ASSIGN_OR_RETURN(auto encoder,
-                   Encoder::Start(path, workers.width(), workers.height(), rate_hz, sound, Encoder::Form::kI420));
-  for (int frame = 0; frame < frames; ++frame) {
-    if (watch.IsStopped()) return false;
-    ASSIGN_OR_RETURN(const auto picture, workers.Next());
-    RETURN_IF_ERROR(encoder.Add(picture));
-    watch.Tell(path.whole(), static_cast<std::size_t>(frame + 1), static_cast<std::size_t>(frames));
-  }
-  RETURN_IF_ERROR(encoder.Finish());
-  return true;
-}
-
-}  // namespace
 
 Result<bool> EncodeFrames(const FilePath& path, int frames, int rate_hz, const std::function<Canvas(int frame)>& draw,
                           const FilmWatch& watch, const std::filesystem::path& sound) {

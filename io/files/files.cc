@@ -53,23 +53,6 @@ std::filesystem::path NameOfCopy(const std::filesystem::path& path, int copy) {
   return path.parent_path() / (path.stem().string() + ".partial" + number + path.extension().string());
 }
 
-}  // namespace
-
-std::filesystem::path TemporaryName(const std::filesystem::path& path) { return NameOfCopy(path, 0); }
-
-Result<void> WriteFileAtomically(const FilePath& path, std::string_view bytes, OnDisk when) {
-  ASSIGN_OR_RETURN(auto file, AtomicFile::Begin(path));
-  RETURN_IF_ERROR(file.Write(bytes));
-  return file.Finish(when);
-}
-
-Result<void> SaveJson(const FilePath& path, const Json& json, OnDisk when) {
-  ASSIGN_OR_RETURN(const auto text, WriteJson(json));
-  return WriteFileAtomically(path, text + "\n", when);
-}
-
-namespace {
-
 bool LockNamed(int file, int folder, const std::string& name) {
   if (::flock(file, LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK) return false;
   struct stat ours {
@@ -86,6 +69,19 @@ bool HasOneName(int file) {
 }
 
 }  // namespace
+
+std::filesystem::path TemporaryName(const std::filesystem::path& path) { return NameOfCopy(path, 0); }
+
+Result<void> WriteFileAtomically(const FilePath& path, std::string_view bytes, OnDisk when) {
+  ASSIGN_OR_RETURN(auto file, AtomicFile::Begin(path));
+  RETURN_IF_ERROR(file.Write(bytes));
+  return file.Finish(when);
+}
+
+Result<void> SaveJson(const FilePath& path, const Json& json, OnDisk when) {
+  ASSIGN_OR_RETURN(const auto text, WriteJson(json));
+  return WriteFileAtomically(path, text + "\n", when);
+}
 
 bool LockUnlessTaken(int file, const std::filesystem::path& name) { return LockNamed(file, AT_FDCWD, name.string()); }
 

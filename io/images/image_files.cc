@@ -133,27 +133,6 @@ void WriteExr(const View& view, const NormalImage& normals, std::span<const Dept
   file.writePixels(height);
 }
 
-}  // namespace
-
-std::string EncodePng(const ColourImage& image, double pixels_per_metre) {
-  static_assert(sizeof(Rgb8) == 3, "a picture is written as bytes of its colours");
-  return EncodePixels(reinterpret_cast<const std::uint8_t*>(image.pixels.data()), image.width, image.height,
-                      PNG_COLOR_TYPE_RGB, pixels_per_metre);
-}
-
-std::string EncodePng(const Mask& mask) {
-  Mask grey = mask;
-  for (std::uint8_t& pixel : grey.pixels) pixel = pixel ? 255 : 0;
-  return EncodePixels(grey.pixels.data(), grey.width, grey.height, PNG_COLOR_TYPE_GRAY);
-}
-
-std::string EncodePpm(const ColourImage& image) {
-  std::string bytes = fmt::format("P6\n{} {}\n255\n", image.width, image.height);
-  return bytes.append(reinterpret_cast<const char*>(image.pixels.data()), 3 * image.pixels.size());
-}
-
-namespace {
-
 /// Reads the head of a PNG file, and refuses pictures that are too large. Afterwards, `png` refers to
 /// `bytes`, which must outlive it.
 Result<void> BeginPng(const std::string& bytes, const std::string& path, png_image& png) {
@@ -168,10 +147,6 @@ Result<void> BeginPng(const std::string& bytes, const std::string& path, png_ima
   }
   return {};
 }
-
-}  // namespace
-
-namespace {
 
 /// The bytes of a PNG file that are not yet read.
 struct PngBytes {
@@ -211,6 +186,23 @@ bool ReadGrey16(const std::string& bytes, std::vector<png_bytep>& rows) {
 }
 
 }  // namespace
+
+std::string EncodePng(const ColourImage& image, double pixels_per_metre) {
+  static_assert(sizeof(Rgb8) == 3, "a picture is written as bytes of its colours");
+  return EncodePixels(reinterpret_cast<const std::uint8_t*>(image.pixels.data()), image.width, image.height,
+                      PNG_COLOR_TYPE_RGB, pixels_per_metre);
+}
+
+std::string EncodePng(const Mask& mask) {
+  Mask grey = mask;
+  for (std::uint8_t& pixel : grey.pixels) pixel = pixel ? 255 : 0;
+  return EncodePixels(grey.pixels.data(), grey.width, grey.height, PNG_COLOR_TYPE_GRAY);
+}
+
+std::string EncodePpm(const ColourImage& image) {
+  std::string bytes = fmt::format("P6\n{} {}\n255\n", image.width, image.height);
+  return bytes.append(reinterpret_cast<const char*>(image.pixels.data()), 3 * image.pixels.size());
+}
 
 Result<MaskPicture> LoadMaskPng(const std::string& path) {
   ASSIGN_OR_RETURN(const auto bytes, ReadWholeFile(path, kMaxPictureFileBytes));

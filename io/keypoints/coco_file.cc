@@ -29,17 +29,17 @@ Result<CocoImages> ImagesOf(const Json& images, PeopleOfFilm& film, const Place&
   std::vector<double> ids;
   std::vector<std::string> names;
   for (const Json& image : images) {
-    const Json* name = Member(image, "file_name");
-    names.push_back(name != nullptr && name->is_string() ? name->get<std::string>() : "");
-    const Json *id = Member(image, "id"), *width = Member(image, "width"), *height = Member(image, "height");
-    if (id == nullptr || !id->is_number()) return Fail(place, "found an image without a number 'id'");
-    if (!read.frames.try_emplace(id->get<double>(), 0).second) {
-      return Fail(place, "found two images with the id {}", id->dump());
+    names.push_back(TextOf(Member(image, "file_name")));
+    const auto id = NumberOf(Member(image, "id"));
+    if (!id) return Fail(place, "found an image without a number 'id'");
+    if (!read.frames.try_emplace(*id, 0).second) {
+      return Fail(place, "found two images with the id {}", Member(image, "id")->dump());
     }
-    ids.push_back(id->get<double>());
-    if (width != nullptr && width->is_number() && height != nullptr && height->is_number()) {
-      const int w = static_cast<int>(std::clamp(width->get<double>(), 0.0, kMaxPixel));
-      const int h = static_cast<int>(std::clamp(height->get<double>(), 0.0, kMaxPixel));
+    ids.push_back(*id);
+    const auto width = NumberOf(Member(image, "width")), height = NumberOf(Member(image, "height"));
+    if (width && height) {
+      const int w = static_cast<int>(std::clamp(*width, 0.0, kMaxPixel));
+      const int h = static_cast<int>(std::clamp(*height, 0.0, kMaxPixel));
       if (film.width != 0 && (w != film.width || h != film.height)) {
         return Fail(place, "one film has images of {} x {} and of {} x {} pixels; allowed: one size", film.width,
                     film.height, w, h);
@@ -84,10 +84,9 @@ CocoCategories CategoriesOf(const Json& json) {
   const Json* list = Member(json, "categories");
   if (list == nullptr || !list->is_array()) return categories;
   for (const Json& one : *list) {
-    const Json *id = Member(one, "id"), *name = Member(one, "name");
-    CocoCategory& category = categories[id != nullptr && id->is_number() ? id->get<double>() : 0];
+    CocoCategory& category = categories[NumberOf(Member(one, "id")).value_or(0)];
     category.keypoints = KeypointNames(TextsOf(Member(one, "keypoints")));
-    if (name != nullptr && name->is_string()) category.name = name->get<std::string>();
+    if (const std::string name = TextOf(Member(one, "name")); !name.empty()) category.name = name;
   }
   return categories;
 }
@@ -96,8 +95,7 @@ CocoCategories CategoriesOf(const Json& json) {
 /// category; if `only` is null, a category without names.
 CocoCategory& CategoryOf(const Json& annotation, CocoCategory* only, CocoCategories& categories) {
   constexpr double kNoId = -1;
-  const Json* id = Member(annotation, "category_id");
-  const double number = id != nullptr && id->is_number() ? id->get<double>() : kNoId;
+  const double number = NumberOf(Member(annotation, "category_id")).value_or(kNoId);
   const auto found = categories.find(number);
   if (found != categories.end()) return found->second;
   return only != nullptr ? *only : categories[number];
@@ -157,11 +155,10 @@ Result<PeopleOfFilm> ReadCoco(const Json& json, const std::string& layout, const
   std::vector<CocoPerson> people;
   std::size_t boxes = 0;
   for (const Json& annotation : *annotations) {
-    const Json* id = Member(annotation, "image_id");
-    const auto frame = id != nullptr && id->is_number() ? listed.frames.find(id->get<double>()) : listed.frames.end();
+    const auto id = NumberOf(Member(annotation, "image_id"));
+    const auto frame = id ? listed.frames.find(*id) : listed.frames.end();
     if (frame == listed.frames.end())
-      return Fail(place,
-                  "an annotation belongs to an image that the list 'images' does not contain");
+      return Fail(place, "an annotation belongs to an image that the list 'images' does not contain");
     if (!HasKeypoints(annotation)) {
       ++boxes;
       continue;

@@ -3,18 +3,40 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 #include <nlohmann/json.hpp>
 #include <numeric>
 
 #include "engine/base/order_statistics.h"
+#include "engine/base/text.h"
 #include "engine/formats/row_clock.h"
 
 namespace etude {
 namespace {
 
-bool IsDigit(char c) { return c >= '0' && c <= '9'; }
+/// Returns the last number of a name, without the ending after a point, as [begin, end); both are 0 without a number.
+std::pair<std::size_t, std::size_t> LastNumberIn(std::string_view name) {
+  const std::size_t dot = name.find_last_of('.');
+  if (dot != std::string_view::npos && dot > 0) name = name.substr(0, dot);
+  const std::size_t end = name.find_last_of("0123456789") + 1;
+  return {name.substr(0, end).find_last_not_of("0123456789") + 1, end};
+}
+
+/// Moves the i-th frame to `indices[i]`; indices ascend. `count` is the number of frames afterwards. Adds a note if
+/// frames are missing.
+void MoveFrames(std::span<const std::size_t> indices, std::size_t count, PeopleOfFilm& film) {
+  SeenPeople frames(count);
+  for (std::size_t i = 0; i < indices.size(); ++i) frames[indices[i]] = std::move(film.frames[i]);
+  if (count > indices.size()) {
+    film.Tell(
+        fmt::format("by the frame numbers or times, {} of {} frames are missing; Etude assumes that these frames show "
+                    "nobody",
+                    count - indices.size(), count));
+  }
+  film.frames = std::move(frames);
+}
+
+constexpr std::size_t kMaxSpread = 10;  // maximum number of frames per entry of a list
 
 }  // namespace
 
@@ -62,15 +84,9 @@ bool AreNumbered(std::span<const std::string> names) {
 std::optional<long> FrameNumber(const Json& id) {
   if (id.is_number_integer()) return id.get<long>();
   if (!id.is_string()) return std::nullopt;
-  std::string text = id.get<std::string>();
-  if (const std::size_t dot = text.find_last_of('.'); dot != std::string::npos && dot > 0) text.resize(dot);
-  const std::size_t end = text.find_last_of("0123456789");
-  if (end == std::string::npos) return std::nullopt;
-  const std::size_t before = text.find_last_not_of("0123456789", end);
-  const std::size_t begin = before == std::string::npos ? 0 : before + 1;
-  long number = 0;
-  const auto [at, error] = std::from_chars(text.data() + begin, text.data() + end + 1, number);
-  return error == std::errc{} ? std::optional(number) : std::nullopt;
+  const std::string text = id.get<std::string>();
+  const auto [begin, end] = LastNumberIn(text);
+  return ParseNumber<long>(std::string_view(text).substr(begin, end - begin));
 }
 
 Result<PeopleOfFilm> FilmOfNumbers(std::map<long, std::vector<SeenPerson>> numbered, const FilmOfKeypoints& of,
@@ -115,26 +131,6 @@ Result<PeopleOfFilm> FilmOfNumbers(std::map<long, std::vector<SeenPerson>> numbe
   return film;
 }
 
-namespace {
-
-/// Moves the i-th frame to `indices[i]`; indices ascend. `count` is the number of frames afterwards. Adds a note if
-/// frames are missing.
-void MoveFrames(std::span<const std::size_t> indices, std::size_t count, PeopleOfFilm& film) {
-  SeenPeople frames(count);
-  for (std::size_t i = 0; i < indices.size(); ++i) frames[indices[i]] = std::move(film.frames[i]);
-  if (count > indices.size()) {
-    film.Tell(
-        fmt::format("by the frame numbers or times, {} of {} frames are missing; Etude assumes that these frames show "
-                    "nobody",
-                    count - indices.size(), count));
-  }
-  film.frames = std::move(frames);
-}
-
-constexpr std::size_t kMaxSpread = 10;  // maximum number of frames per entry of a list
-
-}  // namespace
-
 void LayByTimes(const std::vector<double>& times, const FilmOfKeypoints& of, PeopleOfFilm& film) {
   std::vector<double> steps;
   for (std::size_t i = 1; i < times.size(); ++i) {
@@ -174,12 +170,7 @@ void LayByNames(std::span<const std::string> names, const FilmOfKeypoints& of, P
   if (names.size() < 2 || names.size() != film.frames.size() || of.frames == names.size()) return;
   // Read the number at the end of each name. The text before the number must be the same in all names, and the numbers
   // must ascend.
-  const auto text_of = [](std::string name) {
-    if (const std::size_t dot = name.find_last_of('.'); dot != std::string::npos && dot > 0) name.resize(dot);
-    const std::size_t end = name.find_last_of("0123456789");
-    const std::size_t before = end == std::string::npos ? end : name.find_last_not_of("0123456789", end);
-    return name.substr(0, before == std::string::npos ? 0 : before + 1);
-  };
+  const auto text_of = [](const std::string& name) { return name.substr(0, LastNumberIn(name).first); };
   std::vector<long> numbers;
   std::vector<double> steps;
   for (const std::string& name : names) {

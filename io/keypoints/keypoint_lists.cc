@@ -28,8 +28,7 @@ std::optional<double> TimeOf(const Json& frame) {
   constexpr const char* kNames[] = {"timestamp", "timestamp_ms", "timestamp_us", "timestamp_ns", "timestamp_s",
                                     "time",      "time_s",       "time_ms",      "timestampMs",  "t"};
   for (const char* name : kNames) {
-    const Json* time = Member(frame, name);
-    if (time != nullptr && time->is_number() && std::isfinite(time->get<double>())) return time->get<double>();
+    if (const auto time = NumberOf(Member(frame, name)); time && std::isfinite(*time)) return time;
   }
   return std::nullopt;
 }

@@ -10,6 +10,7 @@
 #include <nlohmann/json.hpp>
 #include <optional>
 
+#include "engine/base/text.h"
 #include "io/keypoints/frame_numbers.h"
 
 namespace etude {
@@ -18,32 +19,9 @@ namespace {
 constexpr double kHalfPixel = 0.5;
 constexpr double kMaxListedPixel = 1e6;
 
-}  // namespace
-
-const Json* Member(const Json& json, const char* name) {
-  const auto found = json.is_object() ? json.find(name) : json.end();
-  return json.is_object() && found != json.end() ? &*found : nullptr;
-}
-
-const Json* FirstMember(const Json& json, std::initializer_list<const char*> names) {
-  for (const char* name : names) {
-    if (const Json* member = Member(json, name)) return member;
-  }
-  return nullptr;
-}
-
-std::vector<std::string> TextsOf(const Json* list) {
-  std::vector<std::string> texts;
-  if (list == nullptr || !list->is_array()) return texts;
-  for (const Json& text : *list) texts.push_back(text.is_string() ? text.get<std::string>() : "");
-  return texts;
-}
-
-namespace {
-
 /// Returns true if the names differ only in their numbers.
 bool AreOnlyNumbered(std::vector<std::string> names) {
-  for (std::string& name : names) std::erase_if(name, [](char c) { return c >= '0' && c <= '9'; });
+  for (std::string& name : names) std::erase_if(name, IsDigit);
   return std::ranges::all_of(names, [&](const std::string& name) { return name == names.front(); });
 }
 
@@ -76,6 +54,31 @@ std::vector<Landmark> LandmarksOf(const std::vector<std::string>& names) {
 }
 
 }  // namespace
+
+const Json* Member(const Json& json, const char* name) {
+  const auto found = json.is_object() ? json.find(name) : json.end();
+  return json.is_object() && found != json.end() ? &*found : nullptr;
+}
+
+const Json* FirstMember(const Json& json, std::initializer_list<const char*> names) {
+  for (const char* name : names) {
+    if (const Json* member = Member(json, name)) return member;
+  }
+  return nullptr;
+}
+
+std::string TextOf(const Json* json) { return json != nullptr && json->is_string() ? json->get<std::string>() : ""; }
+
+std::optional<double> NumberOf(const Json* json) {
+  return json != nullptr && json->is_number() ? std::optional(json->get<double>()) : std::nullopt;
+}
+
+std::vector<std::string> TextsOf(const Json* list) {
+  std::vector<std::string> texts;
+  if (list == nullptr || !list->is_array()) return texts;
+  for (const Json& text : *list) texts.push_back(TextOf(&text));
+  return texts;
+}
 
 KeypointNames::KeypointNames(std::vector<std::string> stated) {
   if (stated.empty() || AreOnlyNumbered(stated)) return;
@@ -193,33 +196,15 @@ Result<std::span<const Landmark>> OrderOf(std::size_t count, const std::string& 
   return std::span(chosen->landmarks);
 }
 
-}  // namespace
-
-Result<SeenPerson> ToPerson(const std::vector<Keypoint>& points, const std::string& layout, const KeypointNames& names,
-                            const Place& place) {
-  ASSIGN_OR_RETURN(const auto order, OrderOf(points.size(), layout, names, place));
-  SeenPerson person;
-  for (std::size_t i = 0; i < order.size(); ++i) {
-    const bool is_seen = points[i].confidence > 0 && points[i].pixel != glm::dvec2(kHalfPixel);
-    if (order[i] != Landmark::kNoLandmark && is_seen) {
-      person[order[i]] = {points[i].pixel, std::min(points[i].confidence, 1.0)};
-    }
-  }
-  return person;
-}
-
-namespace {
-
-std::optional<double> NumberOf(const Json* json) {
-  if (json == nullptr || !json->is_number()) return std::nullopt;
-  const double value = json->get<double>();
-  return std::abs(value) <= kMaxListedPixel ? std::optional(value) : std::nullopt;
+std::optional<double> PixelOf(const Json* json) {
+  const auto value = NumberOf(json);
+  return value && std::abs(*value) <= kMaxListedPixel ? value : std::nullopt;
 }
 
 /// Reads a point with named coordinates; a point without numbers was not seen. Fails if a number beside the
 /// coordinates may be a score under a name that is not known.
 Result<Keypoint> PointOf(const Json& json, const Place& place) {
-  const auto x = NumberOf(Member(json, "x")), y = NumberOf(Member(json, "y"));
+  const auto x = PixelOf(Member(json, "x")), y = PixelOf(Member(json, "y"));
   const Json* sure = FirstMember(json, {"visibility", "score", "confidence", "conf", "likelihood", "probability",
                                         "prob", "keypoint_score", "kp_score", "c", "p", "v"});
   for (const auto& [key, value] : json.items()) {
@@ -230,7 +215,7 @@ Result<Keypoint> PointOf(const Json& json, const Place& place) {
                 key);
   }
   if (!x || !y) return Keypoint{};
-  return Keypoint{glm::dvec2(*x, *y) + kHalfPixel, sure == nullptr ? 1 : NumberOf(sure).value_or(0)};
+  return Keypoint{glm::dvec2(*x, *y) + kHalfPixel, sure == nullptr ? 1 : PixelOf(sure).value_or(0)};
 }
 
 /// Returns the list of a person's scores; null if there is none. Fails if another list of numbers, as long as the list
@@ -256,7 +241,7 @@ Result<std::vector<Keypoint>> PointsOfPairs(const Json& list, const Json* scores
   for (std::size_t i = 0; i < list.size(); ++i) {
     const Json& pair = list[i];
     if (!pair.is_array() || pair.size() < 2) return Fail(place, "a keypoint is {}; allowed: [x, y]", ShowJson(pair));
-    const auto x = NumberOf(&pair[0]), y = NumberOf(&pair[1]);
+    const auto x = PixelOf(&pair[0]), y = PixelOf(&pair[1]);
     double sure = 1;
     if (scores != nullptr && scores->is_array() && scores->size() == list.size()) {
       if (pair.size() > 2 && pair[2] != (*scores)[i]) {
@@ -264,9 +249,9 @@ Result<std::vector<Keypoint>> PointsOfPairs(const Json& list, const Json* scores
                     "a keypoint has {} coordinates in addition to a score: {}; allowed: pixels of one picture, [x, y]",
                     pair.size(), ShowJson(pair));
       }
-      sure = NumberOf(&(*scores)[i]).value_or(0);
+      sure = PixelOf(&(*scores)[i]).value_or(0);
     } else if (pair.size() > 2) {
-      sure = NumberOf(&pair[2]).value_or(0);
+      sure = PixelOf(&pair[2]).value_or(0);
     }
     points.push_back(x && y ? Keypoint{glm::dvec2(*x, *y) + kHalfPixel, sure} : Keypoint{});
   }
@@ -285,7 +270,26 @@ const Json* KeypointsOf(const Json& person) {
   return FirstMember(person, {"keypoints", "pose_keypoints_2d", "pose_keypoints", "pose_landmarks", "landmarks"});
 }
 
+Result<SeenPerson> PersonOfList(const Json& json, const std::string& layout, const KeypointNames& names,
+                                const Place& place) {
+  ASSIGN_OR_RETURN(const ListedPerson listed, PointsOf(json, place));
+  return ToPerson(listed.points, layout, listed.names.names.empty() ? names : listed.names, place);
+}
+
 }  // namespace
+
+Result<SeenPerson> ToPerson(const std::vector<Keypoint>& points, const std::string& layout, const KeypointNames& names,
+                            const Place& place) {
+  ASSIGN_OR_RETURN(const auto order, OrderOf(points.size(), layout, names, place));
+  SeenPerson person;
+  for (std::size_t i = 0; i < order.size(); ++i) {
+    const bool is_seen = points[i].confidence > 0 && points[i].pixel != glm::dvec2(kHalfPixel);
+    if (order[i] != Landmark::kNoLandmark && is_seen) {
+      person[order[i]] = {points[i].pixel, std::min(points[i].confidence, 1.0)};
+    }
+  }
+  return person;
+}
 
 bool HasKeypoints(const Json& person) {
   const Json* list = KeypointsOf(person);
@@ -308,23 +312,12 @@ Result<ListedPerson> PointsOf(const Json& person, const Place& place) {
     for (const Json& point : *list) {
       ASSIGN_OR_RETURN(const Keypoint read, PointOf(point, place));
       listed.points.push_back(read);
-      const Json* name = Member(point, "name");
-      names.push_back(name != nullptr && name->is_string() ? name->get<std::string>() : "");
+      names.push_back(TextOf(Member(point, "name")));
     }
     listed.names = KeypointNames(std::move(names));
   }
   return listed;
 }
-
-namespace {
-
-Result<SeenPerson> PersonOfList(const Json& json, const std::string& layout, const KeypointNames& names,
-                                const Place& place) {
-  ASSIGN_OR_RETURN(const ListedPerson listed, PointsOf(json, place));
-  return ToPerson(listed.points, layout, listed.names.names.empty() ? names : listed.names, place);
-}
-
-}  // namespace
 
 Result<std::vector<SeenPerson>> PeopleOfList(const Json& list, const std::string& layout, const KeypointNames& names,
                                              const Place& place) {

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <initializer_list>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -17,6 +18,9 @@ constexpr std::size_t kMaxPeople = 64;  ///< maximum number of people in one fra
 const Json* Member(const Json& json, const char* name);
 /// Returns the first of these members that is there, or null if there is none.
 const Json* FirstMember(const Json& json, std::initializer_list<const char*> names);
+/// Returns a text or a number; "" or nullopt if `json` is null or something else.
+std::string TextOf(const Json* json);
+std::optional<double> NumberOf(const Json* json);
 /// Returns the texts of a list; empty if `list` is no list. An entry that is no text becomes "".
 std::vector<std::string> TextsOf(const Json* list);
 

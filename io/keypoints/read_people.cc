@@ -73,18 +73,14 @@ Result<std::vector<SeenPerson>> ReadFrame(const fs::path& file, const std::strin
   ASSIGN_OR_RETURN(const std::string text, ReadWholeFile(file));
   ASSIGN_OR_RETURN(const Json json, ReadJson(WithNullForNan(text), file.string()));
   std::vector<SeenPerson> frame;
-  if (json.is_array()) {  // MMPose writes a list of people
-    ASSIGN_OR_RETURN(auto people, PeopleOfList(json, layout, {}, place));
-    std::ranges::copy_if(people, std::back_inserter(frame), IsAnySeen);
-    return frame;
-  }
-  const Json* people = FirstMember(json, {"people", "instance_info"});
+  const Json* people = json.is_array() ? &json : FirstMember(json, {"people", "instance_info"});
   if (people == nullptr || !people->is_array()) {
     return Fail(place,
                 "the list 'people' or 'instance_info' is missing; allowed: JSON as OpenPose writes it, or MMPose's "
                 "list of people");
   }
-  if (people == Member(json, "instance_info")) {  // MMPose's own scripts write this object for a picture
+  // MMPose writes a list of people; its own scripts write an object for a picture.
+  if (json.is_array() || people == Member(json, "instance_info")) {
     ASSIGN_OR_RETURN(auto listed, PeopleOfList(*people, layout, NamesOfMeta(json), place));
     std::ranges::copy_if(listed, std::back_inserter(frame), IsAnySeen);
     return frame;

@@ -8,6 +8,7 @@
 #include <filesystem>
 
 #include "engine/base/names.h"
+#include "engine/base/text.h"
 #include "engine/recognition/recognise.h"
 #include "engine/retargeting/exchanged_sides.h"
 #include "io/clips/open_clip.h"
@@ -24,8 +25,7 @@ constexpr std::size_t kMaxFiles = 100'000;
 bool IsClip(const std::string& reference) {
   if (reference.starts_with("builtin:")) return true;
   const SplitReference split = Split(reference);
-  std::string ending = fs::path(FileOf(split.path)).extension().string();
-  for (char& c : ending) c = c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
+  const std::string ending = InLowerCase(fs::path(FileOf(split.path)).extension().string());
   constexpr std::array kOfClips = {".bvh", ".glb", ".gltf", ".vrm", ".vrma", ".fbx", ".amc", ".c3d", ".npz", ".npy"};
   return split.animation || std::ranges::find(kOfClips, ending) != kOfClips.end();
 }

@@ -104,6 +104,66 @@ std::array<int, kPlateColumns> SequenceOf(const CapturePanel& capture) {
   return frames;
 }
 
+constexpr std::array<Box, 2> kSeenBoxes{{{12, 52, 432, 324}, {12, 384, 432, 324}}};
+constexpr Box kSkeletonsBox{456, 52, 812, 656};
+constexpr double kSkeletonTop = 78, kSkeletonBottom = 62;
+constexpr Paint kGround{0.13, 0.15, 0.17, 1};
+constexpr Paint kTruthBone{0.62, 0.66, 0.69, 0.85};
+// The joint error at which the colour scale ends, centimetres.
+constexpr double kMaxErrorCm = 12;
+
+/// Returns green for no error, yellow for half of kMaxErrorCm, red for kMaxErrorCm centimetres and more.
+Paint PaintOfError(double cm) {
+  const double share = std::clamp(cm / kMaxErrorCm, 0.0, 1.0);
+  const double red = std::min(1.0, 2 * share), green = std::min(1.0, 2 - 2 * share);
+  return {0.30 + 0.68 * red, 0.32 + 0.50 * green, 0.30, 1};
+}
+
+Box ColumnOf(std::size_t index, std::size_t count) {
+  constexpr double kBetween = 8;
+  const double width =
+      std::floor((kSkeletonsBox.width - kBetween * static_cast<double>(count - 1)) / static_cast<double>(count));
+  return {kSkeletonsBox.x + static_cast<double>(index) * (width + kBetween), kSkeletonsBox.y, width,
+          kSkeletonsBox.height};
+}
+
+/// Places a camera slightly to the side of the body's heading, with the whole true motion in view and a margin around
+/// this motion.
+Camera CameraBefore(const BodyMotion& truth, double width, double height) {
+  glm::dvec3 low(1e9), high(-1e9);
+  for (const BodyPose& pose : truth.poses) {
+    for (const glm::dvec3& joint : pose.joints) low = glm::min(low, joint), high = glm::max(high, joint);
+  }
+  constexpr double kAway = 6, kAir = 0.35;  // distance of camera and body, margin around the motion, metres
+  const double heading = Heading(truth.poses.front()) + Radians(20);
+  const glm::dvec3 middle = 0.5 * (low + high);
+  const double across = glm::length(glm::dvec2(high.x - low.x, high.z - low.z)) + kAir;
+  const double tall = high.y - low.y + kAir;
+  Intrinsics inside{.width = static_cast<int>(width), .height = static_cast<int>(height)};
+  inside.fx = inside.fy = kAway * std::min(width / across, height / tall);
+  inside.cx = width / 2;
+  inside.cy = height / 2;
+  const glm::dvec3 eye = middle + kAway * glm::dvec3(std::sin(heading), 0.12, std::cos(heading));
+  return LookAt(inside, eye, middle);
+}
+
+void DrawErrorLegend(Canvas& canvas, const Box& box) {
+  constexpr double kSize = 17, kBar = 150;
+  const double y = box.y + 26;
+  canvas.DrawLine({box.x + 18, y - 6}, {box.x + 46, y - 6}, 8, kTruthBone);
+  canvas.DrawText({box.x + 56, y}, "truth", kSize, kSoftInk, 60);
+  const double right = box.x + box.width - 18;
+  const std::string upper_words = fmt::format("{:g} cm error or more", kMaxErrorCm);
+  const double words = canvas.TextWidth(upper_words, kSize);
+  canvas.DrawText({right - words, y}, upper_words, kSize, kSoftInk, words + 1);
+  const double left = right - words - 12 - kBar;
+  for (int i = 0; i < static_cast<int>(kBar); ++i) {
+    canvas.FillBox({left + i, y - 12, 1, 12}, PaintOfError(kMaxErrorCm * i / kBar));
+  }
+  const std::string lower_words = "recovered: 0";
+  canvas.DrawText({left - 10 - canvas.TextWidth(lower_words, kSize), y}, lower_words, kSize, kSoftInk, 200);
+}
+
 }  // namespace
 
 std::vector<Picture> DrawStrip(const CapturePanel& capture, Renderer& renderer) {
@@ -174,70 +234,6 @@ std::optional<Picture> DrawPlate(const CapturePanel& capture, Renderer& renderer
   return PictureOf(plate,
                    fmt::format("The stages of {}, in the layout of paper B's figures 5.3 to 5.15", capture.Title()));
 }
-
-namespace {
-
-constexpr std::array<Box, 2> kSeenBoxes{{{12, 52, 432, 324}, {12, 384, 432, 324}}};
-constexpr Box kSkeletonsBox{456, 52, 812, 656};
-constexpr double kSkeletonTop = 78, kSkeletonBottom = 62;
-constexpr Paint kGround{0.13, 0.15, 0.17, 1};
-constexpr Paint kTruthBone{0.62, 0.66, 0.69, 0.85};
-// The joint error at which the colour scale ends, centimetres.
-constexpr double kMaxErrorCm = 12;
-
-/// Returns green for no error, yellow for half of kMaxErrorCm, red for kMaxErrorCm centimetres and more.
-Paint PaintOfError(double cm) {
-  const double share = std::clamp(cm / kMaxErrorCm, 0.0, 1.0);
-  const double red = std::min(1.0, 2 * share), green = std::min(1.0, 2 - 2 * share);
-  return {0.30 + 0.68 * red, 0.32 + 0.50 * green, 0.30, 1};
-}
-
-Box ColumnOf(std::size_t index, std::size_t count) {
-  constexpr double kBetween = 8;
-  const double width =
-      std::floor((kSkeletonsBox.width - kBetween * static_cast<double>(count - 1)) / static_cast<double>(count));
-  return {kSkeletonsBox.x + static_cast<double>(index) * (width + kBetween), kSkeletonsBox.y, width,
-          kSkeletonsBox.height};
-}
-
-/// Places a camera slightly to the side of the body's heading, with the whole true motion in view and a margin around
-/// this motion.
-Camera CameraBefore(const BodyMotion& truth, double width, double height) {
-  glm::dvec3 low(1e9), high(-1e9);
-  for (const BodyPose& pose : truth.poses) {
-    for (const glm::dvec3& joint : pose.joints) low = glm::min(low, joint), high = glm::max(high, joint);
-  }
-  constexpr double kAway = 6, kAir = 0.35;  // distance of camera and body, margin around the motion, metres
-  const double heading = Heading(truth.poses.front()) + Radians(20);
-  const glm::dvec3 middle = 0.5 * (low + high);
-  const double across = glm::length(glm::dvec2(high.x - low.x, high.z - low.z)) + kAir;
-  const double tall = high.y - low.y + kAir;
-  Intrinsics inside{.width = static_cast<int>(width), .height = static_cast<int>(height)};
-  inside.fx = inside.fy = kAway * std::min(width / across, height / tall);
-  inside.cx = width / 2;
-  inside.cy = height / 2;
-  const glm::dvec3 eye = middle + kAway * glm::dvec3(std::sin(heading), 0.12, std::cos(heading));
-  return LookAt(inside, eye, middle);
-}
-
-void DrawErrorLegend(Canvas& canvas, const Box& box) {
-  constexpr double kSize = 17, kBar = 150;
-  const double y = box.y + 26;
-  canvas.DrawLine({box.x + 18, y - 6}, {box.x + 46, y - 6}, 8, kTruthBone);
-  canvas.DrawText({box.x + 56, y}, "truth", kSize, kSoftInk, 60);
-  const double right = box.x + box.width - 18;
-  const std::string upper_words = fmt::format("{:g} cm error or more", kMaxErrorCm);
-  const double words = canvas.TextWidth(upper_words, kSize);
-  canvas.DrawText({right - words, y}, upper_words, kSize, kSoftInk, words + 1);
-  const double left = right - words - 12 - kBar;
-  for (int i = 0; i < static_cast<int>(kBar); ++i) {
-    canvas.FillBox({left + i, y - 12, 1, 12}, PaintOfError(kMaxErrorCm * i / kBar));
-  }
-  const std::string lower_words = "recovered: 0";
-  canvas.DrawText({left - 10 - canvas.TextWidth(lower_words, kSize), y}, lower_words, kSize, kSoftInk, 200);
-}
-
-}  // namespace
 
 Result<std::vector<CapturePanel>> FindCaptures(const RunData& run, const ShownCell& typical) {
   std::vector<CapturePanel> captures;

@@ -194,6 +194,13 @@ glm::dvec3 Turned(const glm::dvec3& v, double sine, double cosine) {
   return {cosine * v.x - sine * v.z, v.y, sine * v.x + cosine * v.z};
 }
 
+/// Returns the distance along a ray that does not miss the capsule's bounding sphere.
+double HitDistanceNear(const Capsule& capsule, const glm::dvec3& origin, const glm::dvec3& direction) {
+  if (IsInside(capsule, origin)) return 0;
+  return std::min({SideEntry(capsule, origin, direction), SphereEntry(capsule.a, capsule.radius, origin, direction),
+                   SphereEntry(capsule.b, capsule.radius, origin, direction)});
+}
+
 }  // namespace
 
 std::vector<Capsule> BodyCapsules(const BodyPose& pose) {
@@ -207,17 +214,6 @@ std::vector<Capsule> BodyCapsules(const BodyPose& pose) {
   }
   return body;
 }
-
-namespace {
-
-/// Returns the distance along a ray that does not miss the capsule's bounding sphere.
-double HitDistanceNear(const Capsule& capsule, const glm::dvec3& origin, const glm::dvec3& direction) {
-  if (IsInside(capsule, origin)) return 0;
-  return std::min({SideEntry(capsule, origin, direction), SphereEntry(capsule.a, capsule.radius, origin, direction),
-                   SphereEntry(capsule.b, capsule.radius, origin, direction)});
-}
-
-}  // namespace
 
 double HitDistance(const Capsule& capsule, const glm::dvec3& origin, const glm::dvec3& direction) {
   if (PassesBy(SphereAround(capsule, origin), direction)) return kInfinity;

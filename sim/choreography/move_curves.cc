@@ -49,63 +49,6 @@ double Eased(Ease ease, double share) {
   return share;
 }
 
-}  // namespace
-
-PeriodicCurve::PeriodicCurve(std::vector<Key> keys, double period) : period_(period) {
-  assert(!keys.empty() && period > 0);
-  const std::size_t count = keys.size();
-  const auto width = [&](std::size_t i) {
-    return i + 1 < count ? keys[i + 1].at - keys[i].at : keys[0].at + period - keys[i].at;
-  };
-  const auto secant = [&](std::size_t i) { return (keys[(i + 1) % count].value - keys[i].value) / width(i); };
-  const auto rests = [&](std::size_t i) {
-    return IsBetweenRests(keys[i].ease) || IsBetweenRests(keys[(i + 1) % count].ease);
-  };
-
-  // Compute the slope of every knot.
-  for (std::size_t i = 0; i < count; ++i) {
-    const std::size_t before = (i + count - 1) % count;
-    double slope = rests(i) ? 0 : MonotoneSlope(width(before), secant(before), width(i), secant(i));
-    if (keys[i].derivatives) slope = keys[i].derivatives->slope;
-    knots_.push_back({keys[i].at, keys[i].value, slope, 0, keys[i].ease});
-  }
-  for (std::size_t i = 0; i < count; ++i) {
-    const std::size_t before = (i + count - 1) % count, after = (i + 1) % count;
-    // For the two cubic Hermite segments that meet at this key, compute the second derivatives at the key.
-    const double ending = (2 * knots_[before].slope + 4 * knots_[i].slope - 6 * secant(before)) / width(before);
-    const double starting = (6 * secant(i) - 4 * knots_[i].slope - 2 * knots_[after].slope) / width(i);
-    knots_[i].bend = rests(i) ? 0 : SmallerOfSameSign(ending, starting);
-    if (keys[i].derivatives) knots_[i].bend = keys[i].derivatives->bend;
-  }
-  knots_.push_back(knots_.front());
-  knots_.back().at += period;
-}
-
-double PeriodicCurve::At(double time) const {
-  // Find the segment that contains the time, modulo the period.
-  const double first = knots_.front().at;
-  double at = first + std::fmod(time - first, period_);
-  if (at < first) at += period_;
-  const auto after = std::upper_bound(knots_.begin() + 1, knots_.end() - 1, at,
-                                      [](double value, const Knot& knot) { return value < knot.at; });
-  const Knot& from = *(after - 1);
-  const Knot& to = *after;
-
-  // Evaluate the quintic Hermite segment: the Taylor parabola at the segment's start, plus a correction that fits the
-  // segment's end.
-  const double h = to.at - from.at, s = Eased(to.ease, (at - from.at) / h);
-  const double slope = from.slope * h, bend = from.bend * h * h;
-  const double gap = to.value - from.value - slope - 0.5 * bend;
-  const double slope_gap = to.slope * h - slope - bend;
-  const double bend_gap = to.bend * h * h - bend;
-  const double c3 = 10 * gap - 4 * slope_gap + 0.5 * bend_gap;
-  const double c4 = -15 * gap + 7 * slope_gap - bend_gap;
-  const double c5 = 6 * gap - 3 * slope_gap + 0.5 * bend_gap;
-  return from.value + s * (slope + s * (0.5 * bend + s * (c3 + s * (c4 + s * c5))));
-}
-
-namespace {
-
 using Keys = std::vector<PeriodicCurve::Key>;
 
 constexpr double kStandardGravity = 9.80665;  // m/s²
@@ -203,6 +146,59 @@ constexpr std::array<double, kControlCount> kDelay = [] {
 }();
 
 }  // namespace
+
+PeriodicCurve::PeriodicCurve(std::vector<Key> keys, double period) : period_(period) {
+  assert(!keys.empty() && period > 0);
+  const std::size_t count = keys.size();
+  const auto width = [&](std::size_t i) {
+    return i + 1 < count ? keys[i + 1].at - keys[i].at : keys[0].at + period - keys[i].at;
+  };
+  const auto secant = [&](std::size_t i) { return (keys[(i + 1) % count].value - keys[i].value) / width(i); };
+  const auto rests = [&](std::size_t i) {
+    return IsBetweenRests(keys[i].ease) || IsBetweenRests(keys[(i + 1) % count].ease);
+  };
+
+  // Compute the slope of every knot.
+  for (std::size_t i = 0; i < count; ++i) {
+    const std::size_t before = (i + count - 1) % count;
+    double slope = rests(i) ? 0 : MonotoneSlope(width(before), secant(before), width(i), secant(i));
+    if (keys[i].derivatives) slope = keys[i].derivatives->slope;
+    knots_.push_back({keys[i].at, keys[i].value, slope, 0, keys[i].ease});
+  }
+  for (std::size_t i = 0; i < count; ++i) {
+    const std::size_t before = (i + count - 1) % count, after = (i + 1) % count;
+    // For the two cubic Hermite segments that meet at this key, compute the second derivatives at the key.
+    const double ending = (2 * knots_[before].slope + 4 * knots_[i].slope - 6 * secant(before)) / width(before);
+    const double starting = (6 * secant(i) - 4 * knots_[i].slope - 2 * knots_[after].slope) / width(i);
+    knots_[i].bend = rests(i) ? 0 : SmallerOfSameSign(ending, starting);
+    if (keys[i].derivatives) knots_[i].bend = keys[i].derivatives->bend;
+  }
+  knots_.push_back(knots_.front());
+  knots_.back().at += period;
+}
+
+double PeriodicCurve::At(double time) const {
+  // Find the segment that contains the time, modulo the period.
+  const double first = knots_.front().at;
+  double at = first + std::fmod(time - first, period_);
+  if (at < first) at += period_;
+  const auto after = std::upper_bound(knots_.begin() + 1, knots_.end() - 1, at,
+                                      [](double value, const Knot& knot) { return value < knot.at; });
+  const Knot& from = *(after - 1);
+  const Knot& to = *after;
+
+  // Evaluate the quintic Hermite segment: the Taylor parabola at the segment's start, plus a correction that fits the
+  // segment's end.
+  const double h = to.at - from.at, s = Eased(to.ease, (at - from.at) / h);
+  const double slope = from.slope * h, bend = from.bend * h * h;
+  const double gap = to.value - from.value - slope - 0.5 * bend;
+  const double slope_gap = to.slope * h - slope - bend;
+  const double bend_gap = to.bend * h * h - bend;
+  const double c3 = 10 * gap - 4 * slope_gap + 0.5 * bend_gap;
+  const double c4 = -15 * gap + 7 * slope_gap - bend_gap;
+  const double c5 = 6 * gap - 3 * slope_gap + 0.5 * bend_gap;
+  return from.value + s * (slope + s * (0.5 * bend + s * (c3 + s * (c4 + s * c5))));
+}
 
 std::vector<PeriodicCurve::Key> KeysOf(const std::vector<PoseKey>& poses, std::size_t control, double beats,
                                        double beat_seconds) {

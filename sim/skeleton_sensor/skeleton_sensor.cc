@@ -37,6 +37,24 @@ constexpr std::array<double, 4> kShareOfOffset = {0.0, 0.5, 0.9, 1.0};
 // A dropout lasts for a number of frames in this range (ours).
 constexpr std::uint64_t kMinDropout = 2, kMaxDropout = 10;
 
+using enum Role;
+
+bool IsInView(const Camera& camera, const ProjectionMatrix& matrix, const glm::dvec3& point) {
+  const std::optional<glm::dvec2> pixel = Project(matrix, point);
+  return pixel && pixel->x >= 0 && pixel->y >= 0 && pixel->x < camera.intrinsics.width &&
+         pixel->y < camera.intrinsics.height;
+}
+
+/// Returns the angle by which the body is turned away from the sensor, radians.
+double TurnFrom(const glm::dvec3& eye, const BodyPose& pose) {
+  const glm::dvec3 to_eye = eye - pose[kHipCentre];
+  return AngleBetween(Facing(pose), {to_eye.x, 0, to_eye.z});
+}
+
+void Exchange(SensedFrame& frame, std::initializer_list<Role> left_joints) {
+  for (Role role : left_joints) std::swap(frame[role], frame[Mirrored(role)]);
+}
+
 }  // namespace
 
 HiddenJoints FindHidden(const BodyPose& pose, std::size_t frame, const Occluders& occluders, const glm::dvec3& eye) {
@@ -148,28 +166,6 @@ bool Dropouts::Next() {
   --left_;
   return true;
 }
-
-namespace {
-
-using enum Role;
-
-bool IsInView(const Camera& camera, const ProjectionMatrix& matrix, const glm::dvec3& point) {
-  const std::optional<glm::dvec2> pixel = Project(matrix, point);
-  return pixel && pixel->x >= 0 && pixel->y >= 0 && pixel->x < camera.intrinsics.width &&
-         pixel->y < camera.intrinsics.height;
-}
-
-/// Returns the angle by which the body is turned away from the sensor, radians.
-double TurnFrom(const glm::dvec3& eye, const BodyPose& pose) {
-  const glm::dvec3 to_eye = eye - pose[kHipCentre];
-  return AngleBetween(Facing(pose), {to_eye.x, 0, to_eye.z});
-}
-
-void Exchange(SensedFrame& frame, std::initializer_list<Role> left_joints) {
-  for (Role role : left_joints) std::swap(frame[role], frame[Mirrored(role)]);
-}
-
-}  // namespace
 
 Camera SkeletonSensorAt(const SensorPlacement& place, const Intrinsics& view) {
   constexpr double kLooksAtHeight = 1.0;

@@ -37,44 +37,6 @@ bool IsWholeWithin(double value, double low, double high) {
   return value == std::floor(value) && value >= low && value <= high;
 }
 
-}  // namespace
-
-Result<Board> ReadCodedBoard(const std::string& text) {
-  const std::size_t at = text.find('@');
-  const auto numbers = NumbersByX(std::string_view(text).substr(0, at));
-  const auto first =
-      at == std::string::npos ? std::vector<double>{0} : NumbersByX(std::string_view(text).substr(at + 1));
-  const bool is_board = numbers && numbers->size() == 3 && IsWholeWithin((*numbers)[0], 3, kMaxSquares) &&
-                        IsWholeWithin((*numbers)[1], 3, kMaxSquares) && (*numbers)[2] >= 0.001 &&
-                        (*numbers)[2] <= 10 && first && first->size() == 1 &&
-                        IsWholeWithin(first->front(), 0, kCodeCount);
-  if (!is_board) {
-    return Fail({},
-                "--board {}: allowed: 3 to {} squares along each side of the board, and the side of a square in "
-                "metres, such as 8x8x0.2 or 8x8x0.2@32",
-                text, kMaxSquares);
-  }
-  const Board board{.columns = static_cast<int>((*numbers)[0]),
-                    .rows = static_cast<int>((*numbers)[1]),
-                    .square = (*numbers)[2],
-                    .first_code = static_cast<int>(first->front())};
-  if (board.first_code + CountCodes(board) > kCodeCount) {
-    return Fail({}, "--board {}: the board needs codes {} to {}; allowed: codes below {}", text, board.first_code,
-                board.first_code + CountCodes(board) - 1, kCodeCount);
-  }
-  return board;
-}
-
-RefineOptions RefineOptionsOf(const CalibrateOptions& options) {
-  RefineOptions refine{.skew = options.skew};
-  refine.lens = options.lens == "none"      ? LensModel::kPinhole
-                : options.lens == "radial3" ? LensModel::kRadial3
-                                            : LensModel::kRadial2;
-  return refine;
-}
-
-namespace {
-
 Result<void> SetSize(const std::string& text, std::vector<CameraPairs>& cameras) {
   for (CameraPairs& camera : cameras) {
     if (camera.width > 0) continue;
@@ -238,6 +200,40 @@ std::string PaperFor(const Board& board) {
 }
 
 }  // namespace
+
+Result<Board> ReadCodedBoard(const std::string& text) {
+  const std::size_t at = text.find('@');
+  const auto numbers = NumbersByX(std::string_view(text).substr(0, at));
+  const auto first =
+      at == std::string::npos ? std::vector<double>{0} : NumbersByX(std::string_view(text).substr(at + 1));
+  const bool is_board = numbers && numbers->size() == 3 && IsWholeWithin((*numbers)[0], 3, kMaxSquares) &&
+                        IsWholeWithin((*numbers)[1], 3, kMaxSquares) && (*numbers)[2] >= 0.001 &&
+                        (*numbers)[2] <= 10 && first && first->size() == 1 &&
+                        IsWholeWithin(first->front(), 0, kCodeCount);
+  if (!is_board) {
+    return Fail({},
+                "--board {}: allowed: 3 to {} squares along each side of the board, and the side of a square in "
+                "metres, such as 8x8x0.2 or 8x8x0.2@32",
+                text, kMaxSquares);
+  }
+  const Board board{.columns = static_cast<int>((*numbers)[0]),
+                    .rows = static_cast<int>((*numbers)[1]),
+                    .square = (*numbers)[2],
+                    .first_code = static_cast<int>(first->front())};
+  if (board.first_code + CountCodes(board) > kCodeCount) {
+    return Fail({}, "--board {}: the board needs codes {} to {}; allowed: codes below {}", text, board.first_code,
+                board.first_code + CountCodes(board) - 1, kCodeCount);
+  }
+  return board;
+}
+
+RefineOptions RefineOptionsOf(const CalibrateOptions& options) {
+  RefineOptions refine{.skew = options.skew};
+  refine.lens = options.lens == "none"      ? LensModel::kPinhole
+                : options.lens == "radial3" ? LensModel::kRadial3
+                                            : LensModel::kRadial2;
+  return refine;
+}
 
 Result<void> PrintBoard(const CalibrateOptions& options) {
   ASSIGN_OR_RETURN(const Board board, ReadCodedBoard(options.boards.front()));

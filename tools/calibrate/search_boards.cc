@@ -6,6 +6,7 @@
 #include <cctype>
 #include <filesystem>
 
+#include "engine/base/text.h"
 #include "io/files/files.h"
 #include "io/films/decoder.h"
 #include "io/images/image_files.h"
@@ -37,8 +38,7 @@ Result<std::vector<fs::path>> PicturesIn(const fs::path& folder) {
   std::vector<fs::path> files;
   std::error_code error;
   for (const fs::directory_entry& entry : fs::directory_iterator(folder, error)) {
-    std::string ending = entry.path().extension().string();
-    std::ranges::transform(ending, ending.begin(), [](unsigned char c) { return std::tolower(c); });
+    const std::string ending = InLowerCase(entry.path().extension().string());
     if (ending == ".png" || ending == ".jpg" || ending == ".jpeg") files.push_back(entry.path());
   }
   if (error) return Fail({folder.string()}, "{}", error.message());

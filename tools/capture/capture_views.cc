@@ -4,6 +4,7 @@
 #include <cctype>
 #include <cmath>
 
+#include "engine/base/text.h"
 #include "engine/cameras/rig_doubts.h"
 #include "engine/formats/bvh.h"
 #include "engine/formats/c3d.h"
@@ -27,8 +28,7 @@ namespace fs = std::filesystem;
 std::string Bare(std::string_view name) {
   std::string bare;
   for (const char c : name) {
-    if (std::isalnum(static_cast<unsigned char>(c)))
-      bare += static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+    if (std::isalnum(static_cast<unsigned char>(c))) bare += ToLower(c);
   }
   return bare;
 }

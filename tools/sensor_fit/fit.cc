@@ -127,16 +127,6 @@ double MeanDistance(const RealRecording& real) {
   return count > 0 ? sum / count : 0;
 }
 
-}  // namespace
-
-std::optional<RealRecording> MakeRealRecording(JointRecording recording, TwinMotion twin) {
-  auto match = AlignTwin(recording, twin);
-  if (!match) return std::nullopt;
-  return RealRecording{std::move(recording), std::move(twin), *std::move(match)};
-}
-
-namespace {
-
 /// Returns the mean over frames of the joints' RMS distance from their middle. `place` gives the position of a joint in
 /// a frame, if there is one.
 template <typename PlaceOf>
@@ -161,6 +151,12 @@ double SizeOf(std::size_t frames, const PlaceOf& place) {
 }
 
 }  // namespace
+
+std::optional<RealRecording> MakeRealRecording(JointRecording recording, TwinMotion twin) {
+  auto match = AlignTwin(recording, twin);
+  if (!match) return std::nullopt;
+  return RealRecording{std::move(recording), std::move(twin), *std::move(match)};
+}
 
 std::string DescribeMismatch(const RealRecording& real) {
   constexpr double kMaxRatio = 2, kMax_m = 0.3, kMinMirror_m = 0.05, kMirror = 0.5;

@@ -215,6 +215,11 @@ void SmoothFrames(CaptureRun& run) {
   }
 }
 
+const Observation& ObservationBy(const Take& take, const PersonSource& source) {
+  return *std::find_if(take.observations.begin(), take.observations.end(),
+                       [&](const Observation& observation) { return observation.source == source; });
+}
+
 }  // namespace
 
 RecoverOptions RecoverOptionsOf(const CaptureMethod& method) { return {.solver = method.solver, .ik = method.ik}; }
@@ -263,15 +268,6 @@ Result<void> Recover(CaptureStages& stages, CaptureRun& run) {
   if (run.method.smoothing == Smoothing::kRts) SmoothFrames(run);
   return {};
 }
-
-namespace {
-
-const Observation& ObservationBy(const Take& take, const PersonSource& source) {
-  return *std::find_if(take.observations.begin(), take.observations.end(),
-                       [&](const Observation& observation) { return observation.source == source; });
-}
-
-}  // namespace
 
 Result<CaptureRun> RunCapture(CaptureStages& stages, const CaptureMethod& method) {
   ASSIGN_OR_RETURN(const CalibratedCameras* cameras, stages.GetCameras(method));

@@ -45,37 +45,6 @@ std::vector<PointPair> ClickedBy(const StudioOptions& options, const Camera& cam
   return pairs;
 }
 
-}  // namespace
-
-CalibrationPairs ClickedPoints(const StudioOptions& options, const CaptureWorld& world, const WorldKey& key) {
-  CalibrationPairs pairs;
-  for (const Camera& camera : world.cameras) {
-    pairs.push_back(ClickedBy(options, camera, pairs.size(), world.middle, key));
-  }
-  return pairs;
-}
-
-CalibrationPairs FoundCorners(const StudioOptions& options, const CaptureWorld& world, const WorldKey& key,
-                              Renderer& renderer) {
-  const std::vector<PlacedBoard> target = CalibrationTarget(world.middle);
-  const std::vector<Surface> surfaces = SurfacesOf(target);
-  RandomStream tape(key, "capture/measured-boards");
-  std::vector<PlacedBoard> measured = target;
-  for (PlacedBoard& board : measured) board.p_WO += options.calibration_measure_mm * kMetresPerMm * tape.Normal3();
-  std::vector<Board> boards;
-  for (const PlacedBoard& placed : target) boards.push_back(placed.board);
-
-  Shooting shooting(world, options.camera, key, renderer);
-  CalibrationPairs pairs;
-  for (std::size_t camera = 0; camera < world.cameras.size(); ++camera) {
-    const ColourImage picture = shooting.ShootStage(camera, {Figure{.shape = {}, .surfaces = surfaces}});
-    pairs.push_back(PairsOf(measured, FindBoards(picture, boards)));
-  }
-  return pairs;
-}
-
-namespace {
-
 void Add(const RoleVectors& vectors, Digest& digest) {
   for (const std::optional<glm::dvec3>& v : vectors) {
     digest.Add(static_cast<std::int64_t>(v.has_value()));
@@ -169,6 +138,33 @@ MeasuredTake MeasureTake(std::span<const ProjectionMatrix> cameras, std::vector<
 }
 
 }  // namespace
+
+CalibrationPairs ClickedPoints(const StudioOptions& options, const CaptureWorld& world, const WorldKey& key) {
+  CalibrationPairs pairs;
+  for (const Camera& camera : world.cameras) {
+    pairs.push_back(ClickedBy(options, camera, pairs.size(), world.middle, key));
+  }
+  return pairs;
+}
+
+CalibrationPairs FoundCorners(const StudioOptions& options, const CaptureWorld& world, const WorldKey& key,
+                              Renderer& renderer) {
+  const std::vector<PlacedBoard> target = CalibrationTarget(world.middle);
+  const std::vector<Surface> surfaces = SurfacesOf(target);
+  RandomStream tape(key, "capture/measured-boards");
+  std::vector<PlacedBoard> measured = target;
+  for (PlacedBoard& board : measured) board.p_WO += options.calibration_measure_mm * kMetresPerMm * tape.Normal3();
+  std::vector<Board> boards;
+  for (const PlacedBoard& placed : target) boards.push_back(placed.board);
+
+  Shooting shooting(world, options.camera, key, renderer);
+  CalibrationPairs pairs;
+  for (std::size_t camera = 0; camera < world.cameras.size(); ++camera) {
+    const ColourImage picture = shooting.ShootStage(camera, {Figure{.shape = {}, .surfaces = surfaces}});
+    pairs.push_back(PairsOf(measured, FindBoards(picture, boards)));
+  }
+  return pairs;
+}
 
 CaptureStages::CaptureStages(const StudioOptions& options, CaptureWorld world, const WorldKey& key,
                              std::span<const PersonSource> sources, bool keeps_masks)

@@ -21,6 +21,17 @@ Result<Mask> ReadDetected(const Json& answer, const ColourImage& picture) {
   return ReadCocoMask(*mask, "mask", picture.width, picture.height);
 }
 
+template <typename Belongs>
+Mask MaskWhere(const LabelImage& labels, Belongs belongs) {
+  Mask mask(labels.width, labels.height);
+  std::transform(labels.pixels.begin(), labels.pixels.end(), mask.pixels.begin(), belongs);
+  return mask;
+}
+
+PersonOptions OptionsOf(const PersonSource& source) {
+  return {.segmenter = source.segmenter, .change = {}, .pieces = source.pieces};
+}
+
 }  // namespace
 
 void SeatedSegmenter::Begin(std::size_t camera, const ColourImage& background) {
@@ -44,21 +55,6 @@ Mask SeatedSegmenter::Detect(const ColourImage& picture) {
   goes_on_ = false;
   return changed;
 }
-
-namespace {
-
-template <typename Belongs>
-Mask MaskWhere(const LabelImage& labels, Belongs belongs) {
-  Mask mask(labels.width, labels.height);
-  std::transform(labels.pixels.begin(), labels.pixels.end(), mask.pixels.begin(), belongs);
-  return mask;
-}
-
-PersonOptions OptionsOf(const PersonSource& source) {
-  return {.segmenter = source.segmenter, .change = {}, .pieces = source.pieces};
-}
-
-}  // namespace
 
 TakeCameras::TakeCameras(const CaptureWorld& world, const StudioOptions& options, const WorldKey& key,
                          std::span<const PersonSource> sources, Renderer& renderer)

@@ -55,62 +55,6 @@ Coach::PolicyChoice PolicyOf(const CoachMethod& method) {
   return method.policy;
 }
 
-}  // namespace
-
-Result<std::vector<ReadyCoach>> MakeReady(std::vector<CoachMethod> methods, const CoachStage& stage) {
-  std::vector<ReadyCoach> all;
-  for (CoachMethod& method : methods) {
-    ReadyCoach ready;
-    for (const ReadyCoach& other : all) {
-      if (AreAlike(other.method.transition.way, method.transition.way)) ready.transitions = other.transitions;
-    }
-    if (!ready.transitions) {
-      ready.transitions = std::make_shared<DanceTransitions>(*stage.library, method.transition.way);
-    }
-    auto recogniser = MakeRecogniser(method.sight.recogniser, stage.taught);
-    if (!recogniser) return Fail({}, "method {}: {}", method.name, recogniser.error().message);
-    ready.recogniser = *std::move(recogniser);
-    method.coach.right_from = method.sight.Decision().judging;
-    ready.coach = std::make_unique<Coach>(*ready.transitions, method.coach, PolicyOf(method));
-    if (method.policy.policy->takes_moments) {
-      ready.partner =
-          std::make_unique<Coach>(*ready.transitions, method.coach, Coach::PolicyChoice{method.partner, {}});
-    }
-    ready.method = std::move(method);
-    all.push_back(std::move(ready));
-  }
-  return all;
-}
-
-Result<SessionLog> RunMethod(const ReadyCoach& ready, const CoachCondition& condition, const CoachStage& stage,
-                             const CoachWorld& world, LiveProgram* program) {
-  // If there is a program, let it replace its part of the loop: recogniser, policy or learner.
-  const Seat seat = program != nullptr ? ready.method.seat : Seat::kNone;
-  std::optional<SeatedCoachProgram> seated;
-  if (program != nullptr) seated.emplace(*program, stage);
-  std::unique_ptr<Recogniser> seated_recogniser;
-  std::unique_ptr<MomentSource> moments;
-  std::unique_ptr<Player> player;
-  if (seat == Seat::kRecogniser) seated_recogniser = MakeSeatedRecogniser(*seated);
-  if (seat == Seat::kPolicy) moments = MakeSeatedPolicy(*seated);
-  if (seat == Seat::kLearner) player = MakeSeatedLearner(*seated);
-  if (player == nullptr) player = std::make_unique<LearnerPlayer>(world, stage);
-  // A yoked method corrects at the times at which its partner corrects, so first run the partner's session.
-  if (ready.partner != nullptr) {
-    ASSIGN_OR_RETURN(const SessionLog partner, RunPartner(ready, condition, stage, world));
-    moments = std::make_unique<Moments>(partner);
-  }
-
-  const SessionParts parts =
-      PartsOf(ready, *ready.coach, seated_recogniser ? *seated_recogniser : *ready.recogniser);
-  if (program != nullptr && !program->Begin(SessionBeginPayload(seat))) return SessionLog{};
-  ASSIGN_OR_RETURN(SessionLog log, RunSession(parts, world, *player, moments.get()));
-  if (seated && seated->error()) return tl::unexpected(*seated->error());
-  return log;
-}
-
-namespace {
-
 CoachedSession SessionOf(const SessionLog& log) {
   CoachedSession session{.rate_hz = kJudgedRateHz, .frames = log.Frames(), .performances = {}, .corrections = {}};
   for (const LoggedPerformance& performance : log.performances) session.performances.push_back(performance.judged);
@@ -188,6 +132,58 @@ Series TruthSeries(const SessionLog& log) {
 }
 
 }  // namespace
+
+Result<std::vector<ReadyCoach>> MakeReady(std::vector<CoachMethod> methods, const CoachStage& stage) {
+  std::vector<ReadyCoach> all;
+  for (CoachMethod& method : methods) {
+    ReadyCoach ready;
+    for (const ReadyCoach& other : all) {
+      if (AreAlike(other.method.transition.way, method.transition.way)) ready.transitions = other.transitions;
+    }
+    if (!ready.transitions) {
+      ready.transitions = std::make_shared<DanceTransitions>(*stage.library, method.transition.way);
+    }
+    auto recogniser = MakeRecogniser(method.sight.recogniser, stage.taught);
+    if (!recogniser) return Fail({}, "method {}: {}", method.name, recogniser.error().message);
+    ready.recogniser = *std::move(recogniser);
+    method.coach.right_from = method.sight.Decision().judging;
+    ready.coach = std::make_unique<Coach>(*ready.transitions, method.coach, PolicyOf(method));
+    if (method.policy.policy->takes_moments) {
+      ready.partner =
+          std::make_unique<Coach>(*ready.transitions, method.coach, Coach::PolicyChoice{method.partner, {}});
+    }
+    ready.method = std::move(method);
+    all.push_back(std::move(ready));
+  }
+  return all;
+}
+
+Result<SessionLog> RunMethod(const ReadyCoach& ready, const CoachCondition& condition, const CoachStage& stage,
+                             const CoachWorld& world, LiveProgram* program) {
+  // If there is a program, let it replace its part of the loop: recogniser, policy or learner.
+  const Seat seat = program != nullptr ? ready.method.seat : Seat::kNone;
+  std::optional<SeatedCoachProgram> seated;
+  if (program != nullptr) seated.emplace(*program, stage);
+  std::unique_ptr<Recogniser> seated_recogniser;
+  std::unique_ptr<MomentSource> moments;
+  std::unique_ptr<Player> player;
+  if (seat == Seat::kRecogniser) seated_recogniser = MakeSeatedRecogniser(*seated);
+  if (seat == Seat::kPolicy) moments = MakeSeatedPolicy(*seated);
+  if (seat == Seat::kLearner) player = MakeSeatedLearner(*seated);
+  if (player == nullptr) player = std::make_unique<LearnerPlayer>(world, stage);
+  // A yoked method corrects at the times at which its partner corrects, so first run the partner's session.
+  if (ready.partner != nullptr) {
+    ASSIGN_OR_RETURN(const SessionLog partner, RunPartner(ready, condition, stage, world));
+    moments = std::make_unique<Moments>(partner);
+  }
+
+  const SessionParts parts =
+      PartsOf(ready, *ready.coach, seated_recogniser ? *seated_recogniser : *ready.recogniser);
+  if (program != nullptr && !program->Begin(SessionBeginPayload(seat))) return SessionLog{};
+  ASSIGN_OR_RETURN(SessionLog log, RunSession(parts, world, *player, moments.get()));
+  if (seated && seated->error()) return tl::unexpected(*seated->error());
+  return log;
+}
 
 void ScoreCoaching(const CoachWorld& world, const CoachStage& stage, const SessionLog& log, CellResult& result) {
   // Measure the success of learner and coach.

@@ -16,6 +16,32 @@ SeenStream PartOf(const SeenStream& seen, const FrameInterval& frames) {
           .frames = {seen.frames.begin() + frames.begin, seen.frames.begin() + frames.end}};
 }
 
+/// Returns the move with the most evidence in any frame of the window. If several moves have the most, returns the
+/// first.
+std::optional<std::size_t> MoveNamedIn(const FrameInterval& window, const EvidenceTrace& trace) {
+  std::optional<std::size_t> named;
+  double most = 0;
+  for (int frame = window.begin; frame < window.end; ++frame) {
+    const auto spotted = trace.SpottedAt(static_cast<std::size_t>(frame));
+    for (std::size_t move = 0; move < spotted.size(); ++move) {
+      if (spotted[move] > most || (spotted[move] == most && named && move < *named)) {
+        most = spotted[move];
+        named = move;
+      }
+    }
+  }
+  return named;
+}
+
+/// Returns the move recognised in a performance. In a labelled recording, the performance is cut out and classified as
+/// a whole, as in the papers on labelled data sets. In a session, the evidence within the window decides.
+std::optional<std::size_t> NameOf(const DetectionEvent& event, const DetectionWorld& world, const SeenStream& seen,
+                                  const Repertoire& repertoire, const Recogniser& recogniser,
+                                  const FrameInterval& window, const EvidenceTrace& trace) {
+  if (!world.IsRecorded()) return MoveNamedIn(window, trace);
+  return Classify(seen, event.performed.begin, event.performed.end, recogniser, repertoire.taught.size());
+}
+
 }  // namespace
 
 SeenStream SeeSession(const DetectionWorld& world, const DetectionMethod& method) {
@@ -51,36 +77,6 @@ std::vector<EvidenceTrace> FollowSession(const DetectionWorld& world, const Seen
   }
   return traces;
 }
-
-namespace {
-
-/// Returns the move with the most evidence in any frame of the window. If several moves have the most, returns the
-/// first.
-std::optional<std::size_t> MoveNamedIn(const FrameInterval& window, const EvidenceTrace& trace) {
-  std::optional<std::size_t> named;
-  double most = 0;
-  for (int frame = window.begin; frame < window.end; ++frame) {
-    const auto spotted = trace.SpottedAt(static_cast<std::size_t>(frame));
-    for (std::size_t move = 0; move < spotted.size(); ++move) {
-      if (spotted[move] > most || (spotted[move] == most && named && move < *named)) {
-        most = spotted[move];
-        named = move;
-      }
-    }
-  }
-  return named;
-}
-
-/// Returns the move recognised in a performance. In a labelled recording, the performance is cut out and classified as
-/// a whole, as in the papers on labelled data sets. In a session, the evidence within the window decides.
-std::optional<std::size_t> NameOf(const DetectionEvent& event, const DetectionWorld& world, const SeenStream& seen,
-                                  const Repertoire& repertoire, const Recogniser& recogniser,
-                                  const FrameInterval& window, const EvidenceTrace& trace) {
-  if (!world.IsRecorded()) return MoveNamedIn(window, trace);
-  return Classify(seen, event.performed.begin, event.performed.end, recogniser, repertoire.taught.size());
-}
-
-}  // namespace
 
 std::vector<Judgement> JudgeEvents(const DetectionWorld& world, std::span<const EvidenceTrace> traces,
                                    double threshold) {

@@ -116,6 +116,12 @@ std::string EventsDigest(const SessionVerdict& verdict, const Repertoire& repert
   return digest.Hex();
 }
 
+/// Returns the fault's index in AllFaults; −1 if there is no fault.
+double IndexOfFault(const std::optional<Fault>& fault) {
+  if (!fault) return -1;
+  return static_cast<double>(std::ranges::find(AllFaults(), *fault) - AllFaults().begin());
+}
+
 }  // namespace
 
 void ScoreSession(const DetectionWorld& world, const SessionVerdict& verdict, const Repertoire& repertoire,
@@ -172,16 +178,6 @@ Series ScoreSeries(const DetectionWorld& world, const SessionVerdict& verdict) {
   }
   return series;
 }
-
-namespace {
-
-/// Returns the fault's index in AllFaults; −1 if there is no fault.
-double IndexOfFault(const std::optional<Fault>& fault) {
-  if (!fault) return -1;
-  return static_cast<double>(std::ranges::find(AllFaults(), *fault) - AllFaults().begin());
-}
-
-}  // namespace
 
 std::vector<Series> PerformanceSeries(const DetectionWorld& world, const SessionVerdict& verdict,
                                       const Repertoire& repertoire) {

@@ -38,6 +38,21 @@ std::string WhyItStopped(const IkMethod& method, const IkSolution& solution, con
   return "";
 }
 
+/// Returns the limit of forward-kinematics passes for the penalised costs: one pass before the first step and one in
+/// each step. Some solvers make further passes and may exceed the limit.
+double LargestFkCount(int max_steps) { return max_steps + 1; }
+
+/// Adds a cost, and the cost in penalised form. Both are missing if the method did not report the cost.
+void AddCost(const char* id, const char* penalised_id, const std::optional<int>& spent, double limit, bool solved,
+             CellResult& cell) {
+  if (spent) {
+    cell.Measure(id, *spent);
+    cell.Measure(penalised_id, PenalisedCost(*spent, limit, solved && *spent <= limit));
+  } else {
+    for (const char* missing : {id, penalised_id}) cell.Missing(missing, "the method did not report its iterations");
+  }
+}
+
 }  // namespace
 
 CellResult RunIkCell(const KinematicTree& tree, const IkWorld& world, const IkMethod& method,
@@ -66,25 +81,6 @@ CellResult RunIkCell(const KinematicTree& tree, const IkWorld& world, const IkMe
   if (records.motion) cell.recording = RecordIk(tree, world, StepsOf(solution.trace));
   return cell;
 }
-
-namespace {
-
-/// Returns the limit of forward-kinematics passes for the penalised costs: one pass before the first step and one in
-/// each step. Some solvers make further passes and may exceed the limit.
-double LargestFkCount(int max_steps) { return max_steps + 1; }
-
-/// Adds a cost, and the cost in penalised form. Both are missing if the method did not report the cost.
-void AddCost(const char* id, const char* penalised_id, const std::optional<int>& spent, double limit, bool solved,
-             CellResult& cell) {
-  if (spent) {
-    cell.Measure(id, *spent);
-    cell.Measure(penalised_id, PenalisedCost(*spent, limit, solved && *spent <= limit));
-  } else {
-    for (const char* missing : {id, penalised_id}) cell.Missing(missing, "the method did not report its iterations");
-  }
-}
-
-}  // namespace
 
 std::vector<std::string> IkMetrics() {
   return {"position_error_cm",      "position_error_max_cm",

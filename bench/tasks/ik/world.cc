@@ -26,33 +26,6 @@ void BendLegs(const KinematicTree& tree, double shank, double thigh, std::vector
   set(kTreeRightAnkle, 0, shank);
 }
 
-}  // namespace
-
-TreeState CrouchBeneathStandingHands(const KinematicTree& tree, RandomStream& dice) {
-  TreeState state = StandingState(tree);
-  // Crouch by a random angle of the shanks. The thighs lean backward, so that the hips move down vertically.
-  const double shank = LengthOf(tree, kTreeLeftKnee), thigh = LengthOf(tree, kTreeLeftHip);
-  const double lean = Radians(dice.Uniform(8, 19));  // the ankle may turn by 20° under every set of limits
-  const double counter = std::asin(shank * std::sin(lean) / thigh);
-  BendLegs(tree, lean, counter, state.angles);
-  const double drop = shank * (1 - std::cos(lean)) + thigh * (1 - std::cos(counter));
-
-  // Shoulder, elbow and wrist form a triangle (law of cosines). The hand hangs vertically below the shoulder.
-  const double upper = LengthOf(tree, kTreeLeftElbow), fore = LengthOf(tree, kTreeLeftWrist);
-  const double span = upper + fore - 1.5 * drop;
-  const double back = std::acos((upper * upper + span * span - fore * fore) / (2 * upper * span));
-  const double forward = std::acos((fore * fore + span * span - upper * upper) / (2 * fore * span));
-  for (const BodyTreeJoint shoulder : {kTreeLeftShoulder, kTreeRightShoulder}) {
-    const auto first = [&](int offset) { return static_cast<std::size_t>(tree.joints[shoulder + offset].first_dof); };
-    state.angles[first(0)] = -back;
-    state.angles[first(1)] = back + forward;
-    state.angles[first(2)] = -forward;
-  }
-  return state;
-}
-
-namespace {
-
 /// Draws the true pose and the start pose.
 void MakePoses(const KinematicTree& tree, const IkTrialOptions& options, const WorldKey& key, IkWorld& world) {
   RandomStream pose(key, "pose");
@@ -87,6 +60,29 @@ void PullOutOfReach(const KinematicTree& tree, double beyond, RandomStream& dice
 }
 
 }  // namespace
+
+TreeState CrouchBeneathStandingHands(const KinematicTree& tree, RandomStream& dice) {
+  TreeState state = StandingState(tree);
+  // Crouch by a random angle of the shanks. The thighs lean backward, so that the hips move down vertically.
+  const double shank = LengthOf(tree, kTreeLeftKnee), thigh = LengthOf(tree, kTreeLeftHip);
+  const double lean = Radians(dice.Uniform(8, 19));  // the ankle may turn by 20° under every set of limits
+  const double counter = std::asin(shank * std::sin(lean) / thigh);
+  BendLegs(tree, lean, counter, state.angles);
+  const double drop = shank * (1 - std::cos(lean)) + thigh * (1 - std::cos(counter));
+
+  // Shoulder, elbow and wrist form a triangle (law of cosines). The hand hangs vertically below the shoulder.
+  const double upper = LengthOf(tree, kTreeLeftElbow), fore = LengthOf(tree, kTreeLeftWrist);
+  const double span = upper + fore - 1.5 * drop;
+  const double back = std::acos((upper * upper + span * span - fore * fore) / (2 * upper * span));
+  const double forward = std::acos((fore * fore + span * span - upper * upper) / (2 * fore * span));
+  for (const BodyTreeJoint shoulder : {kTreeLeftShoulder, kTreeRightShoulder}) {
+    const auto first = [&](int offset) { return static_cast<std::size_t>(tree.joints[shoulder + offset].first_dof); };
+    state.angles[first(0)] = -back;
+    state.angles[first(1)] = back + forward;
+    state.angles[first(2)] = -forward;
+  }
+  return state;
+}
 
 IkWorld MakeIkWorld(const KinematicTree& tree, const IkTrialOptions& options, const WorldKey& key) {
   IkWorld world;

@@ -26,38 +26,6 @@ double PointCloudCm(const BodyPose& a, const BodyPose& b) {
   return cost[0];
 }
 
-}  // namespace
-
-std::vector<std::string> PoseDistanceNames() { return NamesOf(kDistances); }
-
-PoseDistance FindPoseDistance(std::string_view name) { return ValueNamed(kDistances, name); }
-
-PairVerdict ComputePairVerdict(const PairWorld& world, const PoseDistanceMethod& method, const Memberships& memberships,
-                      const FeatureWeights& weights) {
-  const auto distance_of = [&](const SeenPair& pair) {
-    switch (method.distance) {
-      case PoseDistance::kFuzzy: {
-        const Grades a = Fuzzify(pair.a.features, memberships), b = Fuzzify(pair.b.features, memberships);
-        return ComputeDistance(a, b, weights).value;
-      }
-      case PoseDistance::kPointCloud:
-        return PointCloudCm(pair.a.pose, pair.b.pose);
-      case PoseDistance::kJointPositions:
-        return MeanJointDistanceCm(pair.a.pose, AlignOnFloor(pair.b.pose, pair.a.pose).Apply(pair.b.pose));
-    }
-    assert(false);
-    return 0.0;
-  };
-  PairVerdict verdict;
-  for (const SeenPair& pair : world.pairs) {
-    verdict.distances.push_back(distance_of(pair));
-    verdict.alike.push_back(verdict.distances.back() < method.threshold);
-  }
-  return verdict;
-}
-
-namespace {
-
 constexpr const char* kManyPairs = "the world has several pairs";
 constexpr const char* kNotCalledAlike = "the method did not call the poses alike";
 
@@ -94,6 +62,34 @@ std::vector<JudgedEvent> AsEvents(const PairWorld& world, const PairVerdict& ver
 }
 
 }  // namespace
+
+std::vector<std::string> PoseDistanceNames() { return NamesOf(kDistances); }
+
+PoseDistance FindPoseDistance(std::string_view name) { return ValueNamed(kDistances, name); }
+
+PairVerdict ComputePairVerdict(const PairWorld& world, const PoseDistanceMethod& method, const Memberships& memberships,
+                      const FeatureWeights& weights) {
+  const auto distance_of = [&](const SeenPair& pair) {
+    switch (method.distance) {
+      case PoseDistance::kFuzzy: {
+        const Grades a = Fuzzify(pair.a.features, memberships), b = Fuzzify(pair.b.features, memberships);
+        return ComputeDistance(a, b, weights).value;
+      }
+      case PoseDistance::kPointCloud:
+        return PointCloudCm(pair.a.pose, pair.b.pose);
+      case PoseDistance::kJointPositions:
+        return MeanJointDistanceCm(pair.a.pose, AlignOnFloor(pair.b.pose, pair.a.pose).Apply(pair.b.pose));
+    }
+    assert(false);
+    return 0.0;
+  };
+  PairVerdict verdict;
+  for (const SeenPair& pair : world.pairs) {
+    verdict.distances.push_back(distance_of(pair));
+    verdict.alike.push_back(verdict.distances.back() < method.threshold);
+  }
+  return verdict;
+}
 
 std::vector<std::string> PoseDistanceMetrics() {
   return {"fuzzy_distance", "joint_distance_cm", "pose_gap_cm",    "called_alike",      "false_smooth",

@@ -57,15 +57,6 @@ std::vector<BlindSpot> MakeBlindSpots() {
   };
 }
 
-}  // namespace
-
-std::span<const BlindSpot> BlindSpots() {
-  static const std::vector<BlindSpot> spots = MakeBlindSpots();
-  return spots;
-}
-
-namespace {
-
 SeenPair MakePair(const BodyPose& a, const BodyPose& b, double standing_hip_height) {
   return {{a, ComputeFeatures(a, standing_hip_height)}, {b, ComputeFeatures(b, standing_hip_height)}, PoseGap(a, b)};
 }
@@ -85,6 +76,11 @@ std::pair<std::size_t, std::size_t> DrawClips(const DancedClips& clips, int tria
 }
 
 }  // namespace
+
+std::span<const BlindSpot> BlindSpots() {
+  static const std::vector<BlindSpot> spots = MakeBlindSpots();
+  return spots;
+}
 
 DancedClips DanceClips(const ClipLibrary& library) {
   const BodyPose standing = PoseOf(Controls{});

@@ -32,35 +32,6 @@ Result<void> StoreSolution(IkSolution solution, const IkProblem& problem, const 
   return {};
 }
 
-}  // namespace
-
-Result<TrackingAnswer> Follow(const TrackingWorld& world, const TrackingMethod& method) {
-  TrackingAnswer answer;
-  answer.iterations.emplace();
-  // Frames with a cold start are independent of each other, so they are solved in one batch.
-  if (method.start == FrameStart::kCold) {
-    std::vector<IkProblem> problems;
-    for (std::size_t frame = 0; frame < world.truth.size(); ++frame) {
-      problems.push_back(ProblemAt(world, frame, world.first_angles));
-    }
-    std::vector<IkSolution> solutions = SolveAll(*method.solver, world.tree, problems, method.options);
-    for (std::size_t frame = 0; frame < problems.size(); ++frame) {
-      RETURN_IF_ERROR(StoreSolution(std::move(solutions[frame]), problems[frame], world, method, answer));
-    }
-    return answer;
-  }
-  // With a warm start, each frame starts at the answer to the previous frame.
-  const auto solver = Prepare(*method.solver, world.tree);
-  for (std::size_t frame = 0; frame < world.truth.size(); ++frame) {
-    const IkProblem problem = ProblemAt(world, frame, frame > 0 ? answer.angles.back() : world.first_angles);
-    IkSolution solution = solver->Solve(problem, method.options);
-    RETURN_IF_ERROR(StoreSolution(std::move(solution), problem, world, method, answer));
-  }
-  return answer;
-}
-
-namespace {
-
 using Angles = std::vector<std::vector<double>>;  // indexed [frame][angle], radians
 
 /// The measurements of an answer, frame by frame.
@@ -157,6 +128,31 @@ std::string DescribeFailure(const Outcome& outcome) {
 }
 
 }  // namespace
+
+Result<TrackingAnswer> Follow(const TrackingWorld& world, const TrackingMethod& method) {
+  TrackingAnswer answer;
+  answer.iterations.emplace();
+  // Frames with a cold start are independent of each other, so they are solved in one batch.
+  if (method.start == FrameStart::kCold) {
+    std::vector<IkProblem> problems;
+    for (std::size_t frame = 0; frame < world.truth.size(); ++frame) {
+      problems.push_back(ProblemAt(world, frame, world.first_angles));
+    }
+    std::vector<IkSolution> solutions = SolveAll(*method.solver, world.tree, problems, method.options);
+    for (std::size_t frame = 0; frame < problems.size(); ++frame) {
+      RETURN_IF_ERROR(StoreSolution(std::move(solutions[frame]), problems[frame], world, method, answer));
+    }
+    return answer;
+  }
+  // With a warm start, each frame starts at the answer to the previous frame.
+  const auto solver = Prepare(*method.solver, world.tree);
+  for (std::size_t frame = 0; frame < world.truth.size(); ++frame) {
+    const IkProblem problem = ProblemAt(world, frame, frame > 0 ? answer.angles.back() : world.first_angles);
+    IkSolution solution = solver->Solve(problem, method.options);
+    RETURN_IF_ERROR(StoreSolution(std::move(solution), problem, world, method, answer));
+  }
+  return answer;
+}
 
 std::vector<std::string> TrackingMetrics() {
   return {"frames_solved",         "frames_solved_tight",    "position_error_cm",

@@ -14,6 +14,31 @@ namespace {
 constexpr double kSingular = 1e-12;
 constexpr int kMaxPasses = 4;  // maximum number of active-set passes per step
 
+// Computes the step α JᵀdX at `angles`. An angle at an end of its range does not move if its step points out of the
+// range.
+void ComputeStep(const LinearTargets& linear, std::span<const double> angles, std::span<const AngleRange> ranges,
+                 double gain, Eigen::VectorXd& step) {
+  const Eigen::Map<const Eigen::MatrixXd> jacobian(linear.jacobian().data(), linear.rows(), linear.columns());
+  const Eigen::Map<const Eigen::VectorXd> residuals(linear.residuals().data(), linear.rows());
+  step.noalias() = jacobian.transpose() * residuals;
+  for (std::size_t i = 0; i < angles.size(); ++i) {
+    double& torque = step[static_cast<Eigen::Index>(i)];
+    const bool is_blocked = torque < 0 ? angles[i] <= ranges[i].lower : angles[i] >= ranges[i].upper;
+    if (is_blocked) torque = 0;
+  }
+  const Eigen::VectorXd gained = jacobian * step;
+  const double length = gained.squaredNorm();
+  if (length > 0) step *= gain * residuals.dot(gained) / length;
+}
+
+// The range of λ in damped least squares, and the factor by which it changes.
+constexpr double kMinDamping = 1e-9;
+constexpr double kMaxDamping = 1e6;
+constexpr double kDampingStep = 5;
+// The solver stalls if a step lowers the sum by less than this share: about a million such steps would be needed to
+// change the sum noticeably.
+constexpr double kMinGain = 1e-6;
+
 }  // namespace
 
 void DampedInverse::Build(const LinearTargets& linear) {
@@ -110,35 +135,6 @@ double DampedInverse::Gain(std::span<const double> step) const {
   const Eigen::VectorXd moved = jacobian * taken;
   return moved.dot(2 * residuals - moved);
 }
-
-namespace {
-
-// Computes the step α JᵀdX at `angles`. An angle at an end of its range does not move if its step points out of the
-// range.
-void ComputeStep(const LinearTargets& linear, std::span<const double> angles, std::span<const AngleRange> ranges,
-                 double gain, Eigen::VectorXd& step) {
-  const Eigen::Map<const Eigen::MatrixXd> jacobian(linear.jacobian().data(), linear.rows(), linear.columns());
-  const Eigen::Map<const Eigen::VectorXd> residuals(linear.residuals().data(), linear.rows());
-  step.noalias() = jacobian.transpose() * residuals;
-  for (std::size_t i = 0; i < angles.size(); ++i) {
-    double& torque = step[static_cast<Eigen::Index>(i)];
-    const bool is_blocked = torque < 0 ? angles[i] <= ranges[i].lower : angles[i] >= ranges[i].upper;
-    if (is_blocked) torque = 0;
-  }
-  const Eigen::VectorXd gained = jacobian * step;
-  const double length = gained.squaredNorm();
-  if (length > 0) step *= gain * residuals.dot(gained) / length;
-}
-
-// The range of λ in damped least squares, and the factor by which it changes.
-constexpr double kMinDamping = 1e-9;
-constexpr double kMaxDamping = 1e6;
-constexpr double kDampingStep = 5;
-// The solver stalls if a step lowers the sum by less than this share: about a million such steps would be needed to
-// change the sum noticeably.
-constexpr double kMinGain = 1e-6;
-
-}  // namespace
 
 IkSolution SolveJacobianTranspose(const KinematicTree& tree, const IkProblem& problem, const IkOptions& options,
                                   const JacobianTransposeOptions& own) {

@@ -53,17 +53,6 @@ TurnFactors FactorsOf(double squared) {
   return {std::sin(angle) / angle, (1 - std::cos(angle)) / squared};
 }
 
-}  // namespace
-
-glm::dvec3 Turned(const glm::dvec3& v, const LimbTurn& turn) {
-  // Rotate the vector by Rodrigues' formula.
-  const auto [sine, versine] = FactorsOf(glm::dot(turn, turn));
-  const glm::dvec3 across = glm::cross(turn, v);
-  return v + sine * across + versine * glm::cross(turn, across);
-}
-
-namespace {
-
 constexpr double kNothing = 1e-12;
 
 glm::dvec3 AcrossOf(const glm::dvec3& v, const glm::dvec3& axis) { return v - axis * glm::dot(v, axis); }
@@ -79,6 +68,13 @@ glm::dvec3 DirectionOr(const glm::dvec3& v, const glm::dvec3& otherwise) {
 }
 
 }  // namespace
+
+glm::dvec3 Turned(const glm::dvec3& v, const LimbTurn& turn) {
+  // Rotate the vector by Rodrigues' formula.
+  const auto [sine, versine] = FactorsOf(glm::dot(turn, turn));
+  const glm::dvec3 across = glm::cross(turn, v);
+  return v + sine * across + versine * glm::cross(turn, across);
+}
 
 double TurnOnFloor(const glm::dvec3& from, const glm::dvec3& to) {
   return std::atan2(from.z * to.x - from.x * to.z, from.x * to.x + from.z * to.z + 0.0);

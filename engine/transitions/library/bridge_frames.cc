@@ -39,49 +39,6 @@ std::vector<int> KeepMostAlike(const std::vector<int>& frames, const TaggedClip&
   return kept;
 }
 
-}  // namespace
-
-std::vector<bool> FindQuietHeads(const BodyMotion& motion, const HeadRule& rule) {
-  const int count = static_cast<int>(motion.poses.size());
-  std::vector<glm::dvec3> necks;
-  necks.reserve(motion.poses.size());
-  for (const BodyPose& pose : motion.poses) necks.push_back(NeckInTrunk(pose));
-  std::vector<bool> quiet(motion.poses.size());
-  for (int f = 0; f < count; ++f) {
-    const int before = std::max(f - 1, 0), after = std::min(f + 1, count - 1);
-    const double seconds = (after - before) / motion.rate_hz;
-    const double turned = AngleBetween(necks[before], necks[after]);
-    const double bend = AngleBetween(necks[f], {0, 1, 0});
-    quiet[f] = bend <= rule.max_bend && turned <= rule.max_turn_speed * seconds;
-  }
-  return quiet;
-}
-
-std::vector<TaggedClip> TagClips(std::span<const BodyMotion> clips, double standing_hip_height, const TagRules& rules) {
-  std::vector<TaggedClip> tagged;
-  tagged.reserve(clips.size());
-  for (const BodyMotion& motion : clips) {
-    TaggedClip& clip = tagged.emplace_back();
-    clip.rate_hz = motion.rate_hz;
-    for (const BodyPose& pose : motion.poses) {
-      clip.grades.push_back(Fuzzify(ComputeFeatures(pose, standing_hip_height), rules.memberships));
-      clip.tags.push_back(ChooseTags(clip.grades.back()));
-    }
-  }
-  const std::vector<std::vector<FrameRating>> ratings = RateFrames(tagged, rules.weights);
-  for (std::size_t c = 0; c < clips.size(); ++c) {
-    const std::vector<bool> quiet = FindQuietHeads(clips[c], rules.head);
-    std::vector<int>& frames = tagged[c].bridge_frames;
-    for (int f = 0; f < tagged[c].FrameCount(); ++f) {
-      if (quiet[f] && ratings[c][f].clips >= rules.min_clips) frames.push_back(f);
-    }
-    if (rules.most_per_class > 0) frames = KeepMostAlike(frames, tagged[c], ratings[c], rules.most_per_class);
-  }
-  return tagged;
-}
-
-namespace {
-
 /// Sums over the frames of one class. These sums give the mean squared distance of any frame to the class in constant
 /// time.
 struct Sums {
@@ -122,6 +79,45 @@ double MeanSquareDistance(const Grades& frame, const Sums& all, const Sums& own,
 }
 
 }  // namespace
+
+std::vector<bool> FindQuietHeads(const BodyMotion& motion, const HeadRule& rule) {
+  const int count = static_cast<int>(motion.poses.size());
+  std::vector<glm::dvec3> necks;
+  necks.reserve(motion.poses.size());
+  for (const BodyPose& pose : motion.poses) necks.push_back(NeckInTrunk(pose));
+  std::vector<bool> quiet(motion.poses.size());
+  for (int f = 0; f < count; ++f) {
+    const int before = std::max(f - 1, 0), after = std::min(f + 1, count - 1);
+    const double seconds = (after - before) / motion.rate_hz;
+    const double turned = AngleBetween(necks[before], necks[after]);
+    const double bend = AngleBetween(necks[f], {0, 1, 0});
+    quiet[f] = bend <= rule.max_bend && turned <= rule.max_turn_speed * seconds;
+  }
+  return quiet;
+}
+
+std::vector<TaggedClip> TagClips(std::span<const BodyMotion> clips, double standing_hip_height, const TagRules& rules) {
+  std::vector<TaggedClip> tagged;
+  tagged.reserve(clips.size());
+  for (const BodyMotion& motion : clips) {
+    TaggedClip& clip = tagged.emplace_back();
+    clip.rate_hz = motion.rate_hz;
+    for (const BodyPose& pose : motion.poses) {
+      clip.grades.push_back(Fuzzify(ComputeFeatures(pose, standing_hip_height), rules.memberships));
+      clip.tags.push_back(ChooseTags(clip.grades.back()));
+    }
+  }
+  const std::vector<std::vector<FrameRating>> ratings = RateFrames(tagged, rules.weights);
+  for (std::size_t c = 0; c < clips.size(); ++c) {
+    const std::vector<bool> quiet = FindQuietHeads(clips[c], rules.head);
+    std::vector<int>& frames = tagged[c].bridge_frames;
+    for (int f = 0; f < tagged[c].FrameCount(); ++f) {
+      if (quiet[f] && ratings[c][f].clips >= rules.min_clips) frames.push_back(f);
+    }
+    if (rules.most_per_class > 0) frames = KeepMostAlike(frames, tagged[c], ratings[c], rules.most_per_class);
+  }
+  return tagged;
+}
 
 std::vector<std::vector<FrameRating>> RateFrames(std::span<const TaggedClip> clips, const FeatureWeights& weights) {
   // Sum up the grades of each class (frames with the same tags), in total and by clip.

@@ -41,6 +41,31 @@ double LowestHeight(const BodyPose& pose) {
 
 double Mix(double from, double to, double part) { return from + part * (to - from); }
 
+using Key = InBetweenNet::Key;
+
+/// Returns the frames that may become keys. The most typical frame of the most frequent pose comes first.
+std::vector<Key> RankForKeys(std::span<const TaggedClip> tagged, const FeatureWeights& weights) {
+  const bool has_bridge_frames =
+      std::any_of(tagged.begin(), tagged.end(), [](const TaggedClip& clip) { return !clip.bridge_frames.empty(); });
+  const std::vector<std::vector<FrameRating>> ratings = RateFrames(tagged, weights);
+  std::vector<Key> ranked;
+  // Collect the bridge frames, or all frames of a library without bridge frames.
+  for (int c = 0; c < static_cast<int>(tagged.size()); ++c) {
+    if (has_bridge_frames) {
+      for (int frame : tagged[c].bridge_frames) ranked.push_back({c, frame});
+    } else {
+      for (int frame = 0; frame < tagged[c].FrameCount(); ++frame) ranked.push_back({c, frame});
+    }
+  }
+  // Sort by the frequency of the pose, then by how typical the frame is.
+  const auto rank = [&](const Key& key) {
+    const FrameRating& rating = ratings[key.clip][key.frame];
+    return std::tuple(-rating.clips, -rating.frames, tagged[key.clip].tags[key.frame], rating.difference);
+  };
+  std::stable_sort(ranked.begin(), ranked.end(), [&](const Key& a, const Key& b) { return rank(a) < rank(b); });
+  return ranked;
+}
+
 }  // namespace
 
 double LongestTween(const TweenRules& rules) { return std::max(rules.shortest_s, kPeakSlope * kPi / rules.turn_speed); }
@@ -112,35 +137,6 @@ void AppendTween(const BodyPose& to, double rate_hz, const TweenRules& rules, st
   const std::vector<BodyPose> rest = SampleTween(Tween(frames.back(), to), rate_hz, rules);
   frames.insert(frames.end(), rest.begin() + 1, rest.end());
 }
-
-namespace {
-
-using Key = InBetweenNet::Key;
-
-/// Returns the frames that may become keys. The most typical frame of the most frequent pose comes first.
-std::vector<Key> RankForKeys(std::span<const TaggedClip> tagged, const FeatureWeights& weights) {
-  const bool has_bridge_frames =
-      std::any_of(tagged.begin(), tagged.end(), [](const TaggedClip& clip) { return !clip.bridge_frames.empty(); });
-  const std::vector<std::vector<FrameRating>> ratings = RateFrames(tagged, weights);
-  std::vector<Key> ranked;
-  // Collect the bridge frames, or all frames of a library without bridge frames.
-  for (int c = 0; c < static_cast<int>(tagged.size()); ++c) {
-    if (has_bridge_frames) {
-      for (int frame : tagged[c].bridge_frames) ranked.push_back({c, frame});
-    } else {
-      for (int frame = 0; frame < tagged[c].FrameCount(); ++frame) ranked.push_back({c, frame});
-    }
-  }
-  // Sort by the frequency of the pose, then by how typical the frame is.
-  const auto rank = [&](const Key& key) {
-    const FrameRating& rating = ratings[key.clip][key.frame];
-    return std::tuple(-rating.clips, -rating.frames, tagged[key.clip].tags[key.frame], rating.difference);
-  };
-  std::stable_sort(ranked.begin(), ranked.end(), [&](const Key& a, const Key& b) { return rank(a) < rank(b); });
-  return ranked;
-}
-
-}  // namespace
 
 InBetweenNet BuildInBetweens(std::span<const TaggedClip> tagged, const InBetweenRules& rules) {
   InBetweenNet net{.keys = {}, .tween = rules.tween};

@@ -29,11 +29,11 @@ using testing::SpoiltBytes;
 using testing::SpoiltTexts;
 
 template <typename T>
-using Read = Result<T> (*)(std::string_view, const std::string&);
+using ReadText = Result<T> (*)(std::string_view, const std::string&);
 
 /// Wraps `read` for texts that belong to a file of this name.
 template <typename T>
-auto From(const std::string& file, Read<T> read) {
+auto From(const std::string& file, ReadText<T> read) {
   return [file, read](const std::string& text) { return read(text, file); };
 }
 

@@ -351,6 +351,7 @@ TEST(RowClock, OfMotiveIsItsColumnTimeElseItsFrameNumbers) {
     ASSERT_EQ(take->frames.size(), 240u) << has_times;
     EXPECT_FALSE(take->frames[110][0]);
     EXPECT_LT(FarthestFromCurve(*take), 2e-6);
+    EXPECT_EQ(take->start_s.has_value(), has_times) << "frame numbers are no clock";
     EXPECT_THAT(take->remark,
                 HasSubstr("found 210 rows, but 'Total Exported Frames' is 240; by their times, 30 of 240 frames"));
   }
