@@ -198,10 +198,10 @@ CLI::Option* AddSeed(CLI::App& command, std::optional<std::uint64_t>& seed, cons
 }
 
 CLI::Option* AddSeedFile(CLI::App& command, std::string& file) {
-  CLI::Option* option = command.add_option(
-      "--seed-file", file,
-      "A file with a secret key from which all worlds are drawn: 64 hexadecimal digits or 32 bytes. The environment "
-      "variable ETUDE_SEED_KEY can contain the digits instead");
+  CLI::Option* option =
+      command.add_option("--seed-file", file,
+                         "A file with a secret key from which all worlds are drawn: 64 hexadecimal digits or 32 bytes. "
+                         "The environment variable ETUDE_SEED_KEY can contain the digits instead");
   if (CLI::Option* seed = command.get_option_no_throw("--seed")) option->excludes(seed);
   return option;
 }
@@ -230,8 +230,7 @@ Action WithSecretKey(CLI::App& command, const std::optional<std::uint64_t>* seed
 void AddReuseKey(CLI::App& command, bool& reuse_key) {
   command
       .add_flag("--reuse-key", reuse_key,
-                "Accept a key that was used before, although its worlds may no longer "
-                "be secret")
+                "Accept a key that was used before, although its worlds may no longer be secret")
       ->needs(command.get_option("--seed-file"));
 }
 
@@ -269,26 +268,25 @@ std::array<CLI::Option*, 9> AddWorldOptions(CLI::App& command, std::optional<std
       AddSeed(command, seed, "Seed of the random numbers of all worlds (default: the scenario's seed, otherwise 1)"),
       command.add_option("--trials", trials, "Number of trials per condition (default: the scenario's number)")
           ->check(CLI::Range(1, 1000000)),
-      command.add_option("--clips", clips,
-                         "Clips that replace the clips of the scenarios: builtin:NAME, motion "
-                         "files, or patterns of file names"),
-      command.add_option(kJointMapOption, joint_map,
-                         "A joint map: a file that assigns joints of the clips to roles (`etude clip map` writes "
-                         "such a file)"),
+      command.add_option(
+          "--clips", clips,
+          "Clips that replace the clips of the scenarios: builtin:NAME, motion files, or patterns of file names"),
+      command.add_option(
+          kJointMapOption, joint_map,
+          "A joint map: a file that assigns joints of the clips to roles (`etude clip map` writes such a file)"),
       AddUnit(command, "clips", clip_facts),
       AddUp(command, "clips", clip_facts),
       command
           .add_option_function<std::string>("--rate", tell("rate"),
-                                            "Frames per second of the clips (default: the rate that each clip "
-                                            "states)")
+                                            "Frames per second of the clips (default: the rate that each clip states)")
           ->check(NumberWithin(1, 1000, "rate in Hz")),
       command.add_flag_callback(
           "--keep-floor", [&clip_facts] { clip_facts += "keep_floor: true\n"; },
           "Keep the heights of the clips, instead of placing the bodies on the floor"),
       command
-          .add_option_function<std::string>("--marker-set", tell("marker_set"),
-                                            "The marker set of the clips (default: the most suitable set that the "
-                                            "clips contain)")
+          .add_option_function<std::string>(
+              "--marker-set", tell("marker_set"),
+              "The marker set of the clips (default: the most suitable set that the clips contain)")
           ->check(OneOf(MarkerSetKeys()))};
 }
 
@@ -300,11 +298,9 @@ void AddUnsealed(CLI::App& command, Sealing& sealing) {
 
 void AddOutsideRules(CLI::App& command, OutsideRules& rules) {
   command.add_flag("!--no-fence", rules.is_fenced,
-                   "Run outside methods without their sandbox (the fence), to debug "
-                   "them");
+                   "Run outside methods without their sandbox (the fence), to debug them");
   command.add_flag("--allow-exec", rules.allow_exec,
-                   "Allow Etude to run programs that a manifest, a run or a "
-                   "packed cell specifies");
+                   "Allow Etude to run programs that a manifest, a run or a packed cell specifies");
 }
 
 CLI::Validator OneOf(const std::vector<std::string>& names) {

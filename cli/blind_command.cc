@@ -83,8 +83,8 @@ void Print(const Preferences& found) {
                InPerCent(method.interval), FormatNumber(method.answers));
   }
   fmt::print(
-      "Preferred: the probability that raters prefer the method to another compared method (Bradley–Terry model; "
-      "“no difference” counts as half a win). {}\n\n",
+      "Preferred: the probability that raters prefer the method to another compared method (Bradley–Terry model; “no "
+      "difference” counts as half a win). {}\n\n",
       found.raters < kMinSample
           ? fmt::format("Intervals need {} raters.", kMinSample)
           : "The 95 % intervals are bootstrapped over raters, and are valid for these films only.");
@@ -96,15 +96,15 @@ void Print(const Preferences& found) {
                InPerCent(metric.interval), metric.decided);
   }
   fmt::print(
-      "Agrees: the share of pairs in which the metric prefers the same side as most raters. Pairs without a "
-      "majority of raters, and pairs with equal values of the metric, do not count. Wilson intervals are over "
-      "pairs. A coin toss would agree in 50 % of the pairs. The best of {} metrics was selected on these films, so "
-      "it will agree less often on other films.\n",
+      "Agrees: the share of pairs in which the metric prefers the same side as most raters. Pairs without a majority "
+      "of raters, and pairs with equal values of the metric, do not count. Wilson intervals are over pairs. A coin "
+      "toss would agree in 50 % of the pairs. The best of {} metrics was selected on these films, so it will agree "
+      "less often on other films.\n",
       found.metrics.size());
   for (const OneSidedRater& rater : found.one_sided) {
     fmt::print(stderr,
-               "etude: {} chose the left side in {} of {} decided pairs, although sides were random (p < 0.01). "
-               "Leave out this rater's file if the rater did not watch the films\n",
+               "etude: {} chose the left side in {} of {} decided pairs, although sides were random (p < 0.01). Leave "
+               "out this rater's file if the rater did not watch the films\n",
                Visible(rater.rater), rater.left, rater.decided);
   }
 }
@@ -129,14 +129,11 @@ Result<int> BlindCommand(const BlindCommandOptions& options) {
 
 void DefineBlind(CLI::App& app, Action& action) {
   auto options = std::make_shared<BlindCommandOptions>();
-  CLI::App* command =
-      app.add_subcommand("blind",
-                         "Summarise which transitions people prefer, and which metrics agree with their "
-                         "preferences");
+  CLI::App* command = app.add_subcommand(
+      "blind", "Summarise which transitions people prefer, and which metrics agree with their preferences");
   command
       ->add_option("files", options->files,
-                   "Key files that `etude report --blind` wrote, and answer files that "
-                   "raters saved")
+                   "Key files that `etude report --blind` wrote, and answer files that raters saved")
       ->required();
   AddSeed(*command, options->seed, "Seed of the bootstrap");
   AddJson(*command, options->as_json);

@@ -33,10 +33,8 @@ struct BridgeCommandOptions {
 
 constexpr const char* kBridgeText =
     "\n"
-    "A bridge frame is a frame that suits a transition: its pose occurs in several clips, and the head is still. "
-    "Two\n"
-    "bridge frames match if their fuzzy distance is below the threshold. `etude clip --help` explains how to "
-    "specify\n"
+    "A bridge frame is a frame that suits a transition: its pose occurs in several clips, and the head is still. Two\n"
+    "bridge frames match if their fuzzy distance is below the threshold. `etude clip --help` explains how to specify\n"
     "clips; docs/bridge-frames.md explains bridge frames.";
 
 Result<BridgeLibrary> LoadLibrary(const BridgeCommandOptions& options) {
@@ -70,8 +68,7 @@ BridgeCommandOptions OptionsOf(const BridgeTags& tags, BridgeCommandOptions opti
 Result<int> CheckTags(const BridgeCommandOptions& options) {
   if (options.clips.empty() && !options.fuzzy.empty()) {
     return Fail({"--fuzzy"},
-                "has no effect on --check if there are no clips; add the clips that the tags file "
-                "describes");
+                "has no effect on --check if there are no clips; add the clips that the tags file describes");
   }
   ASSIGN_OR_RETURN(const auto text, ReadWholeFile(options.check));
   ASSIGN_OR_RETURN(const auto tags, ReadTagsFile(text, options.check));
@@ -119,16 +116,15 @@ Result<int> BridgeCommand(const BridgeCommandOptions& options) {
 
 void DefineBridge(CLI::App& app, Action& action) {
   auto options = std::make_shared<BridgeCommandOptions>();
-  CLI::App* command = app.add_subcommand("bridge",
-                                         "Find and tag the frames at which a transition from one clip to another is "
-                                         "possible");
+  CLI::App* command = app.add_subcommand(
+      "bridge", "Find and tag the frames at which a transition from one clip to another is possible");
   // Define the inputs and outputs.
   command->add_option("clips", options->clips, "The clips of the library to analyse");
   CLI::Option* output = command->add_option("-o,--output", options->output, "The tags file to write (XML)");
   // --check excludes most other options, because the tags file states the rules.
-  CLI::Option* check = command->add_option("--check", options->check,
-                                           "Check this tags file; if clips are given, also check that the file "
-                                           "matches the clips");
+  CLI::Option* check =
+      command->add_option("--check", options->check,
+                          "Check this tags file; if clips are given, also check that the file matches the clips");
   check->excludes(output);
   const auto add = [&](CLI::Option* option) { check->excludes(option); };
   add(command->add_option(
@@ -138,8 +134,7 @@ void DefineBridge(CLI::App& app, Action& action) {
   // Define the rules of matching and tagging.
   add(command
           ->add_option("--threshold", options->threshold,
-                       "Two frames match if their fuzzy distance is below "
-                       "this value")
+                       "Two frames match if their fuzzy distance is below this value")
           ->check(NumberWithin(1e-6, 6, "threshold")));
   add(command->add_flag("--within-class", options->within_class, "Match only frames whose ten tags are all equal"));
   add(command
@@ -147,10 +142,9 @@ void DefineBridge(CLI::App& app, Action& action) {
                        "Minimum number of clips in which the tags of a bridge frame must occur")
           ->check(CLI::Range(1, 1000)));
   add(command
-          ->add_option(
-              "--most-per-class", options->most_per_class,
-              "Maximum number of bridge frames per clip and pose; the frames most similar to frames of other clips "
-              "are kept (0: all)")
+          ->add_option("--most-per-class", options->most_per_class,
+                       "Maximum number of bridge frames per clip and pose; the frames most similar to frames of other "
+                       "clips are kept (0: all)")
           ->check(CLI::Range(0, 1000000)));
   add(command->add_option("--wait", options->wait_s, "Longest wait for a transition, in seconds")
           ->check(NumberWithin(0, 3600, "time in seconds")));

@@ -58,9 +58,9 @@ Result<int> CalibrateCommand(const CalibrateCommandOptions& asked) {
     return kSuccess;
   }
   if (options.inputs.empty())
-    return Fail({},
-                "the input is missing; allowed: a file of point pairs; or, for each camera, a folder of pictures or "
-                "a film");
+    return Fail(
+        {},
+        "the input is missing; allowed: a file of point pairs; or, for each camera, a folder of pictures or a film");
   if (options.output.empty()) return Fail({}, "the option -o RIG.yaml is missing; it sets the file that Etude writes");
   RETURN_IF_ERROR(CheckOutput(options.output, asked.overwrite));
   RETURN_IF_ERROR(CheckOutput(options.picture, asked.overwrite, ".png"));
@@ -75,11 +75,11 @@ Result<int> CalibrateCommand(const CalibrateCommandOptions& asked) {
 
 constexpr const char* kCalibrateText =
     "\n"
-    "A rig describes the cameras of `etude capture`: focal lengths, principal points, lens distortion and poses. "
-    "There are\n"
+    "A rig describes the cameras of `etude capture`: focal lengths, principal points, lens distortion and poses. There "
+    "are\n"
     "two ways to calibrate a rig.\n\n"
-    "From point pairs: measure at least six points in metres, Y up, and the pixels that show these points. The "
-    "points must\n"
+    "From point pairs: measure at least six points in metres, Y up, and the pixels that show these points. The points "
+    "must\n"
     "not all be in one plane; use two or three walls. The file is a CSV with the heading camera,x,y,z,u,v (add "
     "--size), or\n"
     "YAML:\n"
@@ -87,20 +87,20 @@ constexpr const char* kCalibrateText =
     "  right: {size: [1920, 1080], pairs: ...}\n"
     "--method refined (the default) finds focal lengths, principal point, lens and pose by least squares of\n"
     "the reprojection error. The methods dlt and dlt-normalised only solve for the matrix H, as paper B does.\n\n"
-    "From pictures of a board: print a board (--print), glue it to something flat, and measure the side of a "
-    "square. Take\n"
+    "From pictures of a board: print a board (--print), glue it to something flat, and measure the side of a square. "
+    "Take\n"
     "ten or more pictures with every camera. Tilt the board in all directions, and place it also in the picture's "
     "corners.\n"
-    "Pictures of the same moment need the same name in every folder. At some moments two cameras must see the "
-    "board. The\n"
+    "Pictures of the same moment need the same name in every folder. At some moments two cameras must see the board. "
+    "The\n"
     "board in the first picture determines the world coordinates: put it on the floor (--world floor). A film can "
     "replace a\n"
-    "folder. If films of a moving board did not begin at the same moment, Etude finds, corrects and reports the "
-    "delay of\n"
+    "folder. If films of a moving board did not begin at the same moment, Etude finds, corrects and reports the delay "
+    "of\n"
     "each film.\n\n"
     "The written file is YAML. OpenCV can read it: cv::FileStorage(\"rig.yaml\")[\"left\"][\"camera_matrix\"].\n"
-    "`etude capture` also reads calibrations of OpenCV, Pose2Sim, Anipose, FreeMoCap, Caliscope, Qualisys, "
-    "EasyMocap and\n"
+    "`etude capture` also reads calibrations of OpenCV, Pose2Sim, Anipose, FreeMoCap, Caliscope, Qualisys, EasyMocap "
+    "and\n"
     "COLMAP.";
 
 }  // namespace
@@ -115,31 +115,27 @@ void DefineCalibrate(CLI::App& app, Action& action) {
   command->add_option("inputs", options->inputs,
                       "A file of point pairs; or, for each camera, a folder of pictures or a film");
   command->add_option("-o,--output", options->output, "The rig file to write (YAML)");
-  command->add_option(
-      "--board", options->boards,
-      "The board as COLUMNSxROWSxSQUARE: the numbers of squares, and the side of a square in metres. Append "
-      "@FIRST_CODE to give a second board different codes. Or a board of OpenCV: chess:9x6x0.025, charuco:5x7x0.04 "
-      "(Etude finds its dictionary, colours and layout)");
+  command->add_option("--board", options->boards,
+                      "The board as COLUMNSxROWSxSQUARE: the numbers of squares, and the side of a square in metres. "
+                      "Append @FIRST_CODE to give a second board different codes. Or a board of OpenCV: "
+                      "chess:9x6x0.025, charuco:5x7x0.04 (Etude finds its dictionary, colours and layout)");
   // Define what is estimated, and in which world frame.
   command->add_option("--method", options->method, "Method that computes cameras from point pairs")
       ->check(OneOf(CalibrationNames()));
   command
       ->add_option("--lens", options->lens,
-                   "Lens parameters to estimate: none; radial2 (k1, k2, p1, p2); radial3 "
-                   "(k1, k2, k3, p1, p2)")
+                   "Lens parameters to estimate: none; radial2 (k1, k2, p1, p2); radial3 (k1, k2, k3, p1, p2)")
       ->check(OneOf({"none", "radial2", "radial3"}));
   command->add_flag(
       "--skew", options->skew,
       "Also estimate the angle between the picture's axes, as paper B does (90 degrees in modern sensors)");
   command->add_option("--size", options->size,
-                      "If the input is point pairs as CSV: the size of the pictures, such "
-                      "as 1920x1080");
+                      "If the input is point pairs as CSV: the size of the pictures, such as 1920x1080");
   command->add_option("--world", options->world, "Where the board is in the first picture: on the floor or on a wall")
       ->check(OneOf({"floor", "wall"}));
   command
       ->add_option("--every", options->every,
-                   "Use every n-th frame of a film (0: every 30th; for a board of OpenCV, at most 200 frames in "
-                   "total)")
+                   "Use every n-th frame of a film (0: every 30th; for a board of OpenCV, at most 200 frames in total)")
       ->check(CLI::Range(0, 100000));
   command
       ->add_option("--sync", options->sync_s,

@@ -94,9 +94,8 @@ void DefineCheckMethod(CLI::App& app, Action& action) {
     bool is_fenced = true, as_json = false;
   };
   auto options = std::make_shared<Options>();
-  CLI::App* command = app.add_subcommand("check-method",
-                                         "Test whether a program correctly implements Etude's "
-                                         "protocol for outside methods");
+  CLI::App* command = app.add_subcommand(
+      "check-method", "Test whether a program correctly implements Etude's protocol for outside methods");
   command->add_option("command", options->command, "The program and the arguments of the program, after `--`")
       ->required();
   // List the allowed tasks and seats (a seat is the program's part in a loop).
@@ -109,14 +108,14 @@ void DefineCheckMethod(CLI::App& app, Action& action) {
   command->add_option("--seat", options->seat,
                       "The part of the task's loop that the program replaces (its seat): " + Join(seats, "; "));
   // Define recordings of people, for tasks that can use them.
-  CLI::Option* streams = command->add_option("--streams", options->people.streams,
-                                             "Recordings of people from which problems are made, as in `etude run "
-                                             "--streams`");
+  CLI::Option* streams =
+      command->add_option("--streams", options->people.streams,
+                          "Recordings of people from which problems are made, as in `etude run --streams`");
   streams->allow_extra_args(false);
   command
-      ->add_option("--labels", options->people.labels,
-                   "Labels of the recordings (which person performed which move, and when): a file, or a folder of "
-                   "tag streams")
+      ->add_option(
+          "--labels", options->people.labels,
+          "Labels of the recordings (which person performed which move, and when): a file, or a folder of tag streams")
       ->needs(streams);
   AddStreamReading(*command, options->people.reading);
   // Define limits, and the fence.
@@ -125,8 +124,8 @@ void DefineCheckMethod(CLI::App& app, Action& action) {
   command->add_option("--memory", options->memory_mb, "Memory limit, in MB")->check(NumberWithin(1, 1e6, "size in MB"));
   command
       ->add_option("--files", options->files,
-                   "Files and folders that the program can read inside its sandbox, the fence (default: the "
-                   "program's own folder)")
+                   "Files and folders that the program can read inside its sandbox, the fence (default: the program's "
+                   "own folder)")
       ->allow_extra_args(false);
   command->add_flag("!--no-fence", options->is_fenced, "Run the program without its sandbox (the fence), to debug it");
   AddJson(*command, options->as_json);

@@ -36,14 +36,12 @@ Result<int> CiteCommand(const std::string& folder, const std::string& address, b
       "  version = {{{}}},\n"
       "  year    = {{2026}}{}\n"
       "}}\n\n"
-      "For a methods section: We ran the suite \"{}\" of Etude {}{} (seed {}, manifest {}); running the same "
-      "manifest again gives bit-identical results.\n",
+      "For a methods section: We ran the suite \"{}\" of Etude {}{} (seed {}, manifest {}); running the same manifest "
+      "again gives bit-identical results.\n",
       run.program_version, address.empty() ? "" : fmt::format(",\n  url     = {{{}}}", address), run.suite,
       run.program_version, address.empty() ? "" : fmt::format(", {}", address), run.seed, digest);
   if (address.empty())
-    fmt::print(stderr,
-               "the citation has no address: use --address to state where readers find "
-               "Etude or this run\n");
+    fmt::print(stderr, "the citation has no address: use --address to state where readers find Etude or this run\n");
   return kSuccess;
 }
 
@@ -51,9 +49,8 @@ Result<int> CiteCommand(const std::string& folder, const std::string& address, b
 
 void DefineCite(CLI::App& app, Action& action) {
   auto folder = std::make_shared<std::string>();
-  CLI::App* command = app.add_subcommand("cite",
-                                         "Print a BibTeX entry, and a sentence with which a paper can cite "
-                                         "a run");
+  CLI::App* command =
+      app.add_subcommand("cite", "Print a BibTeX entry, and a sentence with which a paper can cite a run");
   command->add_option("folder", *folder, "A result folder")->required();
   auto address = std::make_shared<std::string>();
   command->add_option("--address", *address, "Where readers find Etude or this run: a URL or DOI")

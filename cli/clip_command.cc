@@ -142,35 +142,29 @@ Result<int> ClipConvertCommand(const ClipConvertOptions& given) {
 
 void DefineConvert(CLI::App& clip, Action& action) {
   auto options = std::make_shared<ClipConvertOptions>();
-  CLI::App* command = clip.add_subcommand("convert",
-                                          "Convert a clip to BVH, GLB, TRC, CSV, C3D, NPZ, MOT or "
-                                          "Motion-BIDS");
+  CLI::App* command =
+      clip.add_subcommand("convert", "Convert a clip to BVH, GLB, TRC, CSV, C3D, NPZ, MOT or Motion-BIDS");
   command->add_option("input", options->input, "A clip")->required();
   command
-      ->add_option(
-          "output", options->output,
-          "The file to write: .bvh, .glb, .trc (OpenSim markers), .mot (OpenSim joint angles), .csv, .c3d, .npz "
-          "(NumPy); or, for Motion-BIDS, a folder such as data/")
+      ->add_option("output", options->output,
+                   "The file to write: .bvh, .glb, .trc (OpenSim markers), .mot (OpenSim joint angles), .csv, .c3d, "
+                   ".npz (NumPy); or, for Motion-BIDS, a folder such as data/")
       ->required();
   // Define the part of the clip that is converted, and the changes to the clip.
   command->add_option("--trim", options->trim,
-                      "Convert only the part FROM:TO, in seconds: 1.5:4, or 2: for the "
-                      "part from 2 s to the end");
+                      "Convert only the part FROM:TO, in seconds: 1.5:4, or 2: for the part from 2 s to the end");
   command
       ->add_option("--rate", options->rate_hz,
                    "Frames per second of the output (default: the clip's rate, or 30 for a body of twenty joints)")
       ->check(NumberWithin(1, 1000, "rate in Hz"));
   command->add_flag("--mirror", options->mirror, "Mirror the motion: left becomes right");
   command->add_flag("--ground", options->ground,
-                    "Write Etude's body of twenty joints, in metres, with Y up and the "
-                    "feet on the floor");
+                    "Write Etude's body of twenty joints, in metres, with Y up and the feet on the floor");
   command->add_flag("--retarget", options->retarget,
-                    "Write Etude's body of twenty joints with canonical "
-                    "proportions, 1.70 m tall");
+                    "Write Etude's body of twenty joints with canonical proportions, 1.70 m tall");
   command
       ->add_option("--character", options->character,
-                   "GLB only: retarget the motion to the bear or the mannequin; none: leave out the meshes of the "
-                   "file")
+                   "GLB only: retarget the motion to the bear or the mannequin; none: leave out the meshes of the file")
       ->check(OneOf({"bear", "mannequin", "none"}));
   // Define how files are written and read.
   AddOverwrite(*command, options->overwrite);
@@ -360,9 +354,7 @@ void DefineMap(CLI::App& clip, Action& action) {
   command->add_option("-o,--output", options->output,
                       "Write a joint-map file that you can edit, even if some roles have no joint");
   command->add_option("--preview", options->preview, "Draw the skeleton with joint names and roles (.png)");
-  command->add_option(kJointMapOption, options->joint_map,
-                      "A joint map with the roles that you have already "
-                      "assigned");
+  command->add_option(kJointMapOption, options->joint_map, "A joint map with the roles that you have already assigned");
   AddJson(*command, options->as_json);
   AddOverwrite(*command, options->overwrite);
   command->callback([=, &action] { action = [=] { return Finish(ClipMapCommand(*options)); }; });

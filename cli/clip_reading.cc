@@ -19,8 +19,7 @@ void AddClipReading(CLI::App& command, ClipReading& reading, const std::string& 
   command.add_option("--up", reading.up, "Axis of the file that points up: y or z (default: estimated)")
       ->check(OneOf({"y", "z"}));
   command.add_flag("--keep-floor", reading.keep_floor,
-                   "Keep the body at its height in the file, instead of placing "
-                   "it on the floor");
+                   "Keep the body at its height in the file, instead of placing it on the floor");
   command
       .add_option("--marker-set", reading.marker_set,
                   "The marker set of the file (default: the most suitable set that the file contains)")

@@ -100,9 +100,7 @@ Result<bool> WriteFilm(const ClipRenderOptions& options) {
   }
   ASSIGN_OR_RETURN(auto actors, Cast(options));
   if (actors.size() > 1) {
-    return Fail({},
-                "found {} clips; a film can show only one clip, but a contact sheet (.png) can show several "
-                "clips",
+    return Fail({}, "found {} clips; a film can show only one clip, but a contact sheet (.png) can show several clips",
                 actors.size());
   }
   ASSIGN_OR_RETURN(auto* const renderer, SharedRenderer());
@@ -137,14 +135,13 @@ void DefineRender(CLI::App& clip, Action& action) {
       ->required();
   command
       ->add_option("--character", options->character,
-                   "The figure to draw: own (the meshes of the file), mannequin, bear, or body (capsules; left "
-                   "blue, right orange)\n"
+                   "The figure to draw: own (the meshes of the file), mannequin, bear, or body (capsules; left blue, "
+                   "right orange)\n"
                    "(default: own if the file has meshes, bear for built-in clips, otherwise mannequin)")
       ->check(OneOf({"own", "mannequin", "bear", "body"}));
   command
       ->add_option("--view", options->view,
-                   "Direction of view relative to the first pose: front, three-quarter "
-                   "or side")
+                   "Direction of view relative to the first pose: front, three-quarter or side")
       ->check(OneOf({"front", "three-quarter", "side"}));
   command->add_option("--size", options->size,
                       "Size of the film (default: 720x720), or of each picture of a contact sheet (default: 200x260)");
@@ -156,8 +153,7 @@ void DefineRender(CLI::App& clip, Action& action) {
       ->check(CLI::Range(1, 100))
       ->default_str("");
   command->add_option("--trim", options->trim,
-                      "Render only the part FROM:TO, in seconds: 1.5:4, or 2: for the part "
-                      "from 2 s to the end");
+                      "Render only the part FROM:TO, in seconds: 1.5:4, or 2: for the part from 2 s to the end");
   AddJobs(*command, options->jobs);
   AddOverwrite(*command, options->overwrite);
   AddClipReading(*command, options->reading);

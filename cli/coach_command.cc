@@ -56,17 +56,15 @@ struct CoachCommandOptions {
 
 constexpr const char* kCoachText =
     "\n"
-    "Reads a device's skeletons line by line, and writes, as one JSON object per line, what a screen should show. "
-    "The first\n"
-    "object describes the song, its moves and their key poses; then each frame has an object (docs/coach.md "
-    "explains all\n"
-    "keys). The coach waits for a clap, dances, and judges every performance. The option --policy sets when the "
-    "coach\n"
-    "interrupts the dance: it shakes its head, waves or is puzzled, shows the move slowly, and returns to the "
-    "dance.\n"
+    "Reads a device's skeletons line by line, and writes, as one JSON object per line, what a screen should show. The "
+    "first\n"
+    "object describes the song, its moves and their key poses; then each frame has an object (docs/coach.md explains "
+    "all\n"
+    "keys). The coach waits for a clap, dances, and judges every performance. The option --policy sets when the coach\n"
+    "interrupts the dance: it shakes its head, waves or is puzzled, shows the move slowly, and returns to the dance.\n"
     "Scenarios with `task: coach` test this coach.\n\n"
-    "The input rows have the CSV format that `etude clip convert` writes, or a Kinect's format (docs/streams.md). "
-    "Your own\n"
+    "The input rows have the CSV format that `etude clip convert` writes, or a Kinect's format (docs/streams.md). Your "
+    "own\n"
     "program plays the music: the key \"music\" of a frame states from which time to play it, and when to stop. A "
     "line\n"
     "'#music 12.34' in the input tells the coach the current time of the music, in seconds. The coach then dances "
@@ -215,8 +213,7 @@ void DefineCoach(CLI::App& app, Action& action) {
   command->add_option("--filter", options->filter, "Filter that smooths the skeletons")->check(OneOf(FilterNames()));
   // Define how players dance, and how frames are read and printed.
   command->add_flag("--mirror", options->mirror,
-                    "Expect people to mirror the coach: they move their right side when the coach moves its left "
-                    "side");
+                    "Expect people to mirror the coach: they move their right side when the coach moves its left side");
   command->add_flag("--now", options->now, "Start the dance at once, without waiting for a clap");
   command->add_flag("--brief", options->brief, "Write no body poses, and no frames without a decision");
   command->add_flag("--timing", options->timing, "Print the processing times of frames at the end");

@@ -26,8 +26,8 @@ int TellStopped(const Error& what_is_left) {
 Result<int> UnlessReplaced(const std::string& folder, const RunData& run, int code) {
   if (CheckStillThere(folder, run)) return code;
   Complain({{folder, 0, 0},
-            "changed while Etude wrote files into it: another run replaced the folder, or another program wrote a "
-            "file there. Repeat this command"});
+            "changed while Etude wrote files into it: another run replaced the folder, or another program wrote a file "
+            "there. Repeat this command"});
   return kIncompleteRun;
 }
 

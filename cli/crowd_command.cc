@@ -61,8 +61,8 @@ Json Tell(const CrowdCommandOptions& options, Timings timings) {
     return timings.times_ms[1 + static_cast<std::size_t>(share * static_cast<double>(timings.times_ms.size() - 2))];
   };
   fmt::print(
-      "ms per frame on one core (the frame rate allows {:.1f}): median {:.2f}, p99 {:.2f}, largest {:.2f}; the "
-      "first frame starts from the standing pose and takes {:.2f}\n",
+      "ms per frame on one core (the frame rate allows {:.1f}): median {:.2f}, p99 {:.2f}, largest {:.2f}; the first "
+      "frame starts from the standing pose and takes {:.2f}\n",
       1000 / options.crowd.rate_hz, at(0.5), at(0.99), timings.times_ms.back(), first);
   return {{"characters", options.crowd.characters},
           {"frames", options.crowd.frames},

@@ -44,8 +44,7 @@ int ExportAll(const ExportOptions& options) {
       ExportSuite(options, ProgressOf("steps (three per world: make the problem, write the problem, write the truth)"));
   if (!outcome) return Complain(outcome.error());
   fmt::print(
-      "{} problems in {}{}\nNext: give {}/inputs to your method, then run `etude score {} PREDICTIONS -o "
-      "RESULT`\n",
+      "{} problems in {}{}\nNext: give {}/inputs to your method, then run `etude score {} PREDICTIONS -o RESULT`\n",
       outcome->problems, options.output,
       outcome->skipped > 0 ? fmt::format(" ({} worlds were skipped; inputs/index.csv states why)", outcome->skipped)
                            : "",
@@ -74,19 +73,15 @@ int ScoreCommand(const ScoreOptions& given) {
 void DefineExport(CLI::App& app, Action& action) {
   auto options = std::make_shared<ExportOptions>();
   options->program_version = ETUDE_VERSION;
-  CLI::App* command =
-      app.add_subcommand("export",
-                         "Write the problems of scenarios as files for other programs, and the truth into "
-                         "a separate folder");
+  CLI::App* command = app.add_subcommand(
+      "export", "Write the problems of scenarios as files for other programs, and the truth into a separate folder");
   command
       ->add_option("scenarios", options->scenarios,
-                   "Scenario files, folders of scenario files, or names of "
-                   "scenarios that come with Etude")
+                   "Scenario files, folders of scenario files, or names of scenarios that come with Etude")
       ->required();
   command->add_option("-o,--output", options->output, "The folder of the data set to write")->required();
   command->add_flag("--depth", options->depth,
-                    "For capture scenarios: also write depth, labels and normals of "
-                    "every picture (EXR)");
+                    "For capture scenarios: also write depth, labels and normals of every picture (EXR)");
   AddWorldOptions(*command, options->seed, options->trials, options->clips, options->joint_map, options->clip_facts);
   const Action act = WithSecretKey(*command, &options->seed, options->key, [=] {
     std::ranges::for_each(WhichIsMeant(options->scenarios), Complain);
@@ -100,13 +95,11 @@ void DefineScore(CLI::App& app, const std::string& command_line, Action& action)
   auto options = std::make_shared<ScoreOptions>();
   options->program_version = ETUDE_VERSION;
   options->command_line = command_line;
-  CLI::App* command = app.add_subcommand("score",
-                                         "Score a folder of answers that another program made, and write a "
-                                         "result folder");
+  CLI::App* command =
+      app.add_subcommand("score", "Score a folder of answers that another program made, and write a result folder");
   command
       ->add_option("target", options->target,
-                   "A data set that `etude export` wrote, or the scenario files of "
-                   "the data set")
+                   "A data set that `etude export` wrote, or the scenario files of the data set")
       ->required();
   command->add_option("predictions", options->predictions, "Folder of answers")->required();
   command->add_option("-o,--output", options->output, "Result folder")->required();

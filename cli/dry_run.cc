@@ -59,13 +59,12 @@ bool Print(const ScenarioForecast& one) {
   const int for_values = PairsNeeded(one.comparisons, kAlpha);
   if (worlds < one.needed) {
     fmt::print(
-        "  verdicts about these worlds: at least {} are needed to judge a method better or worse; the run "
-        "has {}\n",
+        "  verdicts about these worlds: at least {} are needed to judge a method better or worse; the run has {}\n",
         CountUnits(one.needed, world), worlds);
   } else if (worlds < for_values) {
     fmt::print(
-        "  verdicts about these worlds: at least {} are needed to judge metric values in {}; with fewer, only "
-        "success rates or the worst worlds can decide a verdict\n",
+        "  verdicts about these worlds: at least {} are needed to judge metric values in {}; with fewer, only success "
+        "rates or the worst worlds can decide a verdict\n",
         CountUnits(for_values, world), among);
   } else {
     const double least = MinDetectableDifference(worlds, one.comparisons);
@@ -81,8 +80,7 @@ bool Print(const ScenarioForecast& one) {
     return worlds >= for_values;
   }
   fmt::print(
-      "  verdicts about {}: {} {} a difference of at least {:.2f} standard deviations of the mean "
-      "differences of {}\n",
+      "  verdicts about {}: {} {} a difference of at least {:.2f} standard deviations of the mean differences of {}\n",
       OtherUnits(one.unit), among, shows, MinDetectableDifference(one.units, one.comparisons),
       CountUnits(one.units, one.unit));
   return true;
@@ -136,10 +134,8 @@ int DryRunCommand(const RunOptions& options, bool as_json) {
              Duration(forecast->seconds), CountOf(static_cast<std::size_t>(forecast->workers), "worker"),
              shows_differences ? " The probability of detecting these differences is 80 %." : "");
   if (!guessed.empty()) {
-    fmt::print(
-        "The time is an estimate: the costs of {} are unknown, so Etude measured their first worlds just "
-        "now.\n",
-        Join(guessed, ", "));
+    fmt::print("The time is an estimate: the costs of {} are unknown, so Etude measured their first worlds just now.\n",
+               Join(guessed, ", "));
   }
   return kSuccess;
 }

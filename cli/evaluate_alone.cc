@@ -45,8 +45,7 @@ Result<std::map<std::string, double>> ReadLimitsFile(const std::string& name) {
   RETURN_IF_ERROR(fields.Finish());
   if (limits.empty())
     return Fail({file.string()},
-                "contains no limit; allowed: one metric and its limit per line, such as "
-                "skates_share: 0.02");
+                "contains no limit; allowed: one metric and its limit per line, such as skates_share: 0.02");
   return limits;
 }
 

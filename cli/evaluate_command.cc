@@ -58,9 +58,7 @@ Result<std::vector<NamedResult>> ReadColumns(const std::string& file) {
     results.push_back({column, {}});
   }
   if (results.empty())
-    return Fail({file, 1, 0},
-                "the heading has no column for a method; allowed: a heading such "
-                "as truth,mine");
+    return Fail({file, 1, 0}, "the heading has no column for a method; allowed: a heading such as truth,mine");
   return results;
 }
 
@@ -94,15 +92,10 @@ Result<std::string> ScenarioOf(const EvaluateOptions& options) {
                                     {"--lag", &options.lag},
                                     {"--statistics", &options.statistics}}) {
     if (alone.is_alone && !value->empty())
-      return Fail({},
-                  "{} cannot be combined with --alone, because --alone "
-                  "uses no truth",
-                  name);
+      return Fail({}, "{} cannot be combined with --alone, because --alone uses no truth", name);
   }
   if (alone.is_alone && options.by_joint)
-    return Fail({},
-                "--by-joint cannot be combined with --alone, because "
-                "--alone uses no truth");
+    return Fail({}, "--by-joint cannot be combined with --alone, because --alone uses no truth");
   if (!alone.is_alone && (alone.floor_m || !alone.limits.empty()))
     return Fail({}, "--floor and --limits can only be used with --alone");
   ASSIGN_OR_RETURN(auto text,
@@ -266,36 +259,34 @@ Result<int> EvaluateCommand(const EvaluateOptions& options) {
 void DefineEvaluate(CLI::App& app, const std::string& command_line, Action& action) {
   auto options = std::make_shared<EvaluateOptions>();
   options->command_line = command_line;
-  CLI::App* command = app.add_subcommand(
-      "evaluate",
-      "Compare motion files with their true motions, or find faults in motions without a truth. Exit code 1: a "
-      "pair, or all results of a method, could not be judged");
+  CLI::App* command =
+      app.add_subcommand("evaluate",
+                         "Compare motion files with their true motions, or find faults in motions without a truth. "
+                         "Exit code 1: a pair, or all results of a method, could not be judged");
   command->add_option("files", options->files,
-                      "The truth, then one or more results. Each is a file, a folder or a pattern in quotes. "
-                      "Several results need names: NAME=PATTERN");
-  command->add_flag(
-      "--alone", options->alone.is_alone,
-      "Judge motions without a truth: find faults that no human motion has (arguments: FILE, FILE#CLIP, folders, "
-      "patterns)");
+                      "The truth, then one or more results. Each is a file, a folder or a pattern in quotes. Several "
+                      "results need names: NAME=PATTERN");
+  command->add_flag("--alone", options->alone.is_alone,
+                    "Judge motions without a truth: find faults that no human motion has (arguments: FILE, FILE#CLIP, "
+                    "folders, patterns)");
   command->add_option(
       "--floor", options->alone.floor_m,
-      "With --alone: height of the floor, in metres (default: 0; estimated from the feet if the motion is far from "
-      "0)");
+      "With --alone: height of the floor, in metres (default: 0; estimated from the feet if the motion is far from 0)");
   command->add_option("--limits", options->alone.limits,
-                      "With --alone: a file of the largest allowed values of metrics, or 'recorded' for the file "
-                      "that comes with Etude. Exit code 1: a clip exceeds a limit or could not be judged");
-  command->add_option("--pairs", options->pairs,
-                      "Instead of files: a CSV table of pairs. Its columns are `truth`, one per method, and "
-                      "optionally `name`");
+                      "With --alone: a file of the largest allowed values of metrics, or 'recorded' for the file that "
+                      "comes with Etude. Exit code 1: a clip exceeds a limit or could not be judged");
+  command->add_option(
+      "--pairs", options->pairs,
+      "Instead of files: a CSV table of pairs. Its columns are `truth`, one per method, and optionally `name`");
   command->add_option("--joints", options->joints,
                       "Which joints are compared: roles (joints with the same role; the default), same (joints with "
                       "the same name), or a joint set (see `etude list keys`)");
   command->add_option("--people", options->people,
                       "A pattern of file names in which {person} stands for the person's name, such as '{person}_*'");
   command
-      ->add_option("--lag", options->lag,
-                   "find: also estimate and remove the time shift between truth and result, and judge the results a "
-                   "second time")
+      ->add_option(
+          "--lag", options->lag,
+          "find: also estimate and remove the time shift between truth and result, and judge the results a second time")
       ->check(OneOf({"none", "find"}));
   command->add_option("--statistics", options->statistics,
                       "For the metric L2P: a CSV with means and standard deviations of joints");

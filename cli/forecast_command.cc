@@ -17,8 +17,8 @@ namespace {
 
 constexpr const char* kForecastNotes =
     "\n"
-    "This command forecasts, before you film, the errors of triangulated joints. It uses only the rig. Errors are "
-    "root mean\n"
+    "This command forecasts, before you film, the errors of triangulated joints. It uses only the rig. Errors are root "
+    "mean\n"
     "squares to first order: Etude propagates the errors of keypoints (--noise-px) and of cameras (--calibration) "
     "through\n"
     "the triangulation. For a body, it also propagates them through the fit of joint angles; bone lengths count as "
@@ -33,10 +33,9 @@ constexpr const char* kForecastNotes =
     "  Fitted: the error of the same joint, if a body is fitted to all joints at once.\n"
     "  Limb: the error of the direction of the limb that ends in the joint, in degrees.\n"
     "\"What would help\" compares changed rigs with the present rig, at the places that the present rig sees.\n"
-    "--table has one row per place. x_m, height_m, z_m: the place. cameras: the number of cameras that see the "
-    "place.\n"
-    "lost_share: the probability that fewer than two of these cameras give a keypoint. error_mm: the error, empty "
-    "if fewer\n"
+    "--table has one row per place. x_m, height_m, z_m: the place. cameras: the number of cameras that see the place.\n"
+    "lost_share: the probability that fewer than two of these cameras give a keypoint. error_mm: the error, empty if "
+    "fewer\n"
     "than two cameras see the place.\n\n"
     "The volume is a box on the floor around the point that the cameras look at (--middle, --size). Errors are "
     "computed at\n"
@@ -120,16 +119,14 @@ void DefineForecast(CLI::App& app, const std::string& command_line, Action& acti
   options->command_line = command_line;
   options->version = ETUDE_VERSION;
   options->listener = TerminalListener();
-  CLI::App* command = app.add_subcommand("forecast",
-                                         "Forecast the errors of captures with a camera rig before you "
-                                         "film");
+  CLI::App* command =
+      app.add_subcommand("forecast", "Forecast the errors of captures with a camera rig before you film");
   command->add_option("rig", options->rig, "The rig file with the calibrated cameras, as for `etude capture`")
       ->required();
-  command->add_option(
-      "--rig-unit", options->place.unit,
-      fmt::format("Unit of length of the rig: {}, a number of metres per unit, or auto (the usual unit of the rig's "
-                  "file format)",
-                  RigUnits()));
+  command->add_option("--rig-unit", options->place.unit,
+                      fmt::format("Unit of length of the rig: {}, a number of metres per unit, or auto (the usual unit "
+                                  "of the rig's file format)",
+                                  RigUnits()));
   command->add_option("--rig-up", options->place.up, "Axis of the rig that points up: x, y, z, -x, -y, -z, or auto");
   command->add_option("--floor", options->place.floor,
                       "The height that becomes 0: a height in m, or auto (the rig's height 0)");
@@ -146,21 +143,19 @@ void DefineForecast(CLI::App& app, const std::string& command_line, Action& acti
       ->check(NumberWithin(-1000, 1000, "place in m"));
   command
       ->add_option("--room", asked->room,
-                   "Width (x), height and depth (z) of the room around --middle in which an additional camera may "
-                   "be, in m (default: the smallest box that contains the cameras and the volume)")
+                   "Width (x), height and depth (z) of the room around --middle in which an additional camera may be, "
+                   "in m (default: the smallest box that contains the cameras and the volume)")
       ->delimiter(',')
       ->expected(3)
       ->check(NumberWithin(0.1, 100, "length in m"));
   // Define the errors of keypoints (given, or measured in films) and of the calibration.
   auto* noise = command
                     ->add_option("--noise-px", options->errors.noise_px,
-                                 "Standard deviation of the keypoint error along "
-                                 "each picture axis, in px")
+                                 "Standard deviation of the keypoint error along each picture axis, in px")
                     ->check(NumberWithin(0.001, 1000, "deviation in px"));
-  auto* films =
-      command->add_option("--films", options->take.films,
-                          "Films of any recording with this rig: measure the keypoint error (--noise-px) in these "
-                          "films");
+  auto* films = command->add_option(
+      "--films", options->take.films,
+      "Films of any recording with this rig: measure the keypoint error (--noise-px) in these films");
   auto* keypoints = command
                         ->add_option("--keypoints", options->take.keypoints,
                                      "With --films: a folder with keypoints for each film, as for `etude capture`")
@@ -174,19 +169,17 @@ void DefineForecast(CLI::App& app, const std::string& command_line, Action& acti
       ->needs(keypoints);
   command
       ->add_option("--fit", options->take.fit,
-                   "With --films: how the pictures were changed, if a film's size differs from the rig's picture "
-                   "size")
+                   "With --films: how the pictures were changed, if a film's size differs from the rig's picture size")
       ->check(OneOf({"none", "letterbox", "stretch", "crop"}))
       ->needs(keypoints);
   command
       ->add_option("--dropout", options->errors.dropout,
-                   "Share of a camera's pictures in which a joint has no "
-                   "keypoint")
+                   "Share of a camera's pictures in which a joint has no keypoint")
       ->check(NumberWithin(0, 0.9, "share"));
   command
-      ->add_option("--calibration", asked->calibration,
-                   "Standard deviations of each camera's errors: position in mm, direction in degrees, focal length "
-                   "in per cent")
+      ->add_option(
+          "--calibration", asked->calibration,
+          "Standard deviations of each camera's errors: position in mm, direction in degrees, focal length in per cent")
       ->delimiter(',')
       ->expected(3)
       ->check(NumberWithin(0, 1000, "deviation"));
@@ -194,8 +187,7 @@ void DefineForecast(CLI::App& app, const std::string& command_line, Action& acti
   command->add_option("--picture", options->picture,
                       "Also draw a heat map of the errors at each height, and the cameras from above (.png)");
   command->add_option("--table", options->table,
-                      "Also write a table of the error at every place (.csv; the columns "
-                      "are explained below)");
+                      "Also write a table of the error at every place (.csv; the columns are explained below)");
   command->add_option("--report", options->report, "Also write an HTML page with the picture and all tables (.html)");
   AddOverwrite(*command, asked->overwrite, "Replace existing files");
   AddJson(*command, asked->as_json);

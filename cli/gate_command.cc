@@ -217,13 +217,12 @@ void DefineGate(CLI::App& app, Action& action) {
   auto options = std::make_shared<GateOptions>();
   CLI::App* command = app.add_subcommand("gate", "Compare a run with a baseline, and pass or fail, for a CI server");
   command->add_option("folder", options->target, "A result folder. With --self-test: a scenario file, or nothing");
-  CLI::Option* baseline = command->add_option("--baseline", options->baseline,
-                                              "The baseline file that the run is compared with. Without a baseline, "
-                                              "the gate judges only the expectations and time rules of the run's "
-                                              "scenarios");
+  CLI::Option* baseline =
+      command->add_option("--baseline", options->baseline,
+                          "The baseline file that the run is compared with. Without a baseline, the gate judges only "
+                          "the expectations and time rules of the run's scenarios");
   CLI::Option* update = command->add_flag("--update", options->update,
-                                          "Write the baseline file from this run, and print what changed "
-                                          "in it");
+                                          "Write the baseline file from this run, and print what changed in it");
   update->needs(baseline);
   CLI::Option* self_test = command
                                ->add_flag("--self-test", options->self_test,
@@ -234,8 +233,7 @@ void DefineGate(CLI::App& app, Action& action) {
       ->needs(self_test);
   command
       ->add_option("--trials", options->trials,
-                   "Self-test: number of worlds per condition (default: the "
-                   "scenario's number)")
+                   "Self-test: number of worlds per condition (default: the scenario's number)")
       ->check(CLI::Range(1, 1000000))
       ->needs(self_test);
   AddUnsealed(*command, options->sealing);

@@ -134,8 +134,7 @@ Result<int> ListShippedScenarios() {
   const std::vector<std::string> names = ShippedScenarios();
   if (names.empty())
     return Fail({},
-                "this program was installed without scenarios; `etude list scenarios FOLDER` lists your own "
-                "scenarios");
+                "this program was installed without scenarios; `etude list scenarios FOLDER` lists your own scenarios");
   for (const std::string& name : names) {
     SourceTexts texts;
     ASSIGN_OR_RETURN(const auto scenarios, ReadScenarios(FindShipped(name).string(), texts));
@@ -220,8 +219,7 @@ int ListKeysCommand(KeysFormat format) {
     fmt::print("\n");
   }
   fmt::print(
-      "For methods, metrics and clips, see `etude list methods`, `etude list metrics` and `etude list "
-      "clips`.\n");
+      "For methods, metrics and clips, see `etude list methods`, `etude list metrics` and `etude list clips`.\n");
   return kSuccess;
 }
 
@@ -285,8 +283,7 @@ void DefineList(CLI::App& app, Action& action) {
   CLI::App* keys = command->add_subcommand("keys", "List all keys of scenario files");
   CLI::Option* page = keys->add_flag("--markdown", *as_page, "Print the page docs/reference/keys.md");
   keys->add_flag("--schema", *as_schema,
-                 "Print the JSON Schema of scenario files "
-                 "(docs/schemas/scenario.schema.json), for editors")
+                 "Print the JSON Schema of scenario files (docs/schemas/scenario.schema.json), for editors")
       ->excludes(page);
   keys->callback([=, &action] {
     const KeysFormat format = *as_schema ? KeysFormat::kSchema : *as_page ? KeysFormat::kMarkdown : KeysFormat::kText;
@@ -294,12 +291,10 @@ void DefineList(CLI::App& app, Action& action) {
   });
   // Define the list of scenarios: the scenarios of the program, or the scenarios in a folder.
   auto folder = std::make_shared<std::string>();
-  CLI::App* scenarios = command->add_subcommand("scenarios",
-                                                "List the scenarios that come with Etude, or the "
-                                                "scenarios in a folder");
+  CLI::App* scenarios =
+      command->add_subcommand("scenarios", "List the scenarios that come with Etude, or the scenarios in a folder");
   scenarios->add_option("folder", *folder,
-                        "A folder, a file, or the name of a scenario or suite that comes with "
-                        "Etude, such as quick");
+                        "A folder, a file, or the name of a scenario or suite that comes with Etude, such as quick");
   auto scenarios_json = std::make_shared<bool>(false);
   AddJson(*scenarios, *scenarios_json);
   scenarios->callback([=, &action] {

@@ -35,10 +35,9 @@ std::optional<NamedResult> ReadNamed(const std::string& argument) {
 }
 
 tl::unexpected<Error> NeedsName(const std::string& argument) {
-  return Fail({},
-              "{} has no name; allowed if there are several results: NAME=PATTERN, in quotes if the pattern "
-              "contains '*'",
-              Quote(argument));
+  return Fail(
+      {}, "{} has no name; allowed if there are several results: NAME=PATTERN, in quotes if the pattern contains '*'",
+      Quote(argument));
 }
 
 }  // namespace

@@ -232,8 +232,8 @@ Result<int> WriteManual(const CLI::App& app, const std::string& folder) {
 /// Returns docs/reference/commands.md: the output of each command's `--help`.
 std::string CommandsPage(const CLI::App& app) {
   std::string text =
-      "# Every command\n\n`scripts/docs` writes this page from the help text of each command. A test compares the "
-      "page with these texts.\n";
+      "# Every command\n\n`scripts/docs` writes this page from the help text of each command. A test compares the page "
+      "with these texts.\n";
   ForEachCommand(app, "", [&](const CLI::App& command, const std::string& words) {
     if (words.empty()) return;
     const std::size_t above = words.rfind(' ');
@@ -250,9 +250,8 @@ void DefineOptionTree(CLI::App& app, Action& action) {
   const CLI::App* program = &app;
   auto shell = std::make_shared<std::string>(), folder = std::make_shared<std::string>();
   auto as_page = std::make_shared<bool>(false);
-  CLI::App* completion = app.add_subcommand("completion",
-                                            "Print a script with which a shell completes commands and "
-                                            "options of etude");
+  CLI::App* completion =
+      app.add_subcommand("completion", "Print a script with which a shell completes commands and options of etude");
   completion->add_option(kShellArgument, *shell, "bash, zsh or fish")->required()->check(OneOf(Shells()));
   completion->callback([=, &action] {
     action = [=] {

@@ -40,10 +40,9 @@ constexpr const char* kRecogniseText =
     "\n"
     "Prints a line of JSON as soon as a move is recognised. With --labels, the command also scores the recogniser: "
     "for\n"
-    "performances, whether it judges them right or wrong as the labels do; for action points, whether it finds a "
-    "move\n"
-    "within 333 ms. With --leave-one-person-out, each person's moves are recognised by a recogniser that learnt "
-    "from all\n"
+    "performances, whether it judges them right or wrong as the labels do; for action points, whether it finds a move\n"
+    "within 333 ms. With --leave-one-person-out, each person's moves are recognised by a recogniser that learnt from "
+    "all\n"
     "other people. Formats of recordings: rows of Kinect v1 and v2, MSRC-12, UTKinect, NTU, Azure Kinect, CSV, TRC. "
     "Rows\n"
     "and CSV can also be read live from standard input (docs/streams.md).\n";
@@ -80,10 +79,10 @@ Result<WatchOptions> OptionsOf(const RecogniseCommandOptions& options, const Rec
   WatchOptions watch;
   watch.recogniser.kind = options.recogniser.empty() ? &recommended : FindRecogniser(options.recogniser);
   if (options.recogniser.empty()) {
-    fmt::print(stderr,
-               "using the recogniser {}, which is recommended for these moves; --recogniser selects another "
-               "recogniser\n",
-               recommended.name);
+    fmt::print(
+        stderr,
+        "using the recogniser {}, which is recommended for these moves; --recogniser selects another recogniser\n",
+        recommended.name);
   }
   ASSIGN_OR_RETURN(watch.recogniser.settings, ReadSettings(*watch.recogniser.kind, options.settings));
   if (options.weights == "adaptive") watch.recogniser.weights.weighting = Weighting::kAdaptive;
@@ -248,9 +247,7 @@ Result<int> RecogniseLeavingOneOut(const RecogniseCommandOptions& options) {
                out.verdicts.size(), watch.recogniser.kind->name, Percent(accuracy), "1-nearest-neighbour",
                Percent(nearest));
     if (accuracy <= nearest)
-      fmt::print(
-          "  this recogniser is not more accurate than the nearest-neighbour "
-          "classifier\n");
+      fmt::print("  this recogniser is not more accurate than the nearest-neighbour classifier\n");
     PrintMistakes(out.verdicts);
   }
   if (out.untaught_performances > 0)
@@ -268,9 +265,7 @@ Result<int> RecogniseLeavingOneOut(const RecogniseCommandOptions& options) {
 Result<int> RecogniseCommand(const RecogniseCommandOptions& options) {
   if (options.leave_one_person_out) return RecogniseLeavingOneOut(options);
   if (options.moves.empty())
-    return Fail({"--moves"},
-                "is missing; allowed: a moves file, such as `etude teach` "
-                "writes");
+    return Fail({"--moves"}, "is missing; allowed: a moves file, such as `etude teach` writes");
   ASSIGN_OR_RETURN(const auto taught, LoadTaught(options));
   const bool is_live = std::ranges::find(options.streams, "-") != options.streams.end();
   if (is_live && (options.streams.size() > 1 || !options.labels.empty())) {
@@ -287,32 +282,28 @@ void DefineRecognise(CLI::App& app, Action& action) {
   // Define the inputs: recordings, taught moves, labels.
   command
       ->add_option("streams", options->streams,
-                   "Recordings, patterns of file names, or folders; -: live from "
-                   "standard input")
+                   "Recordings, patterns of file names, or folders; -: live from standard input")
       ->required();
   auto* moves = command->add_option("--moves", options->moves,
-                                    "The moves file with the taught moves (`etude teach` "
-                                    "writes such a file)");
+                                    "The moves file with the taught moves (`etude teach` writes such a file)");
   auto* labels = command->add_option("--labels", options->labels,
-                                     "Labels with which the recogniser is scored: a file, or a "
-                                     "folder of tag streams");
+                                     "Labels with which the recogniser is scored: a file, or a folder of tag streams");
   command
       ->add_flag("--leave-one-person-out", options->leave_one_person_out,
                  "Recognise each person's moves with a recogniser that learnt from all other people")
       ->excludes(moves);
   // Define the recogniser and the recogniser's settings.
   command
-      ->add_option(
-          "--recogniser", options->recogniser,
-          "The recogniser (default: key-pose if a move has no example; whole-body if each move has three examples, "
-          "or with --leave-one-person-out; otherwise learnt)")
+      ->add_option("--recogniser", options->recogniser,
+                   "The recogniser (default: key-pose if a move has no example; whole-body if each move has three "
+                   "examples, or with --leave-one-person-out; otherwise learnt)")
       ->check(OneOf(RecogniserNames()));
   command->add_option("--filter", options->filter, "Filter that smooths the joints before recognition")
       ->check(OneOf(FilterNames()));
   command
-      ->add_option("--weights", options->weights,
-                   "Weights of the angles: fixed (all equal), or adaptive (higher for angles that the sensor sees "
-                   "better)")
+      ->add_option(
+          "--weights", options->weights,
+          "Weights of the angles: fixed (all equal), or adaptive (higher for angles that the sensor sees better)")
       ->check(OneOf({"fixed", "adaptive"}));
   command
       ->add_option("--threshold", options->threshold,

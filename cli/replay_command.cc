@@ -160,27 +160,23 @@ Result<int> ReplayCommand(const ReplayCommandOptions& options) {
 
 void DefineReplay(CLI::App& app, Action& action) {
   auto options = std::make_shared<ReplayCommandOptions>();
-  CLI::App* command = app.add_subcommand("replay",
-                                         "Run cells again and compare the results with the run, stage by "
-                                         "stage");
+  CLI::App* command =
+      app.add_subcommand("replay", "Run cells again and compare the results with the run, stage by stage");
   command->add_option("target", options->target, "A result folder, or a packed cell that --pack wrote")->required();
   CLI::Option* cell = command->add_option("--cell", options->cells, "Names of the cells to run, as in cells.jsonl");
   command
       ->add_option("--sample", options->sample,
-                   "Number of cells to run; the run's seed determines the random "
-                   "sample (default: all cells)")
+                   "Number of cells to run; the run's seed determines the random sample (default: all cells)")
       ->check(CLI::Range(1, 10'000'000))
       ->excludes(cell);
   AddUnsealed(*command, options->sealing);
   AddOutsideRules(*command, options->outside);
   AddSeedFile(*command, options->key_file);
   command->add_option("--pack", options->pack_file,
-                      "Instead of running the cell, write the cell with its scenario "
-                      "and clips into this file");
+                      "Instead of running the cell, write the cell with its scenario and clips into this file");
   AddOverwrite(*command, options->overwrite);
   command->add_option("--baseline", options->baseline,
-                      "Also print the values that each --cell has in this baseline "
-                      "file");
+                      "Also print the values that each --cell has in this baseline file");
   AddJson(*command, options->as_json);
   AddJobs(*command, options->jobs);
   command->callback([=, &action] { action = [=] { return Finish(ReplayCommand(*options)); }; });

@@ -111,30 +111,27 @@ void DefineReport(CLI::App& app, Action& action) {
   auto folder = std::make_shared<std::string>();
   auto no_video = std::make_shared<bool>(false);
   auto whole_sessions = std::make_shared<bool>(false);
-  CLI::App* command = app.add_subcommand("report",
-                                         "Write the report of a run: an HTML page, tables, a JUnit file "
-                                         "and videos");
+  CLI::App* command =
+      app.add_subcommand("report", "Write the report of a run: an HTML page, tables, a JUnit file and videos");
   command->add_option("folder", *folder, "A result folder")->required();
   command->add_flag("--no-video", *no_video, "Make no videos");
   command->add_flag("--whole-sessions", *whole_sessions,
                     "Show whole coaching sessions in films, instead of only the time around a correction");
   auto real = std::make_shared<std::vector<std::string>>();
   command->add_option("--real", *real,
-                      "Add results of captures of real films, from files that `etude capture "
-                      "--distances` wrote");
+                      "Add results of captures of real films, from files that `etude capture --distances` wrote");
   auto sealing = std::make_shared<Sealing>();
   AddUnsealed(*command, *sealing);
   auto jobs = std::make_shared<int>(0);
   AddJobs(*command, *jobs);
   auto blind = std::make_shared<BlindOptions>();
-  CLI::Option* methods =
-      command
-          ->add_option("--blind", blind->methods,
-                       "Instead of the report, write two files for a blind test into DIR/blind: a page on which "
-                       "people compare films of transitions by these methods, without knowing the method, and a key "
-                       "file that states the method of each film")
-          ->expected(2, 16)
-          ->excludes("--no-video", "--whole-sessions", "--real");
+  CLI::Option* methods = command
+                             ->add_option("--blind", blind->methods,
+                                          "Instead of the report, write two files for a blind test into DIR/blind: a "
+                                          "page on which people compare films of transitions by these methods, without "
+                                          "knowing the method, and a key file that states the method of each film")
+                             ->expected(2, 16)
+                             ->excludes("--no-video", "--whole-sessions", "--real");
   command->add_option("--pairs", blind->pairs, "With --blind: the largest number of pairs of films")
       ->needs(methods)
       ->check(NumberWithin(1, 1000, "number of pairs"));

@@ -264,8 +264,8 @@ int RunCommand(const RunOptions& options, bool as_json) {
   // A shard has no tables; the merge of all shards makes the tables.
   if (!options.shard.IsWhole()) {
     fmt::print(
-        "Shard {}: {} of {} cells ok in {:.1f} s; results: {}\nNext, when all shards are finished: etude "
-        "merge DIR… -o DIR\n",
+        "Shard {}: {} of {} cells ok in {:.1f} s; results: {}\nNext, when all shards are finished: etude merge DIR… -o "
+        "DIR\n",
         ToString(options.shard), outcome.cells_ok, outcome.cells, outcome.seconds, outcome.folder.string());
     aside.End();
     const int code = outcome.cells_ok > 0 || outcome.cells == 0 ? kSuccess : kNothingWorked;
@@ -292,9 +292,9 @@ int MergeCommand(const MergeOptions& given) {
 }
 
 void AddOtherLibraries(CLI::App& command, bool& other_libraries) {
-  command.add_flag("--other-libraries", other_libraries,
-                   "Continue even if software libraries have changed since the run began (other_libraries.json "
-                   "lists the changes)");
+  command.add_flag(
+      "--other-libraries", other_libraries,
+      "Continue even if software libraries have changed since the run began (other_libraries.json lists the changes)");
 }
 
 }  // namespace
@@ -306,12 +306,12 @@ void DefineRun(CLI::App& app, const std::string& command_line, Action& action) {
   options->program_version = ETUDE_VERSION;
   options->command_line = command_line;
   CLI::App* command = app.add_subcommand("run", "Run scenarios and write the results into a folder");
-  command->add_option("scenarios", options->scenarios,
-                      "Scenario files, folders of scenario files, or names of scenarios that come with Etude "
-                      "(quick, full/ik_weights)");
-  command->add_option("-o,--output", options->output,
-                      "Result folder (default: out/<suite>-<seed>; with a secret key, out/<suite>-<digest of the "
-                      "key>)");
+  command->add_option(
+      "scenarios", options->scenarios,
+      "Scenario files, folders of scenario files, or names of scenarios that come with Etude (quick, full/ik_weights)");
+  command->add_option(
+      "-o,--output", options->output,
+      "Result folder (default: out/<suite>-<seed>; with a secret key, out/<suite>-<digest of the key>)");
   AddJobs(*command, options->jobs);
   const auto world_options = AddWorldOptions(*command, options->seed, options->trials, options->clips,
                                              options->joint_map, options->clip_facts);
@@ -320,8 +320,7 @@ void DefineRun(CLI::App& app, const std::string& command_line, Action& action) {
   CLI::Option* keep = command
                           ->add_option_function<std::string>(
                               "--keep", [options](const std::string&) { options->keeps_motions = true; },
-                              "motions: record the motions of every cell (the scenario key `video` records some "
-                              "cells)")
+                              "motions: record the motions of every cell (the scenario key `video` records some cells)")
                           ->check(OneOf({"motions"}));
   auto dry_run = std::make_shared<bool>(false), as_json = std::make_shared<bool>(false);
   const Action act = WithSecretKey(*command, &options->seed, options->key, [=] {
@@ -330,8 +329,7 @@ void DefineRun(CLI::App& app, const std::string& command_line, Action& action) {
   AddReuseKey(*command, options->reuse_key);
   // Define the options for parts of a run, and for continuing a run.
   command->add_option("--shard", *shard,
-                      "Run only part i of n, given as i/n; `etude merge` combines all parts into "
-                      "one run");
+                      "Run only part i of n, given as i/n; `etude merge` combines all parts into one run");
   CLI::Option* overwrite = AddOverwrite(*command, options->overwrite, "Replace the run in the result folder");
   CLI::Option* resume =
       command->add_flag("--resume", options->resume, "Continue the run in the result folder")->excludes(overwrite);
@@ -339,35 +337,31 @@ void DefineRun(CLI::App& app, const std::string& command_line, Action& action) {
   AddOutsideRules(*command, options->outside);
   command
       ->add_option("--sync-seconds", options->sync.seconds,
-                   "Longest time until a finished cell is written to "
-                   "disk, in s")
+                   "Longest time until a finished cell is written to disk, in s")
       ->check(NumberWithin(0, 3600, "time in s"));
   command
       ->add_option("--sync-mebibytes", options->sync.mebibytes,
-                   "Largest amount of results that are not yet "
-                   "written to disk, in MiB")
+                   "Largest amount of results that are not yet written to disk, in MiB")
       ->check(NumberWithin(0, 1024, "size in MiB"));
-  CLI::Option* dry = command->add_flag("--dry-run", *dry_run,
-                                       "Only estimate the time of the run, and the smallest differences "
-                                       "that the run could detect");
+  CLI::Option* dry =
+      command->add_flag("--dry-run", *dry_run,
+                        "Only estimate the time of the run, and the smallest differences that the run could detect");
   dry->excludes(overwrite, resume);
   AddJson(*command, *as_json);
   // --from repeats a run from its manifest, so it excludes all options whose values are in the manifest.
   CLI::Option* from = command->add_option("--from", options->from, "Repeat the run that this manifest.json describes");
   for (CLI::Option* option : world_options) from->excludes(option);
   from->excludes(skip_refused, keep);
-  from->excludes(command->add_option("--library", options->libraries,
-                                     "NAME=CLIPS: an additional clip library; every condition is also run with "
-                                     "these clips"));
-  CLI::Option* streams = command->add_option(
-      "--streams", options->streams,
-      "Recordings of skeletons that replace simulated people: files, patterns of file names, or folders "
-      "(docs/streams.md)");
+  from->excludes(
+      command->add_option("--library", options->libraries,
+                          "NAME=CLIPS: an additional clip library; every condition is also run with these clips"));
+  CLI::Option* streams = command->add_option("--streams", options->streams,
+                                             "Recordings of skeletons that replace simulated people: files, patterns "
+                                             "of file names, or folders (docs/streams.md)");
   streams->excludes(from, world_options[2]);
-  from->excludes(command->add_option(
-      "--labels", options->labels,
-      "Labels of --streams or --clips (which person performed which move, and when): a file, or a folder of tag "
-      "streams"));
+  from->excludes(command->add_option("--labels", options->labels,
+                                     "Labels of --streams or --clips (which person performed which move, and when): a "
+                                     "file, or a folder of tag streams"));
   // Check combinations that CLI11 cannot express, and start the run.
   command->callback([=, &action] {
     action = [=] {
@@ -391,8 +385,7 @@ void DefineScenario(CLI::App& app, Action& action) {
   CLI::App* copy = command->add_subcommand("copy", "Copy a scenario or a suite, so that you can edit the copy");
   command->require_subcommand(1);
   copy->add_option("scenario", *name,
-                   "The name of the scenario or suite, such as full/ik_weights or quick (see "
-                   "`etude list scenarios`)")
+                   "The name of the scenario or suite, such as full/ik_weights or quick (see `etude list scenarios`)")
       ->required();
   copy->add_option("folder", *folder, "The folder into which the files are copied")->required();
   copy->callback([=, &action] {

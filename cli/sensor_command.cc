@@ -22,8 +22,8 @@ namespace {
 
 constexpr const char* kSensorText =
     "\n"
-    "A recording is a text of a Kinect v2 (25 joints per line: x y z, or x y z and a quaternion), or a joint CSV, "
-    "such as\n"
+    "A recording is a text of a Kinect v2 (25 joints per line: x y z, or x y z and a quaternion), or a joint CSV, such "
+    "as\n"
     "`etude clip convert` writes. A reference is a recording of the same motion by a trusted system: a text with 17 "
     "rigid\n"
     "targets of an optical system per line, or a joint CSV. docs/sensor.md explains the formats and each statistic.";
@@ -42,8 +42,8 @@ void AddSensorReading(CLI::App& command, SensorReading& reading) {
       ->check(NumberWithin(1, 1000, "rate in Hz"));
   command
       .add_option("--reference-rate", reading.reference_rate,
-                  "Frame rate of the reference, in Hz (default: from the reference's times; without times, the "
-                  "usual rate at which the reference lasts as long as the recording)")
+                  "Frame rate of the reference, in Hz (default: from the reference's times; without times, the usual "
+                  "rate at which the reference lasts as long as the recording)")
       ->check(NumberWithin(1, 10000, "rate in Hz"));
 }
 
@@ -185,9 +185,7 @@ Result<Columns> ComparedColumns(const SensorStatsOptions& options, Json& facts) 
 Result<int> SensorStatsCommand(const SensorStatsOptions& options) {
   const bool compares = !options.reading.reference.empty();
   if (!compares && !options.simulate.empty()) {
-    return Fail({"--simulate"},
-                "needs --reference, because the simulated sensor measures the motion of the "
-                "reference");
+    return Fail({"--simulate"}, "needs --reference, because the simulated sensor measures the motion of the reference");
   }
   StdoutToStderr aside(options.as_json);
   Json facts = {{"recordings", Json::array()}, {"match", nullptr}};
@@ -204,8 +202,8 @@ Result<int> SensorStatsCommand(const SensorStatsOptions& options) {
   fmt::print("\n{}", StatisticsTable(columns, compares));
   if (!has_simulated) return kSuccess;
   fmt::print(
-      "\n{} of {} statistics differ from the recording's by at most {:.0f} % (correlations: {:.2f}); "
-      "! marks larger differences\n",
+      "\n{} of {} statistics differ from the recording's by at most {:.0f} % (correlations: {:.2f}); ! marks larger "
+      "differences\n",
       agreement.within, agreement.compared, 100 * kSizeTolerance, kCorrelationTolerance);
   return kSuccess;
 }
@@ -216,8 +214,7 @@ void DefineStats(CLI::App& sensor, Action& action) {
   command->add_option("files", options->files, "Recordings")->required();
   command->add_option("--reference", options->reading.reference, "A recording of the same motion by a trusted system");
   command->add_option("--simulate", options->simulate,
-                      "Also simulate this sensor, and compare it with the "
-                      "recording: v1, v2 or a sensor file");
+                      "Also simulate this sensor, and compare it with the recording: v1, v2 or a sensor file");
   command->add_option("--worlds", options->worlds, "Number of simulated recordings")->check(CLI::Range(1, 10000));
   AddSensorReading(*command, options->reading);
   AddJson(*command, options->as_json);
@@ -244,9 +241,8 @@ Json PrintComparison(const char* title, const char* real_name, const RealRecordi
   const SensorStatistics simulated = SimulatedStatistics(real, sensor, kCheckWorlds, worlds).mean;
   const Agreement agreement = AgreementOf(measured, simulated);
   fmt::print("\n{}\n{}", title, StatisticsTable({{real_name, measured}, {"simulated", simulated}}, true));
-  fmt::print(
-      "{} of {} statistics differ from the recording's by at most {:.0f} % (correlations: {:.2f})\n",
-      agreement.within, agreement.compared, 100 * kSizeTolerance, kCorrelationTolerance);
+  fmt::print("{} of {} statistics differ from the recording's by at most {:.0f} % (correlations: {:.2f})\n",
+             agreement.within, agreement.compared, 100 * kSizeTolerance, kCorrelationTolerance);
   Json check = FactsOf(agreement);
   check["of"] = real_name;
   return check;
@@ -304,9 +300,8 @@ Result<int> SensorFitCommand(const SensorFitCommandOptions& options) {
 
 void DefineFit(CLI::App& sensor, Action& action) {
   auto options = std::make_shared<SensorFitCommandOptions>();
-  CLI::App* command = sensor.add_subcommand("fit",
-                                            "Fit a simulated sensor to a recording, and write a sensor file "
-                                            "for scenarios");
+  CLI::App* command =
+      sensor.add_subcommand("fit", "Fit a simulated sensor to a recording, and write a sensor file for scenarios");
   command->add_option("file", options->file, "A recording")->required();
   command->add_option("--reference", options->reading.reference, "A recording of the same motion by a trusted system")
       ->required();
@@ -316,8 +311,7 @@ void DefineFit(CLI::App& sensor, Action& action) {
   command->add_option("--worlds", options->worlds, "Simulated recordings per step")->check(CLI::Range(1, 10000));
   command
       ->add_option("--steps", options->steps,
-                   "Number of steps; each step simulates recordings, compares "
-                   "statistics and corrects the sensor")
+                   "Number of steps; each step simulates recordings, compares statistics and corrects the sensor")
       ->check(CLI::Range(1, 1000));
   AddOverwrite(*command, options->overwrite);
   AddSensorReading(*command, options->reading);
@@ -328,9 +322,8 @@ void DefineFit(CLI::App& sensor, Action& action) {
 }  // namespace
 
 void DefineSensor(CLI::App& app, Action& action) {
-  CLI::App* sensor = app.add_subcommand("sensor",
-                                        "Compute statistics of sensor recordings, and fit simulated "
-                                        "sensors to recordings");
+  CLI::App* sensor =
+      app.add_subcommand("sensor", "Compute statistics of sensor recordings, and fit simulated sensors to recordings");
   sensor->require_subcommand(1);
   sensor->footer(kSensorText);
   DefineStats(*sensor, action);

@@ -12,14 +12,13 @@ void AddStreamReading(CLI::App& command, StreamArguments& reading) {
   command.add_option("--format", reading.format, "Format of the recordings (default: detected from the content)")
       ->check(OneOf(StreamFormatNames()));
   command
-      .add_option("--rate", reading.rate_hz,
-                  "Frame rate, in Hz: of recordings without times (default: 30), or of clips (default: the rate of "
-                  "the clip)")
+      .add_option(
+          "--rate", reading.rate_hz,
+          "Frame rate, in Hz: of recordings without times (default: 30), or of clips (default: the rate of the clip)")
       ->check(NumberWithin(1, 1000, "rate in Hz"));
   command
       .add_option("--body", reading.body,
-                  "Which body to read if a recording contains several: 0 is the body "
-                  "that appears first")
+                  "Which body to read if a recording contains several: 0 is the body that appears first")
       ->check(CLI::Range(0, 1000));
   command
       .add_option("--level", reading.level,

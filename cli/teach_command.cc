@@ -116,13 +116,11 @@ Result<int> TeachCommand(const TeachCommandOptions& options) {
 
 void DefineTeach(CLI::App& app, Action& action) {
   auto options = std::make_shared<TeachCommandOptions>();
-  CLI::App* command = app.add_subcommand("teach",
-                                         "Learn moves from recordings and clips, for `etude recognise` and "
-                                         "`etude coach`");
+  CLI::App* command =
+      app.add_subcommand("teach", "Learn moves from recordings and clips, for `etude recognise` and `etude coach`");
   command->add_option("streams", options->streams, "Recordings, clips, patterns of file names, or folders")->required();
   command->add_option("--labels", options->labels,
-                      "Labels (which person performed which move, and when): a file, "
-                      "or a folder of tag streams");
+                      "Labels (which person performed which move, and when): a file, or a folder of tag streams");
   command->add_option("--without", options->without, "A move to leave out")->allow_extra_args(false);
   command->add_option("-o,--output", options->output, "The moves file to write (YAML)")->required();
   AddOverwrite(*command, options->overwrite);

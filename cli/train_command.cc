@@ -57,16 +57,15 @@ constexpr const char* kTrainText =
     "features\n"
     "and the corners of the membership functions by hand. This command learns these numbers from pairs of frames of "
     "two\n"
-    "different clips. A pair is close if every joint differs by less than 15 cm, after one pose was aligned with "
-    "the other\n"
-    "on the floor. The command searches for the fuzzy system with which the rule d < 0.4 finds the close pairs "
-    "best. Clips\n"
+    "different clips. A pair is close if every joint differs by less than 15 cm, after one pose was aligned with the "
+    "other\n"
+    "on the floor. The command searches for the fuzzy system with which the rule d < 0.4 finds the close pairs best. "
+    "Clips\n"
     "that are held out are only used to test the result.\n\n"
     "To use the file in a scenario, write `fuzzy: tuned.yaml`; docs/fuzzy-system.md explains fuzzy systems.\n\n"
-    "With --recogniser, the command learns the model of the recogniser `learnt` (docs/detection.md): simulated "
-    "people\n"
-    "perform the labelled clips, right and wrong, and the model learns to distinguish right from wrong "
-    "performances. With\n"
+    "With --recogniser, the command learns the model of the recogniser `learnt` (docs/detection.md): simulated people\n"
+    "perform the labelled clips, right and wrong, and the model learns to distinguish right from wrong performances. "
+    "With\n"
     "--coached, it learns the model of the recogniser `coached`: simulated people dance songs with a coach "
     "(docs/coach.md).";
 
@@ -118,8 +117,7 @@ Result<Split> LoadSplit(const TrainOptions& options) {
   if (names.size() > kMaxTrainingClips) {
     return Fail(
         {},
-        "found {} clips; allowed: at most {}, because the number of pairs grows with the square of the number of "
-        "clips",
+        "found {} clips; allowed: at most {}, because the number of pairs grows with the square of the number of clips",
         names.size(), kMaxTrainingClips);
   }
   ASSIGN_OR_RETURN(const auto held_out, ChooseHeldOut(names, options));
@@ -133,11 +131,10 @@ Result<Split> LoadSplit(const TrainOptions& options) {
     (held_out[i] ? split.held_out : split.learnt).push_back(std::move(all.frames[i]));
   }
   if (split.learnt.size() >= 2) return split;
-  return Fail(
-      {},
-      "{} left for learning, and {} are held out; learning needs two clips or more, because each pair of frames "
-      "comes from two clips",
-      split.learnt.size() == 1 ? "one clip is" : "no clip is", split.held_out.size());
+  return Fail({},
+              "{} left for learning, and {} are held out; learning needs two clips or more, because each pair of "
+              "frames comes from two clips",
+              split.learnt.size() == 1 ? "one clip is" : "no clip is", split.held_out.size());
 }
 
 std::string ScoreLine(const char* what, ClipFrames clips, const FuzzySystem& system) {
@@ -212,8 +209,7 @@ GeneticOptions GeneticOptionsOf(const TrainOptions& options) {
 Result<void> CheckOptions(const TrainOptions& options) {
   if (options.memberships && options.method != "genetic") {
     return Fail({"--memberships", 0, 0},
-                "cannot be combined with --method {}, which learns only weights; allowed: "
-                "--method genetic",
+                "cannot be combined with --method {}, which learns only weights; allowed: --method genetic",
                 options.method);
   }
   if (options.method == "genetic") RETURN_IF_ERROR(LoadGeneticSearch());
@@ -249,8 +245,7 @@ Result<int> TrainCommand(const TrainOptions& options) {
     return kSuccess;
   }
   fmt::print(
-      "{} clips were used for learning, {} were held out; how well the rule d < 0.4 finds close pairs of "
-      "frames:\n",
+      "{} clips were used for learning, {} were held out; how well the rule d < 0.4 finds close pairs of frames:\n",
       split.learnt.size(), split.held_out.size());
   for (const std::string& line : comparison) fmt::print("{}\n", line);
   TellWritten(options.output);
@@ -317,8 +312,7 @@ void DefineTrain(CLI::App& app, Action& action) {
   command->add_option("-o,--output", options->output, "The file to write (YAML)")->required();
   command->add_option("--method", options->method, "Learning method")->check(OneOf({"adaptive", "genetic"}));
   command->add_flag("--memberships", options->memberships,
-                    "Also learn the membership functions (only with --method "
-                    "genetic)");
+                    "Also learn the membership functions (only with --method genetic)");
   command->add_option("--hold-out", options->hold_out,
                       "Clips that are used only for testing the result: a share of all clips, drawn at random (0: "
                       "none), or a pattern of clip names");
@@ -328,9 +322,7 @@ void DefineTrain(CLI::App& app, Action& action) {
   // Define the options of recognisers.
   command->add_flag("--recogniser", options->recogniser, "Learn the model of the recogniser `learnt`");
   command
-      ->add_flag("--coached", options->coached,
-                 "Learn the model of the recogniser `coached`; CLIPS are built-in "
-                 "songs")
+      ->add_flag("--coached", options->coached, "Learn the model of the recogniser `coached`; CLIPS are built-in songs")
       ->excludes("--recogniser");
   command
       ->add_option("--sessions", options->sessions,

@@ -17,14 +17,14 @@ namespace {
 
 constexpr const char* kTransitionNotes =
     "\n"
-    "The written motion is FROM from its start until a frame at or after --at, then the transition, then TO until "
-    "its end.\n"
-    "TO is moved to the position where FROM ends. The default --choice and --join are the recommended method; "
-    "`etude list\n"
-    "methods` describes all methods. The written motion has Etude's twenty joints with the proportions of FROM, at "
-    "30 Hz. It\n"
-    "does not have the skeleton of FROM. If the body lies, sits or kneels, a transition needs a clip in which a "
-    "body stands\n"
+    "The written motion is FROM from its start until a frame at or after --at, then the transition, then TO until its "
+    "end.\n"
+    "TO is moved to the position where FROM ends. The default --choice and --join are the recommended method; `etude "
+    "list\n"
+    "methods` describes all methods. The written motion has Etude's twenty joints with the proportions of FROM, at 30 "
+    "Hz. It\n"
+    "does not have the skeleton of FROM. If the body lies, sits or kneels, a transition needs a clip in which a body "
+    "stands\n"
     "up: give such clips with --library.";
 
 struct TransitionCommandOptions {
@@ -69,11 +69,10 @@ Result<int> TransitionCommand(TransitionCommandOptions asked) {
     fmt::print("{}; {} is not played\n  written as a body of twenty joints at 30 Hz, {:.2f} s long\n", made.why,
                options.to, made.duration_s);
   } else {
-    fmt::print(
-        "{} plays until {:.2f} s, {:.2f} s after the request{}; then {} plays, starting at its time {:.2f} "
-        "s\n",
-        options.from, made.left_s, made.wait_s,
-        made.through.empty() ? "" : fmt::format("; {} plays in between", made.through), options.to, made.entered_s);
+    fmt::print("{} plays until {:.2f} s, {:.2f} s after the request{}; then {} plays, starting at its time {:.2f} s\n",
+               options.from, made.left_s, made.wait_s,
+               made.through.empty() ? "" : fmt::format("; {} plays in between", made.through), options.to,
+               made.entered_s);
     fmt::print("  {}\n  written as a body of twenty joints at 30 Hz, {:.2f} s long, joined at", made.why,
                made.duration_s);
     for (const double point : made.points_s) fmt::print(" {:.2f} s", point);
@@ -109,8 +108,7 @@ void DefineTransition(CLI::App& app, Action& action) {
   command->add_option("--join", options->join, "The method that joins the two clips at these frames")
       ->check(OneOf(JoinNames()));
   command->add_option("--library", options->library,
-                      "Additional clips; the transition may play one of these clips "
-                      "in between");
+                      "Additional clips; the transition may play one of these clips in between");
   AddOverwrite(*command, asked->overwrite);
   AddJson(*command, asked->as_json);
   AddClipReading(*command, asked->reading);

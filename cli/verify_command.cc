@@ -200,24 +200,22 @@ Result<int> VerifyCommand(VerifyCommandOptions options) {
 
 void DefineVerify(CLI::App& app, Action& action) {
   auto options = std::make_shared<VerifyCommandOptions>();
-  CLI::App* command =
-      app.add_subcommand("verify",
-                         "Check that the files of a run agree with each other, and that its cells can be "
-                         "reproduced");
+  CLI::App* command = app.add_subcommand(
+      "verify", "Check that the files of a run agree with each other, and that its cells can be reproduced");
   command->add_option("folder", options->replay.folder, "A result folder")->required();
   command
       ->add_option("--sample", options->sample,
-                   "Number of cells to run again at random, in addition to all cells with a recording. 0: run no "
-                   "cell; all: run every cell")
+                   "Number of cells to run again at random, in addition to all cells with a recording. 0: run no cell; "
+                   "all: run every cell")
       ->check(CheckSample);
-  command->add_option("--sample-seed", options->replay.dice,
-                      "Seed of the sample, to repeat a check. Keep it secret from the author of the run (default: "
-                      "random)");
+  command->add_option(
+      "--sample-seed", options->replay.dice,
+      "Seed of the sample, to repeat a check. Keep it secret from the author of the run (default: random)");
   command->add_option("--sign", options->sign,
                       "Sign the run with this secret key if everything agrees (minisign -G -W)");
-  command->add_option("--check", options->check,
-                      "Check the run's signature with this public key, or with a file that contains the key "
-                      "(minisign)");
+  command->add_option(
+      "--check", options->check,
+      "Check the run's signature with this public key, or with a file that contains the key (minisign)");
   AddSeedFile(*command, options->key_file);
   AddOutsideRules(*command, options->replay.outside);
   AddJobs(*command, options->replay.jobs);

@@ -110,17 +110,16 @@ std::string PageOf(const RunData& run, const std::string& digest, const std::str
       "[aria-pressed=true] {{ outline: 3px solid var(--accent); }} .blind video {{ width: auto; max-width: "
       "100%; max-height: 56vh; }}</style>",
       digest, films_html);
-  return WriteToolPage(
-      {.kind = "comparison",
-       .title = "Which body moves more naturally?",
-       .verdict = "In each film, both bodies change from one motion to another. A side of the film is empty while "
-                  "its motion has not begun or has already ended. Watch each film to the end at least once, then "
-                  "choose the side with the more natural motion. At the end, save your answers, and send the file "
-                  "to the person who gave you this page.",
-       .version = run.program_version,
-       .command = "",
-       .script = BlindJs()},
-      content);
+  return WriteToolPage({.kind = "comparison",
+                        .title = "Which body moves more naturally?",
+                        .verdict = "In each film, both bodies change from one motion to another. A side of the film is "
+                                   "empty while its motion has not begun or has already ended. Watch each film to the "
+                                   "end at least once, then choose the side with the more natural motion. At the end, "
+                                   "save your answers, and send the file to the person who gave you this page.",
+                        .version = run.program_version,
+                        .command = "",
+                        .script = BlindJs()},
+                       content);
 }
 
 }  // namespace

@@ -338,8 +338,8 @@ std::string AcrossTableHtml(const ScenarioSummary& scenario) {
 std::string AcrossTableMarkdown(const ScenarioSummary& scenario) {
   if (scenario.across.empty()) return "";
   return "\n"
-         "Verdicts under each value of the parameters in the scenario key `across`. A verdict holds only if it is "
-         "the same under all values:\n" +
+         "Verdicts under each value of the parameters in the scenario key `across`. A verdict holds only if it is the "
+         "same under all values:\n" +
          TableMarkdown(AcrossTable(scenario));
 }
 

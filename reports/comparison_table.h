@@ -16,15 +16,15 @@ std::string MetricHeading(const std::string& metric);
 inline constexpr std::string_view kComparisonLegend =
     "A difference is method − baseline in the same world. The table shows the median difference over worlds, or the "
     "mean difference for shares and penalised costs. Its 95 % interval is a BCa bootstrap interval, or an adjusted "
-    "Wald interval for shares; † marks a percentile interval, where BCa is undefined. p is the p-value of "
-    "Wilcoxon’s signed-rank test, or of a sign-flip test if the mean is shown, with Holm’s correction over the "
-    "scenario’s comparisons. Effect is the rank-biserial correlation, from −1 to +1; positive values are better. "
-    "The verdicts “better” and “worse” need p ≤ 0.05, an interval on one side of zero, and a difference that "
-    "matters. The verdict “no difference” needs an interval that contains only differences that do not matter. If "
-    "only one method failed in a world, p counts the world as a loss of this method, and the verdict must be the "
-    "same with and without such worlds. The verdict about other clips, people or libraries uses the pseudo-median "
-    "(Hodges–Lehmann estimate) of the mean differences of each clip, person or library. With fewer than 6 clips, "
-    "people or libraries, there is no such verdict.";
+    "Wald interval for shares; † marks a percentile interval, where BCa is undefined. p is the p-value of Wilcoxon’s "
+    "signed-rank test, or of a sign-flip test if the mean is shown, with Holm’s correction over the scenario’s "
+    "comparisons. Effect is the rank-biserial correlation, from −1 to +1; positive values are better. The verdicts "
+    "“better” and “worse” need p ≤ 0.05, an interval on one side of zero, and a difference that matters. The verdict "
+    "“no difference” needs an interval that contains only differences that do not matter. If only one method failed in "
+    "a world, p counts the world as a loss of this method, and the verdict must be the same with and without such "
+    "worlds. The verdict about other clips, people or libraries uses the pseudo-median (Hodges–Lehmann estimate) of "
+    "the mean differences of each clip, person or library. With fewer than 6 clips, people or libraries, there is no "
+    "such verdict.";
 
 /// Counts the comparisons in the tables below: each pair of methods under one metric and condition counts once.
 std::size_t CountComparisons(const ScenarioSummary& scenario);

@@ -169,11 +169,11 @@ std::vector<std::string> GateSentences(const GateReport& report) {
       OutcomeCounts(report.ratios, "time rule", [](const RatioResult& ratio) { return ratio.outcome; })};
   if (report.baseline_file.empty()) {
     const bool has_own = !report.expectations.empty() || !report.ratios.empty();
-    sentences.push_back(fmt::format(
-        "nothing was compared, because there is no baseline: {}",
-        has_own ? "the gate only judged the expectations and time rules of the run’s scenarios"
-                : "the scenarios have no expectations, so the gate only checked that every cell has a row and every "
-                  "method has an answer"));
+    sentences.push_back(fmt::format("nothing was compared, because there is no baseline: {}",
+                                    has_own
+                                        ? "the gate only judged the expectations and time rules of the run’s scenarios"
+                                        : "the scenarios have no expectations, so the gate only checked that every "
+                                          "cell has a row and every method has an answer"));
   } else if (!report.comparison.moves.empty()) {
     sentences.push_back("compared with the baseline: " + CompareSentence(report.comparison));
   }
@@ -233,8 +233,7 @@ std::string_view TailHeading(TailGroup group) {
     case TailGroup::kNotJudged:
       break;
   }
-  return "Single worlds in which a method became far worse; not judged, because the scenario turned off the tail "
-         "rule:";
+  return "Single worlds in which a method became far worse; not judged, because the scenario turned off the tail rule:";
 }
 
 std::vector<TailLine> TailLines(const GateReport& report, TailGroup group, std::size_t most_each, std::size_t most) {
@@ -399,8 +398,8 @@ std::string WriteGateMarkdown(const GateReport& report) {
   if (!report.baseline_file.empty()) {
     text += fmt::format(
         "\n"
-        "Baseline {} (Etude {}), run by Etude {}. p: p-value after Holm's correction. Worlds: the number of worlds "
-        "in which the values differ, out of all compared worlds.\n",
+        "Baseline {} (Etude {}), run by Etude {}. p: p-value after Holm's correction. Worlds: the number of worlds in "
+        "which the values differ, out of all compared worlds.\n",
         EscapeMarkdown(report.baseline_file), EscapeMarkdown(report.baseline_version),
         EscapeMarkdown(report.program_version));
   }

@@ -199,8 +199,8 @@ std::string MissingHtml(const RunData& run, const ScenarioSummary& scenario) {
 
 constexpr std::string_view kLegend =
     "“Apart” is the distance of the worst joint after headings and hips are aligned. ✗ marks a pair that the method "
-    "called alike, although a joint is more than 20 cm away. The number after “alike” or “apart” is the distance "
-    "that the method measured: a fuzzy distance, or centimetres.";
+    "called alike, although a joint is more than 20 cm away. The number after “alike” or “apart” is the distance that "
+    "the method measured: a fuzzy distance, or centimetres.";
 
 std::string VerdictOf(const Row& row) {
   const auto alike = ValueOf(row, "called_alike");

@@ -161,11 +161,11 @@ std::string RealTakesSection(const RunData& run, std::span<const RealTake> takes
   if (takes.empty()) return "";
   const std::string html =
       "<section class=\"card\"><h2>On real films</h2><p>Distances between captures of real films and a reference "
-      "(<code>etude capture --reference</code>), beside the simulated takes of this run. The rows of a real take "
-      "show the median and the 95th percentile over joints and frames. <b>Error</b> is the true error only if the "
-      "reference is right. <b>Agreement</b> is not an error, because the reference may be made from the same "
-      "keypoints. The rows of simulated takes show the mean distance from the true joints, over joints and frames, "
-      "as a median over takes.</p>";
+      "(<code>etude capture --reference</code>), beside the simulated takes of this run. The rows of a real take show "
+      "the median and the 95th percentile over joints and frames. <b>Error</b> is the true error only if the reference "
+      "is right. <b>Agreement</b> is not an error, because the reference may be made from the same keypoints. The rows "
+      "of simulated takes show the mean distance from the true joints, over joints and frames, as a median over "
+      "takes.</p>";
   Table table{.label = "Captures of real films",
               .columns = {{"Takes"},
                           {"Recovery"},

@@ -141,9 +141,9 @@ Result<ReportCheck> CheckGate(const FinishedRun& run, const std::filesystem::pat
     ASSIGN_OR_RETURN(const auto found, ReadWholeFile(folder / name));
     has_baseline = has_baseline || found.find("\nBaseline ") != std::string::npos;
     if (has_baseline) {
-      check.not_compared.push_back((folder / name).string() +
-                                   ": the result of a gate with a baseline, because the run does not contain the "
-                                   "baseline");
+      check.not_compared.push_back(
+          (folder / name).string() +
+          ": the result of a gate with a baseline, because the run does not contain the baseline");
       continue;
     }
     ++check.files;

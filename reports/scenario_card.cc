@@ -150,10 +150,10 @@ std::string AnswerHtml(const MethodFinding& finding, std::string_view begin) {
 std::string AnswerBlock(const ScenarioFindings& findings) {
   const std::string html = AnswerHtml(findings.answer, VerdictBadges(findings.answer) + " ");
   if (!HasOtherRival(findings)) return html;
-  return html + fmt::format(
-                    "<details class=\"rival\"><summary>Compared with the strongest other method, {}: "
-                    "{}</summary>{}</details>",
-                    EscapeMarkup(findings.rival.others), VerdictBadges(findings.rival), AnswerHtml(findings.rival, ""));
+  return html +
+         fmt::format(
+             "<details class=\"rival\"><summary>Compared with the strongest other method, {}: {}</summary>{}</details>",
+             EscapeMarkup(findings.rival.others), VerdictBadges(findings.rival), AnswerHtml(findings.rival, ""));
 }
 
 std::string FiguresHtml(const KeyFigures& figures) {

@@ -93,9 +93,9 @@ Result<void> MusicPosition::Take(std::string_view line, int number) {
   line.remove_prefix(std::min(line.find_first_not_of(" \t", kWord.size()), line.size()));
   const auto seconds = TakeNumber(line);
   if (!seconds || !(*seconds >= 0 && *seconds < 1e6)) {
-    return Fail({"the stream", number, 1},
-                "'#music' has no valid time; allowed: the time since the start of the song, in s, such as '#music "
-                "12.34'");
+    return Fail(
+        {"the stream", number, 1},
+        "'#music' has no valid time; allowed: the time since the start of the song, in s, such as '#music 12.34'");
   }
   if (now_s_) now_s_ = *seconds;
   return {};

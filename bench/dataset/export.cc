@@ -85,9 +85,7 @@ class NewFolder {
     RETURN_IF_ERROR(MakeFolder(Inside(partial.parent_path()) / partial.filename()));
     NewFolder folder(path, Lock(partial));
     if (folder.lock_ < 0)
-      return Fail(place,
-                  "another export is writing into this folder; choose another folder with "
-                  "-o");
+      return Fail(place, "another export is writing into this folder; choose another folder with -o");
     // Empty the folder that a killed export left. Refuse a folder with other contents.
     for (fs::directory_iterator entry(folder.partial_, error), end; !error && entry != end; entry.increment(error)) {
       if (IsOfExport(entry->path().filename())) continue;
@@ -117,9 +115,7 @@ class NewFolder {
   Result<void> Finish() {
     RETURN_IF_ERROR(SyncTree(partial_));
     if (!IsOurs(partial_))
-      return Fail({partial_.string()},
-                  "was replaced or removed by another program during the "
-                  "export");
+      return Fail({partial_.string()}, "was replaced or removed by another program during the export");
     std::error_code error;
     fs::rename(partial_, path_, error);
     if (error) return CannotWrite(path_.string(), "cannot be written", error.value());

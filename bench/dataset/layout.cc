@@ -38,9 +38,7 @@ Result<std::vector<fs::path>> AnswersBelow(const fs::path& folder, PredictionFau
   const Place place{folder.string(), 0, 0};
   std::error_code error;
   if (!fs::is_directory(folder, error))
-    return Fail(place,
-                "is not an existing folder; allowed: a folder of "
-                "predictions");
+    return Fail(place, "is not an existing folder; allowed: a folder of predictions");
   std::vector<fs::path> files;
   for (fs::recursive_directory_iterator entry(folder, error), end; !error && entry != end; entry.increment(error)) {
     const fs::file_status status = entry->symlink_status(error);

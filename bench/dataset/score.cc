@@ -26,10 +26,8 @@ Result<void> CheckVersion(const FilePath& manifest) {
   ASSIGN_OR_RETURN(const auto json, ReadJsonFile(manifest));
   const Json version = json.is_object() ? json.value("data_set", Json(1)) : Json(1);
   if (version.is_number_integer() && version >= 1 && version <= kDataSetVersion) return {};
-  return Fail({manifest.string()},
-              "found a data set of version {}; allowed: versions 1 to "
-              "{}",
-              version.dump(), kDataSetVersion);
+  return Fail({manifest.string()}, "found a data set of version {}; allowed: versions 1 to {}", version.dump(),
+              kDataSetVersion);
 }
 
 Result<SuiteSetup> ReadTarget(const ScoreOptions& options) {
@@ -47,10 +45,9 @@ Result<SuiteSetup> ReadTarget(const ScoreOptions& options) {
   }
   if (options.seed || options.trials || !options.clips.empty() || !options.joint_map.empty() ||
       !options.clip_facts.empty()) {
-    return Fail(
-        {manifest.string(), 0, 0},
-        "already sets the seed, the trials and the clips; leave out --seed, --trials, --clips, --joint-map, --unit, "
-        "--up, --rate");
+    return Fail({manifest.string(), 0, 0},
+                "already sets the seed, the trials and the clips; leave out --seed, --trials, --clips, --joint-map, "
+                "--unit, --up, --rate");
   }
   RETURN_IF_ERROR(CheckVersion(manifest));
   ASSIGN_OR_RETURN(auto suite, ReadManifest(manifest));

@@ -218,9 +218,7 @@ Result<FinishedRun> ReadFinishedRun(const fs::path& folder, Sealing sealing, Hel
   FinishedRun run;
   if (Exists(Inside(folder) / kJournalFile)) {
     run.incomplete.push_back(
-        fmt::format("the run was interrupted or is still running, because the file {} "
-                    "exists",
-                    kJournalFile));
+        fmt::format("the run was interrupted or is still running, because the file {} exists", kJournalFile));
     return run;
   }
   const auto load = held == Held::kAll ? LoadRun : LoadRunRowByRow;
@@ -231,8 +229,7 @@ Result<FinishedRun> ReadFinishedRun(const fs::path& folder, Sealing sealing, Hel
   const bool has_times = CountRows(run.data) > 0 && CpuSecondsOf(run.data, RowAt(run.data, 0), 0).has_value();
   if (!has_times && std::any_of(run.scenarios.begin(), run.scenarios.end(), WantsTimes)) {
     return Fail({(folder / "timings.jsonl").string(), 0, 0},
-                "contains no processor times, but a rule of the "
-                "scenario's key 'gate' needs them");
+                "contains no processor times, but a rule of the scenario's key 'gate' needs them");
   }
   return run;
 }

@@ -148,9 +148,9 @@ class BaselineReader {
  private:
   Result<void> CheckSeal(const Json& json, const JsonObject& head) {
     if (!head.Has("seal")) {
-      snapshot_.unsealed = file_ +
-                           ": an older version of etude wrote this baseline without a seal; gate --update "
-                           "writes a baseline with a seal";
+      snapshot_.unsealed =
+          file_ +
+          ": an older version of etude wrote this baseline without a seal; gate --update writes a baseline with a seal";
       if (seal_ == BaselineSeal::kMayBreak) return {};
       return Fail({}, "{}; --unsealed reads the baseline anyway", snapshot_.unsealed);
     }
@@ -242,8 +242,8 @@ class BaselineReader {
     ASSIGN_OR_RETURN(const Json* values, head.List("values"));
     if (statuses->size() == cells && values->size() == lists) return {};
     return Fail(head.place(),
-                "contains {} lines of statuses and {} lines of values, but its scenarios need {} lines "
-                "of statuses and {} lines of values",
+                "contains {} lines of statuses and {} lines of values, but its scenarios need {} lines of statuses and "
+                "{} lines of values",
                 statuses->size(), values->size(), cells, lists);
   }
 
@@ -307,10 +307,8 @@ class BaselineReader {
       return Fail(place, "the key 'judged' of {} cannot be read: {}", name, error.what());
     }
     if (slot.cells->judged.size() == slot.trials) return {};
-    return Fail(place,
-                "the key 'judged' of {} describes {} cells, but the scenario has {} "
-                "trials",
-                name, slot.cells->judged.size(), slot.trials);
+    return Fail(place, "the key 'judged' of {} describes {} cells, but the scenario has {} trials", name,
+                slot.cells->judged.size(), slot.trials);
   }
 
   Result<void> ReadValues(const Json& entry, const Place& place) {
@@ -328,10 +326,8 @@ class BaselineReader {
       return Fail(place, "two lines contain the values of {} for {}; allowed: one line", metric, name);
     ASSIGN_OR_RETURN(const Json* values, line.List("values"));
     if (values->size() != cells.trials) {
-      return Fail(place,
-                  "contains {} values of {} for {}, but the scenario has {} "
-                  "trials",
-                  values->size(), metric, name, cells.trials);
+      return Fail(place, "contains {} values of {} for {}, but the scenario has {} trials", values->size(), metric,
+                  name, cells.trials);
     }
     for (std::size_t trial = 0; trial < cells.trials; ++trial) {
       const Json& value = (*values)[trial];

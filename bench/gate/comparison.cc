@@ -180,10 +180,10 @@ std::vector<std::string> WhyNotComparable(const SnapshotScenario& before, const 
   for (const auto& [condition, digest] : before.worlds) {
     const std::string* other = FindDigest(after.worlds, condition);
     if (other == nullptr || *other == digest) continue;
-    reasons.push_back(fmt::format(
-        "{}: under condition {}, the two runs have different parameters, different clips or different versions of "
-        "secret worlds",
-        before.name, condition));
+    reasons.push_back(
+        fmt::format("{}: under condition {}, the two runs have different parameters, different clips or different "
+                    "versions of secret worlds",
+                    before.name, condition));
   }
   for (const auto& metric : before.metrics) {
     const auto* other = FindIn(after.metrics, [&](const auto& pair) { return pair.first == metric.first; });

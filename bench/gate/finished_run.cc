@@ -116,16 +116,11 @@ Result<void> CheckRows(FinishedRun& run, const Place& place) {
       if (rows.erase(id) == 0) missing.push_back(id);
     }
     if (missing.empty()) continue;
-    run.incomplete.push_back(
-        fmt::format("{}: {} of {} rows are missing; the first missing row is "
-                    "{}",
-                    one.study.scenario, missing.size(), wanted.size(), missing.front()));
+    run.incomplete.push_back(fmt::format("{}: {} of {} rows are missing; the first missing row is {}",
+                                         one.study.scenario, missing.size(), wanted.size(), missing.front()));
   }
   if (!rows.empty())
-    return Fail(place,
-                "contains the cell {}, but no scenario of the manifest has this "
-                "cell",
-                *rows.begin());
+    return Fail(place, "contains the cell {}, but no scenario of the manifest has this cell", *rows.begin());
   return {};
 }
 

@@ -103,15 +103,11 @@ std::vector<std::string> WhyIncomplete(const FinishedRun& run) {
   std::vector<std::string> sentences;
   for (const auto& [key, found] : ends) {
     sentences.push_back(
-        fmt::format("{}: {} × status {}, a status that depends on the machine; the first such cell is "
-                    "{}",
-                    key.first, found.cells, key.second, found.first));
+        fmt::format("{}: {} × status {}, a status that depends on the machine; the first such cell is {}", key.first,
+                    found.cells, key.second, found.first));
   }
   if (all_skipped && !why_skipped.empty())
-    sentences.push_back(
-        "every cell was skipped; the first cell "
-        "is " +
-        why_skipped);
+    sentences.push_back("every cell was skipped; the first cell is " + why_skipped);
   return sentences;
 }
 
@@ -139,10 +135,8 @@ std::vector<std::string> DescribeSilentMethods(const FinishedRun& run) {
   for (const auto& [name, cells] : methods) {
     if (cells.has_answer) continue;
     const std::vector<CountedReason> causes = cells.causes.MostFrequentFirst();
-    std::string text = fmt::format(
-        "{}: none of the {} cells of {} has the status ok or unsolved; the first cell is "
-        "{}",
-        name.first, cells.attempted, name.second, cells.first);
+    std::string text = fmt::format("{}: none of the {} cells of {} has the status ok or unsolved; the first cell is {}",
+                                   name.first, cells.attempted, name.second, cells.first);
     for (std::size_t i = 0; i < std::min(causes.size(), kMaxShownCauses); ++i) {
       text += fmt::format("; {} × {}", causes[i].cells, causes[i].Words());
     }

@@ -121,10 +121,9 @@ Result<SelfTestReport> RunSelfTest(const RunUnderSeed& run, int repetitions) {
       Snapshot worse = first;
       SnapshotValues* values = FindTarget(worse);
       if (values == nullptr)
-        return Fail(
-            {},
-            "the self-test needs a metric that has a direction and is aggregated by its median; add such a metric "
-            "to the list 'metrics' of the key 'gate'");
+        return Fail({},
+                    "the self-test needs a metric that has a direction and is aggregated by its median; add such a "
+                    "metric to the list 'metrics' of the key 'gate'");
       target = values->metric;
       Inject(*values, kSizes[k], first_seed);
       injected[k].Add(Alarms(CompareSnapshots(first, worse, {}, no_tails)));

@@ -128,13 +128,12 @@ std::vector<std::string> CompareSystems(const RunSystem& a, const RunSystem& b, 
   }
   const LargestDifferences measured = MeasuredBetween(*of_a, *of_b);
   const int cells = of_a->cells_that_differ + of_b->cells_that_differ;
-  lines.push_back(
-      cells == 0 ? fmt::format("In a test of these two systems, none of the {} cells of the quick suite "
-                               "differed.",
-                               kQuickCells)
-                 : fmt::format("In a test of these two systems, at most {} of the {} cells of the quick suite differed "
-                               "(largest differences: {}).",
-                               cells, kQuickCells, InWords(measured)));
+  lines.push_back(cells == 0
+                      ? fmt::format("In a test of these two systems, none of the {} cells of the quick suite differed.",
+                                    kQuickCells)
+                      : fmt::format("In a test of these two systems, at most {} of the {} cells of the quick suite "
+                                    "differed (largest differences: {}).",
+                                    cells, kQuickCells, InWords(measured)));
   LargestDifferences beyond = DifferencesOf(before, after);
   std::erase_if(beyond, [&](const auto& one) {
     const auto found = measured.find(one.first);

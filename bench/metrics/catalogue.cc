@@ -50,9 +50,7 @@ Result<void> AddMetric(MetricInfo metric) {
   if (is_new) return {};
   const std::string difference = FindDifference(known->second, metric);
   if (difference.empty()) return {};
-  return Fail({},
-              "the metric '{}' has two different definitions: {}; Etude never mixes values of two "
-              "definitions",
+  return Fail({}, "the metric '{}' has two different definitions: {}; Etude never mixes values of two definitions",
               metric.id, difference);
 }
 

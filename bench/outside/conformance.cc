@@ -164,10 +164,9 @@ class ConformanceTest {
            repeated_ == 0 ? "no answer was repeated" : fmt::format("{} answers were repeated", repeated_));
     const std::string end = method_.End(kMaxEndingMs);
     Report("ends when its input ends", end == "exit code 0",
-           end == "signal 9 (Killed)" ? fmt::format("the program was still running {} s after its input "
-                                                    "ended",
-                                                    kMaxEndingMs / 1000)
-                                      : end);
+           end == "signal 9 (Killed)"
+               ? fmt::format("the program was still running {} s after its input ended", kMaxEndingMs / 1000)
+               : end);
     if (solves_nothing_ && specimens_[0].has_plain_method) CheckAgainstPlain();
     return all_passed_;
   }
@@ -240,10 +239,11 @@ class ConformanceTest {
       }
       solved += attempt.status == Status::kOk ? 1 : 0;
     }
-    Report("gives answers that can be scored", true,
-           fmt::format("{} of {} answers solve their problem; slowest answer: {:.3g} s (allowed: {:g} s), most memory: "
-                       "{:.0f} MB",
-                       solved, first_.size(), slowest_s_, time_s_, peak_mb_));
+    Report(
+        "gives answers that can be scored", true,
+        fmt::format(
+            "{} of {} answers solve their problem; slowest answer: {:.3g} s (allowed: {:g} s), most memory: {:.0f} MB",
+            solved, first_.size(), slowest_s_, time_s_, peak_mb_));
     solves_nothing_ = solved == 0;
     return {};
   }
@@ -261,15 +261,13 @@ class ConformanceTest {
       in_radians += judged && judged->status == Status::kOk ? 1 : 0;
     }
     if (plain == 0) return;
-    const std::string unit = in_radians == 0
-                                 ? ""
-                                 : fmt::format(
-                                       "; if its angles are read as radians, they solve {}, so convert the angles to "
-                                       "degrees",
-                                       in_radians);
+    const std::string unit =
+        in_radians == 0
+            ? ""
+            : fmt::format("; if its angles are read as radians, they solve {}, so convert the angles to degrees",
+                          in_radians);
     Report("solves the problems that a simple method solves", false,
-           fmt::format("the program solves none of {} problems; the built-in method damped-least-squares solves "
-                       "{}{}",
+           fmt::format("the program solves none of {} problems; the built-in method damped-least-squares solves {}{}",
                        first_.size(), plain, unit));
   }
 

@@ -34,8 +34,7 @@ static void Describe(RecordFields& fields, BlindKey& key) {
   fields.Required("seed", key.seed, "seed of the random numbers that chose worlds, order and sides");
   fields.Required("worlds", key.worlds, "number of worlds from which the pairs were drawn");
   fields.Required("left_out", key.left_out,
-                  "number of worlds without a pair, because a method made no transition that "
-                  "can be shown");
+                  "number of worlds without a pair, because a method made no transition that can be shown");
   fields.List("pairs", key.pairs, "the pairs in the page's order");
 }
 
@@ -65,9 +64,9 @@ Result<void> AddAnswers(BlindAnswers answers, const std::string& file, std::vect
   }
   const std::string rater = ComparedName(answers.rater);
   if (rater.empty())
-    return Fail({file},
-                "rater: the name is empty; needed: the rater's name, which must be the same "
-                "in all files of this rater");
+    return Fail(
+        {file},
+        "rater: the name is empty; needed: the rater's name, which must be the same in all files of this rater");
   for (const BlindAnswers& other : all) {
     if (ComparedName(other.rater) != rater) continue;
     answers.rater = other.rater;
@@ -97,9 +96,7 @@ Result<void> AddBlindFile(const std::string& text, const std::string& file, Blin
 
 Result<void> CheckBlindFiles(const BlindFiles& files) {
   if (files.answers.empty())
-    return Fail({},
-                "no file with answers is given; raters save their answers at the end of "
-                "the page");
+    return Fail({}, "no file with answers is given; raters save their answers at the end of the page");
   for (const BlindAnswers& answers : files.answers) {
     const auto key = std::ranges::find(files.keys, answers.page, &BlindKey::page);
     if (key == files.keys.end()) {

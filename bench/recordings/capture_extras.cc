@@ -86,9 +86,7 @@ Result<CaptureExtras::View> ToView(const SortedJson& json) {
   if (json.contains("still")) {
     view.still_jpeg_base64 = json.at("still");
     if (!IsBase64(view.still_jpeg_base64))
-      return Fail({},
-                  "the picture 'still' in this capture recording is not "
-                  "base64 text");
+      return Fail({}, "the picture 'still' in this capture recording is not base64 text");
   }
   const int width = json.at("mask_width"), height = json.at("mask_height");
   for (const SortedJson& text : json.at("masks")) {
@@ -123,10 +121,10 @@ Result<CaptureExtras> ToExtras(const SortedJson& json) {
   for (const SortedJson& camera : json.at("cameras")) {
     ASSIGN_OR_RETURN(auto view, ToView(camera));
     if (view.masks.size() != extras.brightness.size()) {
-      return Fail({},
-                  "found {} values of 'brightness' in a capture recording, but {} masks of a camera; allowed: equal "
-                  "numbers",
-                  extras.brightness.size(), view.masks.size());
+      return Fail(
+          {},
+          "found {} values of 'brightness' in a capture recording, but {} masks of a camera; allowed: equal numbers",
+          extras.brightness.size(), view.masks.size());
     }
     extras.views.push_back(std::move(view));
   }
@@ -135,9 +133,9 @@ Result<CaptureExtras> ToExtras(const SortedJson& json) {
     extras.moments.push_back(ToMoment(json_moment));
     const CaptureExtras::Moment& moment = extras.moments.back();
     if (moment.frame >= extras.brightness.size() || moment.marks.size() != extras.views.size()) {
-      return Fail({},
-                  "in this capture recording, a moment has a frame that does not exist, or its marks do not match the "
-                  "cameras");
+      return Fail(
+          {},
+          "in this capture recording, a moment has a frame that does not exist, or its marks do not match the cameras");
     }
   }
   extras.bvh = json.at("bvh");
@@ -172,9 +170,7 @@ std::string WriteCaptureExtras(const CaptureExtras& extras) {
 
 Result<CaptureExtras> ReadCaptureExtras(std::string_view text) {
   if (text.find('\0') != std::string_view::npos)
-    return Fail({},
-                "this capture recording cannot be read: it contains a "
-                "zero byte");
+    return Fail({}, "this capture recording cannot be read: it contains a zero byte");
   try {
     return ToExtras(SortedJson::parse(text));
   } catch (const SortedJson::exception& error) {

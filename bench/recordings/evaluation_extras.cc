@@ -50,18 +50,16 @@ Result<EvaluationExtras> ToExtras(const Json& json) {
   }
   for (const int parent : truth.parents) {
     if (parent < -1 || parent >= joints)
-      return Fail({},
-                  "found parent {}, but there are {} joints; allowed: the index of a joint, or -1 for a joint "
-                  "without a parent",
-                  parent, joints);
+      return Fail(
+          {},
+          "found parent {}, but there are {} joints; allowed: the index of a joint, or -1 for a joint without a parent",
+          parent, joints);
   }
   extras.answer = truth;
   RETURN_IF_ERROR(ReadFrames(json.at("truth"), truth));
   RETURN_IF_ERROR(ReadFrames(json.at("answer"), extras.answer));
   if (truth.positions.size() != extras.answer.positions.size())
-    return Fail({},
-                "the two motions have different "
-                "numbers of frames");
+    return Fail({}, "the two motions have different numbers of frames");
   return extras;
 }
 

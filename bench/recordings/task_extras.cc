@@ -9,16 +9,13 @@ namespace etude {
 
 static void Describe(RecordFields& fields, IkExtras& extras) {
   fields.Tolerated("iterations", extras.iterations,
-                   "for each frame, the iteration that it shows, counted from 0; the "
-                   "numbers never decrease");
+                   "for each frame, the iteration that it shows, counted from 0; the numbers never decrease");
   fields.Tolerated("position_error_max_cm", extras.position_error_max_cm,
-                   "for each frame, the position error of the "
-                   "worst end effector");
+                   "for each frame, the position error of the worst end effector");
   fields.Tolerated("orientation_error_max_deg", extras.orientation_error_max_deg,
                    "for each frame, the orientation error of the worst end effector, as a mean over its axes");
   fields.Tolerated("axis_error_max_deg", extras.axis_error_max_deg,
-                   "for each frame, the error of the worst single "
-                   "axis");
+                   "for each frame, the error of the worst single axis");
   fields.Tolerated("targets_m", extras.targets_m,
                    "target position [x, y, z] of each end effector, in the order of the joint tree; null if an end "
                    "effector has no target position");
@@ -36,15 +33,12 @@ static void Describe(RecordFields& fields, TransitionExtras::Point& point) {
 static void Describe(RecordFields& fields, TransitionExtras::Candidate& candidate) {
   fields.Tolerated("point", candidate.point, "index of the candidate's transition point, counted from 0");
   fields.Required("from_frame", candidate.from_frame,
-                  "the frame at which the motion leaves a clip at that transition "
-                  "point");
+                  "the frame at which the motion leaves a clip at that transition point");
   fields.Required("to_frame", candidate.to_frame,
-                  "the frame at which the motion enters the next clip at that "
-                  "transition point");
+                  "the frame at which the motion enters the next clip at that transition point");
   fields.Required("distance", candidate.distance, "fuzzy distance between the two frames");
   fields.Tolerated("partials", candidate.partials,
-                   "for each feature, the same values as in `partials` of a transition "
-                   "point");
+                   "for each feature, the same values as in `partials` of a transition point");
   fields.Tolerated("cost", candidate.cost,
                    "the cost by which the method ranks candidates; null if it ranks them by distance");
   fields.Tolerated("outcome", candidate.outcome, "`taken`, `too far`, `later` or `worse`");
@@ -67,8 +61,7 @@ static void Describe(RecordFields& fields, TransitionExtras& extras) {
   fields.Tolerated("weights", extras.weights, "the weight S_k of each feature");
   fields.Tolerated("partials", extras.partials, "partial distance of each feature at the worst transition point");
   fields.Tolerated("pairs_seen", extras.pairs_seen,
-                   "number of pairs of frames that the time budget allowed to "
-                   "compare");
+                   "number of pairs of frames that the time budget allowed to compare");
   fields.Tolerated("pairs_matched", extras.pairs_matched, "number of pairs of frames that match");
   fields.ToleratedList("transition_points", extras.points, "the points at which the motion changed clips, in order");
   fields.Tolerated("cost_unit", extras.cost_unit, "unit of the candidates' `cost`; empty if the method has no costs");
@@ -95,9 +88,9 @@ static void Describe(RecordFields& fields, DetectionExtras::Event& event) {
   fields.Required("end_frame", event.end_frame, "the first frame after the performance's window");
   fields.Required("called_right", event.called_right, "whether the method judged the performance right");
   fields.Required("score", event.score, "the method's confidence that the performance was right");
-  fields.Optional("called_frame", event.called_frame,
-                  "the frame in which the method judged the performance right; absent if the method did not judge it "
-                  "right");
+  fields.Optional(
+      "called_frame", event.called_frame,
+      "the frame in which the method judged the performance right; absent if the method did not judge it right");
 }
 
 static void Describe(RecordFields& fields, DetectionExtras::Alarm& alarm) {
@@ -119,8 +112,7 @@ static void Describe(RecordFields& fields, DetectionExtras& extras) {
 static void Describe(RecordFields& fields, CoachExtras::Mode& mode) {
   fields.Required("mode", mode.mode, "`dance`, `correct`, …");
   fields.Required("begin_frame", mode.begin_frame,
-                  "first frame of the mode; the mode lasts until the next mode "
-                  "begins");
+                  "first frame of the mode; the mode lasts until the next mode begins");
 }
 
 static void Describe(RecordFields& fields, CoachExtras::Performance& performance) {
@@ -134,8 +126,7 @@ static void Describe(RecordFields& fields, CoachExtras::Performance& performance
 
 static void Describe(RecordFields& fields, CoachExtras::Words& words) {
   fields.Required("begin_frame", words.begin_frame,
-                  "first frame in which the words are shown; they stay until the "
-                  "next words");
+                  "first frame in which the words are shown; they stay until the next words");
   fields.Required("say", words.say, "a short message to the learner");
   fields.Required("hint", words.hint, "what the learner should do better");
   fields.Optional("picture", words.picture,
@@ -157,8 +148,7 @@ static void Describe(RecordFields& fields, CoachExtras& extras) {
   fields.List("decisions", extras.decisions, "decisions of the coach's policy");
   fields.List("corrections", extras.corrections, "frames in which the policy decided on a correction");
   fields.List("transitions", extras.transitions,
-              "for each change of clip by the coach, the last frame before the "
-              "change");
+              "for each change of clip by the coach, the last frame before the change");
   fields.List("beats_s", extras.beats_s, "times of the music's beats, in seconds from the first frame");
   fields.List("joint_states", extras.joint_states, "the same as `joint_states` of `detection`");
 }
@@ -177,12 +167,10 @@ static void Describe(RecordFields& fields, PlausibilityExtras& extras) {
 
 std::string RecordingsAsMarkdown() {
   return "# What recordings contain besides their motions\n"
-         "\nWritten by `etude list recordings`; a test compares the two. A file of `recordings/` states its "
-         "version\n"
+         "\nWritten by `etude list recordings`; a test compares the two. A file of `recordings/` states its version\n"
          "(`recording`: 2; etude refuses version 1, which did not list the joints). It lists the `joints` in the "
          "order\n"
-         "of a pose's numbers (x, y, z of each joint). It states the `unit` of these numbers and the axis that "
-         "points\n"
+         "of a pose's numbers (x, y, z of each joint). It states the `unit` of these numbers and the axis that points\n"
          "`up`. Its `tracks` contain the motions of the cell by name, and its `extras` is an object that depends on "
          "the\n"
          "task. Frames are counted from the first frame of the recording, unless a key states otherwise. For "
@@ -194,10 +182,8 @@ std::string RecordingsAsMarkdown() {
          RecordFields::Page<IkExtras>() +
          "\n## transition\n\nThe track `coach` is the motion from some seconds before the transition to some seconds "
          "after the judged\n"
-         "frames. The track `left` is the clip that the motion leaves, in the same frames and up to 0.4 s longer. "
-         "The\n"
-         "track `wanted` is the wanted clip without the join; it begins at the last of `transition_frames`. The "
-         "track\n"
+         "frames. The track `left` is the clip that the motion leaves, in the same frames and up to 0.4 s longer. The\n"
+         "track `wanted` is the wanted clip without the join; it begins at the last of `transition_frames`. The track\n"
          "`through` is a clip that is played in between, without joins; it begins at the first of "
          "`transition_frames`.\nRecordings of older runs contain only `coach`.\n\n" +
          RecordFields::Page<TransitionExtras>() +

@@ -128,9 +128,7 @@ Result<Pack> ReadPack(std::string_view bytes, const std::string& file) {
   if (!json) return is_no_pack(json.error().message);
   try {
     if (json->at("etude_pack") != kPackVersion) {
-      return Fail(place,
-                  "found a packed cell of version {}; this program reads version "
-                  "{}",
+      return Fail(place, "found a packed cell of version {}; this program reads version {}",
                   json->at("etude_pack").dump(), kPackVersion);
     }
     ASSIGN_OR_RETURN(auto suite, DecodeSetup(json->at("setup"), place));

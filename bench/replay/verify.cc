@@ -49,9 +49,7 @@ Result<Json> SummaryOf(const FinishedRun& run, int jobs) {
 }
 
 Result<Verified> VerifySummary(const FilePath& folder, const FinishedRun& run, int jobs) {
-  Verified verified{fmt::format("summary.json: equal to a summary computed again from {} "
-                                "rows",
-                                CountRows(run.data)),
+  Verified verified{fmt::format("summary.json: equal to a summary computed again from {} rows", CountRows(run.data)),
                     {}};
   ASSIGN_OR_RETURN(const auto then, ReadJsonFile(folder / "summary.json"));
   ASSIGN_OR_RETURN(const auto now, SummaryOf(run, jobs));
@@ -287,11 +285,10 @@ Verified VerifyCells(const ReplayOutcome& replayed) {
   for (const CellCheck& check : replayed.checks) {
     if (check.same) continue;
     const bool is_of_machine = check.stage == "status" && (IsOfMachine(check.then) || IsOfMachine(check.now));
-    verified.differences.push_back(
-        fmt::format("{}: {} was {} and is {}{}", check.cell, check.stage, check.then, check.now,
-                    is_of_machine ? "; either the machines differ, or the run was forged; this check cannot "
-                                    "distinguish the two"
-                                  : ""));
+    verified.differences.push_back(fmt::format(
+        "{}: {} was {} and is {}{}", check.cell, check.stage, check.then, check.now,
+        is_of_machine ? "; either the machines differ, or the run was forged; this check cannot distinguish the two"
+                      : ""));
   }
   return verified;
 }

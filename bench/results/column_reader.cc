@@ -171,19 +171,15 @@ class ScenarioColumns {
     }
     for (const std::uint8_t status : status_->Numbers<std::uint8_t>()) {
       if (status >= kStatuses.size())
-        return Fail(place,
-                    "status.npy contains the index {}, but there are only {} "
-                    "statuses",
-                    status, kStatuses.size());
+        return Fail(place, "status.npy contains the index {}, but there are only {} statuses", status,
+                    kStatuses.size());
     }
     for (std::size_t i = 0; i < texts_.size(); ++i) {
       if (!texts_[i]) continue;
       for (const std::uint32_t text : texts_[i]->Numbers<std::uint32_t>()) {
         if (text >= index_.texts.size())
-          return Fail(place,
-                      "{}.npy contains the index {}, but there are only {} "
-                      "texts",
-                      kTextColumns[i], text, index_.texts.size());
+          return Fail(place, "{}.npy contains the index {}, but there are only {} texts", kTextColumns[i], text,
+                      index_.texts.size());
       }
     }
     // The ends of the curves must ascend, and the last end must be the number of values.
@@ -193,10 +189,7 @@ class ScenarioColumns {
       const std::array<std::size_t, 1> values = {curve.Numbers<double>().size()};
       for (const std::uint64_t end : ends.Numbers<std::uint64_t>()) {
         if (end < last || end > values[0])
-          return Fail(place,
-                      "the curves of {} are not stored one after the "
-                      "other",
-                      name);
+          return Fail(place, "the curves of {} are not stored one after the other", name);
         last = end;
       }
       if (last != values[0] || !curve.HasShape(kNpyType<double>, values)) {

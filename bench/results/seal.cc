@@ -54,15 +54,11 @@ Result<Digests> ReadSeal(const FilePath& path) {
   ASSIGN_OR_RETURN(const auto json, ReadJsonFile(path));
   try {
     if (json.at("version").get<int>() != kSealVersion) {
-      return Fail({path.string()},
-                  "found a seal of version {}; this program reads version "
-                  "{}",
+      return Fail({path.string()}, "found a seal of version {}; this program reads version {}",
                   json.at("version").dump(), kSealVersion);
     }
     if (json.size() != 3)
-      return Fail({path.string()},
-                  "is not a seal; allowed: only the keys format, version and "
-                  "files");
+      return Fail({path.string()}, "is not a seal; allowed: only the keys format, version and files");
     return json.at("files").get<Digests>();
   } catch (const Json::exception& error) {
     return Fail({path.string()}, "is not a seal: {}", error.what());

@@ -36,8 +36,8 @@ Result<void> CheckManifest(const fs::path& folder, const JournalHead& head, bool
   if (found.empty()) return Fail(place, "the shard's manifest.json was changed after the shard began");
   if (OfPrograms(found) == found) {
     return Fail(place,
-                "used different versions of outside programs than the shards before it: {}; run this shard "
-                "again with --overwrite",
+                "used different versions of outside programs than the shards before it: {}; run this shard again with "
+                "--overwrite",
                 InWords(found));
   }
   if (!AreOfLibraries(found))
@@ -68,10 +68,7 @@ Result<void> AddShard(const fs::path& folder, const std::string& build, bool oth
   }
   const auto [other, is_new] = shards.folders.emplace(head.shard.index, folder);
   if (!is_new)
-    return Fail(place,
-                "is shard {}, but {} is the same "
-                "shard",
-                ToString(head.shard), other->second.string());
+    return Fail(place, "is shard {}, but {} is the same shard", ToString(head.shard), other->second.string());
   ASSIGN_OR_RETURN(const auto recorded, OtherLibrariesOf(folder));
   shards.other_libraries.insert(shards.other_libraries.end(), recorded.begin(), recorded.end());
   return {};
@@ -110,10 +107,8 @@ std::string WhatLacks(const Plan& plan, const Shard& shard, const fs::path& fold
     if (++lacking == 1) first = plan.IdentityOf(cell).Id();
   }
   if (lacking == 0) return "";
-  return fmt::format(
-      "shard {} in {} lacks {} of {} cells; the first missing cell is "
-      "{}",
-      ToString(shard), folder.string(), lacking, wanted, first);
+  return fmt::format("shard {} in {} lacks {} of {} cells; the first missing cell is {}", ToString(shard),
+                     folder.string(), lacking, wanted, first);
 }
 
 }  // namespace
@@ -159,8 +154,7 @@ Result<RunOutcome> Merge(const MergeOptions& options, const std::function<void(d
   ASSIGN_OR_RETURN(const auto state, LookAtFolder(options.output));
   if (state != FolderState::kFree && !options.overwrite) {
     return Fail({options.output, 0, 0},
-                "already contains a run; --overwrite replaces this run, -o chooses another "
-                "folder");
+                "already contains a run; --overwrite replaces this run, -o chooses another folder");
   }
   ASSIGN_OR_RETURN(auto claimed, RunFolder::Claim(options.output, false));
   outcome.why_unlocked = claimed.why_unlocked();

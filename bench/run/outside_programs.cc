@@ -170,9 +170,7 @@ Result<void> CheckFiles(const PreparedScenario& scenario, const ScenarioProgram&
           program.role, program.entry->name, file);
     }
     if (fs::exists(file, error)) continue;
-    return Fail({scenario.setup().file},
-                "'files' of {} '{}': '{}' does not exist; allowed: files and "
-                "folders",
+    return Fail({scenario.setup().file}, "'files' of {} '{}': '{}' does not exist; allowed: files and folders",
                 program.role, program.entry->name, file);
   }
   return {};
@@ -235,11 +233,10 @@ Result<Fence> FenceFor(std::span<const PreparedScenario> scenarios, const Outsid
       // If worlds are secret, the sandbox must work, and the files that reveal the worlds must be hidden.
       if (!is_secret || !rules.is_fenced) continue;
       if (!fence.IsUp()) {
-        return Fail(
-            {scenario.setup().file},
-            "this scenario has secret worlds, but its outside programs cannot run in a fence: {}; --no-fence runs the "
-            "programs without a fence, and the run's page reports this",
-            fence.description());
+        return Fail({scenario.setup().file},
+                    "this scenario has secret worlds, but its outside programs cannot run in a fence: {}; --no-fence "
+                    "runs the programs without a fence, and the run's page reports this",
+                    fence.description());
       }
       RETURN_IF_ERROR(CheckShown(scenario, program, ViewOf(command, program.entry->files), folder, key));
     }

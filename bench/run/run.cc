@@ -38,11 +38,10 @@ Result<FolderState> CheckFolder(const fs::path& folder, const RunOptions& option
   if (!state || *state == FolderState::kFree || options.resume || options.overwrite) return state;
   if (const auto head = ReadJournalHead(folder);
       head && !head->shard.IsWhole() && Exists(Inside(folder) / "host.json")) {
-    return Fail(
-        {folder.string()},
-        "already contains the finished shard {}; 'etude merge' makes one run of all shards, --overwrite replaces this "
-        "shard, -o chooses another folder",
-        ToString(head->shard));
+    return Fail({folder.string()},
+                "already contains the finished shard {}; 'etude merge' makes one run of all shards, --overwrite "
+                "replaces this shard, -o chooses another folder",
+                ToString(head->shard));
   }
   return Fail({folder.string(), 0, 0}, "already contains {}; {}--overwrite replaces it, -o chooses another folder",
               *state == FolderState::kFinished ? "a run" : "an unfinished run",
@@ -61,23 +60,19 @@ Result<void> CheckManifest(const fs::path& folder, const std::string& manifest, 
   const bool was_secret = then.is_object() && then.value("seed", Json()).is_string();
   if (was_secret && now.at("seed").is_number()) {
     return Fail({path.string()},
-                "the worlds of this run are secret; to resume the run, give the key again with "
-                "--seed-file");
+                "the worlds of this run are secret; to resume the run, give the key again with --seed-file");
   }
   const Json version = was_secret ? then.value("secret_worlds", Json(1)) : Json();
   if (version.is_number_integer()) RETURN_IF_ERROR(CheckSecretWorlds(version.get<int>(), {path.string()}));
   const std::vector<JsonDifference> differences = CompareManifests(then, now);
   constexpr const char* kCure =
-      "--resume continues only the same run; --overwrite replaces the old run, -o chooses "
-      "another folder";
+      "--resume continues only the same run; --overwrite replaces the old run, -o chooses another folder";
   if (const auto of_programs = OfPrograms(differences); !of_programs.empty() && of_programs == differences) {
     if (auto told = RequirePrograms(then, scenarios, {path.string()}); !told) {
       return Fail(told.error().place, "{}; {}", told.error().message, kCure);
     }
-    return Fail({path.string()},
-                "this run used other versions of outside programs: {}; "
-                "{}",
-                InWords(differences), kCure);
+    return Fail({path.string()}, "this run used other versions of outside programs: {}; {}", InWords(differences),
+                kCure);
   }
   if (!AreOfLibraries(differences)) {
     return Fail({path.string()}, "belongs to another run: {}; {}", InWords(differences), kCure);
@@ -96,9 +91,7 @@ Result<void> CheckSamePrograms(const std::string& path, const Json& now, std::sp
   RETURN_IF_ERROR(RequirePrograms(then, scenarios, {path}));
   const auto differences = OfPrograms(CompareManifests(then, now));
   if (differences.empty()) return {};
-  return Fail({path},
-              "this run used other versions of outside programs: {}; run its scenario instead of its "
-              "manifest",
+  return Fail({path}, "this run used other versions of outside programs: {}; run its scenario instead of its manifest",
               InWords(differences));
 }
 

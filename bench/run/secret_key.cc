@@ -35,9 +35,9 @@ Result<std::optional<SecretKey>> FindSecretKey(const std::string& file) {
     if (!words) return Fail({file}, "found {} bytes that are not a key; allowed: {}", bytes.size(), kAllowed);
     std::error_code error;
     if (std::filesystem::hard_link_count(file, error) > 1 && !error) {
-      return Fail({file},
-                  "has a second name (a hard link), through which a program could read the key; allowed: a "
-                  "copy of the file");
+      return Fail(
+          {file},
+          "has a second name (a hard link), through which a program could read the key; allowed: a copy of the file");
     }
     return SecretKey{*words, std::filesystem::absolute(file, error).lexically_normal()};
   }
@@ -67,9 +67,7 @@ Result<void> OpenSeeds(const std::optional<SecretKey>& key, const Place& place, 
   if (!key) return Fail(place, "has secret worlds; give the key with the digest {} by --seed-file", Short(suite.seed));
   const Seed seed = Seed::Secret(key->words);
   if (seed.WithoutKey() != suite.seed.WithoutKey()) {
-    return Fail(place,
-                "has secret worlds of the key with digest {}, but the given key has digest "
-                "{}",
+    return Fail(place, "has secret worlds of the key with digest {}, but the given key has digest {}",
                 Short(suite.seed), Short(seed));
   }
   RETURN_IF_ERROR(CheckSecretWorlds(suite.secret_worlds, place));

@@ -160,9 +160,7 @@ Result<SuiteSetup> DecodeSetup(const Json& json, const Place& place) {
       ASSIGN_OR_RETURN(const int trials, TrialsOf(scenario, place));
       ASSIGN_OR_RETURN(const Seed seed, DecodeSeed(scenario.at("seed"), place));
       if (!setup.seed.IsPlain() && seed != setup.seed)
-        return Fail(place,
-                    "one of the scenarios has a different secret "
-                    "seed than the suite");
+        return Fail(place, "one of the scenarios has a different secret seed than the suite");
       if (setup.seed.IsPlain() && !seed.IsPlain())
         return Fail(place, "some of the seeds are secret and others are public");
       setup.scenarios.push_back({scenario.at("file").get<std::string>(), scenario.at("name").get<std::string>(), seed,
@@ -342,10 +340,7 @@ Result<std::vector<PreparedScenario>> PrepareAll(const SuiteSetup& suite) {
     const Scenario& scenario = prepared.scenario();
     cells += scenario.conditions.size() * scenario.methods.size() * static_cast<std::size_t>(setup.trials);
     if (cells > kMaxCells)
-      return Fail({setup.file, 0, 0},
-                  "with this scenario, the run has more than {} "
-                  "cells",
-                  kMaxCells);
+      return Fail({setup.file, 0, 0}, "with this scenario, the run has more than {} cells", kMaxCells);
     scenarios.push_back(std::move(prepared));
   }
   return scenarios;
@@ -372,10 +367,8 @@ Result<void> AddScoredMethod(const ScoredMethod& method, Scenario& scenario) {
   }
   const auto has_its_name = [&](const MethodEntry& other) { return other.name == method.name; };
   if (std::any_of(methods.begin(), methods.end(), has_its_name)) {
-    return Fail({scenario.file, 0, 0},
-                "scenario {} already has a method with the name "
-                "'{}'",
-                scenario.name, method.name);
+    return Fail({scenario.file, 0, 0}, "scenario {} already has a method with the name '{}'", scenario.name,
+                method.name);
   }
   MethodEntry entry;
   entry.name = method.name;

@@ -169,14 +169,12 @@ Result<ScenarioSetup> SetUp(Scenario& scenario, const std::string& file, const s
   const bool replaced = !options.clips.empty() && uses_clips;
   if (replaced && !scenario.libraries.empty()) {
     return Fail({file, 0, 0},
-                "--clips: not allowed, because scenario {} uses libraries; --library NAME=CLIPS adds a "
-                "library",
+                "--clips: not allowed, because scenario {} uses libraries; --library NAME=CLIPS adds a library",
                 scenario.name);
   }
   if (replaced && !scenario.streams.files.empty()) {
     return Fail({file, 0, 0},
-                "--clips: not allowed, because scenario {} uses recordings; --streams replaces the "
-                "recordings",
+                "--clips: not allowed, because scenario {} uses recordings; --streams replaces the recordings",
                 scenario.name);
   }
   const bool uses_recordings = FindTaskKind(scenario.task)->uses_recordings;
@@ -301,8 +299,7 @@ Result<SuiteSetup> ReadSuite(const RunOptions& options) {
       cells += scenario.conditions.size() * scenario.methods.size() * static_cast<std::size_t>(trials);
       if (cells > kMaxCells) {
         return Fail({file, 0, 0},
-                    "with this scenario ({} conditions × {} methods × {} trials), the run has more than "
-                    "{} cells",
+                    "with this scenario ({} conditions × {} methods × {} trials), the run has more than {} cells",
                     scenario.conditions.size(), scenario.methods.size(), trials, kMaxCells);
       }
       ASSIGN_OR_RETURN(auto setup, SetUp(scenario, file, digest.Hex(), trials, options, suite.sources, users));
@@ -327,10 +324,10 @@ Result<SuiteSetup> ReadSuite(const RunOptions& options) {
 Result<void> RefuseFiles(const SuiteSetup& suite) {
   for (const ScenarioSetup& setup : suite.scenarios) {
     if (setup.files.empty()) continue;
-    return Fail({setup.file, 0, 0},
-                "scenario {} judges files, so it has no problems to export or score; use 'etude run' or 'etude "
-                "evaluate'",
-                setup.name);
+    return Fail(
+        {setup.file, 0, 0},
+        "scenario {} judges files, so it has no problems to export or score; use 'etude run' or 'etude evaluate'",
+        setup.name);
   }
   return {};
 }
@@ -340,8 +337,7 @@ Result<SuiteSetup> ReadSuiteToRun(const RunOptions& options) {
   if (!options.from.empty()) RETURN_IF_ERROR(OpenSeeds(options.key, {options.from}, suite));
   if (!suite.scored) return suite;
   return Fail({options.from, 0, 0},
-              "describes the scored answers of '{}', and etude cannot run answers; use 'etude "
-              "score'",
+              "describes the scored answers of '{}', and etude cannot run answers; use 'etude score'",
               suite.scored->name);
 }
 

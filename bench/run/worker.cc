@@ -101,9 +101,7 @@ Result<void> Work(std::istream& in, std::ostream& out) {
     RETURN_IF_ERROR(Execute(order, runners, out));
   }
   if (&in == &std::cin && std::ferror(stdin) != 0)
-    return FailOfMachine(
-        "a worker process cannot read its "
-        "instructions");
+    return FailOfMachine("a worker process cannot read its instructions");
   return {};
 }
 

@@ -31,9 +31,7 @@ std::vector<SweptValue> ReadWhere(Fields& fields, const Scenario& scenario) {
   if (node == nullptr) return where;
   if (node->kind != Node::Kind::kMapping) {
     fields.Complain(node->place,
-                    "'where' must map each swept parameter to one of the parameter's values, "
-                    "found " +
-                        Describe(*node));
+                    "'where' must map each swept parameter to one of the parameter's values, found " + Describe(*node));
     return where;
   }
   // Check the swept parameters and their values.
@@ -78,19 +76,16 @@ Field<Options> KnownName(const std::string& key, std::string Options::*member, s
 void CheckExpectation(Fields& fields, Expectation& expectation) {
   expectation.place = fields.node().place;
   if (expectation.below == expectation.of || expectation.above == expectation.of) {
-    fields.Complain(expectation.place, fmt::format("an expectation compares '{}' with itself; allowed: two different "
-                                                   "methods",
-                                                   expectation.of));
+    fields.Complain(
+        expectation.place,
+        fmt::format("an expectation compares '{}' with itself; allowed: two different methods", expectation.of));
   }
   const int claims = !expectation.below.empty() + !expectation.above.empty() + expectation.at_most.has_value() +
                      expectation.at_least.has_value();
   if (claims == 1) return;
-  fields.Complain(
-      expectation.place,
-      fmt::format(
-          "an expectation needs exactly one of the keys below, above (a method), at_most, at_least (a number); found "
-          "{}",
-          claims));
+  fields.Complain(expectation.place, fmt::format("an expectation needs exactly one of the keys below, above (a "
+                                                 "method), at_most, at_least (a number); found {}",
+                                                 claims));
 }
 
 void CheckTimeRatio(Fields& fields, TimeRatio& ratio) {
@@ -129,33 +124,31 @@ FieldTable<Expectation> ExpectationFields(const Scenario& scenario, const std::v
   using Key = Field<Expectation>;
   const std::vector<std::string> methods = MethodNames(scenario);
   const char* another = "(not claimed)";
-  return {{KnownName("metric", &Expectation::metric, "a metric of the task", metrics,
-                     "The metric whose values are compared."),
-           KnownName("of", &Expectation::of, "a method", methods, "The method that the expectation is about."),
-           KnownName("below", &Expectation::below, "a method", methods,
-                     "In the same worlds, the method `of` must have lower values than this method.")
-               .WhenAbsent(another),
-           KnownName("above", &Expectation::above, "a method", methods,
-                     "In the same worlds, the method `of` must have higher values than this method.")
-               .WhenAbsent(another),
-           Key::Number("at_most", &Expectation::at_most, {},
-                       "The largest allowed value of the statistic of method "
-                       "`of`.")
-               .WhenAbsent(another),
-           Key::Number("at_least", &Expectation::at_least, {},
-                       "The smallest allowed value of the statistic of method "
-                       "`of`.")
-               .WhenAbsent(another),
-           Key::Name("statistic", &Expectation::statistic, {{"median", "median"}, {"mean", "mean"}, {"p95", "p95"}},
-                     "The statistic that `at_most` and `at_least` limit."),
-           Key::Number("confidence", &Expectation::confidence, {0.5, 0.999},
-                       "The confidence with which `below` and `above` must hold."),
-           {{"where",
-             {"a mapping: for each swept parameter, one of its values", R"({"type":"object"})"},
-             "{}",
-             "The conditions in which the expectation is checked; by default all conditions."},
-            [&](Fields& fields, Expectation& expectation) { expectation.where = ReadWhere(fields, scenario); }}},
-          CheckExpectation};
+  return {
+      {KnownName("metric", &Expectation::metric, "a metric of the task", metrics,
+                 "The metric whose values are compared."),
+       KnownName("of", &Expectation::of, "a method", methods, "The method that the expectation is about."),
+       KnownName("below", &Expectation::below, "a method", methods,
+                 "In the same worlds, the method `of` must have lower values than this method.")
+           .WhenAbsent(another),
+       KnownName("above", &Expectation::above, "a method", methods,
+                 "In the same worlds, the method `of` must have higher values than this method.")
+           .WhenAbsent(another),
+       Key::Number("at_most", &Expectation::at_most, {}, "The largest allowed value of the statistic of method `of`.")
+           .WhenAbsent(another),
+       Key::Number("at_least", &Expectation::at_least, {},
+                   "The smallest allowed value of the statistic of method `of`.")
+           .WhenAbsent(another),
+       Key::Name("statistic", &Expectation::statistic, {{"median", "median"}, {"mean", "mean"}, {"p95", "p95"}},
+                 "The statistic that `at_most` and `at_least` limit."),
+       Key::Number("confidence", &Expectation::confidence, {0.5, 0.999},
+                   "The confidence with which `below` and `above` must hold."),
+       {{"where",
+         {"a mapping: for each swept parameter, one of its values", R"({"type":"object"})"},
+         "{}",
+         "The conditions in which the expectation is checked; by default all conditions."},
+        [&](Fields& fields, Expectation& expectation) { expectation.where = ReadWhere(fields, scenario); }}},
+      CheckExpectation};
 }
 
 std::vector<std::string> SuccessMetricsOf(const TaskKind& kind, const Scenario& scenario) {
@@ -171,15 +164,12 @@ std::vector<std::string> SuccessMetricsOf(const TaskKind& kind, const Scenario& 
 
 FieldTable<Scenario> SuccessFields(const std::vector<std::string>& metrics) {
   return {
-      {KnownName("metric", &Scenario::success,
-                 "a share or score of the task whose higher values are "
-                 "better",
-                 metrics, "The metric that measures success. It is a share of all cells, or a share within each cell.")
+      {KnownName("metric", &Scenario::success, "a share or score of the task whose higher values are better", metrics,
+                 "The metric that measures success. It is a share of all cells, or a share within each cell.")
            .WhenAbsent("(the task's)"),
-       Field<Scenario>::Number(
-           "matters", &Scenario::success_matters, {0.001, 1},
-           "The smallest difference between two methods that matters, as a share. In task evaluation, the default "
-           "is 0.01.")}};
+       Field<Scenario>::Number("matters", &Scenario::success_matters, {0.001, 1},
+                               "The smallest difference between two methods that matters, as a share. In task "
+                               "evaluation, the default is 0.01.")}};
 }
 
 FieldTable<TimeRatio> TimeRatioFields(const Scenario& scenario) {
@@ -196,19 +186,17 @@ FieldTable<TimeRatio> TimeRatioFields(const Scenario& scenario) {
 FieldTable<TailRule> TailFields() {
   using Key = Field<TailRule>;
   constexpr Range kWorlds{0, 1e6};
-  return {
-      {Key::Number("times", &TailRule::times, {1, 1e6},
-                   "A world is far worse if its value is worse by more than this number of practical thresholds."),
-       Key::Number("worlds", &TailRule::worlds, kWorlds,
-                   "A comparison with at least this number of far worse worlds is a regression. 0 turns this rule "
-                   "off."),
-       Key::Number("share", &TailRule::share, {0, 1},
-                   "The number of far worse worlds must also be at least this share of the compared worlds. Among many "
-                   "worlds, rounding alone makes some worlds far worse."),
-       Key::Number(
-           "lost", &TailRule::lost, kWorlds,
-           "A comparison in which at least this number of worlds lost their value or answer is a regression. 0 turns "
-           "this rule off.")}};
+  return {{Key::Number("times", &TailRule::times, {1, 1e6},
+                       "A world is far worse if its value is worse by more than this number of practical thresholds."),
+           Key::Number(
+               "worlds", &TailRule::worlds, kWorlds,
+               "A comparison with at least this number of far worse worlds is a regression. 0 turns this rule off."),
+           Key::Number("share", &TailRule::share, {0, 1},
+                       "The number of far worse worlds must also be at least this share of the compared worlds. Among "
+                       "many worlds, rounding alone makes some worlds far worse."),
+           Key::Number("lost", &TailRule::lost, kWorlds,
+                       "A comparison in which at least this number of worlds lost their value or answer is a "
+                       "regression. 0 turns this rule off.")}};
 }
 
 FieldTable<GateRules> GateFields(const Scenario& scenario, const std::vector<std::string>& metrics) {

@@ -45,9 +45,7 @@ void CheckKeysOfBuiltIn(Fields& method, const TaskKind& kind) {
   for (const char* key : {"options", "files", "time_s"}) {
     const Node* value = method.Raw(key);
     if (value != nullptr)
-      method.Complain(value->place, fmt::format("'{}' is allowed only for methods with "
-                                                "'exec'",
-                                                key));
+      method.Complain(value->place, fmt::format("'{}' is allowed only for methods with 'exec'", key));
   }
   for (const KeyInfo& key : kind.method_keys) method.Raw(key.key);
 }
@@ -69,15 +67,12 @@ Result<MethodEntry> ReadSeated(const Node& node, const TaskKind& kind) {
   MethodEntry entry;
   OutsideMethodFields().ReadKeys(method, entry);
   if (kind.seats.empty()) {
-    return Fail(node.Find("exec")->place,
-                "'exec' is not allowed in task {}, because this task runs no "
-                "programs",
+    return Fail(node.Find("exec")->place, "'exec' is not allowed in task {}, because this task runs no programs",
                 kind.name);
   }
   entry.seat = method.Choice("seat", kind.seats, "");
   if (entry.seat.empty() && method.ok()) {
-    method.Complain(node.place, fmt::format("in task {}, a method with 'exec' needs the key 'seat'; allowed: "
-                                            "{}",
+    method.Complain(node.place, fmt::format("in task {}, a method with 'exec' needs the key 'seat'; allowed: {}",
                                             kind.name, fmt::join(kind.seats, ", ")));
   }
   for (const KeyInfo& key : kind.method_keys) method.Raw(key.key);
@@ -138,12 +133,11 @@ const FieldTable<MethodEntry>& OutsideMethodFields() {
        {{"options",
          {"a mapping; with `exec`", R"({"type":"object"})"},
          "{}",
-         "Options that the program receives as "
-         "JSON."},
+         "Options that the program receives as JSON."},
         [](Fields& method, MethodEntry& entry) { entry.options_json = ReadOptions(method); }},
-       Key::Texts("files", &MethodEntry::files, "a list of folders and files; with `exec`",
-                  "Folders and files that the program can read inside its fence. By default, it can read its own "
-                  "folder."),
+       Key::Texts(
+           "files", &MethodEntry::files, "a list of folders and files; with `exec`",
+           "Folders and files that the program can read inside its fence. By default, it can read its own folder."),
        Key::Number("time_s", &MethodEntry::time_s, {0.001, kMaxTime_s},
                    "Time limit for one problem or one step, in seconds.")
            .WhenAbsent("(`limits.time_s`)")

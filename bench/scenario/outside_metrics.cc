@@ -50,9 +50,7 @@ Result<void> SpellOut(Json& track, const Place& place) {
   // The track has the short form: a number of frames, and the positions of some joints.
   const Json frames = track.value("frames", Json());
   if (!frames.is_number_integer() || frames < 1 || frames > kMaxExampleFrames) {
-    return Fail(place,
-                "a track needs either 'poses', or 'frames' (from 1 to {}) and 'joints_m'; found "
-                "{}",
+    return Fail(place, "a track needs either 'poses', or 'frames' (from 1 to {}) and 'joints_m'; found {}",
                 kMaxExampleFrames, ShowJson(track));
   }
   // Fill in the positions of the joints that the track lists.
@@ -109,9 +107,7 @@ void ReadExpected(Fields& fields, MetricExample& example) {
 const FieldTable<MetricExample>& MetricExampleFields() {
   using Key = Field<MetricExample>;
   static const FieldTable<MetricExample> table{
-      {Key::Text("title", &MetricExample::title, "a text",
-                 "A title that states what the vector "
-                 "tests.")
+      {Key::Text("title", &MetricExample::title, "a text", "A title that states what the vector tests.")
            .WhenAbsent("(none)"),
        {{"cell",
          {"a mapping with a list `tracks` and, optionally, `extras`; each track has `name`, `rate_hz`, and either "
@@ -126,8 +122,7 @@ const FieldTable<MetricExample>& MetricExampleFields() {
          "The value that the program must return."},
         ReadExpected},
        Key::Number("tolerance", &MetricExample::tolerance, {0, 1e9},
-                   "Largest allowed absolute error of the returned "
-                   "value.")}};
+                   "Largest allowed absolute error of the returned value.")}};
   return table;
 }
 
@@ -151,9 +146,7 @@ const FieldTable<OutsideMetric>& OutsideMetricFields() {
     }
     // Add the keys about the metric.
     Append<OutsideMetric>(
-        {Key::Text("unit", info(&MetricInfo::unit), "a text",
-                   "Unit of the metric's values, such as `mm` or "
-                   "`deg`.")
+        {Key::Text("unit", info(&MetricInfo::unit), "a text", "Unit of the metric's values, such as `mm` or `deg`.")
              .WhenAbsent("(none)"),
          Key::Name("direction", info(&MetricInfo::direction),
                    {{"lower", Direction::kLowerIsBetter},
@@ -179,8 +172,7 @@ const FieldTable<OutsideMetric>& OutsideMetricFields() {
                    "in per cent."),
          Key::Text("label", info(&MetricInfo::label), "a text", "The metric's name in reports.").WhenAbsent("(`name`)"),
          Key::Text("definition", info(&MetricInfo::definition), "a text",
-                   "One sentence that states what the metric "
-                   "measures.")
+                   "One sentence that states what the metric measures.")
              .WhenAbsent("(none)"),
          // Add the key of the metric's test vectors.
          {{"vectors", ListKind("a list of test vectors", MappingKind("", MetricExampleFields().Describe())), "[]",
@@ -216,10 +208,9 @@ std::vector<std::string> ReadHeadline(Fields& fields, const TaskKind& kind, std:
       continue;
     }
     if (kind.name == kTaskWithoutMotion) {
-      fields.Complain(item.place,
-                      fmt::format("a scenario of task {} cannot define its own metrics, because cells of this task "
-                                  "keep no motion that a program could measure",
-                                  kind.name));
+      fields.Complain(item.place, fmt::format("a scenario of task {} cannot define its own metrics, because cells of "
+                                              "this task keep no motion that a program could measure",
+                                              kind.name));
     }
     auto read = ReadMapping(item, "your own metric", OutsideMetricFields());
     if (!read) {

@@ -133,13 +133,12 @@ const FieldTable<Limits>& LimitFields() {
 
 FieldTable<RecordingSelection> VideoFields(const Scenario& scenario) {
   using Selection = RecordingSelection;
-  return {{{{"compare", ListKind("a list of methods", TextKind("")), "(all)",
-             "The methods whose motions the run "
-             "keeps."},
-            [&](Fields& video, Selection& selection) { ReadFilmedMethods(video, scenario, selection); }},
-           {{"trials", ListKind("a list of whole numbers below `trials`", NumberKind({0, kTrials.highest}, true)),
-             "[0]", "The trials whose motions the run keeps."},
-            [&](Fields& video, Selection& selection) { ReadFilmedTrials(video, scenario, selection); }}}};
+  return {
+      {{{"compare", ListKind("a list of methods", TextKind("")), "(all)", "The methods whose motions the run keeps."},
+        [&](Fields& video, Selection& selection) { ReadFilmedMethods(video, scenario, selection); }},
+       {{"trials", ListKind("a list of whole numbers below `trials`", NumberKind({0, kTrials.highest}, true)), "[0]",
+         "The trials whose motions the run keeps."},
+        [&](Fields& video, Selection& selection) { ReadFilmedTrials(video, scenario, selection); }}}};
 }
 
 /// Returns the keys of every scenario, in the order of reading. A key is read only if the keys before it are valid,
@@ -170,14 +169,12 @@ const FieldTable<Scenario>& ScenarioFields() {
                   "a list of files with recorded skeletons, patterns and folders (docs/streams.md)",
                   "Recordings that are used instead of `clips` and simulated people. Each recording is one trial. "
                   "`etude run --streams` replaces this list."),
-       Key::Text(
-           "labels", Path(&Scenario::streams, &StreamSource::labels), "a file, or a folder of tag streams",
-           "Labels that state who performs which move at which time in `streams` or in `clips`. Labelled people of "
-           "`clips` replace simulated people.")
+       Key::Text("labels", Path(&Scenario::streams, &StreamSource::labels), "a file, or a folder of tag streams",
+                 "Labels that state who performs which move at which time in `streams` or in `clips`. Labelled people "
+                 "of `clips` replace simulated people.")
            .WhenAbsent("(each recording is one performance of the move that the file is named after)"),
        {{"reading", MappingKind("a mapping", ReadingFields().Describe()), "{}",
-         "How Etude reads the files of "
-         "`streams`."},
+         "How Etude reads the files of `streams`."},
         [](Fields& fields, Scenario& s) { ReadNested(fields, "reading", ReadingFields(), s.streams); }},
        Key::Text("joint_map", &Scenario::joint_map, "a file",
                  "Assigns the clips' joints to roles. It is needed if the joints' names do not determine the roles.")

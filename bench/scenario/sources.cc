@@ -69,8 +69,8 @@ class Collector {
     }
     if (list->items.size() * CountAll(defaults) > kMaxFileValues) {
       return Fail(list->place,
-                  "found {} scenarios, each with {} values from the defaults; allowed: at most {} values "
-                  "in all scenarios together",
+                  "found {} scenarios, each with {} values from the defaults; allowed: at most {} values in all "
+                  "scenarios together",
                   list->items.size(), CountAll(defaults), kMaxFileValues);
     }
     // Insert the defaults into each scenario.
@@ -135,10 +135,7 @@ class Collector {
       return Fail(asked_at, "'{}' includes itself", file);
     }
     if (chain_.size() > kMaxIncludeDepth)
-      return Fail(asked_at,
-                  "this inclusion is nested more than {} files "
-                  "deep",
-                  kMaxIncludeDepth);
+      return Fail(asked_at, "this inclusion is nested more than {} files deep", kMaxIncludeDepth);
     if (++inclusions_ > kMaxInclusions) return Fail(asked_at, "more than {} inclusions", kMaxInclusions);
     ASSIGN_OR_RETURN(const auto top, Open(file, asked_at));
     Fields fields(top, "an included file");

@@ -70,9 +70,7 @@ FieldTable<RangeWords> RangeFields(std::size_t most) {
   using Key = Field<RangeWords>;
   return {
       {Key::Number("from", &RangeWords::from, {}, "The first value.").WhenAbsent(""),
-       Key::Number("to", &RangeWords::to, {},
-                   "The last value. With `step`, the range ends at or before this "
-                   "value.")
+       Key::Number("to", &RangeWords::to, {}, "The last value. With `step`, the range ends at or before this value.")
            .WhenAbsent(""),
        Key::Number("step", &RangeWords::step, {}, "Difference between successive values.")
            .And("not 0")
@@ -101,10 +99,10 @@ Result<std::vector<Node>> SweptValues(const Node::Entry& swept, std::size_t most
   }
   // The values are given as a list.
   if (value.kind != Node::Kind::kSequence || value.items.empty()) {
-    return Fail(value.place,
-                "the swept parameter '{}' needs a list of values or a range such as {{from: 5, to: 20, step: 5}}, "
-                "found {}",
-                swept.key, Describe(value));
+    return Fail(
+        value.place,
+        "the swept parameter '{}' needs a list of values or a range such as {{from: 5, to: 20, step: 5}}, found {}",
+        swept.key, Describe(value));
   }
   if (value.items.size() > most) return Fail(value.place, "'{}' has more than {} values", swept.key, most);
   for (const Node& item : value.items) {
@@ -204,9 +202,7 @@ Result<void> CheckParameter(const Node::Entry& parameter, const TaskKind& kind, 
 
 Result<std::vector<Axis>> ReadAxes(const Node& sweep, const TaskKind& kind) {
   if (sweep.kind != Node::Kind::kMapping) {
-    return Fail(sweep.place,
-                "'sweep' must be a mapping from parameters to lists or ranges of values, found "
-                "{}",
+    return Fail(sweep.place, "'sweep' must be a mapping from parameters to lists or ranges of values, found {}",
                 Describe(sweep));
   }
   std::vector<Axis> axes;
@@ -254,12 +250,13 @@ std::vector<Condition> ReadSweep(Fields& fields, const TaskKind& kind) {
   for (const Axis& axis : *axes) {
     const std::size_t count = conditions.size() * axis.size();
     if (count > kMaxConditions || count * values > kMaxFileValues) {
-      fields.Complain(sweep->place,
-                      count > kMaxConditions
-                          ? fmt::format("the sweep has more than {} conditions", kMaxConditions)
-                          : fmt::format("found {} conditions, each with {} values; allowed: at most {} values in all "
-                                        "conditions together",
-                                        count, values, kMaxFileValues));
+      fields.Complain(
+          sweep->place,
+          count > kMaxConditions
+              ? fmt::format("the sweep has more than {} conditions", kMaxConditions)
+              : fmt::format(
+                    "found {} conditions, each with {} values; allowed: at most {} values in all conditions together",
+                    count, values, kMaxFileValues));
       return conditions;
     }
     // Combine every condition so far with every point of this axis.

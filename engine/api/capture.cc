@@ -14,10 +14,9 @@ void CheckPerson(const SeenPerson& person) {
   for (std::size_t i = 0; i < kLandmarkCount; ++i) {
     const auto& [pixel, confidence] = person.keypoints[i];
     if (std::isfinite(pixel.x + pixel.y) && confidence >= 0 && confidence <= 1) continue;
-    throw BadInput(
-        fmt::format("keypoint {} is at ({}, {}) with confidence {}; allowed: finite coordinates and a "
-                    "confidence from 0 to 1",
-                    LandmarkName(Landmark(i)), pixel.x, pixel.y, confidence));
+    throw BadInput(fmt::format(
+        "keypoint {} is at ({}, {}) with confidence {}; allowed: finite coordinates and a confidence from 0 to 1",
+        LandmarkName(Landmark(i)), pixel.x, pixel.y, confidence));
   }
 }
 
@@ -29,10 +28,9 @@ void CheckSizes(std::span<const NamedCamera> cameras, std::span<const SeenPeople
   }
   for (const SeenPeople& frames : seen) {
     if (frames.empty() || frames.size() != seen.front().size()) {
-      throw BadInput(
-          fmt::format("one camera has {} frames, but the first camera has {}; allowed: the same number for all "
-                      "cameras, at least 1",
-                      frames.size(), seen.front().size()));
+      throw BadInput(fmt::format(
+          "one camera has {} frames, but the first camera has {}; allowed: the same number for all cameras, at least 1",
+          frames.size(), seen.front().size()));
     }
     for (const auto& frame : frames) std::ranges::for_each(frame, CheckPerson);
   }

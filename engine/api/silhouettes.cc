@@ -87,10 +87,9 @@ std::vector<std::optional<BodyPose>> TrackSilhouettes(std::span<const NamedCamer
   std::vector<std::vector<Silhouette>> silhouettes;
   for (std::size_t i = 0; i < cameras.size(); ++i) {
     if (masks[i].empty() || masks[i].size() != masks.front().size()) {
-      throw BadInput(
-          fmt::format("one camera has {} masks, but the first camera has {}; allowed: the same number for "
-                      "all cameras, at least 1",
-                      masks[i].size(), masks.front().size()));
+      throw BadInput(fmt::format(
+          "one camera has {} masks, but the first camera has {}; allowed: the same number for all cameras, at least 1",
+          masks[i].size(), masks.front().size()));
     }
     const Intrinsics& picture = cameras[i].camera.intrinsics;
     const double scale = kFittedSide / std::max({1, picture.width, picture.height});

@@ -113,8 +113,8 @@ Result<ProjectionMatrix> Calibrate(std::span<const PointPair> pairs, Calibration
   const Solution normalised = SolveDlt(pairs, world, pixel);
   if (!(normalised.determined > kUndetermined)) {
     return Fail({},
-                "cannot calibrate a camera: several different cameras fit these point pairs; measure some points "
-                "at other positions");
+                "cannot calibrate a camera: several different cameras fit these point pairs; measure some points at "
+                "other positions");
   }
   const Matrix34 H = calibration == Calibration::kDlt
                          ? SolveDlt(pairs, {}, {}).H

@@ -72,8 +72,7 @@ Result<CameraPairs> ReadCamera(const Node::Entry& entry) {
   camera.height = static_cast<int>(size[1]);
   // Read the pairs, five numbers each.
   if (pairs == nullptr || pairs->kind != Node::Kind::kSequence) {
-    return Fail(entry.place,
-                "camera {} has no list of point pairs; allowed: `pairs: [[x, y, z, u, v], ...]`",
+    return Fail(entry.place, "camera {} has no list of point pairs; allowed: `pairs: [[x, y, z, u, v], ...]`",
                 entry.key);
   }
   for (const Node& item : pairs->items) {
@@ -93,10 +92,10 @@ Result<CameraPairs> ReadCamera(const Node::Entry& entry) {
 Result<std::vector<CameraPairs>> ReadYaml(std::string_view text, const std::string& file) {
   ASSIGN_OR_RETURN(const Node root, ParseYaml(text, file));
   if (root.kind != Node::Kind::kMapping) {
-    return Fail({file},
-                "found {}; allowed: point pairs in a CSV file with the heading {}, or in a YAML file with one "
-                "key per camera",
-                Describe(root), kHeading);
+    return Fail(
+        {file},
+        "found {}; allowed: point pairs in a CSV file with the heading {}, or in a YAML file with one key per camera",
+        Describe(root), kHeading);
   }
   std::vector<CameraPairs> cameras;
   for (const Node::Entry& entry : root.entries) {

@@ -151,10 +151,9 @@ Result<Intrinsics> IntrinsicsFromPlanes(std::span<const glm::dmat3> homographies
   // person.
   constexpr double kMaxFocal = 50;
   if (!(ab.minCoeff() > 0) || !focal.allFinite() || focal.maxCoeff() > kMaxFocal * unit) {
-    return Fail(
-        {},
-        "all boards are parallel to the picture, so they do not determine the focal length; tilt the board in some "
-        "pictures");
+    return Fail({},
+                "all boards are parallel to the picture, so they do not determine the focal length; tilt the board in "
+                "some pictures");
   }
   return Intrinsics{width, height, focal[0], focal[1], width / 2.0, height / 2.0, 0};
 }
@@ -190,9 +189,7 @@ Result<RefinedRig> CalibrateFromPlanes(std::span<const PictureSize> sizes, std::
       if (view.view->camera == camera) homographies.push_back(view.homography);
     }
     if (homographies.empty())
-      return Fail({},
-                  "no picture of camera {} shows a board with four corners or more",
-                  camera + 1);
+      return Fail({}, "no picture of camera {} shows a board with four corners or more", camera + 1);
     const auto intrinsics = IntrinsicsFromPlanes(homographies, sizes[camera].width, sizes[camera].height);
     if (!intrinsics) return Fail({}, "camera {}: {}", camera + 1, intrinsics.error().message);
     guess.cameras.push_back({.intrinsics = *intrinsics});

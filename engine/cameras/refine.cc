@@ -103,8 +103,8 @@ class Bundle {
     ceres::Solve(o, &problem_, &summary);
     if (summary.termination_type == ceres::FAILURE) {
       return Fail({},
-                  "in the first estimate, a point is behind the camera that saw it; are the world points paired "
-                  "with the right pixels?");
+                  "in the first estimate, a point is behind the camera that saw it; are the world points paired with "
+                  "the right pixels?");
     }
     return {};
   }
@@ -271,10 +271,10 @@ class Bundle {
     if (of.camera >= intrinsics_.size())
       return Fail({}, "the views do not determine the position of board {}", of.camera - intrinsics_.size() + 1);
     const char* const what = of.intrinsic < 0 ? "place" : kIntrinsicsNames[static_cast<std::size_t>(of.intrinsic)];
-    return Fail({},
-                "camera {}: the points do not determine the camera's {}; points must fill a volume, and boards must be "
-                "tilted",
-                of.camera + 1, what);
+    return Fail(
+        {},
+        "camera {}: the points do not determine the camera's {}; points must fill a volume, and boards must be tilted",
+        of.camera + 1, what);
   }
 
   const RigGuess& guess_;

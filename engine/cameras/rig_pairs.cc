@@ -19,8 +19,7 @@ Result<std::vector<double>> MatrixAt(const Node& camera, std::string_view key, s
   if (matrix == nullptr) return Fail(camera.place, "no {}", key);
   const Node* data = matrix->Find("data");
   if (data == nullptr || data->kind != Node::Kind::kSequence) {
-    return Fail(matrix->place,
-                "{} is {}; allowed: a matrix as OpenCV writes it, with the keys rows, cols, dt, data",
+    return Fail(matrix->place, "{} is {}; allowed: a matrix as OpenCV writes it, with the keys rows, cols, dt, data",
                 key, Describe(*matrix));
   }
   std::vector<double> values;
@@ -164,8 +163,7 @@ Result<OpenCvParameters> InsideOf(const ColmapLine& line) {
   const Place place{{}, line.number, 0};
   constexpr std::size_t kBefore = 4;
   if (line.words.size() < kBefore)
-    return Fail(place,
-                "this line does not describe a camera; allowed: CAMERA_ID MODEL WIDTH HEIGHT PARAMS");
+    return Fail(place, "this line does not describe a camera; allowed: CAMERA_ID MODEL WIDTH HEIGHT PARAMS");
   const auto model = ColmapModels().find(line.words[1]);
   if (model == ColmapModels().end()) {
     std::string names;
@@ -241,10 +239,9 @@ Result<RigFile> ReadColmap(std::string_view cameras, std::string_view images, co
     const Place place{images_file, line.number, 0};
     constexpr std::size_t kWords = 10;
     if (line.words.size() < kWords) {
-      return Fail(
-          place,
-          "this line does not describe an image; allowed: IMAGE_ID QW QX QY QZ TX TY TZ CAMERA_ID NAME, followed by a "
-          "line with the image's points");
+      return Fail(place,
+                  "this line does not describe an image; allowed: IMAGE_ID QW QX QY QZ TX TY TZ CAMERA_ID NAME, "
+                  "followed by a line with the image's points");
     }
     // Combine the pose of the image with the intrinsics of its camera.
     const auto camera = inside.find(line.words[8]);
@@ -253,8 +250,7 @@ Result<RigFile> ReadColmap(std::string_view cameras, std::string_view images, co
     OpenCvParameters p = camera->second;
     const glm::dquat turn(n[0], n[1], n[2], n[3]);
     if (!(glm::length(turn) > 0))
-      return Fail(place,
-                  "the quaternion QW QX QY QZ is 0 0 0 0; allowed: a quaternion of length above 0");
+      return Fail(place, "the quaternion QW QX QY QZ is 0 0 0 0; allowed: a quaternion of length above 0");
     p.R = glm::mat3_cast(glm::normalize(turn));
     p.T = {n[4], n[5], n[6]};
     const Place in_cameras{{}, lines[camera->first], 0};

@@ -29,17 +29,15 @@ Result<void> CheckRepetitions(const Dance& dance) {
   for (std::size_t i = 0; i < dance.repetitions.size(); ++i) {
     const Repetition& repetition = dance.repetitions[i];
     if (repetition.move < 0 || repetition.move >= static_cast<int>(dance.moves.size())) {
-      return Fail({},
-                  "dance '{}', repetition {}: there is no move {}; moves are counted from 0, and the dance has {} "
-                  "moves",
-                  dance.title, i, repetition.move, dance.moves.size());
+      return Fail(
+          {}, "dance '{}', repetition {}: there is no move {}; moves are counted from 0, and the dance has {} moves",
+          dance.title, i, repetition.move, dance.moves.size());
     }
     if (repetition.first < free_from || repetition.end < repetition.first + kMinFrames ||
         repetition.end > dance.motion.poses.size()) {
-      return Fail({},
-                  "dance '{}', repetition {}: found frames {} to {}; allowed: at least two frames in the range {} "
-                  "to {}",
-                  dance.title, i, repetition.first, repetition.end, free_from, dance.motion.poses.size());
+      return Fail(
+          {}, "dance '{}', repetition {}: found frames {} to {}; allowed: at least two frames in the range {} to {}",
+          dance.title, i, repetition.first, repetition.end, free_from, dance.motion.poses.size());
     }
     free_from = repetition.end;
   }

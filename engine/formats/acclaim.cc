@@ -77,8 +77,7 @@ class SkeletonReader {
       has_line = *read;
     }
     if (bones_.size() < 2)
-      return Fail({file_},
-                  "found no bones; allowed: an Acclaim skeleton with :root and :bonedata");
+      return Fail({file_}, "found no bones; allowed: an Acclaim skeleton with :root and :bonedata");
     return Assemble();
   }
 
@@ -358,8 +357,7 @@ Result<AcclaimFrames> ReadFrames(std::string_view text, const AcclaimSkeleton& s
   for (const auto& [name, joint] : joint_of) {
     if (counts[joint] == clip.frames.size() || skeleton.channels[joint].empty()) continue;
     if (counts[joint] > 0)
-      return Fail({file},
-                  "bone {} is missing in the last frame or frames; allowed: each bone once in each frame",
+      return Fail({file}, "bone {} is missing in the last frame or frames; allowed: each bone once in each frame",
                   Quote(name));
     read.still.push_back(name);
   }

@@ -104,11 +104,11 @@ Result<Clip> ReadAmass(const Npz& npz, const std::string& file, std::optional<do
     ASSIGN_OR_RETURN(stated_hz, EvenRateOf(npz, frames, file, remark));
     if (remarks != nullptr && !remark.empty()) remarks->push_back(remark);
     if (!stated_hz) {
-      return Fail({file},
-                  "the file states no frame rate (its arrays: {}); allowed: the array mocap_framerate or "
-                  "mocap_frame_rate with the frames per second, or `--rate` (for `etude clip convert`: `--file-rate`; "
-                  "in a joint map: `rate: 60`)",
-                  Join(names));
+      return Fail(
+          {file},
+          "the file states no frame rate (its arrays: {}); allowed: the array mocap_framerate or mocap_frame_rate with "
+          "the frames per second, or `--rate` (for `etude clip convert`: `--file-rate`; in a joint map: `rate: 60`)",
+          Join(names));
     }
   }
   constexpr double kMinRate_hz = 1, kMaxRate_hz = 10'000, kMaxValue = 1e6;

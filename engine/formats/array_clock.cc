@@ -20,8 +20,8 @@ Result<ArrayClock> ClockOfArrays(const Npz& arrays, std::size_t frames, const st
     }
     if (times->shape.size() != 1 || times->values.size() < 2 || std::string_view(name) == "t") continue;
     return Fail({file},
-                "the array {} has {} values, but the positions have {} frames; allowed: one time for each frame",
-                name, times->values.size(), frames);
+                "the array {} has {} values, but the positions have {} frames; allowed: one time for each frame", name,
+                times->values.size(), frames);
   }
   return clock;
 }
@@ -61,8 +61,7 @@ Result<std::optional<double>> EvenRateOf(const Npz& arrays, std::size_t frames, 
   ASSIGN_OR_RETURN(numbers, LayOnClock(std::move(numbers), clock, file));
   remark = numbers.remark;
   if (numbers.frames == unchanged) return std::optional(numbers.rate_hz);
-  return Fail({file},
-              "{}: {}; allowed: evenly spaced times, or `--rate` (for `etude clip convert`: `--file-rate`)",
+  return Fail({file}, "{}: {}; allowed: evenly spaced times, or `--rate` (for `etude clip convert`: `--file-rate`)",
               clock.time_name, remark);
 }
 

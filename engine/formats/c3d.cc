@@ -161,8 +161,7 @@ Result<C3d> ReadC3d(std::string_view bytes, const std::string& file) {
   const double scale = parameters.Number("POINT:SCALE").value_or(all.Float(12));
   const double rate = parameters.Number("POINT:RATE").value_or(all.Float(20));
   if (layout.points == 0)
-    return Fail({file},
-                "the file contains no points (Etude does not read rotations and analogue channels)");
+    return Fail({file}, "the file contains no points (Etude does not read rotations and analogue channels)");
   if (layout.points > kMaxPoints)
     return Fail({file}, "found {} points; allowed: at most {}", layout.points, kMaxPoints);
   if (!(rate > 0 && rate < kMaxValue)) return Fail({file}, "the rate is {} Hz; allowed: above 0", rate);
@@ -198,8 +197,7 @@ Result<C3d> ReadC3d(std::string_view bytes, const std::string& file) {
     if (!others.contains(read.markers.names[point])) kept.push_back(point);
   }
   if (kept.empty())
-    return Fail({file},
-                "the file contains no points (Etude does not read angles, forces and analogue channels)");
+    return Fail({file}, "the file contains no points (Etude does not read angles, forces and analogue channels)");
   std::vector<std::string> names;
   for (const std::size_t point : kept) names.push_back(std::move(read.markers.names[point]));
   read.markers.names = std::move(names);
@@ -234,14 +232,12 @@ Result<C3d> ReadC3d(std::string_view bytes, const std::string& file) {
     read.markers.remark += (read.markers.remark.empty() ? "" : "; ") + text;
   };
   if (count.other > 0) {
-    remark(
-        fmt::format("{} states {} frames, but {} states {:g} and the file contains {}; Etude uses the first number",
-                    count.by, frames, count.other_by, count.other, frames + more));
+    remark(fmt::format("{} states {} frames, but {} states {:g} and the file contains {}; Etude uses the first number",
+                       count.by, frames, count.other_by, count.other, frames + more));
   }
   if (has_more) {
-    remark(
-        fmt::format("the file contains {} frames more than the {} that {} states; Etude did not read them",
-                    more, frames, count.by));
+    remark(fmt::format("the file contains {} frames more than the {} that {} states; Etude did not read them", more,
+                       frames, count.by));
   }
   return read;
 }

@@ -68,8 +68,7 @@ Result<JointCsvColumns> FindColumns(const NumberRows& table, const std::string& 
     const auto found = std::ranges::find(known, headings[i]);
     const auto text = std::ranges::find(table.texts, i, &std::pair<std::size_t, std::string>::first);
     if (text != table.texts.end() && found != known.end()) {
-      return Fail({file, table.lines.front()},
-                  "column {}: found {}; allowed: a number, or nan for a missing value",
+      return Fail({file, table.lines.front()}, "column {}: found {}; allowed: a number, or nan for a missing value",
                   headings[i], Quote(text->second));
     }
     if (text != table.texts.end()) {
@@ -99,8 +98,7 @@ Result<void> CheckPlaces(std::span<const double> values, const JointCsvColumns& 
   for (const auto& joint : columns.joints) {
     for (const auto& column : joint) {
       if (!column || !(std::abs(values[*column]) > kMax)) continue;
-      return Fail(place,
-                  "value {}: found {:.10g}; allowed: a number within ±{:g}, or nan for a missing value",
+      return Fail(place, "value {}: found {:.10g}; allowed: a number within ±{:g}, or nan for a missing value",
                   *column + 1, values[*column], kMax);
     }
   }
@@ -181,8 +179,7 @@ Result<JointCsvRow> ReadJointCsvRow(std::string_view row, const JointCsvColumns&
   RETURN_IF_ERROR(CheckColumns(columns.count, table.columns, file));
   for (const auto& [column, text] : table.texts) {
     if (std::ranges::count(columns.texts, column) > 0) continue;
-    return Fail({file, table.lines.front()},
-                "value {}: found {}; allowed: a number, or nan for a missing value",
+    return Fail({file, table.lines.front()}, "value {}: found {}; allowed: a number, or nan for a missing value",
                 column + 1, Quote(text));
   }
   RETURN_IF_ERROR(CheckPlaces(table.Row(0), columns, {file, table.lines.front()}));

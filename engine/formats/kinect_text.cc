@@ -22,8 +22,8 @@ Result<std::vector<KinectV2Frame>> ReadKinectV2Text(std::string_view text, const
   ASSIGN_OR_RETURN(const NumberRows table, ReadNumberRows(text, file));
   if (table.columns != kPlaceColumns && table.columns != kPoseColumns) {
     return Fail({file},
-                "found {} values in this row; allowed for a Kinect v2 recording: {} (x y z per joint) or {} (x "
-                "y z and a quaternion per joint)",
+                "found {} values in this row; allowed for a Kinect v2 recording: {} (x y z per joint) or {} (x y z and "
+                "a quaternion per joint)",
                 table.columns, kPlaceColumns, kPoseColumns);
   }
   const std::size_t stride = table.columns / kKinectV2JointCount;
@@ -45,8 +45,8 @@ Result<std::vector<KinectV2Frame>> ReadKinectV2Text(std::string_view text, const
   }
   if (farthest > 0 && farthest < kMinDistance) {
     return Fail({file},
-                "all joints are within {:.3g} m of the sensor, so the positions are probably not in metres; "
-                "allowed: positions in metres",
+                "all joints are within {:.3g} m of the sensor, so the positions are probably not in metres; allowed: "
+                "positions in metres",
                 farthest);
   }
   return frames;

@@ -80,9 +80,7 @@ Result<BidsChannels> ReadChannels(std::string_view text, const std::string& file
     column.axis = static_cast<int>(kAxes.find(component));
     const auto metres = MetresOfUnit(units);
     if (!metres)
-      return Fail({file, line},
-                  "found units {}; allowed for channels of type POS: m, cm, mm, in, ft",
-                  Quote(units));
+      return Fail({file, line}, "found units {}; allowed for channels of type POS: m, cm, mm, in, ft", Quote(units));
     column.metres = *metres;
     const auto [point, is_new] =
         points.try_emplace(std::string(cells[at[2]]), static_cast<int>(channels.points.size()));
@@ -101,8 +99,7 @@ Result<BidsChannels> ReadChannels(std::string_view text, const std::string& file
       return Fail({file}, "{} needs channels for x, y and z, but some are missing", Quote(channels.points[i]));
   }
   if (channels.points.empty())
-    return Fail({file},
-                "found no channel of type POS; allowed: at least one, because Etude reads only positions");
+    return Fail({file}, "found no channel of type POS; allowed: at least one, because Etude reads only positions");
   return channels;
 }
 
@@ -201,9 +198,9 @@ Result<MarkerMotion> ReadMotionBids(std::string_view motion_tsv, std::string_vie
     return Fail({files[0], 1}, "{} columns, but {} channels in {}", table.columns, channels.columns.size(), files[1]);
   }
   if (!table.heading.empty())
-    return Fail({files[0], 1},
-                "found a line with column names; allowed: only rows of numbers, because _channels.tsv has the column "
-                "names");
+    return Fail(
+        {files[0], 1},
+        "found a line with column names; allowed: only rows of numbers, because _channels.tsv has the column names");
   for (std::size_t t = 0; t < table.RowCount(); ++t) {
     const auto row = table.Row(t);
     std::vector<glm::dvec3> places(channels.points.size());

@@ -166,9 +166,7 @@ Result<std::string> Unpack(zip_t* archive, zip_uint64_t member, std::uint64_t& l
     return Fail({file}, "member {} has no size", member);
   }
   if (status.size > left)
-    return Fail({file},
-                "the unpacked file has more than {} MiB; allowed: at most this size",
-                kMaxUnpacked >> 20);
+    return Fail({file}, "the unpacked file has more than {} MiB; allowed: at most this size", kMaxUnpacked >> 20);
   if ((status.valid & ZIP_STAT_COMP_SIZE) != 0 && status.size / kMaxDeflateRatio > status.comp_size) {
     return Fail({file}, "member {} states that {} bytes unpack to {} bytes, which is impossible", member,
                 status.comp_size, status.size);
@@ -227,8 +225,7 @@ Result<NumberArray> ReadNpy(std::string_view bytes, const std::string& file) {
   ASSIGN_OR_RETURN(const auto parts, SplitNpy(bytes, file));
   ASSIGN_OR_RETURN(auto array, NumbersIn(parts, file));
   if (!array)
-    return Fail({file},
-                "the array contains other data than numbers; allowed: floating-point numbers and integers");
+    return Fail({file}, "the array contains other data than numbers; allowed: floating-point numbers and integers");
   return *std::move(array);
 }
 

@@ -84,8 +84,7 @@ std::string DescribeGrid(const RowGrid& grid, std::size_t twice) {
   }
   if (twice > 0)
     said.push_back(
-        fmt::format("{} rows have the same time as another row; Etude uses the last row of each time",
-                    twice));
+        fmt::format("{} rows have the same time as another row; Etude uses the last row of each time", twice));
   return Join(said, "; ");
 }
 
@@ -430,9 +429,9 @@ Result<BodyMotion> LayOnClock(BodyMotion rows, std::span<const double> times_s, 
     begin = k + 1;
   }
   if (best_end - best_begin < grid->frames.size()) {
-    AddRemark(remark, fmt::format("Etude keeps only frames {} to {} of {}, because the gaps around them are longer "
-                                  "than {:g} s",
-                                  best_begin + 1, best_end, grid->frames.size(), kMaxBridged_s));
+    AddRemark(remark,
+              fmt::format("Etude keeps only frames {} to {} of {}, because the gaps around them are longer than {:g} s",
+                          best_begin + 1, best_end, grid->frames.size(), kMaxBridged_s));
   }
   start_s += static_cast<double>(best_begin) / rows.rate_hz;
   // Interpolate every joint.

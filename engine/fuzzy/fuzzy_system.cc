@@ -283,10 +283,10 @@ Result<FuzzySystem> ReadFuzzySystem(std::string_view text, const std::string& fi
   Fields fields(document, "a fuzzy system");
   const std::string name = fields.RequiredText("system");
   if (fields.ok() && !IsPlainName(name)) {
-    fields.Complain(fields.Raw("system")->place,
-                    fmt::format("{} is not a valid name; allowed: at most {} characters, each a letter, a digit, '-', "
-                                "'_' or '.'",
-                                Quote(name), kMaxNameBytes));
+    fields.Complain(
+        fields.Raw("system")->place,
+        fmt::format("{} is not a valid name; allowed: at most {} characters, each a letter, a digit, '-', '_' or '.'",
+                    Quote(name), kMaxNameBytes));
   }
   const Node* features_node = fields.Raw("features");
   if (features_node == nullptr) fields.Complain(document.place, "a fuzzy system needs 'features'");

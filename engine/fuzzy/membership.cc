@@ -156,10 +156,9 @@ Result<Shape> ReadShape(const Node& node, const Universe& universe) {
   std::vector<std::string> names;
   for (const ShapeKind& kind : kKinds) names.emplace_back(kind.name);
   if (node.kind != Node::Kind::kMapping || node.entries.size() != 1) {
-    return Fail(node.place,
-                "a term needs one shape, such as {{triangular: [20, 90, 180]}}; found {}. Allowed shapes: {}",
-                node.kind == Node::Kind::kMapping ? fmt::format("{} keys", node.entries.size()) : Describe(node),
-                Join(names));
+    return Fail(
+        node.place, "a term needs one shape, such as {{triangular: [20, 90, 180]}}; found {}. Allowed shapes: {}",
+        node.kind == Node::Kind::kMapping ? fmt::format("{} keys", node.entries.size()) : Describe(node), Join(names));
   }
   const Node::Entry& entry = node.entries.front();
   const auto kind = std::ranges::find(kKinds, entry.key, [](const ShapeKind& k) { return std::string(k.name); });

@@ -212,10 +212,10 @@ Result<ChosenUp> UpOf(const RigFile& rig, const std::optional<glm::dvec3>& perso
     const glm::dvec3 up = rig.R_WF * AxisOf(options.up)->direction;
     const double off = Degrees(AngleBetween(up, found.up));
     if (person && off > kUpsideDown) {
-      return Fail({},
-                  "with {} up, everything would be upside down: this axis is {:.0f}° away from the up direction found "
-                  "from {}",
-                  options.up, off, found.by);
+      return Fail(
+          {},
+          "with {} up, everything would be upside down: this axis is {:.0f}° away from the up direction found from {}",
+          options.up, off, found.by);
     }
     return ChosenUp{up, false, fmt::format("up is {}{}", options.up, reason(up, "as given"))};
   }
@@ -231,8 +231,8 @@ Result<ChosenUp> UpOf(const RigFile& rig, const std::optional<glm::dvec3>& perso
     std::string told = fmt::format("up is {}{}", usual_name(), reason(usual, ""));
     if (person && tilt > std::max(kSure * accuracy, kTold)) {
       told += fmt::format(
-          "; according to {}, the up direction is {:.0f}° away from this axis; if the up direction is "
-          "right, use --rig-up floor",
+          "; according to {}, the up direction is {:.0f}° away from this axis; if the up direction is right, use "
+          "--rig-up floor",
           found.by, tilt);
     }
     return ChosenUp{usual, false, told};
@@ -272,9 +272,8 @@ std::string AxesTold(const glm::dmat3& R_OF) {
     is_same = is_same && axis == kAxes.begin() + i;
   }
   return is_same ? ""
-                 : fmt::format(
-                       "; Etude's x is the file's {}, Etude's z is the file's {}, and up is the file's {}",
-                       names[0], names[2], names[1]);
+                 : fmt::format("; Etude's x is the file's {}, Etude's z is the file's {}, and up is the file's {}",
+                               names[0], names[2], names[1]);
 }
 
 /// Fails if the largest distance between two cameras is impossible for a rig in the unit of its format *(ours)*.
@@ -308,8 +307,8 @@ std::string DoubtOnFloor(const RigFile& rig, const RigPlacement& place) {
   }
   if (names.empty()) return "";
   return fmt::format(
-      "cameras are below the floor: {}; use --rig-up to set the rig's up axis, and --floor to set the "
-      "height of the floor",
+      "cameras are below the floor: {}; use --rig-up to set the rig's up axis, and --floor to set the height of the "
+      "floor",
       names);
 }
 
@@ -340,9 +339,9 @@ Result<RigPlacement> PlaceRig(const RigFile& rig, std::span<const LandmarkPositi
   const auto stature = StatureOf(points);
   const auto person = PersonsUp(points);
   if (!stature || !person)
-    return Fail({"keypoints"},
-                "Etude cannot find the rig's unit and up axis, because no frame shows hips, knees, ankles and "
-                "shoulders");
+    return Fail(
+        {"keypoints"},
+        "Etude cannot find the rig's unit and up axis, because no frame shows hips, knees, ankles and shoulders");
   RigPlacement place;
   // Choose the unit, then the up axis.
   std::string unit_told;

@@ -170,8 +170,7 @@ Result<Clip> Trim(const Clip& clip, double from_s, double to_s) {
   const double last = std::round(to_s * clip.rate_hz);
   const bool is_within = first >= 0 && last < static_cast<double>(clip.frames.size());
   if (!(is_within && from_s <= to_s)) {
-    return Fail({},
-                "cannot keep the range {} s to {} s; allowed: a range within the clip, which lasts {:.6g} s",
+    return Fail({}, "cannot keep the range {} s to {} s; allowed: a range within the clip, which lasts {:.6g} s",
                 from_s, to_s, clip.DurationSeconds());
   }
   const auto begin = clip.frames.begin();

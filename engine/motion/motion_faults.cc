@@ -103,12 +103,9 @@ std::string SentenceOf(const MotionFault& fault, bool is_always) {
   switch (fault.kind) {
     case kFloats:
       if (is_always)
-        return fmt::format(
-            "floats: the feet never touch the floor, and their resting height is {:.0f} cm",
-            cm);
-      return fmt::format(
-          "floats {:.0f} cm above the floor {}; are there steps, or is the floor at another height?",
-          cm, when);
+        return fmt::format("floats: the feet never touch the floor, and their resting height is {:.0f} cm", cm);
+      return fmt::format("floats {:.0f} cm above the floor {}; are there steps, or is the floor at another height?", cm,
+                         when);
     case kSinks:
       return fmt::format("sinks {:.0f} cm into the floor {}", cm, when);
     case kSkates:
@@ -126,9 +123,8 @@ std::string SentenceOf(const MotionFault& fault, bool is_always) {
       return fmt::format("{} bends backwards by {:.0f}° {}", joint, fault.size, when);
     case kTorn:
       if (!fault.joint) return fmt::format("left and right joints are exchanged, or lie on the same side, {}", when);
-      return fmt::format(
-          "{} is torn off {}: it is {:.0f} cm from the position that the neighbouring joints imply",
-          joint, when, cm);
+      return fmt::format("{} is torn off {}: it is {:.0f} cm from the position that the neighbouring joints imply",
+                         joint, when, cm);
     case kGaps:
       return fmt::format("{} not shown for {:.2f} s {}", fault.joint ? joint + " is" : "joints are", fault.size, when);
     case kPasses:
@@ -157,11 +153,10 @@ std::vector<FaultRule> MakeFaultRules() {
   // One rule for each kind, in the order of FaultKind.
   return {
       {"floats", "m",
-       fmt::format(
-           "The feet rest more than {} above the floor in the whole clip. Or all joints stay higher than a limit ({}; "
-           "limits above {} apply only if no foot rests). Or {} are displaced upwards by more than {} from one frame "
-           "to the next, until they come back.",
-           cm(kFloatInAll_m), hovers, cm(kStand_m), whole_body, cm(kLevel_m))},
+       fmt::format("The feet rest more than {} above the floor in the whole clip. Or all joints stay higher than a "
+                   "limit ({}; limits above {} apply only if no foot rests). Or {} are displaced upwards by more than "
+                   "{} from one frame to the next, until they come back.",
+                   cm(kFloatInAll_m), hovers, cm(kStand_m), whole_body, cm(kLevel_m))},
       {"sinks", "m",
        fmt::format("The feet are more than {} below the floor for {:g} s, or in the whole clip. Or {} are displaced "
                    "downwards by more than {}, until they come back.",
@@ -175,11 +170,10 @@ std::vector<FaultRule> MakeFaultRules() {
            cm(kGlide_m_s), kGlide_s, whole_body, cm(kStep_m_s), kSlow_hz, kMinCarried_s, kMaxCarried_s,
            cm(kFootSkate_m_s), kFootSkate_s, kEvenFootSkate_s)},
       {"jumps", "m",
-       fmt::format(
-           "From one frame to the next, {} are displaced together, by more than {} along the floor or by more than {} "
-           "in any direction (measured by third differences of positions). Below {:g} Hz, both limits grow with 1 / "
-           "rate².",
-           whole_body, cm(kJumpAlongFloor_m), cm(kJump_m), kSlowJump_hz)},
+       fmt::format("From one frame to the next, {} are displaced together, by more than {} along the floor or by more "
+                   "than {} in any direction (measured by third differences of positions). Below {:g} Hz, both limits "
+                   "grow with 1 / rate².",
+                   whole_body, cm(kJumpAlongFloor_m), cm(kJump_m), kSlowJump_hz)},
       {"pops", "m",
        fmt::format(
            "One joint alone is displaced from one frame to the next: the third difference of its position is above {}, "
@@ -190,10 +184,10 @@ std::vector<FaultRule> MakeFaultRules() {
            cm(kPop_m), kPopTimesUsual, 100 * kUsualPop, cm(kSurePop_m), kShortClipFrames, kPopFrames / (1 - kUsualPop),
            cm(kShortPop_m), kPopTimesUsual, kPopFrames, kSlow_hz, cm(kSurePop_m), cm(kShortPop_m))},
       {"freezes", "s",
-       fmt::format("No joint is faster than {:g} mm/s for {:g} s, and the body stops or starts abruptly (the mean "
-                   "speed of the joints is above {}/s just before or after). Or the frames repeat one pose exactly for "
-                   "{:g} s.",
-                   1000 * kStill_m_s, kFreeze_s, cm(kAbrupt_m_s), kRepeat_s)},
+       fmt::format(
+           "No joint is faster than {:g} mm/s for {:g} s, and the body stops or starts abruptly (the mean speed of the "
+           "joints is above {}/s just before or after). Or the frames repeat one pose exactly for {:g} s.",
+           1000 * kStill_m_s, kFreeze_s, cm(kAbrupt_m_s), kRepeat_s)},
       {"stretches", "share",
        fmt::format(
            "The length of an upper arm, forearm, thigh or shank differs from its median by more than {}, for "
@@ -201,18 +195,16 @@ std::vector<FaultRule> MakeFaultRules() {
            "deviation.",
            percent(kStretch), kStretch_s, kStretchTimesUsual)},
       {"bends", "deg",
-       fmt::format(
-           "A knee bends backwards by more than {:g}° for {:g} s. The line between the hips determines the front. The "
-           "toes must agree with this front, except if the foot is missing or pointed.",
-           kBend_deg, kBend_s)},
+       fmt::format("A knee bends backwards by more than {:g}° for {:g} s. The line between the hips determines the "
+                   "front. The toes must agree with this front, except if the foot is missing or pointed.",
+                   kBend_deg, kBend_s)},
       {"torn", "m",
-       fmt::format(
-           "For {:g} s, a joint of trunk, head, shoulders, hips, toes or hands deviates from its usual distance to its "
-           "neighbours by 8 to 14 % of the length of leg and trunk. Or, in the median frame, this distance is 1.6 to "
-           "3.5 times a person's usual distance, or differs from the distance on the other side of the body. Or the "
-           "head lies on the neck or points down the trunk. Or toes point backwards. Or shoulders or hips are "
-           "exchanged or coincide.",
-           kTorn_s)},
+       fmt::format("For {:g} s, a joint of trunk, head, shoulders, hips, toes or hands deviates from its usual "
+                   "distance to its neighbours by 8 to 14 % of the length of leg and trunk. Or, in the median frame, "
+                   "this distance is 1.6 to 3.5 times a person's usual distance, or differs from the distance on the "
+                   "other side of the body. Or the head lies on the neck or points down the trunk. Or toes point "
+                   "backwards. Or shoulders or hips are exchanged or coincide.",
+                   kTorn_s)},
       {"gaps", "s",
        fmt::format("For {:g} s, every frame lacks a joint that other frames show. Or, for the same time at the "
                    "beginning or the end of the file, frames lack joints that Etude needs.",
@@ -226,10 +218,9 @@ std::vector<FaultRule> MakeFaultRules() {
                    "{:.1f} m/s². Then the frame rate or the unit of length is wrong.",
                    kGravity / kGravityFactor, kGravity * kGravityFactor)},
       {"speed", "m/s",
-       fmt::format(
-           "In the median frame, the fastest joint is faster than {:g} m/s, and the clip has no flight from which "
-           "gravity could be measured.",
-           kFast_m_s)}};
+       fmt::format("In the median frame, the fastest joint is faster than {:g} m/s, and the clip has no flight from "
+                   "which gravity could be measured.",
+                   kFast_m_s)}};
 }
 
 }  // namespace

@@ -8,8 +8,7 @@ namespace etude {
 Result<TreeMotion> TreeMotionOf(const RawMotion& motion) {
   const std::size_t joints = motion.joints.size();
   if (motion.rotations.empty())
-    return Fail({motion.name},
-                "the motion has only points; allowed: motions with joint rotations");
+    return Fail({motion.name}, "the motion has only points; allowed: motions with joint rotations");
   if (std::ranges::count(motion.parents, -1) != 1 || motion.parents.front() != -1) {
     return Fail({motion.name}, "the motion has {} roots; allowed: one root, the first joint",
                 std::ranges::count(motion.parents, -1));

@@ -283,10 +283,10 @@ Result<LearntModel> ReadLearntModel(std::string_view text, const std::string& fi
   constexpr int kUnsaid = 1;  // the version of a file that states no version
   const auto version = static_cast<int>(fields.OptionalWhole("measures", {1, 1e6}).value_or(kUnsaid));
   if (version != kMeasuresVersion) {
-    return Fail(fields.Raw("measures")->place,
-                "the model was trained with version {} of the measures, but this program has version {}; train the "
-                "model again",
-                version, kMeasuresVersion);
+    return Fail(
+        fields.Raw("measures")->place,
+        "the model was trained with version {} of the measures, but this program has version {}; train the model again",
+        version, kMeasuresVersion);
   }
   LearntModel model;
   ASSIGN_OR_RETURN(model.asked, ReadTrees(fields, "asked"));

@@ -84,14 +84,13 @@ std::span<const RecogniserKind> AllRecognisers() {
              "Weighted fraction of the angles of a key pose that must be within their tolerances."},
             {"hold_frames", &KeyPoseOptions::hold_frames, 1, 30,
              "Number of successive frames in which the body must match a key pose."}}}),
-      WithSettings<FuzzyRulesOptions>(
-          {.name = "fuzzy-rules",
-           .description = "fuzzy rules on paper A's features: one rule for each key pose, and one rule for the order "
-                          "of the key poses",
-           .needs_key_poses = true},
-          MakeFuzzyRulesRecogniser,
-          {{{"hold_frames", &FuzzyRulesOptions::hold_frames, 1, 30,
-             "Number of successive frames in which a rule must hold."}}}),
+      WithSettings<FuzzyRulesOptions>({.name = "fuzzy-rules",
+                                       .description = "fuzzy rules on paper A's features: one rule for each key pose, "
+                                                      "and one rule for the order of the key poses",
+                                       .needs_key_poses = true},
+                                      MakeFuzzyRulesRecogniser,
+                                      {{{"hold_frames", &FuzzyRulesOptions::hold_frames, 1, 30,
+                                         "Number of successive frames in which a rule must hold."}}}),
       // These recognisers are taught by examples.
       WithSettings<DtwOptions>(
           {.name = "dtw",

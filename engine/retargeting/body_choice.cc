@@ -130,9 +130,9 @@ Result<BodyChoice> ChooseBody(const Clip& clip, const std::string& file, const J
   const std::string others =
       left_out.size() == 1 ? "a second body with the left hip " + left_out.front()
                            : fmt::format("{} other bodies with the left hips {}", left_out.size(), Join(left_out));
-  std::string doubt = fmt::format(
-      "the file contains {}; Etude uses the body with {} (use --joint-map to choose another body)",
-      others, LeftHipOf(clip, *used));
+  std::string doubt =
+      fmt::format("the file contains {}; Etude uses the body with {} (use --joint-map to choose another body)", others,
+                  LeftHipOf(clip, *used));
   return BodyChoice{std::move(used->map), std::move(doubt)};
 }
 

@@ -53,9 +53,9 @@ Result<double> UnitOf(const Npz& arrays, const RawMotion& motion, const std::str
   } else if (const std::string text = TextOf(arrays, "unit"); !text.empty()) {
     ASSIGN_OR_RETURN(unit, ReadUnit(text, {file}));
   } else if (arrays.Contains("unit")) {
-    return Fail({file},
-                "the array 'unit' is neither one number nor one text; allowed: the metres in one unit, or the "
-                "unit's name");
+    return Fail(
+        {file},
+        "the array 'unit' is neither one number nor one text; allowed: the metres in one unit, or the unit's name");
   }
   constexpr double kMinExtent_m = 0.3, kMaxExtent_m = 4;
   const double spread = SpreadOf(motion.positions, motion.joints.size());
@@ -66,11 +66,10 @@ Result<double> UnitOf(const Npz& arrays, const RawMotion& motion, const std::str
     return unit;
   }
   if (!likely) {
-    return Fail(
-        {file},
-        "the joints extend {:.3g} m in the median frame if the unit is {:g} m; allowed: at most {:g} m; use `unit` in "
-        "the file or in a joint map to set the unit",
-        unit * spread, unit, kMaxExtent_m);
+    return Fail({file},
+                "the joints extend {:.3g} m in the median frame if the unit is {:g} m; allowed: at most {:g} m; use "
+                "`unit` in the file or in a joint map to set the unit",
+                unit * spread, unit, kMaxExtent_m);
   }
   notes.push_back(fmt::format("1 unit = {:g} cm, because in units of {:g} m the joints would extend {:.3g} m",
                               100 * *likely, unit, unit * spread));
@@ -122,10 +121,10 @@ Result<ArrayJoints> JointsOfArray(const NumberArray& array, const std::optional<
                                   const std::string& file, std::optional<UpAxis> told) {
   constexpr std::size_t kHumanMl3dFeatures = 263;
   if (array.shape.size() == 2 && array.shape[1] == kHumanMl3dFeatures) {
-    return Fail({file},
-                "the array of {} contains features of HumanML3D; convert the features to joints "
-                "(docs/clips.md#humanml3d)",
-                ShapeText(array));
+    return Fail(
+        {file},
+        "the array of {} contains features of HumanML3D; convert the features to joints (docs/clips.md#humanml3d)",
+        ShapeText(array));
   }
   if (array.shape.size() != 3 || array.shape[2] != 3 || array.shape[0] == 0) {
     return Fail({file}, "found an array of {}; allowed: frames × joints × 3", ShapeText(array));
@@ -161,10 +160,10 @@ Result<ArrayJoints> JointsOfArray(const NumberArray& array, const std::optional<
     }
   }
   if (const JointLayout* const better = FindBetterLayout(places, found)) {
-    return Fail({file},
-                "in the layout {}, limbs have impossible lengths; allowed: {}#{}, in which the limbs have "
-                "possible lengths",
-                found.name, file, better->name);
+    return Fail(
+        {file},
+        "in the layout {}, limbs have impossible lengths; allowed: {}#{}, in which the limbs have possible lengths",
+        found.name, file, better->name);
   }
   // Convert to metres.
   const double unit = motion.metres_per_unit = UnitOfSpread(SpreadOf(places, joints)).value_or(1);
@@ -202,8 +201,8 @@ Result<std::optional<NumberArray>> JointsOfSam(const Npz& arrays, const std::str
       moved = of_one_person(*camera, 2);
       if (moved.shape != std::vector<std::size_t>{joints.shape[0], 3}) {
         return Fail({file},
-                    "the array pred_cam_t has the shape {}, and {} the shape {}; allowed: frames × 3 and "
-                    "frames × joints × 3, with the same number of frames",
+                    "the array pred_cam_t has the shape {}, and {} the shape {}; allowed: frames × 3 and frames × "
+                    "joints × 3, with the same number of frames",
                     ShapeText(*camera), name, ShapeText(*found));
       }
     } else {
@@ -320,9 +319,7 @@ Result<RawMotion> ReadRawNpz(const Npz& arrays, const std::string& file, const A
   }
   const std::size_t joints = motion.joints.size();
   if (joints != shape[1])
-    return Fail({file},
-                "found {} joints and {} names; allowed: one name for each joint",
-                shape[1], joints);
+    return Fail({file}, "found {} joints and {} names; allowed: one name for each joint", shape[1], joints);
   std::set<std::string_view> known;
   for (std::size_t j = 0; j < joints; ++j) {
     if (!known.insert(motion.joints[j]).second) {

@@ -238,10 +238,10 @@ class MapFinder {
     }
     for (const Role role : {kSpine, kShoulderCentre, kHead}) {
       if (IsFree(draft_, role)) continue;
-      return Fail({file_},
-                  "the role {} has the joint {}, which is part of a limb; allowed: a joint of the trunk, the neck or "
-                  "the head",
-                  RoleName(role), Quote(draft_.NameOf(role)));
+      return Fail(
+          {file_},
+          "the role {} has the joint {}, which is part of a limb; allowed: a joint of the trunk, the neck or the head",
+          RoleName(role), Quote(draft_.NameOf(role)));
     }
     return {};
   }

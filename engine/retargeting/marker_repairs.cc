@@ -155,9 +155,8 @@ void RepairMarkers(MarkerMotion& markers, const std::set<std::size_t>& used) {
   if (const int zeros = LeaveZerosOut(markers, used); zeros > 0)
     remark(fmt::format("Etude treats {} positions at (0, 0, 0) as missing", zeros));
   if (const int far = LeaveFarOut(markers, used); far > 0) {
-    remark(
-        fmt::format("Etude treats {} positions as missing, because they are a hundred times as far away as the others",
-                    far));
+    remark(fmt::format(
+        "Etude treats {} positions as missing, because they are a hundred times as far away as the others", far));
   }
   if (const int equal = LeaveEqualNumbersOut(markers); equal > 0) {
     remark(fmt::format("Etude treats {} repeated positions of three equal numbers as missing", equal));

@@ -341,8 +341,7 @@ Result<std::optional<MarkerBody>> BodyOf(const MarkerMotion& markers, const Mark
                     stature / scale, scale));
     return scaled;
   }
-  return Fail({file},
-              "the markers show a body {:.3g} m tall; allowed: {:g} to {:g} m; is the unit of the file right?",
+  return Fail({file}, "the markers show a body {:.3g} m tall; allowed: {:g} to {:g} m; is the unit of the file right?",
               own, kMinStature, kMaxStature);
 }
 

@@ -230,10 +230,10 @@ Result<ReadPart> ReadPartLine(TextScanner& scanner, const std::vector<ReadPart>&
     const bool has_axis = axis.text.size() == 2 && (axis.text[0] == '+' || axis.text[0] == '-') &&
                           axis.text[1] >= 'X' && axis.text[1] <= 'Z';
     if (!has_axis || angle.text.empty()) {
-      return Fail(scanner.At(axis),
-                  "found the axis and angle {} {}; allowed: +X, -X, +Y, -Y, +Z or -Z, followed by "
-                  "the name of the angle",
-                  Quote(axis.text), Quote(angle.text));
+      return Fail(
+          scanner.At(axis),
+          "found the axis and angle {} {}; allowed: +X, -X, +Y, -Y, +Z or -Z, followed by the name of the angle",
+          Quote(axis.text), Quote(angle.text));
     }
     part.axes[i][axis.text[1] - 'X'] = axis.text[0] == '-' ? -1 : 1;
     part.names[i] = angle.text;
@@ -262,9 +262,7 @@ Result<void> FindColumns(TextScanner& scanner, AngleTable& table, std::size_t& c
   const auto find = [&](const std::string& name, std::size_t& column) -> Result<void> {
     column = static_cast<std::size_t>(std::ranges::find(names, name) - names.begin());
     if (column == names.size())
-      return Fail(scanner.At(time),
-                  "the model needs the column {}, but the file does not have it",
-                  Quote(name));
+      return Fail(scanner.At(time), "the model needs the column {}, but the file does not have it", Quote(name));
     return {};
   };
   for (ReadPart& part : table.parts) {
@@ -311,14 +309,13 @@ Result<void> CheckUnit(AngleTable& table, const std::string& file, std::string& 
     return {};
   }
   if (table.radians == 1 && std::abs(largest) > kMaxRadians) {
-    return Fail({file},
-                "the file states inDegrees=no, but {} is {:.4g}; allowed: at most 12.57 radians (4π)",
-                name, largest);
+    return Fail({file}, "the file states inDegrees=no, but {} is {:.4g}; allowed: at most 12.57 radians (4π)", name,
+                largest);
   }
   if (table.radians != 1 && are_small) {
     note = fmt::format(
-        "the file states inDegrees=yes, but the largest angle is only {:.3g} ({}); are the angles in radians?",
-        largest, name);
+        "the file states inDegrees=yes, but the largest angle is only {:.3g} ({}); are the angles in radians?", largest,
+        name);
   }
   return {};
 }

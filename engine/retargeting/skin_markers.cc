@@ -269,8 +269,8 @@ std::string MoveToJointCentres(const MarkerSet& set, const std::map<std::string,
   if (!depths.of_limb.empty()) said += Join(depths.of_limb) + " by the lengths of the limbs";
   if (is_on_point)
     said +=
-        "; Etude assumes that the elbow markers are on the point of the elbow, because then the upper arms keep "
-        "their length";
+        "; Etude assumes that the elbow markers are on the point of the elbow, because then the upper arms keep their "
+        "length";
   return said;
 }
 

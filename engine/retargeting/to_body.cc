@@ -162,10 +162,9 @@ void UseMetres(double stature, BodyConversion& done, std::vector<std::string>& r
     done.metres_per_unit = 1;
     return;
   }
-  remarks.push_back(
-      fmt::format("Etude does not use the unit that the file or the file format states, because the body would be "
-                  "{:.3g} m tall",
-                  stature));
+  remarks.push_back(fmt::format(
+      "Etude does not use the unit that the file or the file format states, because the body would be {:.3g} m tall",
+      stature));
 }
 
 /// Finds the unit by the stature of the rest pose, which all clips of a file share. If the stature in the frames
@@ -190,8 +189,7 @@ Result<void> FindUnit(const BodyPose& rest, const std::vector<BodyPose>& poses, 
     remarks.push_back(fmt::format("the size of the body changes between frames by a factor of {:.2g}", most / least));
   const double stature = is_alike ? at_rest : moving;
   if (stature < kMinBody)
-    return Fail({file},
-                "all joints of the body are at the same position; allowed: joints at different positions");
+    return Fail({file}, "all joints of the body are at the same position; allowed: joints at different positions");
   const Unit* const unit = UnitOf(stature);
   // A given unit must be plausible.
   if (given) {
@@ -295,13 +293,10 @@ std::vector<std::string> ChangesOf(const BodyConversion& done, const JointMap& m
     return Join(names);
   };
   if (!map.composed.empty())
-    changes.push_back(
-        "joints that are not in the file, so Etude constructed them: " +
-        names_of(map.composed));
+    changes.push_back("joints that are not in the file, so Etude constructed them: " + names_of(map.composed));
   if (!map.by_anatomy.empty()) {
-    changes.push_back(
-        fmt::format("roles found by the skeleton's shape instead of by names (confidence {:.2f}): {}",
-                    map.confidence, names_of(map.by_anatomy)));
+    changes.push_back(fmt::format("roles found by the skeleton's shape instead of by names (confidence {:.2f}): {}",
+                                  map.confidence, names_of(map.by_anatomy)));
   }
   return changes;
 }

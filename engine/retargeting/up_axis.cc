@@ -149,16 +149,14 @@ UpFinding FindUp(std::span<const BodyPose> all, double rate_hz, const UpRule& ru
   } else if (best != nullptr) {
     found.doubt = fmt::format("the body stands along {}, but {}", AxisName(*best), usually);
   } else if (is_guess && usual.upright < kHardlyEver) {
-    found.doubt = fmt::format(
-        "the posture never shows clearly which axis is up; {}, so Etude assumes this axis",
-        usually);
+    found.doubt =
+        fmt::format("the posture never shows clearly which axis is up; {}, so Etude assumes this axis", usually);
   } else if (is_guess && !rule.is_y_or_z) {  // a skeleton also has a rest pose
     const glm::dvec3 other = rule.axis.y != 0 ? glm::dvec3(0, 0, 1) : glm::dvec3(0, 1, 0);
     const std::string odd = DescribeFloorWork(usual, MeasureStance(frames, other));
     if (!odd.empty()) {
-      found.doubt = fmt::format(
-          "{}, so Etude assumes this axis, but then {}; if the body is on the floor, {} is up",
-          usually, odd, AxisName(other));
+      found.doubt = fmt::format("{}, so Etude assumes this axis, but then {}; if the body is on the floor, {} is up",
+                                usually, odd, AxisName(other));
     }
   }
   // The user can state Y or Z: the axis that the posture shows, or the usual one instead of the posture's.

@@ -165,10 +165,10 @@ Result<void> Bodies::Choose(const StreamReading& reading, const std::string& fil
   Assign();
   if (bodies_.empty()) return {};
   if (ambiguous_) {
-    recording.remarks.push_back(fmt::format(
-        "several bodies of one frame have {} (first in frame {}); Etude reads each of these bodies as the nearest body "
-        "of the frames before",
-        ambiguous_->id.empty() ? "no id" : "the id " + ambiguous_->id, ambiguous_->frame));
+    recording.remarks.push_back(
+        fmt::format("several bodies of one frame have {} (first in frame {}); Etude reads each of these bodies as the "
+                    "nearest body of the frames before",
+                    ambiguous_->id.empty() ? "no id" : "the id " + ambiguous_->id, ambiguous_->frame));
   }
   if (!exchanged_.empty()) {
     const std::size_t more = exchanged_.size() - 1;
@@ -182,8 +182,7 @@ Result<void> Bodies::Choose(const StreamReading& reading, const std::string& fil
   if (reading.body) {
     chosen = static_cast<std::size_t>(*reading.body);
     if (chosen >= bodies_.size())
-      return Fail({file}, "there is no body {}; the file has {} bodies, counted from 0", chosen,
-                  bodies_.size());
+      return Fail({file}, "there is no body {}; the file has {} bodies, counted from 0", chosen, bodies_.size());
   } else {
     for (std::size_t b = 1; b < bodies_.size(); ++b) {
       const std::size_t most = bodies_[chosen].frames.size(), here = bodies_[b].frames.size();
@@ -193,10 +192,9 @@ Result<void> Bodies::Choose(const StreamReading& reading, const std::string& fil
   if (bodies_.size() > 1) {
     const std::size_t most = bodies_[chosen].frames.size();
     const auto ties = std::ranges::count_if(bodies_, [&](const Body& body) { return body.frames.size() == most; });
-    const std::string why = ties > 1 ? fmt::format(
-                                           ", because it moves most ({} bodies are in equally many frames)",
-                                           ties)
-                                     : ", because it is in the most frames";
+    const std::string why = ties > 1
+                                ? fmt::format(", because it moves most ({} bodies are in equally many frames)", ties)
+                                : ", because it is in the most frames";
     recording.remarks.push_back(
         fmt::format("the file has {} bodies; Etude reads body {}{}", bodies_.size(), chosen, reading.body ? "" : why));
   }

@@ -104,10 +104,9 @@ std::optional<double> SecondsPerCount(const NumberRows& table, const std::option
   }
   if (unit == std::end(kSmallUnits)) return std::nullopt;
   if (unit->seconds < 1e-6) {
-    remarks.push_back(
-        fmt::format("Etude reads the first column as {}, which gives a rate of {:.3g} Hz; as {}, the rate would be "
-                    "{:.3g} Hz",
-                    unit->name, rate_in(*unit), unit[-1].name, rate_in(unit[-1])));
+    remarks.push_back(fmt::format(
+        "Etude reads the first column as {}, which gives a rate of {:.3g} Hz; as {}, the rate would be {:.3g} Hz",
+        unit->name, rate_in(*unit), unit[-1].name, rate_in(unit[-1])));
   }
   return unit->seconds;
 }

@@ -84,8 +84,7 @@ Result<std::array<std::optional<std::size_t>, kHeadings.size()>> FindHeadings(st
   }
   for (std::size_t h = 0; h + 1 < kHeadings.size(); ++h) {
     if (!found[h])
-      return Fail({file, number},
-                  "the heading '{}' is missing; allowed: the headings clip,from_s,to_s,move,truth",
+      return Fail({file, number}, "the heading '{}' is missing; allowed: the headings clip,from_s,to_s,move,truth",
                   kHeadings[h]);
   }
   return found;
@@ -109,8 +108,8 @@ Result<std::vector<Label>> ReadCsv(Lines lines, const std::string& file) {
     // Read names and truth.
     ASSIGN_OR_RETURN(label.clip, NameIn(cell(0), file, number, "clip"));
     ASSIGN_OR_RETURN(label.move, NameIn(cell(3), file, number, "move"));
-    ASSIGN_OR_RETURN(const std::string truth, NameIn(cell(4), file, number,
-                                                     "truth ('right', or the name of the fault)"));
+    ASSIGN_OR_RETURN(const std::string truth,
+                     NameIn(cell(4), file, number, "truth ('right', or the name of the fault)"));
     if (truth != "right") label.fault = truth;
     if (!cell(5).text.empty()) {
       ASSIGN_OR_RETURN(label.person, NameIn(cell(5), file, number, "person"));

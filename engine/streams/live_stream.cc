@@ -166,10 +166,9 @@ Result<void> LiveStream::Add(RecordedFrame frame, std::vector<SensedFrame>& stre
   }
   if (back_s > 0 && !has_gone_back_) {
     has_gone_back_ = true;
-    remarks_.push_back(
-        fmt::format("the time {:.6g} s in line {} follows {:.6g} s; Etude leaves out rows with a time before the "
-                    "latest time",
-                    frame.time_s, frame.line, last_s_));
+    remarks_.push_back(fmt::format(
+        "the time {:.6g} s in line {} follows {:.6g} s; Etude leaves out rows with a time before the latest time",
+        frame.time_s, frame.line, last_s_));
   }
   if (back_s >= 0) return {};
   last_s_ = frame.time_s;

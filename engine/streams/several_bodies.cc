@@ -76,8 +76,8 @@ class AzureReader {
     const auto frames = root_.find("frames");
     if (frames == root_.end() || !frames->is_array()) {
       return Fail({file_},
-                  "the file has no list \"frames\"; allowed: JSON written by the offline processor of Azure "
-                  "Kinect body tracking");
+                  "the file has no list \"frames\"; allowed: JSON written by the offline processor of Azure Kinect "
+                  "body tracking");
     }
     recording.rate_hz = reading.rate_hz.value_or(kJudgedRateHz);
     recording.records_times = !reading.rate_hz && !frames->empty() && frames->front().contains("timestamp_usec");

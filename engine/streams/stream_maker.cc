@@ -196,13 +196,11 @@ std::string Describe(const StreamLevel& level) {
   const char* by = level.up_by == StreamLevel::By::kFeet    ? "found by the feet"
                    : level.up_by == StreamLevel::By::kTrunk ? "found by the trunk"
                                                             : "as in the file";
-  const std::string turn =
-      level.turn_deg == 0
-          ? ""
-          : fmt::format(
-                "the sensor was rotated by {} degrees, and Etude rotated the positions back (--level none "
-                "keeps the rotation); ",
-                level.turn_deg);
+  const std::string turn = level.turn_deg == 0 ? ""
+                                               : fmt::format(
+                                                     "the sensor was rotated by {} degrees, and Etude rotated the "
+                                                     "positions back (--level none keeps the rotation); ",
+                                                     level.turn_deg);
   const std::string how =
       level.trunk_deg == 0
           ? fmt::format("{:.1f} degrees", level.tilt_deg)

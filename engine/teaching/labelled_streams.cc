@@ -24,8 +24,8 @@ Result<std::vector<std::string>> NamedByLabels(const LabelledStreams& all) {
     std::string& name = names[part.stream];
     if (!name.empty() && !part.person.empty() && name != part.person) {
       return Fail({all.file, part.line},
-                  "{} shows the person {} by this label, but the person {} by an earlier label; "
-                  "allowed: one person for each recording",
+                  "{} shows the person {} by this label, but the person {} by an earlier label; allowed: one person "
+                  "for each recording",
                   all.streams[part.stream].name, part.person, name);
     }
     if (name.empty()) name = part.person;
@@ -42,10 +42,10 @@ Result<void> RefuseTwice(const std::vector<LabelledPart>& parts, const std::stri
       const int common = std::min(a->end, b->end) - b->begin, longer = std::max(a->end - a->begin, b->end - b->begin);
       if (a->move != b->move || 2 * common <= longer) continue;
       const double second = b->begin / streams[b->stream].stream.rate_hz;
-      return Fail({file, std::max(a->line, b->line)},
-                  "line {} already labels this performance of {} ({}, at {:.3f} s); allowed: one label for each "
-                  "performance",
-                  std::min(a->line, b->line), b->move, streams[b->stream].name, second);
+      return Fail(
+          {file, std::max(a->line, b->line)},
+          "line {} already labels this performance of {} ({}, at {:.3f} s); allowed: one label for each performance",
+          std::min(a->line, b->line), b->move, streams[b->stream].name, second);
     }
   }
   return {};
@@ -66,11 +66,10 @@ std::vector<std::string> DoubtMoves(const std::vector<Label>& labels, const std:
   for (auto a = labels.begin(); a != labels.end(); ++a) {
     const std::string& known = names.try_emplace(InLowerCase(a->move), a->move).first->second;
     if (known != a->move && doubts.empty()) {
-      doubts.push_back(ToString(
-          Error{{file, a->line},
-                fmt::format("doubtful: the names of the moves {} and {} differ only in capital letters; Etude reads "
-                            "them as two moves",
-                            known, a->move)}));
+      doubts.push_back(ToString(Error{{file, a->line},
+                                      fmt::format("doubtful: the names of the moves {} and {} differ only in capital "
+                                                  "letters; Etude reads them as two moves",
+                                                  known, a->move)}));
     }
   }
   for (auto a = labels.begin(); a != labels.end(); ++a) {
@@ -81,11 +80,10 @@ std::vector<std::string> DoubtMoves(const std::vector<Label>& labels, const std:
     };
     const auto b = std::find_if(labels.begin(), a, is_same);
     if (b == a) continue;
-    doubts.push_back(
-        ToString(Error{{file, a->line},
-                       fmt::format("doubtful: line {} labels the same time of {} as the move {}, but this line labels "
-                                   "it as {}; Etude uses both as right performances",
-                                   b->line, a->clip, b->move, a->move)}));
+    doubts.push_back(ToString(Error{{file, a->line},
+                                    fmt::format("doubtful: line {} labels the same time of {} as the move {}, but this "
+                                                "line labels it as {}; Etude uses both as right performances",
+                                                b->line, a->clip, b->move, a->move)}));
     break;
   }
   return doubts;
@@ -200,10 +198,9 @@ std::vector<std::string> DescribeLabels(const std::vector<Label>& labels, const 
     std::vector<std::string> truths{fmt::format("right {}", right)};
     const std::vector<std::string> known{"right"};
     for (const auto& [fault, count] : faults) {
-      truths.push_back(fmt::format("{} {}{}", fault, count,
-                                   NearestName(fault, known).empty() ? ""
-                                                                     : " (Etude reads this as a fault; did you "
-                                                                       "mean right?)"));
+      truths.push_back(
+          fmt::format("{} {}{}", fault, count,
+                      NearestName(fault, known).empty() ? "" : " (Etude reads this as a fault; did you mean right?)"));
     }
     lines.push_back(fmt::format("{}: truth: {}", file, Join(truths)));
   }

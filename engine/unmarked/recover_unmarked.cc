@@ -223,9 +223,9 @@ class Recovery {
     const auto first = std::ranges::find_if(track.frames, [](const auto& fit) { return fit.has_value(); });
     if (first == track.frames.end()) {
       return Fail({}, "no frame shows a moving person in two films{}",
-                  take_.rooms.empty() && take_.masks.empty() ? "; Etude cannot distinguish a person who never moves "
-                                                               "from the room"
-                                                             : "");
+                  take_.rooms.empty() && take_.masks.empty()
+                      ? "; Etude cannot distinguish a person who never moves from the room"
+                      : "");
     }
     // Copy poses and cost; untracked frames repeat the last pose.
     BodyPose last = ToBodyPose(track.body, (*first)->state);

@@ -46,8 +46,7 @@ class CappedReader {
     std::error_code not_there;  // the error is ignored, because ReadWholeFile describes a missing file better
     const std::uintmax_t size = fs::file_size(path, not_there);
     if (!not_there && size > left_) {
-      return Fail({path.string(), 0, 0},
-                  "found {} MB; allowed: at most {} MB for a motion and its files together",
+      return Fail({path.string(), 0, 0}, "found {} MB; allowed: at most {} MB for a motion and its files together",
                   (size + 999'999) / 1'000'000, kMaxClipFileBytes / 1'000'000);
     }
     auto bytes = ReadWholeFile(path);
@@ -196,8 +195,8 @@ Result<UpRule> UpOfBids(const std::string& path, const std::set<std::string, std
     if (!up) continue;
     if (!stated.empty() && stated != axes.get<std::string>()) {
       return Fail({files.back()},
-                  "found reference frames with the SpatialAxes {} and {}; allowed: the same "
-                  "SpatialAxes for all reference frames",
+                  "found reference frames with the SpatialAxes {} and {}; allowed: the same SpatialAxes for all "
+                  "reference frames",
                   stated, axes.get<std::string>());
     }
     stated = axes.get<std::string>();
@@ -374,12 +373,11 @@ Result<ClipFile> ReadClipFile(const std::string& path, const std::optional<std::
     return file;
   }
   if (!EqualsIgnoringCase(first.text, "HIERARCHY")) {
-    return Fail(
-        scanner.At(first),
-        "found {}; allowed: BVH (it begins with HIERARCHY), glTF 2.0 (.glb, .gltf), FBX, Acclaim's .amc, AMASS's .npz, "
-        "C3D, TRC, joint CSV, Motive's CSV, _motion.tsv of Motion-BIDS, .npy of joints, .mot written by Etude, "
-        "DeepMimic's motions",
-        DescribeOtherFile(bytes, first.text));
+    return Fail(scanner.At(first),
+                "found {}; allowed: BVH (it begins with HIERARCHY), glTF 2.0 (.glb, .gltf), FBX, Acclaim's .amc, "
+                "AMASS's .npz, C3D, TRC, joint CSV, Motive's CSV, _motion.tsv of Motion-BIDS, .npy of joints, .mot "
+                "written by Etude, DeepMimic's motions",
+                DescribeOtherFile(bytes, first.text));
   }
   std::vector<std::string> remarks;
   ASSIGN_OR_RETURN(auto clip, ReadBvh(bytes, path, &remarks, ToldOfArrays(options).rate_hz));

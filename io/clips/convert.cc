@@ -247,8 +247,7 @@ Result<MotionFormat> FormatOfName(const std::string& path) {
 Result<Converted> ConvertClips(std::vector<SourceClip> clips, MotionFormat format, const ConvertOptions& options) {
   const bool has_figure = options.performer == Performer::kBear || options.performer == Performer::kMannequin;
   if (has_figure && format != MotionFormat::kGlb)
-    return Fail({},
-                "only GLB files can contain a character; write a .glb file");
+    return Fail({}, "only GLB files can contain a character; write a .glb file");
   if (clips.size() > 1 && format != MotionFormat::kGlb) {
     std::vector<std::string> names;
     for (const SourceClip& clip : clips) names.push_back(clip.clip.name);

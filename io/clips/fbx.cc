@@ -139,10 +139,10 @@ struct PreparedFbx {
 PreparedFbx Prepare(std::string_view bytes) {
   PreparedFbx prepared;
   if (const std::size_t inactive = LeaveOutInactiveRotations(bytes, prepared.bytes); inactive > 0) {
-    prepared.remarks.push_back(fmt::format(
-        "RotationActive is not set in {} joints, so Etude ignores the pre-rotations, post-rotations and rotation "
-        "orders of these joints",
-        inactive));
+    prepared.remarks.push_back(
+        fmt::format("RotationActive is not set in {} joints, so Etude ignores the pre-rotations, post-rotations and "
+                    "rotation orders of these joints",
+                    inactive));
     bytes = prepared.bytes;
   }
   if (std::string doubt = DoubtOfScales(bytes); !doubt.empty()) prepared.remarks.push_back(std::move(doubt));
@@ -162,16 +162,15 @@ void Describe(const FbxKeyFacts& facts, std::vector<std::string>& remarks) {
   }
   constexpr double kHeld_s = 0.05;  // longer than a frame at the usual rates
   if (facts.step_s > kHeld_s) {
-    remarks.push_back(fmt::format(
-        "the file has stepped keys, up to {:.2f} s apart; Etude moves the joints from key to key, although in the file "
-        "they jump",
-        facts.step_s));
+    remarks.push_back(
+        fmt::format("the file has stepped keys, up to {:.2f} s apart; Etude moves the joints from key to key, although "
+                    "in the file they jump",
+                    facts.step_s));
   }
   if (facts.turn_deg > 0) {
-    remarks.push_back(
-        fmt::format("an angle changes by {:.0f}° from one key to the next, and Etude makes the joint turn by this "
-                    "angle",
-                    facts.turn_deg));
+    remarks.push_back(fmt::format(
+        "an angle changes by {:.0f}° from one key to the next, and Etude makes the joint turn by this angle",
+        facts.turn_deg));
   }
   if (facts.cut_s > 0) {
     remarks.push_back(fmt::format(
@@ -227,10 +226,10 @@ Result<FbxMotion> FbxReader::Read(std::string_view bytes, const std::string& pat
   child_.reset();
   const int signal = WIFSIGNALED(status) ? WTERMSIG(status) : 0;
   if (is_too_long || signal == SIGXCPU || signal == SIGKILL) {
-    return Fail({path},
-                "the FBX file is too large; allowed for reading: {} s of processor time, {} GB of memory and {} GB of "
-                "result",
-                kProcessorSeconds, kMemoryBytes >> 30, kMaxGlbBytes >> 30);
+    return Fail(
+        {path},
+        "the FBX file is too large; allowed for reading: {} s of processor time, {} GB of memory and {} GB of result",
+        kProcessorSeconds, kMemoryBytes >> 30, kMaxGlbBytes >> 30);
   }
   if (signal == 0) return Fail({path}, "{}", kReaderFailed);
   return Fail({path}, "{} {} ({})", kReaderCrashed, signal, ::strsignal(signal));

@@ -106,10 +106,10 @@ void TakeScalesOut(ClipFile& file, const std::string& path, const OpenOptions& o
   const auto body = ChooseBody(file.clips.front(), path, TaughtBy(options, file.roles), file.skinned);
   if (!body) return;
   if (const auto ratio = UndoScales(file.clips, body->map)) {
-    file.remarks.push_back(fmt::format(
-        "Etude removed scales that only the frames have and that made the body {:.3g} times as tall as in the rest "
-        "pose",
-        *ratio));
+    file.remarks.push_back(
+        fmt::format("Etude removed scales that only the frames have and that made the body {:.3g} times as tall as in "
+                    "the rest pose",
+                    *ratio));
   }
 }
 
@@ -136,9 +136,9 @@ Result<OpenedClip> UnderstandBuiltin(SourceClip source, const BodyOptions& optio
     opened.body.changes.push_back(DescribeTurn(opened.body.found_up));
   }
   if (!IsOfMarkers(opened.source.format) && (options.metres_per_unit || (is_ours && options.up))) {
-    opened.body.changes.emplace_back(is_ours ? "Etude uses the unit and up axis of the file instead of the given unit "
-                                               "and up axis"
-                                             : "Etude uses the unit of the file instead of the given unit");
+    opened.body.changes.emplace_back(
+        is_ours ? "Etude uses the unit and up axis of the file instead of the given unit and up axis"
+                : "Etude uses the unit of the file instead of the given unit");
   }
   constexpr double kSameRate = 1e-6;  // relative tolerance, because a rate that was computed from times is rounded
   const bool keeps_rate = std::abs(opened.source.clip.rate_hz / options.rate_hz - 1) < kSameRate;
@@ -192,10 +192,10 @@ Result<std::vector<SourceClip>> ReadClips(const std::string& reference, const Op
   const bool has_animations = IsOfAnimations(file.format);
   const auto is_slow = [&](const Clip& clip) { return has_animations ? clip.rate_hz < 1 : clip.rate_hz <= 1; };
   if (const auto slow = std::ranges::find_if(file.clips, is_slow); slow != file.clips.end() && !is_recording) {
-    say(fmt::format(
-        "frames are {:.3g} s apart: are the times in milliseconds, or are they frame numbers? Use `--rate` (for `etude "
-        "clip convert`: `--file-rate`) to set the rate",
-        1 / slow->rate_hz));
+    say(
+        fmt::format("frames are {:.3g} s apart: are the times in milliseconds, or are they frame numbers? Use `--rate` "
+                    "(for `etude clip convert`: `--file-rate`) to set the rate",
+                    1 / slow->rate_hz));
   }
   if (is_recording && wanted.animation == "") wanted.animation = options.recorded->OwnTrack(file.clips);
   const auto shown_of = [&](std::size_t i) {

@@ -37,9 +37,7 @@ Result<void> Sync(const std::filesystem::path& path, int flags) {
   if (file < 0 && errno == EACCES)
     file = ::open(path.c_str(), O_WRONLY | O_CLOEXEC | flags);  // read access may be denied for a lock file
   if (file < 0)
-    return CannotWrite(path.string(),
-                       "the file cannot be opened for writing it to the disk (fsync)",
-                       errno);
+    return CannotWrite(path.string(), "the file cannot be opened for writing it to the disk (fsync)", errno);
   const int failed = Synced(file) ? 0 : errno;
   ::close(file);
   if (failed != 0) return CannotWrite(path.string(), "the file cannot be written to the disk (fsync)", failed);

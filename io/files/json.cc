@@ -117,8 +117,7 @@ Result<Json> ReadJson(const std::string& text, const std::string& file, int line
   if (NestingOf(text) > kMaxNesting) return Fail({file, line, 0}, "nested more than {} levels deep", kMaxNesting);
   // The parser stops at a zero byte and ignores what follows.
   if (text.find('\0') != std::string::npos)
-    return Fail({file, line, 0},
-                "not valid JSON: the text contains a zero byte");
+    return Fail({file, line, 0}, "not valid JSON: the text contains a zero byte");
   try {
     return Json::parse(text);
   } catch (const Json::exception& error) {

@@ -268,8 +268,7 @@ Result<ColourImage> DecodeColourPng(std::string_view bytes, std::size_t max_pixe
   const std::size_t pixels = std::size_t{png.width} * png.height;
   if (png.width > kMaxSide || png.height > kMaxSide || pixels > max_pixels) {
     png_image_free(&png);
-    return Fail({},
-                "the PNG picture has {} x {} pixels; allowed: at most {} pixels in total, and {} on each side",
+    return Fail({}, "the PNG picture has {} x {} pixels; allowed: at most {} pixels in total, and {} on each side",
                 png.width, png.height, max_pixels, kMaxSide);
   }
   png.format = PNG_FORMAT_RGBA;

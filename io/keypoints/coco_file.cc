@@ -129,10 +129,9 @@ Result<void> AddPeople(std::vector<CocoPerson> people, const std::string& layout
   for (const auto& [id, category] : categories) {
     if (category.refused == 0) continue;
     if (category.read > 0 || !is_any_read) return tl::unexpected(category.error);
-    film.Tell(
-        fmt::format("Etude left out annotations of the category {}, because their keypoints are not those of a "
-                    "person: {}",
-                    category.name.empty() ? fmt::format("{:g}", id) : category.name, category.refused));
+    film.Tell(fmt::format(
+        "Etude left out annotations of the category {}, because their keypoints are not those of a person: {}",
+        category.name.empty() ? fmt::format("{:g}", id) : category.name, category.refused));
   }
   return {};
 }

@@ -28,10 +28,9 @@ void MoveFrames(std::span<const std::size_t> indices, std::size_t count, PeopleO
   SeenPeople frames(count);
   for (std::size_t i = 0; i < indices.size(); ++i) frames[indices[i]] = std::move(film.frames[i]);
   if (count > indices.size()) {
-    film.Tell(
-        fmt::format("by the frame numbers or times, {} of {} frames are missing; Etude assumes that these frames show "
-                    "nobody",
-                    count - indices.size(), count));
+    film.Tell(fmt::format(
+        "by the frame numbers or times, {} of {} frames are missing; Etude assumes that these frames show nobody",
+        count - indices.size(), count));
   }
   film.frames = std::move(frames);
 }
@@ -115,14 +114,13 @@ Result<PeopleOfFilm> FilmOfNumbers(std::map<long, std::vector<SeenPerson>> numbe
                   lowest, highest, frames);
     }
     film.Tell(
-        fmt::format("frame numbers go from {} to {}, and the film has {} frames; Etude assumes that number {} is "
-                    "the film's first frame",
+        fmt::format("frame numbers go from {} to {}, and the film has {} frames; Etude assumes that number {} is the "
+                    "film's first frame",
                     lowest, highest, frames, lowest));
   } else if (film.is_base_open) {
-    film.Tell(
-        fmt::format("frame numbers go from {} to {}, and the film has {} frames; Etude assumes that the numbers count "
-                    "from {}",
-                    lowest, highest, frames, of.from_one ? "1, as in another film" : "0"));
+    film.Tell(fmt::format(
+        "frame numbers go from {} to {}, and the film has {} frames; Etude assumes that the numbers count from {}",
+        lowest, highest, frames, of.from_one ? "1, as in another film" : "0"));
   }
   film.frames.resize(static_cast<std::size_t>(frames > 0 ? frames : highest - first + 1));
   for (auto& [number, people] : numbered) {
@@ -202,10 +200,9 @@ void LayByNames(std::span<const std::string> names, const FilmOfKeypoints& of, P
   if (is_even && (!are_films || (is_from_start && end + usual < frames))) return;
   if (indices.back() >= kMaxSpread * indices.size() + of.frames) return;
   if (film.is_base_open) {
-    film.Tell(
-        fmt::format("file numbers go from {} to {}, and the film has {} frames; Etude assumes that the numbers count "
-                    "from {}",
-                    numbers.front(), last, frames, of.from_one ? "1, as in another film" : "0"));
+    film.Tell(fmt::format(
+        "file numbers go from {} to {}, and the film has {} frames; Etude assumes that the numbers count from {}",
+        numbers.front(), last, frames, of.from_one ? "1, as in another film" : "0"));
   }
   MoveFrames(indices, are_films ? of.frames : indices.back() + 1, film);
 }

@@ -211,8 +211,7 @@ Result<Keypoint> PointOf(const Json& json, const Place& place) {
     constexpr std::array kNoScores = {"x", "y", "z", "id", "index", "presence", "world_x", "world_y", "world_z"};
     if (sure != nullptr || !value.is_number_float() || std::ranges::count(kNoScores, key) > 0) continue;
     return Fail(place,
-                "a keypoint has the number '{}' in addition to x and y; allowed: score, confidence or visibility",
-                key);
+                "a keypoint has the number '{}' in addition to x and y; allowed: score, confidence or visibility", key);
   }
   if (!x || !y) return Keypoint{};
   return Keypoint{glm::dvec2(*x, *y) + kHalfPixel, sure == nullptr ? 1 : PixelOf(sure).value_or(0)};

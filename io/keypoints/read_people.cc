@@ -37,8 +37,7 @@ Result<std::vector<fs::path>> FilesIn(const fs::path& folder, const char* ending
   if (files.empty()) {
     for (const fs::directory_entry& entry : fs::directory_iterator(folder, error)) {
       if (entry.path().extension() != ".txt") continue;
-      return Fail({folder.string()},
-                  "the folder contains no {} file, but text files, as YOLO writes; allowed: {}",
+      return Fail({folder.string()}, "the folder contains no {} file, but text files, as YOLO writes; allowed: {}",
                   ending, kAllowed);
     }
     return Fail({folder.string()}, "the folder contains no {} file", ending);
@@ -155,8 +154,8 @@ void Denormalise(const FilmOfKeypoints& of, PeopleOfFilm& film) {
   if (shares <= 0.5) {
     if (shares > kFew) {
       film.Tell(
-          fmt::format("{} of {} keypoints have coordinates between -1 and 1, but most keypoints do not, so Etude "
-                      "reads all coordinates as pixels",
+          fmt::format("{} of {} keypoints have coordinates between -1 and 1, but most keypoints do not, so Etude reads "
+                      "all coordinates as pixels",
                       range.shares, range.confident));
     }
     return;
@@ -178,10 +177,9 @@ void Denormalise(const FilmOfKeypoints& of, PeopleOfFilm& film) {
     return;
   }
   const std::string but = range.outside == 0 ? "" : fmt::format(", all but {} of {}", range.outside, range.seen);
-  film.Tell(
-      fmt::format("keypoint coordinates are between 0 and 1{}, so Etude reads them as fractions of the picture's {} x "
-                  "{} pixels",
-                  but, of.width, of.height));
+  film.Tell(fmt::format(
+      "keypoint coordinates are between 0 and 1{}, so Etude reads them as fractions of the picture's {} x {} pixels",
+      but, of.width, of.height));
 }
 
 Result<PeopleOfFilm> ReadFile(const fs::path& file, const std::string& layout, const FilmOfKeypoints& of) {
@@ -262,8 +260,8 @@ Result<PeopleOfFilm> ReadKeypoints(const fs::path& path, const std::string& layo
     auto other = ReadAs(path, "body_25", of);
     if (other && MidHipsOfBody25(other->frames).Are()) {
       other->Tell(
-          "Etude uses the layout body_25, because there are 25 keypoints per person and one keypoint is "
-          "between the hips");
+          "Etude uses the layout body_25, because there are 25 keypoints per person and one keypoint is between the "
+          "hips");
       film = std::move(other);
     }
   }
@@ -307,8 +305,8 @@ Result<fs::path> EntryOfFilm(const fs::path& folder, const std::string& film) {
   if (error) return Fail({folder.string()}, "{}", error.message());
   if (found.empty())
     return Fail({folder.string()},
-                "the folder contains no file for the film {}; allowed: a file name that begins with "
-                "the film's name, followed by another character than a letter or a digit",
+                "the folder contains no file for the film {}; allowed: a file name that begins with the film's name, "
+                "followed by another character than a letter or a digit",
                 film);
   if (found.size() > 1) {
     return Fail({folder.string()},

@@ -135,8 +135,7 @@ Result<CapturePanel> CapturePanel::Make(const RunData& run, const ShownCell& cel
   for (const auto& view : extras.views) fits = fits && view.masks.size() == frames;
   if (!fits)
     return Fail(place,
-                "the tracks, masks and brightness of the recording differ in length, or the "
-                "recording has no camera");
+                "the tracks, masks and brightness of the recording differ in length, or the recording has no camera");
 
   // Rebuild the room in which the person moved, and find the crop of each camera's pictures.
   CapturePanel panel;

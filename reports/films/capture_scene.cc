@@ -271,8 +271,8 @@ std::string CaptureScene::Words() const {
   const CapturePanel& first = captures_.front();
   return fmt::format(
       "Left: {} in the pictures of two cameras. The pixels that were recognised as the person are tinted, and the "
-      "skeleton of {} is drawn over the pictures. Right: the true skeleton (grey) and the skeleton that {} "
-      "recovered, coloured by error.",
+      "skeleton of {} is drawn over the pictures. Right: the true skeleton (grey) and the skeleton that {} recovered, "
+      "coloured by error.",
       first.Clip().empty() ? "a performer" : first.Clip(), first.Method(), Methods());
 }
 

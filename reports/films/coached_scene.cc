@@ -52,9 +52,7 @@ Result<CoachedSessionFacts> ReadCoachedSession(const ShownCell& cell) {
   static_cast<CoachExtras&>(facts) = *std::move(extras);
   KeepWithin(facts);
   if (facts.modes.empty() || facts.words.empty())
-    return Fail(place,
-                "the extras contain no mode or no words of the "
-                "coach");
+    return Fail(place, "the extras contain no mode or no words of the coach");
   return facts;
 }
 
@@ -225,10 +223,10 @@ int CoachedScene::PosterFrame() const {
 
 std::string CoachedScene::Words() const {
   return fmt::format(
-      "A coached session, seconds {} to {} of {}. Left: the coach in a forest. Right: the learner's true motion. "
-      "Lower right: the learner's motion as the sensor measured it. The bands of the timeline show the coach's "
-      "action, whether each performance was truly right, and the coach's judgement. The whole session has {} "
-      "corrections. The film has a click for every beat of the music.",
+      "A coached session, seconds {} to {} of {}. Left: the coach in a forest. Right: the learner's true motion. Lower "
+      "right: the learner's motion as the sensor measured it. The bands of the timeline show the coach's action, "
+      "whether each performance was truly right, and the coach's judgement. The whole session has {} corrections. The "
+      "film has a click for every beat of the music.",
       FormatFixed(first_ / kJudgedRateHz, 0), FormatFixed(last_ / kJudgedRateHz, 0),
       FormatFixed(facts_.Frames() / kJudgedRateHz, 0), facts_.corrections.size());
 }

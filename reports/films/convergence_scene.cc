@@ -336,9 +336,9 @@ std::string ConvergenceScene::Words() const {
                           : fmt::format("{}: {}", path.ending, path.reason);
   };
   return fmt::format(
-      "Two methods from the same start pose: {} on the left ({}), {} on the right ({}). The world is {}, {}. Grey: "
-      "the true pose{}. Below: the worst errors at each iteration, on two logarithmic axes. Both methods show the "
-      "same iteration at the same time.",
+      "Two methods from the same start pose: {} on the left ({}), {} on the right ({}). The world is {}, {}. Grey: the "
+      "true pose{}. Below: the worst errors at each iteration, on two logarithmic axes. Both methods show the same "
+      "iteration at the same time.",
       left.method, ending(left), right.method, ending(right), race_.world, race_.choice,
       HasTargets() ? "; rings: the targets of right foot, hands and head; dots: their positions" : "");
 }

@@ -115,9 +115,7 @@ Result<IkRace> MakeRace(const std::array<RecordedCell, 2>& cells) {
     race.paths[i] = PathOf(*cells[i].row, *cells[i].recording, std::move(extras));
   }
   if (targets.size() != race.targets.size()) {
-    return Fail({.file = "recording " + cells[0].row->Id()},
-                "'targets_m' in the extras is not a list of {} "
-                "positions",
+    return Fail({.file = "recording " + cells[0].row->Id()}, "'targets_m' in the extras is not a list of {} positions",
                 race.targets.size());
   }
   std::ranges::copy(targets, race.targets.begin());
@@ -152,12 +150,11 @@ Result<IkRace> FindIkRace(const RunData& run, const ScenarioSummary& scenario) {
   // Check that two methods have recordings.
   if (methods.empty())
     return Fail(nowhere,
-                "this run kept no recordings of this scenario (the scenario key 'video' selects cells to "
-                "record)");
+                "this run kept no recordings of this scenario (the scenario key 'video' selects cells to record)");
   if (methods.size() == 1) {
-    return Fail(nowhere,
-                "this run kept recordings of only one method; the film needs recordings of two methods in "
-                "the same world");
+    return Fail(
+        nowhere,
+        "this run kept recordings of only one method; the film needs recordings of two methods in the same world");
   }
   // Find the first world that both methods recorded, and note the earlier worlds that only one of the two methods
   // recorded.

@@ -221,10 +221,10 @@ int JudgedScene::PosterFrame() const {
 
 std::string JudgedScene::Words() const {
   return fmt::format(
-      "A session in front of the sensor, seconds {} to {} of {}. The skeleton that the sensor measured is drawn "
-      "over the true body (pale). The curves show the angles of the requested key poses, where a tick marks a pose "
-      "that paper A's rule has recognised, and the evidence of {}. The bands of the timeline show whether each "
-      "performance was truly right, the judgement of each performance, and false alarms.",
+      "A session in front of the sensor, seconds {} to {} of {}. The skeleton that the sensor measured is drawn over "
+      "the true body (pale). The curves show the angles of the requested key poses, where a tick marks a pose that "
+      "paper A's rule has recognised, and the evidence of {}. The bands of the timeline show whether each performance "
+      "was truly right, the judgement of each performance, and false alarms.",
       FormatFixed(first_ / kJudgedRateHz, 0), FormatFixed(last_ / kJudgedRateHz, 0),
       FormatFixed(facts_.Frames() / kJudgedRateHz, 0), facts_.judges.front().method);
 }

@@ -38,9 +38,7 @@ void MakeStageFilm(const RunData& run, const MediaPaths& paths, const FilmWatch&
   const auto compares = [&](const ScenarioSummary& scenario) { return FindTransitionRace(run, scenario).has_value(); };
   if (!capture_cell && std::ranges::any_of(run.scenarios, compares)) return;
   if (!coach_cell && !capture_cell) {
-    why =
-        "There is no film of a coach or of cameras, because this run kept no recordings of transitions or "
-        "captures.";
+    why = "There is no film of a coach or of cameras, because this run kept no recordings of transitions or captures.";
     return;
   }
   const auto renderer = SharedRenderer();

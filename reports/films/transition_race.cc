@@ -86,8 +86,8 @@ Result<TransitionRace> FindTransitionRace(const RunData& run, const ScenarioSumm
   }
   if (worlds.empty()) {
     return Fail({},
-                "this run kept no recordings of this scenario's transitions (the scenario key 'video' selects cells "
-                "to record)");
+                "this run kept no recordings of this scenario's transitions (the scenario key 'video' selects cells to "
+                "record)");
   }
   if (shown < 2) return Fail({}, "no world has recordings of transitions by two methods");
   TransitionRace race = RaceIn(*best, scenario, scenario.methods);

@@ -92,14 +92,12 @@ std::string Figure(const std::vector<Panel>& panels, const ScenarioSummary& scen
   const bool has_medians = std::ranges::any_of(
       panels, [](const Panel& panel) { return std::ranges::any_of(panel.curves, &PlotCurve::faint); });
   const std::string trials =
-      has_medians ? fmt::format(
-                        "Thin lines: trial {}, until its solver stopped. Thick lines: the median of all trials, "
-                        "where a trial whose solver has stopped keeps its last value. The plots show at most the "
-                        "first 200 iterations.",
-                        trial)
-                  : fmt::format(
-                        "The lines show trial {}, until its solver stopped, and at most the first 200 "
-                        "iterations.",
+      has_medians
+          ? fmt::format(
+                "Thin lines: trial {}, until its solver stopped. Thick lines: the median of all trials, where a trial "
+                "whose solver has stopped keeps its last value. The plots show at most the first 200 iterations.",
+                trial)
+          : fmt::format("The lines show trial {}, until its solver stopped, and at most the first 200 iterations.",
                         trial);
   std::string html =
       CurveLegend(scenario.methods, "Error of each end effector at each iteration, on a logarithmic axis. " + trials) +

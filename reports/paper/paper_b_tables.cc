@@ -206,8 +206,8 @@ class Study {
               RootMeanSquare, set);
     if (!set.angles.empty()) {
       set.angle_note = fmt::format(
-          "Hidden angles: the rotation since the start, and the difference from the truth, as root mean squares "
-          "over the trials; {}",
+          "Hidden angles: the rotation since the start, and the difference from the truth, as root mean squares over "
+          "the trials; {}",
           kNoAxis);
     }
     return set;

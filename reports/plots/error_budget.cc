@@ -85,14 +85,13 @@ std::string ErrorBudgetHtml(const ErrorBudget& budget, const std::string& condit
     svg += BarSvg(bar, y, axis, words.scale);
     y += kBarStep;
   }
-  const std::string order = budget.is_shapley ? "the bars are Shapley values, which are the error that is saved if "
-                                                "the stage is replaced by the truth, averaged over all orders of "
-                                                "the stages"
-                                              : "the stages are replaced by the truth one after the other, from top "
-                                                "to bottom; another order may give other values";
+  const std::string order = budget.is_shapley ? "the bars are Shapley values, which are the error that is saved if the "
+                                                "stage is replaced by the truth, averaged over all orders of the stages"
+                                              : "the stages are replaced by the truth one after the other, from top to "
+                                                "bottom; another order may give other values";
   return fmt::format(
-      "<figure><figcaption>Contribution of each stage to the {}{}{}: {}. Values are means of {} worlds; lines are "
-      "95 % intervals.</figcaption>{}</svg></figure>",
+      "<figure><figcaption>Contribution of each stage to the {}{}{}: {}. Values are means of {} worlds; lines are 95 % "
+      "intervals.</figcaption>{}</svg></figure>",
       EscapeMarkup(words.label), condition.empty() ? "" : ", ", EscapeMarkup(condition), order, budget.worlds, svg);
 }
 

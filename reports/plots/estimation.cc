@@ -287,8 +287,8 @@ std::string EstimationLegend(const ScenarioSummary& scenario, const std::string&
   const MetricWords words = WordsFor(metric);
   const MetricInfo* info = FindMetric(metric);
   std::string text = fmt::format(
-      "Left: the values of both methods, with one dot per world, coloured by {}. Right: the differences "
-      "between the methods, with 95 % intervals",
+      "Left: the values of both methods, with one dot per world, coloured by {}. Right: the differences between the "
+      "methods, with 95 % intervals",
       WorldsAreUnits(scenario.unit)              ? "method"
       : scenario.unit == SamplingUnit::kClipPair ? "the first clip of the transition"
                                                  : "the source of the world");
@@ -316,8 +316,8 @@ std::string WithoutEachUnit(const Comparison& c, SamplingUnit unit) {
   const auto [low, high] = std::ranges::minmax_element(beyond.left_out, {}, &LeftOut::difference);
   const LeftOut& extreme = Extreme(beyond, PracticalOf(c));
   return fmt::format(
-      "“{}” against “{}”: if each {} in turn is left out, the mean difference is from {} to {}. Without “{}”, the "
-      "mean difference is {}: {}.",
+      "“{}” against “{}”: if each {} in turn is left out, the mean difference is from {} to {}. Without “{}”, the mean "
+      "difference is {}: {}.",
       c.method, c.baseline, OneOf(unit), Amount(low->difference, words), Amount(high->difference, words), extreme.unit,
       Amount(extreme.difference, words), WhatItDoes(beyond, extreme, PracticalOf(c), unit));
 }

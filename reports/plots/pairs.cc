@@ -175,10 +175,9 @@ std::string PairsHtml(const RunData& run, const ScenarioSummary& scenario) {
   const KeptCells kept(run);
   const std::vector<Pair> pairs = PairsOf(run, scenario, series);
   if (pairs.empty()) return "";
-  std::string html =
-      CurveLegend(scenario.methods,
-                  "Grey bodies show the truth. Pictures and motions exist only for recorded cells (option "
-                  "<code>--keep motions</code>).");
+  std::string html = CurveLegend(scenario.methods,
+                                 "Grey bodies show the truth. Pictures and motions exist only for recorded cells "
+                                 "(option <code>--keep motions</code>).");
   for (std::size_t i = 0; i < std::min(pairs.size(), kMaxPairs); ++i) {
     const Pair& pair = pairs[i];
     std::string curves, frames;
@@ -188,8 +187,7 @@ std::string PairsHtml(const RunData& run, const ScenarioSummary& scenario) {
                                 IndexOf(scenario, cell->method));
     }
     html += fmt::format(
-        "<details{}><summary>{}: largest error {} mm ({})</summary><div "
-        "class=\"panels\">{}</div>{}</details>",
+        "<details{}><summary>{}: largest error {} mm ({})</summary><div class=\"panels\">{}</div>{}</details>",
         i == 0 ? " open" : "", EscapeMarkup(pair.name), FormatNumber(pair.worst_mm), WordsFor(kCurves[0]).label, curves,
         frames);
   }

@@ -156,8 +156,8 @@ void AddMethod(const ScenarioSummary& scenario, std::size_t method, const Method
   if (const auto at = OperatedAt(events)) {
     curves.operated[method] = *at;
     told += fmt::format(
-        "; judges {:.0f} % of the right performances and {:.0f} % of the wrong performances as right; best F1 over "
-        "all thresholds {:.2f}",
+        "; judges {:.0f} % of the right performances and {:.0f} % of the wrong performances as right; best F1 over all "
+        "thresholds {:.2f}",
         100 * at->second, 100 * at->first, *BestF1(events));
   }
   if (const SharePoints by_severity = FoundBySeverity(verdicts.performances); by_severity.size() > 1) {
@@ -184,26 +184,25 @@ std::string VerdictPanels(const RunData& run, const ScenarioSummary& scenario, c
   std::string html;
   if (!curves.rocs.empty()) {
     html += SharePanel(prefix +
-                           "share of right performances that are judged right, against the share of wrong "
-                           "performances that are judged right, for all thresholds and all people together; the "
-                           "mark shows the threshold that the method uses",
+                           "share of right performances that are judged right, against the share of wrong performances "
+                           "that are judged right, for all thresholds and all people together; the mark shows the "
+                           "threshold that the method uses",
                        curves.words, curves.rocs, curves.operated);
-    html += DetPanel(
-        prefix +
-            "the same errors on scales of normal deviates (DET curve): right performances that are judged wrong, "
-            "against wrong performances that are judged right",
-        curves.words, curves.rocs, curves.operated);
+    html += DetPanel(prefix +
+                         "the same errors on scales of normal deviates (DET curve): right performances that are judged "
+                         "wrong, against wrong performances that are judged right",
+                     curves.words, curves.rocs, curves.operated);
   }
   if (!curves.found.empty()) {
     html += SharePanel(prefix + "share of faulty performances that are judged wrong, by the severity of the fault",
                        curves.found_words, curves.found);
   }
   if (!curves.waiting.empty()) {
-    html += WaitPanel(prefix +
-                          "share of right performances that are not yet judged right, by the time in s since the "
-                          "performance was truly right; a performance that is never judged right is censored when "
-                          "its time window ends",
-                      curves.wait_words, curves.waiting);
+    html += WaitPanel(
+        prefix +
+            "share of right performances that are not yet judged right, by the time in s since the performance was "
+            "truly right; a performance that is never judged right is censored when its time window ends",
+        curves.wait_words, curves.waiting);
   }
   if (html.empty()) return "";
   return fmt::format(

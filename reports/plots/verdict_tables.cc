@@ -60,11 +60,10 @@ std::string FaultTable(const ScenarioSummary& scenario, const std::string& prefi
     }
     body += "</tr>";
   }
-  return Framed(
-      prefix +
-          "percentage of faulty performances that are judged wrong, by the worst fault: slight (severity up to "
-          "0.5) · bad",
-      head, body);
+  return Framed(prefix +
+                    "percentage of faulty performances that are judged wrong, by the worst fault: slight (severity up "
+                    "to 0.5) · bad",
+                head, body);
 }
 
 /// Returns the name of the session of a trial: the name of the recorded person, or the trial's number for a simulated
@@ -125,10 +124,10 @@ std::string Confusions(const ScenarioSummary& scenario, const std::string& prefi
     if (confusion.counts.empty() || confusion.moves.size() > kMaxMoves || method >= kMaxMethods) continue;
     const std::string& name = scenario.methods[method];
     std::string& html = name == asked || asked.empty() ? open : folded;
-    html += ConfusionTable(fmt::format("{}percentage of each danced move (rows) that {} recognised as another move "
-                                       "(columns)",
-                                       prefix, name),
-                           confusion);
+    html += ConfusionTable(
+        fmt::format("{}percentage of each danced move (rows) that {} recognised as another move (columns)", prefix,
+                    name),
+        confusion);
   }
   if (folded.empty()) return open;
   return open + "<details><summary>Confused moves of the other methods</summary>" + folded + "</details>";

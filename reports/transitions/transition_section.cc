@@ -138,8 +138,7 @@ std::string HowMany(const TransitionFacts& facts) {
   const auto listed = static_cast<long long>(facts.candidates.size());
   if (!facts.pairs_seen || *facts.pairs_seen <= listed) return "";
   return fmt::format(
-      "<p class=\"quiet legend\">{} of {} pairs of frames are listed: the chosen pair and the best "
-      "other pairs.</p>",
+      "<p class=\"quiet legend\">{} of {} pairs of frames are listed: the chosen pair and the best other pairs.</p>",
       FormatCount(listed), FormatCount(*facts.pairs_seen));
 }
 
@@ -176,8 +175,7 @@ std::string AllCandidates(const RecordedRequest& world) {
   if (html.empty()) return html;
   return html +
          "<p class=\"quiet legend\">Too far: the distance d of the pair is not below the threshold. Later: the pair "
-         "matches, but the method chose an earlier match. Worse: the pair matches, but another pair ranks "
-         "higher.</p>";
+         "matches, but the method chose an earlier match. Worse: the pair matches, but another pair ranks higher.</p>";
 }
 
 std::string WorldHtml(const RecordedRequest& world) {
@@ -252,8 +250,8 @@ std::string DistanceTable::Html() const {
   }
   return TableHtml(table) +
          fmt::format(
-             "<p class=\"quiet legend\">The bars of a row sum to d². A full bar means that this feature alone "
-             "reaches the threshold; without a threshold, the largest bar of each row is full. {}</p>",
+             "<p class=\"quiet legend\">The bars of a row sum to d². A full bar means that this feature alone reaches "
+             "the threshold; without a threshold, the largest bar of each row is full. {}</p>",
              EscapeMarkup(kFeatureLegend));
 }
 

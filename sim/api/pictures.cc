@@ -21,15 +21,12 @@ Camera CameraToDraw(const NamedCamera& named) {
   const auto& [width, height, fx, fy, cx, cy, skew] = named.camera.intrinsics;
   if (width < 1 || height < 1 || width > kMaxPictureSide || height > kMaxPictureSide) {
     throw engine::BadInput(
-        fmt::format("camera '{}': found a picture size of {} x {} pixels; allowed: 1 to {} pixels "
-                    "on each side",
+        fmt::format("camera '{}': found a picture size of {} x {} pixels; allowed: 1 to {} pixels on each side",
                     named.name, width, height, kMaxPictureSide));
   }
   if (named.camera.distortion.IsNone()) return named.camera;
-  throw engine::BadInput(
-      fmt::format("camera '{}': the lens has distortion; allowed: a lens without distortion (k1, k2, p1, p2, k3 = "
-                  "0)",
-                  named.name));
+  throw engine::BadInput(fmt::format(
+      "camera '{}': the lens has distortion; allowed: a lens without distortion (k1, k2, p1, p2, k3 = 0)", named.name));
 }
 
 Picture PictureOf(View view) {

@@ -195,16 +195,12 @@ Result<std::vector<double>> ReadBeats(std::string_view text, const std::string& 
     // Read the line's time, and compare it with the time of the previous beat.
     const auto moment = NumberAtFront(line);
     if (!moment)
-      return Fail({file, number, 1},
-                  "each line must contain the time of a beat in seconds, found "
-                  "{}",
+      return Fail({file, number, 1}, "each line must contain the time of a beat in seconds, found {}",
                   Quote(line.substr(0, 40)));
     if (*moment < 0) return Fail({file, number, 1}, "found a beat at {} s; allowed: 0 s or later", *moment);
     const double step = beats.empty() ? kMinBeatSeconds : *moment - beats.back();
     if (step < kMinBeatSeconds - 1e-9 || step > kMaxBeatSeconds) {
-      return Fail({file, number, 1},
-                  "found a beat at {} s, {:.3f} s after the previous beat; allowed: {} to {} "
-                  "s",
+      return Fail({file, number, 1}, "found a beat at {} s, {:.3f} s after the previous beat; allowed: {} to {} s",
                   *moment, step, kMinBeatSeconds, kMaxBeatSeconds);
     }
     beats.push_back(*moment);

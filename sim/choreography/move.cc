@@ -135,9 +135,7 @@ Result<std::vector<PoseKey>> ReadPoses(const Node& poses, double beats) {
                                             keys.back().beat));
     }
     if (beat + hold >= beats)
-      pose.Complain(item.place, fmt::format("the pose is held until beat {} or longer; it must "
-                                            "end earlier",
-                                            beats));
+      pose.Complain(item.place, fmt::format("the pose is held until beat {} or longer; it must end earlier", beats));
     RETURN_IF_ERROR(pose.Finish());
     // Write two keys for a held pose: at the start and at the end of the hold.
     keys.push_back({beat, controls, ease});

@@ -226,11 +226,10 @@ Result<void> CheckJumps(const std::vector<PoseKey>& poses, double beats, double 
     if (JumpOf(top) <= 0) continue;
     const double effort = TimesOf(top, beat_seconds).effort;
     if (top.beat - effort <= caught || top.beat + effort >= beats) {
-      return Fail(
-          place,
-          "the jump at beat {:.4g} would last from beat {:.2f} to beat {:.2f}; allowed: a jump between beats {:.2f} "
-          "and {:.4g}",
-          top.beat, top.beat - effort, top.beat + effort, caught, beats);
+      return Fail(place,
+                  "the jump at beat {:.4g} would last from beat {:.2f} to beat {:.2f}; allowed: a jump between beats "
+                  "{:.2f} and {:.4g}",
+                  top.beat, top.beat - effort, top.beat + effort, caught, beats);
     }
     caught = top.beat + effort;
   }

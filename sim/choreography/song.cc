@@ -65,11 +65,8 @@ Result<Move> MoveOf(const SongPart& part, double tempo_bpm, const Place& place) 
   if (!move) return move;
   const double danced_bpm = PaceOf(part) * tempo_bpm;
   if (danced_bpm < move->slowest_bpm || danced_bpm > move->fastest_bpm) {
-    return Fail(place,
-                "'{}' would be danced at {} beats per minute; allowed: {} to "
-                "{}{}",
-                part.move, danced_bpm, move->slowest_bpm, move->fastest_bpm,
-                part.half_time ? "" : " ('half_time: true' halves the tempo)");
+    return Fail(place, "'{}' would be danced at {} beats per minute; allowed: {} to {}{}", part.move, danced_bpm,
+                move->slowest_bpm, move->fastest_bpm, part.half_time ? "" : " ('half_time: true' halves the tempo)");
   }
   return CurvesAtTempo(*move, danced_bpm, place);
 }

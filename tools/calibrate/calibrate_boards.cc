@@ -48,8 +48,8 @@ Result<RefinedRig> CalibrateWithoutOutliers(const BoardViews& search, const Cali
     if (search.Told().empty() || kept.size() == views.size() || round == kMaxRounds) {
       if (views.size() < all) {
         options.listener.print(
-            fmt::format("{} of {} pictures of boards were left out, because the residual of each is larger than "
-                        "three times the median\n",
+            fmt::format("{} of {} pictures of boards were left out, because the residual of each is larger than three "
+                        "times the median\n",
                         all - views.size(), all));
       }
       return rig;
@@ -86,16 +86,14 @@ Result<std::vector<TargetView>> SynchroniseFilms(const CalibrateOptions& options
     const double delay_s = steps.delay_s[i];
     if (delay_s == 0) continue;
     constexpr double kMs = 1000;
-    options.listener.print(
-        fmt::format("{}: this film is {:.0f} ms ({:.2f} frames) {} than {}; corrected by interpolating corners "
-                    "between frames\n",
-                    seen[i].name, kMs * std::abs(delay_s), std::abs(delay_s) / seen[i].period_s * seen[i].every,
-                    delay_s > 0 ? "later" : "earlier", seen.front().name));
+    options.listener.print(fmt::format(
+        "{}: this film is {:.0f} ms ({:.2f} frames) {} than {}; corrected by interpolating corners between frames\n",
+        seen[i].name, kMs * std::abs(delay_s), std::abs(delay_s) / seen[i].period_s * seen[i].every,
+        delay_s > 0 ? "later" : "earlier", seen.front().name));
     if (std::abs(delay_s) > max_delay_s - 0.5 * period_s.front()) {
-      options.listener.print(
-          fmt::format("doubtful: this delay is at the end of the searched range; use --sync {:.1f} to search a "
-                      "larger range\n",
-                      2 * max_delay_s + 0.1));
+      options.listener.print(fmt::format(
+          "doubtful: this delay is at the end of the searched range; use --sync {:.1f} to search a larger range\n",
+          2 * max_delay_s + 0.1));
     }
   }
   if (steps.after_px < steps.before_px) {
@@ -192,11 +190,11 @@ Result<void> CompareBeside(const CalibrateOptions& options, const RefinedRig& ri
   constexpr double kPercent = 100;
   for (std::size_t i = 0; i < cameras.size(); ++i) {
     const Intrinsics &a = rig.cameras[i].intrinsics, &b = cameras[i].intrinsics;
-    options.listener.print(fmt::format(
-        "  {:<14} focal lengths {:.1f}, {:.1f} px, in the other rig {:.1f}, {:.1f} ({:+.1f}, {:+.1f} %); residual "
-        "{:.3f} px, in the other rig {:.3f}\n",
-        seen[i].name, a.fx, a.fy, b.fx, b.fy, kPercent * (a.fx / b.fx - 1), kPercent * (a.fy / b.fy - 1),
-        rig.camera_rms_px[i], placed->camera_rms_px[i]));
+    options.listener.print(
+        fmt::format("  {:<14} focal lengths {:.1f}, {:.1f} px, in the other rig {:.1f}, {:.1f} ({:+.1f}, {:+.1f} %); "
+                    "residual {:.3f} px, in the other rig {:.3f}\n",
+                    seen[i].name, a.fx, a.fy, b.fx, b.fy, kPercent * (a.fx / b.fx - 1), kPercent * (a.fy / b.fy - 1),
+                    rig.camera_rms_px[i], placed->camera_rms_px[i]));
     if (i == 0) continue;
     options.listener.print(fmt::format("  {:<14} {:.3f} m from {}, in the other rig {:.3f}\n", "",
                                        glm::distance(rig.cameras[i].p_WC, rig.cameras[0].p_WC), seen.front().name,

@@ -58,8 +58,8 @@ Result<void> CheckPixels(const CameraPairs& of, const std::string& file) {
     const bool is_inside = p.x >= -0.5 && p.y >= -0.5 && p.x <= of.width - 0.5 && p.y <= of.height - 0.5;
     if (is_inside) continue;
     return Fail({file},
-                "camera {}: the pixel ({:g}, {:g}) is outside the picture of {}x{} pixels; check the pixel "
-                "and the picture size",
+                "camera {}: the pixel ({:g}, {:g}) is outside the picture of {}x{} pixels; check the pixel and the "
+                "picture size",
                 of.name, p.x, p.y, of.width, of.height);
   }
   return {};
@@ -132,8 +132,8 @@ Result<Calibrated> FromPairs(const CalibrateOptions& options) {
     constexpr double kFar_m = 500;
     if (distance > kFar_m) {
       options.listener.print(
-          fmt::format("{}: the camera is {:.0f} m from the first point of its pairs; points must be in metres, and "
-                      "may be in millimetres here\n",
+          fmt::format("{}: the camera is {:.0f} m from the first point of its pairs; points must be in metres, and may "
+                      "be in millimetres here\n",
                       of.name, distance));
     }
   }
@@ -165,8 +165,8 @@ std::string TextOf(const Calibrated& rig) {
     if (i < rig.disagreeing.size() && rig.disagreeing[i]) {
       const DisagreeingPair& pair = *rig.disagreeing[i];
       text += fmt::format(
-          "  pair {} disagrees with the other pairs. A calibration without this pair projects the point ({:g}, "
-          "{:g}, {:g})\n"
+          "  pair {} disagrees with the other pairs. A calibration without this pair projects the point ({:g}, {:g}, "
+          "{:g})\n"
           "  {:.1f} px away from the pixel ({:g}, {:g}), and has a reprojection error of {:.3f} px RMS\n",
           pair.index + 1, pair.pair.world.x, pair.pair.world.y, pair.pair.world.z, pair.error_px, pair.pair.pixel.x,
           pair.pair.pixel.y, pair.rms_without_px);
@@ -207,9 +207,8 @@ Result<Board> ReadCodedBoard(const std::string& text) {
   const auto first =
       at == std::string::npos ? std::vector<double>{0} : NumbersByX(std::string_view(text).substr(at + 1));
   const bool is_board = numbers && numbers->size() == 3 && IsWholeWithin((*numbers)[0], 3, kMaxSquares) &&
-                        IsWholeWithin((*numbers)[1], 3, kMaxSquares) && (*numbers)[2] >= 0.001 &&
-                        (*numbers)[2] <= 10 && first && first->size() == 1 &&
-                        IsWholeWithin(first->front(), 0, kCodeCount);
+                        IsWholeWithin((*numbers)[1], 3, kMaxSquares) && (*numbers)[2] >= 0.001 && (*numbers)[2] <= 10 &&
+                        first && first->size() == 1 && IsWholeWithin(first->front(), 0, kCodeCount);
   if (!is_board) {
     return Fail({},
                 "--board {}: allowed: 3 to {} squares along each side of the board, and the side of a square in "
@@ -250,8 +249,8 @@ Result<void> PrintBoard(const CalibrateOptions& options) {
   TellWritten(options.listener, options.print);
   constexpr double kMm = 1000;
   options.listener.print(
-      fmt::format("{} x {} squares, {:.0f} x {:.0f} mm: {}. Print the board at 100 %, so that the side of a square "
-                  "is {:g} mm. Glue the board onto something flat, then measure the side of a square\n",
+      fmt::format("{} x {} squares, {:.0f} x {:.0f} mm: {}. Print the board at 100 %, so that the side of a square is "
+                  "{:g} mm. Glue the board onto something flat, then measure the side of a square\n",
                   board.columns, board.rows, kMm * board.columns * board.square, kMm * board.rows * board.square,
                   PaperFor(board), kMm * board.square));
   return {};

@@ -123,8 +123,8 @@ Result<BoardViews> SearchFor(const CalibrateOptions& options) {
                 options.boards.size());
   if (!board.is_charuco && (board.columns + board.rows) % 2 == 0 && options.inputs.size() > 1) {
     return Fail({},
-                "--board {}: this board looks the same after a rotation by 180°, so the poses of two cameras would "
-                "be ambiguous; allowed: an odd sum of columns and rows",
+                "--board {}: this board looks the same after a rotation by 180°, so the poses of two cameras would be "
+                "ambiguous; allowed: an odd sum of columns and rows",
                 options.boards.front());
   }
   ASSIGN_OR_RETURN(auto finder, MakePrintedBoardFinder(board));

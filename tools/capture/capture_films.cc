@@ -24,8 +24,8 @@ Result<void> CheckReference(const MarkerMotion& reference, const std::string& fi
   constexpr std::size_t kShown = 4;
   const std::span<const std::string> shown(reference.names.data(), std::min(kShown, reference.names.size()));
   return Fail({file},
-              "no marker can be compared: none of the {} markers ({}{}) has the name of a keypoint ({}, …) "
-              "or of a joint ({}, …)",
+              "no marker can be compared: none of the {} markers ({}{}) has the name of a keypoint ({}, …) or of a "
+              "joint ({}, …)",
               reference.names.size(), Join(shown), reference.names.size() > kShown ? ", …" : "",
               LandmarkName(Landmark::kLeftShoulder), RoleName(Role::kLeftShoulder));
 }
@@ -36,9 +36,8 @@ Result<CapturedFilms> CaptureFilms(const CaptureFilmsOptions& options) {
   // Check the options that exclude each other, and read the reference.
   RETURN_IF_ERROR(FormatOfName(options.output));
   if (options.keypoints.empty() && options.marks.empty() && !options.silhouettes) {
-    return Fail({},
-                "the source of the person's position is missing; allowed: --keypoints DIR, --marks DIR or "
-                "--silhouettes");
+    return Fail(
+        {}, "the source of the person's position is missing; allowed: --keypoints DIR, --marks DIR or --silhouettes");
   }
   std::optional<MarkerMotion> reference;
   if (!options.reference.empty()) {
@@ -48,8 +47,8 @@ Result<CapturedFilms> CaptureFilms(const CaptureFilmsOptions& options) {
   }
   if (options.silhouettes && options.sync_s > 0)
     return Fail({},
-                "--sync: outlines cannot determine the delay between films; cut the films so that all begin at "
-                "the same moment");
+                "--sync: outlines cannot determine the delay between films; cut the films so that all begin at the "
+                "same moment");
   if (options.silhouettes && !options.keypoints.empty() && options.stature_m > 0) {
     return Fail({}, "--stature: not allowed with --keypoints, because the keypoints determine the person's height");
   }
@@ -61,8 +60,7 @@ Result<CapturedFilms> CaptureFilms(const CaptureFilmsOptions& options) {
       fmt::format("{} films, {} frames at {:g} Hz\n", session.views.size(), facts.EvenFrames(), facts.rate_hz));
   if (reference && std::abs(reference->rate_hz - facts.rate_hz) > kSameRateTolerance * facts.rate_hz) {
     options.listener.print(
-        fmt::format("reference: resampled from {:g} to {:g} Hz by linear interpolation between "
-                    "frames\n",
+        fmt::format("reference: resampled from {:g} to {:g} Hz by linear interpolation between frames\n",
                     reference->rate_hz, facts.rate_hz));
     reference = AtRate(std::move(*reference), facts.rate_hz);
   }

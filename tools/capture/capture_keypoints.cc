@@ -55,10 +55,8 @@ std::string PeopleText(const RecoveredPerson& person, const std::vector<FilmedVi
       const auto frames = std::ranges::count_if(one.seen[i], [](const auto& seen) { return seen.has_value(); });
       if (frames > 0) by += fmt::format("{}{} ({} frames)", by.empty() ? "" : ", ", views[i].camera.name, frames);
     }
-    text += fmt::format(
-        "person {}: seen by {}; the median distance between rays is {:.1f} % of the person's "
-        "height\n",
-        ++number, by, 100 * one.error);
+    text += fmt::format("person {}: seen by {}; the median distance between rays is {:.1f} % of the person's height\n",
+                        ++number, by, 100 * one.error);
   }
   if (alone > 0) {
     text += fmt::format("{} track{} seen by only one camera: other people, or errors\n", alone, alone == 1 ? "" : "s");
@@ -324,8 +322,7 @@ Result<bool> CaptureKeypoints(const CaptureFilmsOptions& options, FilmedSession 
   if (options.poses == "bundle" && options.smooth_hz == 0) {
     if (!AdjustPerson(films.cameras, person.people[chosen], AdjustOf(recover), person)) {
       films.told.Tell(
-          "doubtful: found no motion that fits all keypoints at once, so every frame was fitted "
-          "separately");
+          "doubtful: found no motion that fits all keypoints at once, so every frame was fitted separately");
     }
   }
   // Report the people, the repairs, the doubts and the residuals.
@@ -379,9 +376,9 @@ Result<bool> CaptureKeypoints(const CaptureFilmsOptions& options, FilmedSession 
     } else {
       columns = CompareWithReference(in_time, person, films, recover);
     }
-    RETURN_IF_ERROR(TellColumns(what + " If the reference was made from the same\nkeypoints, the distance shows "
-                                       "agreement, not error.",
-                                columns, views, options));
+    RETURN_IF_ERROR(TellColumns(
+        what + " If the reference was made from the same\nkeypoints, the distance shows agreement, not error.", columns,
+        views, options));
   }
   // Write the film and the page.
   if (!options.report.empty()) return WriteReport(options, views, person, chosen, films, both ? &*both : nullptr);

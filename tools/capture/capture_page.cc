@@ -73,13 +73,13 @@ std::string FilmHtml(const CapturePage& page) {
   const std::string caption = EscapeMarkup(page.still.caption);
   const std::string poster = "data:image/png;base64," + Base64(page.still.png);
   if (page.mp4.empty()) {
-    return page.still.png.empty() ? ""
-                                  : fmt::format(
-                                        "<figure class=\"film\"><img width=\"{}\" height=\"{}\" src=\"{}\" "
-                                        "alt=\"{}\"><figcaption>{} The film is too large for this "
-                                        "page{}.</figcaption></figure>",
-                                        page.still.width, page.still.height, poster, caption, caption,
-                                        page.film.empty() ? "" : ": " + EscapeMarkup(page.film));
+    return page.still.png.empty()
+               ? ""
+               : fmt::format(
+                     "<figure class=\"film\"><img width=\"{}\" height=\"{}\" src=\"{}\" alt=\"{}\"><figcaption>{} The "
+                     "film is too large for this page{}.</figcaption></figure>",
+                     page.still.width, page.still.height, poster, caption, caption,
+                     page.film.empty() ? "" : ": " + EscapeMarkup(page.film));
   }
   return fmt::format(
       "<figure class=\"film\"><video controls loop muted playsinline width=\"{}\" height=\"{}\" poster=\"{}\" "

@@ -66,8 +66,7 @@ CapturePage PageOf(const CaptureFilmsOptions& options, const std::vector<FilmedV
   // Write the verdict: points found, residuals, and doubts.
   CapturePage page = BeginPage(options, person.motion, person.body.lengths, films.told.lines);
   page.verdict = fmt::format(
-      "{} cameras, {} frames at {:g} Hz: {:.1f} % of the points were triangulated, with a median residual of {:.1f} "
-      "px",
+      "{} cameras, {} frames at {:g} Hz: {:.1f} % of the points were triangulated, with a median residual of {:.1f} px",
       views.size(), person.motion.poses.size(), person.motion.rate_hz, kPercent * person.report.found,
       person.report.residual_px);
   page.residuals.push_back(ResidualsOf(views, person, chosen, films));
@@ -120,8 +119,8 @@ CapturePage BeginPage(const CaptureFilmsOptions& options, const BodyMotion& moti
 CameraResiduals ResidualsOfOutlines(const std::vector<FilmedView>& views, const UnmarkedMotion& person) {
   constexpr double kPercent = 100;
   CameraResiduals residuals{.caption =
-                                "Difference between the body and the outline in each frame of a camera: the area "
-                                "that only one of them covers, in % of the area that at least one of them covers",
+                                "Difference between the body and the outline in each frame of a camera: the area that "
+                                "only one of them covers, in % of the area that at least one of them covers",
                             .unit = "%",
                             .cameras = {}};
   for (std::size_t i = 0; i < views.size(); ++i) {

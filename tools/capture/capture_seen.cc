@@ -51,8 +51,8 @@ Result<SeenPeople> TakePeople(const CaptureFilmsOptions& options, PeopleOfFilm f
   if (film.frames.size() != static_cast<std::size_t>(view.facts.frames)) {
     return Fail(
         {entry.string()},
-        "contains keypoints of {} frames, but the film {} has {} frames; allowed: an entry or a file for each "
-        "frame, even for frames that show nobody, or frame numbers (frame_id, image_id, or at the end of file names)",
+        "contains keypoints of {} frames, but the film {} has {} frames; allowed: an entry or a file for each frame, "
+        "even for frames that show nobody, or frame numbers (frame_id, image_id, or at the end of file names)",
         film.frames.size(), view.path.string(), view.facts.frames);
   }
   const bool is_turned = film.width == view.facts.height && film.height == view.facts.width;
@@ -159,8 +159,8 @@ void Synchronise(const CaptureFilmsOptions& options, const std::vector<FilmedVie
   if (!told.ends_with(':')) films.told.Tell(told);
   if (untold.empty()) return;
   films.told.Tell(
-      fmt::format("the keypoints do not determine the delay of {}, so Etude assumes no delay. Possible causes: "
-                  "people hardly move; the delay is more than --sync {:g}; a camera's pose differs from the rig",
+      fmt::format("the keypoints do not determine the delay of {}, so Etude assumes no delay. Possible causes: people "
+                  "hardly move; the delay is more than --sync {:g}; a camera's pose differs from the rig",
                   untold, options.sync_s));
 }
 
@@ -175,8 +175,7 @@ void ClocksOfRates(const std::vector<FilmedView>& views, SeenFilms& films) {
     films.told.Tell(fmt::format("{}: the film has {:g} frames per second, but the first film has {:g}; {}",
                                 views[i].camera.name, own, rate,
                                 is_one ? "Etude assumes that both have the same rate"
-                                       : "Etude resamples the keypoints by cubic "
-                                         "interpolation"));
+                                       : "Etude resamples the keypoints by cubic interpolation"));
   }
 }
 
@@ -195,10 +194,10 @@ void WarnOfMisfits(const std::vector<FilmedView>& views, const std::vector<Clock
   constexpr double kMinPx = 1, kMuchMore = 4;
   for (std::size_t i = 0; most > 0 && i < views.size(); ++i) {
     if (found[i].is_told || found[i].misfit < kMuchMore * std::max(kMinPx, most)) continue;
-    films.told.Tell(fmt::format(
-        "doubtful: {}: the keypoints do not fit the keypoints of {} with any delay up to {} frames. Use --sync "
-        "{:.1f} to search larger delays, or check the camera's pose in the rig",
-        views[i].camera.name, OthersOf(views), max_frames, std::ceil(4 * max_frames / rate_hz)));
+    films.told.Tell(
+        fmt::format("doubtful: {}: the keypoints do not fit the keypoints of {} with any delay up to {} frames. Use "
+                    "--sync {:.1f} to search larger delays, or check the camera's pose in the rig",
+                    views[i].camera.name, OthersOf(views), max_frames, std::ceil(4 * max_frames / rate_hz)));
   }
 }
 
@@ -248,8 +247,8 @@ void TellDrift(const std::vector<FilmedView>& views, std::size_t film, const Fil
   if (own == rate || std::abs(own - rate) > kSameRateTolerance * rate) return;
   const auto over_film = [&](double drift) { return drift * static_cast<double>(frames); };
   films.told.Tell(
-      fmt::format("{}: the measured clock drift is {:+.2f} frames over the film, but the frame rates of the files "
-                  "give {:+.2f} frames. The evidence is too weak for a correction",
+      fmt::format("{}: the measured clock drift is {:+.2f} frames over the film, but the frame rates of the files give "
+                  "{:+.2f} frames. The evidence is too weak for a correction",
                   views[film].camera.name, over_film(nearest.drift - taken.drift), over_film(rate / own - 1)));
 }
 
@@ -282,8 +281,8 @@ void CorrectClocks(const std::vector<FilmedView>& views, const RecoverPersonOpti
     constexpr double kHardly = 0.02;
     if (std::abs(drift) > kHardly) {
       told += fmt::format(
-          " in the middle of the film, and its frame rate is {:.4f} Hz, which adds {:.2f} frames of "
-          "delay over the film",
+          " in the middle of the film, and its frame rate is {:.4f} Hz, which adds {:.2f} frames of delay over the "
+          "film",
           rate / (1 + now.drift), std::abs(drift));
     }
     films.told.Tell(fmt::format("{}: {}; corrected (loss {:.2f} to {:.3f})", views[i].camera.name, told,
@@ -356,8 +355,8 @@ void TellMends(const RecoveredPerson& person, std::size_t chosen, const std::vec
     const auto is_seen = [](const auto& seen) { return seen.has_value(); };
     if (std::ranges::any_of(person.people[chosen].seen[i], is_seen)) continue;
     told.Tell(
-        fmt::format("doubtful: {}: nobody in this film fits the person in the other films, so the film was left "
-                    "out. Check the film, and the film's camera in the rig",
+        fmt::format("doubtful: {}: nobody in this film fits the person in the other films, so the film was left out. "
+                    "Check the film, and the film's camera in the rig",
                     views[i].camera.name));
   }
   // Report repairs: exchanged sides and exchanged people.
@@ -369,18 +368,17 @@ void TellMends(const RecoveredPerson& person, std::size_t chosen, const std::vec
   constexpr double kDoubtful = 0.1;
   for (std::size_t i = 0; i < views.size(); ++i) {
     if (person.report.rejected[i] <= kDoubtful) continue;
-    told.Tell(
-        fmt::format("doubtful: {}: {:.0f} % of this camera's keypoints disagree with the keypoints of the "
-                    "other cameras",
-                    views[i].camera.name, 100 * person.report.rejected[i]));
+    told.Tell(fmt::format(
+        "doubtful: {}: {:.0f} % of this camera's keypoints disagree with the keypoints of the other cameras",
+        views[i].camera.name, 100 * person.report.rejected[i]));
   }
   constexpr double kDoubtfulError = 0.03;
   for (const MatchedPerson& one : person.people) {
     if (one.cameras < 2 || one.error <= kDoubtfulError) continue;
-    told.Tell(fmt::format(
-        "doubtful: the median distance between rays is {:.1f} % of a person's height; with usual pose estimators, "
-        "it is 1 to 2 %",
-        100 * one.error));
+    told.Tell(
+        fmt::format("doubtful: the median distance between rays is {:.1f} % of a person's height; with usual pose "
+                    "estimators, it is 1 to 2 %",
+                    100 * one.error));
     break;
   }
 }

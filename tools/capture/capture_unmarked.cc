@@ -206,10 +206,9 @@ std::string TellUnmarked(const CaptureFilmsOptions& options, const std::vector<F
   told.Tell(fmt::format("stature: {:.2f} m{}; {}", person.stature_m,
                         options.stature_m > 0 ? "" : ", estimated from the outlines", OutlinesText(views, person)));
   if (person.held > 0) {
-    told.Tell(
-        fmt::format("doubtful: in {} frames, fewer than two cameras show the person, so these frames repeat "
-                    "the last pose",
-                    person.held));
+    told.Tell(fmt::format(
+        "doubtful: in {} frames, fewer than two cameras show the person, so these frames repeat the last pose",
+        person.held));
   }
   constexpr double kMaxApart = 0.5, kDoubtfulShare = 0.1, kWrongShare = 0.5;
   std::string wrong;
@@ -231,8 +230,8 @@ std::string TellUnmarked(const CaptureFilmsOptions& options, const std::vector<F
   }
   if (wrong.empty() || !options.rooms.empty() || !options.masks.empty()) return wrong;
   return wrong +
-         ". A person who stays in one place cannot be distinguished from the room, so use pictures of the empty "
-         "rooms (--rooms)";
+         ". A person who stays in one place cannot be distinguished from the room, so use pictures of the empty rooms "
+         "(--rooms)";
 }
 
 Result<bool> WriteUnmarkedReport(const CaptureFilmsOptions& options, const std::vector<FilmedView>& views,
@@ -252,9 +251,7 @@ Result<bool> WriteUnmarkedReport(const CaptureFilmsOptions& options, const std::
 Result<bool> CaptureUnmarked(const CaptureFilmsOptions& options, const FilmedSession& session,
                              const std::optional<MarkerMotion>& reference, Json& facts) {
   if (!options.points.empty())
-    return Fail({},
-                "--points: not allowed with --silhouettes alone, because there are "
-                "no keypoints to write");
+    return Fail({}, "--points: not allowed with --silhouettes alone, because there are no keypoints to write");
   const std::vector<FilmedView>& views = session.views;
   // Recover the motion from the silhouettes.
   MessageLog told{options.listener.print};
@@ -274,8 +271,7 @@ Result<bool> CaptureUnmarked(const CaptureFilmsOptions& options, const FilmedSes
     ASSIGN_OR_RETURN(const auto columns, CompareWithReference(*reference, person, take, options, told));
     RETURN_IF_ERROR(TellColumns(
         fmt::format(
-            "Median distance between the joints and {}, mm. This distance is the error only if the reference is "
-            "right.",
+            "Median distance between the joints and {}, mm. This distance is the error only if the reference is right.",
             options.reference),
         columns, views, options));
   }

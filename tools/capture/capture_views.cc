@@ -72,8 +72,8 @@ Result<RigPaths> RigPathsOf(const fs::path& path) {
   }
   if (is_folder) {
     return Fail({path.string()},
-                "the folder contains no rig; allowed: a rig file, or a folder that contains intri.yml and "
-                "extri.yml, intrinsics.yml and extrinsics.yml, or cameras.txt and images.txt");
+                "the folder contains no rig; allowed: a rig file, or a folder that contains intri.yml and extri.yml, "
+                "intrinsics.yml and extrinsics.yml, or cameras.txt and images.txt");
   }
   return RigPaths{path, {}};
 }
@@ -103,8 +103,8 @@ void FindSize(FilmedView& view, std::vector<std::string>& told) {
   // Report a size that differs from the film's size.
   if (best != film) {
     told.push_back(
-        fmt::format("{}: the rig states no picture size. The principal point ({:.0f}, {:.0f}) suggests {:.0f} x "
-                    "{:.0f} pixels, so Etude assumes this size, although the film has {:.0f} x {:.0f}",
+        fmt::format("{}: the rig states no picture size. The principal point ({:.0f}, {:.0f}) suggests {:.0f} x {:.0f} "
+                    "pixels, so Etude assumes this size, although the film has {:.0f} x {:.0f}",
                     view.camera.name, in.cx, in.cy, best.x, best.y, film.x, film.y));
   }
   for (double* length : {&in.fx, &in.fy, &in.cx, &in.cy, &in.skew}) *length /= scale;
@@ -128,12 +128,12 @@ Result<void> CheckTogether(const std::vector<FilmedView>& views, bool may_differ
     const double seconds = film.EvenFrames() / film.rate_hz, wanted = first.EvenFrames() / first.rate_hz;
     constexpr double kFrames = 1.5;
     if (std::abs(seconds - wanted) > kFrames / std::min(film.rate_hz, first.rate_hz)) {
-      return Fail({view.path.string()},
-                  "the film has {} frames ({:.4g} s at {:g} Hz), but {} has {} frames ({:.4g} s at {:g} Hz). Cut "
-                  "both films so that they begin and end at the same moments, or use --sync to find the delay from "
-                  "keypoints",
-                  film.EvenFrames(), seconds, film.rate_hz, views.front().path.string(), first.EvenFrames(), wanted,
-                  first.rate_hz);
+      return Fail(
+          {view.path.string()},
+          "the film has {} frames ({:.4g} s at {:g} Hz), but {} has {} frames ({:.4g} s at {:g} Hz). Cut both films so "
+          "that they begin and end at the same moments, or use --sync to find the delay from keypoints",
+          film.EvenFrames(), seconds, film.rate_hz, views.front().path.string(), first.EvenFrames(), wanted,
+          first.rate_hz);
     }
     if (!is_one_rate) continue;
     told.push_back(
@@ -269,15 +269,15 @@ MarkerMotion SynchroniseWith(const MarkerMotion& motion, MarkerMotion reference,
     std::string said = "; no common marker determines the clock drift between them";
     if (clock) {
       said = fmt::format(
-          "; the measured clock drift is {:+.2f} frames over the films, and the shift in the middle of "
-          "the films is {:+.2f} frames{}",
+          "; the measured clock drift is {:+.2f} frames over the films, and the shift in the middle of the films is "
+          "{:+.2f} frames{}",
           clock->DriftOver(frames), clock->at + 0.5 * clock->DriftOver(frames),
           is_mended ? "; corrected" : "; too little to correct");
     }
-    told.Tell(fmt::format(
-        "the reference has {:g} frames per second, but the films have {:g}; Etude assumes that both have the same "
-        "rate{}",
-        own_rate, motion.rate_hz, said));
+    told.Tell(
+        fmt::format("the reference has {:g} frames per second, but the films have {:g}; Etude assumes that both have "
+                    "the same rate{}",
+                    own_rate, motion.rate_hz, said));
     if (is_mended) reference = AtClock(reference, *clock, frames, motion.rate_hz);
   }
   return reference;

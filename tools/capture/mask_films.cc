@@ -147,9 +147,7 @@ Result<std::vector<Mask>> ReadMasks(const std::string& folder, std::optional<int
   };
   RETURN_IF_ERROR(fs::is_directory(entry) ? VisitFolder(entry, visit) : VisitFilm(entry, visit));
   if (numbers.size() < frames) {
-    return Fail({entry.string()},
-                "found {} masks, but the film {} has {} frames; allowed: a mask for each frame "
-                "(PNG)",
+    return Fail({entry.string()}, "found {} masks, but the film {} has {} frames; allowed: a mask for each frame (PNG)",
                 numbers.size(), view.path.string(), frames);
   }
   // Choose the interpretation.
@@ -163,9 +161,7 @@ Result<std::vector<Mask>> ReadMasks(const std::string& folder, std::optional<int
   const bool are_numbers = id || is_indexed || largest <= kMaxNumber || AreFew({found.begin() + 1, found.end()});
   const bool are_cut_outs = has_alpha && !id;
   if (!id && !are_cut_outs && are_numbers && ids.size() > 1) {
-    return Fail({entry.string()},
-                "the masks have several values: {}; use --mask-id to select the value of the "
-                "person",
+    return Fail({entry.string()}, "the masks have several values: {}; use --mask-id to select the value of the person",
                 ListOf(ids));
   }
   const bool has_8_bits = has_16_bits && largest < 256 && shades_of_8_bits.size() == shades.size();
@@ -190,17 +186,15 @@ Result<std::vector<Mask>> ReadMasks(const std::string& folder, std::optional<int
   }
   const auto covering = std::ranges::count_if(masks, CoversMost);
   if (2 * static_cast<std::size_t>(covering) > masks.size()) {
-    told.Tell(
-        fmt::format("doubtful: masks of {}: {} of {} masks cover most of the picture; the person may be black "
-                    "instead of white",
-                    view.camera.name, covering, masks.size()));
+    told.Tell(fmt::format(
+        "doubtful: masks of {}: {} of {} masks cover most of the picture; the person may be black instead of white",
+        view.camera.name, covering, masks.size()));
   }
   const auto several = std::ranges::count_if(masks, HasSeveral);
   if (several > 0) {
-    told.Tell(
-        fmt::format("doubtful: masks of {}: {} of {} masks have several large regions, and may show more than "
-                    "one person",
-                    view.camera.name, several, masks.size()));
+    told.Tell(fmt::format(
+        "doubtful: masks of {}: {} of {} masks have several large regions, and may show more than one person",
+        view.camera.name, several, masks.size()));
   }
   return std::move(masks);
 }

@@ -98,16 +98,12 @@ Result<void> WriteTags(const BridgeLibrary& loaded, const std::string& path) {
   const BridgeTags tags = TagsOf(loaded);
   ASSIGN_OR_RETURN(const auto text, WriteTagsFile(tags));
   if (text.size() > kMaxTagsFileBytes) {
-    return Fail({path},
-                "the file would have {} MB; allowed: {} MB. Use --most-per-class N to keep fewer bridge "
-                "frames",
+    return Fail({path}, "the file would have {} MB; allowed: {} MB. Use --most-per-class N to keep fewer bridge frames",
                 text.size() / 1'000'000, kMaxTagsFileBytes / 1'000'000);
   }
   ASSIGN_OR_RETURN(const auto back, ReadTagsFile(text, path));
   if (!(back == tags))
-    return Fail({path, 0, 0},
-                "the written tags differ when they are read back, so Etude wrote "
-                "no file");
+    return Fail({path, 0, 0}, "the written tags differ when they are read back, so Etude wrote no file");
   return WriteFileAtomically(path, text);
 }
 

@@ -108,8 +108,8 @@ std::string ClipsAsText(const BridgeLibrary& loaded, const Coverage& coverage, c
   }
   text += fmt::format(
       "\n"
-      "poses: number of different sets of ten tags. frames with a match: share of frames with a distance d < {} to "
-      "a frame of {}.\n"
+      "poses: number of different sets of ten tags. frames with a match: share of frames with a distance d < {} to a "
+      "frame of {}.\n"
       "worst wait: longest time until a bridge frame with a match in {}; the clip is repeated.\n"
       "in-between: share of frames from which a transition within {} s needs an in-between clip.{}\n",
       loaded.match_rules.threshold, has_pairs ? "another clip" : "any other clip",
@@ -124,8 +124,8 @@ std::string MatrixAsText(const BridgeLibrary& loaded, const Coverage& coverage) 
   std::string text;
   const int count = coverage.ClipCount(), width = NameWidth(loaded.library);
   text += fmt::format(
-      "\nPercentage of the bridge frames of the clip in a row that match a bridge frame of the clip in a "
-      "column:\n     {:{}}",
+      "\nPercentage of the bridge frames of the clip in a row that match a bridge frame of the clip in a column:\n     "
+      "{:{}}",
       "", width);
   for (int to = 0; to < count; ++to) text += fmt::format(" {:>3}", to + 1);
   text += "\n";
@@ -181,8 +181,8 @@ std::string BridgeSummaryAsText(const BridgeLibrary& loaded, const Coverage& cov
   text += WaysAsText(loaded, coverage);
   if (coverage.ClipCount() == 1) return text + "The library has only one clip, so there are no transitions.\n";
   text += fmt::format(
-      "Transitions from all frames into {} other clip within {} s: {:.0f} % lead directly, {:.0f} % need an "
-      "in-between clip. In-between\n"
+      "Transitions from all frames into {} other clip within {} s: {:.0f} % lead directly, {:.0f} % need an in-between "
+      "clip. In-between\n"
       "clips are made from {} key poses and take at most {:.1f} s.\n",
       coverage.HasPairs() ? "any" : "some", wait_s, 100 * (1 - total.in_between_share), 100 * total.in_between_share,
       loaded.library.in_betweens.keys.size(), LongestInBetween(loaded.library.in_betweens.tween, kJudgedRateHz));

@@ -223,11 +223,10 @@ std::string BodyLines(const BodyFacts& body) {
   return Line("body", fmt::format("height {:.2f} m, measured along the joints; {}; {} up ({})", motion.stature_m,
                                   body.changes.front(), AxisName(body.up.axis), DescribeEvidence(body.up))) +
          changes +
-         Line("motion",
-              fmt::format("travels {:.1f} m; speed of the fastest joint: median {:.2f}, 95th percentile {:.2f}, "
-                          "peak {:.2f} m/s ({}); {}",
-                          motion.travelled_m, motion.speed_median_m_s, motion.speed_p95_m_s, motion.speed_peak_m_s,
-                          RoleName(motion.fastest), feet)) +
+         Line("motion", fmt::format("travels {:.1f} m; speed of the fastest joint: median {:.2f}, 95th percentile "
+                                    "{:.2f}, peak {:.2f} m/s ({}); {}",
+                                    motion.travelled_m, motion.speed_median_m_s, motion.speed_p95_m_s,
+                                    motion.speed_peak_m_s, RoleName(motion.fastest), feet)) +
          remarks;
 }
 

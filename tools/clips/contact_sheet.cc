@@ -56,8 +56,8 @@ Result<std::string> DrawContactSheet(std::vector<ClipActor> actors, const SheetO
   const int width = std::max(2 * kMargin + columns * (options.width + kGap) - kGap, kMinSheetWidth);
   if (width > kMaxSheetSide || height > kMaxSheetSide) {
     return Fail({},
-                "the sheet would have {} × {} pixels; allowed: at most {} pixels per side. Use fewer clips, or "
-                "fewer or smaller pictures",
+                "the sheet would have {} × {} pixels; allowed: at most {} pixels per side. Use fewer clips, or fewer "
+                "or smaller pictures",
                 width, height, kMaxSheetSide);
   }
   // Use one scale for all clips.

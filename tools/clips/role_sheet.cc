@@ -115,9 +115,7 @@ Result<std::string> DrawRoleSheet(const Clip& clip, const std::array<RoleOnSheet
   }
   const double size = std::max(high.x - low.x, high.y - low.y);
   if (!std::isfinite(size) || size <= 0)
-    return Fail({},
-                "all joints of the skeleton are at the same position, so "
-                "the skeleton cannot be drawn");
+    return Fail({}, "all joints of the skeleton are at the same position, so the skeleton cannot be drawn");
   // Label the joints with names and roles, and put each label on the joint's side of the picture.
   Label(roles, joints);
 
@@ -151,11 +149,10 @@ Result<std::string> DrawRoleSheet(const Clip& clip, const std::array<RoleOnSheet
   // Draw the title, the missing roles and the legend of colours.
   canvas.DrawText({kEdge, 26}, clip.name, 17, kInk, kSheetWidth - 2 * kEdge, true);
   canvas.DrawText({kEdge, height - 32}, MissingRoles(roles), kLabelSize, kInk, kSheetWidth - 2 * kEdge, true);
-  canvas.DrawText(
-      {kEdge, height - 12},
-      "blue: role found from the name of the joint or its parent; orange: role found from the skeleton's shape; "
-      "white: no role",
-      kLabelSize, kSoftInk, kSheetWidth - 2 * kEdge);
+  canvas.DrawText({kEdge, height - 12},
+                  "blue: role found from the name of the joint or its parent; orange: role found from the skeleton's "
+                  "shape; white: no role",
+                  kLabelSize, kSoftInk, kSheetWidth - 2 * kEdge);
   return canvas.Png();
 }
 

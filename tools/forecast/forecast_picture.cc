@@ -196,9 +196,9 @@ std::string JointsHtml(const RigForecast& forecast) {
   }
   return fmt::format(
              "<p>Root mean square errors of a standing person, over the {:.0f} % of the floor where two cameras see "
-             "every joint. Triangulated: the error of each joint on its own. Fitted: the error of the same joint, "
-             "if a body is fitted to all joints at once. Limb: the error of the direction of the limb that ends in "
-             "the joint.</p>",
+             "every joint. Triangulated: the error of each joint on its own. Fitted: the error of the same joint, if a "
+             "body is fitted to all joints at once. Limb: the error of the direction of the limb that ends in the "
+             "joint.</p>",
              100 * forecast.bodies) +
          TableHtml(table);
 }
@@ -212,8 +212,8 @@ std::string WorthsHtml(const RigForecast& forecast) {
     table.rows.push_back(
         {{worth.change, fmt::format("{:.1f}", worth.median_mm), fmt::format("{:.0f} %", 100 * worth.seen)}});
   }
-  return "<p>Median error: of a triangulated point, over the places that two cameras of the present rig see. "
-         "Visible places: the share of all places that two cameras of the changed rig see.</p>" +
+  return "<p>Median error: of a triangulated point, over the places that two cameras of the present rig see. Visible "
+         "places: the share of all places that two cameras of the changed rig see.</p>" +
          TableHtml(table);
 }
 

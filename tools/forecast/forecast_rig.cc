@@ -45,14 +45,13 @@ Result<void> AddCameras(const ForecastOptions& options, RigForecast& forecast) {
     in.width = static_cast<int>(std::lround(2 * in.cx));
     in.height = static_cast<int>(std::lround(2 * in.cy));
     if (in.width <= 0 || in.height <= 0)
-      return Fail({options.rig},
-                  "camera {}: the rig states no picture size, and the principal point does not "
-                  "determine a picture size",
-                  named.name);
-    options.listener.print(
-        fmt::format("{}: the rig states no picture size, so Etude assumes {} x {} pixels, which are twice the "
-                    "principal point\n",
-                    named.name, in.width, in.height));
+      return Fail(
+          {options.rig},
+          "camera {}: the rig states no picture size, and the principal point does not determine a picture size",
+          named.name);
+    options.listener.print(fmt::format(
+        "{}: the rig states no picture size, so Etude assumes {} x {} pixels, which are twice the principal point\n",
+        named.name, in.width, in.height));
   }
   for (const std::string& doubt : RigDoubts(forecast.cameras)) forecast.doubts.push_back("doubtful: " + doubt);
   for (const std::string& doubt : forecast.doubts) options.listener.print(doubt + "\n");
@@ -300,10 +299,9 @@ std::string JointsText(const RigForecast& forecast) {
   if (forecast.joints.empty()) return "There is no place where two cameras see all joints of a standing body.\n";
   std::string text = fmt::format(
       "\n"
-      "Root mean square errors of a standing body, over the {:.0f} % of the floor where two cameras see every "
-      "joint.\n"
-      "Triangulated: the error of each joint on its own. Fitted: the error of the same joint, if a body is fitted "
-      "to all\n"
+      "Root mean square errors of a standing body, over the {:.0f} % of the floor where two cameras see every joint.\n"
+      "Triangulated: the error of each joint on its own. Fitted: the error of the same joint, if a body is fitted to "
+      "all\n"
       "joints at once. Limb: the error of the direction of the limb that ends in the joint.\n"
       "{:<16}{:>15}{:>18}{:>12}{:>24}{:>18}\n",
       100 * forecast.bodies, "joint", "keypoints, px", "triangulated, mm", "fitted, mm", "limb triangulated, deg",
@@ -321,8 +319,7 @@ std::string JointsText(const RigForecast& forecast) {
 std::string WorthsText(const RigForecast& forecast) {
   std::string text = fmt::format(
       "\n"
-      "What would help. Median: the median error of a point, over the places that two cameras of the present rig "
-      "see.\n"
+      "What would help. Median: the median error of a point, over the places that two cameras of the present rig see.\n"
       "Visible: the share of all places that two cameras of the changed rig see.\n"
       "{:<52}{:>12}{:>13}\n",
       "", "median, mm", "visible");
@@ -392,8 +389,8 @@ Result<RigForecast> ForecastRig(const ForecastOptions& asked) {
   RETURN_IF_ERROR(AddJoints(cameras, options, forecast));
   AddWorths(cameras, options, forecast);
   options.listener.print(
-      fmt::format("{}{} cameras; the middle of the volume is at x {:.2f}, z {:.2f}, and the volume is {:g} m along "
-                  "x, {:g} m along z, {:g} m high\n"
+      fmt::format("{}{} cameras; the middle of the volume is at x {:.2f}, z {:.2f}, and the volume is {:g} m along x, "
+                  "{:g} m along z, {:g} m high\n"
                   "{}\n"
                   "{}\n"
                   "{}{}",

@@ -174,8 +174,7 @@ std::string DescribeMismatch(const RealRecording& real) {
   });
   if (!(other <= kMaxRatio * own && own <= kMaxRatio * other)) {
     return fmt::format(
-        "the body in the reference is {:.3g} times as large as in the recording; the unit of one "
-        "file may be wrong",
+        "the body in the reference is {:.3g} times as large as in the recording; the unit of one file may be wrong",
         other / own);
   }
   const double rms_m = match.alignment.rms_m;
@@ -189,15 +188,14 @@ std::string DescribeMismatch(const RealRecording& real) {
     const auto image = AlignTwin(mirrored, twin);
     if (image && image->alignment.rms_m < kMirror * rms_m) {
       return fmt::format(
-          "the RMS distance after alignment is {:.1f} mm, but {:.1f} mm if the recording is "
-          "mirrored, so one of the two files is a mirror image",
+          "the RMS distance after alignment is {:.1f} mm, but {:.1f} mm if the recording is mirrored, so one of the "
+          "two files is a mirror image",
           1000 * rms_m, 1000 * image->alignment.rms_m);
     }
   }
   if (rms_m <= kMax_m) return "";
   return fmt::format(
-      "the RMS distance after alignment is {:.1f} mm; allowed for recordings of the same motion: at "
-      "most {:g} mm",
+      "the RMS distance after alignment is {:.1f} mm; allowed for recordings of the same motion: at most {:g} mm",
       1000 * rms_m, 1000 * kMax_m);
 }
 

@@ -25,9 +25,7 @@ struct FileStudy {
     if (input.opening != nullptr) opening = *input.opening;
     for (const JudgedFiles& world : files) {
       if (world.answers.size() == methods.size()) continue;
-      return Fail(input.condition.node().place,
-                  "world {} has {} answers, but the scenario has {} "
-                  "methods",
+      return Fail(input.condition.node().place, "world {} has {} answers, but the scenario has {} methods",
                   Quote(world.name), world.answers.size(), methods.size());
     }
     return {};

@@ -23,16 +23,14 @@ void RefuseFormerName(Fields& method);
 template <typename Method>
 std::vector<Field<Method>> IkSolverFields(const IkSolver* Method::*solver, IkOptions Method::*options) {
   using Key = Field<Method>;
-  std::vector<Key> rows = {Key::Name("solver", solver, IkSolverNames(), FindIkSolver,
-                                     "The solver that computes the "
-                                     "joint angles."),
-                           Key::Name("weights", Path(options, &IkOptions::weights), WeightRuleNames(), FindWeightRule,
-                                     "The rule for the weight of an effector's position error relative to the error of "
-                                     "the effector's axes.")
-                               .With("solver", WeighingSolvers()),
-                           Key::Name("refresh", Path(options, &IkOptions::refresh), WeightRefreshNames(),
-                                     FindWeightRefresh, "When the solver updates weights that depend on errors.")
-                               .With("solver", WeighingSolvers())};
+  std::vector<Key> rows = {
+      Key::Name("solver", solver, IkSolverNames(), FindIkSolver, "The solver that computes the joint angles."),
+      Key::Name("weights", Path(options, &IkOptions::weights), WeightRuleNames(), FindWeightRule,
+                "The rule for the weight of an effector's position error relative to the error of the effector's axes.")
+          .With("solver", WeighingSolvers()),
+      Key::Name("refresh", Path(options, &IkOptions::refresh), WeightRefreshNames(), FindWeightRefresh,
+                "When the solver updates weights that depend on errors.")
+          .With("solver", WeighingSolvers())};
   rows.front().read = [read = rows.front().read](Fields& fields, Method& method) {
     RefuseFormerName(fields);
     read(fields, method);

@@ -35,23 +35,20 @@ std::vector<Field<StudioOptions>> CameraFields() {
              "Shift of a picture's corner if the lens is not parallel to the sensor, as a share of the corner's "
              "distance from the centre."),
       Effect("defocus_px", &E::defocus_px, {0, 10},
-             "Standard deviation of the Gaussian blur of a point in the "
-             "picture."),
+             "Standard deviation of the Gaussian blur of a point in the picture."),
       Effect("vignette", &E::vignette, {0, 4},
              "Strength of the darkening of a picture's corners. 1 is natural vignetting, which is cos⁴ of the angle "
              "from the optical axis."),
       Effect("dust", &E::dust, {0, 1}, "Share of the light that the centre of a speck of dust blocks."),
       // Effects of the sensor and of picture processing.
       Effect("exposure_ev", &E::exposure_ev, {-4, 4},
-             "Exposure error of the pictures, in stops. Values above 0 make "
-             "the pictures too bright."),
+             "Exposure error of the pictures, in stops. Values above 0 make the pictures too bright."),
       Effect("exposure_drift_ev", &E::exposure_drift_ev, {0, 2}, "Largest drift of the automatic exposure, in stops."),
       Effect("gain_db", &E::gain_db, {0, 36},
              "Amplification of the sensor's signal. With amplification, pictures from less light are equally bright, "
              "but have more noise."),
       Effect("white_balance_ev", &E::white_balance_ev, {-2, 2},
-             "Error of the white balance: red relative to blue, in "
-             "stops. Values above 0 make the colours too warm."),
+             "Error of the white balance: red relative to blue, in stops. Values above 0 make the colours too warm."),
       Effect("white_balance_drift_ev", &E::white_balance_drift_ev, {0, 2},
              "Largest drift of the automatic white balance, in stops."),
       Effect("bayer", &E::bayer, {0, 1},
@@ -59,8 +56,7 @@ std::vector<Field<StudioOptions>> CameraFields() {
              "interpolated. With 0, each pixel measures all colours. Values between 0 and 1 mix the two pictures."),
       Effect("camera_noise", &E::noise, {0, 20}, "Factor that multiplies the camera's usual noise."),
       Effect("jpeg_loss", &E::jpeg_loss, {0, 99},
-             "100 minus the quality of the JPEG compression. 0 turns JPEG "
-             "compression off.")};
+             "100 minus the quality of the JPEG compression. 0 turns JPEG compression off.")};
 }
 
 void CheckStudio(Fields& fields, StudioOptions& options) {
@@ -108,22 +104,21 @@ FieldTable<StudioOptions> MakeConditionFields() {
                     "Heights of the cameras above the floor. With `rig: angles`, the list has one height for each "
                     "camera. With `ring` or `corners`, the list is repeated until every camera has a height. With "
                     "`stereo`, both cameras have the first height."),
-       Key::Number(
-           "camera_distance_m", Path(&Options::rig, &RigOptions::distance_m), {2, 10},
-           "Distance of the cameras from the middle of the performer's path. Where the room is too small, the distance "
-           "is shorter."),
+       Key::Number("camera_distance_m", Path(&Options::rig, &RigOptions::distance_m), {2, 10},
+                   "Distance of the cameras from the middle of the performer's path. Where the room is too small, the "
+                   "distance is shorter."),
        // Keys of the performer, the room and the light.
        Key::Name("figure", &Options::figure, {{"staged", PerformerFigure::kStaged}, {"own", PerformerFigure::kOwn}},
                  "The figure in the pictures. staged: a person of the simulated stage; own: the mesh and textures in "
                  "the clip's file (glTF)."),
-       Key::Name("clothes", &Options::clothes,
-                 {{"studio", Clothes::kStudio}, {"everyday", Clothes::kEveryday}, {"coded", Clothes::kCoded}},
-                 "Clothes of the stage's people. studio: colours that differ from the room's colours; everyday: a grey "
-                 "shirt, and trousers with the hue of the floor; coded: a suit with a different colour for every "
-                 "limb."),
-       Key::Number("scene", &Options::scene, {0, 1},
-                   "How difficult the room is. 0: an empty studio; 1: furniture, clutter, a second person and similar "
-                   "hues."),
+       Key::Name(
+           "clothes", &Options::clothes,
+           {{"studio", Clothes::kStudio}, {"everyday", Clothes::kEveryday}, {"coded", Clothes::kCoded}},
+           "Clothes of the stage's people. studio: colours that differ from the room's colours; everyday: a grey "
+           "shirt, and trousers with the hue of the floor; coded: a suit with a different colour for every limb."),
+       Key::Number(
+           "scene", &Options::scene, {0, 1},
+           "How difficult the room is. 0: an empty studio; 1: furniture, clutter, a second person and similar hues."),
        Key::Number("light_drift", &Options::light_drift, {0, 0.5}, "Largest relative change of the lamp's brightness."),
        // Keys of calibration, measurements and annotation.
        Key::Name("calibration_target", &Options::calibration_target,
@@ -137,10 +132,9 @@ FieldTable<StudioOptions> MakeConditionFields() {
        Key::Number("calibration_noise_px", &Options::calibration_noise_px, {0, 20},
                    "Standard deviation of the error of a click on a calibration point, in u and in v.")
            .With("calibration_target", {"points"}),
-       Key::Number(
-           "annotation_error_px", &Options::annotation_error_px, {0, 50},
-           "Standard deviation of the error of an annotator's marks, in u and in v. The annotator's other errors grow "
-           "with this value."),
+       Key::Number("annotation_error_px", &Options::annotation_error_px, {0, 50},
+                   "Standard deviation of the error of an annotator's marks, in u and in v. The annotator's other "
+                   "errors grow with this value."),
        Key::Number("limb_measure_mm", &Options::limb_measure_mm, {0, 100},
                    "Standard deviation of the error in each measured limb length of the performer."),
        Key::Number("annotators", &Options::annotators, {1, 2},
@@ -148,10 +142,9 @@ FieldTable<StudioOptions> MakeConditionFields() {
                    "the mean of their marks."),
        Key::Number("mark_every", &Options::mark_every, {1, 300},
                    "The annotator marks every n-th frame. Marks in the frames between are interpolated."),
-       Key::Numbers(
-           "moments", &Options::moments, {0, 12}, "up to twelve numbers from 1 to 1800", {1, 1800},
-           "Frames for which the report shows every stage, as figures 5.3 to 5.14 of paper B do. Frames are counted "
-           "from 1.")},
+       Key::Numbers("moments", &Options::moments, {0, 12}, "up to twelve numbers from 1 to 1800", {1, 1800},
+                    "Frames for which the report shows every stage, as figures 5.3 to 5.14 of paper B do. Frames are "
+                    "counted from 1.")},
       CheckStudio};
   Append(CameraFields(), made.fields);
   return made;
@@ -162,10 +155,9 @@ void CheckMethod(Fields& fields, CaptureMethod& method) {
   if (method.recovery == Recovery::kKeypoints) {
     method.lengths = LengthSource::kMeasured;  // this kind of recovery always measures the limb lengths
     if (oracle.lengths)
-      fields.Complain(
-          fields.Raw("oracle")->place,
-          "'oracle: [lengths]' is not allowed with 'recovery: keypoints', because this recovery measures the limb "
-          "lengths");
+      fields.Complain(fields.Raw("oracle")->place,
+                      "'oracle: [lengths]' is not allowed with 'recovery: keypoints', because this recovery measures "
+                      "the limb lengths");
   }
   if (method.marks == MarkSource::kColours && oracle.marks) {
     fields.Complain(fields.Raw("oracle")->place,
@@ -182,23 +174,20 @@ void CheckMethod(Fields& fields, CaptureMethod& method) {
     }
     if (has_marks && method.causal) {
       fields.Complain(fields.Raw("causal")->place,
-                      "'causal: true' is not allowed with 'start: keypoints', which needs "
-                      "the whole take");
+                      "'causal: true' is not allowed with 'start: keypoints', which needs the whole take");
     }
   }
   // A causal method must not use data that depend on the whole take.
   const bool knows_all =
       method.smoothing != Smoothing::kNone || method.sync != Sync::kAssumed || method.lengths != LengthSource::kKnown;
   if (method.causal && knows_all) {
-    fields.Complain(
-        fields.Raw("causal")->place,
-        "'causal: true' is not allowed with smoothing, measured lengths or estimated clocks, because they need the "
-        "whole take");
+    fields.Complain(fields.Raw("causal")->place,
+                    "'causal: true' is not allowed with smoothing, measured lengths or estimated clocks, because they "
+                    "need the whole take");
   }
   if (method.recovery == Recovery::kIk || !(oracle.directions || oracle.points || oracle.start || oracle.ik)) return;
   fields.Complain(fields.Raw("oracle")->place,
-                  "the stages directions, points, start and ik in 'oracle' are allowed "
-                  "only with 'recovery: ik'");
+                  "the stages directions, points, start and ik in 'oracle' are allowed only with 'recovery: ik'");
 }
 
 void CheckSeatedMethod(Fields& fields, CaptureMethod& method) {
@@ -206,8 +195,7 @@ void CheckSeatedMethod(Fields& fields, CaptureMethod& method) {
   if (method.seat != CaptureSeat::kSegmenter) return;
   if (const Node* segmenter = fields.node().Find("segmenter")) {
     fields.Complain(segmenter->place,
-                    "'segmenter' has no effect, because the program in 'seat: segmenter' replaces "
-                    "the segmenter");
+                    "'segmenter' has no effect, because the program in 'seat: segmenter' replaces the segmenter");
   }
   if (method.oracle.segmentation) {
     fields.Complain(
@@ -252,17 +240,16 @@ const FieldTable<CaptureMethod>& CaptureMethodFields() {
                    "of freedom.")
              .With("recovery", {"ik"}),
          // Keys of the stages from marks or silhouettes to poses.
-         Key::Name(
-             "recovery", &Method::recovery,
-             {{"ik", Recovery::kIk},
-              {"ends", Recovery::kEnds},
-              {"bundle", Recovery::kBundle},
-              {"keypoints", Recovery::kKeypoints},
-              {"silhouettes", Recovery::kSilhouettes}},
-             "The method that computes poses from pictures. ik: paper B's inverse kinematics; ends: triangulation of "
-             "every joint from the strokes that end there; bundle: bundle adjustment of paper B's body over the whole "
-             "take; keypoints: the method of `etude capture`, which fits a body and its limb lengths to all marks; "
-             "silhouettes: a body fitted to the silhouettes, without marks."),
+         Key::Name("recovery", &Method::recovery,
+                   {{"ik", Recovery::kIk},
+                    {"ends", Recovery::kEnds},
+                    {"bundle", Recovery::kBundle},
+                    {"keypoints", Recovery::kKeypoints},
+                    {"silhouettes", Recovery::kSilhouettes}},
+                   "The method that computes poses from pictures. ik: paper B's inverse kinematics; ends: "
+                   "triangulation of every joint from the strokes that end there; bundle: bundle adjustment of paper "
+                   "B's body over the whole take; keypoints: the method of `etude capture`, which fits a body and its "
+                   "limb lengths to all marks; silhouettes: a body fitted to the silhouettes, without marks."),
          Key::Name("start", &Method::start,
                    {{"cold", SilhouetteStart::kCold},
                     {"near", SilhouetteStart::kNear},
@@ -271,9 +258,9 @@ const FieldTable<CaptureMethod>& CaptureMethodFields() {
                    "first pose to within 10°; keypoints: the marked joints of every picture, as a substitute for the "
                    "keypoints of an estimator.")
              .With("recovery", {"silhouettes"}),
-         Key::Name("smoothing", &Method::smoothing, {{"none", Smoothing::kNone}, {"rts", Smoothing::kRts}},
-                   "Smoothing of the joints over the whole take. none: no smoothing; rts: a Rauch-Tung-Striebel "
-                   "smoother.")
+         Key::Name(
+             "smoothing", &Method::smoothing, {{"none", Smoothing::kNone}, {"rts", Smoothing::kRts}},
+             "Smoothing of the joints over the whole take. none: no smoothing; rts: a Rauch-Tung-Striebel smoother.")
              .With("recovery", {"ik", "ends", "bundle"}),
          Key::Name("lengths", &Method::lengths,
                    {{"known", LengthSource::kKnown}, {"measured", LengthSource::kMeasured}},
@@ -284,8 +271,7 @@ const FieldTable<CaptureMethod>& CaptureMethodFields() {
                    "true: as in a live system, the skeleton of a frame depends only on pictures up to this frame.")
              .With("recovery", {"ik", "silhouettes"}),
          ToleranceField(&Method::ik,
-                        "Largest allowed deviation of a solved angle from the angle that is seen in the "
-                        "pictures.")
+                        "Largest allowed deviation of a solved angle from the angle that is seen in the pictures.")
              .With("recovery", {"ik"}),
          SweepsField(&Method::ik, "Maximum number of solver steps per frame.").With("recovery", {"ik"}),
          Key::Flags("oracle",
@@ -316,12 +302,12 @@ const std::vector<std::string>& CaptureSeatNames() {
 const FieldTable<CaptureMethod>& SeatedCaptureMethodFields() {
   static const FieldTable<CaptureMethod> table = [] {
     FieldTable<CaptureMethod> made = CaptureMethodFields();
-    made.fields.push_back(
-        Field<CaptureMethod>::Name("seat", &CaptureMethod::seat, {{CaptureSeatNames()[0], CaptureSeat::kSegmenter}},
-                                   "The stage that the program of `exec` replaces. segmenter: the program separates "
-                                   "the person from the background.")
-            .WhenAbsent("(with `exec`: the program replaces the whole capture)")
-            .And("with `exec`"));
+    made.fields.push_back(Field<CaptureMethod>::Name("seat", &CaptureMethod::seat,
+                                                     {{CaptureSeatNames()[0], CaptureSeat::kSegmenter}},
+                                                     "The stage that the program of `exec` replaces. segmenter: the "
+                                                     "program separates the person from the background.")
+                              .WhenAbsent("(with `exec`: the program replaces the whole capture)")
+                              .And("with `exec`"));
     made.check = CheckSeatedMethod;
     return made;
   }();
@@ -331,9 +317,9 @@ const FieldTable<CaptureMethod>& SeatedCaptureMethodFields() {
 Result<void> CheckMarks(const StudioOptions& options, const CaptureMethod& method, const Place& place) {
   if (method.marks != MarkSource::kColours) return {};
   if (options.figure == PerformerFigure::kOwn) {
-    return Fail(place,
-                "'marks: colours' is not allowed with 'figure: own', because the clothes then come from the "
-                "clip's file");
+    return Fail(
+        place,
+        "'marks: colours' is not allowed with 'figure: own', because the clothes then come from the clip's file");
   }
   if (options.clothes == Clothes::kCoded) return {};
   return Fail(place, "'marks: colours' is allowed only with 'clothes: coded'");
@@ -381,8 +367,7 @@ Result<void> OpenOwnCameras(const TaskInput& input, StudioOptions& options) {
     const Intrinsics& in = camera.camera.intrinsics;
     if (in.width < 1 || in.height < 1 || in.width > kMaxPictureSide || in.height > kMaxPictureSide) {
       return Fail(named->place,
-                  "camera '{}' of '{}' takes pictures of {} × {} pixels; allowed: 1 to {} pixels on each "
-                  "side",
+                  "camera '{}' of '{}' takes pictures of {} × {} pixels; allowed: 1 to {} pixels on each side",
                   camera.name, named->scalar, in.width, in.height, kMaxPictureSide);
     }
     const Distortion& lens = camera.camera.distortion;
@@ -394,10 +379,10 @@ Result<void> OpenOwnCameras(const TaskInput& input, StudioOptions& options) {
     }
     constexpr double kMaxDistance = 100;
     if (const double far = glm::length(camera.camera.p_WC); far > kMaxDistance) {
-      return Fail(named->place,
-                  "camera '{}' of '{}' is {:.0f} m from the origin; allowed: at most {:g} m; check that the file is in "
-                  "metres",
-                  camera.name, named->scalar, far, kMaxDistance);
+      return Fail(
+          named->place,
+          "camera '{}' of '{}' is {:.0f} m from the origin; allowed: at most {:g} m; check that the file is in metres",
+          camera.name, named->scalar, far, kMaxDistance);
     }
     own.push_back(camera.camera);
   }

@@ -35,12 +35,10 @@ std::vector<Field<Method>> PolicyFields() {
   std::vector<Key> fields = {Key::Name("policy", Path(&Method::policy, &Coach::PolicyChoice::policy), PolicyNames(),
                                        FindPolicy, "The policy that decides when the coach interrupts.")};
   Append(SettingFields<Method>("policy", AllPolicies(), Path(&Method::policy, &Coach::PolicyChoice::settings)), fields);
-  fields.push_back(
-      Key::Name(
-          "partner", &Method::partner, PolicyNames(), FindPolicy,
-          "The policy that coaches another person. The method corrects its learner at the moments at which this policy "
-          "corrects the other person.")
-          .With("policy", {"yoked"}));
+  fields.push_back(Key::Name("partner", &Method::partner, PolicyNames(), FindPolicy,
+                             "The policy that coaches another person. The method corrects its learner at the moments "
+                             "at which this policy corrects the other person.")
+                       .With("policy", {"yoked"}));
   return fields;
 }
 
@@ -52,8 +50,7 @@ void CheckMethod(Fields& fields, Method& method) {
   }
   if (method.partner->takes_moments) {
     fields.Complain(node.Find("partner")->place,
-                    "'partner' must not be a yoked policy, because a yoked policy itself "
-                    "needs a partner");
+                    "'partner' must not be a yoked policy, because a yoked policy itself needs a partner");
   }
   if (method.seat == Seat::kPolicy && node.Find("policy") != nullptr) {
     fields.Complain(node.Find("policy")->place,
@@ -80,8 +77,7 @@ const FieldTable<CoachCondition>& CoachConditionFields() {
     for (const std::string& song : BuiltinSongNames()) songs.emplace_back(song, song);
     std::vector<Key> fields = {
         Key::Name("song", &Condition::song, songs,
-                  "The song to which the learner dances. It is repeated until the "
-                  "session ends."),
+                  "The song to which the learner dances. It is repeated until the session ends."),
         Key::Number("session_s", &Condition::session_s, {10, 1800}, "Length of a session.").Unit("seconds"),
         Key::Name("learning", Path(&Condition::learner, &LearnerOptions::law), LearningLawNames(), FindLearningLaw,
                   "The mathematical law by which the learner learns and forgets."),
@@ -89,17 +85,16 @@ const FieldTable<CoachCondition>& CoachConditionFields() {
                     "How much frequent feedback harms lasting learning. 0: no harm; 1: what the learner learns with "
                     "feedback after every performance does not last."),
         Key::Number("skill", Path(&Condition::learner, &LearnerOptions::skill), kShare,
-                    "Initial value of each skill "
-                    "of the learner.")
+                    "Initial value of each skill of the learner.")
             .WhenAbsent("(depends on the kind of people)"),
         Key::Number("severity", Path(&Condition::learner, &LearnerOptions::severity), kShare,
                     "Severity of each fault that happens. 1 is the worst fault of its kind.")
             .WhenAbsent("(drawn uniformly from 0.35 to 1 for each fault)"),
         Key::Flag("gives_up", Path(&Condition::learner, &LearnerOptions::gives_up),
                   "true: the learner can lose patience and give up."),
-        Key::Number("music_drift", Path(&Condition::music, &MusicClockOptions::drift), {-0.2, 0.2},
-                    "Relative error of the music's speed: with 0.02, the music plays 2 % faster than its clock "
-                    "states."),
+        Key::Number(
+            "music_drift", Path(&Condition::music, &MusicClockOptions::drift), {-0.2, 0.2},
+            "Relative error of the music's speed: with 0.02, the music plays 2 % faster than its clock states."),
         Key::Number("stutters_per_min", Path(&Condition::music, &MusicClockOptions::stutters_per_min), {0, 60},
                     "How often the music stops for a moment, per minute."),
         Key::Number("stutter_s", Path(&Condition::music, &MusicClockOptions::stutter_s), {0, 5},
@@ -121,10 +116,9 @@ const FieldTable<CoachCondition>& CoachConditionFields() {
     return FieldTable<Condition>{std::move(fields), [](Fields& condition, Condition& c) {
                                    CheckSensorKeys(condition, c.sight);
                                    if (!c.sight.threshold || !c.operating_point) return;
-                                   condition.Complain(
-                                       condition.Raw("threshold")->place,
-                                       "'threshold' and 'operating_point' both set the threshold; allowed: only one of "
-                                       "these keys");
+                                   condition.Complain(condition.Raw("threshold")->place,
+                                                      "'threshold' and 'operating_point' both set the threshold; "
+                                                      "allowed: only one of these keys");
                                  }};
   }();
   return table;

@@ -177,8 +177,7 @@ Result<SessionLog> RunMethod(const ReadyCoach& ready, const CoachCondition& cond
     moments = std::make_unique<Moments>(partner);
   }
 
-  const SessionParts parts =
-      PartsOf(ready, *ready.coach, seated_recogniser ? *seated_recogniser : *ready.recogniser);
+  const SessionParts parts = PartsOf(ready, *ready.coach, seated_recogniser ? *seated_recogniser : *ready.recogniser);
   if (program != nullptr && !program->Begin(SessionBeginPayload(seat))) return SessionLog{};
   ASSIGN_OR_RETURN(SessionLog log, RunSession(parts, world, *player, moments.get()));
   if (seated && seated->error()) return tl::unexpected(*seated->error());

@@ -86,8 +86,7 @@ Result<std::unique_ptr<Task>> MakeDetectionTask(TaskInput& input) {
   RETURN_IF_ERROR(PrepareCameras(input, methods, std::identity(), options));
   if (input.clips.clips.empty()) {
     return Fail(input.condition.node().place,
-                "a scenario of task detection needs 'clips', such as ['builtin:*'], or "
-                "'streams'");
+                "a scenario of task detection needs 'clips', such as ['builtin:*'], or 'streams'");
   }
   Repertoire repertoire = RepertoireOf(input.clips);
   std::vector<ReadyMethod> ready;

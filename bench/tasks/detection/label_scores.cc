@@ -163,8 +163,8 @@ Result<LeaveOneOut> LeaveOnePersonOut(const std::vector<NamedStream>& streams, c
   out.people.assign(people.begin(), people.end());
   if (people.size() < 2)
     return Fail({file},
-                "the labels contain {} person; needed: at least two people, because each person is judged with "
-                "the data of the other people",
+                "the labels contain {} person; needed: at least two people, because each person is judged with the "
+                "data of the other people",
                 people.size());
   PersonLeftOut left_out(streams, parts, options, out);
   for (const std::string& person : out.people) RETURN_IF_ERROR(left_out.Run(person));

@@ -27,8 +27,7 @@ std::vector<MethodKey> FilterFields() {
            "Strength of smoothing. 0 follows the raw data. Larger values make the motion smoother and increase the "
            "lag."),
       holt("correction", &HoltOptions::correction, kShare,
-           "How fast the filter's trend follows the motion. Larger "
-           "values react faster."),
+           "How fast the filter's trend follows the motion. Larger values react faster."),
       holt("prediction_frames", &HoltOptions::prediction_frames, {0, 10},
            "Number of frames by which the output is predicted ahead. The prediction compensates for the lag of "
            "smoothing."),
@@ -104,8 +103,7 @@ FieldTable<DetectionOptions> MakeConditionFields() {
                  "children, adults and experts."),
        // Keys of the sensor and its view.
        Key::Number("noise", &Options::noise, {0, 10},
-                   "Factor that multiplies the measured errors of a Kinect-like "
-                   "sensor."),
+                   "Factor that multiplies the measured errors of a Kinect-like sensor."),
        Key::Number("turn_deg", &Options::turn_deg, {-180, 180},
                    "Angle by which the performer is turned away from the sensor.")
            .Unit("degrees"),
@@ -186,10 +184,9 @@ const FieldTable<DetectionMethod>& DetectionMethodFields() {
                                                      FilterNames(), FilterOf,
                                                      "The filter that smooths the sensed joints before recognition.")};
     Append(FilterFields(), fields);
-    fields.push_back(
-        MethodKey::Flags("oracle", {{"stream", &Method::sees_truth}},
-                         "stream: the true skeletons replace the sensed skeletons, to measure how much the sensor's "
-                         "errors cost."));
+    fields.push_back(MethodKey::Flags(
+        "oracle", {{"stream", &Method::sees_truth}},
+        "stream: the true skeletons replace the sensed skeletons, to measure how much the sensor's errors cost."));
     fields.push_back(CaptureField<Method>(&Method::capture));
     // Keys of the stages from skeletons to verdicts.
     fields.push_back(MethodKey::Name("recogniser", Path(&Method::recogniser, &RecogniserOptions::kind),

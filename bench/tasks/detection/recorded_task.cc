@@ -120,8 +120,7 @@ Result<void> CheckRecordings(const LabelledStreams& set, bool are_taught) {
   if (!are_taught && !set.nobody.empty()) {
     return Fail({set.file},
                 "the person in the recording {} is unknown; needed: a column 'person', file names of a known data set, "
-                "or the key "
-                "'moves'",
+                "or the key 'moves'",
                 set.nobody);
   }
   if (!are_taught && set.people.size() < 2) {
@@ -281,8 +280,8 @@ Result<void> CheckFaults(const Node& condition, std::span<const Fault> faults, c
   }
   if (std::ranges::any_of(set.parts, &LabelledPart::is_action_point)) {
     return Fail(named.place,
-                "faults can be made only from performances with a begin and an end, but {} has action "
-                "points; needed: from_s and to_s",
+                "faults can be made only from performances with a begin and an end, but {} has action points; needed: "
+                "from_s and to_s",
                 set.file);
   }
   if (set.moves.size() > 1 || std::ranges::find(faults, Fault::kWrongMove) == faults.end()) return {};
@@ -304,26 +303,22 @@ Result<std::unique_ptr<Task>> MakeRecordedTask(TaskInput& input, const Detection
                                                std::vector<DetectionMethod> methods) {
   const LabelledStreams& set = *input.recordings;
   const Node& condition = input.condition.node();
-  RETURN_IF_ERROR(RefuseKeys(condition, PeopleKeys(),
-                             "it describes simulated people, but this scenario uses "
-                             "recordings"));
+  RETURN_IF_ERROR(
+      RefuseKeys(condition, PeopleKeys(), "it describes simulated people, but this scenario uses recordings"));
   // Refuse keys and oracles that have no effect on recordings.
   const bool are_sensed = std::ranges::any_of(set.streams, [](const NamedStream& s) { return s.motion.has_value(); });
   if (!are_sensed)
     RETURN_IF_ERROR(RefuseKeys(condition, SensingKeys(),
-                               "it describes a simulated sensor, but this "
-                               "scenario uses recordings of a sensor"));
+                               "it describes a simulated sensor, but this scenario uses recordings of a sensor"));
   if (options.has_cameras) {
-    return Fail(
-        condition.Find("sensor")->place,
-        "'sensor: cameras' films only simulated people, but this scenario uses recordings; allowed: v1, v2, a sensor "
-        "file");
+    return Fail(condition.Find("sensor")->place,
+                "'sensor: cameras' films only simulated people, but this scenario uses recordings; allowed: v1, v2, a "
+                "sensor file");
   }
   for (const DetectionMethod& method : methods) {
     if (!method.sees_truth || are_sensed) continue;
     return Fail(condition.place,
-                "method {}: 'oracle: [stream]' is not allowed, because the true motion of recorded "
-                "people is unknown",
+                "method {}: 'oracle: [stream]' is not allowed, because the true motion of recorded people is unknown",
                 method.name);
   }
   RETURN_IF_ERROR(CheckFaults(condition, options.session.faults, set));
@@ -335,10 +330,10 @@ Result<std::unique_ptr<Task>> MakeRecordedTask(TaskInput& input, const Detection
   RETURN_IF_ERROR(CheckRecordings(set, taught.has_value()));
   const std::size_t needed = taught ? 2 : 3;  // one person is judged, one sets the thresholds, one teaches
   if (options.operating_point && set.people.size() < needed) {
-    return Fail(condition.Find("operating_point")->place,
-                "'operating_point' needs recordings of people who neither teach nor are judged; found {} people, "
-                "needed: {}",
-                set.people.size(), needed);
+    return Fail(
+        condition.Find("operating_point")->place,
+        "'operating_point' needs recordings of people who neither teach nor are judged; found {} people, needed: {}",
+        set.people.size(), needed);
   }
   // Check once before the run that every method can be taught.
   if (auto all = MakeFold(set, taught, {}, methods); !all) return tl::unexpected(all.error());

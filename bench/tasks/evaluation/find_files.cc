@@ -58,10 +58,10 @@ Result<void> RefuseLinks(const std::string& reference, std::span<const std::stri
     fs::path path = Split(file).path;
     for (std::ptrdiff_t i = 0; i < found_parts; ++i, path = path.parent_path()) {
       if (!fs::is_symlink(fs::symlink_status(path, error))) continue;
-      return Fail(place,
-                  "'{}' is a link in a folder or in the result of a pattern; list the link itself, or replace "
-                  "it by a file",
-                  path.string());
+      return Fail(
+          place,
+          "'{}' is a link in a folder or in the result of a pattern; list the link itself, or replace it by a file",
+          path.string());
     }
   }
   return {};
@@ -112,9 +112,7 @@ Result<std::map<std::string, std::string>> ByName(const std::vector<std::string>
   for (const std::string& reference : references) {
     const auto [known, is_new] = named.emplace(NameOfReference(reference), reference);
     if (is_new) continue;
-    return Fail(place,
-                "'{}' and '{}' have the same name; use the key 'pairs' to state which files form a "
-                "pair",
+    return Fail(place, "'{}' and '{}' have the same name; use the key 'pairs' to state which files form a pair",
                 known->second, reference);
   }
   return named;
@@ -289,9 +287,7 @@ Result<void> FindPeople(const std::string& people, const Place& place, std::vect
   for (JudgedFiles& world : worlds) {
     const auto person = PersonIn(people, world.name);
     if (!person) {
-      return Fail(place,
-                  "the pattern {} does not match the name {}; allowed: a pattern with {}, such as "
-                  "{}_*",
+      return Fail(place, "the pattern {} does not match the name {}; allowed: a pattern with {}, such as {}_*",
                   Quote(people), Quote(world.name), kPerson, kPerson);
     }
     world.unit = spellings.emplace(ComparedName(*person), *person).first->second;

@@ -93,9 +93,7 @@ namespace {
 /// Adds an error for keys without effect: `answers` if the method is a control, the keys of `spoiler` if it is not.
 void CheckControl(Fields& fields, EvaluationMethod& method) {
   if (method.is_control && !method.answers.empty())
-    fields.Complain(fields.node().place,
-                    "a control must not have the "
-                    "key 'answers'");
+    fields.Complain(fields.node().place, "a control must not have the key 'answers'");
   if (!method.is_control && method.spoiler != Spoiler{})
     fields.Complain(fields.node().place, "keys that add errors to the truth are allowed only with 'control: true'");
 }

@@ -11,9 +11,9 @@ constexpr Range kShare{0, 1};
 KeyInfo PosesKey() {
   const ValueKind share = NumberKind(kShare);
   const ValueKind mapping = MappingKind(
-      "", std::vector<KeyInfo>{{"uniform", share, "0.5",
-                                "True angles are drawn from this share of each joint's range, around the middle of the "
-                                "range."}});
+      "", std::vector<KeyInfo>{
+              {"uniform", share, "0.5",
+               "True angles are drawn from this share of each joint's range, around the middle of the range."}});
   return {"poses",
           {"{uniform: 0…1}, or 0…1 alone", fmt::format(R"({{"anyOf":[{},{}]}})", share.schema, mapping.schema)},
           "{uniform: 0.5}",
@@ -82,9 +82,9 @@ const FieldTable<IkCondition>& IkConditionFields() {
                    Path(&IkCondition::trial, &IkTrialOptions::target_noise, &TargetNoise::orientation_deg), {0, 180},
                    "Standard deviation of the error of every target's rotation vector, along each axis.")
            .With("start", {"disturbed", "middle"}),
-       Key::Number("unreachable_cm", Path(&IkCondition::trial, &IkTrialOptions::unreachable_cm), {0, 1000},
-                   "One target is moved away from the root until it is this far beyond the reach of all limbs "
-                   "together.")
+       Key::Number(
+           "unreachable_cm", Path(&IkCondition::trial, &IkTrialOptions::unreachable_cm), {0, 1000},
+           "One target is moved away from the root until it is this far beyond the reach of all limbs together.")
            .With("start", {"disturbed", "middle"}),
        Key{{"targets", NameKind(std::vector<std::string>{"both", "position", "orientation"}), "both",
             "What every effector must reach before a world counts as solved: the target's position, the target's "

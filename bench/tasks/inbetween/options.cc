@@ -27,15 +27,13 @@ const FieldTable<InbetweenOptions>& InbetweenConditionFields() {
            .WhenAbsent("(each file counts once)"),
        Key::Number("window", &Options::window, kFrames, "Length of a window, in frames."),
        Key::Number("offset", &Options::offset, kFrames,
-                   "Number of frames from the beginning of one window to the "
-                   "beginning of the next window."),
+                   "Number of frames from the beginning of one window to the beginning of the next window."),
        Key::Number("training_window", &Options::training_window, kFrames, "Length of a training window, in frames."),
-       Key::Number("training_offset", &Options::training_offset, kFrames,
-                   "Number of frames from the beginning of one training window to the beginning of the next training "
-                   "window."),
+       Key::Number(
+           "training_offset", &Options::training_offset, kFrames,
+           "Number of frames from the beginning of one training window to the beginning of the next training window."),
        Key::Number("past", &Options::past, {3, 10'000},
-                   "Number of frames before the gap. Methods get all these "
-                   "frames."),
+                   "Number of frames before the gap. Methods get all these frames."),
        Key::Number("gap", &Options::gap, kFrames, "Number of hidden frames."),
        Key::Number("future", &Options::future, {3, 10'000}, "Number of frames that a window must have after the gap."),
        Key::Number("given", &Options::given, {1, 10'000}, "Number of frames after the gap that methods get."),

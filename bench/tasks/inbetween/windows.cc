@@ -84,9 +84,7 @@ Result<FoundFiles> FindWindows(const Node& condition, std::span<const Node> meth
                   file);
     for (const std::string& other : training) {
       if (IsSame(file, other))
-        return Fail(training_place,
-                    "'{}' is in 'truth' and in 'training'; allowed: only in one "
-                    "of the two lists",
+        return Fail(training_place, "'{}' is in 'truth' and in 'training'; allowed: only in one of the two lists",
                     other);
     }
     const auto clip = ReadOneClip(file, {});

@@ -43,8 +43,7 @@ const FieldTable<PoseDistanceMethod>& PoseDistanceMethodFields() {
            .With("distance", {"fuzzy"}),
        // Grades are in [0, 1] and the weights S have sum 8, so no distance exceeds sqrt(8 · 4).
        Key::Number("threshold", &Method::threshold, {0, 6},
-                   "The method calls two poses alike if d is below this "
-                   "threshold.")
+                   "The method calls two poses alike if d is below this threshold.")
            .With("distance", {"fuzzy"})},
       SetThreshold};
   return table;

@@ -68,7 +68,7 @@ std::vector<std::string> PoseDistanceNames() { return NamesOf(kDistances); }
 PoseDistance FindPoseDistance(std::string_view name) { return ValueNamed(kDistances, name); }
 
 PairVerdict ComputePairVerdict(const PairWorld& world, const PoseDistanceMethod& method, const Memberships& memberships,
-                      const FeatureWeights& weights) {
+                               const FeatureWeights& weights) {
   const auto distance_of = [&](const SeenPair& pair) {
     switch (method.distance) {
       case PoseDistance::kFuzzy: {

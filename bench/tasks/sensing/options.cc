@@ -10,10 +10,9 @@ const FieldTable<StudioOptions>& CameraSensingFields() {
     FieldTable<StudioOptions> made{FieldsOf<StudioOptions>(CaptureConditionFields(), std::identity(), Keep::kOthers,
                                                            {"duration_s", "figure", "moments"}),
                                    CaptureConditionFields().check};
-    made.fields.push_back(
-        Key::Number("picture_every", &StudioOptions::picture_every, {1, 30},
-                    "The cameras take a picture of every n-th frame at 30 Hz. In the frames between, the last skeleton "
-                    "is repeated."));
+    made.fields.push_back(Key::Number("picture_every", &StudioOptions::picture_every, {1, 30},
+                                      "The cameras take a picture of every n-th frame at 30 Hz. In the frames between, "
+                                      "the last skeleton is repeated."));
     for (Key& field : made.fields) {
       if (field.info.only_with.key.empty()) field = field.With(kSensorKey, {kCameraSensor});
     }

@@ -21,8 +21,7 @@ const FieldTable<TrackingOptions>& TrackingConditionFields() {
   using Key = Field<Options>;
   static const FieldTable<Options> table{
       {Key::Number("duration_s", &Options::duration_s, {0.1, 60},
-                   "Length of the part of the clip that the solver "
-                   "follows."),
+                   "Length of the part of the clip that the solver follows."),
        Key::Number("rate_hz", &Options::rate_hz, {1, kJudgedRateHz},
                    "Frames per second. With fewer frames, successive poses differ more."),
        Key::Number("target_noise_cm", Path(&Options::target_noise, &TargetNoise::position_cm), {0, 100},
@@ -48,9 +47,9 @@ const FieldTable<TrackingMethod>& TrackingMethodFields() {
         "start", &TrackingMethod::start, {{"warm", FrameStart::kWarm}, {"cold", FrameStart::kCold}},
         "The pose from which the solver starts in each frame. warm: the solution of the previous frame; cold: the "
         "start pose of the first frame."));
-    made.fields.push_back(ToleranceField(&TrackingMethod::options,
-                                         "Largest allowed difference between a solved angle and its start "
-                                         "angle, in each frame."));
+    made.fields.push_back(
+        ToleranceField(&TrackingMethod::options,
+                       "Largest allowed difference between a solved angle and its start angle, in each frame."));
     return made;
   }();
   return table;

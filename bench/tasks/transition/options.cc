@@ -36,10 +36,9 @@ const FieldTable<TransitionCondition>& TransitionConditionFields() {
       {Key::Number("threshold", &Options::threshold, kThresholds,
                    "Two bridge frames match if their fuzzy distance is below this threshold. It applies to all methods "
                    "that do not set their own threshold."),
-       Key::Number(
-           "wait_s", &Options::wait_s, kWaits_s,
-           "Maximum time from the request to the transition. It applies to all methods that do not set their own "
-           "limit. Outside methods get this value as max_wait_s.")
+       Key::Number("wait_s", &Options::wait_s, kWaits_s,
+                   "Maximum time from the request to the transition. It applies to all methods that do not set their "
+                   "own limit. Outside methods get this value as max_wait_s.")
            .Unit("seconds"),
        Key::Flag("explain", &Options::explain,
                  "true: every cell keeps the ten partial distances of its transition points and candidates as series. "
@@ -73,9 +72,9 @@ const FieldTable<TransitionMethod>& TransitionMethodFields() {
         {Key::Name("choice", Path(&TransitionMethod::way, &TransitionWay::choice), ChoiceNames(), FindChoice,
                    "The rule that chooses the frames and the time of a transition: paper A's bridge frames, or an "
                    "alternative."),
-         Key::Name("join", Path(&TransitionMethod::way, &TransitionWay::join), JoinNames(), FindJoin,
-                   "How the two clips are joined: by a cut, or by a smooth change from the old motion to the new "
-                   "motion."),
+         Key::Name(
+             "join", Path(&TransitionMethod::way, &TransitionWay::join), JoinNames(), FindJoin,
+             "How the two clips are joined: by a cut, or by a smooth change from the old motion to the new motion."),
          Key::Name("weights", &TransitionMethod::weights, WeightSourceNames(), FindWeightSource,
                    "Weights of the fuzzy features: the weights of the fuzzy system, or weights that are learnt on all "
                    "clips except the two judged clips, by logistic regression or by a genetic algorithm."),

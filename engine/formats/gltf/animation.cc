@@ -341,8 +341,8 @@ class ClipReader {
     if (frame_bytes_ > kMaxFrameBytes) {
       return file_.Refuse(
           where,
-          "this animation has {} frames of {} joints, which brings all animations to {:.0f} MB; allowed: at "
-          "most {:.0f} MB{}",
+          "this animation has {} frames of {} joints, which brings all animations to {:.0f} MB; allowed: at most "
+          "{:.0f} MB{}",
           timing.frames, joints, frame_bytes_ / 1e6, kMaxFrameBytes / 1e6,
           timing.step > 1 ? fmt::format("; the keys are {:.3g} s apart: are the times in milliseconds?", timing.step)
                           : "");

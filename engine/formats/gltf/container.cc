@@ -42,9 +42,7 @@ Result<std::string_view> TakeChunk(std::string_view bytes, std::size_t& at, std:
 
 Result<GltfContainer> OpenGlb(std::string_view bytes, const Place& place) {
   if (bytes.size() < kHeaderBytes)
-    return Fail(place,
-                "found a GLB file of {} bytes; allowed: at least 12, the size of the header",
-                bytes.size());
+    return Fail(place, "found a GLB file of {} bytes; allowed: at least 12, the size of the header", bytes.size());
   if (const std::uint32_t version = Number(bytes, 4); version != 2) {
     return Fail(place, "found GLB version {}; allowed: 2", version);
   }
@@ -127,8 +125,8 @@ Result<GltfContainer> OpenGltfContainer(std::string_view bytes, const std::strin
   // Every buffer without a URI gets a copy of the binary part, so limit the size of all copies together.
   if (static_cast<double>(buffers) * static_cast<double>(container.binary.size()) > kMaxGltfBytes) {
     return Fail(place,
-                "found {} buffers, each with a copy of {} bytes of binary data; allowed: at most {:.0f} MB for "
-                "all copies together",
+                "found {} buffers, each with a copy of {} bytes of binary data; allowed: at most {:.0f} MB for all "
+                "copies together",
                 buffers, container.binary.size(), kMaxGltfBytes / 1e6);
   }
   return container;

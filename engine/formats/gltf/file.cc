@@ -136,10 +136,9 @@ Result<Elements> Locate(const GltfFile& file, int view_index, std::size_t offset
   const bool fits = offset <= view.byteLength && size <= view.byteLength - offset &&
                     count - 1 <= (view.byteLength - offset - size) / stride;
   if (!fits) {
-    return file.Refuse(where,
-                       "found {} elements of {} bytes with a stride of {} bytes from byte {} on, but {} "
-                       "contains only {} bytes",
-                       count, size, stride, offset, view_name, view.byteLength);
+    return file.Refuse(
+        where, "found {} elements of {} bytes with a stride of {} bytes from byte {} on, but {} contains only {} bytes",
+        count, size, stride, offset, view_name, view.byteLength);
   }
   return Elements{bytes.subspan(offset), stride};
 }

@@ -45,8 +45,7 @@ class NodeReader {
         RETURN_IF_ERROR(file_.CheckIndex(children[i], count_, where));
         int& parent = parents_[children[i]];
         if (parent != kNoIndex) {
-          return file_.Refuse(where,
-                              "found node {}, which is already a child of node {}; allowed: one parent",
+          return file_.Refuse(where, "found node {}, which is already a child of node {}; allowed: one parent",
                               children[i], parent);
         }
         parent = node;
@@ -60,8 +59,7 @@ class NodeReader {
       int depth = 1;
       for (int above = parents_[node]; above != kNoIndex; above = parents_[above]) {
         if (above == node)
-          return file_.Refuse(NodeName(node),
-                              "the node is its own ancestor; allowed: a tree of nodes");
+          return file_.Refuse(NodeName(node), "the node is its own ancestor; allowed: a tree of nodes");
         if (++depth > kMaxLevels) return TooDeep(node);
       }
     }
@@ -74,8 +72,7 @@ class NodeReader {
     std::size_t steps = 0;
     for (int above = parents_[node]; above != kNoIndex; above = parents_[above]) {
       if (++steps > count_)
-        return file_.Refuse(NodeName(node),
-                            "an ancestor of the node is its own ancestor; allowed: a tree of nodes");
+        return file_.Refuse(NodeName(node), "an ancestor of the node is its own ancestor; allowed: a tree of nodes");
     }
     return file_.Refuse(NodeName(node), "nested more than {} levels deep", kMaxLevels);
   }
@@ -97,8 +94,7 @@ class NodeReader {
         const std::string where = fmt::format("scenes[{}].nodes[{}]", scene, i);
         RETURN_IF_ERROR(file_.CheckIndex(open[i], count_, where));
         if (parents_[open[i]] != kNoIndex) {
-          return file_.Refuse(where,
-                              "found node {}, which is a child of node {}; allowed: nodes without a parent",
+          return file_.Refuse(where, "found node {}, which is a child of node {}; allowed: nodes without a parent",
                               open[i], parents_[open[i]]);
         }
       }
@@ -234,8 +230,7 @@ class NodeReader {
     const double shear = std::max({std::abs(glm::dot(axes[0], axes[1])), std::abs(glm::dot(axes[1], axes[2])),
                                    std::abs(glm::dot(axes[2], axes[0]))});
     if (shear > kMatrixRounding)
-      return file_.Refuse(where,
-                          "the matrix contains a shear; allowed: a product of translation, rotation and scale");
+      return file_.Refuse(where, "the matrix contains a shear; allowed: a product of translation, rotation and scale");
     local.rotation = glm::normalize(glm::quat_cast(axes));
     return local;
   }

@@ -81,8 +81,7 @@ bool ReadWholeFile(std::vector<unsigned char>* out, std::string*, const std::str
   fetcher.bytes_left -= static_cast<double>(bytes->size());
   if (fetcher.bytes_left < 0) {
     return fetcher.Complain(
-        Fail(place,
-             "the files that this file refers to exceed {:.0f} MB together at {}; allowed: at most this size",
+        Fail(place, "the files that this file refers to exceed {:.0f} MB together at {}; allowed: at most this size",
              kMaxGltfBytes / 1e6, Quote(uri))
             .value());
   }

@@ -78,13 +78,12 @@ class Unprepared final : public PreparedIkSolver {
 IkSolver GaussNewton() {
   IkSolver solver = WithSetting(
       {.name = "gauss-newton",
-       .description = "Gauss-Newton steps that stay near the start pose, with CCD sweeps if the steps get stuck (the "
-                      "default)",
+       .description =
+           "Gauss-Newton steps that stay near the start pose, with CCD sweeps if the steps get stuck (the default)",
        .step = "steps"},
       SolveWithOwn<GaussNewtonOptions>(SolveGaussNewton), &SolverSettings::first_sweeps,
       &GaussNewtonOptions::first_sweeps,
-      Between("first_sweeps", 0, 100,
-              "Number of CCD sweeps before the first Gauss-Newton step."));
+      Between("first_sweeps", 0, 100, "Number of CCD sweeps before the first Gauss-Newton step."));
   solver.prepare = [](const KinematicTree& tree) { return std::make_unique<PreparedGaussNewton>(tree); };
   solver.solve_batch = [](const KinematicTree& tree, std::span<const IkProblem> problems, const IkOptions& options) {
     return SolveGaussNewtonBatch(tree, problems, options, Precision::kDouble, GaussNewtonOptionsOf(options));
@@ -144,14 +143,13 @@ std::span<const IkSolver> AllIkSolvers() {
                   SolveWithOwn<DampedLeastSquaresOptions>(SolveDampedLeastSquares), &SolverSettings::damping,
                   &DampedLeastSquaresOptions::first_damping,
                   Between("damping", 1e-9, 1e6, "The damping of the first step.")),
-      WithSetting(
-          {.name = "damped-least-squares-active-set",
-           .description =
-               "like damped-least-squares, but with an active set for the limits: other angles compensate for angles "
-               "at their limits",
-           .step = "steps"},
-          SolveWithOwn<DampedLeastSquaresOptions>(SolveDampedLeastSquaresActiveSet), &SolverSettings::damping,
-          &DampedLeastSquaresOptions::first_damping, Between("damping", 1e-9, 1e6, "The damping of the first step.")),
+      WithSetting({.name = "damped-least-squares-active-set",
+                   .description = "like damped-least-squares, but with an active set for the limits: other angles "
+                                  "compensate for angles at their limits",
+                   .step = "steps"},
+                  SolveWithOwn<DampedLeastSquaresOptions>(SolveDampedLeastSquaresActiveSet), &SolverSettings::damping,
+                  &DampedLeastSquaresOptions::first_damping,
+                  Between("damping", 1e-9, 1e6, "The damping of the first step.")),
       // Methods that move joints as points.
       {.name = "fabrik",
        .description = "forward and backward reaching inverse kinematics (FABRIK): moves joints as points and reaches "
@@ -160,20 +158,19 @@ std::span<const IkSolver> AllIkSolvers() {
        .step = "passes",
        .solve = SolveFabrik},
       // Methods that do not check whether a step lowers the error.
-      WithSetting(
-          {.name = "jacobian-pinv",
-           .description = "paper B's Jacobian pseudo-inverse: the start pose is the preferred posture, and angles are "
-                          "clamped to their limits",
-           .step = "steps"},
-          SolveWithOwn<JacobianPinvOptions>(SolveJacobianPinv), &SolverSettings::pinv_damping,
-          &JacobianPinvOptions::damping,
-          Between("pinv_damping", 0, 100, "Damping of the pseudo-inverse. Paper B uses 0.")),
-      WithSetting({.name = "jacobian-transpose",
-                   .description = "the Jacobian transpose, with the step length that minimises the error to first "
-                                  "order",
+      WithSetting({.name = "jacobian-pinv",
+                   .description = "paper B's Jacobian pseudo-inverse: the start pose is the preferred posture, and "
+                                  "angles are clamped to their limits",
                    .step = "steps"},
-                  SolveWithOwn<JacobianTransposeOptions>(SolveJacobianTranspose), &SolverSettings::gain,
-                  &JacobianTransposeOptions::gain, Between("gain", 0.01, 2, "Factor on the length of every step.")),
+                  SolveWithOwn<JacobianPinvOptions>(SolveJacobianPinv), &SolverSettings::pinv_damping,
+                  &JacobianPinvOptions::damping,
+                  Between("pinv_damping", 0, 100, "Damping of the pseudo-inverse. Paper B uses 0.")),
+      WithSetting(
+          {.name = "jacobian-transpose",
+           .description = "the Jacobian transpose, with the step length that minimises the error to first order",
+           .step = "steps"},
+          SolveWithOwn<JacobianTransposeOptions>(SolveJacobianTranspose), &SolverSettings::gain,
+          &JacobianTransposeOptions::gain, Between("gain", 0.01, 2, "Factor on the length of every step.")),
   };
   return solvers;
 }

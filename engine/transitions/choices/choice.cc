@@ -47,8 +47,8 @@ std::string WhyTaken(const std::string& pair, const TransitionPoint& point, bool
                      const MatchRules& rules) {
   if (rules.pick == Pick::kFirst) {
     return fmt::format(
-        "the first match: {}, with the distance d = {:.2f} < {:g}; {} pairs match, and {} of them have "
-        "a smaller distance but come later",
+        "the first match: {}, with the distance d = {:.2f} < {:g}; {} pairs match, and {} of them have a smaller "
+        "distance but come later",
         pair, point.distance.value, rules.threshold, survey.matching, survey.nearer);
   }
   return fmt::format(
@@ -95,9 +95,8 @@ TransitionRecord PlanFuzzyBridge(const MotionLibrary& library, const TransitionR
 TransitionRecord PlanNow(const MotionLibrary& library, const TransitionRequest& request, const MatchRules& rules) {
   TransitionRecord record = DirectTransition(library, request, request.request_frame, 0, rules);
   record.branch = Branch::kNow;
-  record.why = fmt::format(
-      "the transition goes at once into the first frame, whatever the poses are; d = {:.2f}",
-      record.distances[0].value);
+  record.why = fmt::format("the transition goes at once into the first frame, whatever the poses are; d = {:.2f}",
+                           record.distances[0].value);
   return record;
 }
 
@@ -108,9 +107,8 @@ TransitionRecord PlanWaitForEnd(const MotionLibrary& library, const TransitionRe
   const int end = library.tagged[request.from].FrameCount() - 1;
   TransitionRecord record = DirectTransition(library, request, end, 0, rules);
   record.branch = Branch::kEnd;
-  record.why = fmt::format(
-      "the playing clip ended after {:.2f} s; the distance to the first frame is d = {:.2f}",
-      record.wait_s, record.distances[0].value);
+  record.why = fmt::format("the playing clip ended after {:.2f} s; the distance to the first frame is d = {:.2f}",
+                           record.wait_s, record.distances[0].value);
   return record;
 }
 
@@ -220,23 +218,20 @@ std::span<const Choice> Table() {
              .plan = PlanBy<PlanFuzzyBridge>},
       Ranked<PlanFuzzyKovar, PointCloudSettings>(
           "fuzzy-kovar",
-          "among all matching bridge frames, takes the pair with the smallest point-cloud distance (Kovar 2002)",
-          true),
-      Ranked<PlanFuzzyWindow, FuzzyWindowSettings>(
-          "fuzzy-window",
-          "among all matching bridge frames, takes the pair with the smallest mean fuzzy distance in a "
-          "window around the pair",
-          true),
+          "among all matching bridge frames, takes the pair with the smallest point-cloud distance (Kovar 2002)", true),
+      Ranked<PlanFuzzyWindow, FuzzyWindowSettings>("fuzzy-window",
+                                                   "among all matching bridge frames, takes the pair with the smallest "
+                                                   "mean fuzzy distance in a window around the pair",
+                                                   true),
       Ranked<PlanPointCloud, PointCloudSettings>(
           "point-cloud", "takes the pair of frames with the smallest point-cloud distance (Kovar 2002)", false),
-      Ranked<PlanMotionMatching, MotionMatchingSettings>(
-          "motion-matching",
-          "takes the pair of frames with the most similar positions and velocities of hands, feet and hips (Clavet "
-          "2016)",
-          false),
+      Ranked<PlanMotionMatching, MotionMatchingSettings>("motion-matching",
+                                                         "takes the pair of frames with the most similar positions and "
+                                                         "velocities of hands, feet and hips (Clavet 2016)",
+                                                         false),
       Choice{.name = "played",
-             .description = "takes the frames and the blend length whose transition costs the least waiting time and "
-                            "acceleration",
+             .description =
+                 "takes the frames and the blend length whose transition costs the least waiting time and acceleration",
              .settings = PlayedSettings().Describe(),
              .plan = PlanWith<PlanPlayed, PlayedSettings>},
       // Choices of fixed frames, for comparison.

@@ -78,9 +78,8 @@ std::string DescribeNoMatch(const std::vector<RankedPair>& nearest, std::int64_t
                             const MatchRules& rules) {
   if (nearest.empty()) return fmt::format("none of the {} pairs of {} has the same tags in both frames", pairs, frames);
   const double least = std::ranges::min_element(nearest, {}, &RankedPair::rank)->rank;
-  return fmt::format(
-      "no match among {} pairs of {}: the smallest distance is d = {:.2f}, which is not below {:g}",
-      pairs, frames, least, rules.threshold);
+  return fmt::format("no match among {} pairs of {}: the smallest distance is d = {:.2f}, which is not below {:g}",
+                     pairs, frames, least, rules.threshold);
 }
 
 std::string DescribePair(const MotionLibrary& library, const TransitionRequest& request, int from, int to) {

@@ -166,16 +166,16 @@ std::span<const Filler> AllFillers() {
        .fill = [](const Gap& gap, Values) { return FillEach(gap, LeastJerkAt, LeastJerkAt); }},
       // Fillers that learn from the training clips.
       {.name = "nearest-gap",
-       .description = "dead blending, corrected by the error of dead blending in the training gap with the most "
-                      "similar ends",
+       .description =
+           "dead blending, corrected by the error of dead blending in the training gap with the most similar ends",
        .uses_library = true,
        .fill =
            [](const Gap& gap, Values) {
              return gap.library ? gap.library->FillLikeNearest(gap, DeadBlend) : std::vector<TreePose>();
            }},
       {.name = "near-gaps",
-       .description = "dead blending, corrected by the mean error of dead blending in similar gaps of the training "
-                      "clips",
+       .description =
+           "dead blending, corrected by the mean error of dead blending in similar gaps of the training clips",
        .uses_library = true,
        .fill = FillLikeNear},
       {.name = "planted-feet",

@@ -30,9 +30,9 @@ BodyPose PoseBetween(const BodyPose& from, const BodyPose& to, double share) {
 }
 
 const SettingTable<CrossfadeOptions>& CrossfadeSettings() {
-  static const SettingTable<CrossfadeOptions> kSettings({{"blend_s", &CrossfadeOptions::blend_s, 0, 5,
-                                                          "Blend length: seconds from the transition point until only "
-                                                          "the new motion is shown."}});
+  static const SettingTable<CrossfadeOptions> kSettings(
+      {{"blend_s", &CrossfadeOptions::blend_s, 0, 5,
+        "Blend length: seconds from the transition point until only the new motion is shown."}});
   return kSettings;
 }
 

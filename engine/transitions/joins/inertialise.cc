@@ -60,9 +60,9 @@ Blend InertialiseSpring(const JoinInput& input, const SpringOptions& options) {
 }
 
 const SettingTable<QuinticOptions>& QuinticSettings() {
-  static const SettingTable<QuinticOptions> kSettings({{"blend_s", &QuinticOptions::blend_s, 0, 5,
-                                                        "Blend length: seconds from the transition point until only "
-                                                        "the new motion is shown."}});
+  static const SettingTable<QuinticOptions> kSettings(
+      {{"blend_s", &QuinticOptions::blend_s, 0, 5,
+        "Blend length: seconds from the transition point until only the new motion is shown."}});
   return kSettings;
 }
 

@@ -35,11 +35,11 @@ std::span<const JoinKind> Table() {
                .description = "the old motion fades into the new one (Kovar 2002)",
                .settings = CrossfadeSettings().Describe(),
                .begin = BeginWith<Crossfade, CrossfadeSettings>},
-      JoinKind{.name = "inertialised-quintic",
-               .description = "the offset from the new motion decays along a quintic that does not overshoot (Bollo "
-                              "2018)",
-               .settings = QuinticSettings().Describe(),
-               .begin = BeginWith<InertialiseQuintic, QuinticSettings>},
+      JoinKind{
+          .name = "inertialised-quintic",
+          .description = "the offset from the new motion decays along a quintic that does not overshoot (Bollo 2018)",
+          .settings = QuinticSettings().Describe(),
+          .begin = BeginWith<InertialiseQuintic, QuinticSettings>},
       JoinKind{.name = "inertialised-spring",
                .description = "the offset from the new motion decays like a critically damped spring (Holden 2020)",
                .begin = SpringDefaults},
@@ -50,14 +50,13 @@ std::span<const JoinKind> Table() {
           .begin = BeginWith<DeadBlending, DeadSettings>},
       // Our own joins.
       JoinKind{.name = "minimum-jerk",
-               .description = "the offset from the new motion decays along the minimum-jerk quintic, for any initial "
-                              "velocity",
+               .description =
+                   "the offset from the new motion decays along the minimum-jerk quintic, for any initial velocity",
                .settings = MinimumJerkSettings().Describe(),
                .begin = BeginWith<MinimumJerk, MinimumJerkSettings>},
       JoinKind{.name = "planted-feet",
-               .description =
-                   "like minimum-jerk, but each foot goes from the path of the old motion to the path of the new "
-                   "motion in one step",
+               .description = "like minimum-jerk, but each foot goes from the path of the old motion to the path of "
+                              "the new motion in one step",
                .settings = MinimumJerkSettings().Describe(),
                .begin = BeginWith<PlantedFeet, MinimumJerkSettings>,
                .align = AlignOnPlantedFeet},

@@ -79,8 +79,8 @@ void CompareClips(const ClipTags& file, const ClipTags& now, TagsComparison& com
   const std::string name = Quote(file.name);
   if (file.frames != now.frames || file.rate_hz != now.rate_hz) {
     comparison.differences.push_back(
-        fmt::format("clip {} has {} frames at {} Hz in the file, but {} frames at {} Hz now",
-                    name, file.frames, file.rate_hz, now.frames, now.rate_hz));
+        fmt::format("clip {} has {} frames at {} Hz in the file, but {} frames at {} Hz now", name, file.frames,
+                    file.rate_hz, now.frames, now.rate_hz));
     return;
   }
   // Compare the bridge frames that are in both sets of tags, and report the others.

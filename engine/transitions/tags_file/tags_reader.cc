@@ -77,8 +77,7 @@ Result<void> CheckBeforeParsing(std::string_view text, const std::string& file) 
   for (std::size_t start = 0; start < text.size();) {
     const std::size_t next = std::min(text.find('<', start + 1), text.size());
     if (next - start > kMaxTagBytes) {
-      return Fail({file, LineOf(text, start), 0},
-                  "found {} bytes without a new XML tag; allowed: at most {}",
+      return Fail({file, LineOf(text, start), 0}, "found {} bytes without a new XML tag; allowed: at most {}",
                   next - start, kMaxTagBytes);
     }
     start = next;
@@ -297,9 +296,7 @@ class TagsReader {
     const KeyTag key{xml_.Attribute("clip"), Whole("frame")};
     const auto clip = clip_of_name_.find(key.clip);
     if (clip == clip_of_name_.end())
-      return Complain(
-          "a key pose refers to clip {}, which is not in the file",
-          Quote(key.clip));
+      return Complain("a key pose refers to clip {}, which is not in the file", Quote(key.clip));
     const bool has_bridge_frames = std::any_of(tags_.clips.begin(), tags_.clips.end(),
                                                [](const ClipTags& tagged) { return !tagged.bridge_frames.empty(); });
     const ClipTags& of_clip = tags_.clips[clip->second];

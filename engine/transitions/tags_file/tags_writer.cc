@@ -44,10 +44,9 @@ Result<void> CheckName(const std::string& name) {
   bool fits = !name.empty() && name.size() <= 4096 && xmlCheckUTF8(reinterpret_cast<const xmlChar*>(name.c_str()));
   for (char c : name) fits = fits && static_cast<unsigned char>(c) >= ' ';
   if (fits) return {};
-  return Fail({},
-              "the name of a clip is {}; allowed in a tags file: at most 4096 bytes of UTF-8 without control "
-              "characters",
-              Quote(name));
+  return Fail(
+      {}, "the name of a clip is {}; allowed in a tags file: at most 4096 bytes of UTF-8 without control characters",
+      Quote(name));
 }
 
 void WriteFrame(XmlWriter& xml, const TaggedFrame& frame, double rate_hz) {

@@ -75,9 +75,8 @@ TEST(PlaceRig, FindsTheUnitThatMakesItAPerson) {
         << name;
     EXPECT_DOUBLE_EQ(place->scale, metres) << name;
     EXPECT_NEAR(place->stature_m, 1.7, 1e-9) << name;
-    EXPECT_THAT(place->told,
-                HasSubstr(std::string("lengths in ") + name +
-                          " (this unit gives legs of 0.85 m from hip to ankle; in m the legs would be "));
+    EXPECT_THAT(place->told, HasSubstr(std::string("lengths in ") + name +
+                                       " (this unit gives legs of 0.85 m from hip to ankle; in m the legs would be "));
   }
   const auto child = PlaceRig(SomeRig(), Stander([](glm::dvec3 p) { return p * 350.0; }), kPlaceRate, {});
   EXPECT_DOUBLE_EQ(child.value().scale, 0.001) << "0.6 m tall: nobody else's unit makes that";

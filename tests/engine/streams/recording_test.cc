@@ -245,8 +245,7 @@ TEST(Streams, OfSeveralBodiesTheOneSeenLongestIsTakenUnlessAnotherIsAskedFor) {
   const std::string text = "3\n1\n" + other + "2\n" + other + body + "1\n" + body + "";
   EXPECT_EQ(ReadStreamRecording(text, "s")->remarks.size(), 1u);
   EXPECT_TRUE(ReadStreamRecording(text, "s", {.body = 1})->frames[0].places[0] == std::nullopt);
-  EXPECT_EQ(ComplaintOf(text, {.body = 2}),
-            "s: there is no body 2; the file has 2 bodies, counted from 0");
+  EXPECT_EQ(ComplaintOf(text, {.body = 2}), "s: there is no body 2; the file has 2 bodies, counted from 0");
 }
 
 /// Returns one body of a frame in NTU's text, under another name and `aside` metres to the side.

@@ -67,9 +67,9 @@ TEST(MatchLabels, RefusesTimesOutsideAndLabelsOfNothing) {
                                     {"-0.4,0", "from -0.400 to 0.000 s"},
                                     {"3,", "at 3.000 s"}}) {
     const auto beyond = ReadLabels(fmt::format("clip,from_s,to_s,move,truth\na,{},m,right\n", times), "l");
-    EXPECT_EQ(testing::Refusal(MatchLabels(*beyond, "l", TwoStreams())),
-              fmt::format("l:2: found a label {} of a; allowed: labels within the recording, which lasts 3.000 s",
-                          told));
+    EXPECT_EQ(
+        testing::Refusal(MatchLabels(*beyond, "l", TwoStreams())),
+        fmt::format("l:2: found a label {} of a; allowed: labels within the recording, which lasts 3.000 s", told));
   }
   for (const char* times : {"2.99,3.4", "-0.4,0.01", "0,3", "2.99,"}) {
     const auto within = ReadLabels(fmt::format("clip,from_s,to_s,move,truth\na,{},m,right\n", times), "l");

@@ -69,10 +69,11 @@ TEST(Played, GoesThroughTheClipThatStandsUp) {
   EXPECT_TRUE(library.stances[3][rise.first].is_down);
   EXPECT_FALSE(library.stances[3][rise.last].is_down);
   EXPECT_EQ(record.wait_s, WaitOf(record.segments, kJudgedRateHz));
-  EXPECT_EQ(record.why.substr(0, record.why.find("rise from frame ")),
-            "in lie, the body lies, sits or kneels with the hips at 0.00 m at every frame where the clip can be left, "
-            "and in stand, the body stands with the hips at 0.83 m at every frame where the clip can be entered; no join "
-            "can raise a body without support; through ");
+  EXPECT_EQ(
+      record.why.substr(0, record.why.find("rise from frame ")),
+      "in lie, the body lies, sits or kneels with the hips at 0.00 m at every frame where the clip can be left, "
+      "and in stand, the body stands with the hips at 0.83 m at every frame where the clip can be entered; no join "
+      "can raise a body without support; through ");
   ASSERT_EQ(made.splice.between.size(), 1u);
   EXPECT_EQ(made.splice.between[0].size(), 60u - rise.first) << "of the clip from its point on";
   // While the body rises, its hips follow the clip, apart from the decay of the two joins.
@@ -96,10 +97,11 @@ TEST(Played, SaysThatNoClipShowsHowABodyLiesDown) {
       LibraryOfClips({"stand", "lie", "rise"}, {StandingClip(60, 0), LyingClip(60), RisingClip(60)});
   const TransitionRecord down = PlayedFrom(library, 0, 10, 1);
   EXPECT_TRUE(down.segments.empty()) << "who can stand up cannot lie down backwards";
-  EXPECT_EQ(down.why,
-            "in stand, the body stands with the hips at 0.83 m at every frame where the clip can be left, and in lie, the "
-            "body lies, sits or kneels with the hips at 0.00 m at every frame where the clip can be entered; no join can "
-            "lower a body without support; and no clip shows this movement within 4 s");
+  EXPECT_EQ(
+      down.why,
+      "in stand, the body stands with the hips at 0.83 m at every frame where the clip can be left, and in lie, the "
+      "body lies, sits or kneels with the hips at 0.00 m at every frame where the clip can be entered; no join can "
+      "lower a body without support; and no clip shows this movement within 4 s");
   EXPECT_FALSE(PlayedFrom(library, 1, 10, 0).segments.empty());
   EXPECT_TRUE(PlayedFrom(library, 1, 10, 0, {.most_through_s = 0.2}).segments.empty()) << "no time for it";
   EXPECT_EQ(PlayedFrom(library, 0, 10, 0).segments.size(), 2u) << "who stands is joined as before";
