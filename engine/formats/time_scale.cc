@@ -55,7 +55,7 @@ TimeUnit UnitByStep(double step, const std::string& times, std::string& remark) 
     others.push_back(fmt::format("in {}, it would be {:.4g} Hz", other.name, rate_in(other)));
   }
   remark = fmt::format(
-      "{} taken as {}, because as seconds rows would be more than a second apart; the rate is "
+      "{} taken as {}, because in seconds the rows would be more than a second apart; the rate is "
       "{:.4g} Hz{}",
       times, unit->name, rate_in(*unit),
       others.empty() ? "" : " (" + Join(others) + "; `--rate`, in convert `--file-rate`, sets it)");

@@ -173,8 +173,10 @@ void Describe(const FbxKeyFacts& facts, std::vector<std::string>& remarks) {
         facts.turn_deg));
   }
   if (facts.cut_s > 0) {
-    remarks.push_back(fmt::format(
-        "Etude leaves out keys outside the clip's time span (LocalStart to LocalStop), up to {:.2f} s", facts.cut_s));
+    remarks.push_back(
+        fmt::format("Etude leaves out keys outside the clip's time span (LocalStart to LocalStop); these keys reach "
+                    "{:.2f} s beyond it",
+                    facts.cut_s));
   }
   if (facts.empty_spans > 0) {
     remarks.push_back(

@@ -80,9 +80,10 @@ TEST(RowClock, RowsMoreThanASecondApartAreMilliseconds) {
   ASSERT_OK(laid, LayOnClock(RowsAt(times), "a.csv"));
   EXPECT_NEAR(laid->rate_hz, 30, 1e-9);
   EXPECT_EQ(laid->frames.size(), 60u);
-  EXPECT_EQ(laid->remark,
-            "its times are taken as milliseconds, because as seconds rows would be more than a second apart; the rate "
-            "is 30 Hz");
+  EXPECT_EQ(
+      laid->remark,
+      "its times are taken as milliseconds, because in seconds the rows would be more than a second apart; the rate "
+      "is 30 Hz");
 }
 
 /// Returns `count` rows whose times are counted in units of `unit_s` seconds, rounded if the unit is small.
@@ -116,7 +117,7 @@ TEST(RowClock, TimesInOtherUnitsGetTheirRate) {
   ASSERT_OK(wrong, LayOnClock(RowsCounted(30, 1e-3, 25), "a"));
   EXPECT_EQ(wrong->rate_hz, 30);
   EXPECT_THAT(wrong->remark,
-              HasSubstr("the column Time is taken as milliseconds, because as seconds rows would be more"));
+              HasSubstr("the column Time is taken as milliseconds, because in seconds the rows would be more"));
   EXPECT_THAT(wrong->remark, HasSubstr("DataRate states 25 Hz, but the times in the column Time give 30 Hz, which is "
                                        "used"));
 }

@@ -174,7 +174,9 @@ TEST(FbxTakes, ALayerThatOverridesTheBaseFullyReplacesIt) {
 TEST(FbxTakes, KeysOutsideOfTheTimeSpanAreLeftOutAndTold) {
   const ArmLayer keys = Baked("Base", 0, 2, Angle);
   const std::string preset = Preset(Span(0, 0));
-  const auto cut = [](double seconds) { return fmt::format("(LocalStart to LocalStop), up to {:.2f} s", seconds); };
+  const auto cut = [](double seconds) {
+    return fmt::format("(LocalStart to LocalStop); these keys reach {:.2f} s beyond it", seconds);
+  };
   for (const auto& [from_s, to_s] : {std::pair(0.5, 1.5), {1.0, 2.0}, {0.0, 1.0}}) {
     const Waved waved = Read(ArmFile({keys}, {.span = Span(from_s, to_s)}));
     ExpectHand(waved, from_s, to_s, Truth, fmt::format("{} s", from_s));
