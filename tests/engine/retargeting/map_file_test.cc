@@ -76,7 +76,7 @@ TEST(JointMapFile, ListsWhatIsComposedAndWhatIsNotUsed) {
   const std::string text = WriteJointMapFile(person, *FindJointMap(person, "person.bvh"));
   EXPECT_THAT(text, HasSubstr("\n  left_elbow: \"LeftForeArm\"\n"));
   EXPECT_THAT(text,
-              HasSubstr("\n  # left_hand: the file has no such joint; Etude uses a point fixed to " LeftHand "\n"));
+              HasSubstr("\n  # left_hand: the file has no such joint; Etude uses a point fixed to \"LeftHand\"\n"));
   EXPECT_THAT(text, HasSubstr("\n#   \"LeftShoulder\"\n"));
   EXPECT_THAT(text, Not(HasSubstr("#   \"LeftForeArm\"")));
 }
@@ -89,7 +89,7 @@ TEST(JointMapFile, LeavesOutAJointThatBearsTheNameOfAnother) {
   person.joints[person.Find("Head_End")].name = "Head";
   ASSERT_OK(map, FindJointMap(person, "person.bvh"));
   const std::string text = WriteJointMapFile(person, *map);
-  EXPECT_THAT(text, HasSubstr("\n  # head: the joint " Head ", but not the first joint with this name\n"));
+  EXPECT_THAT(text, HasSubstr("\n  # head: the joint \"Head\", but not the first joint with this name\n"));
   ASSERT_OK(taught, ReadJointMapFile(text, "map.yaml"));
   ASSERT_OK(again, FindJointMap(person, "person.bvh", &*taught));
   EXPECT_EQ((*again)[kHead].joint, (*map)[kHead].joint);
