@@ -32,8 +32,8 @@ SessionParts PartsOf(const ReadyCoach& ready, const Coach& coach, const Recognis
   return {coach, recogniser, sight.filter, sight.sees_truth, sight.Capture()};
 }
 
-/// Runs a session of another person under the same condition. A yoked session takes its correction times from this
-/// session.
+/// Runs a session of another person under the same condition. A method with the policy `yoked` then corrects at the
+/// times at which the other person was corrected.
 Result<SessionLog> RunPartner(const ReadyCoach& ready, const CoachCondition& condition, const CoachStage& stage,
                               const CoachWorld& world) {
   const std::string scenario = fmt::format("{}/partner", world.key.scenario);
@@ -171,7 +171,7 @@ Result<SessionLog> RunMethod(const ReadyCoach& ready, const CoachCondition& cond
   if (seat == Seat::kPolicy) moments = MakeSeatedPolicy(*seated);
   if (seat == Seat::kLearner) player = MakeSeatedLearner(*seated);
   if (player == nullptr) player = std::make_unique<LearnerPlayer>(world, stage);
-  // A yoked method corrects at the times at which its partner corrects, so first run the partner's session.
+  // A method with the policy `yoked` corrects at the times of a session of another person. Run that session first.
   if (ready.partner != nullptr) {
     ASSIGN_OR_RETURN(const SessionLog partner, RunPartner(ready, condition, stage, world));
     moments = std::make_unique<Moments>(partner);
