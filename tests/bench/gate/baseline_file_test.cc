@@ -62,7 +62,7 @@ TEST(Baseline, KeepsWhatItsCellsWereJudgedOn) {
   EXPECT_EQ(*WriteBaseline(*read), text);
   EXPECT_THAT(ComplaintAbout(Edited(text, R"({"parts":1, => {"parts":7,)")), HasSubstr("'judged' of s, "));
   EXPECT_THAT(ComplaintAbout(Edited(text, R"("cells":[{"parts":0,"rate_hz":30.0},null, => "cells":[null,)")),
-              HasSubstr("has 23 cells, but the scenario has 24 trials"));
+              HasSubstr("describes 23 cells, but the scenario has 24 trials"));
 }
 
 TEST(Baseline, HasOneLinePerMethodAndMetric) {
@@ -123,7 +123,7 @@ TEST(Baseline, IsRefusedWhenALineIsMissing) {
   ASSERT_NE(from, std::string::npos);
   text.erase(from, text.find('\n', from + 1) - from);
   EXPECT_THAT(ComplaintAbout(text),
-              HasSubstr("4 lines of statuses and 7 lines of values, but its scenarios need 4 and 8"));
+              HasSubstr("contains 4 lines of statuses and 7 lines of values, but its scenarios need 4 lines of statuses and 8 lines of values"));
 }
 
 }  // namespace

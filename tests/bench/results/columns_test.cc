@@ -178,7 +178,7 @@ TEST_F(ColumnsTest, ThatAreNotAsTheyWereWrittenAreRefused) {
               HasSubstr("status.npy: contains 15 numbers, but the run has 16 rows"));
   EXPECT_THAT(with(own / "status.npy", [](std::string& text) { text.resize(20); }), HasSubstr("it is too short"));
   EXPECT_THAT(with(own / "status.npy", [](std::string& text) { text.back() = 8; }),
-              HasSubstr("status.npy contains 8, but there are 8 statuses"));
+              HasSubstr("status.npy contains the index 8, but there are only 8 statuses"));
   EXPECT_THAT(with(own / "kind.npy", [](std::string& text) { text.back() = 1; }), HasSubstr("kind.npy contains"));
   EXPECT_THAT(with(own / "reason.npy", [](std::string& text) { text.back() = 1; }), HasSubstr("reason.npy contains "));
   EXPECT_THAT(with(own / "position_error_cm.npy", [](std::string& text) { text[14] = 'X'; }),
@@ -216,13 +216,13 @@ TEST_F(ColumnsTest, AreNotReadThroughLinksNorOutsideOfTheirRun) {
   const fs::path own = folder() / "columns" / "poses", elsewhere = folder() / "elsewhere";
   fs::rename(own, elsewhere);
   fs::create_directory_symlink(elsewhere, own);
-  EXPECT_THAT(Complaint(), HasSubstr("poses: is a link"));
+  EXPECT_THAT(Complaint(), HasSubstr("poses: this is a link"));
   fs::remove(own);
   fs::rename(elsewhere, own);
   EXPECT_EQ(Complaint(), "accepted");
   fs::rename(own / "status.npy", folder() / "status.npy");
   fs::create_symlink(folder() / "status.npy", own / "status.npy");
-  EXPECT_THAT(Complaint(), HasSubstr("status.npy: is a link"));
+  EXPECT_THAT(Complaint(), HasSubstr("status.npy: this is a link"));
   EXPECT_THAT(ToString(OpenColumns(folder(), {"../../columns/poses"}).error()), HasSubstr("leads out of"));
 }
 

@@ -240,7 +240,7 @@ TEST(Seal, HoldsUntilAnythingTheRunWroteChanges) {
   EXPECT_THAT(ToString(CheckSeal(folder).error()), HasSubstr("stray/: was not written by the run"));
   std::filesystem::remove(folder / "stray");
   std::filesystem::create_symlink(cells, folder / "link.jsonl");
-  EXPECT_THAT(ToString(CheckSeal(folder).error()), HasSubstr("link.jsonl: this is neither a file nor a folder"));
+  EXPECT_THAT(ToString(CheckSeal(folder).error()), HasSubstr("link.jsonl: is neither a file nor a folder"));
   std::filesystem::remove(folder / "link.jsonl");
   EXPECT_TRUE(CheckSeal(folder));
   ASSERT_TRUE(WriteFileAtomically(folder / "seal.json", "{\"version\": 7}"));

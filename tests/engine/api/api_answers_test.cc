@@ -115,7 +115,7 @@ TEST(ApiCapture, RecoversThePersonThatTheEngineRecovers) {
   EXPECT_THAT(Complaint([&] { Capture(cameras, seen, {.person = 1}); }), HasSubstr("person 2"));
   EXPECT_THAT(Complaint([&] { Capture(cameras, seen, {.smooth_hz = -1}); }), HasSubstr("0 or more"));
   seen[1][3][0][Landmark::kLeftShoulder].confidence = 1.5;
-  EXPECT_THAT(Complaint([&] { Capture(cameras, seen); }), HasSubstr("LShoulder at"));
+  EXPECT_THAT(Complaint([&] { Capture(cameras, seen); }), HasSubstr("keypoint LShoulder is at"));
 }
 
 TEST(ApiMotion, ReadsWhatTheEngineWrote) {

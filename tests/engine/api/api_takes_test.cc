@@ -65,7 +65,7 @@ TEST(ApiSilhouettes, RefusesWhatDoesNotGoTogether) {
   const auto refused = [&](const FollowOptions& options = {}) {
     return RefusalOf([&] { TrackSilhouettes(cameras, masks, options); });
   };
-  EXPECT_THAT(refused({.measured = {Pose{}}}), HasSubstr("a limb has no length"));
+  EXPECT_THAT(refused({.measured = {Pose{}}}), HasSubstr("a limb of the poses in 'measured' has no length"));
   masks[0][0].pixels.pop_back();
   EXPECT_THAT(refused(), HasSubstr("the mask has 307199 pixels; allowed: 640 x 480"));
   masks[0] = masks[1];

@@ -101,7 +101,7 @@ TEST_P(Dlt, RefusesNumbersThatAreNotFinite) {
   std::vector<PointPair> pairs = Pairs(8);
   pairs[2].pixel.x = std::numeric_limits<double>::quiet_NaN();
   auto matrix = Calibrate(pairs, GetParam());
-  EXPECT_THAT(testing::Message(matrix), HasSubstr("pair 3 is not finite"));
+  EXPECT_THAT(testing::Message(matrix), HasSubstr("point pair 3 has a coordinate that is not finite"));
   pairs = Pairs(8);
   pairs[7].world.z = std::numeric_limits<double>::infinity();
   EXPECT_FALSE(Calibrate(pairs, GetParam()));

@@ -165,7 +165,7 @@ TEST(RigFile, RefusesAMirroredCameraInEveryFormatWithAMatrix) {
 TEST(RigFile, RefusesALensThatItCannotRead) {
   const std::string toml = WritePose2SimCalibration(TwoCameras());
   EXPECT_THAT(testing::Message(ReadRig(testing::Replaced(toml, "fisheye = false", "fisheye = yes"), "rig")),
-              HasSubstr("fisheye is yes; allowed: true, false"));
+              HasSubstr("'fisheye' is yes; allowed: true, false"));
 }
 
 std::string OpenCvMatrix(const std::string& name, std::size_t rows, const std::vector<double>& values) {

@@ -116,7 +116,7 @@ TEST(CheckDance, SaysWhatIsWrong) {
   EXPECT_EQ(complaint([](Dance& d) { d.moves[0].slow.poses.resize(2); }), "nothing");
   EXPECT_EQ(complaint([](Dance& d) { d.moves[0].slow.poses.resize(1); }),
             ": the slow demonstration of 'first' has 1 frames; allowed: at least 2");
-  EXPECT_EQ(complaint([](Dance& d) { d.motion.rate_hz = 60; }), ": the song has a rate of 60 Hz; allowed: 30");
+  EXPECT_EQ(complaint([](Dance& d) { d.motion.rate_hz = 60; }), ": the song has a rate of 60 Hz; allowed: 30 Hz");
   EXPECT_EQ(complaint([](Dance& d) { d.acts.pop_back(); }), " lacks the act 'praise'");
   EXPECT_EQ(complaint([](Dance& d) { d.acts[3].motion.poses.clear(); }),
             ": the act 'wake' has 0 frames; allowed: at least 2");

@@ -167,7 +167,7 @@ TEST(C3d, RefusesWhatIsDamaged) {
   furlongs.unit = "fl";
   none.points = 0;
   flat.scale = 0;
-  EXPECT_EQ(C3dComplaint(furlongs.Write()), "a.c3d: found units 'fl'; allowed: m, cm, mm, in, ft");
+  EXPECT_EQ(C3dComplaint(furlongs.Write()), "a.c3d: units are 'fl'; allowed: m, cm, mm, in, ft");
   EXPECT_THAT(C3dComplaint(none.Write()), HasSubstr("contains no points"));
   EXPECT_THAT(C3dComplaint(flat.Write()), HasSubstr("POINT:SCALE is"));
   for (std::size_t cut = 0; cut < good.size(); cut += 37) EXPECT_NE(C3dComplaint(good.substr(0, cut)), "(read)") << cut;

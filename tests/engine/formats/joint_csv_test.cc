@@ -77,7 +77,7 @@ TEST(JointCsv, RowsAreReadOneByOneAsInTheFile) {
   EXPECT_EQ(row->places[Index(Role::kHead)], glm::dvec3(1.5, 2, 3));
   EXPECT_TRUE(ReadJointCsvRow("1;1;2;3;run", columns, "m.csv")) << "the control";
   EXPECT_EQ(testing::Refusal(ReadJointCsvRow("1;1;far;3;run", columns, "m.csv")),
-            "m.csv:column 2: found value 3: 'far'; allowed: a number, or nan for a missing value");
+            "m.csv:2: value 3: found 'far'; allowed: a number, or nan for a missing value");
   EXPECT_EQ(testing::Refusal(ReadJointCsvRow("1;2e9;2;3;run", columns, "m.csv")),
             "m.csv:2: value 2: found 2000000000; allowed: a number within ±1e+09, or nan for a missing value");
 }
@@ -121,7 +121,7 @@ TEST(JointCsv, TakesTabsDecimalCommasQuotesAndTimesSince1970AndLeavesTextsOut) {
             "m.csv:1: 3 headings, but 6 columns; if the numbers have decimal commas, separate the columns by "
             "semicolons or tabs");
   EXPECT_EQ(read("head_x_m,head_y_m,head_z_m\n1,far,2\n"),
-            "m.csv:column 2: found head_y_m: 'far'; allowed: a number, or nan for a missing value");
+            "m.csv:2: column head_y_m: found 'far'; allowed: a number, or nan for a missing value");
   // A hundred text columns are ignored; with more, the table is refused.
   const auto texts = [&](int count) {
     std::string text = "head_x_m,head_y_m,head_z_m", row = "\n1,2,3";
@@ -133,8 +133,9 @@ TEST(JointCsv, TakesTabsDecimalCommasQuotesAndTimesSince1970AndLeavesTextsOut) {
     return some ? some->remark : ToString(some.error());
   };
   EXPECT_THAT(texts(100),
-              ::testing::EndsWith("left out: note_0, note_1, note_2, note_3, note_4, note_5, note_6, note_7, …"));
-  EXPECT_THAT(texts(101), ::testing::HasSubstr("value 104: 'x'"));
+              ::testing::EndsWith("Etude left out columns that contain text: note_0, note_1, note_2, note_3, note_4, "
+                                  "note_5, note_6, note_7, …"));
+  EXPECT_THAT(texts(101), ::testing::HasSubstr("value 104: found 'x'"));
   EXPECT_NE(read("head_x_m,head_y_m,head_z_m\n1,2e9,2\n").find("within ±1e+09"), std::string::npos);
 }
 

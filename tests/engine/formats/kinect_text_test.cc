@@ -64,7 +64,7 @@ TEST(KinectText, TakesZerosAndNanForMissingJoints) {
 TEST(KinectText, NamesTheLineOfWhatItRefuses) {
   const std::string good = Row(0, true);
   EXPECT_EQ(KinectComplaint(good), "(read)");
-  EXPECT_TRUE(KinectComplaint(good + "\n\n# remark\n" + good + " 5\n").starts_with("k.txt:4: 176 values"))
+  EXPECT_TRUE(KinectComplaint(good + "\n\n# remark\n" + good + " 5\n").starts_with("k.txt:4: found 176 values"))
       << KinectComplaint(good + "\n\n# remark\n" + good + " 5\n");
   EXPECT_TRUE(KinectComplaint(good + "\n" + Row(0, true).replace(0, 3, "0,1")).starts_with("k.txt:2: "));
   EXPECT_TRUE(KinectComplaint(good + "\nx" + good.substr(1)).starts_with("k.txt:2:1: value 1"));

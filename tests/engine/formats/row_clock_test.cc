@@ -134,7 +134,8 @@ TEST(RowClock, RatesAboveTenKilohertzAreRefused) {
     const auto laid = LayOnClock(RowsCounted(30, unit_s), "a");
     return laid ? std::string("no complaint") : ToString(laid.error());
   };
-  EXPECT_THAT(reason(3600), HasSubstr("which gives 1.08e+05 Hz; allowed: at most 10000 Hz, with times in seconds"));
+  EXPECT_THAT(reason(3600),
+              HasSubstr("which means a rate of 1.08e+05 Hz; allowed: at most 10000 Hz, with times in seconds"));
   EXPECT_EQ(reason(60), "no complaint") << "1800 Hz is possible";
 }
 
@@ -395,7 +396,7 @@ TEST(RowClock, OfABodyIsBridgedForASecondAndCutBeyond) {
   const BodyMotion cut = lay(TimesAt(30, 100, 20, 60), remark);
   ASSERT_EQ(cut.poses.size(), 40u);
   EXPECT_LT(glm::distance(cut.poses[0][Role::kHead], CurveAt(2)), 1e-9);
-  EXPECT_THAT(remark, HasSubstr("frames 61 to 100 of 100 are kept"));
+  EXPECT_THAT(remark, HasSubstr("Etude keeps only frames 61 to 100 of 100"));
   EXPECT_EQ(start_s, 2);
 }
 

@@ -117,7 +117,7 @@ TEST(GuessPictures, FindsWhichFilmWasTurnedOrMirrored) {
       }
       const std::string turned = turns == 0 ? "" : fmt::format("turned by {}° clockwise", 90 * turns);
       const std::string words = !is_mirrored ? turned : turns == 0 ? "mirrored" : "mirrored and " + turned;
-      EXPECT_THAT(guesses[2].told, StartsWith("pictures " + words + ": rays miss each other by 0.0"));
+      EXPECT_THAT(guesses[2].told, StartsWith("pictures " + words + ": rays to the same keypoint miss each other by 0.0"));
     }
   }
 }
@@ -179,7 +179,7 @@ TEST(GuessSession, ReadsKeypointsAsTheyWereMeant) {
     auto films = truth;
     for (PictureOfFilm& film : films) ChangePixels(film, mistake);
     const SessionGuess guess = GuessSession(films, kFilms, glm::dmat3(1), 0.1);
-    EXPECT_THAT(guess.mended, StartsWith(told + ": rays miss each other by 0.0")) << told;
+    EXPECT_THAT(guess.mended, StartsWith(told + ": rays to the same keypoint miss each other by 0.0")) << told;
     EXPECT_LT(FurthestPx(guess.people, truth), 1e-9) << told;
   }
 }
@@ -282,7 +282,7 @@ TEST(GuessSession, TellsOfAFocalLengthAndLeavesIt) {
   films[2].camera.intrinsics.fy /= 1.1;
   const SessionGuess guess = GuessSession(films, kFilms, glm::dmat3(1), 0.1);
   EXPECT_EQ(guess.mended, "");
-  EXPECT_THAT(Doubts(films), ElementsAre(HasSubstr(": a focal length 1.10")));
+  EXPECT_THAT(Doubts(films), ElementsAre(HasSubstr(": a focal length multiplied by 1.10")));
   EXPECT_EQ(guess.cameras[2].intrinsics.fx, films[2].camera.intrinsics.fx);
 }
 

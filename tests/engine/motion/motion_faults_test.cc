@@ -305,7 +305,7 @@ TEST(MotionFaults, AWrongRateIsToldByTheGravityOfFlights) {
     motion.rate_hz *= factor;
     const MotionFault rate = OneFault(motion, FaultKind::kRate);
     EXPECT_NEAR(rate.size, factor * factor * kGravity, 0.1 * factor * factor * kGravity);
-    EXPECT_THAT(rate.text, HasSubstr(factor > 1 ? " times too high" : "the rate 2 times too low"));
+    EXPECT_THAT(rate.text, HasSubstr(factor > 1 ? " times too high" : "is the frame rate 2 times too low"));
   }
 }
 

@@ -115,7 +115,7 @@ TEST(DoubtsOnBody, AreNoneOfBodiesAndNameJointsThatAreNoBodys) {
   for (JointPositions& frame : mirrored) {
     for (MarkerPosition& place : frame) place->x = -place->x;
   }
-  EXPECT_THAT(DoubtsOnBody(mirrored, kRate_hz), Contains(HasSubstr("left and right are exchanged")));
+  EXPECT_THAT(DoubtsOnBody(mirrored, kRate_hz), Contains(HasSubstr("left and right joints are exchanged")));
   std::vector<JointPositions> squats = Dance("sway");
   for (std::size_t f = 0; f < squats.size(); ++f) {
     for (const Role role : {kLeftFoot, kRightFoot, kSpine, kLeftHand}) squats[f][Index(role)].reset();

@@ -481,7 +481,7 @@ TEST(Markers, OfTwoSetsTheBetterCountAndTheOtherCanBeChosen) {
         << RoleName(role);
   }
   ASSERT_OK(other, FindMarkerBodies(take, "a.trc", {.set = "body_25"}));
-  EXPECT_THAT(other->front().Note(), HasSubstr("OpenPose BODY_25, not OpenCap's augmented markers"));
+  EXPECT_THAT(other->front().Note(), HasSubstr("OpenPose BODY_25 (the file also contains OpenCap's augmented markers"));
   EXPECT_THAT(testing::Refusal(FindMarkerBodies(take, "a.trc", {.set = "plug-in-gait"})),
               HasSubstr("Plug-in Gait lacks left_shoulder"));
 }

@@ -511,7 +511,7 @@ TEST(ToBodyMotion, SaysAnImpossibleHeightAndNoChangeOfRateThatReadsAlike) {
   for (const auto& [unit, is_said] :
        {std::pair(0.01, false), {0.0025, true}, {0.0029, true}, {0.0052, false}, {0.018, true}}) {
     ASSERT_OK(body, Convert(AtRest(testing::PersonSkeleton()), {.metres_per_unit = unit}));
-    EXPECT_EQ(body->Note().find("; is its unit right?") != std::string::npos, is_said) << unit;
+    EXPECT_EQ(body->Note().find("; is the file's unit right?") != std::string::npos, is_said) << unit;
     EXPECT_EQ(body->doubts.empty(), !is_said) << unit;
   }
   // A child of a year is as small as an adult in a wrong unit may seem, but its legs are shorter.

@@ -65,7 +65,7 @@ TEST(TeachMove, RefusesNothingToLearnFromAndWhatIsTooShortOrTooLong) {
   EXPECT_FALSE(TeachMove("x", {}));
   SkeletonStream nobody = Raise(10, 100);
   for (SensedFrame& frame : nobody.frames) frame.body_seen = false;
-  EXPECT_NE(testing::Message(TeachMove("x", {nobody})).find("shows a body for 0.00 s"), std::string::npos);
+  EXPECT_NE(testing::Message(TeachMove("x", {nobody})).find("shows a body for only 0.00 s"), std::string::npos);
   EXPECT_NE(testing::Message(TeachMove("x", {Raise(10, 100, 70)})).find("lasts 71.0 s; allowed: at most 60 s"),
             std::string::npos);
 }

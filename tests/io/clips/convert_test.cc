@@ -125,7 +125,7 @@ TEST_F(ConvertTest, ATrimmedMirroredResampledClipIsAllThree) {
 
 TEST_F(ConvertTest, WhatWouldNotFitIntoMemoryIsRefused) {
   ConvertOptions options{.rate_hz = 1e6};
-  EXPECT_THAT(Complaint(kReal, MotionFormat::kBvh, options), HasSubstr("GB; allowed: 1 GB"));
+  EXPECT_THAT(Complaint(kReal, MotionFormat::kBvh, options), HasSubstr("GB; allowed: at most 1 GB"));
   EXPECT_THAT(Complaint(kReal, MotionFormat::kCsv, options), HasSubstr("poses"));
 }
 

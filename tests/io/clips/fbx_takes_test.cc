@@ -188,7 +188,7 @@ TEST(FbxTakes, KeysOutsideOfTheTimeSpanAreLeftOutAndTold) {
       const Waved waved =
           Read(ArmFile({Baked("Base", -before_s, 1, Angle)}, {.span = Time("LocalStop", 1), .preset = by_template}));
       ExpectHand(waved, 0, 1, Truth, by_template);
-      EXPECT_EQ(waved.remark.find("left out") != std::string::npos, before_s > 0) << waved.remark;
+      EXPECT_EQ(waved.remark.find("Etude leaves out keys outside") != std::string::npos, before_s > 0) << waved.remark;
     }
   }
   // The controls: the span of the keys, a wider one, and none; keys that begin later or earlier than 0.

@@ -64,7 +64,7 @@ TEST_F(FilesInside, AreNotReadThroughALink) {
     EXPECT_FALSE(ForEachLine(path, [](std::string_view, const Place&) -> Result<void> { return Fail({}, "read"); }));
   }
   EXPECT_THAT(ToString(ReadWholeFile(Inside(theirs_) / "recordings" / "key").error()),
-              HasSubstr("recordings: is a link"));
+              HasSubstr("recordings: this is a link"));
   EXPECT_THAT(ToString(PlainFilesBelow(Inside(theirs_)).error()), HasSubstr("is a link"));
   EXPECT_EQ(ReadWholeFile(theirs_ / "cells.jsonl"), "secret") << "a path that a person gave is followed";
 }
@@ -74,7 +74,7 @@ TEST_F(FilesInside, AreNotWrittenThroughALinkedFolder) {
   fs::create_directory_symlink(ours_, theirs_ / "report");
   for (const char* name : {"a", "tables/a", "key"}) {
     const auto written = WriteFileAtomically(Inside(theirs_) / "report" / name, "theirs");
-    EXPECT_THAT(ToString(written.error()), HasSubstr("report: is a link")) << name;
+    EXPECT_THAT(ToString(written.error()), HasSubstr("report: this is a link")) << name;
   }
   EXPECT_FALSE(MakeFolder(Inside(theirs_) / "report" / "tables"));
   EXPECT_FALSE(OpenFile(Inside(theirs_) / "report" / "b", O_WRONLY | O_CREAT | O_APPEND));
@@ -94,7 +94,7 @@ TEST_F(FilesInside, AreNotWrittenFirstIntoAnothersFile) {
   const FilePath path = Inside(theirs_) / "report" / "index.html";
   const fs::path partial = TemporaryName(path.whole());
   fs::create_symlink(ours_ / "key", partial);
-  EXPECT_THAT(ToString(WriteFileAtomically(path, "page").error()), HasSubstr("index.partial.html: is a link"));
+  EXPECT_THAT(ToString(WriteFileAtomically(path, "page").error()), HasSubstr("index.partial.html: this is a link"));
   fs::remove(partial);
   fs::create_hard_link(ours_ / "key", partial);
   ASSERT_TRUE(WriteFileAtomically(path, "page")) << "under the next name";
@@ -106,7 +106,7 @@ TEST_F(FilesInside, ThatHaveAnotherNameAreReadAndNotWritten) {
   fs::create_hard_link(ours_ / "key", theirs_ / "journal");
   for (const int flags : {O_WRONLY | O_APPEND, O_WRONLY | O_CREAT | O_TRUNC, O_RDWR}) {
     EXPECT_THAT(testing::Refusal(OpenFile(Inside(theirs_) / "journal", flags)),
-                HasSubstr("run/journal: has another name (a hard link)"));
+                HasSubstr("run/journal: the file has a second name (a hard link)"));
   }
   EXPECT_EQ(Ours(), "secret");
   EXPECT_EQ(ReadWholeFile(Inside(theirs_) / "journal"), "secret");

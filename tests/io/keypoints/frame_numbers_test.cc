@@ -89,7 +89,8 @@ TEST_F(FrameNumbers, AFlatListOfNumbersIsOnePerson) {
   };
   ASSERT_OK(film, ReadKeypoints(flat(Triples(17)), ""));
   EXPECT_EQ(film->frames[0][0][Landmark::kNose].pixel, glm::dvec2(10.5, 20.5));
-  EXPECT_THAT(Reason(flat("1, 2, 3, 4")), HasSubstr("(4 numbers); allowed: a list of x, y and confidence"));
+  EXPECT_THAT(Reason(flat("1, 2, 3, 4")),
+              HasSubstr("(4 numbers); allowed: a list with x, y and confidence for each keypoint"));
   ASSERT_OK(unseen, ReadKeypoints(flat("null, null, null" + Triples(17).substr(Triples(1).size())), ""));
   EXPECT_EQ(unseen->frames[0][0][Landmark::kNose].confidence, 0);
 }

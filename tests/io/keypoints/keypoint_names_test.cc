@@ -97,7 +97,7 @@ TEST_F(KeypointNamesOfFiles, ThatAreNotKnownOrContradictTheLayoutAreRefused) {
   const std::vector<std::string> own = {"鼻", "a", "b", "c", "d", "e", "f", "g", "h",
                                         "i",  "j", "k", "l", "m", "n", "o", "p"};
   EXPECT_THAT(Reason(Coco(own, 17)), HasSubstr("only 0 of the 17 keypoint names (鼻, a, b"));
-  EXPECT_THAT(Reason(Coco(own, 17)), HasSubstr("allowed: at least 12 of Nose, LEye"));
+  EXPECT_THAT(Reason(Coco(own, 17)), HasSubstr("allowed: at least 12 names of Nose, LEye"));
   EXPECT_EQ(ReadAt(Landmark::kLeftEye, own, 17, "coco"), 1) << "what is said counts";
   const std::vector<std::string> reversed(coco_.rbegin(), coco_.rend());
   EXPECT_THAT(Reason(Coco(reversed, 17), "coco"),

@@ -220,7 +220,7 @@ TEST_F(ReadPeople, ReadsMmposeByTheNamesThatItGives) {
   ASSERT_EQ(read->frames.size(), 2u);
   EXPECT_EQ(read->frames[1][0][Landmark::kRightHip].pixel, glm::dvec2(23.5, 7.5));
   EXPECT_DOUBLE_EQ(read->frames[1][0][Landmark::kNose].confidence, 0.75);
-  EXPECT_THAT(Reason(Write("nameless.json", "{" + info)), HasSubstr("14 keypoints a person; allowed: coco (17)"));
+  EXPECT_THAT(Reason(Write("nameless.json", "{" + info)), HasSubstr("14 keypoints per person; allowed: coco (17)"));
 }
 
 TEST_F(ReadPeople, TakesSharesOfThePicture) {

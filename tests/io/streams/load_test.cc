@@ -101,7 +101,7 @@ TEST(DescribeLabels, TellsWhatLabelsAndRecordingsDoNotShare) {
   using Lines = std::vector<std::string>;
   EXPECT_EQ(lines("ah_clap1,,,clap,right\nah_hammer1,,,hammer,right\n"), Lines{});
   EXPECT_EQ(lines("zz,,,wave,right\nah_clap1,,,clap,right\nah_hamer1,,,hammer,right\n"),
-            (Lines{"l:4: no recording ah_hamer1 is given; Etude leaves out did you mean ah_hammer1?; 2 labels without "
+            (Lines{"l:4: no recording ah_hamer1 is given; did you mean ah_hammer1?; Etude leaves out 2 labels without "
                    "a recording",
                    "l: no label for ah_hammer1"}));
   EXPECT_EQ(lines("ah_clap1,,,clap,rihgt\nah_hammer1,,,hammer,right\nah_hammer1,1,2,hammer,half\nzz,,,wave,odd\n"),

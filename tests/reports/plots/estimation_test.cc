@@ -45,7 +45,7 @@ TEST(PairedDots, AreThinnedAndCounted) {
   EXPECT_EQ(pairs.total, 1200u);
   EXPECT_EQ(pairs.worlds.size(), 400u);
   EXPECT_THAT(EstimationHtml(detection, JudgedIn(detection, 0), pairs),
-              HasSubstr("(400 of 1,200 drawn, at equal steps)"));
+              HasSubstr("(400 of 1,200 worlds are drawn, at equal steps)"));
 }
 
 TEST(PairedDots, OfARivalThatHalvesChoseAreNone) {

@@ -171,7 +171,7 @@ TEST_F(ReadMasksTest, OfSeveralPeopleNeedTheNumberOfOne) {
 
 TEST_F(ReadMasksTest, SayWhatLooksWrong) {
   Add("1.png", Rectangle(0, 0, 0));
-  EXPECT_THAT(Reason(), HasSubstr("cam1_masks: 1 masks, but the film films/cam1.mp4 has 2 frames"));
+  EXPECT_THAT(Reason(), HasSubstr("cam1_masks: found 1 masks, but the film films/cam1.mp4 has 2 frames"));
   Add("2.png", Rectangle(0, 0, 0));
   EXPECT_THAT(Reason(), HasSubstr("no mask shows a person: all pixels are 0"));
   Add("2.png", Rectangle(20, 40, 100));
@@ -184,7 +184,7 @@ TEST_F(ReadMasksTest, SayWhatLooksWrong) {
   ASSERT_EQ(Reason(), "accepted");
   ASSERT_EQ(told_.lines.size(), 2u);
   EXPECT_EQ(told_.lines[0], "masks of cam1: 1 of 2 masks are empty");
-  EXPECT_THAT(told_.lines[1], HasSubstr("doubtful: masks of cam1: 1 of 2 have several large regions"));
+  EXPECT_THAT(told_.lines[1], HasSubstr("doubtful: masks of cam1: 1 of 2 masks have several large regions"));
   for (const char* name : {"1.png", "2.png"}) {
     Image<std::uint8_t> inverted = Rectangle(20, 40, 255);
     for (std::uint8_t& value : inverted.pixels) value = static_cast<std::uint8_t>(255 - value);

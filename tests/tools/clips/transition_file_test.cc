@@ -55,7 +55,8 @@ TEST_F(TransitionFileTest, BeginsAsTheFirstClipAndEndsAsTheSecond) {
 TEST_F(TransitionFileTest, SaysWhatIsWrong) {
   TransitionFileOptions options = Groove();
   options.at_s = 99;
-  EXPECT_THAT(WriteTransition(options).error().message, HasSubstr("--at 99: builtin:groove plays from 0.00 to "));
+  EXPECT_THAT(WriteTransition(options).error().message,
+              HasSubstr("--at 99: outside the clip builtin:groove; allowed: 0.00 to "));
   options = Groove();
   options.output = "out.xyz";
   EXPECT_THAT(ToString(WriteTransition(options).error()),

@@ -77,7 +77,7 @@ TEST(BrokenGltf, IsRefusedForItsNumbers) {
       {testing::kJoints + 4, RawBytes<std::uint8_t>({2}), "JOINTS: found joint 2 at vertex 1; allowed: 0 to 1"},
       {testing::kWeights + 16, Floats({-0.5f}), "WEIGHTS: found -0.5; allowed: 0 or more"},
       {testing::kIndices + 4, RawBytes<std::uint16_t>({3}), "indices: found vertex 3 in element 2; allowed: 0 to 2"},
-      {testing::kBind + 12, Floats({1}), "skins[0].inverseBindMatrices[0]: found a projection"},
+      {testing::kBind + 12, Floats({1}), "skins[0].inverseBindMatrices[0]: the matrix contains a projection"},
       {testing::kBind + 64, Floats({kNaN}), "skins[0].inverseBindMatrices (accessors[4]): found nan in element 1"},
       {testing::kTimes, Floats({0, 2, 1}),
        "animations[0].samplers[0].input: found the time 1 s after the time 2 s; allowed: times that"},
@@ -99,9 +99,9 @@ TEST(BrokenGltf, MayHaveBindMatricesThatAreAffineButForAThousandth) {
     for (const float off : {0.0009f, -0.0009f, 0.0011f, -0.0011f}) {
       std::string binary = SmallBinary();
       binary.replace(testing::kBind + 4 * entry, 4, Floats({(entry == 15 ? 1 : 0) + off}));
-      EXPECT_THAT(
-          GlbComplaint(Glb(std::string(kSmallGltf), binary)),
-          HasSubstr(std::abs(off) < 0.001f ? "read without complaint" : "inverseBindMatrices[0]: found a projection"))
+      EXPECT_THAT(GlbComplaint(Glb(std::string(kSmallGltf), binary)),
+                  HasSubstr(std::abs(off) < 0.001f ? "read without complaint"
+                                                   : "inverseBindMatrices[0]: the matrix contains a projection"))
           << entry;
     }
   }
