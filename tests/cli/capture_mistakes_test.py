@@ -764,7 +764,7 @@ class Mistakes(EtudeCase):
     def test_what_is_no_person_is_refused_with_the_factor(self):
         told, errors, _ = self.capture("Pose2Sim", more=("--rig-unit", "cm"))
         self.assertIsNone(errors)
-        self.assertRegex(told, r"in cm the person would have legs of 0\.008\d* m from hip to ankle; .*; "
+        self.assertRegex(told, r"with lengths in cm, the person would have legs of 0\.008\d* m from hip to ankle; .*; "
                                r"--rig-unit m gives legs of 0\.8\d* m")
         told, errors, _ = self.capture("Pose2Sim", more=("--rig-up", "-z"))
         self.assertIsNone(errors)

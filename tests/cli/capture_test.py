@@ -296,7 +296,7 @@ class Capture(EtudeCase):
         self.assertRegex(self.refusal(*self.capture("-o", out)),
                          r"keypoints of 19 frames, but the film .* has 20 frames; allowed: an entry or a file for each frame")
         (self.keypoints / "left_json" / "left_4.json").write_text('{"people": [{"pose_keypoints_2d": [1, 2]}]}')
-        self.assertIn("left_4.json: not a list of keypoints", self.refusal(*self.capture("-o", out)))
+        self.assertIn("left_4.json: this is not a list of keypoints (2 numbers); allowed: ", self.refusal(*self.capture("-o", out)))
         self.assertFalse(out.exists(), "nothing is written")
 
 

@@ -329,7 +329,8 @@ class Evaluate(EtudeCase):
         printed = self.evaluate(self.folder / "t", f"m={self.folder}/m", "--by-joint", "--overwrite").stdout.splitlines()
         first = next(i for i, line in enumerate(printed) if "mean error of a joint" in line) + 1
         self.assertEqual(printed[first].split()[0::4], ["left_wrist", "3"])
-        self.assertIn("there is no truth", self.ends(2, "evaluate", "--alone", self.folder / "t", "--by-joint").stderr)
+        self.assertIn("--by-joint cannot be combined with --alone, because --alone uses no truth",
+                      self.ends(2, "evaluate", "--alone", self.folder / "t", "--by-joint").stderr)
 
     def test_people_are_what_claims_beyond_the_files_count(self):
         for i, name in enumerate(("p1_a", "p1_b", "p2_a")):
@@ -491,7 +492,7 @@ class Evaluate(EtudeCase):
                 (["evaluate", a, a, a], "allowed if there are several results"),
                 (["evaluate", self.folder / "none*", a], "the truth: no clip matches"),
                 (["evaluate", a, self.folder / "none*"], "the results: no clip matches"),
-                (["evaluate", a, a, "--people", "x"], "--people: 'x' does not fit"),
+                (["evaluate", a, a, "--people", "x"], "--people: the pattern 'x' does not match the name 'a'"),
                 (["check-method", "--", "python3", "x.py"], "--task is required"),
                 (["evaluate", a, a, "--joints", "all"], "'all'"),
                 (["evaluate", a, a, "--statistics", self.write("s.csv", "x\n1\n2\n"), "-o", self.out], "s.csv:1"),

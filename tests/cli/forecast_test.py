@@ -127,7 +127,7 @@ class Transition(EtudeCase):
                     "unbroken", "--overwrite"]
         said = self.etude(*unbroken)
         self.assertEqual((said.returncode, said.stderr), (0, ""))
-        self.assertIn("the clip groove continues without a transition, for comparison; builtin:clap is not played\n", said.stdout)
+        self.assertIn("the clip builtin:groove continues without a transition, for comparison; builtin:clap is not played\n", said.stdout)
         self.assertNotIn("then", said.stdout)
         said = self.etude(*unbroken, "--join", "cut")
         self.assertEqual((said.returncode, said.stderr),

@@ -67,7 +67,7 @@ class Formats(MotionFileCase):
         self.refused(self.amass("slow.npz", 156, "speed", True),
                      "states no frame rate (its arrays: poses, speed, trans, gender (no plain numbers)); allowed:")
         bad = self.amass("nan.npz", 156, "mocap_framerate", True, trans=numpy.full((60, 3), numpy.nan))
-        self.refused(bad, "trans of frame 0 is nan")
+        self.refused(bad, "array trans, frame 0: found nan")
         whole = self.amass("cut.npz", 156, "mocap_framerate", True).read_bytes()
         for cut in (30, len(whole) // 2, len(whole) - 9):
             (self.folder / "cut.npz").write_bytes(whole[:cut])

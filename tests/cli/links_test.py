@@ -24,7 +24,7 @@ class Links(EtudeCase):
 
     def refuse(self, link, *arguments):
         done = self.ends(2, *arguments)
-        self.assertIn(f"{link}: is a link", done.stderr)
+        self.assertIn(f"{link}: this is a link, and Etude does not follow links inside this folder", done.stderr)
         self.assertNotIn("secret", done.stdout + done.stderr)
         self.assertEqual(done.stderr.count("\n"), 1, done.stderr)
 

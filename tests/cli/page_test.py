@@ -147,7 +147,7 @@ class Page(EtudeCase):
         self.assertRegex(browser.ask("document.querySelector('.row-card p').textContent"), rf"^fixed, trial {dot}: [\d.e-]+°$")
         self.assertEqual(words[:3], ["etude", "replay", str(self.run_folder)])
         self.assertEqual(words[4].split("/")[2], dot.zfill(3))
-        self.assertIn("same", self.etude(*words[1:]).stdout)
+        self.assertIn("1 of 1 cells are identical to the run", self.etude(*words[1:]).stdout)
         self.assertEqual(browser.ask("told.cells"), [words[4]])
         self.assertEqual(browser.ask("told.kept"), [words[4]] if dot == "3" else [])
         self.assertEqual(browser.ask("document.querySelector('use[data-t=\"3\"]').dataset.cell"),

@@ -79,14 +79,14 @@ class Recognise(EtudeCase):
         several = self.teach(self.write("three.txt", kinect(3 * arms(100))), "--labels",
                              self.write("three.csv", "clip,from_s,to_s,move,truth\n" + "".join(
                                  f"three,{3 * i},{3 * i + 3},raise,right\n" for i in range(3))))
-        self.assertIn("recogniser whole-body, recommended for these moves", told(several).stderr)
+        self.assertIn("using the recogniser whole-body, which is recommended for these moves; --recogniser selects another recogniser\n", told(several).stderr)
         self.assertEqual(re.search(r"span_s: (\S+)", several.read_text())[1], "3.9")
         # Moves that have key poses but no examples cannot be learnt.
         poses = re.sub(r"(?m)^    right:\n(      .*\n|        .*\n)*", "    right: []\n", moves.read_text())
         written = self.write("poses.yaml", poses)
         default, paper = told(written), told(written, "--recogniser", "key-pose")
         self.assertEqual((default.returncode, default.stdout), (0, paper.stdout), default.stderr)
-        self.assertIn("recogniser key-pose, recommended", default.stderr)
+        self.assertIn("using the recogniser key-pose, which is recommended for these moves", default.stderr)
 
     def test_a_move_may_be_left_out(self):
         raised, left = self.write("raise.txt", kinect(arms(100))), self.write("left.txt", kinect(arms(100, both=False)))
@@ -177,7 +177,7 @@ class Recognise(EtudeCase):
         damaged = subprocess.run([ETUDE, "recognise", "-", "--moves", moves, "--recogniser", "key-pose"], text=True, timeout=120,
                                  capture_output=True, input="\n".join(rows[:40] + ["x " * 60] + rows[40:]) + "\n")
         self.assertEqual((damaged.returncode, len(damaged.stdout.splitlines())), (0, 1), damaged.stderr)
-        self.assertIn("value 1: 'x'", damaged.stderr)
+        self.assertIn("line 41: value 1: found 'x'; allowed: a number within", damaged.stderr)
         self.assertIn("Etude leaves out this row", damaged.stderr)
         self.assertIn("none.txt: no such recording", self.refusal("recognise", "none.txt", "--moves", moves))
         self.assertIn("--moves: is missing", self.refusal("recognise", half))

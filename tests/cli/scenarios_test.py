@@ -72,7 +72,7 @@ class Scenarios(EtudeCase):
 
     def test_a_file_to_be_included_is_no_scenario(self):
         suite = self.write_suite()
-        self.assertIn("ik.yaml:1:1: no scenario, only 'defaults'", self.ends(2, "run", suite / "shared", "-o", self.out).stderr)
+        self.assertIn("ik.yaml:1:1: contains no scenario, only 'defaults'; move included files", self.ends(2, "run", suite / "shared", "-o", self.out).stderr)
 
     def test_clips_of_the_command_line_go_to_whatever_has_a_use_for_them(self):
         suite = self.folder / "suite"

@@ -122,8 +122,8 @@ TEST(Baseline, IsRefusedWhenALineIsMissing) {
       text.find("\n{\"scenario\":\"s\",\"condition\":\"joint_noise_deg=1\",\"method\":\"a\",\"metric\"");
   ASSERT_NE(from, std::string::npos);
   text.erase(from, text.find('\n', from + 1) - from);
-  EXPECT_THAT(ComplaintAbout(text),
-              HasSubstr("contains 4 lines of statuses and 7 lines of values, but its scenarios need 4 lines of statuses and 8 lines of values"));
+  EXPECT_THAT(ComplaintAbout(text), HasSubstr("contains 4 lines of statuses and 7 lines of values, but its scenarios "
+                                              "need 4 lines of statuses and 8 lines of values"));
 }
 
 }  // namespace

@@ -10,6 +10,8 @@
 #include <iterator>
 #include <nlohmann/json.hpp>
 #include <string>
+#include <utility>
+#include <vector>
 
 namespace etude {
 namespace {
@@ -304,12 +306,17 @@ TEST(OutsideMethod, WhatOfThisMachineKeepsUsFromAskingItIsNoAnswerOfIt) {
   const std::string file = ::testing::TempDir() + "no-folder";
   const OutsideOptions options = Behaving("is_good");
   std::ofstream(file) << "";
-  for (const std::string& folder : {std::string("/no/such/folder"), file, std::string("/proc"), std::string("tests")}) {
+  const std::string none = " is not a folder for temporary files";
+  for (const auto& [folder, complaint] :
+       std::vector<std::pair<std::string, std::string>>{{"/no/such/folder", none + ": "},
+                                                        {file, none},
+                                                        {"/proc", ": no temporary files can be made in this folder: "},
+                                                        {"tests", none + "; allowed: a path that begins with /"}}) {
     ::setenv("TMPDIR", folder.c_str(), 1);
     OutsideMethod method(options);
     const OutsideReply reply = Ask(method);
     EXPECT_FALSE(reply.was_asked);
-    EXPECT_THAT(reply.reason, StartsWith("in its start: TMPDIR=" + folder + " is not a folder for temporary files"));
+    EXPECT_THAT(reply.reason, StartsWith("in its start: TMPDIR=" + folder + complaint));
   }
   before == nullptr ? ::unsetenv("TMPDIR") : ::setenv("TMPDIR", told.c_str(), 1);
   OutsideMethod fenceless(Behaving("is_good", Fence::Of("/bin/false")));

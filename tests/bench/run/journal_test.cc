@@ -229,7 +229,8 @@ TEST_F(JournalTest, HEAVY_GivesCellsBackInAnyOrderHoweverLargeItIs) {
 TEST_F(JournalTest, RefusesOneOfAnotherVersionOrWithoutHead) {
   // An earlier version's format: one head without a checksum.
   Rewrite("{\"journal\":1,\"manifest\":\"m\",\"build\":\"b\",\"shard\":\"1/1\"}\n");
-  EXPECT_THAT(Complaint(), HasSubstr("journal.jsonl:1: neither the first line nor a later copy is the header of a journal"));
+  EXPECT_THAT(Complaint(),
+              HasSubstr("journal.jsonl:1: neither the first line nor a later copy is the header of a journal"));
   Rewrite("");
   EXPECT_THAT(Complaint(), HasSubstr("is empty"));
 }

@@ -117,7 +117,8 @@ TEST(GuessPictures, FindsWhichFilmWasTurnedOrMirrored) {
       }
       const std::string turned = turns == 0 ? "" : fmt::format("turned by {}° clockwise", 90 * turns);
       const std::string words = !is_mirrored ? turned : turns == 0 ? "mirrored" : "mirrored and " + turned;
-      EXPECT_THAT(guesses[2].told, StartsWith("pictures " + words + ": rays to the same keypoint miss each other by 0.0"));
+      EXPECT_THAT(guesses[2].told,
+                  StartsWith("pictures " + words + ": rays to the same keypoint miss each other by 0.0"));
     }
   }
 }

@@ -183,7 +183,8 @@ TEST(PlaceRig, WithoutAPersonTakesWhatIsTold) {
   EXPECT_LT(glm::distance((*place)({0, 0, 1000}), glm::dvec3(0, 0.8, 0)), 1e-12);
   rig.unit_m = 0.01;
   EXPECT_DOUBLE_EQ(PlaceRig(rig, {.unit = "mm"})->scale, 0.1);
-  EXPECT_THAT(PlaceRig(rig, {.up = "floor"}).error().message, HasSubstr("the rig does not show which direction is up; give"));
+  EXPECT_THAT(PlaceRig(rig, {.up = "floor"}).error().message,
+              HasSubstr("the rig does not show which direction is up; use --rig-up to set the file's up axis"));
   rig.cameras.push_back({"eye", Camera{}});
   EXPECT_THAT(PlaceRig(rig, {}).error().message, HasSubstr("the rig does not show which direction is up, because the "
                                                            "world frame is that of camera eye"));

@@ -491,7 +491,7 @@ Clip StiffWalk(double root_factor) {
 TEST(ToBodyMotion, SaysThatTheRootTravelsInAnotherUnit) {
   EXPECT_THAT(Convert(StiffWalk(1))->doubts, ::testing::IsEmpty());
   for (const auto& [factor, said] :
-       {std::pair(0.01, "100:"), {1 / 2.54, "2.54:"}, {1 / 17.72, "17.72:"}, {1 / 5.644, "5.644:"}, {100.0, "0.01:"}}) {
+       {std::pair(0.01, "100;"), {1 / 2.54, "2.54;"}, {1 / 17.72, "17.72;"}, {1 / 5.644, "5.644;"}, {100.0, "0.01;"}}) {
     ASSERT_OK(body, Convert(StiffWalk(factor)));
     EXPECT_THAT(body->doubts,
                 ::testing::ElementsAre(HasSubstr(fmt::format("the root's positions were multiplied by {}", said))));

@@ -43,9 +43,10 @@ TEST(LeaveOnePersonOut, LabelsThatMeanNothingAreGuessed) {
 
 TEST(LeaveOnePersonOut, RefusesOnePersonAndNobody) {
   Recorded recorded = Record(1, kMoves, 5);
-  EXPECT_EQ(testing::Refusal(LeaveOnePersonOut(recorded.streams, recorded.parts, "l.csv", {})),
-            "l.csv: the labels contain 1 person; needed: at least two people, because each person is judged with the data of "
-            "the other people");
+  EXPECT_EQ(
+      testing::Refusal(LeaveOnePersonOut(recorded.streams, recorded.parts, "l.csv", {})),
+      "l.csv: the labels contain 1 person; needed: at least two people, because each person is judged with the data of "
+      "the other people");
   recorded.parts[2].person.clear();
   recorded.parts[2].line = 7;
   EXPECT_EQ(
