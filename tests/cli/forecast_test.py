@@ -135,7 +135,7 @@ class Transition(EtudeCase):
         self.assertIsNone(self.facts(*unbroken)["join"])
         late = self.etude("transition", "builtin:groove", "builtin:clap", "--at", "99", "-o", self.folder / "late.bvh")
         self.assertEqual((late.returncode, late.stderr.count("\n")), (2, 1))
-        self.assertIn("--at 99: builtin:groove plays from 0.00 to", late.stderr)
+        self.assertIn("--at 99: outside the clip builtin:groove; allowed: 0.00 to", late.stderr)
         self.assertFalse(pathlib.Path(self.folder / "late.bvh").exists())
 
 

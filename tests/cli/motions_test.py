@@ -155,7 +155,7 @@ class Motions(MotionFileCase):
         text = out.read_text()
         for before, after, says in (("part right_knee after right_hip", "part right_knee after right_foot", "and a body part from a line above"),
                                     ("part head ", "part crown ", "part 'crown'"), ("\tknee_angle_r", "\tknee", "'knee_angle_r'"),
-                                    ("turns +Z ", "turns +Q ", "turn '+Q'"), ("0.000000\t", "0.000000\tnan\t", "nan"),
+                                    ("turns +Z ", "turns +Q ", "found the axis and angle '+Q'"), ("0.000000\t", "0.000000\tnan\t", "nan"),
                                     ("0.066667\t", "0.010000\t", "do not decrease")):
             self.assertIn(before, text)
             self.assertIn(says, self.refusal("clip", "info", self.write("bad.mot", text.replace(before, after, 1))))

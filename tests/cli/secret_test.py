@@ -218,7 +218,7 @@ class SecretWorlds(EtudeCase):
         key, used = self.key_of_its_own()
         data, out = self.folder / "data", self.folder / "again"
         self.ends(0, "export", self.scenario, "-o", data, "--seed-file", key, "--trials", 1)
-        self.assertIn("by 'etude export'", self.refuse("run", "--from", data / "manifest.json", "-o", out, "--seed-file", key))
+        self.assertIn("was used before: 'etude export' with 'ik' wrote into", self.refuse("run", "--from", data / "manifest.json", "-o", out, "--seed-file", key))
         self.assertEqual(len(used()), 1)
         self.ends(0, "run", "--from", data / "manifest.json", "-o", out, "--seed-file", key, "--reuse-key")
 
@@ -259,7 +259,7 @@ class SecretWorlds(EtudeCase):
         key, used = self.key_of_its_own()
         data, answers = self.folder / "data", self.folder / "answers"
         self.ends(0, "export", self.scenario, "-o", data, "--seed-file", key, "--trials", 1)
-        self.assertIn("by 'etude export' of 'ik'", self.refuse("run", self.scenario, "-o", self.out, "--seed-file", key))
+        self.assertIn("was used before: 'etude export' with 'ik' wrote into", self.refuse("run", self.scenario, "-o", self.out, "--seed-file", key))
         answers.mkdir()
         scored = self.etude("score", data, answers, "--allow-missing", "-o", self.out, "--seed-file", key)
         self.assertLess(scored.returncode, 2, scored.stderr)

@@ -282,7 +282,7 @@ class Survival(EtudeCase):
     def test_a_result_with_a_row_missing_or_twice_is_not_reported(self):
         cells = self.whole / "cells.jsonl"
         lines = cells.read_text().splitlines(keepends=True)
-        for changed, complaint in ((lines[:-1], "has 159 rows of scenario ik, but summary.json summarises 160"),
+        for changed, complaint in ((lines[:-1], "contains 159 rows of scenario ik, but summary.json summarises 160 rows"),
                                    (lines[:-1] + lines[:1], "contains the cell ik/joint_noise_deg=2/000/fixed twice")):
             cells.write_text("".join(changed))
             self.assertIn(complaint, self.ends(2, "report", self.whole, "--no-video", "--unsealed").stderr)

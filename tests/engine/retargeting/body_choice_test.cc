@@ -107,7 +107,8 @@ TEST(ChooseBody, NamesTheBodiesThatAreLeftOut) {
             "the file contains a second body with the left hip 'Ann:LeftUpLeg'; Etude uses the body with "
             "'Bob:LeftUpLeg' (use --joint-map to choose another body)");
   ASSERT_OK(more, ChooseBody(People({"Ann:", "Bob:", "Cas:"}), "a.glb"));
-  EXPECT_THAT(more->doubt, HasSubstr("2 other bodies with the left hips 'Bob:LeftUpLeg', 'Cas:LeftUpLeg'; Etude uses the body"));
+  EXPECT_THAT(more->doubt,
+              HasSubstr("2 other bodies with the left hips 'Bob:LeftUpLeg', 'Cas:LeftUpLeg'; Etude uses the body"));
   ASSERT_OK(alone, ChooseBody(People({"Ann:"}), "a.glb"));
   EXPECT_EQ(alone->doubt, "");
 }
