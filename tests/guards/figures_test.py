@@ -217,11 +217,12 @@ class Figures(unittest.TestCase):
         self.assertEqual(list(kept["of"]["stages"]), ["s"])
         catalogue, scenario = self.root / "bench/metrics/catalogue/1.yaml", self.root / "scenarios/s.yaml"
         for file, old, new, says in [
-                (None, "", "", f"seed 3: `large` ({kept['of']['taken']}, cells `abc`). Their metrics and scenarios are the same since."),
+                (None, "", "", f"seed 3: `large` ({kept['of']['taken']}). Since then, neither metrics nor scenarios of these runs have changed."),
                 (self.root / "CMakeLists.txt", "0.2.0", "0.3.0", "Etude 0.2.0, seed 3, not run again with 0.3.0: `large`"),
-                (catalogue, "    label", "    version: 2\n    label", "Changed since: metric `jump_cm` (1, now 2)."),
+                (catalogue, "    label", "    version: 2\n    label", "Since then, these have changed: metric `jump_cm` (1, now 2)."),
                 (catalogue, "jump_cm", "jump_m", "metric `jump_cm` (1, now gone)"),
                 (scenario, "trials: 5", "trials: 6", "scenario `s`"),
+                (scenario, "trials", "question: What?\ntrials", None),
                 (scenario, "# another", "# a third comment\n", None)]:
             with self.subTest(new):
                 page = (self.root / "README.md").read_text()
