@@ -63,7 +63,7 @@ def body(t):
 
 def make_film(path, size=f"{WIDTH}x{HEIGHT}", rate=RATE, frames=FRAMES, what="testsrc=", coding=("-pix_fmt", "yuv420p")):
     subprocess.run(["ffmpeg", "-v", "error", "-y", "-f", "lavfi", "-i", f"{what}size={size}:rate={rate}", "-frames:v",
-                    str(frames), *coding, str(path)], check=True, timeout=60)
+                    str(frames), *coding, str(path)], check=True, timeout=600)
     return str(path)
 
 
@@ -274,7 +274,7 @@ class Capture(EtudeCase):
         self.assertIn(base64.b64encode(film.read_bytes()).decode(), page.read_text(), "the page has the same film")
         told = subprocess.run(["ffprobe", "-v", "error", "-count_packets", "-show_entries",
                                "stream=width,height,nb_read_packets", "-of", "csv=p=0", str(film)],
-                              capture_output=True, text=True, timeout=60).stdout.strip()
+                              capture_output=True, text=True, timeout=600).stdout.strip()
         self.assertEqual(told, "1920,480,20")
 
     def test_refuses_films_that_do_not_fit(self):

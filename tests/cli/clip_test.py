@@ -180,7 +180,7 @@ class Convert(Clips):
         self.refuses("convert", NO_ANIMATION, fresh, says=["holds no animation"], leaves=fresh)
         self.refuses("convert", "builtin:*", fresh, says=[" clips; only one can be converted at a time"], leaves=fresh)
         limited = subprocess.run(["sh", "-c", 'ulimit -f 8; trap "" XFSZ; exec "$0" clip convert "$1" "$2"', ETUDE, WALK,
-                                  fresh], capture_output=True, text=True, timeout=60)
+                                  fresh], capture_output=True, text=True, timeout=600)
         self.assertEqual(limited.returncode, 3, limited.stderr)
         self.assertIn("cannot write this file", limited.stderr)
         self.assertEqual([path.name for path in self.folder.iterdir()], ["there.bvh"])

@@ -39,7 +39,7 @@ class Crowd(EtudeCase):
         self.assertEqual(films[0], films[1])
         probe = subprocess.run(["ffprobe", "-v", "error", "-of", "json", "-show_entries",
                                 "stream=width,height,r_frame_rate,nb_frames", self.folder / "a.mp4"],
-                               capture_output=True, text=True, timeout=60, check=True)
+                               capture_output=True, text=True, timeout=600, check=True)
         stream = json.loads(probe.stdout)["streams"][0]
         self.assertEqual((stream["width"], stream["height"], stream["r_frame_rate"], stream["nb_frames"]),
                          (1280, 720, "30/1", "6"))

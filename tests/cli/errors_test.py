@@ -129,7 +129,7 @@ class Errors(EtudeCase):
     def test_a_run_that_cannot_write_leaves_no_folder(self):
         path = self.write("s.yaml", IK)
         limit = 'ulimit -f 0; trap "" XFSZ; exec "$0" run "$1" -o "$2"'
-        result = subprocess.run(["sh", "-c", limit, ETUDE, path, self.out], capture_output=True, text=True, timeout=60)
+        result = subprocess.run(["sh", "-c", limit, ETUDE, path, self.out], capture_output=True, text=True, timeout=600)
         self.assertEqual(result.returncode, 3, result.stderr)
         self.assertIn("manifest.json: cannot write this file", result.stderr)
         self.assertFalse(self.out.exists())

@@ -24,7 +24,7 @@ class Film(EtudeCase):
         self.assertIn("joint_noise_deg=2, trial 1, the first world that kept recordings of both", page)
         probe = subprocess.run(["ffprobe", "-v", "error", "-of", "json", "-show_entries",
                                 "stream=width,height,r_frame_rate,nb_frames", self.out / "video" / "convergence.mp4"],
-                               capture_output=True, text=True, timeout=60, check=True)
+                               capture_output=True, text=True, timeout=600, check=True)
         stream = json.loads(probe.stdout)["streams"][0]
         self.assertEqual((stream["width"], stream["height"], stream["r_frame_rate"]), (1280, 720, "30/1"))
         self.assertIn(int(stream["nb_frames"]), range(6 * 30, 10 * 30 + 1))

@@ -90,7 +90,7 @@ methods: [{name: hue}]
         self.wait_for_cells(self.out)
         second = self.etude("run", path, "-o", self.out, "--overwrite")
         first.send_signal(signal.SIGTERM)
-        self.assertEqual(first.wait(timeout=20), 130)
+        self.assertEqual(first.wait(timeout=600), 130)
         self.assertEqual(second.returncode, 2)
         self.assertIn("another run is writing into it", second.stderr)
         self.assertIn("this run was not finished, is still running, or is a shard", self.ends(2, "report", self.out).stderr)
@@ -99,13 +99,13 @@ methods: [{name: hue}]
         path = self.write("ik.yaml", IK)
         run = subprocess.Popen([ETUDE, "run", path, "-o", self.out], stdout=subprocess.DEVNULL, stderr=subprocess.PIPE)
         run.stderr.close()
-        self.assertEqual(run.wait(timeout=60), 0)
+        self.assertEqual(run.wait(timeout=600), 0)
         self.assertTrue((self.out / "cells.jsonl").exists())
 
     def test_closed_standard_streams_do_no_harm(self):
         path = self.write("ik.yaml", IK)
         script = 'exec "$0" run "$1" -o "$2" <&- >&- 2>&-'
-        self.assertEqual(subprocess.run(["sh", "-c", script, ETUDE, path, self.out], timeout=60).returncode, 0)
+        self.assertEqual(subprocess.run(["sh", "-c", script, ETUDE, path, self.out], timeout=600).returncode, 0)
         self.assertTrue((self.out / "cells.jsonl").exists())
         rows = subprocess.run(["sh", "-c", 'exec "$0" rows "$1" >&-', ETUDE, self.out], stderr=subprocess.PIPE, text=True)
         self.assertEqual(rows.returncode, 2)
@@ -122,7 +122,7 @@ methods: [{name: hue}]
         run = subprocess.Popen([ETUDE, "run", path, "-o", self.out], stderr=subprocess.DEVNULL)
         self.wait_for_cells(self.out)
         run.send_signal(signal.SIGINT)
-        self.assertEqual(run.wait(timeout=20), 130)
+        self.assertEqual(run.wait(timeout=600), 130)
         self.assertGreater(cells_in_journal(self.out), 0)
         self.assertFalse((self.out / "cells.jsonl").exists())
 

@@ -192,7 +192,7 @@ class Survival(EtudeCase):
         while not (self.out / "manifest.json").exists() and merge.poll() is None:
             time.sleep(0.001)
         merge.send_signal(signal.SIGINT)
-        said = merge.communicate(timeout=60)[1]
+        said = merge.communicate(timeout=600)[1]
         self.assertEqual(merge.returncode, 130, said)
         self.assertIn("stopped; the shards are unchanged", said)
         self.assertFalse(self.out.exists())
@@ -273,7 +273,7 @@ class Survival(EtudeCase):
         bvh.unlink()
         glb.unlink()
         shutil.rmtree(self.out)
-        replayed = subprocess.run([ETUDE, "replay", pack], cwd="/", capture_output=True, text=True, timeout=60)
+        replayed = subprocess.run([ETUDE, "replay", pack], cwd="/", capture_output=True, text=True, timeout=600)
         self.assertEqual(replayed.returncode, 0, replayed.stderr)
         self.assertIn(f"{cell}: all stages are the same", replayed.stdout)
         pack.write_bytes(pack.read_bytes()[:-20])
@@ -289,7 +289,7 @@ class Survival(EtudeCase):
 
     def test_a_full_disk_is_one_complaint_and_loses_nothing(self):
         limited = subprocess.run(["bash", "-c", 'ulimit -f 400; exec "$0" run "$1" -o "$2"', ETUDE, self.scenario, self.out],
-                                 capture_output=True, text=True, timeout=60)
+                                 capture_output=True, text=True, timeout=600)
         self.assertEqual(limited.returncode, 3)
         self.assertEqual(len([line for line in limited.stderr.splitlines() if line.startswith("etude: ")]), 1)
         self.assertIn("--resume continues the run", limited.stderr)

@@ -184,7 +184,8 @@ class Zoo(unittest.TestCase):
 
     def release(self, name, *options, memory_mb=400, time_s=None):
         """Runs a specimen; returns its statuses, what it did to others and to files elsewhere, and what survived."""
-        time_s = time_s or (60 if name.startswith("opens_all") else 15 if name.startswith(("hides", "splits", "holds", "takes", "forks_eighty")) else 3)
+        time_s = time_s or (60 if name.startswith(("opens_all", "forks_eighty")) else
+                            15 if name.startswith(("hides", "splits", "holds", "takes")) else 3)
         with tempfile.TemporaryDirectory(prefix="zoo-test-victim-") as others:
             victim = Victim(pathlib.Path(others))
             den = self.folder / f"{name}{''.join(options)}"
@@ -194,7 +195,7 @@ class Zoo(unittest.TestCase):
             scenario.write_text(SCENARIO.format(python=sys.executable, zoo=ZOO, name=name, den=den, memory_mb=memory_mb, time_s=time_s))
             out = den / "out"
             run = subprocess.run([ETUDE, "run", scenario, "-o", out, "--jobs", "1", *options], capture_output=True, text=True,
-                                 timeout=120, cwd=ZOO.parent)
+                                 timeout=300, cwd=ZOO.parent)
             deadline = time.monotonic() + 2
             while (survivors := processes_of(den)) and time.monotonic() < deadline:
                 time.sleep(0.02)

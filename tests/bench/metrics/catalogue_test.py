@@ -66,7 +66,7 @@ class Catalogue(unittest.TestCase):
             file, out = pathlib.Path(folder, "mine.yaml"), pathlib.Path(folder, "out.cc")
             file.write_text(text)
             result = subprocess.run([os.environ["ETUDE_METRIC_TABLE"], out, file], capture_output=True, text=True,
-                                    timeout=60)
+                                    timeout=600)
             self.assertEqual(out.exists(), result.returncode == 0)
             return result.returncode, result.stderr.replace(f"{folder}/", "")
 

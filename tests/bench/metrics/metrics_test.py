@@ -176,7 +176,7 @@ class Metrics(EtudeCase):
 
     def second_implementation(self, catalogue):
         return subprocess.run([sys.executable, HERE / "second_implementation.py"], input=json.dumps(catalogue),
-                              capture_output=True, text=True, timeout=60)
+                              capture_output=True, text=True, timeout=600)
 
     def vectors(self):
         return [vector for metric in self.catalogue["metrics"] for vector in metric["vectors"]]
