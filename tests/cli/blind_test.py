@@ -148,7 +148,7 @@ class Blind(EtudeCase):
             page.ask("(() => { rater.value = 'Anna B.'; rater.dispatchEvent(new Event('input')); save.click(); })()")
             self.assertEqual(page.logged, [])
             saved = self.folder / f"answers-{self.key['page']}-Anna_B..json"
-            end = time.monotonic() + 30
+            end = time.monotonic() + 600
             while not saved.exists() and time.monotonic() < end:
                 time.sleep(0.05)
         self.assertEqual(json.loads(saved.read_text())["preferred"], ["left", "same"])

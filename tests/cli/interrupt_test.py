@@ -31,7 +31,7 @@ class Interrupts(EtudeCase):
         """Interrupts the program once `is_begun` is true; returns its output."""
         program = subprocess.Popen([ETUDE, *map(str, arguments)], stdin=subprocess.PIPE, stdout=subprocess.DEVNULL,
                                    stderr=subprocess.PIPE, text=True)
-        deadline = time.monotonic() + 60
+        deadline = time.monotonic() + 600
         while not is_begun(program):
             self.assertIsNone(program.poll(), "it came to its end before it could be interrupted")
             self.assertLess(time.monotonic(), deadline)
