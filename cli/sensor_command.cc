@@ -122,7 +122,7 @@ std::string DescribeMatch(const RealRecording& real) {
 struct SensorStatsOptions {
   std::vector<std::string> files;
   SensorReading reading;
-  std::string simulate;  ///< v1, v2 or a sensor file; "" = no simulated column
+  std::string simulate;  ///< the sensor to simulate: v1, v2 (of Kinect) or a sensor file; "" = no simulation
   int worlds = 64;
   bool as_json = false;
 };

@@ -139,8 +139,8 @@ class Measurer {
         answer.both_succeed = Compare(both, *FindMetric(value), purpose("both succeed"));
       }
     }
-    // Compare the tail. Shares have no tail, because every difference of a yes-or-no value would count as far better or
-    // worse.
+    // Compare the tail: the worlds in which the value is far better or far worse. Only amounts have a tail. A yes-or-no
+    // value has no tail, because all its differences have the same size.
     const MetricInfo& metric = *FindMetric(value);
     if (!values.pairs.empty() && metric.direction != Direction::kNeither && metric.reading == Reading::kAmount) {
       const PairedWorlds far = FarOff(values, metric, study_.gate.tail.times);

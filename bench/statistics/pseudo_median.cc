@@ -20,7 +20,8 @@ namespace {
 /// approximation is used.
 constexpr std::int64_t kMaxExactValues = 50;
 
-/// Returns the number of Walsh averages of the ascending values that are at most `limit`.
+/// Returns the number of Walsh averages that are at most `limit`. A Walsh average is the mean of two values, or of a
+/// value and itself. The values are in ascending order.
 std::int64_t CountWalshAverages(std::span<const double> ascending, double limit) {
   std::int64_t count = 0;
   auto end = static_cast<std::int64_t>(ascending.size());  // value i has averages ≤ `limit` with values i … end − 1

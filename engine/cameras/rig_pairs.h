@@ -26,9 +26,9 @@ Result<RigFile> ReadEasyMocap(const Node& intrinsics, const Node& extrinsics);
 Result<RigFile> ReadOpenCvStereo(const Node& intrinsics, const Node& extrinsics);
 
 /// Reads COLMAP's text model with one image for each camera; the image's name, without folder and extension, becomes
-/// the camera's name. If images in different folders have the same name, their folder's name becomes it. The centre of
-/// COLMAP's first pixel is (0.5, 0.5), as in our coordinates. COLMAP's lengths have no unit. Errors name `images_file`
-/// where they concern `images`.
+/// the camera's name. If images in different folders have the same name, every camera gets the name of its image's
+/// folder instead. The centre of COLMAP's first pixel is (0.5, 0.5), as in our coordinates. COLMAP's lengths have no
+/// unit. Errors in `images` are reported with the file name `images_file`.
 Result<RigFile> ReadColmap(std::string_view cameras, std::string_view images, const std::string& images_file);
 
 }  // namespace etude

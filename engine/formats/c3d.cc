@@ -276,7 +276,7 @@ class ParameterWriter {
     bytes_ += static_cast<char>(name.size());
     bytes_ += static_cast<char>(-id);
     bytes_ += name;
-    PutWord(bytes_, 3);  // offset from here to the next record: this word and an empty description
+    PutWord(bytes_, 3);  // bytes to the next record: 2 of this word, 1 of the empty description
     bytes_ += '\0';
   }
 

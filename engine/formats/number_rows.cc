@@ -85,7 +85,8 @@ char SeparatorOfNumbers(std::string_view line) {
   return 0;
 }
 
-/// Returns true if a word has only digits, points, commas and signs, such as 1,234.5, which has two separators.
+/// Returns true if a word contains a comma, and otherwise only digits, points, commas and signs. An example is 1,234.5,
+/// in which the comma separates thousands.
 bool IsOfDigits(std::string_view word) {
   return word.find(',') != std::string_view::npos && word.find_first_not_of("0123456789.,+-") == std::string_view::npos;
 }

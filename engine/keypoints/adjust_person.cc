@@ -99,8 +99,9 @@ class Adjuster {
     return start;
   }
 
-  /// Returns the mean square, per axis, of the second differences of a joint's position over `lag` frames, m², without
-  /// the largest 5 %. Returns nullopt for fewer than ten differences.
+  /// Computes the second differences of a joint's position between frames that are `lag` frames apart. Leaves out the
+  /// largest 5 % of the differences. Returns the mean square of the others, per axis, in m². Returns nullopt for fewer
+  /// than ten differences.
   std::optional<double> SquareOver(Role role, std::size_t lag) const {
     std::vector<double> squares;
     for (std::size_t k = lag; k + lag < joints_.size(); ++k) {

@@ -46,7 +46,8 @@ Misfit MisfitOf(const EpipolarGeometry& geometry, const MovingPerson& one, doubl
       ++counts[i];
     }
   }
-  // Sum over landmarks; a constant offset of a landmark is not a misfit in time.
+  // Sum over the landmarks. The variance ignores a constant offset of a landmark, because such an offset does not show
+  // that the clocks differ.
   Misfit misfit;
   for (std::size_t i = 0; i < kLandmarkCount; ++i) {
     if (counts[i] == 0) continue;

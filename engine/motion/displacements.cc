@@ -101,7 +101,9 @@ std::vector<FrameRange> FindFrozen(const BodyMotion& motion) {
   // If the body is never nearly still elsewhere, this limit of the joints' mean speed replaces kAbrupt_m_s; metres per
   // second.
   constexpr double kNeverAsStill = 0.003;
-  constexpr double kGentle = 0.6;  // a step next to a freeze is gentle up to this share of the step beyond it
+  // The motion stops and starts gently if the speed next to a freeze is at most this fraction of the speed one frame
+  // farther from the freeze.
+  constexpr double kGentle = 0.6;
   // Compute the mean speed of the joints at each step, and mark the steps without motion.
   const int steps = static_cast<int>(motion.poses.size()) - 1;
   std::vector<double> mean(steps);

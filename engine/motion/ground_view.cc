@@ -65,8 +65,8 @@ GroundView::GroundView(const BodyMotion& motion, const Displacements& displaceme
   toe_rest_ = Mode(toes);
   ankle_rest_ = Mode(ankles);
   if (ankle_rest_ > toe_rest_ + kMaxAnkle) ankle_rest_ = toe_rest_ + kUsualAnkle;
-  // Use the given floor. Without it, the floor is at height 0, unless that is known to be another height, or the lowest
-  // joint is usually far from 0.
+  // Choose the floor. If the options contain a floor, use it. If height 0 may be the floor and the lowest joint comes
+  // near height 0, the floor is at height 0. Otherwise, estimate the floor from the heights of the joints.
   constexpr double kFar = 0.6, kLow = 0.05, kBelowJoint = 0.02;
   const double low = Quantile(lowest_, kLow);
   is_floor_found_ = !options.floor_m && (!options.is_floor_known || std::abs(low) > kFar);

@@ -25,9 +25,12 @@ struct Level {
   double offset = 0;
 };
 
-/// Returns the vertical displacement of the level with the lowest cost; its frames are taken to be at the right
-/// height. A level costs less if the feet rest near the floor on it (ignored if the floor was found from the motion),
-/// if the clip begins on it, if the clip ends on it, and the longer it lasts.
+/// Chooses the level at which the body has the right height, and returns the vertical displacement of this level. The
+/// function chooses the level with the lowest cost. Four properties reduce the cost of a level:
+/// - The feet rest near the floor. (This property is ignored if the floor was found from the motion.)
+/// - The level lasts long.
+/// - The clip begins at this level.
+/// - The clip ends at this level.
 double ReferenceOffset(const GroundView& ground, const std::vector<Level>& levels) {
   constexpr double kSame = 0.025, kLowest = -0.01, kHighest = 0.1;  // metres; levels count as equal up to kSame
   constexpr double kPerMetre = 2, kForTime = 0.04, kForEnd = 0.03;

@@ -52,7 +52,8 @@ std::vector<Bearing> FindBearing(std::span<const BodyPose> poses, double rate_hz
 
 /// The rules for a foot in stance. They are stricter than the default rules, so that contacts are unambiguous.
 constexpr SupportRules kFootRules{.lowest = 0.06, .rest_speed = 0.3};
-/// For each foot (in the order of Side) and frame: true if toes or ankle bear the body by kFootRules.
+/// For each foot (in the order of Side) and each frame: true if the toes or the ankle support the body. kFootRules
+/// decides whether a joint supports the body.
 using FootContacts = std::array<std::vector<bool>, 2>;
 FootContacts FindFootContacts(std::span<const BodyPose> poses, double rate_hz);
 

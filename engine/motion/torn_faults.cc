@@ -176,8 +176,8 @@ class TornFinder {
     while (!wrong_.empty()) {
       std::array<int, kRoleCount> count{};
       for (const Wrong& wrong : wrong_) {
-        // The outer joint of a distance gets a little more weight: if two joints have equally many wrong distances, the
-        // outer joint counts as torn.
+        // A wrong distance adds more to the count of its outer joint than to the count of its inner joint. If both
+        // joints have equally many wrong distances, Etude reports the outer joint (FaultKind::kTorn).
         count[Index(wrong.inner)] += 4;
         count[Index(wrong.outer)] += 5;
       }

@@ -19,11 +19,12 @@ enum class PerformanceOrigin {
 /// Judges a performance that ends now by its measures. Returns how right it looks, in [0, 1].
 using PerformanceJudge = std::function<double(PerformanceOrigin origin, std::size_t move, const PerformanceMeasures& measures)>;
 
-/// Makes a recogniser that aligns the stream with every example (limb directions, SubsequenceAligner) and lets `judge`
-/// score the measures of the alignments. In every step, the recogniser judges the asked move with origin kAsked and the
-/// nearest move with origin kSpotted. The timing of the asked move is also compared with its window (ClockComparison).
-/// The recogniser learns the person's usual measures from the best alignments of asked performances. It ignores
-/// examples that show no body.
+/// Makes a recogniser that aligns the stream with every example (limb directions, SubsequenceAligner). The recogniser
+/// measures the alignments, and `judge` scores the measures. In every step, `judge` is called with origin kAsked for
+/// the move that the coach asked for. It is called with origin kSpotted for the move whose example is most similar to
+/// the stream. For the move that the coach asked for, the timing relative to the window is measured as well
+/// (ClockComparison). When a window ends, its best alignment is stored. The medians of the stored measures show how
+/// this person usually performs (PersonBaseline). The recogniser ignores examples that show no body.
 std::unique_ptr<Recogniser> MakeMeasuringRecogniser(std::span<const TaughtMove> taught, const TrackingWeights& weights,
                                                     PerformanceJudge judge);
 

@@ -302,8 +302,8 @@ void PersonBaseline::Relate(PerformanceMeasures& performance) const {
 }
 
 double PersonBaseline::Shift() const {
-  // The usual shift of a person without earlier performances, in seconds (ours). A window opens one reaction time after
-  // the coach begins, and people usually begin slightly before it opens.
+  // If there are no earlier performances, assume that the person begins 0.1 s before the window opens (our own value).
+  // A window opens one reaction time after the coach begins, and most people begin slightly earlier.
   constexpr double kUnknown = -0.1;
   return latest_.empty() ? kUnknown : usual_[kClockSlice.first];
 }

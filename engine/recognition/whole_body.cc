@@ -64,8 +64,9 @@ double SquaredDistanceOf(const WholePose& seen, const WholePose& taught) {
   return sum;
 }
 
-/// Computes two distances between a stream and one example: the distance of the stream's best passage that ends now (as
-/// SubsequenceAligner does, but without the path), and the distance of the whole stream, taken as one performance.
+/// Compares a stream with one example, and computes two distances from the example. For the first distance, the example
+/// is compared with the most similar passage of the stream that ends now (as in SubsequenceAligner, but without the
+/// path). For the second distance, the example is compared with the whole stream, as if it were one performance.
 class ExampleDistance {
  public:
   ExampleDistance(const WholePattern& pattern, int longest)
@@ -74,9 +75,9 @@ class ExampleDistance {
   }
 
   void Update(const WholePose& seen);
-  /// Returns the distance of the best passage that ends at the last seen step.
+  /// Returns the distance between the example and the most similar passage that ends at the last seen step.
   double Passage() const { return passage_.back() / static_cast<double>(pattern_->size()); }
-  /// Returns the distance of the whole stream so far (symmetric dynamic time warping).
+  /// Returns the distance between the example and the whole stream so far (symmetric dynamic time warping).
   double Whole() const { return whole_.back() / static_cast<double>(pattern_->size() + count_); }
   /// Returns the number of seen steps divided by the number of steps in the example.
   double SharePassed() const { return static_cast<double>(count_) / static_cast<double>(pattern_->size()); }

@@ -7,11 +7,15 @@
 
 namespace etude {
 
-/// Replaces positions that stand for gaps by missing positions: positions that are a hundred times farther from the
-/// middle of the frame's markers than the median marker, and 0, 0, 0 if the marker has other positions in other frames,
-/// if it belongs to a limb and other markers move, or if the body is far from the origin. `used` lists the columns that
-/// decide what is usual; empty: all columns, although a C3D file may hold angles and forces in some. Appends a text
-/// about these changes, and about names that several markers share, to the motion's `remark`.
+/// Some programs write special numbers instead of a missing position. Removes such positions:
+/// - positions that are more than a hundred times as far from the middle of the frame's markers as the median marker
+/// - positions with three equal coordinates (apart from signs), if the same number occurs more than once
+/// - positions at (0, 0, 0), if the marker is elsewhere in other frames, or if the body is far from the origin
+/// - positions at (0, 0, 0) of a marker on an arm or a leg, if any marker moves
+///
+/// `used` lists the columns from which the middle and the usual distances are computed; empty: all columns, although
+/// some columns of a C3D file may contain angles and forces. Appends a text about these changes, and about names that
+/// several markers share, to the motion's `remark`.
 void RepairMarkers(MarkerMotion& markers, const std::set<std::size_t>& used = {});
 
 }  // namespace etude

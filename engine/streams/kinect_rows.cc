@@ -119,8 +119,8 @@ std::optional<double> SecondsPerCount(const NumberRows& table, const std::option
   return unit->seconds;
 }
 
-/// Returns the mean step of a clock whose rows come in bursts (MeanStepOfBursts), in its unit; nullopt for other clocks
-/// and for numbers of frames.
+/// If the rows come in bursts (MeanStepOfBursts), returns the mean time between two rows, in the unit of the first
+/// column. Returns nullopt if the rows do not come in bursts, or if the first column seems to contain frame numbers.
 std::optional<double> StepOfBursts(const NumberRows& table) {
   constexpr double kMinStep = 16;  // see kMinStepMs
   std::vector<double> counts;

@@ -36,7 +36,8 @@ class Fence {
   Fence() = default;
   /// Tries once to run bubblewrap, and returns the fence. If that fails, returns no fence, and `description` says why.
   static Fence Find();
-  /// Makes the fence that another process has found, from that fence's `program`, `kept` and `groups`.
+  /// Makes a copy of a fence that another process obtained from `Find`. The arguments are the `program`, `kept` and
+  /// `groups` of that fence.
   static Fence Of(const std::string& program, std::vector<std::filesystem::path> kept = {}, std::string groups = "");
   /// Returns true if a path belongs to the part of the system that every program sees.
   static bool IsOfSystem(const std::filesystem::path& path);

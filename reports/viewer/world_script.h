@@ -28,20 +28,26 @@ struct QuantisedMotion {
 /// If all points are equal, the step is 0.
 QuantisedMotion Quantise(std::span<const glm::dvec3> points);
 
-/// Writes the motions of one world as a script in the page's folder, which the viewer loads: `etudeMotion({…});`,
-/// ASCII.
+/// Returns a script with the motions of one world, for the viewer. The script is ASCII text: the call
+/// `etudeMotion({…});` with this object.
 ///
-///     {"file": …, "title": …, "rate_hz": 30, "floor_m": 0, "error": what errors are, "unit": "mm" or "cm",
-///      "notes": [what could not be read],
-///      "cells": [{"id", "method", "colour": as the page's, "status", "reason"}],
-///      "bodies": [{"label", "cell": index into cells or -1 (all of them), "kind": "shown", "ghost" or "partner",
-///                  "begin": frame of the world, "frames": number (the last one is held), "against": [indices of the
-///                  reference bodies; the last visible one is used], "low_m": [x, y, z], "step_m", "data": Base64 of
-///                  the steps, little-endian,
-///                  "contacts": [[side, begin, end]], "joints": [names], "parents": [indices, −1: none] (both
-///                  absent for a body of the twenty joints)}],
+///     {"file": …, "title": …, "rate_hz": 30, "floor_m": 0, "error": …, "unit": "mm" or "cm", "notes": […],
+///      "cells": [{"id", "method", "colour", "status", "reason"}],
+///      "bodies": [{"label", "cell", "kind": "shown", "ghost" or "partner", "begin", "frames", "against": [indices],
+///                  "low_m": [x, y, z], "step_m", "data", "contacts": [[side, begin, end]], "joints": [names],
+///                  "parents": [indices]}],
 ///      "targets_m": [[x, y, z]], "steps": [{"cell", "iterations", "off_cm", "off_deg"}],
 ///      "marks": [{"lane", "frame", "end", "kind", "text"}]}
+///
+/// - `error` describes the errors of the joints. `notes` lists the data that could not be read.
+/// - `colour` is the number of the method's colour on the page.
+/// - `cell` of a body is an index of `cells`; −1: the body belongs to all cells.
+/// - `begin` is the frame of the world in which the body appears. `frames` is the body's number of frames. The viewer
+///   keeps the last frame.
+/// - `against` lists the reference bodies, as indices of `bodies`. The viewer uses the last visible reference.
+/// - `data` is the Base64 text of QuantisedMotion::steps, little-endian.
+/// - `parents` contains −1 for a joint without a parent. A body with the twenty standard joints has no `joints` and no
+///   `parents`.
 std::string WorldScript(const RunData& run, const RecordedWorld& world);
 
 }  // namespace etude

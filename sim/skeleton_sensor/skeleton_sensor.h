@@ -38,8 +38,8 @@ struct Guess {
 };
 using FrameGuesses = std::array<Guess, kRoleCount>;
 
-/// Draws the guesses for hidden joints, limb by limb. A guess is kept for one episode, whose length
-/// SkeletonSensorOptions limits.
+/// Simulates how the sensor guesses the positions of hidden joints. The guesses are random. Each limb has its own
+/// guess, which is kept for one episode. SkeletonSensorOptions limits the length of an episode.
 class OcclusionGuesses {
  public:
   OcclusionGuesses(const SkeletonSensorOptions& options, const WorldKey& world);
@@ -68,7 +68,7 @@ class OcclusionGuesses {
   std::array<Episode, kLimbs> episodes_;
 };
 
-/// Draws rare large errors of single joints in single frames; other errors are zero.
+/// Adds rare large errors to single joints in single frames, at random. All other errors are zero.
 class Outliers {
  public:
   Outliers(const SkeletonSensorOptions& options, const WorldKey& world);
@@ -100,7 +100,7 @@ class Swaps {
   Swap current_;
 };
 
-/// Draws the dropouts: frames in which the sensor loses the whole body.
+/// Chooses the dropouts at random. In these frames, the sensor loses the whole body.
 class Dropouts {
  public:
   Dropouts(const SkeletonSensorOptions& options, const WorldKey& world);

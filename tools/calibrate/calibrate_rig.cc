@@ -103,10 +103,10 @@ Result<void> CheckPixels(const CameraPairs& of, const std::string& file) {
   return {};
 }
 
-/// Finds a point pair that disagrees with the other pairs. Two conditions must hold. Without this pair, the squared
-/// error is lower by more than chance explains in one of 100 calibrations (F test for one pair, Bonferroni over all
-/// pairs). And the calibration from the other pairs projects the point of this pair a pixel or more away from the pixel
-/// of this pair. Only the 20 pairs with the largest residuals are tried.
+/// Finds a point pair that disagrees with the other pairs. Two conditions must hold. First, the calibration without
+/// this pair has a significantly smaller squared error: F test at the level 0.01, with Bonferroni correction for the
+/// number of pairs. Second, the calibration without this pair projects the point of this pair at least one pixel away
+/// from the pixel of this pair. Only the 20 pairs with the largest residuals are tried.
 std::optional<DisagreeingPair> FindDisagreeing(const CameraPairs& of, const RefinedRig& all,
                                                const RefineOptions& options) {
   constexpr std::size_t kMaxTried = 20;

@@ -61,13 +61,13 @@ struct CapturedFilms {
 Result<RigFile> OpenRig(const std::string& path);
 
 /// Captures the motion of one person from films by two or more calibrated cameras, with keypoints, marks or
-/// silhouettes, and writes the motion. Fails before anything is written if films, rig or options do not fit together;
-/// every complaint names the file or the option.
+/// silhouettes, and writes the motion. Fails before anything is written if films, rig or options do not fit together.
+/// Every error message contains the file or the option.
 Result<CapturedFilms> CaptureFilms(const CaptureFilmsOptions& options);
 
-/// Measures the random error of the person's keypoints, in the rig's pixels. The function first applies and reports the
-/// same corrections as `CaptureFilms`. It uses only the options for films, rig, keypoints, cameras, fit, layout, person
-/// and `sync_s`. Fails in the same cases as `CaptureFilms`.
+/// Measures the random error of the person's keypoints. The unit is one pixel of the pictures for which the rig was
+/// calibrated. The function first applies and reports the same corrections as `CaptureFilms`. It uses only the options
+/// for films, rig, keypoints, cameras, fit, layout, person and `sync_s`. Fails in the same cases as `CaptureFilms`.
 Result<KeypointNoise> MeasureFilmedNoise(const CaptureFilmsOptions& options);
 
 }  // namespace etude

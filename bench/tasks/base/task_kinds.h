@@ -29,7 +29,8 @@ TaskKind MakeCoachTaskKind();
 TaskKind MakeEvaluationTaskKind();
 /// Task plausibility measures if a person could have moved like the motions in files.
 TaskKind MakePlausibilityTaskKind();
-/// Task inbetween measures how well hidden frames of a motion are filled in. A world is a window of a file.
+/// Task inbetween measures how well hidden frames of a motion are filled in. A world is a series of consecutive frames
+/// from a motion file, in the middle of which some frames are hidden.
 TaskKind MakeInbetweenTaskKind();
 
 }  // namespace etude

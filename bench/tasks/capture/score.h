@@ -10,8 +10,9 @@
 
 namespace etude {
 
-/// Compares the result of every stage of a built-in method with the truth. With `keeps_motion`, the cell has a
-/// recording, which contains all stages of the frames `moments` (`StudioOptions`).
+/// Compares the result of every stage of a built-in method with the truth. If `keeps_motion` is true and the method
+/// found a skeleton, the cell gets a recording. `moments` are numbers of frames, counted from 1 (`StudioOptions`). For
+/// these frames, the recording also contains the marks and the skeleton before inverse kinematics.
 CellResult ScoreCaptureRun(const CaptureWorld& world, const CaptureRun& run, bool keeps_motion,
                            std::span<const double> moments = {});
 

@@ -36,8 +36,8 @@ struct SweepTree {
     int joint = 0;
     int hinge = -1;             ///< −1 for the step to the parent
     int i = 0, j = 0;           ///< the hinge turns axis i towards axis j
-    int from = 0, towards = 0;  ///< indices of these axes before the turn
-    int turned = 0;             ///< index of axis i after the turn; axis j has the next index
+    int from = 0, towards = 0;  ///< indices of the axes i and j as they are before the turn
+    int turned = 0;             ///< index of the turned axis i; the turned axis j has the index `turned` + 1
   };
 
   std::vector<Joint> joints;

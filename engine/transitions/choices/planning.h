@@ -28,12 +28,13 @@ struct AllowedFrames {
 AllowedFrames AllowedBridgeFrames(const MotionLibrary& library, const TransitionRequest& request);
 
 /// Returns all frames of the playing clip within the budget, and the frames of the wanted clip that lie in its front
-/// half or after which at least `least_play_s` seconds remain. There is at least one pair if the wanted clip has two
-/// frames.
+/// half or after which at least `least_play_s` seconds remain. If the wanted clip has two or more frames, the result
+/// allows at least one pair of frames.
 AllowedFrames AllowedAnyFrames(const MotionLibrary& library, const TransitionRequest& request, double least_play_s);
 
 /// Returns all frames of the playing clip within the budget, and the frames in the wanted clip's first third that are
-/// at most `most_skipped_s` seconds after its start. There is at least one pair if the wanted clip has two frames.
+/// at most `most_skipped_s` seconds after its start. If the wanted clip has two or more frames, the result allows at
+/// least one pair of frames.
 AllowedFrames AllowedEarlyFrames(const MotionLibrary& library, const TransitionRequest& request, double most_skipped_s);
 
 /// Makes a record of two segments: the playing clip up to `leave_frame`, then the wanted clip from `enter_frame` on.

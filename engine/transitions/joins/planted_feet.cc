@@ -97,8 +97,9 @@ Movement MovementOf(const JoinWindow& window, const LegRoles& leg, const FootSte
   return movement;
 }
 
-/// Returns the cost of a foot's behaviour before and after its step, in metres per frame². A foot that keeps a
-/// position stops or starts abruptly; a foot that follows its clip slides as the clip's standing foot does.
+/// Returns the cost of a foot's behaviour before and after its step, in metres per frame². If a foot stays in one
+/// place, it stops or starts abruptly. If it follows its clip, it slides as far as the standing foot of the clip
+/// slides.
 double StandingPrice(const FootTracks& foot, const FootStep& step) {
   constexpr double kSliding = 0.3;  // cost of each metre that the foot slides
   const auto &old = foot.window.old, &next = foot.window.next;

@@ -15,24 +15,26 @@ namespace etude {
 constexpr int kBlockLanes = 16;
 using BlockLanes = std::array<double, kBlockLanes>;
 
-/// The grades of sixteen frames, stored term by term for vector instructions.
+/// The membership grades of sixteen frames. For vector instructions, the sixteen grades of one fuzzy term are adjacent
+/// in memory.
 struct alignas(64) FrameBlock {
   std::array<BlockLanes, kTermCount> grades{};
 
   void Set(int lane, const Grades& frame);
 };
 
-/// The smallest and largest grades of some frames, term by term.
+/// For each fuzzy term: the smallest and the largest membership grade in a set of frames.
 struct GradeBox {
   Grades low{}, high{};
 
   void Include(const GradeBox& other);
 };
-/// Returns the box of these frames, of which there must be at least one.
+/// Returns the box of these frames. There must be at least one frame.
 GradeBox BoxOf(std::span<const Grades> frames);
 
-/// Sixteen boxes, stored term by term. They are rounded outwards to single precision, because reading them dominates
-/// the cost of a search.
+/// Sixteen boxes. For each fuzzy term, the smallest grades of the sixteen boxes are adjacent in memory. The largest
+/// grades are stored in the same way. The boxes are rounded outwards to single precision, because reading the boxes
+/// dominates the cost of a search.
 struct alignas(64) BoxBlock {
   using Lanes = std::array<float, kBlockLanes>;
   std::array<Lanes, kTermCount> low{}, high{};
