@@ -90,7 +90,7 @@ std::string OutsideMetrics::Measure(const std::string& cell, CellResult& result)
   auto json = EncodeMotions(*result.recording);
   if (!json) json = Json::object();  // the same error is reported when the cell's line is encoded
   const Payload told = PayloadOf(*std::move(json));
-  // If the task says what a cell was judged on, a program sees the share of it that the task's success measures.
+  // The share of the truth on which a program's metric is judged is the task's success metric, such as `seen_share`.
   const std::optional<double> seen = SuccessOf(result, scenario_.scenario().task);
   for (std::size_t m = 0; m < programs_.size(); ++m) {
     const OutsideReply reply = Ask(m, cell, told);

@@ -20,8 +20,8 @@ struct JudgedPair {
 
 /// Returns why the values of two methods cannot be compared, although both have values: other parts of the truth were
 /// judged (joints and the root, if the metric needs them), another share of it, or, if the metric depends on the rate,
-/// frames of rates that differ by more than 1 %. A metric that compares answer and truth depends on the rate at which
-/// they are compared; a metric of the answer alone, on the answer's own rate. The metric's inputs say what it needs.
+/// frames of rates that differ by more than 1 %. A metric that compares answer and truth uses the rate at which
+/// both are compared. A metric of the answer alone uses the answer's rate. The metric's inputs say what it needs.
 /// Another root and another rate count as 100 %. Returns "" if the mean difference over the worlds is below
 /// kMaxShareDifference, and always for a metric of success, which measures the share itself. For other metrics, such as
 /// errors of poses, fewer frames of the same span do not matter: evenly spaced frames have the same mean. `worlds` are
