@@ -34,7 +34,7 @@ int ComplainOfFaults(const ScoreOptions& options, const PredictionFaults& faults
   const bool only_missing = faults.extra.empty() && faults.duplicate.empty() && faults.broken.empty();
   return Complain(
       {{options.predictions, 0, 0},
-       fmt::format("nothing was scored: {} answers are missing, {} are extra, {} are duplicates, {} are broken{}",
+       fmt::format("nothing was scored; missing answers: {}, extra: {}, duplicates: {}, broken: {}{}",
                    faults.missing.size(), faults.extra.size(), faults.duplicate.size(), faults.broken.size(),
                    only_missing ? "; --allow-missing counts a missing answer as a failure" : "")});
 }

@@ -106,8 +106,8 @@ Result<void> CheckBlindFiles(const BlindFiles& files) {
                   answers.rater, answers.page, answers.page);
     }
     if (answers.preferred.size() == key->pairs.size()) continue;
-    return Fail({}, "'{}' gave {} answers to the page {}; needed: {} answers, one for each pair", answers.rater,
-                answers.preferred.size(), answers.page, key->pairs.size());
+    return Fail({}, "the number of answers by '{}' to the page {} is {}; needed: {}, one for each pair", answers.rater,
+                answers.page, answers.preferred.size(), key->pairs.size());
   }
   return {};
 }

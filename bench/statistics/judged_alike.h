@@ -18,14 +18,16 @@ struct JudgedPair {
   Side baseline, method;
 };
 
-/// Returns why the values of two methods cannot be compared, although both have values: other parts of the truth were
-/// judged (joints and the root, if the metric needs them), another share of it, or, if the metric depends on the rate,
-/// frames of rates that differ by more than 1 %. A metric that compares answer and truth uses the rate at which
-/// both are compared. A metric of the answer alone uses the answer's rate. The metric's inputs say what it needs.
-/// Another root and another rate count as 100 %. Returns "" if the mean difference over the worlds is below
-/// kMaxShareDifference, and always for a metric of success, which measures the share itself. For other metrics, such as
-/// errors of poses, fewer frames of the same span do not matter: evenly spaced frames have the same mean. `worlds` are
-/// the worlds in which both have a value; `baseline` and `method` are names.
+/// Returns why the values of two methods cannot be compared, or "" if they can. `worlds` are the worlds in which both
+/// methods have a value; `baseline` and `method` are names. In each world, the two differ by the largest of:
+/// - the share of the judged joints that only one of them was judged on (1 if the metric needs the root and their roots
+///   differ);
+/// - the difference between the shares of the truth on which they were judged;
+/// - 1 if the metric depends on the rate and the rates differ by more than 1 %. A metric that compares answer and truth
+///   has the rate at which both are compared; a metric of the answer alone has the answer's rate.
+/// They cannot be compared if the mean over the worlds is kMaxShareDifference or more. A metric of success is always
+/// compared, because it measures the share itself. A metric that does not depend on the rate is compared at any rate:
+/// evenly spaced frames of the same span have the same mean.
 std::string WhyNotAlike(const MetricInfo& metric, const std::vector<JudgedPair>& worlds, const std::string& baseline,
                         const std::string& method);
 

@@ -43,7 +43,7 @@ Result<std::pair<fs::path, int>> MakeLocked(const fs::path& parent, const std::s
   const int reason = errno;
   if (lock >= 0) ::close(lock);
   if (made) ::rmdir(name.c_str());
-  return Fail({parent.string()}, "no temporary files can be made in this folder: {}", std::strerror(reason));
+  return Fail({parent.string()}, "cannot create temporary files in this folder: {}", std::strerror(reason));
 }
 
 }  // namespace

@@ -150,7 +150,7 @@ class DataSets(EtudeCase):
         complaint = self.score(data, answers, code=2)
         for words in ["ik/joint_noise_deg=2/001.json", "ik/joint_noise_deg=2/4.json", "2.json (as",
                       "28 entries, not 29", "joint_noise_deg=5/000.json",
-                      "1 answers are missing, 1 are extra, 1 are duplicates, 2 are broken"]:
+                      "missing answers: 1, extra: 1, duplicates: 1, broken: 2"]:
             self.assertIn(words, complaint)
         self.assertIn("broken", self.score(data, answers, "--allow-missing", code=2))
 

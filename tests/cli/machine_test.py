@@ -145,7 +145,7 @@ class Machine(EtudeCase):
             ("TMPDIR is not there", self.outside, "not a folder for temporary files", {"environment": {"TMPDIR": "/nonexistent"}}),
             ("TMPDIR is a file", self.outside, "not a folder for temporary files",
              {"environment": {"TMPDIR": str(self.folder / "file")}}),
-            ("TMPDIR cannot be written", self.outside, "TMPDIR=/proc: no temporary files can be made in this folder",
+            ("TMPDIR cannot be written", self.outside, "TMPDIR=/proc: cannot create temporary files in this folder",
              {"environment": {"TMPDIR": "/proc"}}),
             ("TMPDIR is relative", self.outside, "begins with /", {"environment": {"TMPDIR": "relative"}, "cwd": self.folder}),
             ("TMPDIR is full", self.outside, "File too large", {"before": limit(resource.RLIMIT_FSIZE, 0)}),

@@ -147,8 +147,9 @@ Result<std::vector<Mask>> ReadMasks(const std::string& folder, std::optional<int
   };
   RETURN_IF_ERROR(fs::is_directory(entry) ? VisitFolder(entry, visit) : VisitFilm(entry, visit));
   if (numbers.size() < frames) {
-    return Fail({entry.string()}, "found {} masks, but the film {} has {} frames; allowed: a mask for each frame (PNG)",
-                numbers.size(), view.path.string(), frames);
+    return Fail({entry.string()},
+                "the film {} has {} frames, but the number of masks is {}; allowed: a mask for each frame (PNG)",
+                view.path.string(), frames, numbers.size());
   }
   // Choose the interpretation.
   std::vector<std::string> ids;

@@ -252,7 +252,7 @@ bool GlbOfFbxByAssimp(std::string_view bytes, std::string& said, FbxKeyFacts& fa
     importer.SetPropertyBool(AI_CONFIG_IMPORT_FBX_PRESERVE_PIVOTS, true);
     const aiScene* scene = importer.ReadFileFromMemory(bytes.data(), bytes.size(), aiProcess_GlobalScale, "fbx");
     if (scene == nullptr || scene->mRootNode == nullptr) {
-      said = std::string("a damaged FBX file: ") + importer.GetErrorString();
+      said = std::string("the FBX file is damaged: ") + importer.GetErrorString();
       return false;
     }
     // Turn a scene with X or Z up to Y up.

@@ -310,7 +310,7 @@ TEST(OutsideMethod, WhatOfThisMachineKeepsUsFromAskingItIsNoAnswerOfIt) {
   for (const auto& [folder, complaint] :
        std::vector<std::pair<std::string, std::string>>{{"/no/such/folder", none + ": "},
                                                         {file, none},
-                                                        {"/proc", ": no temporary files can be made in this folder: "},
+                                                        {"/proc", ": cannot create temporary files in this folder: "},
                                                         {"tests", none + "; allowed: a path that begins with /"}}) {
     ::setenv("TMPDIR", folder.c_str(), 1);
     OutsideMethod method(options);

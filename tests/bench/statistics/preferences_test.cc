@@ -174,7 +174,7 @@ TEST(BlindFiles, ComplainWithThePlaceOfADamagedAnswer) {
   EXPECT_THAT(complaint(head + R"(["right"]})"), HasSubstr("a second file with answers of 'ben'"));
   EXPECT_THAT(ToString(CheckBlindFiles(files).error()), HasSubstr("but the key of this page is not given"));
   files.keys.push_back(KeyOf(2));
-  EXPECT_THAT(ToString(CheckBlindFiles(files).error()), HasSubstr("gave 1 answers to the page page; needed: 2"));
+  EXPECT_THAT(ToString(CheckBlindFiles(files).error()), HasSubstr("to the page page is 1; needed: 2"));
 }
 
 }  // namespace

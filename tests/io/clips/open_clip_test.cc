@@ -195,7 +195,7 @@ TEST_F(ClipFileTest, WhatIsNeitherIsToldWithWhatIsAllowed) {
   EXPECT_NE(Complaint(Write("x.bvh", "hello\n")).find("x.bvh:1:1: found a file that begins with 'hello'; allowed: BVH"),
             std::string::npos);
   EXPECT_NE(Complaint(Write("empty.glb", "")).find("an empty file"), std::string::npos);
-  EXPECT_NE(Complaint(Write("a.fbx", "Kaydara FBX Binary  ...")).find("a.fbx: a damaged FBX file: "),
+  EXPECT_NE(Complaint(Write("a.fbx", "Kaydara FBX Binary  ...")).find("a.fbx: the FBX file is damaged: "),
             std::string::npos);
   for (const auto& [bytes, told] : std::vector<std::pair<std::string, const char*>>{
            {"\x1f\x8b\x08", "a gzip file: unpack it"},

@@ -171,7 +171,7 @@ TEST_F(ReadMasksTest, OfSeveralPeopleNeedTheNumberOfOne) {
 
 TEST_F(ReadMasksTest, SayWhatLooksWrong) {
   Add("1.png", Rectangle(0, 0, 0));
-  EXPECT_THAT(Reason(), HasSubstr("cam1_masks: found 1 masks, but the film films/cam1.mp4 has 2 frames"));
+  EXPECT_THAT(Reason(), HasSubstr("cam1_masks: the film films/cam1.mp4 has 2 frames, but the number of masks is 1"));
   Add("2.png", Rectangle(0, 0, 0));
   EXPECT_THAT(Reason(), HasSubstr("no mask shows a person: all pixels are 0"));
   Add("2.png", Rectangle(20, 40, 100));
