@@ -48,14 +48,14 @@ std::vector<std::string> LinesOf(const Canvas& canvas, const std::string& words,
   return lines;
 }
 
-void DrawCaption(Canvas& canvas, const Box& panel, const std::string& strong, const std::string& soft, double lift) {
+void DrawCaption(Canvas& canvas, const Box& panel, const std::string& strong, const std::string& soft) {
   const double room = panel.width - 2 * kMargin;
   const auto strong_lines = LinesOf(canvas, strong, kStrongSize, room, true);
   const auto soft_lines = LinesOf(canvas, soft, kSoftSize, room, false);
   const double more_soft = kSoftLine * static_cast<double>(std::max<std::size_t>(soft_lines.size(), 1) - 1);
   const double strong_height = kStrongLine * static_cast<double>(strong_lines.size());
-  const double bottom = panel.y + panel.height - lift;
-  const double shade = 54 + more_soft + (strong_lines.empty() ? 0 : strong_height + 6) + lift;
+  const double bottom = panel.y + panel.height;
+  const double shade = 54 + more_soft + (strong_lines.empty() ? 0 : strong_height + 6);
   canvas.FillShade({panel.x, panel.y + panel.height - shade, panel.width, shade}, {0.03, 0.04, 0.05, 0},
                    {0.03, 0.04, 0.05, 0.82});
   double y = bottom - 16 - more_soft - strong_height;

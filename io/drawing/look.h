@@ -30,7 +30,7 @@ void DrawMark(Canvas& canvas, const Box& panel, const std::string& text);
 std::vector<std::string> LinesOf(const Canvas& canvas, const std::string& words, double size, double room, bool bold);
 
 /// Draws `strong` (bold, may be empty) and, below it, `soft` in the lower left corner over a soft shade, in as many
-/// lines as the texts need. `lift` raises the texts from the lower edge, pixels.
-void DrawCaption(Canvas& canvas, const Box& panel, const std::string& strong, const std::string& soft, double lift = 0);
+/// lines as the texts need.
+void DrawCaption(Canvas& canvas, const Box& panel, const std::string& strong, const std::string& soft);
 
 }  // namespace etude

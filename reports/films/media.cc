@@ -12,7 +12,6 @@
 #include "reports/films/convergence_scene.h"
 #include "reports/films/judged_scene.h"
 #include "reports/films/shown_cell.h"
-#include "reports/films/stage_scene.h"
 #include "reports/films/transition_race.h"
 #include "reports/films/transition_scene.h"
 
@@ -25,19 +24,16 @@ constexpr const char *kConvergence = "convergence", *kTransitions = "transitions
 
 void Note(std::string& words, const std::string& more) { words += (words.empty() ? "" : " ") + more; }
 
-void MakeStageFilm(const RunData& run, const MediaPaths& paths, const FilmWatch& watch, Media& media) {
-  // Choose a recorded capture; if there is none, a recorded coach.
+// Makes the film of a recorded capture. If the run recorded neither captures nor transitions, the reason is stated.
+void MakeCaptureFilm(const RunData& run, const MediaPaths& paths, const FilmWatch& watch, Media& media) {
   const auto has_pictures = [](const ScenarioSummary& scenario) {
     return scenario.task == "transition" || scenario.task == "capture";
   };
   if (std::ranges::none_of(run.scenarios, has_pictures)) return;
   std::string& why = media.film.why_not;
   const auto capture_cell = ChooseCell(run, "capture", "recovered");
-  const auto coach_cell = capture_cell ? std::nullopt : ChooseCell(run, "transition", "coach");
-  // Make no film of a single coach if another film compares several methods as coaches.
-  const auto compares = [&](const ScenarioSummary& scenario) { return FindTransitionRace(run, scenario).has_value(); };
-  if (!capture_cell && std::ranges::any_of(run.scenarios, compares)) return;
-  if (!coach_cell && !capture_cell) {
+  if (!capture_cell) {
+    if (ChooseCell(run, "transition", "coach")) return;
     why = "There is no film of a coach or of cameras, because this run kept no recordings of transitions or captures.";
     return;
   }
@@ -46,21 +42,7 @@ void MakeStageFilm(const RunData& run, const MediaPaths& paths, const FilmWatch&
     why = "There are no pictures: " + ToString(renderer.error());
     return;
   }
-  // `shoot` renders a scene as the film of the run. `why` collects the reasons why pictures or films could not be made;
-  // the film's `why_not` is first added to it, and then states all these reasons.
-  const auto shoot = [&](Scene&& scene) {
-    Film film = Shoot(scene, paths.films / kRunFilm, watch);
-    if (!film.why_not.empty()) Note(why, film.why_not);
-    film.why_not = why;
-    media.film = std::move(film);
-  };
-  // Film a coach alone.
-  if (coach_cell) {
-    auto made = CoachPanel::Make(*coach_cell, StageScene::kLongest);
-    if (made) return shoot(StageScene(**renderer, std::move(*made)));
-    return Note(why, "The film does not show the coach: " + ToString(made.error()));
-  }
-  // Film a capture, and make the capture's strip, stills and EXR files.
+  // Make the capture's strip, stills and EXR files.
   const auto typical = CapturePanel::Make(run, *capture_cell);
   auto captures = FindCaptures(run, *capture_cell);
   if (!typical || !captures) {
@@ -70,7 +52,12 @@ void MakeStageFilm(const RunData& run, const MediaPaths& paths, const FilmWatch&
   media.stills = typical->Stills();
   media.strip_scenario = capture_cell->scenario->name;
   if (auto saved = SaveStripPictures(*typical, **renderer, paths.pictures); !saved) Note(why, ToString(saved.error()));
-  shoot(CaptureScene(**renderer, std::move(*captures)));
+  // Film the capture. `why` collects the reasons why pictures or films could not be made; the film states them all.
+  CaptureScene scene(**renderer, std::move(*captures));
+  Film film = Shoot(scene, paths.films / kRunFilm, watch);
+  if (!film.why_not.empty()) Note(why, film.why_not);
+  film.why_not = why;
+  media.film = std::move(film);
 }
 
 // Draws one plate (DrawPlate) for each capture scenario, from a recorded cell that keeps intermediate results
@@ -179,7 +166,7 @@ std::set<std::string> FilmNames(const RunData& run) {
 
 Media MakeMedia(const RunData& run, const MediaPaths& paths, const MediaOptions& options) {
   Media media;
-  MakeStageFilm(run, paths, options.watch, media);
+  MakeCaptureFilm(run, paths, options.watch, media);
   MakePlates(run, media);
   // Make one film for each scenario of a task that has films; a coach's scenario has up to two films.
   for (std::size_t i = 0; i < run.scenarios.size() && !options.watch.IsStopped(); ++i) {
@@ -188,8 +175,8 @@ Media MakeMedia(const RunData& run, const MediaPaths& paths, const MediaOptions&
     if (scenario.task == "ik") {
       film = MakeComparingFilm<ConvergenceScene>(FindIkRace(run, scenario), scenario.name, "two solvers by iteration",
                                                  paths.films / FilmName(run, i, kConvergence), options.watch);
-    } else if (auto race = FindTransitionRace(run, scenario)) {
-      film = MakeComparingFilm<TransitionScene>(std::move(race), scenario.name, "transitions of several methods",
+    } else if (scenario.task == "transition" && ChooseCell(run, scenario, "coach")) {
+      film = MakeComparingFilm<TransitionScene>(FindTransitionRace(run, scenario), scenario.name, "transitions",
                                                 paths.films / FilmName(run, i, kTransitions), options.watch);
     } else if (scenario.task == "coach") {
       MakeSessionFilms(run, i, paths, options, media);

@@ -89,7 +89,7 @@ Result<TransitionRace> FindTransitionRace(const RunData& run, const ScenarioSumm
                 "this run kept no recordings of this scenario's transitions (the scenario key 'video' selects cells to "
                 "record)");
   }
-  if (shown < 2) return Fail({}, "no world has recordings of transitions by two methods");
+  if (shown == 0) return Fail({}, "no recording has both the change of clips and its 'transition_frame'");
   TransitionRace race = RaceIn(*best, scenario, scenario.methods);
   race.choice = fmt::format("the first of the worlds with transitions by the largest number of methods, among {}",
                             Plural(static_cast<long long>(worlds.size()), "recorded world"));

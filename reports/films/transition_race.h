@@ -30,7 +30,7 @@ struct TransitionPath {
   int LastPoint() const { return TimeOf(facts.transition_frames.back()); }
 };
 
-/// One request, and the transitions that two to four methods made for this request.
+/// One request, and the transitions that one to four methods made for this request.
 struct TransitionRace {
   std::string world;    ///< name of the world: "trial 30"
   std::string request;  ///< the playing clip and the wanted clip: "clap → side kick"
@@ -45,7 +45,7 @@ TransitionRace RaceIn(const RecordedRequest& world, const ScenarioSummary& scena
                       const std::vector<std::string>& methods);
 
 /// Finds the first world in which the largest number of methods have recordings. Takes at most kMaxTransitionPaths
-/// methods, in the scenario's order. Fails with the reason if no world has recordings of two methods.
+/// methods, in the scenario's order. Fails with the reason if no recorded transition can be shown.
 Result<TransitionRace> FindTransitionRace(const RunData& run, const ScenarioSummary& scenario);
 
 /// Maps the film's frames to times after the request; the map is the same for every method. The film runs from one

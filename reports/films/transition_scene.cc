@@ -203,13 +203,14 @@ std::string TransitionScene::Words() const {
         path.facts.branch.empty() ? "" : path.facts.branch + ", ",
         is_late ? "after the film ends" : "after " + FormatFixed(path.LastPoint() / path.motion.rate_hz, 2) + " s");
   }
+  const std::size_t count = race_.paths.size();
   return fmt::format(
-      "The request {} as solved by {} methods, from left to right: {}. The world is {}: {}. Pale figure: the last pose "
+      "The request {} as solved by {}{}. The world is {}: {}. Pale figure: the last pose "
       "of the first clip. Below: the largest second difference of any joint, and the ten partial distances of the two "
       "joined frames. A full bar means that this feature alone reaches the threshold ({}) At the end, the film repeats "
       "the transition {} times slower.",
-      race_.request, race_.paths.size(), methods, race_.world, race_.choice, kFeatureLegend,
-      TransitionClock::kSlowness);
+      race_.request, count > 1 ? fmt::format("{} methods, from left to right: ", count) : "", methods, race_.world,
+      race_.choice, kFeatureLegend, TransitionClock::kSlowness);
 }
 
 Canvas TransitionScene::Draw(int frame) {

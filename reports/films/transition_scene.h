@@ -64,7 +64,7 @@ class TransitionPanel {
   std::optional<Drawn> drawn_;  ///< the last picture, cached because slow motion shows each picture several times
 };
 
-/// The film of one request under two to four methods side by side. It shows when each method changes clips, how smooth
+/// The film of one request under one to four methods side by side. It shows when each method changes clips, how smooth
 /// the transition is, and the partial distances at the transition points.
 class TransitionScene : public Scene {
  public:

@@ -9,7 +9,6 @@
 #include "reports/films/capture_panel.h"
 #include "reports/films/capture_scene.h"
 #include "reports/films/shown_cell.h"
-#include "reports/films/stage_scene.h"
 #include "tests/reports/support/example_run.h"
 #include "tests/support/gtest_printers.h"
 #include "tests/support/results.h"
@@ -86,33 +85,6 @@ TEST(Cast, PrefersATypicalCellOfTheMethodThatAnswers) {
   EXPECT_FALSE(ChooseCell(run, "transition", "coach").has_value());
 }
 
-TEST(CoachPanel, CutsALongMotionAroundItsSeam) {
-  RunData run = ExampleRun();
-  AddRecordings(run);
-  ASSERT_OK(cell, ChooseCell(run, "transition", "coach"));
-  ASSERT_OK(panel, CoachPanel::Make(*cell, 60));
-  EXPECT_EQ(panel->Frames(), 60);
-  EXPECT_EQ(panel->FirstPoint(), 30);
-}
-
-TEST(CoachPanel, KnowsBothChangesOfAnInBetweenClip) {
-  RunData run = ExampleRun();
-  AddRecordings(run);
-  run.recordings.front().recording.extras_json =
-      R"({"transition_frame": 80, "transition_frames": [95, 80, 5000], "from": "builtin:side_kick", "to": "clap"})";
-  ASSERT_OK(panel, CoachPanel::Make(*ChooseCell(run, "transition", "coach"), 500));
-  EXPECT_EQ(panel->FirstPoint(), 80);
-  EXPECT_THAT(panel->Title(), HasSubstr("side kick → clap"));
-}
-
-TEST(CoachPanel, RefusesARecordingWithoutASeam) {
-  RunData run = ExampleRun();
-  AddRecordings(run);
-  run.recordings.front().recording.extras_json = R"({"from": "clap"})";
-  EXPECT_THAT(testing::Refusal(CoachPanel::Make(*ChooseCell(run, "transition", "coach"), 60)),
-              HasSubstr("transition_frame"));
-}
-
 TEST(CapturePanel, RefusesMasksThatDoNotFitTheMotion) {
   RunData run = ExampleRun();
   AddRecordings(run);
@@ -173,42 +145,21 @@ TEST(CapturePlate, ShowsEveryStageOfTheMomentsThatAreKeptAndTheSequence) {
   EXPECT_THAT(one->caption, HasSubstr("figures 5.3 to 5.15"));
 }
 
-// Returns the share of empty pixels below the heading, between two columns.
-double EmptyShare(const ColourImage& picture, int from, int to) {
-  static const Rgb8 nothing = BeginFrame("").Pixels().At(2, 400);
-  int empty = 0, all = 0;
-  for (int y = 60; y < 700; ++y) {
-    for (int x = from; x < to; ++x, ++all) empty += picture.At(x, y) == nothing;
-  }
-  return static_cast<double>(empty) / all;
+// Returns the share of empty pixels beWorldSideBySideAndColoursTheirErrors) {
+RunData run = ExampleRun();
+AddRecordings(run);
+// The same capture by another method, with one hand half a metre too high.
+const ShownCell first = *ChooseCell(run, "capture", "recovered");
+CellRecording worse = run.recordings.back();
+worse.cell = [&] {
+  Row row = *first.row;
+  row.method = "ccd-fixed";
+  return row.Id();
+}();
+for (Track& track : worse.recording.tracks) {
+  if (track.name != "recovered") continue;
+  for (BodyPose& pose : track.motion.poses) pose[Role::kLeftHand].y += 0.5;
 }
-
-TEST(StageScene, GivesTheWholeFrameToTheCoach) {
-  RunData run = ExampleRun();
-  AddRecordings(run);
-  auto coach = CoachPanel::Make(*ChooseCell(run, "transition", "coach"), StageScene::kLongest);
-  ASSERT_TRUE(coach);
-  EXPECT_EQ(EmptyShare(BeginFrame("nothing").Pixels(), 20, 1260), 1);
-  StageScene scene(**SharedRenderer(), std::move(*coach));
-  EXPECT_THAT(scene.Words(), HasSubstr("The coach"));
-  EXPECT_LT(EmptyShare(scene.Draw(scene.PosterFrame()).Pixels(), 20, 1260), 0.05);
-}
-
-TEST(CaptureScene, ShowsTheMethodsOfOneWorldSideBySideAndColoursTheirErrors) {
-  RunData run = ExampleRun();
-  AddRecordings(run);
-  // The same capture by another method, with one hand half a metre too high.
-  const ShownCell first = *ChooseCell(run, "capture", "recovered");
-  CellRecording worse = run.recordings.back();
-  worse.cell = [&] {
-    Row row = *first.row;
-    row.method = "ccd-fixed";
-    return row.Id();
-  }();
-  for (Track& track : worse.recording.tracks) {
-    if (track.name != "recovered") continue;
-    for (BodyPose& pose : track.motion.poses) pose[Role::kLeftHand].y += 0.5;
-  }
   ASSERT_OK(alone, FindCaptures(run, first));
   EXPECT_EQ(alone->size(), 1u);
   run.recordings.push_back(worse);

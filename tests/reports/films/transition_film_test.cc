@@ -58,15 +58,17 @@ TEST(TransitionRace, AlignsEveryoneAtTheRequest) {
   EXPECT_EQ(race.paths[0].jumps_cm, SecondDifferencesCm(race.paths[0].motion));
 }
 
-TEST(TransitionRace, NeedsTwoMethodsInOneWorld) {
+TEST(TransitionRace, ShowsAlsoOneMethodAndNeedsARecordedPoint) {
   RunData run = ExampleRun();
   auto race = FindTransitionRace(run, run.scenarios.front());
   ASSERT_FALSE(race.has_value());
   EXPECT_THAT(ToString(race.error()), HasSubstr("key 'video'"));
   AddRecordings(run);
   race = FindTransitionRace(run, run.scenarios.front());
-  ASSERT_FALSE(race.has_value());
-  EXPECT_THAT(ToString(race.error()), HasSubstr("two methods"));
+  ASSERT_TRUE(race.has_value()) << ToString(race.error());
+  EXPECT_EQ(race->paths.size(), 1u);
+  run.recordings.front().recording.extras_json = R"({"from": "clap"})";
+  EXPECT_THAT(testing::Refusal(FindTransitionRace(run, run.scenarios.front())), HasSubstr("'transition_frame'"));
 }
 
 TEST(TransitionClock, PlaysOnceAndThenTheSwitchesSlowly) {
@@ -135,7 +137,24 @@ TEST(TransitionScene, DrawsTheSamePixelsEveryTimeAndMarksTheChange) {
   EXPECT_GT(CountPixels(changed, kWarm), CountPixels(calm, kWarm) + 1500);
   TransitionScene again(race, "transition", **renderer);
   EXPECT_EQ(again.Draw(after).Pixels().pixels, changed.pixels);
+  EXPECT_THAT(scene.Words(), HasSubstr("as solved by 3 methods, from left to right: "));
   EXPECT_THAT(scene.Words(), HasSubstr("fuzzy-bridge (in-between, after 0.83 s)"));
+}
+
+TEST(TransitionScene, GivesTheWholeFrameToOneMethod) {
+  ASSERT_OK(renderer, SharedRenderer());
+  TransitionRace race = ExampleRace();
+  race.paths.erase(race.paths.begin() + 1, race.paths.end());
+  TransitionScene scene(race, "transition", **renderer);
+  EXPECT_THAT(scene.Words(), HasSubstr("as solved by now ("));
+  // The column has no empty stripe: the share of pixels with the colour of the background is small.
+  const ColourImage picture = scene.Draw(scene.PosterFrame()).Pixels();
+  const Rgb8 background = BeginFrame("").Pixels().At(2, 400);
+  int empty = 0, all = 0;
+  for (int y = 60; y < 700; ++y) {
+    for (int x = 20; x < 1260; ++x, ++all) empty += picture.At(x, y) == background;
+  }
+  EXPECT_LT(static_cast<double>(empty) / all, 0.05);
 }
 
 }  // namespace
