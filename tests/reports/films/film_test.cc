@@ -145,21 +145,21 @@ TEST(CapturePlate, ShowsEveryStageOfTheMomentsThatAreKeptAndTheSequence) {
   EXPECT_THAT(one->caption, HasSubstr("figures 5.3 to 5.15"));
 }
 
-// Returns the share of empty pixels beWorldSideBySideAndColoursTheirErrors) {
-RunData run = ExampleRun();
-AddRecordings(run);
-// The same capture by another method, with one hand half a metre too high.
-const ShownCell first = *ChooseCell(run, "capture", "recovered");
-CellRecording worse = run.recordings.back();
-worse.cell = [&] {
-  Row row = *first.row;
-  row.method = "ccd-fixed";
-  return row.Id();
-}();
-for (Track& track : worse.recording.tracks) {
-  if (track.name != "recovered") continue;
-  for (BodyPose& pose : track.motion.poses) pose[Role::kLeftHand].y += 0.5;
-}
+TEST(CaptureScene, ShowsTheMethodsOfOneWorldSideBySideAndColoursTheirErrors) {
+  RunData run = ExampleRun();
+  AddRecordings(run);
+  // The same capture by another method, with one hand half a metre too high.
+  const ShownCell first = *ChooseCell(run, "capture", "recovered");
+  CellRecording worse = run.recordings.back();
+  worse.cell = [&] {
+    Row row = *first.row;
+    row.method = "ccd-fixed";
+    return row.Id();
+  }();
+  for (Track& track : worse.recording.tracks) {
+    if (track.name != "recovered") continue;
+    for (BodyPose& pose : track.motion.poses) pose[Role::kLeftHand].y += 0.5;
+  }
   ASSERT_OK(alone, FindCaptures(run, first));
   EXPECT_EQ(alone->size(), 1u);
   run.recordings.push_back(worse);
