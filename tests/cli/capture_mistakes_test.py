@@ -722,7 +722,7 @@ class Mistakes(EtudeCase):
                             "--rooms", rooms, "--stature", "1.7", "-o", self.folder / "m.csv", "--report", page, *arguments)
         self.assertNotIn("doubtful", result.stdout)
         self.assertIn("cam3: the film has 30 frames per second, but the first film has 15; Etude uses the picture that is nearest "
-                      "used, which is up to 17 ms away", result.stdout)
+                      "in time, which is up to 17 ms away", result.stdout)
         text = page.read_text()
         self.assertIn("stature: 1.70 m", text)
         self.assertIn("src=\"data:video/mp4;base64,", text)

@@ -310,7 +310,7 @@ class Gate(EtudeCase):
         self.assertEqual(share("reruns with the same seed, rule `exact`"), 0)
         self.assertEqual(share("worse by 4 × the difference that matters"), 1)
         self.assertEqual(share("reruns with the same seed, tail rule"), 0)
-        self.assertEqual(share("in 5 of 30 worlds worse by 40 × the difference that matters"), 1)
+        self.assertEqual(share("worse in 5 of 30 worlds by 40 × the difference that matters"), 1)
         self.assertEqual(share("lost in 1 of 30 worlds"), 1)
         self.assertGreaterEqual(share("within-30-deg in place of reference"), 0.8)
         self.assertLessEqual(share("gates between two seeds"), 0.05)
