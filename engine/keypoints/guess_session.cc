@@ -268,7 +268,7 @@ class SessionGuesser {
       for (const PictureOfFilm& film : films_) films.push_back(Turned(film, turns));
       constexpr double kMostly = 0.9, kStillBetter = 0.9;
       // An upright person is evidence, too: seen from afar, pictures that are turned by 180° show a mirrored body.
-      if (turns == 2 && UprightShare(films_) < 1 - kMostly && UprightShare(films) > kMostly) {
+      if (turns == 2 && !best_ && UprightShare(films_) < 1 - kMostly && UprightShare(films) > kMostly) {
         least_ = std::max(least_, kStillBetter * said);
       }
       const int all = (declared + turns) % 4;

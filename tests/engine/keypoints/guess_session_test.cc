@@ -22,8 +22,9 @@ using ::testing::StartsWith;
 const glm::dvec2 kPicture(1280, 720);
 const std::vector<std::string> kFilms = {"cam1", "cam2", "cam3", "cam4"};
 
-/// Returns a walker in the pictures of some of four cameras whose principal points are not the pictures' centres.
-std::vector<PictureOfFilm> FilmedWalker(std::size_t count = 4, double sigma_px = 0.2) {
+/// Returns a walker in the pictures of some of four cameras whose principal points are not the pictures' centres. With
+/// `lean`, the walker leans by this slope, seen by the first two cameras to the right.
+std::vector<PictureOfFilm> FilmedWalker(std::size_t count = 4, double sigma_px = 0.2, double lean = 0) {
   RandomStream dice = WalkersDice("pictures");
   std::vector<PictureOfFilm> films;
   for (Camera camera : Pinholes()) {
@@ -31,7 +32,11 @@ std::vector<PictureOfFilm> FilmedWalker(std::size_t count = 4, double sigma_px =
     camera.intrinsics.cy -= 9;
     PictureOfFilm film{.camera = camera, .fit = {}, .film_px = kPicture, .people = {}};
     for (std::size_t k = 0; k < 45; ++k) {
-      film.people.push_back({Seen(camera, Walker(-0.2, 0.1, static_cast<double>(k) / 15), sigma_px, dice)});
+      LandmarkPositions walker = Walker(-0.2, 0.1, static_cast<double>(k) / 15);
+      for (auto& mark : walker) {
+        if (mark) *mark += lean * mark->y * glm::dvec3(0.9, 0, -0.45);
+      }
+      film.people.push_back({Seen(camera, walker, sigma_px, dice)});
     }
     if (films.size() < count) films.push_back(film);
   }
@@ -208,6 +213,20 @@ TEST(GuessSession, FindsHowAllFilmsAreTurned) {
         read[c] = film.people;
       }
       EXPECT_LT(FurthestPx(read, truth), 1e-9) << declared << turns;
+    }
+  }
+}
+
+// The pictures of who leans, turned by 90°, show somebody upside down. This is no evidence of 180° if 90° fit exactly.
+TEST(GuessSession, FindsTheTurnOfAPersonWhoLeans) {
+  for (const double lean : {-0.25, 0.25}) {
+    const auto truth = FilmedWalker(2, 0, lean);
+    for (const int turns : {1, 2, 3}) {
+      auto films = truth;
+      const PixelFit fit{.quarter_turns = turns, .size = kPicture};
+      for (PictureOfFilm& film : films) ChangePixels(film, [&](glm::dvec2 p) { return fit.ToFilm(p); });
+      const SessionGuess guess = GuessSession(films, kFilms, glm::dmat3(1), 0.1);
+      EXPECT_EQ(guess.turns, turns) << lean << ": " << guess.mended;
     }
   }
 }
