@@ -82,7 +82,7 @@ class Blind(EtudeCase):
 
     def test_a_damaged_file_is_one_line_with_its_place(self):
         for changed, words in [({"preferred": ["left", "up"]}, "ben.json: preferred[1]: 'up'; allowed"),
-                               ({"preferred": ["left"]}, "'ben' gave 1 answers"),
+                               ({"preferred": ["left"]}, "the number of answers by 'ben'"),
                                ({"page": "0"}, "'ben' answered the page 0, but the key of this page is not given"),
                                ({"version": 2}, "ben.json: version: 2; allowed: 1")]:
             done = self.ends(2, "blind", self.key_file, self.answers("ben", **{"preferred": ["left", "left"], **changed}))
