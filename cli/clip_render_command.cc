@@ -69,7 +69,7 @@ Result<std::vector<ClipActor>> Cast(const ClipRenderOptions& options) {
   for (const std::string& reference : references) {
     ASSIGN_OR_RETURN(auto clips, ReadClips(reference, reading));
     for (SourceClip& clip : clips) {
-      auto part = TrimTo(clip.clip, trim);
+      auto part = TrimTo(clip, trim);
       if (!part) return Fail({clip.source, 0, 0}, "{}", part.error().message);
       clip.clip = std::move(*part);
       ASSIGN_OR_RETURN(auto opened, UnderstandClip(std::move(clip), reading));

@@ -32,7 +32,14 @@ struct Measured {
   bool IsNull() const { return !value.value && (status == Status::kOk || status == Status::kUnsolved); }
 };
 
-Measured ReadValue(const std::string& id, const OutsideReply& reply) {
+/// Returns what a value of this kind must be, if `value` is not; else "".
+std::string_view WhatItMustBe(double value, Reading reading) {
+  if (reading == Reading::kYesNo && value != 0 && value != 1) return "0 or 1";
+  return reading != Reading::kAmount && !(value >= 0 && value <= 1) ? "0 to 1" : "";
+}
+
+Measured ReadValue(const MetricInfo& metric, const OutsideReply& reply) {
+  const std::string& id = metric.id;
   const auto missing = [&](Status status, std::string why) {
     return Measured{status, {id, std::nullopt, std::move(why)}};
   };
@@ -46,6 +53,12 @@ Measured ReadValue(const std::string& id, const OutsideReply& reply) {
     fields.Note({{}, "value: " + (value == nullptr ? "missing" : ShowJson(*value) + " is neither a number nor null")});
   } else if (value->is_null() && why.empty()) {
     fields.Note({{}, "value: null without a 'reason'"});
+  } else if (value->is_number()) {
+    const std::string_view allowed = WhatItMustBe(value->get<double>(), metric.reading);
+    if (!allowed.empty()) {
+      fields.Note(
+          {{}, fmt::format("value: {}; allowed, because of the metric's key 'reads': {}", ShowJson(*value), allowed)});
+    }
   }
   if (auto read = fields.Finish(); !read) {
     return missing(Status::kBadOutput, "its program answered " + ToString(read.error()));
@@ -95,8 +108,9 @@ std::string OutsideMetrics::Measure(const std::string& cell, CellResult& result)
   for (std::size_t m = 0; m < programs_.size(); ++m) {
     const OutsideReply reply = Ask(m, cell, told);
     if (!reply.was_asked) return reply.reason;
-    const std::string& id = scenario_.scenario().outside_metrics[m].info.id;
-    result.metrics.push_back(ReadValue(id, reply).value);
+    const MetricInfo& metric = scenario_.scenario().outside_metrics[m].info;
+    const std::string& id = metric.id;
+    result.metrics.push_back(ReadValue(metric, reply).value);
     if (!result.judged.parts.empty() && seen && *seen < 1) result.judged.shares.emplace_back(id, *seen);
   }
   return "";
@@ -110,7 +124,7 @@ Result<void> OutsideMetrics::CheckVectors() {
       ASSIGN_OR_RETURN(auto cell, ReadJson(vector.cell_json, vector.place.file));
       const OutsideReply reply = Ask(m, fmt::format("vector/{}", v), PayloadOf(std::move(cell)));
       if (!reply.was_asked) return tl::unexpected(OfThisMachine({{}, reply.reason}));
-      const Measured measured = ReadValue(metric.info.id, reply);
+      const Measured measured = ReadValue(metric.info, reply);
       const MetricValue& found = measured.value;
       const bool agrees = vector.expected && found.value ? std::abs(*found.value - *vector.expected) <= vector.tolerance
                                                          : !vector.expected && measured.IsNull();

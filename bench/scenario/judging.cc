@@ -82,10 +82,23 @@ void CheckExpectation(Fields& fields, Expectation& expectation) {
   }
   const int claims = !expectation.below.empty() + !expectation.above.empty() + expectation.at_most.has_value() +
                      expectation.at_least.has_value();
-  if (claims == 1) return;
-  fields.Complain(expectation.place, fmt::format("an expectation needs exactly one of the keys below, above (a "
-                                                 "method), at_most, at_least (a number); found {}",
-                                                 claims));
+  if (claims != 1) {
+    fields.Complain(expectation.place, fmt::format("an expectation needs exactly one of the keys below, above (a "
+                                                   "method), at_most, at_least (a number); found {}",
+                                                   claims));
+    return;
+  }
+  const bool is_bound = expectation.at_most || expectation.at_least;
+  const char* without_effect = is_bound ? "confidence" : "statistic";
+  const Node* given = fields.Raw(without_effect);
+  if (given == nullptr) return;
+  fields.Complain(given->place, fmt::format("'{}' has no effect here; allowed: only with {}", without_effect,
+                                            is_bound ? "below or above" : "at_most or at_least"));
+}
+
+void CheckGateRules(Fields& fields, GateRules& rules) {
+  const Node* tail = fields.Raw("tail");
+  if (rules.exact && tail != nullptr) fields.Complain(tail->place, "'tail' is not allowed with 'rule: exact'");
 }
 
 void CheckTimeRatio(Fields& fields, TimeRatio& ratio) {
@@ -218,7 +231,8 @@ FieldTable<GateRules> GateFields(const Scenario& scenario, const std::vector<std
          "Limits on ratios between the processor times of two methods of the run."},
         [&](Fields& gate, GateRules& rules) {
           rules.time_ratios = ReadListed(gate, "time_ratios", "a time ratio", TimeRatioFields(scenario));
-        }}}};
+        }}},
+      CheckGateRules};
 }
 
 }  // namespace etude

@@ -156,10 +156,6 @@ const FieldTable<OutsideMetric>& OutsideMetricFields() {
          Key::Number("version", info(&MetricInfo::version), {1, 1e6},
                      "Version of the metric. Increase it when you change the metric, because Etude never mixes values "
                      "of two versions."),
-         {{"practical", NumberKind({1e-12, 1e12}), "(1; without a unit 0.01)", "The smallest difference that matters."},
-          [](Fields& metric, OutsideMetric& own) {
-            own.info.practical = metric.Number("practical", own.info.unit.empty() ? 0.01 : 1, {1e-12, 1e12});
-          }},
          Key::Name("aggregate", info(&MetricInfo::aggregate),
                    {{"median", Aggregate::kMedian}, {"mean", Aggregate::kMean}},
                    "How a run aggregates the values of all cells."),
@@ -170,6 +166,12 @@ const FieldTable<OutsideMetric>& OutsideMetricFields() {
                     {"score", Reading::kScore}},
                    "The kind of value. Values of all kinds except `amount` must lie between 0 and 1; reports show them "
                    "in per cent."),
+         {{"practical", NumberKind({1e-12, 1e12}), "(1; without a unit, or if `reads` is not `amount`, 0.01)",
+           "The smallest difference that matters."},
+          [](Fields& metric, OutsideMetric& own) {
+            const bool is_share = own.info.unit.empty() || own.info.reading != Reading::kAmount;
+            own.info.practical = metric.Number("practical", is_share ? 0.01 : 1, {1e-12, 1e12});
+          }},
          Key::Text("label", info(&MetricInfo::label), "a text", "The metric's name in reports.").WhenAbsent("(`name`)"),
          Key::Text("definition", info(&MetricInfo::definition), "a text",
                    "One sentence that states what the metric measures.")

@@ -50,11 +50,12 @@ Bridges::Bridges(std::span<const BodyMotion> clips, const BridgeOptions& options
     throw BadInput(fmt::format("threshold is {}; allowed: above 0, up to {}", options.threshold, kFarthestFuzzy));
   }
   CheckClips(clips);
-  const BodyPose& first = clips.front().poses.front();
-  const double hips = StandingHipsOf(first);
+  StandingHipsOf(clips.front().poses.front());
+  const BodyProportions proportions = MedianProportions(clips.front().poses);
+  const double hips = proportions.standing_hip_height;
   TagRules rules;
   rules.min_clips = options.min_clips;
-  library_->tagged = TagClips(PerformedBy(MakeBodyProportions(first, hips), clips), hips, rules);
+  library_->tagged = TagClips(PerformedBy(proportions, clips), hips, rules);
   library_->rules.threshold = options.threshold;
 }
 

@@ -106,10 +106,10 @@ TransitionLibrary::TransitionLibrary(std::span<const BodyMotion> clips,
     }
     names.push_back(fmt::format("clip {}", names.size()));
   }
-  const BodyPose& first = clips.front().poses.front();
+  StandingHipsOf(clips.front().poses.front());
   library_->clips =
       MakeLibrary(std::move(names), clips,
-                  proportions ? ToEngineProportions(*proportions) : MakeBodyProportions(first, StandingHipsOf(first)));
+                  proportions ? ToEngineProportions(*proportions) : MedianProportions(clips.front().poses));
 }
 
 TransitionLibrary::TransitionLibrary(TransitionLibrary&&) noexcept = default;

@@ -53,8 +53,8 @@ Clip InMetres(Clip clip, double metres_per_unit, UpAxis up) {
   return clip;
 }
 
-Result<Clip> Edited(const Clip& clip, const ConvertOptions& options) {
-  auto edited = TrimTo(clip, options.trim);
+Result<Clip> Edited(const SourceClip& source, const ConvertOptions& options) {
+  auto edited = TrimTo(source, options.trim);
   if (!edited) return edited;
   if (options.rate_hz) {
     const double frames = 1 + edited->DurationSeconds() * *options.rate_hz;
@@ -71,8 +71,9 @@ Result<Clip> Edited(const Clip& clip, const ConvertOptions& options) {
 
 /// Returns the time at which the converted part begins, by the file's own clock; a file without a clock begins at 0 s.
 double StartOf(const SourceClip& source, const ConvertOptions& options) {
-  const double rate_hz = source.clip.rate_hz, trimmed_s = options.trim ? options.trim->from_s : 0;
-  return (source.made ? source.made->start_s.value_or(0) : 0) + std::round(trimmed_s * rate_hz) / rate_hz;
+  const double rate_hz = source.clip.rate_hz, hidden_s = HiddenStart(source);
+  const double trimmed_s = options.trim ? std::max(0.0, options.trim->from_s - hidden_s) : 0;
+  return (source.made ? source.made->start_s.value_or(hidden_s) : 0) + std::round(trimmed_s * rate_hz) / rate_hz;
 }
 
 /// Describes when a motion begins, for a format without a clock; "" for other formats and for motions that begin at 0.
@@ -119,7 +120,7 @@ Result<Converted> ConvertOwnSkeletons(std::vector<SourceClip> sources, MotionFor
     if (std::string said = DescribeStart(StartOf(source, options), format); !said.empty()) {
       converted.changes.push_back(std::move(said));
     }
-    auto edited = Edited(source.clip, options);
+    auto edited = Edited(source, options);
     if (!edited) return Fail({source.source, 0, 0}, "{}", edited.error().message);
     if (format == MotionFormat::kGlb && source.format != ClipFormat::kGltf && source.format != ClipFormat::kGlb) {
       ASSIGN_OR_RETURN(const auto unit, FindUnit(source, options.open));
@@ -173,7 +174,7 @@ Result<Converted> ConvertBodies(std::vector<SourceClip> sources, MotionFormat fo
   // Trim each clip, and turn it into a body motion; mirror and retarget it if the options require this.
   for (SourceClip& source : sources) {
     const double source_hz = source.clip.rate_hz, from_s = StartOf(source, options);
-    auto part = TrimTo(source.clip, options.trim);
+    auto part = TrimTo(source, options.trim);
     if (!part) return Fail({source.source, 0, 0}, "{}", part.error().message);
     source.clip = std::move(*part);
     ASSIGN_OR_RETURN(auto opened, UnderstandClip(std::move(source), open));
@@ -225,10 +226,16 @@ Result<TimeSpan> ParseTimeSpan(const std::string& text) {
   return span;
 }
 
-Result<Clip> TrimTo(const Clip& clip, const std::optional<TimeSpan>& span) {
+Result<Clip> TrimTo(const SourceClip& source, const std::optional<TimeSpan>& span) {
+  const Clip& clip = source.clip;
   if (!span) return clip;
+  const double hidden_s = HiddenStart(source);
+  if (span->to_s < hidden_s) {
+    return Fail({}, "the part ends at {:g} s, but the whole body is seen only from {:.2f} s on", span->to_s, hidden_s);
+  }
+  const double from_s = std::max(0.0, span->from_s - hidden_s);
   const bool is_open = span->to_s == std::numeric_limits<double>::infinity();
-  return Trim(clip, span->from_s, is_open ? std::max(span->from_s, clip.DurationSeconds()) : span->to_s);
+  return Trim(clip, from_s, is_open ? std::max(from_s, clip.DurationSeconds()) : span->to_s - hidden_s);
 }
 
 Result<MotionFormat> FormatOfName(const std::string& path) {

@@ -20,9 +20,9 @@ struct TimeSpan {
 /// infinity). Fails on any other text, and if the end lies before the start.
 Result<TimeSpan> ParseTimeSpan(const std::string& text);
 
-/// Returns the part `span` of a clip, or the whole clip if there is no span. If `span.to_s` is infinity, the part ends
-/// with the clip.
-Result<Clip> TrimTo(const Clip& clip, const std::optional<TimeSpan>& span);
+/// Returns the part `span` of a clip, or the whole clip if there is no span. Times count from the first frame of the
+/// file, also if the clip begins later (HiddenStart). If `span.to_s` is infinity, the part ends with the clip.
+Result<Clip> TrimTo(const SourceClip& source, const std::optional<TimeSpan>& span);
 
 /// The formats that can be written. kBids (Motion-BIDS) is a folder of files; every other format is one file.
 enum class MotionFormat { kBvh, kGlb, kTrc, kCsv, kC3d, kNpz, kMot, kBids };

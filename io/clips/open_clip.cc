@@ -164,6 +164,10 @@ Result<OpenedClip> UnderstandBuiltin(SourceClip source, const BodyOptions& optio
 
 }  // namespace
 
+double HiddenStart(const SourceClip& source) {
+  return source.made ? static_cast<double>(source.made->first_frame) / source.clip.rate_hz : 0;
+}
+
 Result<std::vector<SourceClip>> ReadClips(const std::string& reference, const OpenOptions& options) {
   if (reference.starts_with(kBuiltinPrefix)) return ReadBuiltin(reference);
   SplitReference wanted = Split(reference);

@@ -34,6 +34,10 @@ struct SourceClip {
   std::shared_ptr<const RawMotion> shown = {};     ///< this clip's entry of ClipFile::shown; null if there is none
 };
 
+/// Returns the time from the first frame of the file to the first frame of the clip, seconds. It is above 0 if markers
+/// show the whole body only later.
+double HiddenStart(const SourceClip& source);
+
 /// Reads the clips of one file or built-in name (as ExpandReference returns them): the one clip of a BVH, all
 /// animations of a glTF, or the animation named after '#'. The animation's name may omit the prefix that exporters
 /// write ("Jump" for "Armature|Jump"). If the animation does not exist, the error lists the animations of the file.

@@ -4,7 +4,6 @@
 #include <cmath>
 #include <filesystem>
 
-#include "engine/fuzzy/features.h"
 #include "engine/retargeting/proportions.h"
 #include "engine/retargeting/rig.h"
 #include "engine/transitions/choices/choice.h"
@@ -27,12 +26,12 @@ struct TimedBody {
 
 Result<TimedBody> OpenBody(const std::string& reference, const OpenOptions& reading) {
   ASSIGN_OR_RETURN(auto source, ReadOneClip(reference, reading));
-  const double rate_hz = source.clip.rate_hz;
+  const double rate_hz = source.clip.rate_hz, hidden_s = HiddenStart(source);
   ASSIGN_OR_RETURN(auto opened, UnderstandClip(std::move(source), reading));
   if (opened.body.motion.poses.size() < 2)
     return Fail({reference}, "the clip has only one frame at 30 Hz; a transition needs two frames or more");
   return TimedBody{opened.source.name, std::move(opened.body.motion),
-                   static_cast<double>(opened.body.dropped_frames) / rate_hz};
+                   hidden_s + static_cast<double>(opened.body.dropped_frames) / rate_hz};
 }
 
 Result<void> WriteBody(const BodyMotion& motion, const std::string& path) {
@@ -62,11 +61,10 @@ Result<TransitionFile> WriteTransition(const TransitionFileOptions& options) {
   if (!(frame >= 0 && frame < frames)) {
     return Fail({}, "--at {:g}: outside the clip {}; allowed: {:.2f} to {:.2f} s{}", options.at_s, from.name,
                 from.begin_s, from.begin_s + (frames - 1) / kJudgedRateHz,
-                from.begin_s > 0 ? " (Etude leaves out the T-pose at the start)" : "");
+                from.begin_s > 0 ? " (before, there is a T-pose, or the file does not show the whole body)" : "");
   }
   // The body of the first clip performs all clips.
-  const BodyPose& first = from.motion.poses.front();
-  const BodyProportions proportions = MakeBodyProportions(first, StandingHipHeight(first));
+  const BodyProportions proportions = MedianProportions(from.motion.poses);
   std::vector<std::string> names = {from.name, to.name};
   std::vector<BodyMotion> motions = {std::move(from.motion), std::move(to.motion)};
   ASSIGN_OR_RETURN(auto more, LoadClips(options.library, {{"--library"}}, options.reading));

@@ -55,9 +55,9 @@ struct BodyProportions {
 class ETUDE_API TransitionLibrary {
  public:
   /// Transfers all clips to one body. The body has the given proportions (scenarios use sim::ScenarioProportions), by
-  /// default those of the first clip's first frame. Throws BadInput for no clips, a clip with fewer than two frames or
-  /// with a rate other than 30 Hz, positions that are not finite, a body without legs, and hips that are not 0.1 to 10
-  /// m high.
+  /// default the medians over the first clip's frames. Throws BadInput for no clips, a clip with fewer than two frames
+  /// or with a rate other than 30 Hz, positions that are not finite, a body without legs, and hips that are not 0.1 to
+  /// 10 m high.
   explicit TransitionLibrary(std::span<const BodyMotion> clips, const std::optional<BodyProportions>& proportions = {});
   TransitionLibrary(TransitionLibrary&&) noexcept;
   TransitionLibrary& operator=(TransitionLibrary&&) noexcept;

@@ -7,6 +7,7 @@
 #include <utility>
 #include <vector>
 
+#include "engine/base/order_statistics.h"
 #include "engine/fuzzy/features.h"
 #include "engine/motion/rest_body.h"
 
@@ -94,6 +95,19 @@ BodyProportions MakeBodyProportions(const BodyPose& pose, double standing_hip_he
   BodyProportions proportions{.limb_lengths = {}, .standing_hip_height = standing_hip_height};
   for (const Bone& bone : AllBones()) {
     proportions.limb_lengths[Index(bone.child)] = BoneLength(pose, bone) * standing_hip_height / own_height;
+  }
+  return proportions;
+}
+
+BodyProportions MedianProportions(std::span<const BodyPose> poses) {
+  const auto median = [&](const auto& value) {
+    std::vector<double> values;
+    for (const BodyPose& pose : poses) values.push_back(value(pose));
+    return Median(std::move(values));
+  };
+  BodyProportions proportions{.limb_lengths = {}, .standing_hip_height = median(StandingHipHeight)};
+  for (const Bone& bone : AllBones()) {
+    proportions.limb_lengths[Index(bone.child)] = median([&](const BodyPose& pose) { return BoneLength(pose, bone); });
   }
   return proportions;
 }

@@ -19,6 +19,10 @@ struct BodyProportions {
 /// `pose` must have a length above 0.
 BodyProportions MakeBodyProportions(const BodyPose& pose, double standing_hip_height);
 
+/// Returns the proportions of a moving body: the median over its frames of each limb's length and of the standing hip
+/// height. There must be a frame.
+BodyProportions MedianProportions(std::span<const BodyPose> poses);
+
 /// Returns the body at rest: above the origin, facing +Z, with straight limbs, hanging arms, and soles on the floor.
 BodyPose StandingPose(const BodyProportions& proportions);
 

@@ -81,7 +81,7 @@ TEST_F(ConvertTest, FormatsWithAClockKeepWhenAMotionBegins) {
   MarkerMotion markers = JointMarkers(raised, 5);
   for (std::size_t t = 0; t < 30; ++t) markers.frames[t][Index(Role::kLeftKnee)].reset();  // the body begins at 6 s
   const std::string trc = Write("late.trc", WriteTrc(markers, "late"));
-  ConvertOptions options{.trim = TimeSpan{0.5, 1.5}};  // and the trimmed part at 6.5 s
+  ConvertOptions options{.trim = TimeSpan{1.5, 2.5}};  // and the trimmed part at 6.5 s, 1.5 s after the first frame
   for (const auto& [format, name] : {std::pair(MotionFormat::kTrc, "a.trc"),
                                      {MotionFormat::kCsv, "a.csv"},
                                      {MotionFormat::kC3d, "a.c3d"},
@@ -94,6 +94,14 @@ TEST_F(ConvertTest, FormatsWithAClockKeepWhenAMotionBegins) {
   }
   ASSERT_OK(bvh, ConvertClips(*ReadClips(trc), MotionFormat::kBvh, options));
   EXPECT_THAT(bvh->changes, ::testing::Contains("time 0 of the output is the time 6.5 s of the input"));
+  // A part that begins before the body begins with the body; a part that ends before the body is refused.
+  options.trim = TimeSpan{0.5, 1.5};
+  ASSERT_OK(early, ReadClips(Write("early.npz", Convert(trc, MotionFormat::kNpz, options))));
+  EXPECT_NEAR(*early->front().made->start_s, 6, 1e-6);
+  EXPECT_EQ(early->front().clip.frames.size(), 16u);
+  options.trim = TimeSpan{0, 0.5};
+  EXPECT_THAT(testing::Refusal(ConvertClips(*ReadClips(trc), MotionFormat::kNpz, options)),
+              HasSubstr("ends at 0.5 s, but the whole body is seen only from 1.00 s on"));
 }
 
 TEST_F(ConvertTest, BvhToGlbIsInMetresAndComesBackAsTheSamePlaces) {

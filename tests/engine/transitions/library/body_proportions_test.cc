@@ -25,6 +25,19 @@ TEST(PerformedBy, GivesEveryClipTheCharactersLimbsAndHeight) {
   EXPECT_NEAR(performed.poses[0][Role::kLeftFoot].y, 0, 1e-12) << "set down on the floor";
 }
 
+TEST(MedianProportions, AreThoseOfTheBodyWhateverItsFirstFrameShows) {
+  BodyMotion waving = WavingClip(41);
+  const BodyPose good = waving.poses.front();
+  waving.poses.front()[Role::kLeftKnee].y += 0.06;
+  waving.poses.front()[Role::kRightElbow].x += 0.06;
+  const BodyProportions body = MedianProportions(waving.poses);
+  const BodyProportions wanted = MakeBodyProportions(good, StandingHipHeight(good));
+  EXPECT_NEAR(body.standing_hip_height, wanted.standing_hip_height, 1e-12);
+  for (std::size_t i = 0; i < kRoleCount; ++i) EXPECT_NEAR(body.limb_lengths[i], wanted.limb_lengths[i], 1e-12) << i;
+  const BodyProportions of_first = MakeBodyProportions(waving.poses[0], StandingHipHeight(waving.poses[0]));
+  EXPECT_GT(std::abs(of_first.standing_hip_height - wanted.standing_hip_height), 0.001) << "the control";
+}
+
 TEST(PerformedBy, SetsClipsOfOnePersonDownTogetherAndOthersByThemselves) {
   const BodyProportions character = MakeBodyProportions(StandingClip(1, 0).poses[0], 0.9);
   std::vector<BodyMotion> clips = {StandingClip(100, 0), StandingClip(20, 0), StandingClip(20, 0)};
