@@ -67,20 +67,34 @@ Result<std::string> NameIn(const Cell& cell, const std::string& file, int line, 
               kMaxNameBytes);
 }
 
+/// Splits a line of a CSV at its commas. A cell may be in quotes, as R and spreadsheets write every string.
+std::vector<Cell> CellsOfCsv(std::string_view line) {
+  std::vector<Cell> cells = CellsOf(line, ',');
+  for (Cell& cell : cells) {
+    if (cell.text.size() < 2 || !cell.text.starts_with('"') || !cell.text.ends_with('"')) continue;
+    cell.text = Trimmed(cell.text.substr(1, cell.text.size() - 2));
+  }
+  return cells;
+}
+
 constexpr std::array<std::string_view, 6> kHeadings = {"clip", "from_s", "to_s", "move", "truth", "person"};
 
-/// Finds the column of each heading.
+/// Finds the column of each heading. A first heading `""` is that of R's row names, which are left out.
 Result<std::array<std::optional<std::size_t>, kHeadings.size()>> FindHeadings(std::string_view line,
                                                                               const std::string& file, int number) {
   std::array<std::optional<std::size_t>, kHeadings.size()> found;
-  const std::vector<Cell> cells = CellsOf(line, ',');
+  const std::vector<Cell> cells = CellsOfCsv(line);
   for (std::size_t i = 0; i < cells.size(); ++i) {
+    if (i == 0 && Trimmed(line).starts_with("\"\",")) continue;
     const auto at = std::ranges::find(kHeadings, cells[i].text);
     if (at == kHeadings.end()) {
       const std::vector<std::string> known(kHeadings.begin(), kHeadings.end());
       return Fail({file, number, cells[i].column}, "{}", UnknownName("heading", cells[i].text, known));
     }
-    found[static_cast<std::size_t>(at - kHeadings.begin())] = i;
+    auto& column = found[static_cast<std::size_t>(at - kHeadings.begin())];
+    if (column)
+      return Fail({file, number, cells[i].column}, "the heading '{}' is given twice; allowed: each heading once", *at);
+    column = i;
   }
   for (std::size_t h = 0; h + 1 < kHeadings.size(); ++h) {
     if (!found[h])
@@ -98,7 +112,7 @@ Result<std::vector<Label>> ReadCsv(Lines lines, const std::string& file) {
   // Read one label from each row.
   while (const auto line = lines.Next()) {
     const int number = lines.number();
-    const std::vector<Cell> cells = CellsOf(*line, ',');
+    const std::vector<Cell> cells = CellsOfCsv(*line);
     const auto cell = [&](std::size_t heading_index) {
       const auto column = columns[heading_index];
       return column && *column < cells.size() ? cells[*column] : Cell{{}, static_cast<int>(line->size()) + 1};
@@ -116,7 +130,7 @@ Result<std::vector<Label>> ReadCsv(Lines lines, const std::string& file) {
     }
     // Read `from_s` and `to_s`. Either only the cell of `to_s` or both cells may be empty.
     for (const std::size_t i : {1, 2}) {
-      if (cell(i).text.empty()) continue;
+      if (cell(i).text.empty() || cell(i).text == "NA") continue;  // R writes NA for a missing number
       ASSIGN_OR_RETURN((i == 1 ? label.from_s : label.to_s), NumberIn(cell(i), file, number, kMaxTime_s));
     }
     if (label.to_s && !label.from_s)
@@ -210,9 +224,23 @@ Result<std::vector<Label>> ReadLabels(std::string_view text, const std::string& 
   return labels;
 }
 
-bool IsLabelOf(const Label& label, std::string_view recording) {
+bool NamesManyRecordings(const Label& label) { return IsTakeName(label.clip); }
+
+bool IsLabelOf(const Label& label, std::string_view recording, std::string_view source) {
   if (label.clip == recording) return true;
-  return IsTakeName(label.clip) && recording.find(label.clip) != std::string_view::npos;
+  if (NamesManyRecordings(label)) return recording.find(label.clip) != std::string_view::npos;
+  // Compare with the end of the path, with and without its extension.
+  const std::string_view last = std::string_view(label.clip).substr(label.clip.find_last_of("/\\") + 1);
+  if (source.find(last) == std::string_view::npos) return false;
+  std::string path(source), clip = label.clip;
+  std::ranges::replace(path, '\\', '/');
+  std::ranges::replace(clip, '\\', '/');
+  const auto ends_path = [&](std::string_view whole) {
+    return whole == clip || (whole.ends_with(clip) && whole[whole.size() - clip.size() - 1] == '/');
+  };
+  const std::size_t name = path.find_last_of('/') + 1, dot = path.find_last_of('.');
+  const bool has_extension = dot != std::string::npos && dot > name;
+  return ends_path(path) || (has_extension && ends_path(std::string_view(path).substr(0, dot)));
 }
 
 }  // namespace etude

@@ -11,7 +11,7 @@ namespace etude {
 
 /// An observer's statement about what was performed in a recording.
 struct Label {
-  std::string clip;  ///< the recording: its file's name without folder and extension
+  std::string clip;  ///< the recording: its file's name, or the end of its path, with or without extension
   /// The label's times, in seconds. If both times are given, the performance lasts from `from_s` to `to_s`. If only
   /// `from_s` is given, it is an action point: the moment at which observers can recognise the performance. If neither
   /// time is given, the whole recording is one performance.
@@ -31,19 +31,23 @@ constexpr double kActionPointTolerance = 0.333;
 
 /// Reads labels; the format is recognised by its content:
 ///
-///   Etude's CSV, one heading and one row per label; `person` may be missing; `truth` is `right` or the fault's name:
+///   Etude's CSV, one heading and one row per label; `person` may be missing; `truth` is `right` or the fault's name
+///   (cells may be in quotes, and R's column of row names is left out):
 ///     clip,from_s,to_s,move,truth,person
 ///     seq-1,0.5,3.1,arms-open,right,anna
 ///   MSRC-12's tag stream, `XQPCTick;Tag` and one row per tag: action points of the recording `clip`, by its own clock
 ///   UTKinect's actionLabel.txt: `s01_e01`, then `walk: 252 390` in frames at 30 Hz by the recording's own clock;
 ///     labels whose frames are NaN are left out; a label belongs to any recording whose name contains `s01_e01`
 ///
-/// Fails, with file, line and column, for unknown headings, times that are not numbers, performances that do not end
-/// after they begin, a file without labels, and more than 16 MiB.
+/// Fails, with file, line and column, for unknown headings, a heading that is given twice, times that are not numbers,
+/// performances that do not end after they begin, a file without labels, and more than 16 MiB.
 Result<std::vector<Label>> ReadLabels(std::string_view text, const std::string& file, std::string_view clip = "");
 
-/// Returns true if the label belongs to the recording with this name: the names are equal or, for UTKinect, the
-/// recording's name contains `label.clip`.
-bool IsLabelOf(const Label& label, std::string_view recording);
+/// Returns true if the label belongs to every recording that contains its name, as for UTKinect.
+bool NamesManyRecordings(const Label& label);
+
+/// Returns true if the label belongs to the recording with this name, which was read from the path `source`: its
+/// `clip` is the name, or the end of the path with or without extension; for UTKinect, the name contains `clip`.
+bool IsLabelOf(const Label& label, std::string_view recording, std::string_view source = "");
 
 }  // namespace etude

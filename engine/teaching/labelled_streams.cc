@@ -22,7 +22,7 @@ Result<std::vector<std::string>> NamedByLabels(const LabelledStreams& all) {
   std::vector<std::string> names(all.streams.size());
   for (const LabelledPart& part : all.parts) {
     std::string& name = names[part.stream];
-    if (!name.empty() && !part.person.empty() && name != part.person) {
+    if (!name.empty() && !part.person.empty() && ComparedName(name) != ComparedName(part.person)) {
       return Fail({all.file, part.line},
                   "{} shows the person {} by this label, but the person {} by an earlier label; allowed: one person "
                   "for each recording",
@@ -49,6 +49,41 @@ Result<void> RefuseTwice(const std::vector<LabelledPart>& parts, const std::stri
     }
   }
   return {};
+}
+
+/// Fails if one label belongs to two recordings, unless its format means that (`NamesManyRecordings`).
+Result<void> RefuseTwoRecordings(const std::vector<Label>& labels, const std::string& file,
+                                 const std::vector<NamedStream>& streams) {
+  const auto by_name = [](const NamedStream& stream) { return stream.source.empty() ? stream.name : stream.source; };
+  for (const Label& label : labels) {
+    const auto is_own = [&](const NamedStream& stream) { return IsLabelOf(label, stream.name, stream.source); };
+    const auto first = std::ranges::find_if(streams, is_own);
+    if (NamesManyRecordings(label) || first == streams.end()) continue;
+    const auto second = std::find_if(first + 1, streams.end(), is_own);
+    if (second == streams.end()) continue;
+    return Fail({file, label.line},
+                "the clip {} can be {} or {}; allowed: a clip that names one recording, also by the end of its path",
+                label.clip, by_name(*first), by_name(*second));
+  }
+  return {};
+}
+
+/// Returns true if authors of labels use this word for `right`, or if it seems to be a typing error for it.
+bool MayMeanRight(const std::string& truth) {
+  static const std::set<std::string> kWords = {"1", "correct", "good", "ok", "okay", "pass", "true", "y", "yes"};
+  const std::vector<std::string> right{"right"};
+  return kWords.contains(ComparedName(truth)) || !NearestName(truth, right).empty();
+}
+
+/// Describes the first two names that Etude compares as equal, because they are then one person; "" if none are.
+std::string DescribePeople(const std::vector<Label>& labels, const std::string& file) {
+  std::map<std::string, std::string> names;  // each name of a person, by its compared form
+  for (const Label& label : labels) {
+    const std::string& known = names.try_emplace(ComparedName(label.person), label.person).first->second;
+    if (known == label.person) continue;
+    return ToString(Error{{file, label.line}, fmt::format("Etude reads {} and {} as one person", known, label.person)});
+  }
+  return "";
 }
 
 /// Returns the first frame that shows a body, in which a performance can begin; 0 if none does.
@@ -94,7 +129,8 @@ std::string DoubtClock(const std::vector<Label>& labels, const std::string& file
   constexpr double kNoticeable = 0.1;
   double first = stream.start_s + static_cast<double>(stream.stream.frames.size()) / stream.stream.rate_hz;
   for (const Label& label : labels) {
-    if (label.from_s && !label.by_own_clock && IsLabelOf(label, stream.name)) first = std::min(first, *label.from_s);
+    if (label.from_s && !label.by_own_clock && IsLabelOf(label, stream.name, stream.source))
+      first = std::min(first, *label.from_s);
   }
   const double end = static_cast<double>(stream.stream.frames.size()) / stream.stream.rate_hz;
   if (stream.start_s < kNoticeable || first < stream.start_s || first >= end) return "";
@@ -119,13 +155,14 @@ std::string PersonInName(std::string_view name) {
 Result<std::vector<LabelledPart>> MatchLabels(const std::vector<Label>& labels, const std::string& file,
                                               const std::vector<NamedStream>& streams) {
   constexpr double kOutside = 0.5;
+  RETURN_IF_ERROR(RefuseTwoRecordings(labels, file, streams));
   std::vector<LabelledPart> parts;
   for (std::size_t s = 0; s < streams.size(); ++s) {
     const NamedStream& stream = streams[s];
     const auto count = static_cast<int>(stream.stream.frames.size());
     const double length = count / stream.stream.rate_hz;
     for (const Label& label : labels) {
-      if (!IsLabelOf(label, stream.name)) continue;
+      if (!IsLabelOf(label, stream.name, stream.source)) continue;
       const double shift = label.by_own_clock ? stream.start_s : 0;
       const double from = label.from_s ? *label.from_s - shift : 0, to = label.to_s ? *label.to_s - shift : length;
       if (from < -kOutside || from >= length || to <= 0 || to > length + kOutside) {
@@ -160,7 +197,8 @@ std::vector<std::string> DescribeLabels(const std::vector<Label>& labels, const 
   // Find the recordings without a label and the labels without a recording; count the values of `truth`.
   std::vector<std::string> bare;
   for (const NamedStream& stream : streams) {
-    if (std::ranges::none_of(labels, [&](const Label& label) { return IsLabelOf(label, stream.name); })) {
+    if (std::ranges::none_of(labels,
+                             [&](const Label& label) { return IsLabelOf(label, stream.name, stream.source); })) {
       bare.push_back(stream.name);
     }
   }
@@ -168,8 +206,8 @@ std::vector<std::string> DescribeLabels(const std::vector<Label>& labels, const 
   int right = 0;
   std::vector<const Label*> lost;
   for (const Label& label : labels) {
-    const bool is_given =
-        std::ranges::any_of(streams, [&](const NamedStream& stream) { return IsLabelOf(label, stream.name); });
+    const bool is_given = std::ranges::any_of(
+        streams, [&](const NamedStream& stream) { return IsLabelOf(label, stream.name, stream.source); });
     if (!is_given) lost.push_back(&label);
     if (is_given) ++(label.IsRight() ? right : faults[label.fault]);
   }
@@ -194,13 +232,12 @@ std::vector<std::string> DescribeLabels(const std::vector<Label>& labels, const 
     if (std::string doubt = DoubtClock(labels, file, stream); !doubt.empty()) lines.push_back(std::move(doubt));
   }
   std::ranges::move(DoubtMoves(labels, file), std::back_inserter(lines));
+  if (std::string people = DescribePeople(labels, file); !people.empty()) lines.push_back(std::move(people));
   if (!faults.empty()) {
     std::vector<std::string> truths{fmt::format("right {}", right)};
-    const std::vector<std::string> known{"right"};
     for (const auto& [fault, count] : faults) {
-      truths.push_back(
-          fmt::format("{} {}{}", fault, count,
-                      NearestName(fault, known).empty() ? "" : " (Etude reads this as a fault; did you mean right?)"));
+      truths.push_back(fmt::format("{} {}{}", fault, count,
+                                   MayMeanRight(fault) ? " (Etude reads this as a fault; did you mean right?)" : ""));
     }
     lines.push_back(fmt::format("{}: truth: {}", file, Join(truths)));
   }
@@ -248,12 +285,15 @@ Result<LabelledStreams> LabelStreams(std::vector<NamedStream> streams, const Lab
   // Assign a person to every stream.
   ASSIGN_OR_RETURN(const auto named, NamedByLabels(all));
   std::map<std::string, std::vector<std::size_t>> streams_of;
+  std::map<std::string, std::string> spellings;  // the first spelling of each person's name, by its compared form
   for (std::size_t s = 0; s < all.streams.size(); ++s) {
     NamedStream& stream = all.streams[s];
     if (!named[s].empty()) stream.person = named[s];
     if (stream.person.empty()) {
       stream.person = stream.name;
       if (all.nobody.empty()) all.nobody = stream.name;
+    } else {
+      stream.person = spellings.try_emplace(ComparedName(stream.person), stream.person).first->second;
     }
     streams_of[stream.person].push_back(s);
   }

@@ -42,8 +42,8 @@ struct LabelledPart {
 /// Finds the frames of `streams` to which the labels refer, sorted by stream and then by time. Labels of other
 /// recordings are left out. Fails, with the label's line, if a performance or an action point begins more than half
 /// a second before the recording or after its last frame, or if a performance ends before the recording or more than
-/// half a second after it. Also fails if two labels name one performance, and if no label belongs to any of the
-/// recordings.
+/// half a second after it. Also fails if two labels name one performance, if one label can belong to two recordings,
+/// and if no label belongs to any of the recordings.
 Result<std::vector<LabelledPart>> MatchLabels(const std::vector<Label>& labels, const std::string& file,
                                               const std::vector<NamedStream>& streams);
 
@@ -83,7 +83,7 @@ using LabelTexts = std::map<std::string, std::string>;
 /// Combines labels and recordings. Without any labels, each recording is one performance (WholeStreams); otherwise a
 /// recording without a label contains no move. The person of a recording is named by its labels, otherwise by its
 /// file's name; otherwise each recording counts as a person of its own. Fails if `ReadLabels` or `MatchLabels`
-/// fails, and if the labels of a recording name two people.
+/// fails, and if the labels of a recording name two people. Names of people are compared by `ComparedName`.
 Result<LabelledStreams> LabelStreams(std::vector<NamedStream> streams, const LabelTexts& labels);
 
 }  // namespace etude

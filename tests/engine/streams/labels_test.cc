@@ -40,6 +40,27 @@ TEST(Labels, ColumnsMayStandInAnyOrderWithoutPersonAmongRemarks) {
   EXPECT_EQ((*labels)[0].person, "");
 }
 
+TEST(Labels, RefusesAHeadingThatIsGivenTwice) {
+  EXPECT_EQ(testing::Refusal(ReadLabels("clip,from_s,to_s,move,truth,truth\na,1,2,m,right,half\n", "l")),
+            "l:1:29: the heading 'truth' is given twice; allowed: each heading once");
+}
+
+TEST(Labels, StringsMayBeInQuotesAsRWritesThem) {
+  const std::string text =
+      "\"\",\"clip\",\"from_s\",\"to_s\",\"move\",\"truth\",\"person\"\n"
+      "\"1\",\"seq 1\",0.5,3.1,\"wave\",\"right\",\"anna\"\n\"2\",\"b\",NA,NA,\"wave\",\"half\",\"\"\n";
+  ASSERT_OK(labels, ReadLabels(text, "l"));
+  ASSERT_EQ(labels->size(), 2u);
+  EXPECT_EQ((*labels)[0].clip, "seq 1");
+  EXPECT_EQ((*labels)[0].to_s, 3.1);
+  EXPECT_EQ((*labels)[0].person, "anna");
+  EXPECT_TRUE((*labels)[0].IsRight());
+  EXPECT_FALSE((*labels)[1].from_s);
+  EXPECT_EQ((*labels)[1].fault, "half");
+  EXPECT_EQ((*labels)[1].person, "");
+  EXPECT_FALSE(ReadLabels("\"clip\",from_s,to_s,move,truth\n\"a,b\",1,2,m,right\n", "l")) << "a comma in a name";
+}
+
 TEST(Labels, TicksOfATagStreamAreMicrosecondsOfTheRecording) {
   // From the data set's own load_tagstream: usec = (tick · 1000 + 49875/2) / 49875, which rounds.
   ASSERT_OK(labels, ReadLabels("XQPCTick;Tag\n2202252000;G1 lift outstretched arms\n", "p.tagstream", "p"));

@@ -91,6 +91,51 @@ TEST(MatchLabels, RefusesTwoLabelsOfOnePerformance) {
   EXPECT_TRUE(match("a,1,2,m,right\na,1,2,n,right\n")) << "another move may be performed at the same time";
 }
 
+TEST(MatchLabels, OneLabelBelongsToOneRecording) {
+  std::vector<NamedStream> streams = TwoStreams();
+  for (NamedStream& stream : streams) stream.name = "take1";
+  streams[0].source = "takes/anna/take1.csv";
+  streams[1].source = "takes/bo/take1.trc";
+  const auto match = [&](const std::string& clip) {
+    return MatchLabels(*ReadLabels("clip,from_s,to_s,move,truth\n" + clip + ",1,2,m,right\n", "l"), "l", streams);
+  };
+  EXPECT_EQ(testing::Refusal(match("take1")),
+            "l:2: the clip take1 can be takes/anna/take1.csv or takes/bo/take1.trc; allowed: a clip that names one "
+            "recording, also by the end of its path");
+  for (const char* clip : {"anna/take1", "anna\\take1.csv", "take1.csv", "takes/anna/take1"}) {
+    ASSERT_OK(parts, match(clip));
+    ASSERT_EQ(parts->size(), 1u) << clip;
+    EXPECT_EQ(parts->front().stream, 0u) << clip;
+  }
+  for (const char* clip : {"a/take1", "ake1.csv", "take1.bvh", "anna"}) EXPECT_FALSE(match(clip)) << clip;
+}
+
+TEST(LabelStreams, NamesOfOnePersonMayDifferInCaseAndBlanks) {
+  const std::string text = "clip,from_s,to_s,move,truth,person\na,1,2,m,right,Anna B\na,2,3,n,right,anna b\n";
+  ASSERT_OK(all, LabelStreams(TwoStreams(), {{"l", text + "b,1,2,m,right,AnnaB\n"}}));
+  ASSERT_EQ(all->people.size(), 1u);
+  EXPECT_EQ(all->people[0].name, "Anna B");
+  for (const LabelledPart& part : all->parts) EXPECT_EQ(part.person, "Anna B");
+  ASSERT_OK(two, LabelStreams(TwoStreams(), {{"l", text + "b,1,2,m,right,anne b\n"}}));
+  EXPECT_EQ(two->people.size(), 2u);
+  EXPECT_EQ(DescribeLabels(*ReadLabels(text, "l"), "l", {TwoStreams()[0]}),
+            std::vector<std::string>{"l:3: Etude reads Anna B and anna b as one person"});
+}
+
+TEST(DescribeLabels, AsksBackForWordsThatMayMeanRight) {
+  const auto line = [](const std::string& truth) {
+    const std::string rows = "a,0,1,m,right\nb,,,m," + truth + "\n";
+    return DescribeLabels(*ReadLabels("clip,from_s,to_s,move,truth\n" + rows, "l"), "l", TwoStreams()).back();
+  };
+  for (const char* truth : {"correct", "TRUE", "1", "ok", "Yes", "Right", "rihgt"}) {
+    EXPECT_EQ(line(truth),
+              fmt::format("l: truth: right 1, {} 1 (Etude reads this as a fault; did you mean right?)", truth));
+  }
+  for (const char* truth : {"half", "incorrect", "0", "no", "late"}) {
+    EXPECT_EQ(line(truth), fmt::format("l: truth: right 1, {} 1", truth));
+  }
+}
+
 TEST(DescribeLabels, TellsWhatLabelsAndRecordingsDoNotShare) {
   std::vector<NamedStream> streams = TwoStreams();
   streams[0].name = "ah_clap1";
