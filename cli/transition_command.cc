@@ -98,7 +98,7 @@ void DefineTransition(CLI::App& app, Action& action) {
   command->add_option("-o,--output", options->output, "The motion to write: .bvh, .glb, .trc, .csv, .c3d, .npz or .mot")
       ->required();
   // Define how the transition is chosen and made.
-  command->add_option("--wait", options->budget_s, "Longest time from the request until the second clip plays, in s")
+  command->add_option("--wait", options->budget_s, "Longest wait before the transition, in s; not for wait-for-end")
       ->check(NumberWithin(0, 3600, "time in s"));
   command
       ->add_option("--choice", options->choice,
