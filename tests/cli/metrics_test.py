@@ -40,6 +40,8 @@ for line in sys.stdin:
             answer = {"value": None}
         if manner == "text":
             answer = {"value": "much"}
+        if manner == "percent":
+            answer = {"value": 50}
         if manner == "falls" and problem["tracks"][0]["poses"]:
             sys.exit("about to fall")
         if manner == "looks":
@@ -64,7 +66,7 @@ for line in sys.stdin:
 
 VECTOR = "{cell: {tracks: [{name: solution, rate_hz: 30, frames: 1, joints_m: {hip_centre: [[0.25, 0, 0]]}}]}, "
 BAD = {"absent": "its program: hips hid", "silent": "null without a 'reason'", "text": '"much" is neither a number nor null',
-       "falls": "about to fall"}
+       "falls": "about to fall", "percent": "value: 50; allowed, because of the metric's key 'reads': 0 to 1"}
 
 
 # The mean distance of the joints of task evaluation, mm; its cells have the files' own joints, and no tracks of ours.
@@ -91,7 +93,7 @@ def vector(expected, more=""):
 
 # The metrics of most tests: good ones, one that looks around slowly, and bad ones.
 ALL = "  - iterations\n" + own("mine", more=", version: 3, unit: mm, practical: 2" + vector(250)) + own("looks", "looks") + \
-      "".join(own(name, name, vector("null") if name == "absent" else "") for name in BAD) + \
+      "".join(own(name, name, {"absent": vector("null"), "percent": ", reads: share"}.get(name, "")) for name in BAD) + \
       "expect: [{metric: mine, of: a, at_most: -1e9}]\ngate: {metrics: [mine]}\n"
 
 

@@ -55,7 +55,7 @@ TEST(Scenario, ReadsLimitsAndWhatTheGateHoldsAgainstABaseline) {
   EXPECT_EQ(plain.gate.tail.worlds, TailRule{}.worlds);
   const Scenario scenario = ParseOne(kHead + kMethods +
                                      "limits: {time_s: 1.5, memory_mb: 100}\n"
-                                     "gate: {metrics: [position_error_cm], rule: exact,\n"
+                                     "gate: {metrics: [position_error_cm], rule: threshold,\n"
                                      "       time_ratios: [{of: b, over: a, at_most: 1.2}, {of: a, over: b}],\n"
                                      "       tail: {times: 7.5, worlds: 2, share: 0.1, lost: 0}}\n");
   EXPECT_EQ(scenario.gate.tail.times, 7.5);
@@ -65,7 +65,8 @@ TEST(Scenario, ReadsLimitsAndWhatTheGateHoldsAgainstABaseline) {
   EXPECT_EQ(scenario.limits.time_s, 1.5);
   EXPECT_EQ(scenario.limits.memory_mb, 100);
   EXPECT_THAT(scenario.gate.metrics, ElementsAre("position_error_cm"));
-  EXPECT_TRUE(scenario.gate.exact);
+  EXPECT_FALSE(scenario.gate.exact);
+  EXPECT_TRUE(ParseOne(kHead + kMethods + "gate: {rule: exact}\n").gate.exact);
   ASSERT_EQ(scenario.gate.time_ratios.size(), 2u);
   EXPECT_EQ(scenario.gate.time_ratios[0].of, "b");
   EXPECT_EQ(scenario.gate.time_ratios[0].over, "a");
