@@ -88,10 +88,14 @@ void CheckExpectation(Fields& fields, Expectation& expectation) {
                                                    claims));
     return;
   }
+  // A key without effect may only have its default.
+  const Expectation defaults;
   const bool is_bound = expectation.at_most || expectation.at_least;
+  const bool is_default =
+      is_bound ? expectation.confidence == defaults.confidence : expectation.statistic == defaults.statistic;
   const char* without_effect = is_bound ? "confidence" : "statistic";
   const Node* given = fields.Raw(without_effect);
-  if (given == nullptr) return;
+  if (given == nullptr || is_default) return;
   fields.Complain(given->place, fmt::format("'{}' has no effect here; allowed: only with {}", without_effect,
                                             is_bound ? "below or above" : "at_most or at_least"));
 }

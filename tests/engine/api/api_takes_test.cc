@@ -88,8 +88,7 @@ Motion Swaying(int frames, double far) {
 TEST(ApiTransitions, ShowsWhatTheEngineShowsToTheLastBit) {
   const std::vector<Motion> clips = {Swaying(90, 0.05), Swaying(80, 0.08)};
   const TransitionLibrary library(clips);
-  const BodyPose& first = clips.front().poses.front();
-  const MotionLibrary wanted = MakeLibrary({"a", "b"}, clips, MakeBodyProportions(first, StandingHipHeight(first)));
+  const MotionLibrary wanted = MakeLibrary({"a", "b"}, clips, MedianProportions(clips.front().poses));
   for (const std::string& choice : TransitionChoices()) {
     for (const std::string join : {"cut", "planted-feet"}) {
       const Transition made = library.Make(0, 20, 1, 1, {.choice = choice, .join = join});
