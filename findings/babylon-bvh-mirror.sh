@@ -1,10 +1,11 @@
 #!/usr/bin/env bash
 # Babylon.js 9.28.0 shows a BVH file as in a mirror: the performer's left hand is the right one.
 #
-# The world of a BVH file is right-handed with Y up (University of Wisconsin, CS 838, 1999), a Babylon scene is left-handed
-# by default. Its glTF loader converts: it puts a mirrored root above the model. Its BVH loader copies all numbers. A
-# person who faces the camera then has the left hand on the left of the picture, and a turn to the left goes to the right,
-# as in a mirror; nothing in a skeleton shows that. With useRightHandedSystem both loaders are right. Neither warns.
+# The world of a BVH file is right-handed with Y up (University of Wisconsin, CS 838, 1999), a Babylon scene is
+# left-handed by default. Its glTF loader converts: it puts a mirrored root above the model. Its BVH loader copies all
+# numbers. A person who faces the camera then has the left hand on the left of the picture, and a turn to the left goes
+# to the right, as in a mirror; a symmetric skeleton does not show that. With useRightHandedSystem both loaders are
+# right. Neither warns.
 #
 # Needs: npm and node (18 or later). Downloads 15 MB, writes to a temporary folder only.
 set -euo pipefail
@@ -24,7 +25,7 @@ import '@babylonjs/loaders/BVH/bvhFileLoader.js';
 import '@babylonjs/loaders/glTF/2.0/glTFLoader.js';
 import '@babylonjs/loaders/glTF/glTFFileLoader.js';
 
-Logger.LogLevels = 0;
+Logger.LogLevels = Logger.WarningLogLevel | Logger.ErrorLogLevel;
 globalThis.XMLHttpRequest ??= class {};  // what Babylon.js expects of a browser
 
 // A person who looks along Z, with the toe before the hips and the left hand on the side of X.
@@ -79,7 +80,8 @@ for (const useRightHandedSystem of [false, true]) {
     const viewport = camera.viewport.toGlobal(engine.getRenderWidth(), engine.getRenderHeight());
     const { x } = Vector3.Project(place('leftHand'), Matrix.Identity(), scene.getTransformMatrix(), viewport);
     const side = x > engine.getRenderWidth() / 2 ? 'right' : 'left';
-    console.log(`${useRightHandedSystem ? 'right-handed' : 'left-handed, the default'}, ${format}: the left hand of a person who faces the camera is on the ${side} of the picture`);
+    const system = useRightHandedSystem ? 'right-handed' : 'left-handed, the default';
+    console.log(`${system}, ${format}: the left hand of a person who faces the camera is on the ${side} of the picture`);
   }
 }
 CODE

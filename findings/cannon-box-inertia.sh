@@ -1,12 +1,12 @@
 #!/usr/bin/env bash
-# cannon-es 0.20.0 gives every body the inertia of a box: of the box that encloses the body, along the world's axes, at the
-# moment when its shape is added.
+# cannon-es 0.20.0 gives every body the inertia of a box: of the box that encloses the body, along the world's axes, at
+# the moment when its shape is added.
 #
 # Body.updateMassProperties computes the box and its inertia; each shape's own calculateLocalInertia, which is right for
 # spheres and boxes, is not asked. A ball has 5/3 of its inertia, so it needs 5/3 of the torque. A box that is turned
-# before its shape is added keeps the inertia of the larger box around it: a forearm of 1 m by 10 cm that was created at 45
-# degrees needs 31 times its torque to turn about its own long axis. The same forearm, turned after its shape was added, is
-# right. The documentation of Body.inertia names none of this.
+# before its shape is added keeps the inertia of the larger box around it: a forearm of 1 m by 10 cm that was created at
+# 45 degrees needs 31 times its torque to turn about its own long axis. The same forearm, turned after its shape was
+# added, is right. Only a comment in the source mentions the box.
 #
 # Needs: npm and node (18 or later). Downloads 0.2 MB, writes to a temporary folder only.
 set -euo pipefail

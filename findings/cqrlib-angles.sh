@@ -1,12 +1,12 @@
 #!/usr/bin/env bash
-# CQRlib 1.1.4's angles of a quaternion depend on what the variables for the result held before; half of the time they are
-# the angles of another rotation.
+# CQRlib 1.1.4's angles of a quaternion depend on what the variables for the result held before; half of the time they
+# are the angles of another rotation.
 #
 # CQRQuaternion2Angles computes two triples of angles and returns the one that is nearer to the old content of its three
-# output variables; the manual does not say so. The first triple x, y, z is right. The second should be x + 180, 180 - y,
-# z + 180 for the convention Rz Ry Rx that the manual names, but is x + 180, y + 180, z + 180: the rotation with the
-# opposite turn about Y. A program that leaves the variables unset, as one may with a result, gets either. If it sets them
-# to zero, 28 % of all rotations are wrong. CQRAngles2Quaternion, the inverse, is right.
+# output variables; the manual does not say so. The first triple x, y, z is right. The second should be x + 180, 180 -
+# y, z + 180 for the convention Rz Ry Rx that the manual names, but is x + 180, y + 180, z + 180: the rotation with the
+# opposite turn about Y. A program that leaves the variables unset, as one may with a result, gets either. If it sets
+# them to zero, 28 % of all rotations are wrong. CQRAngles2Quaternion, the inverse, is right.
 #
 # Needs: curl, dpkg-deb and gcc, x86-64. Downloads 0.1 MB, writes to a temporary folder only.
 set -euo pipefail

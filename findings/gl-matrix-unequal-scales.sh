@@ -3,10 +3,10 @@
 #
 # mat4.decompose "decomposes a transformation matrix into its rotation, translation and scale components", which
 # fromRotationTranslationScale composes. To remove the scales, decompose and getRotation divide the three numbers of one
-# axis by three different scales, instead of dividing all three by the scale of this axis. With equal scales this makes no
-# difference. With scales 1, 1, 2 a turn of 30 degrees about X becomes one of 37, and about another axis the axis changes,
-# too; the quaternion's length is no longer 1. Translation and scales are right. A bone that is stretched along its length
-# is such a matrix. three.js r187's Matrix4.decompose is right.
+# axis by three different scales, instead of dividing all three by the scale of this axis. With equal scales this makes
+# no difference. With scales 1, 1, 2 a turn of 30 degrees about X becomes one of 37, and about another axis the axis
+# changes, too; the quaternion's length is no longer 1. Translation and scales are right. A bone that is stretched along
+# its length is such a matrix. three.js r187's Matrix4.decompose is right.
 #
 # Needs: npm and node (18 or later). Downloads 6 MB, writes to a temporary folder only.
 set -euo pipefail
@@ -33,7 +33,8 @@ for (const [scales, axis, degrees] of [[[2, 2, 2], [1, 0, 0], 30], [[1, 1, 2], [
   new Matrix4().fromArray(matrix).decompose(new Vector3(), other, new Vector3());
   const same = quat.exactEquals(rotation, mat4.getRotation(quat.create(), matrix)) ? 'getRotation agrees' : 'getRotation differs';
   console.log(`scales ${scales}, turn ${show(turn)}`);
-  console.log(`  gl-matrix: scales ${Array.from(found, (x) => +x.toFixed(4))}, turn ${show(rotation)}, of length ${quat.length(rotation).toFixed(2)}; ${same}`);
+  const length = quat.length(rotation).toFixed(2);
+  console.log(`  gl-matrix: scales ${Array.from(found, (x) => +x.toFixed(4))}, turn ${show(rotation)}, of length ${length}; ${same}`);
   console.log(`  three.js:  turn ${show(other.toArray())}`);
 }
 CODE

@@ -1,10 +1,11 @@
 #!/usr/bin/env bash
 # music-tempo 1.0.3 takes every piece of music for one of 44100 samples a second: at 48000, 120 beats a minute are 110.
 #
-# The result has "beat times in seconds" (its README), but no argument holds the sample rate, and README and documentation
-# do not say which one is meant. A time is the number of steps of 441 samples, times the argument timeStep, 0.01 by
-# default. A browser's decodeAudioData, which README uses, returns the rate of the sound card, often 48000. Then all beats
-# are 9 % late: after a minute by more than five seconds. With timeStep 441 / 48000 times and tempo are right.
+# The result has "beat times in seconds" (its README), but no argument holds the sample rate, and README and
+# documentation do not say which one is meant. A time is the number of steps of 441 samples, times the argument
+# timeStep, 0.01 by default. A browser's decodeAudioData, which README uses, returns the rate of the sound card, often
+# 48000. Then all beats are 9 % late: after a minute by more than five seconds. With timeStep 441 / 48000 times and
+# tempo are right.
 #
 # Needs: npm and node (18 or later). Downloads 2 MB, writes to a temporary folder only.
 set -euo pipefail

@@ -1,11 +1,12 @@
 #!/usr/bin/env bash
-# three.js r187 moves only one of two USD joints whose paths end in the same word, and gives it a mixture of both motions.
+# three.js r187 moves only one of two USD joints whose paths end in the same word, and gives it a mixture of both
+# motions.
 #
-# A joint of a USD skeleton is named by its path, as hips/left/arm and hips/right/arm (OpenUSD, "UsdSkel Schemas
-# In-Depth", Skeleton): the path must be unique, its last word need not be. USDLoader keeps the last word, so both bones
-# and both tracks are called "arm". The mixer applies both tracks to the first such bone, and blends them; the second
-# stays at rest. The clip has the right number of tracks with the right values. With other last words the same skeleton
-# moves correctly. There is no warning.
+# A joint of a USD skeleton is named by its path, as hips/left/arm and hips/right/arm (OpenUSD,
+# UsdSkelSkeleton::GetJointsAttr): the path must be unique, its last word need not be. USDLoader keeps the last word, so
+# both bones and both tracks are called "arm". The mixer applies both tracks to the first such bone, and blends them;
+# the second stays at rest. The clip has the right number of tracks with the right values. With other last words the
+# same skeleton moves correctly. There is no warning.
 #
 # Needs: npm and node (18 or later). Downloads 5 MB, writes to a temporary folder only.
 set -euo pipefail

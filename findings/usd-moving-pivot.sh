@@ -3,10 +3,10 @@
 #
 # The transformation of a USD object is the product of all operations in its xformOpOrder (OpenUSD, UsdGeomXformable). A
 # turn about a point p is translate:pivot p, a rotation, and the inverse of translate:pivot. USDLoader multiplies all
-# operations at rest. But it makes a track of each operation that moves, and the track replaces the position, rotation or
-# scale of the product: the track of the rotation leaves the position as it was, and the track of a translation replaces
-# all other translations. A door turns about its middle instead of its hinge, and a moving translate cancels the pivot's
-# part of the position. There is no warning.
+# operations at rest. But it makes a track of each operation that moves, and the track replaces the position, rotation
+# or scale of the product: the track of the rotation leaves the position as it was, and the track of a translation
+# replaces all other translations. A door turns about its middle instead of its hinge, and a moving translate cancels
+# the pivot's part of the position. There is no warning.
 #
 # Needs: npm and node (18 or later). Downloads 5 MB, writes to a temporary folder only.
 set -euo pipefail
@@ -62,7 +62,8 @@ function read(text) {  // after a second if the file has a motion
   }
   root.updateMatrixWorld(true);
   const place = (name) => new Vector3().setFromMatrixPosition(root.getObjectByName(name).matrixWorld);
-  return ['hinge', 'edge'].map((name) => `${name} at ${place(name).toArray().map((x) => (Math.round(x * 100) / 100 + 0).toFixed(2)).join(' ')}`).join(', ');
+  const show = (point) => point.toArray().map((x) => (Math.round(x * 100) / 100 + 0).toFixed(2)).join(' ');
+  return ['hinge', 'edge'].map((name) => `${name} at ${show(place(name))}`).join(', ');
 }
 
 const still = (value) => ` = ${value}`, moving = (value) => `.timeSamples = {\n            0: (0, 0, 0),\n            10: ${value},\n        }`;

@@ -1,11 +1,11 @@
 #!/usr/bin/env bash
-# three.js r187 reads a USD joint's rotation if it is called rotateXYZ, and drops the other five orders: the joint stands
-# at rest.
+# three.js r187 reads the three angles of a USD object if the file calls them rotateXYZ, and drops the other five orders:
+# the object is not turned.
 #
 # USD has six operations for three angles, rotateXYZ to rotateZYX, named after the order in which the axes apply, and
-# three for one angle, rotateX, rotateY and rotateZ (OpenUSD, UsdGeomXformOp::Type). Animators choose the order for
-# each joint. USDLoader knows rotateXYZ and, at rest, the three single axes. A rotateZYX is dropped, with or without a
-# motion, and so is every motion of a single axis, which a hinge has. The clip is then missing or shorter. There is no
+# three for one angle, rotateX, rotateY and rotateZ (OpenUSD, UsdGeomXformOp::Type). Animators choose the order for each
+# object. USDLoader knows rotateXYZ and, at rest, the three single axes. A rotateZYX is dropped, with or without a
+# motion, and so is every motion of a single axis, which a hinge has. The clip is then missing. There is no
 # warning. Translations and rotateXYZ of the same file are right.
 #
 # Needs: npm and node (18 or later). Downloads 5 MB, writes to a temporary folder only.
