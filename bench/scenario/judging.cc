@@ -88,7 +88,7 @@ void CheckExpectation(Fields& fields, Expectation& expectation) {
                                                    claims));
     return;
   }
-  // A key without effect may only have its default.
+  // A key that has no effect here is refused, unless it has its default value.
   const Expectation defaults;
   const bool is_bound = expectation.at_most || expectation.at_least;
   const bool is_default =

@@ -217,7 +217,8 @@ TEST(GuessSession, FindsHowAllFilmsAreTurned) {
   }
 }
 
-// The pictures of who leans, turned by 90°, show somebody upside down. This is no evidence of 180° if 90° fit exactly.
+// If a person leans, pictures turned by 90° can show the shoulders below the ankles. This must not count as evidence of
+// a turn by 180°, because 90° fits exactly.
 TEST(GuessSession, FindsTheTurnOfAPersonWhoLeans) {
   for (const double lean : {-0.25, 0.25}) {
     const auto truth = FilmedWalker(2, 0, lean);
