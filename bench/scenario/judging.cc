@@ -73,6 +73,18 @@ Field<Options> KnownName(const std::string& key, std::string Options::*member, s
           [=](Fields& fields, Options& options) { options.*member = fields.Choice(key, known, options.*member); }};
 }
 
+/// Refuses a bound that a share or score can never reach, such as 90 for 90 %.
+void CheckBound(Fields& fields, const Expectation& expectation) {
+  const MetricInfo* metric = FindMetric(expectation.metric);
+  if (metric == nullptr || metric->reading == Reading::kAmount) return;
+  const char* key = expectation.at_most ? "at_most" : "at_least";
+  const double bound = expectation.at_most ? *expectation.at_most : *expectation.at_least;
+  if (bound >= 0 && bound <= 1) return;
+  fields.Complain(fields.Raw(key)->place,
+                  fmt::format("'{}': {} is out of range; allowed for the metric '{}': 0 to 1 (0.9 is 90 %)", key, bound,
+                              expectation.metric));
+}
+
 void CheckExpectation(Fields& fields, Expectation& expectation) {
   expectation.place = fields.node().place;
   if (expectation.below == expectation.of || expectation.above == expectation.of) {
@@ -91,6 +103,7 @@ void CheckExpectation(Fields& fields, Expectation& expectation) {
   // A key that has no effect here is refused, unless it has its default value.
   const Expectation defaults;
   const bool is_bound = expectation.at_most || expectation.at_least;
+  if (is_bound) CheckBound(fields, expectation);
   const bool is_default =
       is_bound ? expectation.confidence == defaults.confidence : expectation.statistic == defaults.statistic;
   const char* without_effect = is_bound ? "confidence" : "statistic";
@@ -213,7 +226,7 @@ FieldTable<TailRule> TailFields() {
                        "many worlds, rounding alone makes some worlds far worse."),
            Key::Number("lost", &TailRule::lost, kWorlds,
                        "A comparison in which at least this number of worlds lost their value or answer is a "
-                       "regression. 0 turns this rule off.")}};
+                       "regression. 0 turns this rule off; lost worlds still count as far worse worlds.")}};
 }
 
 FieldTable<GateRules> GateFields(const Scenario& scenario, const std::vector<std::string>& metrics) {

@@ -147,7 +147,8 @@ const FieldTable<OutsideMetric>& OutsideMetricFields() {
     // Add the keys about the metric.
     Append<OutsideMetric>(
         {Key::Text("unit", info(&MetricInfo::unit), "a text", "Unit of the metric's values, such as `mm` or `deg`.")
-             .WhenAbsent("(none)"),
+             .WhenAbsent("(none)")
+             .With("reads", {"amount"}),
          Key::Name("direction", info(&MetricInfo::direction),
                    {{"lower", Direction::kLowerIsBetter},
                     {"higher", Direction::kHigherIsBetter},
@@ -166,11 +167,10 @@ const FieldTable<OutsideMetric>& OutsideMetricFields() {
                     {"score", Reading::kScore}},
                    "The kind of value. Values of all kinds except `amount` must lie between 0 and 1; reports show them "
                    "in per cent."),
-         {{"practical", NumberKind({1e-12, 1e12}), "(1; without a unit, or if `reads` is not `amount`, 0.01)",
+         {{"practical", NumberKind({1e-12, 1e12}), "(1; without a unit, 0.01)",
            "The smallest difference that matters."},
           [](Fields& metric, OutsideMetric& own) {
-            const bool is_share = own.info.unit.empty() || own.info.reading != Reading::kAmount;
-            own.info.practical = metric.Number("practical", is_share ? 0.01 : 1, {1e-12, 1e12});
+            own.info.practical = metric.Number("practical", own.info.unit.empty() ? 0.01 : 1, {1e-12, 1e12});
           }},
          Key::Text("label", info(&MetricInfo::label), "a text", "The metric's name in reports.").WhenAbsent("(`name`)"),
          Key::Text("definition", info(&MetricInfo::definition), "a text",

@@ -213,6 +213,10 @@ const FieldTable<Scenario>& ScenarioFields() {
         when_right([](Fields& fields, Scenario& s, const TaskKind&) {
           std::vector<std::string> swept;
           for (const SweptValue& value : s.conditions.front().swept) swept.push_back(value.key);
+          const Node* across = fields.Raw("across");
+          if (across != nullptr && swept.empty()) {
+            fields.Complain(across->place, "'across' names swept parameters, but this scenario has no sweep");
+          }
           s.across = ReadNames(fields, "across", swept);
         })},
        {{"rival", TextKind("a method"), "(the run finds the best method)",

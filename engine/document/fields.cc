@@ -1,7 +1,9 @@
 #include "engine/document/fields.h"
 
 #include <algorithm>
+#include <charconv>
 #include <cmath>
+#include <cstdint>
 
 #include "engine/base/names.h"
 #include "engine/base/text.h"
@@ -24,6 +26,17 @@ Result<double> NumberIn(const Node& node, Range range) {
     return Fail(node.place, "{} is out of range; allowed: {}", node.scalar, Allowed(range));
   }
   return value;
+}
+
+/// The largest number up to which a double holds every whole number.
+constexpr double kMaxExact = 0x1p53;
+
+/// Returns true if a text is a whole number that `number`, the double nearest to it, does not hold exactly.
+bool IsRounded(const std::string& text, double number) {
+  std::uint64_t whole = 0;
+  const char* end = text.data() + text.size();
+  const auto read = std::from_chars(text.data(), end, whole);
+  return read.ec == std::errc() && read.ptr == end && number < 0x1p63 && static_cast<std::uint64_t>(number) != whole;
 }
 
 }  // namespace
@@ -78,8 +91,15 @@ std::optional<double> Fields::OptionalNumber(std::string_view key, Range range) 
 
 std::optional<double> Fields::OptionalWhole(std::string_view key, Range range) {
   const std::optional<double> number = OptionalNumber(key, range);
-  if (!number || *number == std::floor(*number)) return number;
-  Complain(node_.Find(key)->place, fmt::format("'{}' must be a whole number, found {}", key, *number));
+  if (!number) return number;
+  const Node& node = *node_.Find(key);
+  if (IsRounded(node.scalar, *number)) {
+    range.highest = std::min(range.highest, kMaxExact);
+    Complain(node.place, fmt::format("'{}': {} is out of range; allowed: {}", key, node.scalar, Allowed(range)));
+    return std::nullopt;
+  }
+  if (*number == std::floor(*number)) return number;
+  Complain(node.place, fmt::format("'{}' must be a whole number, found {}", key, *number));
   return std::nullopt;
 }
 

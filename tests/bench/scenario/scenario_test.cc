@@ -75,6 +75,39 @@ TEST(Scenario, ReadsLimitsAndWhatTheGateHoldsAgainstABaseline) {
   EXPECT_EQ(ToString(scenario.gate.time_ratios[0].place), "s.yaml:7:22");
 }
 
+TEST(Scenario, RefusesBoundsThatAShareCannotReach) {
+  const auto bounded = [](const std::string& metric, const std::string& bound) {
+    return Complaint(kHead + kMethods + "expect: [{metric: " + metric + ", of: b, statistic: mean, " + bound + "}]\n");
+  };
+  for (const char* bound : {"at_least: 90", "at_most: 90", "at_most: -1", "at_least: -1"}) {
+    EXPECT_THAT(bounded("solved_practical", bound), HasSubstr("allowed for the metric 'solved_practical': 0 to 1"));
+    EXPECT_EQ(bounded("iterations", bound), "");
+  }
+  EXPECT_EQ(bounded("solved_practical", "at_most: 0"), "");
+  EXPECT_EQ(bounded("solved_practical", "at_least: 1"), "");
+}
+
+TEST(Scenario, RefusesAssumptionsThatAreNotSwept) {
+  EXPECT_THAT(Complaint(kHead + kMethods + "across: [joint_noise_deg]\n"), HasSubstr("this scenario has no sweep"));
+}
+
+TEST(Scenario, RefusesAUnitBesideAShare) {
+  const auto own = [](const std::string& keys) {
+    return Complaint(kHead + kMethods + "metrics: [{name: with_a_unit, exec: [./m], " + keys + "}]\n");
+  };
+  EXPECT_THAT(own("reads: share, unit: pp"), HasSubstr("'unit'; this key is allowed with reads: amount"));
+  EXPECT_EQ(own("reads: amount, unit: mm"), "");
+}
+
+TEST(Scenario, RefusesASeedThatADoubleDoesNotHold) {
+  const auto seeded = [](const std::string& seed) { return Complaint(kHead + kMethods + "seed: " + seed + "\n"); };
+  EXPECT_EQ(seeded("9007199254740992"), "");
+  EXPECT_EQ(seeded("0010"), "");
+  for (const char* seed : {"9007199254740993", "9007199254740994"}) {
+    EXPECT_THAT(seeded(seed), HasSubstr(std::string(seed) + " is out of range; allowed: 0 to 9007199254740992"));
+  }
+}
+
 TEST(Scenario, NamesWhatSuccessIsOrTakesTheTasks) {
   const Scenario plain = ParseOne(kHead + kMethods);
   EXPECT_EQ(plain.success, "solved_practical");
