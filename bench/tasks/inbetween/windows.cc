@@ -40,12 +40,17 @@ void ForEachWindow(std::size_t frames, int window, int offset, const Visit& visi
   }
 }
 
-/// Returns true if two references name the same motion, even by different paths.
-bool IsSame(const std::string& one, const std::string& other) {
+/// Returns a text that two references share if they name the same motion, even by different paths or in copies of a
+/// file.
+std::string IdentityOf(const std::string& reference) {
+  const SplitReference split = Split(reference);
+  const std::string animation = '#' + split.animation.value_or("");
+  // The motion of a .gltf file is in another file, so two such files with the same bytes may hold different motions.
+  const auto digest = DigestOfFile(reference, {});
+  if (digest && !split.path.ends_with(".gltf")) return *digest + animation;
   std::error_code none;
-  const SplitReference a = Split(one), b = Split(other);
-  if (one == other) return true;
-  return a.animation == b.animation && std::filesystem::equivalent(FileOf(a.path), FileOf(b.path), none);
+  const auto path = std::filesystem::canonical(FileOf(split.path), none);
+  return (none ? split.path : path.string()) + animation;
 }
 
 }  // namespace
@@ -75,18 +80,21 @@ Result<FoundFiles> FindWindows(const Node& condition, std::span<const Node> meth
   ASSIGN_OR_RETURN(const auto training, ExpandFiles(options.training, Links::kAllowed, training_place));
   // List the windows.
   FoundFiles found;
-  std::map<std::string, std::string> named;
+  std::map<std::string, std::string> named, trained, judged;
+  for (const std::string& file : training) trained.emplace(IdentityOf(file), file);
   for (const std::string& file : files) {
     const std::string name = NameOfReference(file);
     const auto [known, is_new] = named.emplace(name, file);
     if (!is_new)
       return Fail(place, "'{}' and '{}' have the same name; the files of 'truth' need different names", known->second,
                   file);
-    for (const std::string& other : training) {
-      if (IsSame(file, other))
-        return Fail(training_place, "'{}' is in 'truth' and in 'training'; allowed: only in one of the two lists",
-                    other);
+    const std::string identity = IdentityOf(file);
+    if (const auto other = trained.find(identity); other != trained.end()) {
+      return Fail(training_place, "'{}' is in 'truth' and in 'training'{}; allowed: only in one of the two lists",
+                  other->second, other->second == file ? "" : " (in 'truth' as '" + file + "')");
     }
+    if (const auto [first, is_first] = judged.emplace(identity, file); !is_first)
+      return Fail(place, "'{}' and '{}' are the same motion; 'truth' needs different motions", first->second, file);
     const auto clip = ReadOneClip(file, {});
     if (!clip) {
       found.left_out.emplace_back(file, ToString(clip.error()));

@@ -46,6 +46,27 @@ class TransitionTask final : public Task {
   mutable LearntWeights learnt_;
 };
 
+/// Refuses keys of the condition that cannot have an effect with these clips and methods.
+void CheckEffects(TaskInput& input, const TransitionCondition& condition, std::span<const TransitionMethod> methods) {
+  const Node* min_clips = input.condition.Raw("min_clips");
+  const std::size_t clips = input.clips.clips.size();
+  if (min_clips != nullptr && clips > 0 && static_cast<std::size_t>(condition.stage.min_clips) > clips) {
+    input.condition.Complain(min_clips->place,
+                             fmt::format("'min_clips' is {}, but there are only {} clips, so no frame "
+                                         "can be a bridge frame",
+                                         condition.stage.min_clips, clips));
+  }
+  const Node* threshold = input.condition.Raw("threshold");
+  bool is_read = false;
+  for (std::size_t m = 0; m < methods.size(); ++m) {
+    is_read |= methods[m].way.choice->uses_fuzzy && input.methods[m].Find("threshold") == nullptr;
+  }
+  if (threshold != nullptr && !is_read && !methods.empty()) {
+    input.condition.Complain(threshold->place,
+                             "'threshold' has no effect here, because no method takes its threshold from the scenario");
+  }
+}
+
 Result<std::unique_ptr<Task>> MakeTransitionTask(TaskInput& input) {
   TransitionCondition condition;
   TransitionConditionFields().Read(input.condition, condition);
@@ -54,6 +75,8 @@ Result<std::unique_ptr<Task>> MakeTransitionTask(TaskInput& input) {
   start.way.rules.threshold = condition.threshold;
   start.wait_s = condition.wait_s;
   ASSIGN_OR_RETURN(auto methods, ReadMethods(input, "transition", TransitionMethodFields(), start));
+  CheckEffects(input, condition, methods);
+  if (!input.condition.ok()) return tl::unexpected(input.condition.Finish().error());
   Stage stage = SetStage(input.clips, condition.stage);
   ASSIGN_OR_RETURN(auto training,
                    GatherTrainingClips(stage.library.motions, stage.identities, stage.library.proportions));

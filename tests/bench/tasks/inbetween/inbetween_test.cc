@@ -1,11 +1,14 @@
 #include <gmock/gmock.h>
 
+#include <filesystem>
 #include <nlohmann/json.hpp>
 
 #include "bench/tasks/base/task_kinds.h"
 #include "bench/tasks/inbetween/windows.h"
 #include "engine/document/node.h"
 #include "io/clips/clip_library.h"
+#include "io/clips/references.h"
+#include "io/files/temporary_folder.h"
 #include "tests/support/kept_answers.h"
 #include "tests/support/results.h"
 
@@ -198,6 +201,18 @@ TEST(Inbetween, TellsAProgramTheEndsAndNoMore) {
               HasSubstr("frames[2][7…10]: a quaternion of length 1.41"));
   EXPECT_THAT(complaint([](Json& frames) { frames[2].erase(0); }), HasSubstr("frames[2]"));
   EXPECT_THAT(complaint([](Json& frames) { frames[4][0] = 1e9; }), HasSubstr("frames[4]"));
+}
+
+TEST(Inbetween, KnowsCopiesOfAFile) {
+  const TemporaryFolder folder = *TemporaryFolder::Make("inbetween-test");
+  const std::string original = FileOf("assimp:01_03"), copy = (folder.path() / "copy.bvh").string();
+  std::filesystem::copy_file(original, copy);
+  const auto refusal = [](const std::string& truth, const std::string& training) {
+    return testing::Refusal(StudyOf("truth: [" + truth + "], training: [" + training + "]", "interpolation"));
+  };
+  EXPECT_THAT(refusal("assimp:01_03", copy),
+              HasSubstr("'" + copy + "' is in 'truth' and in 'training' (in 'truth' as 'assimp:01_03')"));
+  EXPECT_THAT(refusal("assimp:01_03, " + copy, "assimp:01_01"), HasSubstr("are the same motion"));
 }
 
 TEST(Inbetween, RefusesWhatCannotBeJudged) {

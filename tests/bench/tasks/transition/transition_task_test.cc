@@ -70,6 +70,19 @@ TEST_F(TransitionTaskTest, GoesThroughAnInBetweenWhereNothingMatches) {
   EXPECT_EQ(facts["transition_points"][0]["to"], "in-between");
 }
 
+TEST_F(TransitionTaskTest, RefusesKeysOfTheScenarioThatCannotHaveAnEffect) {
+  const ClipLibrary library = SmallLibrary();  // three clips
+  const auto refusal = [&](const std::string& yaml) { return testing::Refusal(Make(yaml, library)); };
+  const std::string fuzzy = "methods: [{name: a}]\n", now = "methods: [{name: a, choice: now}]\n",
+                    own = "methods: [{name: a, threshold: 1}]\n";
+  EXPECT_THAT(refusal(fuzzy + "min_clips: 4"), HasSubstr("2:12: 'min_clips' is 4, but there are only 3 clips"));
+  EXPECT_TRUE(Make(fuzzy + "min_clips: 3", library));
+  for (const std::string& methods : {now, own}) {
+    EXPECT_THAT(refusal(methods + "threshold: 0.5"), HasSubstr("2:12: 'threshold' has no effect here"));
+  }
+  EXPECT_TRUE(Make(fuzzy + "threshold: 0.5", library));
+}
+
 TEST_F(TransitionTaskTest, CountsWhoGoesThroughAClipThatStandsUpAndWhoHasNone) {
   const LibraryClip lie{"lie", "lie", LyingClip(90), {}}, stand{"stand", "stand", StandingClip(90, 0), {}},
       rise{"rise", "rise", RisingClip(90), {}};
