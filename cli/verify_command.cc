@@ -186,7 +186,11 @@ Result<int> VerifyCommand(VerifyCommandOptions options) {
   } else {
     PrintList("Not verified:", not_verified);
     fmt::print("{}\n", choice ? SampleInWords(*choice) : "Etude ran no cell again.");
-    fmt::print("{} of {} checks agree. Times and the machine cannot be verified.\n", agree, all.size());
+    fmt::print(
+        "{} of {} checks agree. Nothing verifies times, the machine, the version of Etude, the suite's name, and the "
+        "files "
+        "in stderr/ and blind/.\n",
+        agree, all.size());
   }
   // Sign the run only if everything agrees.
   if (agree < all.size()) return kNothingWorked;

@@ -127,6 +127,7 @@ class Verify(EtudeCase):
             ("a key of the machine", lambda: forge(host, '"jobs":', '"is_fast":true,"jobs":'), "host.json", "no run writes 'is_fast'"),
             ("a figure of the machine", lambda: forge(host, '"jobs":', '"jobs":"no","shards":[{}],"wall_seconds":'), "host.json",
              r"'jobs' is .*shards\[0\]: 'host' is missing.*differs from the text that a run writes"),
+            ("the seed", lambda: forge(manifest, '"suite":"ik","seed":1', '"suite":"ik","seed":777'), "manifest.json", "seed: it differs from the seeds of the scenarios"),
             ("a platform", lambda: forge(manifest, '"trials":', '"platform":"ours","trials":'), "manifest.json", "platform was"),
             ("a source", lambda: forge(manifest, '"sources":{', '"sources":{"ours":"best",'), "manifest.json", "'ours' is used by no scenario and by no other source"),
             ("a table", lambda: forge(self.out / "report" / "tables" / "ik.csv", "fixed", "fixes"), "report", "ik.csv"),
