@@ -21,7 +21,7 @@ inline constexpr std::string_view kSigns =
     "In tables, the first sign is the verdict against the method’s baseline. The second sign is the verdict against "
     "the strongest other method. ▲ better, ▼ worse, = no difference that matters, ? undecided, · not compared. A sign "
     "in brackets, such as (=), is a verdict about these worlds only; there is no verdict about other clips or people. "
-    "Numbers are medians with 95 % intervals; for shares and scores, they are means.";
+    "Numbers are medians; for shares and scores, they are means. Intervals have 95 % confidence.";
 
 /// Returns a table of named pairs of poses: the distance of each pair and each method's verdict. Returns "" unless the
 /// task is `pose-distance` and every world is a single pair.

@@ -106,14 +106,17 @@ std::string Caption(const ScenarioSummary& scenario, const ConditionSummary& con
     const MethodFinding found = CompareInWords(scenario, asked, scenario.headline_metrics.front(), Against::kBaseline);
     if (found.is_compared) answer = fmt::format(" {} ({})", found.sentence, found.BothVerdicts()) + ".";
   }
+  std::size_t rivals = 0;
+  for (const ConditionSummary& one : scenario.conditions) rivals += one.rivals.size();
   return fmt::format(
       "{}{}{} Value: the median (for shares, the mean) with its 95 % interval. n: the number of cells with a value, "
       "out of all attempted cells. Difference: method − baseline in the same world; the median (for shares and "
       "penalised costs, the mean) with its 95 % interval. A second row compares the method with the strongest other "
       "method. The last columns contain the verdict on {} and the verdict for {} (--: no verdict, because there are "
-      "fewer than 6 of them). p has Holm’s correction over this scenario’s {}: ",
+      "fewer than 6 of them). p has Holm’s correction over this scenario’s {} with baselines{}: ",
       title, label.empty() ? "" : fmt::format(" ({})", label), answer, TheseUnits(scenario.unit),
-      OtherUnits(scenario.unit), Plural(scenario.family, "comparison"));
+      OtherUnits(scenario.unit), Plural(scenario.family, "comparison"),
+      rivals == 0 ? "" : fmt::format(", and separately over the {} with the strongest other method", rivals));
 }
 
 constexpr std::string_view kStarsCaption =

@@ -49,7 +49,8 @@ void AddCost(const char* id, const char* penalised_id, const std::optional<int>&
     cell.Measure(id, *spent);
     cell.Measure(penalised_id, PenalisedCost(*spent, limit, solved && *spent <= limit));
   } else {
-    for (const char* missing : {id, penalised_id}) cell.Missing(missing, "the method did not report its iterations");
+    for (const char* missing : {id, penalised_id})
+      cell.Missing(missing, fmt::format("the method did not report its {}", id));
   }
 }
 
