@@ -2,6 +2,8 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
+#include <iterator>
+#include <map>
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <optional>
@@ -10,6 +12,7 @@
 
 #include "bench/finished_runs/finished_runs.h"
 #include "bench/gate/gate.h"
+#include "bench/model/reasons.h"
 #include "bench/results/folder.h"
 #include "bench/run/run.h"
 #include "bench/run/shipped.h"
@@ -89,6 +92,8 @@ void PrintTables(const ScenarioSummary& scenario, const std::vector<Row>& rows) 
       fmt::print("\n");
     }
   }
+  if (const std::size_t more = scenario.headline_metrics.size() - metrics.size(); more > 0)
+    fmt::print("  (and {} in the report)\n", more == 1 ? "1 more metric" : fmt::format("{} more metrics", more));
 }
 
 /// Prints the answer of each scenario in one sentence. The report's page begins with the same sentences.
@@ -102,17 +107,25 @@ void PrintAnswers(const RunData& run) {
   PrintList("\nAnswers:", answers);
 }
 
-/// Returns ", 191 unsolved (no answer, or one that missed the goal)"; "" if no cell is unsolved.
-std::string UnsolvedInWords(const RunData& run) {
-  int unsolved = 0;
+/// Returns ", 191 unsolved (no answer, or an answer that missed the goal), 2 skipped, 4 not measured" without the
+/// counts that are 0.
+std::string OthersInWords(const RunData& run) {
+  int unsolved = 0, skipped = 0, broken = 0;
   for (const ScenarioSummary& scenario : run.scenarios) {
     for (const ConditionSummary& condition : scenario.conditions) {
       for (const MethodSummary& method : condition.methods) {
-        for (const auto& [status, count] : method.statuses) unsolved += status == Status::kUnsolved ? count : 0;
+        for (const auto& [status, count] : method.statuses) {
+          if (status == Status::kOk) continue;
+          (status == Status::kUnsolved ? unsolved : status == Status::kSkipped ? skipped : broken) += count;
+        }
       }
     }
   }
-  return unsolved == 0 ? "" : fmt::format(", {} unsolved (no answer, or an answer that missed the goal)", unsolved);
+  std::string text;
+  if (unsolved > 0) text += fmt::format(", {} unsolved (no answer, or an answer that missed the goal)", unsolved);
+  if (skipped > 0) text += fmt::format(", {} skipped", skipped);
+  if (broken > 0) text += fmt::format(", {} could not be measured", broken);
+  return text;
 }
 
 void PrintSummary(const RunData& run) {
@@ -125,25 +138,38 @@ void PrintSummary(const RunData& run) {
   }
 }
 
-/// Returns the methods of a scenario that attempted cells but answered none; statuses ok and unsolved count as answers.
-std::vector<std::string> SilentMethods(const ScenarioSummary& scenario) {
-  std::vector<std::string> silent;
-  for (const std::string& name : scenario.methods) {
-    int attempted = 0, answers = 0;
+/// Returns true if a method attempted cells and none is ok. Only the rows then show whether the method gave an answer.
+bool MayHaveSilentMethod(const ScenarioSummary& scenario) {
+  return std::ranges::any_of(scenario.methods, [&](const std::string& name) {
+    int attempted = 0, ok = 0;
     for (const ConditionSummary& condition : scenario.conditions) {
       const auto method = std::ranges::find(condition.methods, name, &MethodSummary::method);
       if (method == condition.methods.end()) continue;
       attempted += method->attempted;
-      for (const auto& [status, count] : method->statuses) {
-        answers += status == Status::kOk || status == Status::kUnsolved ? count : 0;
-      }
+      for (const auto& [status, count] : method->statuses) ok += status == Status::kOk ? count : 0;
     }
-    if (attempted > 0 && answers == 0) silent.push_back(name);
-  }
+    return attempted > 0 && ok == 0;
+  });
+}
+
+/// Returns the methods of a scenario that attempted cells but answered none (HasAnswer).
+std::vector<std::string> SilentMethods(const RunData& run, const ScenarioSummary& scenario) {
+  std::map<std::string, bool> answered;
+  ForEachRow(run, [&](const Row& row, std::size_t) {
+    if (row.scenario != scenario.name || row.result.status == Status::kSkipped) return;
+    answered[row.method] |= HasAnswer(row.result);
+  });
+  std::vector<std::string> silent;
+  std::ranges::copy_if(scenario.methods, std::back_inserter(silent),
+                       [&](const std::string& name) { return answered.contains(name) && !answered.at(name); });
   return silent;
 }
 
-bool HasSilentMethod(const ScenarioSummary& scenario) { return !SilentMethods(scenario).empty(); }
+bool HasSilentMethod(const RunData& run) {
+  return std::ranges::any_of(run.scenarios, [&](const ScenarioSummary& scenario) {
+    return MayHaveSilentMethod(scenario) && !SilentMethods(run, scenario).empty();
+  });
+}
 
 /// Returns the facts that `etude run --json` prints; `run` is null for a shard.
 Json FactsOf(const RunOutcome& outcome, const Shard& shard, const RunData* run) {
@@ -156,7 +182,8 @@ Json FactsOf(const RunOutcome& outcome, const Shard& shard, const RunData* run) 
     }
     scenarios.push_back(
         {{"scenario", scenario.name}, {"task", scenario.task}, {"expectations", std::move(expectations)}});
-    for (const std::string& method : SilentMethods(scenario)) silent.push_back(scenario.name + "/" + method);
+    if (!MayHaveSilentMethod(scenario)) continue;
+    for (const std::string& method : SilentMethods(*run, scenario)) silent.push_back(scenario.name + "/" + method);
   }
   return {{"output", outcome.folder.string()},
           {"shard", shard.IsWhole() ? Json(nullptr) : Json(ToString(shard))},
@@ -174,11 +201,13 @@ int ShowOutcome(const RunOutcome& outcome) {
   const auto has_skipped = [](const ScenarioSummary& scenario) {
     return std::ranges::any_of(scenario.conditions, IsSkipped);
   };
-  if (run && std::ranges::any_of(run->scenarios, has_skipped)) run = LoadRun(outcome.folder);  // rows hold the reasons
+  if (run &&
+      (std::ranges::any_of(run->scenarios, has_skipped) || std::ranges::any_of(run->scenarios, MayHaveSilentMethod)))
+    run = LoadRun(outcome.folder);  // rows hold the reasons
   if (!run) return Complain(run.error());
   PrintSummary(*run);
   const std::string folder = outcome.folder.string();
-  const bool has_silent = std::ranges::any_of(run->scenarios, HasSilentMethod);
+  const bool has_silent = HasSilentMethod(*run);
   if (has_silent) {
     const auto finished = LoadFinishedRun(outcome.folder);
     if (!finished) return Complain(finished.error());
@@ -186,7 +215,7 @@ int ShowOutcome(const RunOutcome& outcome) {
   }
   PrintAnswers(*run);
   fmt::print("\n{} of {} cells ok{} in {:.1f} s; results: {}\nNext: etude report {}\n", outcome.cells_ok, outcome.cells,
-             UnsolvedInWords(*run), outcome.seconds, folder, folder);
+             OthersInWords(*run), outcome.seconds, folder, folder);
   return outcome.cells_ok > 0 && !has_silent ? kSuccess : kNothingWorked;
 }
 
@@ -216,6 +245,7 @@ int PrintOutcome(const RunOutcome& outcome, const Shard& shard, int code) {
   std::optional<RunData> run;
   if (shard.IsWhole()) {
     auto outline = LoadRunOutline(outcome.folder);
+    if (outline && std::ranges::any_of(outline->scenarios, MayHaveSilentMethod)) outline = LoadRun(outcome.folder);
     if (!outline) return Complain(outline.error());
     run = *std::move(outline);
   }
@@ -236,6 +266,7 @@ Result<std::optional<RunOutcome>> RunWithProgress(RunOptions options) {
   TellUnlocked(outcome);
   TellChanges(outcome.changes);
   for (const RefusedClip& one : outcome.refused) Complain({{one.clip}, "was left out: " + one.why});
+  std::ranges::for_each(outcome.unfilmed, Complain);
   const std::string folder = outcome.folder.string();
   for (const int line : outcome.damaged_lines) {
     Complain({{(outcome.folder / kJournalFile).string(), line, 0},

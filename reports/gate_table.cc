@@ -133,7 +133,12 @@ std::string RatioDetail(const RatioResult& ratio) {
   const std::string median = "median " + FormatNumber(*ratio.median);
   const std::string worlds = Plural(ratio.pairs, "world");
   if (!ratio.ci_low) return fmt::format("{} over {}, which are too few for an interval", median, worlds);
-  return fmt::format("{} (95 % interval {}) over {}", median, FormatInterval(ratio.ci_low, ratio.ci_high, {}), worlds);
+  const std::string short_time =
+      ratio.too_short_s ? fmt::format("; too short to judge: a method takes {} ms per world, the rule needs {} ms",
+                                      FormatNumber(*ratio.too_short_s * 1000), kMinJudgedSeconds * 1000)
+                        : "";
+  return fmt::format("{} (95 % interval {}) over {}{}", median, FormatInterval(ratio.ci_low, ratio.ci_high, {}), worlds,
+                     short_time);
 }
 
 std::string_view GateVerdictWords(GateVerdict verdict) {
@@ -169,11 +174,12 @@ std::vector<std::string> GateSentences(const GateReport& report) {
       OutcomeCounts(report.ratios, "time rule", [](const RatioResult& ratio) { return ratio.outcome; })};
   if (report.baseline_file.empty()) {
     const bool has_own = !report.expectations.empty() || !report.ratios.empty();
-    sentences.push_back(fmt::format("nothing was compared, because there is no baseline: {}",
-                                    has_own
-                                        ? "the gate only judged the expectations and time rules of the run’s scenarios"
-                                        : "the scenarios have no expectations, so the gate only checked that every "
-                                          "cell has a row and every method has an answer"));
+    sentences.push_back(fmt::format(
+        "nothing was compared, because there is no baseline: {}",
+        has_own                      ? "the gate only judged the expectations and time rules of the run’s scenarios"
+        : !report.incomplete.empty() ? "the run is incomplete, so the gate judged nothing else"
+                                     : "the scenarios have no expectations, so the gate only checked that every "
+                                       "cell has a row and every method has an answer"));
   } else if (!report.comparison.moves.empty()) {
     sentences.push_back("compared with the baseline: " + CompareSentence(report.comparison));
   }

@@ -4,6 +4,7 @@
 
 #include <set>
 
+#include "bench/model/reasons.h"
 #include "io/drawing/escape.h"
 #include "reports/faulty_clips.h"
 #include "reports/words/findings.h"
@@ -49,8 +50,9 @@ JunitCase NoCellBroke(const ScenarioFindings& findings) {
   int broken = 0;
   std::string detail;
   for (const ReasonCount& reason : findings.reasons) {
-    // Unsolved and skipped cells do not fail this case; a scenario can forbid them in `expect`.
-    if (reason.status == Status::kUnsolved || reason.status == Status::kSkipped) continue;
+    // Skipped cells, and unsolved cells with an answer, do not fail this case; a scenario can forbid them in `expect`.
+    const bool is_unanswered = reason.status == Status::kUnsolved && reason.reason.starts_with(kGaveNoAnswer);
+    if ((reason.status == Status::kUnsolved && !is_unanswered) || reason.status == Status::kSkipped) continue;
     broken += reason.cells;
     detail +=
         fmt::format("{} x {} in {}: {}\n", reason.cells, StatusName(reason.status), reason.method, reason.Words());

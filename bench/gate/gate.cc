@@ -25,11 +25,18 @@ std::map<std::pair<std::string, int>, double> SecondsOf(const FinishedRun& run, 
   return seconds;
 }
 
+/// Returns the median over worlds, seconds; 0 without worlds.
+double MedianOf(const std::map<std::pair<std::string, int>, double>& seconds) {
+  std::vector<double> values;
+  for (const auto& [world, value] : seconds) values.push_back(value);
+  return values.empty() ? 0 : Quantile(values, 0.5);
+}
+
 RatioResult Judge(const FinishedRun& run, const FinishedScenario& scenario, const TimeRatio& rule) {
   RatioResult result{scenario.study.scenario, rule, 0, {}, {}, {}, ClaimOutcome::kUndecided};
-  const auto over = SecondsOf(run, result.scenario, rule.over);
+  const auto of = SecondsOf(run, result.scenario, rule.of), over = SecondsOf(run, result.scenario, rule.over);
   std::vector<double> ratios;
-  for (const auto& [world, seconds] : SecondsOf(run, result.scenario, rule.of)) {
+  for (const auto& [world, seconds] : of) {
     if (const auto other = over.find(world); other != over.end()) ratios.push_back(seconds / other->second);
   }
   result.pairs = static_cast<int>(ratios.size());
@@ -40,7 +47,10 @@ RatioResult Judge(const FinishedRun& run, const FinishedScenario& scenario, cons
   if (!interval) return result;
   result.ci_low = interval->low;
   result.ci_high = interval->high;
-  if (*result.median <= rule.at_most) {
+  const double shorter = std::min(MedianOf(of), MedianOf(over));
+  if (shorter < kMinJudgedSeconds) {
+    result.too_short_s = shorter;
+  } else if (*result.median <= rule.at_most) {
     result.outcome = ClaimOutcome::kMet;
   } else if (interval->low > rule.at_most) {
     result.outcome = ClaimOutcome::kUnmet;
@@ -125,7 +135,7 @@ std::vector<std::string> DescribeSilentMethods(const FinishedRun& run) {
     const CellResult& result = row.result;
     if (result.status == Status::kSkipped) return;
     Cells& cells = methods[{row.scenario, row.method}];
-    cells.has_answer |= result.status == Status::kOk || result.status == Status::kUnsolved;
+    cells.has_answer |= HasAnswer(result);
     if (cells.attempted++ == 0) cells.first = row.Id();
     if (cells.has_answer || cells.causes.size() == kMaxKeptCauses) return;
     cells.causes.Add(result.reason, fmt::format("{}: ", StatusName(result.status)));
@@ -135,8 +145,8 @@ std::vector<std::string> DescribeSilentMethods(const FinishedRun& run) {
   for (const auto& [name, cells] : methods) {
     if (cells.has_answer) continue;
     const std::vector<CountedReason> causes = cells.causes.MostFrequentFirst();
-    std::string text = fmt::format("{}: none of the {} cells of {} has the status ok or unsolved; the first cell is {}",
-                                   name.first, cells.attempted, name.second, cells.first);
+    std::string text = fmt::format("{}: none of the {} cells of {} has an answer; the first cell is {}", name.first,
+                                   cells.attempted, name.second, cells.first);
     for (std::size_t i = 0; i < std::min(causes.size(), kMaxShownCauses); ++i) {
       text += fmt::format("; {} × {}", causes[i].cells, causes[i].Words());
     }
@@ -177,7 +187,7 @@ Result<GateReport> JudgeRun(const FinishedRun& run, const Snapshot* baseline, co
   report.comparison = CompareSnapshots(*baseline, now, ExactScenarios(run), TailRulesOf(run));
   report.fallen = FindFallenAnswers(run, *baseline, now, report.comparison.moves);
   for (const std::string& name : report.comparison.only_before) {
-    report.incomplete.push_back("the baseline contains rows that the run lacks: " + name);
+    report.incomplete.push_back("the baseline contains values that the run lacks: " + name);
   }
   return report;
 }

@@ -10,6 +10,10 @@
 
 namespace etude {
 
+/// A time ratio is judged only if the median time of both methods is at least this long. A cell is timed once, and a
+/// method that runs after another method first pays for cold caches, about 0.1 ms. In 0.5 ms, this is a fifth.
+inline constexpr double kMinJudgedSeconds = 0.0005;
+
 struct RatioResult {
   std::string scenario;
   TimeRatio rule;
@@ -19,8 +23,11 @@ struct RatioResult {
   /// Median over worlds of the ratio of processor times, `rule.of` / `rule.over`, and the median's 95 % interval.
   std::optional<double> median, ci_low, ci_high;
   /// Unmet if the whole interval of the ratio is above the limit. Undecided if only the median is above the limit
-  /// (times vary on a busy machine), or if too few worlds have the times of both methods. Otherwise met.
+  /// (times vary on a busy machine), if too few worlds have the times of both methods, or if a method's times are too
+  /// short to judge. Otherwise met.
   ClaimOutcome outcome = ClaimOutcome::kUndecided;
+  /// The shorter one of the methods' median times, if it is below kMinJudgedSeconds.
+  std::optional<double> too_short_s = {};
 };
 
 /// Judges the rules on processor times of all scenarios. Each ratio compares two methods in the same world of the same

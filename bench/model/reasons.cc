@@ -4,6 +4,12 @@
 #include <functional>
 
 namespace etude {
+
+bool HasAnswer(const CellResult& result) {
+  if (result.status == Status::kUnsolved) return !result.reason.starts_with(kGaveNoAnswer);
+  return result.status == Status::kOk;
+}
+
 std::string KindOfReason(std::string_view reason) {
   const std::size_t colon = reason.find(": ");
   if (colon != std::string_view::npos && reason.substr(0, colon).find(' ') == std::string_view::npos) {

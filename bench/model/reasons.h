@@ -5,7 +5,16 @@
 #include <string_view>
 #include <vector>
 
+#include "bench/model/row.h"
+
 namespace etude {
+
+/// How the reason of a cell begins if its program answered `no_answer`; such a cell has the status unsolved.
+inline constexpr std::string_view kGaveNoAnswer = "gave no answer: ";
+
+/// Returns true if the cell's method gave an answer: its status is ok, or it is unsolved because the answer missed the
+/// goal.
+bool HasAnswer(const CellResult& result);
 
 /// A kind of reason for the status of cells, and the number of cells with such a reason.
 struct CountedReason {

@@ -10,6 +10,7 @@
 #include <type_traits>
 #include <utility>
 
+#include "bench/model/reasons.h"
 #include "bench/outside/attachment_folder.h"
 #include "bench/outside/messages.h"
 #include "bench/outside/watched_program.h"
@@ -332,7 +333,7 @@ OutsideReply OutsideMethod::State::ReplyOf(Outcome<Json> said) {
   } else if ((*said)["type"] == "no_answer") {
     reply.status = Status::kUnsolved;
     const std::string why = (*said)["reason"].get<std::string>();
-    reply.reason = "gave no answer: " + Printable(program.WithoutFolder(why), 200);
+    reply.reason = std::string(kGaveNoAnswer) + Printable(program.WithoutFolder(why), 200);
   } else {
     reply.status = Status::kOk;
     reply.answer = std::make_unique<Json>(std::move((*said)["answer"]));

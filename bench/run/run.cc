@@ -335,6 +335,14 @@ Result<RunOutcome> Run(const RunOptions& options, const std::function<void(const
       if (std::ranges::find(outcome.refused, one) == outcome.refused.end()) outcome.refused.push_back(one);
     }
   }
+  for (const PreparedScenario& scenario : scenarios) {
+    const std::vector<int>& filmed = scenario.scenario().recordings.trials;
+    const int trials = scenario.scenario().trials;
+    if (filmed.empty() || std::ranges::min(filmed) < trials) continue;
+    outcome.unfilmed.push_back({{scenario.setup().file, 0, 0},
+                                fmt::format("scenario {} kept no motion, because 'video' selects no trial below {}",
+                                            scenario.scenario().name, trials)});
+  }
   // List the changes that reading made to the content of clip files, each change once.
   std::set<std::pair<std::string, std::string>> told;
   for (const PreparedScenario& scenario : scenarios) {

@@ -88,6 +88,7 @@ struct RunOutcome {
   bool stopped = false;                    ///< true: the user stopped the run; the journal has the finished cells
   std::string fence = {};                  ///< description of the sandbox of outside programs; "" = there were none
   std::vector<RefusedClip> refused = {};   ///< clips and recordings that a scenario left out, each listed once
+  std::vector<Error> unfilmed = {};        ///< scenarios whose `video` selects no trial of this run
   std::vector<LoadedChange> changes = {};  ///< changes that reading made to the content of clip files, each listed once
   std::string why_unlocked = {};  ///< why the folder could not be locked against other runs; "" = it was locked
   /// Line numbers of the damaged lines in the journal of a resumed run. The cells of these lines were run again.

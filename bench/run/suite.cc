@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <map>
+#include <optional>
 #include <set>
 #include <string_view>
 
@@ -68,6 +70,26 @@ Result<std::string> KeepJointMap(const std::string& file, const std::string& mor
   std::ranges::replace(name, '\n', ',');
   texts[name] = (file.empty() ? "" : texts.at(file) + "\n") + more;
   return name;
+}
+
+/// Fails if a list of clips names a motion twice, even by different paths: it would count twice, and a transition could
+/// lead from a clip to itself.
+Result<void> RefuseDoubles(const std::vector<std::string>& references, const Place& place) {
+  std::map<std::pair<std::string, std::optional<std::string>>, std::string> known;
+  for (const std::string& reference : references) {
+    const auto expanded = ExpandReference(reference, place);
+    if (!expanded) continue;  // reading the clips reports it
+    for (const std::string& one : *expanded) {
+      const SplitReference split = Split(one);
+      std::error_code none;
+      const auto path = std::filesystem::canonical(split.path, none);
+      const auto [first, is_new] = known.emplace(std::pair(none ? split.path : path.string(), split.animation), one);
+      if (is_new) continue;
+      return Fail(place, "the clips contain a motion twice: '{}' and '{}' (from '{}'); list each motion once",
+                  first->second, one, reference);
+    }
+  }
+  return {};
 }
 
 /// Returns the clips of `references` that can be read and understood. Adds the others to `refused`.
@@ -193,6 +215,8 @@ Result<ScenarioSetup> SetUp(Scenario& scenario, const std::string& file, const s
   ASSIGN_OR_RETURN(
       const auto joint_map,
       KeepJointMap(options.joint_map.empty() ? scenario.joint_map : options.joint_map, options.clip_facts, sources));
+  RETURN_IF_ERROR(RefuseDoubles(clips, {file, 0, 0}));
+  for (const NamedClips& library : scenario.libraries) RETURN_IF_ERROR(RefuseDoubles(library.clips, {file, 0, 0}));
   // Add the texts that the scenario names, and check that its clips and recordings can be read.
   RETURN_IF_ERROR(KeepNamedFiles(scenario, sources));
   ScenarioSetup setup{file,   scenario.name,      SeedOf(options).value_or(scenario.seed.value_or(1)),

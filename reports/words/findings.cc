@@ -23,8 +23,8 @@ std::string ExpectationsSentence(const RunFindings& f) {
     text = all == 1 ? "The only expectation was met" : fmt::format("All {} expectations were met", all);
   } else {
     text = fmt::format("{} of {} were met", f.met, Plural(all, "expectation"));
-    if (f.unmet > 0) text += fmt::format(", {} were not met", f.unmet);
-    if (f.undecided > 0) text += fmt::format(", {} are undecided", f.undecided);
+    if (f.unmet > 0) text += fmt::format(", {} {} not met", f.unmet, f.unmet == 1 ? "was" : "were");
+    if (f.undecided > 0) text += fmt::format(", {} {} undecided", f.undecided, f.undecided == 1 ? "is" : "are");
   }
   return text + ". ";
 }
@@ -32,14 +32,14 @@ std::string ExpectationsSentence(const RunFindings& f) {
 /// Returns a sentence that says how many cells were measured. (SuccessSentence says how many cells reached the goal.)
 std::string MeasuredSentence(const RunFindings& f) {
   if (f.cells == 0) return "No cell ran.";
-  const int measured = f.ok + f.unsolved;
+  const int measured = f.ok + f.unsolved;  // cells with an answer
   std::string text = f.cells == 1 ? fmt::format("The only cell was{} measured", measured == 1 ? "" : " not")
                      : measured == f.cells
                          ? fmt::format("All {} cells were measured", FormatCount(f.cells))
                          : fmt::format("{} of {} cells were measured", FormatCount(measured), FormatCount(f.cells));
   if (f.unsolved > 0)
-    text +=
-        fmt::format(", {} of them unsolved (no answer, or an answer that missed the goal)", FormatCount(f.unsolved));
+    text += fmt::format(", {} of them unsolved (the answer missed the goal)", FormatCount(f.unsolved));
+  if (f.unanswered > 0) text += fmt::format(", {} without an answer", FormatCount(f.unanswered));
   if (f.skipped > 0) text += fmt::format(", {} were skipped", FormatCount(f.skipped));
   if (f.broken > 0) text += fmt::format(", {} could not be measured", FormatCount(f.broken));
   return text + ".";
@@ -234,7 +234,9 @@ ScenarioFindings FindingsOf(const RunData& run, const ScenarioSummary& scenario)
     findings.answer.verdict = Verdict::kUndecided;
     // A search for faults needs no second method.
     if (scenario.task != "plausibility")
-      findings.answer.sentence = "There is no comparison, because only one method ran.";
+      findings.answer.sentence = scenario.methods.size() < 2
+                                     ? "There is no comparison, because only one method ran."
+                                     : "There is no comparison, because no method is compared with another method.";
   } else {
     findings.headline = HeadlineOf(scenario, asked, findings.metric);
     findings.answer = CompareInWords(scenario, asked, findings.metric, Against::kBaseline);
@@ -286,7 +288,7 @@ RunFindings FindingsOf(const RunData& run) {
         ++f.ok;
         break;
       case Status::kUnsolved:
-        ++f.unsolved;
+        ++(HasAnswer(row.result) ? f.unsolved : f.unanswered);
         break;
       case Status::kSkipped:
         ++f.skipped;

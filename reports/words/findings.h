@@ -100,6 +100,7 @@ struct RunFindings {
   int cells = 0;
   int ok = 0;        ///< measured cells; their status does not say whether they reached a goal
   int unsolved = 0;  ///< cells that were measured, but ended before they reached the goal
+  int unanswered = 0;  ///< cells whose program answered `no_answer`
   int skipped = 0;   ///< cells that were not run, because their world lacked something for the task
   int broken = 0;    ///< cells that failed, crashed, timed out or gave an invalid answer
   int met = 0, unmet = 0, undecided = 0;

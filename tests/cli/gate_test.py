@@ -182,7 +182,7 @@ class Gate(EtudeCase):
         self.assertEqual(ran.returncode, 1, ran.stderr)
         self.assertIn("24 × failed: ended with exit code 1; its last words: 'ValueError", ran.stdout)
         text = self.gate(self.now, expect=1)
-        self.assertIn("ik: none of the 24 cells of own has the status ok or unsolved; the first cell is ik/joint_noise_deg=2/000/own; 24 × "
+        self.assertIn("ik: none of the 24 cells of own has an answer; the first cell is ik/joint_noise_deg=2/000/own; 24 × "
                       "failed: ended with exit code 1; its last words: 'ValueError: math domain error'", text)
         self.assertIn("Gate: regression", text)
         self.assertIn("none of the 24", (self.now / "report" / "gate.md").read_text())
@@ -190,6 +190,18 @@ class Gate(EtudeCase):
         text = self.gate(self.now, "--baseline", self.baseline, "--update", expect=1)
         self.assertIn("No baseline was written. A method has no answer", text)
         self.assertFalse(self.baseline.exists())
+
+    def test_a_method_that_answers_no_answer_everywhere_has_none(self):
+        ran = self.run_program(
+            "import json, sys\n\nsaid = {'hello': {'type': 'hello', 'protocol': 1, 'name': 'x', 'version': '1'},\n"
+            "        'setting': {'type': 'ready'}, 'problem': {'type': 'no_answer', 'reason': 'no way'}}\n"
+            "for line in sys.stdin:\n    message = json.loads(line)\n    answer = said.get(message['type'])\n"
+            "    if answer:\n        print(json.dumps({**answer, **({'id': message['id']} if 'id' in message else {})}), flush=True)\n")
+        self.assertEqual(ran.returncode, 1, ran.stderr)
+        self.assertIn("ik: none of the 24 cells of own has an answer", ran.stdout)
+        self.assertIn("24 × unsolved: gave no answer: 'no way'", self.gate(self.now, expect=1))
+        self.ends(0, "report", self.now, "--no-video")
+        self.assertIn("24 without an answer", (self.now / "report" / "summary.md").read_text())
 
     def test_a_reversed_answer_is_said_first_and_last(self):
         solver = (EXAMPLES / "ik_dls.py").read_text()

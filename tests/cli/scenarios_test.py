@@ -93,6 +93,20 @@ class Scenarios(EtudeCase):
                              "a task that judges files finds its files by the scenario's key 'truth'\n")
             self.assertFalse(refused.exists())
 
+    def test_a_motion_may_be_named_once_in_a_list_of_clips(self):
+        clip = "/usr/share/assimp/models/BVH/01_03.bvh"
+        for clips in (["builtin:*", "builtin:sway"], [clip, "/usr/share/assimp/models/../models/BVH/01_03.bvh"]):
+            path = self.cut_scenario(*clips)
+            self.refusal("run", path, "--dry-run", says=["contain a motion twice", clips[1]])
+        path = self.cut_scenario("builtin:sway", "builtin:clap", trials=1)
+        self.refusal("run", path, "--dry-run", "--clips", clip, clip, says=["contain a motion twice"])
+
+    def test_a_selection_that_an_option_makes_empty_is_said(self):
+        path = self.cut_scenario("builtin:sway", "builtin:clap", trials=3, more="video: {trials: [2]}\n")
+        said = "scenario t kept no motion, because 'video' selects no trial below 2"
+        self.assertIn(said, self.ends(0, "run", path, "--trials", 2, "-o", self.out).stderr)
+        self.assertNotIn("kept no motion", self.ends(0, "run", path, "--overwrite", "-o", self.out).stderr)
+
     def test_the_list_of_methods_says_what_goes_with_what(self):
         listed = self.etude("list", "methods").stdout
         self.assertIn("  memory: 1…20; with `solver: ccd-anderson`\n", listed)

@@ -104,10 +104,13 @@ TEST(Gate, FailsAMethodThatGaveNoAnswerAnywhere) {
   }
   const auto report = JudgeRun(run, nullptr, "");
   EXPECT_EQ(GateVerdictOf(*report), GateVerdict::kRegressed);
-  EXPECT_THAT(report->silent, ElementsAre("s: none of the 48 cells of b has the status ok or unsolved; the first cell "
+  EXPECT_THAT(report->silent, ElementsAre("s: none of the 48 cells of b has an answer; the first cell "
                                           "is s/joint_noise_deg=1/000/b; 48 × failed: ended with exit code 1"));
-  run.data.rows.back().result = CellResult::Ended(Status::kUnsolved, "too far");  // b's; kUnsolved is an answer
+  run.data.rows.back().result = CellResult::Ended(Status::kUnsolved, "too far");  // b's; an answer
   EXPECT_EQ(GateVerdictOf(*JudgeRun(run, nullptr, "")), GateVerdict::kPassed);
+  // A program that answers `no_answer` in every world has no answer, although its cells are unsolved.
+  run.data.rows.back().result = CellResult::Ended(Status::kUnsolved, "gave no answer: 'no'");
+  EXPECT_EQ(GateVerdictOf(*JudgeRun(run, nullptr, "")), GateVerdict::kRegressed);
 }
 
 TEST(Gate, IsIncompleteWhereNothingWasRun) {
@@ -187,6 +190,20 @@ TEST(TimeRatios, AreJudgedByTheIntervalOfPairedRatios) {
   EXPECT_EQ(outcome(2.5, 0), ClaimOutcome::kUndecided);
   EXPECT_EQ(GateVerdictOf(*JudgeRun(Timed(2.5, 24), nullptr, "")), GateVerdict::kRegressed);
   EXPECT_EQ(GateVerdictOf(*JudgeRun(Timed(1.5, 24), nullptr, "")), GateVerdict::kPassed);
+}
+
+TEST(TimeRatios, AreUndecidedIfAMethodIsTooShortToTime) {
+  const auto judged = [](double scale) {
+    FinishedRun run = Timed(3, 24);
+    for (auto& [id, seconds] : run.data.cpu_seconds) seconds *= scale;
+    return JudgeTimeRatios(run)[0];
+  };
+  // The median time of method a is 12.5 × scale, in seconds.
+  const RatioResult brief = judged(0.0004 / 12.5), long_enough = judged(0.0006 / 12.5);
+  EXPECT_EQ(brief.outcome, ClaimOutcome::kUndecided);
+  EXPECT_NEAR(brief.too_short_s.value_or(0), 0.0004, 1e-12);
+  EXPECT_EQ(long_enough.outcome, ClaimOutcome::kUnmet);
+  EXPECT_EQ(long_enough.too_short_s, std::nullopt);
 }
 
 TEST(TimeRatios, LeaveOutCellsThatEndedBecauseOfTheMachine) {

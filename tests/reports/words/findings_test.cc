@@ -152,7 +152,7 @@ TEST(Findings, OfTheRunCountExpectationsAndCells) {
   EXPECT_EQ(findings.unmet, 1);
   EXPECT_EQ(findings.undecided, 1);
   EXPECT_LT(findings.ok, findings.cells);
-  EXPECT_THAT(findings.sentence, HasSubstr("3 of 5 expectations were met, 1 were not met, 1 are undecided."));
+  EXPECT_THAT(findings.sentence, HasSubstr("3 of 5 expectations were met, 1 was not met, 1 is undecided."));
 }
 
 TEST(Findings, SayWhyAValueIsMissing) {
@@ -172,7 +172,12 @@ TEST(Findings, NeverCallWhatWasMeasuredReached) {
   EXPECT_EQ(FindingsOf(one).sentence, "The only cell was measured.");
   run.rows.front().result.status = Status::kUnsolved;
   EXPECT_THAT(FindingsOf(run).sentence,
-              HasSubstr(" cells were measured, 1 of them unsolved (no answer, or an answer that missed the goal)."));
+              HasSubstr(" cells were measured, 1 of them unsolved (the answer missed the goal)."));
+  // A cell whose program answered `no_answer` was not measured.
+  one.rows.front().result = CellResult::Ended(Status::kUnsolved, "gave no answer: 'no'");
+  EXPECT_EQ(FindingsOf(one).sentence, "The only cell was not measured, 1 without an answer.");
+  const ScenarioFindings unanswered = FindingsOf(one, ScenarioSummary{.name = one.rows.front().scenario});
+  EXPECT_EQ(unanswered.reasons.size(), 1u);
 }
 
 TEST(Findings, GiveSuccessItsOwnShareWhateverTheStatus) {
