@@ -49,7 +49,9 @@ Result<BridgeLibrary> LoadLibrary(const BridgeCommandOptions& options) {
                        .on_progress = ProgressOf("clips read")};
   ASSIGN_OR_RETURN(bridge.system, ReadFuzzy(options.fuzzy));
   ASSIGN_OR_RETURN(bridge.reading, ReadOptions(options.reading));
-  return LoadBridgeLibrary(bridge);
+  ASSIGN_OR_RETURN(auto loaded, LoadBridgeLibrary(bridge));
+  for (const Error& copy : loaded.copies) fmt::print(stderr, "left out: {}\n", ToString(copy));
+  return loaded;
 }
 
 /// Copies the rules of a tags file into the options, so that the clips are tagged by the rules of the file.

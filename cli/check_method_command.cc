@@ -41,6 +41,7 @@ Result<std::unique_ptr<LabelledStreams>> LoadPeople(const RecordedPeople& people
   }
   for (NamedStream& stream : loaded.streams) stream.motion.reset();  // only the sensed data remain, as in a run
   ASSIGN_OR_RETURN(auto labelled, LabelStreams(std::move(loaded.streams), labels));
+  for (const Error& copy : labelled.copies) fmt::print(stderr, "left out: {}\n", ToString(copy));
   return std::make_unique<LabelledStreams>(std::move(labelled));
 }
 

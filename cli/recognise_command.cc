@@ -17,6 +17,7 @@
 #include "engine/recognition/filters.h"
 #include "engine/recognition/recognisers.h"
 #include "engine/streams/live_stream.h"
+#include "engine/teaching/equal_streams.h"
 #include "engine/teaching/moves_file.h"
 #include "io/files/files.h"
 
@@ -190,10 +191,14 @@ Result<LoadedStreams> Load(const RecogniseCommandOptions& options) {
 }
 
 Result<int> RecogniseFiles(const RecogniseCommandOptions& options, const Taught& taught) {
-  ASSIGN_OR_RETURN(const LoadedStreams loaded, Load(options));
+  ASSIGN_OR_RETURN(LoadedStreams loaded, Load(options));
   std::vector<LabelledPart> parts;
   if (!options.labels.empty()) {
     ASSIGN_OR_RETURN(parts, LoadParts(options.labels, loaded.streams));
+    if (const std::size_t taught_with = CountTaught(loaded.streams, parts, taught.moves); taught_with > 0) {
+      fmt::print(stderr, "{} of {} performances are examples of these moves, so the scores are no test of them\n",
+                 taught_with, parts.size());
+    }
   }
   std::size_t spotted = 0;
   LabelScores scores(taught.moves, *taught.recogniser, taught.watch);
@@ -201,9 +206,9 @@ Result<int> RecogniseFiles(const RecogniseCommandOptions& options, const Taught&
     const NamedStream& stream = loaded.streams[s];
     const auto spottings = Watch(stream.stream, *taught.recogniser, taught.moves.size(), taught.watch);
     spotted += spottings.size();
-    for (const Spotting& spotting : spottings) {
-      PrintSpotting(spotting, taught, stream.stream.rate_hz, loaded.streams.size() > 1 ? stream.name : "");
-    }
+    const bool is_unique = std::ranges::count(loaded.streams, stream.name, &NamedStream::name) == 1;
+    const std::string name = loaded.streams.size() == 1 ? "" : is_unique ? stream.name : stream.source;
+    for (const Spotting& spotting : spottings) PrintSpotting(spotting, taught, stream.stream.rate_hz, name);
     std::vector<LabelledPart> own;
     std::ranges::copy_if(parts, std::back_inserter(own), [&](const LabelledPart& p) { return p.stream == s; });
     scores.Add(stream, own, spottings);
@@ -232,7 +237,7 @@ Result<int> RecogniseLeavingOneOut(const RecogniseCommandOptions& options) {
   // Several people teach each move, so the recogniser whole-body is recommended.
   ASSIGN_OR_RETURN(const WatchOptions watch, OptionsOf(options, *FindRecogniser("whole-body")));
   // Load the recordings. Classify each person's recordings with the moves that the other people taught.
-  ASSIGN_OR_RETURN(const LoadedStreams loaded, Load(options));
+  ASSIGN_OR_RETURN(LoadedStreams loaded, Load(options));
   ASSIGN_OR_RETURN(const auto parts, LoadParts(options.labels, loaded.streams));
   ASSIGN_OR_RETURN(
       const LeaveOneOut out,

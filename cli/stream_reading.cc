@@ -5,6 +5,7 @@
 #include <CLI/CLI.hpp>
 
 #include "cli/arguments.h"
+#include "engine/teaching/equal_streams.h"
 
 namespace etude {
 
@@ -28,11 +29,17 @@ void AddStreamReading(CLI::App& command, StreamArguments& reading) {
   AddClipReading(command, reading.clips, "");
 }
 
-Result<std::vector<LabelledPart>> LoadParts(const std::string& labels, const std::vector<NamedStream>& streams) {
-  if (labels.empty()) return WholeStreams(streams);
-  ASSIGN_OR_RETURN(const auto loaded, LoadLabels(labels));
-  ASSIGN_OR_RETURN(auto parts, MatchLabels(loaded, labels, streams));
-  for (const std::string& line : DescribeLabels(loaded, labels, streams)) fmt::print(stderr, "{}\n", line);
+Result<std::vector<LabelledPart>> LoadParts(const std::string& labels, std::vector<NamedStream>& streams) {
+  std::vector<LabelledPart> parts;
+  if (labels.empty()) {
+    parts = WholeStreams(streams);
+  } else {
+    ASSIGN_OR_RETURN(const auto loaded, LoadLabels(labels));
+    ASSIGN_OR_RETURN(parts, MatchLabels(loaded, labels, streams));
+    for (const std::string& line : DescribeLabels(loaded, labels, streams)) fmt::print(stderr, "{}\n", line);
+  }
+  ASSIGN_OR_RETURN(const auto copies, LeaveOutCopies(streams, parts));
+  for (const Error& copy : copies) fmt::print(stderr, "left out: {}\n", ToString(copy));
   return parts;
 }
 

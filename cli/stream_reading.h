@@ -29,8 +29,9 @@ struct StreamArguments {
 
 /// Loads the labels and finds the labelled performances in the recordings (MatchLabels). Prints on standard error
 /// which labels have no recording and which recordings have no label (DescribeLabels). If `labels` is "", each
-/// recording is one performance (WholeStreams).
-Result<std::vector<LabelledPart>> LoadParts(const std::string& labels, const std::vector<NamedStream>& streams);
+/// recording is one performance (WholeStreams). Leaves out recordings of the same motion (LeaveOutCopies), and prints
+/// which.
+Result<std::vector<LabelledPart>> LoadParts(const std::string& labels, std::vector<NamedStream>& streams);
 
 /// Adds the options of StreamArguments to a command.
 void AddStreamReading(CLI::App& command, StreamArguments& reading);

@@ -39,7 +39,7 @@ constexpr const char* kTeachText =
 
 Result<std::vector<TaughtMove>> Teach(const TeachCommandOptions& options) {
   ASSIGN_OR_RETURN(const auto clips, options.reading.ClipOptions());
-  ASSIGN_OR_RETURN(const auto loaded,
+  ASSIGN_OR_RETURN(auto loaded,
                    LoadStreams(options.streams, options.reading.Reading(), options.reading.Options(), clips));
   for (const Error& refused : loaded.refused) fmt::print(stderr, "left out: {}\n", ToString(refused));
   for (const NamedStream& stream : loaded.streams)

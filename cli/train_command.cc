@@ -24,6 +24,7 @@
 #include "engine/base/named.h"
 #include "engine/base/names.h"
 #include "engine/base/text.h"
+#include "engine/motion/equal_motions.h"
 #include "io/clips/clip_library.h"
 #include "io/clips/references.h"
 #include "io/files/files.h"
@@ -103,24 +104,57 @@ Result<std::vector<bool>> ChooseHeldOut(const std::vector<std::string>& names, c
   return held_out;
 }
 
+/// Leaves out each clip that shows the same motion as an earlier clip, and prints it. Fails if one of the two is held
+/// out and the other is not.
+Result<void> LeaveOutCopies(std::vector<LibraryClip>& clips, std::vector<bool>& held_out) {
+  std::vector<Places> places;
+  for (const LibraryClip& clip : clips) places.push_back(PlacesOf(clip.motion));
+  const auto equals = FindEqual(places);
+  std::vector<LibraryClip> kept;
+  std::vector<bool> kept_out;
+  for (std::size_t i = 0; i < clips.size(); ++i) {
+    if (!equals[i]) {
+      kept_out.push_back(held_out[i]);
+      continue;
+    }
+    const std::string& first = clips[*equals[i]].source;
+    if (held_out[i] != held_out[*equals[i]]) {
+      return Fail({clips[i].source}, "shows the same motion as {}, but only one of the two is held out", first);
+    }
+    fmt::print(stderr, "left out: {}\n", ToString(Error{{clips[i].source}, "shows the same motion as " + first}));
+  }
+  for (std::size_t i = 0; i < clips.size(); ++i) {
+    if (!equals[i]) kept.push_back(std::move(clips[i]));
+  }
+  clips = std::move(kept);
+  held_out = std::move(kept_out);
+  return {};
+}
+
 Result<Split> LoadSplit(const TrainOptions& options) {
   // Load the clips.
   ASSIGN_OR_RETURN(const auto reading, ReadOptions(options.reading));
   ASSIGN_OR_RETURN(const auto references, ExpandReferences(options.clips));
   ASSIGN_OR_RETURN(auto library, LoadClips(references, {}, reading, ProgressOf("clips read")));
-  std::vector<std::string> names;
-  std::vector<BodyMotion> motions;
-  for (LibraryClip& clip : library.clips) {
-    names.push_back(clip.name);
-    motions.push_back(std::move(clip.motion));
+  // A pattern can hold out a copy of a clip that is learnt from; a share is drawn from clips without copies.
+  const bool is_share = ParseNumber<double>(options.hold_out).has_value();
+  std::vector<bool> held_out(library.clips.size(), false);
+  if (!is_share) {
+    ASSIGN_OR_RETURN(held_out, ChooseHeldOut(NamesOf(library.clips), options));
   }
+  RETURN_IF_ERROR(LeaveOutCopies(library.clips, held_out));
+  const std::vector<std::string> names = NamesOf(library.clips);
+  std::vector<BodyMotion> motions;
+  for (LibraryClip& clip : library.clips) motions.push_back(std::move(clip.motion));
   if (names.size() > kMaxTrainingClips) {
     return Fail(
         {},
         "found {} clips; allowed: at most {}, because the number of pairs grows with the square of the number of clips",
         names.size(), kMaxTrainingClips);
   }
-  ASSIGN_OR_RETURN(const auto held_out, ChooseHeldOut(names, options));
+  if (is_share) {
+    ASSIGN_OR_RETURN(held_out, ChooseHeldOut(names, options));
+  }
 
   // Sample the frames of all clips on one body, and divide the clips into clips for learning and clips for testing.
   const BodyPose standing = PoseOf(Controls{});

@@ -256,6 +256,9 @@ Result<std::unique_ptr<LabelledStreams>> LoadRecordings(const ScenarioSetup& set
   }
   if (streams.empty()) return Fail({setup.file, 0, 0}, "'labels' is allowed only with 'streams' or 'clips'");
   ASSIGN_OR_RETURN(auto labelled, LabelStreams(std::move(streams), labels));
+  if (refused != nullptr) {
+    for (const Error& copy : labelled.copies) refused->push_back({copy.place.file, copy.message});
+  }
   return std::make_unique<LabelledStreams>(std::move(labelled));
 }
 

@@ -30,6 +30,47 @@ int EditDistance(std::string_view a, std::string_view b) {
   return cost[a.size()][b.size()];
 }
 
+/// Latin letters and the combining mark that each consists of, together with the ASCII letter at the same place.
+struct MarkedLetters {
+  std::string_view mark, letters, marked;
+};
+
+constexpr MarkedLetters kMarkedLetters[] = {
+    {"\u0300", "AEINOUaeinou", "ÀÈÌǸÒÙàèìǹòù"},
+    {"\u0301", "ACEILNORSUYZaceilnorsuyz", "ÁĆÉÍĹŃÓŔŚÚÝŹáćéíĺńóŕśúýź"},
+    {"\u0302", "ACEGHIJOSUWYaceghijosuwy", "ÂĈÊĜĤÎĴÔŜÛŴŶâĉêĝĥîĵôŝûŵŷ"},
+    {"\u0303", "AINOUainou", "ÃĨÑÕŨãĩñõũ"},
+    {"\u0304", "AEIOUaeiou", "ĀĒĪŌŪāēīōū"},
+    {"\u0306", "AEGIOUaegiou", "ĂĔĞĬŎŬăĕğĭŏŭ"},
+    {"\u0307", "CEGIZcegz", "ĊĖĠİŻċėġż"},
+    {"\u0308", "AEIOUYaeiouy", "ÄËÏÖÜŸäëïöüÿ"},
+    {"\u030a", "AUau", "ÅŮåů"},
+    {"\u030b", "OUou", "ŐŰőű"},
+    {"\u030c", "CDELNRSTZcdelnrstz", "ČĎĚĽŇŘŠŤŽčďěľňřšťž"},
+    {"\u0326", "STst", "ȘȚșț"},
+    {"\u0327", "CGKLNRSTcgklnrst", "ÇĢĶĻŅŖŞŢçģķļņŗşţ"},
+    {"\u0328", "AEIUaeiu", "ĄĘĮŲąęįų"},
+};
+
+/// Returns the text with one character for each of these letters with a mark (Unicode's form NFC), where it has two
+/// (NFD, as macOS writes names of files).
+std::string Composed(std::string_view text) {
+  std::string composed;
+  for (std::size_t at = 0; at < text.size(); ++at) {
+    const auto* marked = std::ranges::find_if(kMarkedLetters, [&](const MarkedLetters& letters) {
+      return text.substr(at + 1).starts_with(letters.mark) && letters.letters.find(text[at]) != std::string_view::npos;
+    });
+    if (marked == std::end(kMarkedLetters)) {
+      composed += text[at];
+      continue;
+    }
+    constexpr std::size_t kBytes = 2;  // of each marked letter and of each mark
+    composed += marked->marked.substr(kBytes * marked->letters.find(text[at]), kBytes);
+    at += kBytes;
+  }
+  return composed;
+}
+
 }  // namespace
 
 std::string NearestName(std::string_view name, std::span<const std::string> known) {
@@ -61,7 +102,7 @@ std::string Join(std::span<const std::string> items, std::string_view separator)
 
 std::string ComparedName(std::string_view name) {
   std::string letters;
-  for (const char c : name) {
+  for (const char c : Composed(name)) {
     if (c != ' ') letters += ToLower(c);
   }
   return letters;

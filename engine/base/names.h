@@ -18,8 +18,8 @@ std::string UnknownName(std::string_view kind, std::string_view name, std::span<
 /// Joins items as in "a, b, c".
 std::string Join(std::span<const std::string> items, std::string_view separator = ", ");
 
-/// Returns a person's name as it is compared: in lower case and without spaces, because people write it in different
-/// ways.
+/// Returns a person's name as it is compared, because people write it in different ways: without spaces, ASCII letters
+/// in lower case, and Latin letters with a mark as one character, also where they are two (NFD).
 std::string ComparedName(std::string_view name);
 
 /// Formats a word for complaints: quoted, shortened, unprintable characters as `?`; an empty text becomes "the end of

@@ -229,7 +229,6 @@ void LeaveNoPlacesOut(RecordedFrame& frame, std::array<bool, kRoleCount>& elsewh
 }
 
 Result<void> ToMetres(StreamRecording& recording, const std::string& file) {
-  constexpr double kMinTrunk_m = 0.15, kMaxTrunk_m = 0.95;  // trunk lengths of a toddler and of a tall adult
   const double trunk = MiddleDistance(recording, kHipCentre, kShoulderCentre);
   const struct {
     double metres;

@@ -40,6 +40,9 @@ struct RecordedFrame {
   std::array<TrackingState, kRoleCount> states{};  ///< states of the joints that have a position
 };
 
+/// The lengths of human trunks, from hip centre to shoulder centre: of a toddler and of a tall adult.
+inline constexpr double kMinTrunk_m = 0.15, kMaxTrunk_m = 0.95;
+
 /// The content of a file of skeletons, before it is rotated upright and resampled.
 struct StreamRecording {
   StreamFormat format = StreamFormat::kEtudeCsv;

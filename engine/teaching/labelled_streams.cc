@@ -12,6 +12,7 @@
 #include "engine/base/names.h"
 #include "engine/base/text.h"
 #include "engine/recognition/recognise.h"
+#include "engine/teaching/equal_streams.h"
 
 namespace etude {
 namespace {
@@ -33,14 +34,12 @@ Result<std::vector<std::string>> NamedByLabels(const LabelledStreams& all) {
   return names;
 }
 
-/// Fails if two labels name one performance: they state the same move, and more than half of the longer one's frames
-/// belong to both. `parts` must be sorted by stream and then by begin.
+/// Fails if two labels name one performance (IsSamePerformance). `parts` must be sorted by stream and then by begin.
 Result<void> RefuseTwice(const std::vector<LabelledPart>& parts, const std::string& file,
                          const std::vector<NamedStream>& streams) {
   for (auto a = parts.begin(); a != parts.end(); ++a) {
     for (auto b = a + 1; b != parts.end() && b->stream == a->stream && b->begin < a->end; ++b) {
-      const int common = std::min(a->end, b->end) - b->begin, longer = std::max(a->end - a->begin, b->end - b->begin);
-      if (a->move != b->move || 2 * common <= longer) continue;
+      if (!IsSamePerformance(*a, *b)) continue;
       const double second = b->begin / streams[b->stream].stream.rate_hz;
       return Fail(
           {file, std::max(a->line, b->line)},
@@ -51,7 +50,7 @@ Result<void> RefuseTwice(const std::vector<LabelledPart>& parts, const std::stri
   return {};
 }
 
-/// Fails if one label belongs to two recordings, unless its format means that (`NamesManyRecordings`).
+/// Fails if one label belongs to two recordings of other motions, unless its format means that (`NamesManyRecordings`).
 Result<void> RefuseTwoRecordings(const std::vector<Label>& labels, const std::string& file,
                                  const std::vector<NamedStream>& streams) {
   const auto by_name = [](const NamedStream& stream) { return stream.source.empty() ? stream.name : stream.source; };
@@ -59,7 +58,9 @@ Result<void> RefuseTwoRecordings(const std::vector<Label>& labels, const std::st
     const auto is_own = [&](const NamedStream& stream) { return IsLabelOf(label, stream.name, stream.source); };
     const auto first = std::ranges::find_if(streams, is_own);
     if (NamesManyRecordings(label) || first == streams.end()) continue;
-    const auto second = std::find_if(first + 1, streams.end(), is_own);
+    const auto second = std::find_if(first + 1, streams.end(), [&](const NamedStream& stream) {
+      return is_own(stream) && !ShowSameMotion(first->stream, stream.stream);
+    });
     if (second == streams.end()) continue;
     return Fail({file, label.line},
                 "the clip {} can be {} or {}; allowed: a clip that names one recording, also by the end of its path",
@@ -152,11 +153,17 @@ std::string PersonInName(std::string_view name) {
   return "";
 }
 
+bool IsSamePerformance(const LabelledPart& a, const LabelledPart& b) {
+  const int common = std::min(a.end, b.end) - std::max(a.begin, b.begin);
+  return a.move == b.move && 2 * common > std::max(a.end - a.begin, b.end - b.begin);
+}
+
 Result<std::vector<LabelledPart>> MatchLabels(const std::vector<Label>& labels, const std::string& file,
                                               const std::vector<NamedStream>& streams) {
   constexpr double kOutside = 0.5;
   RETURN_IF_ERROR(RefuseTwoRecordings(labels, file, streams));
   std::vector<LabelledPart> parts;
+  std::map<std::string, std::string> spellings;  // the first spelling of each person's name, by its compared form
   for (std::size_t s = 0; s < streams.size(); ++s) {
     const NamedStream& stream = streams[s];
     const auto count = static_cast<int>(stream.stream.frames.size());
@@ -175,7 +182,8 @@ Result<std::vector<LabelledPart>> MatchLabels(const std::vector<Label>& labels, 
       part.stream = s;
       part.move = label.move;
       part.fault = label.fault;
-      part.person = label.person.empty() ? stream.person : label.person;
+      const std::string& person = label.person.empty() ? stream.person : label.person;
+      part.person = spellings.try_emplace(ComparedName(person), person).first->second;
       part.is_action_point = label.IsActionPoint();
       part.line = label.line;
       const FrameInterval frames = FramesBetween(from, part.is_action_point ? from : to, stream.stream);
@@ -282,6 +290,7 @@ Result<LabelledStreams> LabelStreams(std::vector<NamedStream> streams, const Lab
     }
     ASSIGN_OR_RETURN(all.parts, MatchLabels(read, all.file, all.streams));
   }
+  ASSIGN_OR_RETURN(all.copies, LeaveOutCopies(all.streams, all.parts));
   // Assign a person to every stream.
   ASSIGN_OR_RETURN(const auto named, NamedByLabels(all));
   std::map<std::string, std::vector<std::size_t>> streams_of;

@@ -39,6 +39,10 @@ struct LabelledPart {
   bool IsRight() const { return fault.empty(); }
 };
 
+/// Returns true if two labels of one motion name one performance: they state the same move, and more than half of the
+/// longer one's frames belong to both.
+bool IsSamePerformance(const LabelledPart& a, const LabelledPart& b);
+
 /// Finds the frames of `streams` to which the labels refer, sorted by stream and then by time. Labels of other
 /// recordings are left out. Fails, with the label's line, if a performance or an action point begins more than half
 /// a second before the recording or after its last frame, or if a performance ends before the recording or more than
@@ -75,6 +79,7 @@ struct LabelledStreams {
   std::vector<RecordedPerson> people;  ///< sorted by name
   std::vector<std::string> moves;      ///< all moves that labels name, sorted
   std::string nobody;                  ///< a recording whose person is not known; "" if there is none
+  std::vector<Error> copies = {};      ///< recordings that were left out (LeaveOutCopies)
 };
 
 /// The texts of label files, by path.
@@ -82,8 +87,9 @@ using LabelTexts = std::map<std::string, std::string>;
 
 /// Combines labels and recordings. Without any labels, each recording is one performance (WholeStreams); otherwise a
 /// recording without a label contains no move. The person of a recording is named by its labels, otherwise by its
-/// file's name; otherwise each recording counts as a person of its own. Fails if `ReadLabels` or `MatchLabels`
-/// fails, and if the labels of a recording name two people. Names of people are compared by `ComparedName`.
+/// file's name; otherwise each recording counts as a person of its own. Of recordings that show the same motion, only
+/// one remains (LeaveOutCopies). Fails if `ReadLabels`, `MatchLabels` or `LeaveOutCopies` fails, and if the labels of a
+/// recording name two people. Names of people are compared by `ComparedName`.
 Result<LabelledStreams> LabelStreams(std::vector<NamedStream> streams, const LabelTexts& labels);
 
 }  // namespace etude

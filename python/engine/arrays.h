@@ -33,6 +33,39 @@ void AddStreams(py::module_& module);
 void AddVision(py::module_& module);
 
 using Array = py::array_t<double, py::array::c_style | py::array::forcecast>;
+
+}  // namespace etude::engine
+
+namespace pybind11::detail {
+
+/// Converts any array, or a list of arrays, to doubles. Masked entries of a numpy.ma.MaskedArray, whose numbers mean
+/// nothing, become NaN.
+template <>
+struct pyobject_caster<etude::engine::Array> {
+  using type = etude::engine::Array;
+
+  bool load(handle source, bool convert) {
+    if (!convert && !type::check_(source)) return false;
+    object array = reinterpret_borrow<object>(source);
+    try {
+      if (isinstance<list>(array) && !array.cast<list>().empty() && hasattr(array.cast<list>()[0], "filled"))
+        array = module_::import("numpy").attr("ma").attr("array")(array);  // numpy.array would forget the masks
+      if (isinstance<pybind11::array>(array) && hasattr(array, "filled"))
+        array = array.attr("astype")("float64").attr("filled")(std::numeric_limits<double>::quiet_NaN());
+    } catch (const error_already_set&) {
+      return false;
+    }
+    value = type::ensure(array);
+    return static_cast<bool>(value);
+  }
+  static handle cast(const handle& source, return_value_policy, handle) { return source.inc_ref(); }
+  PYBIND11_TYPE_CASTER(type, handle_type_name<type>::name);
+};
+
+}  // namespace pybind11::detail
+
+namespace etude::engine {
+
 constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 constexpr py::ssize_t kAny = -1;
 

@@ -2,7 +2,10 @@
 #include <etude/motion.h>
 #include <etude/sim/dances.h>
 #include <etude/transitions.h>
+#include <fmt/format.h>
 
+#include <algorithm>
+#include <cstddef>
 #include <filesystem>
 #include <fstream>
 #include <iterator>
@@ -11,6 +14,7 @@
 #include <optional>
 #include <span>
 
+#include "engine/streams/recording.h"
 #include "python/engine/arrays.h"
 
 namespace etude::engine {
@@ -23,9 +27,27 @@ struct FileMotion : BodyMotion {
   std::vector<std::string> changes;
 };
 
+/// Throws BadInput if the trunk (median over the frames) would be human in centimetres or millimetres.
+void ExpectMetres(const std::vector<BodyPose>& poses) {
+  if (poses.empty()) return;
+  std::vector<double> trunks;
+  for (const BodyPose& pose : poses)
+    trunks.push_back(glm::distance(pose[Role::kHipCentre], pose[Role::kShoulderCentre]));
+  const auto middle = trunks.begin() + static_cast<std::ptrdiff_t>(trunks.size() / 2);
+  std::ranges::nth_element(trunks, middle);
+  for (const auto& [metres, unit] : {std::pair{0.01, "centimetres"}, {0.001, "millimetres"}}) {
+    if (*middle * metres < kMinTrunk_m || *middle * metres > kMaxTrunk_m) continue;
+    throw BadInput(fmt::format(
+        "positions_m: the distance from hip centre to shoulder centre is {:.3g}; allowed: {} to {} m; the positions "
+        "seem to be in {}",
+        *middle, kMinTrunk_m, kMaxTrunk_m, unit));
+  }
+}
+
 BodyMotion MakeMotion(const Array& positions_m, double rate_hz) {
   BodyMotion motion{.rate_hz = rate_hz, .poses = FromArrays<BodyPose>("positions_m", positions_m)};
   ExpectFinite("positions_m", positions_m);
+  ExpectMetres(motion.poses);
   if (!(std::isfinite(rate_hz) && rate_hz > 0)) throw BadInput("rate_hz: must be above 0");
   return motion;
 }
@@ -58,8 +80,8 @@ std::vector<std::string> NamesOf(const auto& all,
 void AddMotions(py::module_& module) {
   py::class_<BodyMotion>(module, "Motion", "Frames at a fixed rate: where the twenty joints of `ROLES` are.")
       .def(py::init(&MakeMotion), "positions_m"_a, "rate_hz"_a = 30.0,
-           "positions_m: frames x 20 x 3, metres, Y up. Raises BadInput for another shape or numbers that are not "
-           "finite.")
+           "positions_m: frames x 20 x 3, metres, Y up. Raises BadInput for another shape, numbers that are not "
+           "finite (as masked ones count), and a body that is human in cm or mm.")
       .def_readonly("rate_hz", &BodyMotion::rate_hz)
       .def_property_readonly("positions_m", ArraysOf(&BodyMotion::poses), "A copy: frames x 20 x 3, metres, Y up.")
       .def("__len__", [](const BodyMotion& motion) { return motion.poses.size(); });

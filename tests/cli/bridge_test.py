@@ -48,6 +48,14 @@ class Bridge(EtudeCase):
             self.assertGreaterEqual(int(frame.get("clips")), 2)
         self.assertGreater(len(root.findall("in-between/key")), 3)
 
+    def test_a_copy_of_a_clip_is_no_second_clip(self):
+        summary = self.works(*FEW)
+        copy = self.folder / "copy.csv"
+        self.assertEqual(self.etude("clip", "convert", "builtin:clap", copy).returncode, 0)
+        result = self.etude("bridge", *FEW, copy)
+        self.assertEqual(result.stdout, summary)
+        self.assertIn(f"left out: {copy}: shows the same motion as builtin:clap\n", result.stderr)
+
     def test_another_validator_accepts_it_too(self):
         self.works(*FEW, "-o", self.tags)
         try:
@@ -80,11 +88,16 @@ class Bridge(EtudeCase):
         self.assertGreater(sum(clip["any"]["frame_share"] for clip in summary["clips"]), 0.5)
 
     def test_many_clips_are_compared_pair_by_pair_only_if_asked(self):
-        one = self.folder / "0.npz"
+        one = self.folder / "0.csv"
         self.etude("clip", "convert", FEW[0], one)
-        for i in range(1, 301):
-            (self.folder / f"{i}.npz").write_bytes(one.read_bytes())
-        clips = [str(self.folder / "*.npz"), "builtin:wave"]
+        rows = [line.split(",") for line in one.read_text().splitlines()]
+        hand = rows[0].index("left_hand_x_m")
+        for i in range(1, 301):  # motions that differ by 1 cm in one frame
+            frame, axis = 1 + i % 60, hand + i // 60 % 3 + (12 if i >= 180 else 0)
+            changed = [[*row] for row in rows]
+            changed[frame][axis] = f"{float(rows[frame][axis]) + .01:.4f}"
+            (self.folder / f"{i}.csv").write_text("".join(",".join(row) + "\n" for row in changed))
+        clips = [str(self.folder / "*.csv"), "builtin:wave"]
         summary = json.loads(self.etude("bridge", *clips, "--json").stdout)
         self.assertEqual(complaints(summary, load_schema("bridge-summary.schema.json")), [])
         self.assertNotIn("pairs", summary)

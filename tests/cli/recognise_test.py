@@ -144,6 +144,38 @@ class Recognise(EtudeCase):
         self.assertIn("some.csv:5: no recording taek is given\n", mixed)
         self.assertEqual(scores["false_alarms_per_min"], 0)
 
+    def test_one_motion_counts_once_and_scores_of_what_was_taught_are_no_test(self):
+        take = self.write("take.txt", kinect(arms(100) + arms(100, both=False) + arms(30)))
+        other = self.write("other.txt", kinect(arms(92, 1.7) + arms(96, 2.2, both=False)))
+        rows = "{0},0,3,raise,right\n{0},3,6,left,right\n"
+        labels = self.write("labels.csv", "clip,from_s,to_s,move,truth\n" + rows.format("take") + "take,6,9,raise,small\n")
+        told = self.facts("teach", take, take, "--labels", labels, "-o", self.folder / "moves.yaml")
+        self.assertEqual({(move["move"], move["right"], move["wrong"]) for move in told["moves"]}, {("raise", 1, 1), ("left", 1, 0)})
+        copy = self.write("copy.txt", (self.folder / "take.txt").read_text())
+        self.assertEqual(told, {**self.facts("teach", take, "--labels", labels, "-o", self.folder / "one.yaml"),
+                                "output": told["output"]})
+        again = self.ends(0, "teach", take, copy, "--labels", labels, "-o", self.folder / "again.yaml")
+        self.assertIn(f"left out: {copy}: shows the same motion as {take}\n", again.stderr)
+        self.assertEqual((self.folder / "again.yaml").read_text(), (self.folder / "moves.yaml").read_text())
+        self.assertIn("copy.txt: shows the same motion as", self.refusal("teach", take, copy, "-o", self.folder / "two.yaml"))
+
+        def scores(*takes):
+            lines = self.write("some.csv", "clip,from_s,to_s,move,truth\n" + "".join(rows.format(name.split("/")[-1][:-4]) for name in takes))
+            return self.ends(0, "recognise", *takes, "--moves", self.folder / "moves.yaml", "--labels", lines).stderr
+        self.assertIn("\n2 of 4 performances are examples of these moves, so the scores are no test of them\n", scores(take, other))
+        self.assertNotIn("are examples", scores(other))
+        people = self.write("people.csv", "clip,from_s,to_s,move,truth,person\ntake,0,3,raise,right,anna\nother,0,3,raise,right,bo\n"
+                            "copy,0,3,raise,right,cy\n")
+        self.assertIn("but names the person", self.refusal("recognise", take, other, copy, "--labels", people, "--leave-one-person-out"))
+
+    def test_recordings_of_one_name_are_told_by_their_files(self):
+        takes = []
+        for person in ("anna", "bo"):
+            (self.folder / person).mkdir()
+            takes.append(self.write(f"{person}/take1.txt", kinect(arms(100 if person == "bo" else 93))))
+        moves = self.teach(self.write("raise.txt", kinect(arms(97))))
+        self.assertEqual([line["stream"] for line in self.events(*takes, "--moves", moves)], [str(take) for take in takes])
+
     def test_one_person_left_out(self):
         labels = "clip,from_s,to_s,move,truth,person\n"
         folder = self.folder / "takes"
@@ -157,6 +189,8 @@ class Recognise(EtudeCase):
         scores = self.facts("recognise", folder, "--labels", path, "--leave-one-person-out", "--recogniser", "dtw")["scores"]
         self.assertEqual((scores["people"], scores["performances"]), (3, 6))
         self.assertEqual((scores["accuracy"], scores["nearest_accuracy"]), (1, 1))
+        spelt = self.write("spelt.csv", labels.replace("left,right,bo", "left,right,Bo"))
+        self.assertEqual(self.facts("recognise", folder, "--labels", spelt, "--leave-one-person-out", "--recogniser", "dtw")["scores"], scores)
         unnamed = self.write("unnamed.csv", labels.replace(",person\n", "\n").replace(",anna\n", "\n"))
         self.assertIn("the person in the recording anna is unknown", self.refusal("recognise", folder, "--labels", unnamed,
                                                               "--leave-one-person-out"))

@@ -145,6 +145,16 @@ class Streams(EtudeCase):
         self.assertEqual([one["clip"] for one in manifest["scenarios"][0]["refused"]], [str(takes / "eve.txt")])
         self.assertEqual((self.folder / "told" / "cells.jsonl").read_bytes(), (self.folder / "half" / "cells.jsonl").read_bytes())
         (takes / "eve.txt").unlink()
+        # A copy under a name without labels is left out; under another person's name it is refused.
+        (takes / "fay.txt").write_text((takes / "anna.txt").read_text())
+        told = self.ends(0, "run", half, "-o", self.folder / "copied")
+        self.assertIn(f"fay.txt: was left out: shows the same motion as {takes / 'anna.txt'}", told.stderr)
+        self.assertEqual((self.folder / "copied" / "cells.jsonl").read_bytes(), (self.folder / "half" / "cells.jsonl").read_bytes())
+        named = self.write("named.csv", (self.folder / "labels.csv").read_text() + "fay,0,3,raise,right,fay\n")
+        self.out = self.folder / "none"
+        self.assertIn("fay.txt: shows the same motion as", self.refusal("run", self.write(
+            "fay.yaml", (self.folder / "half.yaml").read_text().replace(labels, named)), "-o", self.out))
+        (takes / "fay.txt").unlink()
         # A truncated take, with labels beyond its end.
         (takes / "anna.txt").write_text("\n".join((takes / "anna.txt").read_text().splitlines()[:20]) + "\n")
         self.out = self.folder / "none"
@@ -186,7 +196,8 @@ class Streams(EtudeCase):
         for move in ("clap", "boxing", "robot"):
             for person in ("anna", "bo"):
                 path = self.folder / f"{person}_{move}.bvh"
-                self.ends(0, "clip", "convert", f"builtin:{move}", path)
+                begin = 0 if person == "anna" else 0.1  # equal motions of two people would be refused
+                self.ends(0, "clip", "convert", f"builtin:{move}", path, "--trim", f"{begin}:")
                 clips.append(path)
                 labels += f"{person}_{move},,,{move},right,{person}\n"
         path = self.write("labels.csv", labels)

@@ -59,6 +59,15 @@ class Train(EtudeCase):
                 self.assertEqual(len(result.stderr.strip().splitlines()), 1)
                 self.assertFalse((self.folder / "tuned.yaml").exists())
 
+    def test_a_copy_is_not_held_out_from_its_original(self):
+        copy = self.folder / "copy.csv"
+        self.assertEqual(self.etude("clip", "convert", MOVES[0], copy).returncode, 0)
+        told = self.train(*MOVES, copy, "--hold-out", "copy", code=2).stderr
+        self.assertIn(f"{copy}: shows the same motion as {MOVES[0]}, but only one of the two is held out", told)
+        told = self.train(*MOVES, copy, "--hold-out", "0", "--method", "adaptive")
+        self.assertIn(f"left out: {copy}: shows the same motion as {MOVES[0]}\n", told.stderr)
+        self.assertIn("5 clips were used for learning, 0 were held out", told.stdout)
+
     def test_a_file_that_is_there_is_kept(self):
         (self.folder / "tuned.yaml").write_text("mine")
         self.train(*MOVES, code=2)

@@ -128,6 +128,21 @@ class Motions(unittest.TestCase):
             broken.flat[7] = np.inf
             engine.Motion(broken)
 
+    def test_what_is_masked_is_not_finite(self):
+        still = np.ma.masked_array(np.repeat(standing()[None], 3, axis=0), mask=False)
+        np.testing.assert_array_equal(engine.Motion(still).positions_m, still.data)
+        still[1, 4, 2] = np.ma.masked
+        for masked in (still, still.astype(np.float32), list(still)):
+            with self.assertRaisesRegex(engine.BadInput, "positions_m: value 74 is not finite"):
+                engine.Motion(masked)
+
+    def test_a_body_in_another_unit_is_refused(self):
+        for scale, unit in ((100, "centimetres"), (1000, "millimetres")):
+            with self.assertRaisesRegex(engine.BadInput, f"the positions seem to be in {unit}"):
+                engine.Motion(scale * np.repeat(standing()[None], 3, axis=0))
+        for scale in (0.5, 1.2):
+            engine.Motion(scale * np.repeat(standing()[None], 3, axis=0))
+
     def test_bridges(self):
         still = engine.Motion(np.repeat(standing()[None], 60, axis=0), 30)
         bridges = engine.Bridges([still, still])

@@ -5,6 +5,7 @@
 #include <set>
 #include <utility>
 
+#include "engine/motion/equal_motions.h"
 #include "io/clips/clip_library.h"
 #include "io/clips/references.h"
 #include "io/files/files.h"
@@ -45,6 +46,35 @@ void MakeUnique(std::vector<std::string>& names, const std::vector<std::string>&
   }
 }
 
+/// Removes each clip that shows the same motion as an earlier clip, because a pose must occur in several motions. If
+/// the copy is corrective, the earlier clip becomes corrective.
+void LeaveOutCopies(BridgeLibrary& loaded, std::vector<BodyMotion>& motions) {
+  std::vector<Places> places;
+  for (const BodyMotion& motion : motions) places.push_back(PlacesOf(motion));
+  const auto equals = FindEqual(places);
+  std::vector<int> index(motions.size());  // of each clip, or of the clip that it equals, among those that remain
+  std::size_t kept = 0;
+  for (std::size_t c = 0; c < motions.size(); ++c) {
+    if (equals[c]) {
+      index[c] = index[*equals[c]];
+      loaded.copies.push_back({{loaded.sources[c]}, "shows the same motion as " + loaded.sources[*equals[c]]});
+      continue;
+    }
+    index[c] = static_cast<int>(kept++);
+  }
+  if (loaded.copies.empty()) return;
+  const auto erase = [&](auto& of_clips) {
+    std::size_t c = 0;
+    std::erase_if(of_clips, [&](const auto&) { return equals[c++].has_value(); });
+  };
+  erase(motions);
+  erase(loaded.library.names);
+  erase(loaded.sources);
+  std::set<int> corrective;
+  for (const int c : loaded.corrective) corrective.insert(index[static_cast<std::size_t>(c)]);
+  loaded.corrective.assign(corrective.begin(), corrective.end());
+}
+
 }  // namespace
 
 Result<BridgeLibrary> LoadBridgeLibrary(const BridgeLibraryOptions& options) {
@@ -72,6 +102,7 @@ Result<BridgeLibrary> LoadBridgeLibrary(const BridgeLibraryOptions& options) {
     }
   }
   if (options.on_progress) options.on_progress(done, references.size());
+  LeaveOutCopies(loaded, motions);
   MakeUnique(library.names, loaded.sources);
   // Retarget all clips to one body, tag the clips, and build the in-betweens.
   loaded.tag_rules.memberships = loaded.system.memberships;

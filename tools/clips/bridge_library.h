@@ -35,10 +35,11 @@ struct BridgeLibrary {
   TaggedLibrary library;
   std::vector<std::string> sources;  ///< the references that open the clips again
   std::vector<int> corrective;       ///< indices of the clips into which every other clip must lead
+  std::vector<Error> copies = {};    ///< clips that were left out, because they show the same motion as an earlier clip
 };
 
-/// Loads the clips, retargets all clips to one body, tags the clips, and finds the bridge frames. Fails as `LoadClips`
-/// does.
+/// Loads the clips, retargets all clips to one body, tags the clips, and finds the bridge frames. Of clips
+/// that show the same motion, uses the first. Fails as `LoadClips` does.
 Result<BridgeLibrary> LoadBridgeLibrary(const BridgeLibraryOptions& options);
 
 /// Returns the tags of a library as the content of a tags file.

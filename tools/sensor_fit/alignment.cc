@@ -229,6 +229,25 @@ std::optional<TwinMatch> AlignTwin(const JointRecording& recording, const TwinMo
   return RealignTwin(recording, twin, *coarse, 1.5 * frame_s);
 }
 
+std::optional<double> ChanceRms(const JointRecording& recording, const TwinMotion& twin, const TwinMatch& match) {
+  constexpr int kShifts = 16;
+  constexpr double kApart_s = 1;
+  constexpr std::size_t kMinShifts = 3;
+  const double own = static_cast<double>(recording.frames.size()) / recording.rate_hz;
+  const double overlap = std::min(own, twin.DurationSeconds()) / 2;
+  std::vector<double> rms;
+  for (int i = 0; i < kShifts; ++i) {
+    TwinAlignment tried = match.alignment;
+    tried.shift_s = std::lerp(overlap - own, twin.DurationSeconds() - overlap, (i + 0.5) / kShifts);
+    if (std::abs(tried.shift_s - match.alignment.shift_s) < kApart_s) continue;
+    if (const auto other = BestShift(recording, twin, tried, 0, 1)) rms.push_back(other->rms_m);
+  }
+  if (rms.size() < kMinShifts) return std::nullopt;
+  const auto middle = rms.begin() + static_cast<std::ptrdiff_t>(rms.size() / 2);
+  std::ranges::nth_element(rms, middle);
+  return *middle;
+}
+
 std::optional<TwinMatch> RealignTwin(const JointRecording& recording, const TwinMotion& twin,
                                      const TwinAlignment& start, double max_shift_s) {
   const double frame_s = 1 / recording.rate_hz;

@@ -160,6 +160,7 @@ std::optional<RealRecording> MakeRealRecording(JointRecording recording, TwinMot
 
 std::string DescribeMismatch(const RealRecording& real) {
   constexpr double kMaxRatio = 2, kMax_m = 0.3, kMinMirror_m = 0.05, kMirror = 0.5;
+  constexpr double kMinChance_m = 0.1, kClearly = 0.7;
   using Places = std::optional<glm::dvec3>;
   const auto& [recording, twin, match] = real;
   // Compare the sizes by the joints that both show.
@@ -192,6 +193,14 @@ std::string DescribeMismatch(const RealRecording& real) {
           "two files is a mirror image",
           1000 * rms_m, 1000 * image->alignment.rms_m);
     }
+  }
+  // Of a body that hardly moves, all shifts leave about the same.
+  const auto chance = ChanceRms(recording, twin, match);
+  if (chance && *chance > kMinChance_m && rms_m > kClearly * *chance) {
+    return fmt::format(
+        "the RMS distance after alignment is {:.1f} mm, but shifts of a second or more leave only {:.1f} mm; if the "
+        "motion is the same, the frame rate of one file may be wrong (--rate, --reference-rate)",
+        1000 * rms_m, 1000 * *chance);
   }
   if (rms_m <= kMax_m) return "";
   return fmt::format(

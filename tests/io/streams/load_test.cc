@@ -117,6 +117,11 @@ TEST(LabelStreams, NamesOfOnePersonMayDifferInCaseAndBlanks) {
   EXPECT_EQ(all->people[0].name, "Anna B");
   for (const LabelledPart& part : all->parts) EXPECT_EQ(part.person, "Anna B");
   ASSERT_OK(two, LabelStreams(TwoStreams(), {{"l", text + "b,1,2,m,right,anne b\n"}}));
+  const std::string marks = "clip,from_s,to_s,move,truth,person\na,1,2,m,right,Zo\u00eb \u0160\nb,1,2,m,right,";
+  ASSERT_OK(forms, LabelStreams(TwoStreams(), {{"l", marks + "Zoe\u0308 S\u030c\n"}}));
+  EXPECT_EQ(forms->people.size(), 1u) << "Unicode's forms NFC and NFD";
+  ASSERT_OK(others, LabelStreams(TwoStreams(), {{"l", marks + "Zoe\u0301 S\u030c\n"}}));
+  EXPECT_EQ(others->people.size(), 2u);
   EXPECT_EQ(two->people.size(), 2u);
   EXPECT_EQ(DescribeLabels(*ReadLabels(text, "l"), "l", {TwoStreams()[0]}),
             std::vector<std::string>{"l:3: Etude reads Anna B and anna b as one person"});

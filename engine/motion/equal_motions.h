@@ -1,0 +1,39 @@
+#pragma once
+
+#include <cstddef>
+#include <functional>
+#include <glm/glm.hpp>
+#include <optional>
+#include <vector>
+
+#include "engine/motion/body.h"
+
+namespace etude {
+
+/// A motion of any body: where each joint is in each frame, metres; NaN where it is not seen. Any axes and origin.
+struct Places {
+  std::size_t frames = 0, joints = 0;
+  std::function<glm::dvec3(std::size_t frame, std::size_t joint)> at;
+};
+
+/// `motion` must outlive the result.
+Places PlacesOf(const BodyMotion& motion);
+
+/// Returns the positions of up to `max_joints` joints in up to `max_frames` frames, evenly chosen.
+std::vector<glm::dvec3> SketchOf(const Places& places, std::size_t max_frames = 12, std::size_t max_joints = 30);
+
+/// Returns true if one rigid motion of the whole take moves all positions of one onto those of the other, to within a
+/// millimetre, in all frames and joints: files of one motion may be rounded, and turned or moved.
+bool AreEqual(const Places& a, const Places& b);
+
+/// Finds equal motions among `count` ones. Returns, for each, the first motion that it equals; nothing for the first
+/// one itself and for motions without an equal. Compares the sketches (SketchOf) first; `are_equal` must then compare
+/// the motions entirely. An empty sketch equals no other.
+std::vector<std::optional<std::size_t>> FindEqual(std::size_t count,
+                                                  const std::function<std::vector<glm::dvec3>(std::size_t)>& sketch_of,
+                                                  const std::function<bool(std::size_t, std::size_t)>& are_equal);
+
+/// The same for motions that are at hand.
+std::vector<std::optional<std::size_t>> FindEqual(const std::vector<Places>& motions);
+
+}  // namespace etude
