@@ -188,8 +188,7 @@ Result<int> VerifyCommand(VerifyCommandOptions options) {
     fmt::print("{}\n", choice ? SampleInWords(*choice) : "Etude ran no cell again.");
     fmt::print(
         "{} of {} checks agree. Nothing verifies times, the machine, the version of Etude, the suite's name, and the "
-        "files "
-        "in stderr/ and blind/.\n",
+        "files in stderr/ and blind/.\n",
         agree, all.size());
   }
   // Sign the run only if everything agrees.

@@ -129,6 +129,7 @@ class Blind(EtudeCase):
                     empty += first + frame not in recorded[side]
         self.assertGreater(empty, 0)
 
+    @heavy
     @unittest.skipUnless(CHROMIUM, "without chromium")
     def test_a_rater_watches_answers_by_keyboard_and_saves_a_file_that_is_read(self):
         with Browser() as page:

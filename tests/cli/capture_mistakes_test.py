@@ -466,6 +466,7 @@ class Mistakes(EtudeCase):
                 self.check(told, errors)
                 self.assertLess(abs(height), 15, told)
 
+    @heavy
     def test_every_lens(self):
         for lens in [Lens(LENS[:n]) for n in ((0, 14) if HEAVY else (14,))] + [Lens([-0.02, 0.004, -0.001, 0.0003], True)]:
             with self.subTest(lens.coefficients):
@@ -491,6 +492,7 @@ class Mistakes(EtudeCase):
         told, _, _ = self.capture(mistake=IN_ALL_FILMS, cameras=2)
         self.assertIn("doubtful: left and right exchange positions from one frame to the next, 2 times (first at 0.", told)
 
+    @heavy
     def test_what_no_page_names_is_told_and_mended(self):
         for name, (rig, pixels, words) in list(STRANGERS.items())[::1 if HEAVY else 5]:
             for cameras in (2, 4) if HEAVY else (2,):
@@ -499,6 +501,7 @@ class Mistakes(EtudeCase):
                     self.check(told, errors, words=words)
 
     # Sizes and crops outside the list of known ones are doubted, with the fit, and never "corrected".
+    @heavy
     def test_other_sizes_and_crops_are_doubted(self):
         crops = {"scaled by 1.304 and 1.304": lambda p: 0.7667 * p,
                  "shifted by +80 and +30 px": lambda p: p - (80, 30),
@@ -523,6 +526,7 @@ class Mistakes(EtudeCase):
                 {"people": [{"pose_keypoints_2d": [float(v) for key in HALPE for v in (*person[key], 0.9)]}]}))
 
     # The times of the pictures lay them on even frames, whichever film lacks some.
+    @heavy
     def test_films_of_uneven_rate(self):
         low_light = [k for k in range(FRAMES) if k < 30 or k % 2 == 0]
         for name, kept, words in (("cam1", [k for k in range(FRAMES) if not 30 <= k < 36], "missing frames: 31 to 36"),
@@ -539,6 +543,7 @@ class Mistakes(EtudeCase):
                 self.assertLess(np.max(errors), 2.0, told.stdout)
 
     # A film that was cut between two key frames has more packets than pictures.
+    @heavy
     def test_a_cut_film_has_the_frames_that_it_shows(self):
         folder, rig, films, _ = self.take(cameras=2, lens=Lens())
         long = folder / "long"
@@ -553,6 +558,7 @@ class Mistakes(EtudeCase):
         self.assertLess(np.max(errors_mm(read_trc(folder / "p.trc"), figure)[0]), 2.0, told.stdout)
 
     # The end of a film decides, not the number of its frames.
+    @heavy
     def test_films_may_end_a_frame_apart(self):
         folder, rig, films, _ = self.take(cameras=2, lens=Lens())
         self.remade(folder, "cam2", "", [k / RATE for k in range(FRAMES + 1)])
@@ -563,6 +569,7 @@ class Mistakes(EtudeCase):
         self.assertIn("Cut both films so that they begin and end at the same moments", told.stderr)
 
     # With errors of 8 px no mistake may be reported, but exchanged cameras must still be found.
+    @heavy
     def test_imprecise_keypoints_are_no_mistake_of_the_session(self):
         told, _, _ = self.capture(cameras=2, noise_px=8)
         for word in ("are exchanged", "the rig's", "keypoints are", "focal length"):
@@ -570,6 +577,7 @@ class Mistakes(EtudeCase):
         rig, _, words = STRANGERS["two cameras exchanged"]
         self.assertIn(words, self.capture(rig, cameras=2, noise_px=2)[0])
 
+    @heavy
     def test_forecast_measures_how_keypoints_err_and_is_right_about_the_capture(self):
         for cameras, noise_px in ((2, 1.5), (3, 0.5), (4, 1.5), (4, 4)) if HEAVY else ((3, 1.5),):
             with self.subTest(cameras=cameras, noise_px=noise_px):
@@ -622,6 +630,7 @@ class Mistakes(EtudeCase):
                 ratio = of_place(expected) / of_place(np.square(errors_mm(found, truth)[0]))
                 self.assertLess(np.abs(ratio - 1).max(), 0.15, ratio)
 
+    @heavy
     def test_focal_lengths_that_are_off_are_doubted(self):
         off = lambda films: altered_toml(lambda name, R, T, K: (name, R, T, K @ np.diag([1.05, 1.05, 1]) if name in films else K))
         cases = [("cam2", 4, 2, r"cam2: a focal length multiplied by 0\.9[56]\d ± 0\.00\d would fit the keypoints better: rays to the same keypoint would miss"),
@@ -680,6 +689,7 @@ class Mistakes(EtudeCase):
         self.assertNotIn("doubtful: cam2: the film", asked)
         self.assertLess(np.median(by_sync), 0.85 * np.median(errors))
 
+    @heavy
     def test_the_page_tells_films_residuals_and_mends(self):
         page = self.folder / "a page.html"
         told, errors, _ = self.capture(mistake=FEWEST[1], cameras=2, more=("--report", page))

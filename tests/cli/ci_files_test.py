@@ -114,6 +114,7 @@ class CiFiles(EtudeCase):
         self.assertRegex(summary, r"\*\*worse\*\* \| ik-weights \| joint\\_noise\\_deg=5 \| ours \| effector position error \|")
         self.assertIn("72 same", summary)  # the other clips are unchanged
 
+    @heavy
     def test_what_is_missing_is_told_in_the_summary(self):
         summary, right = self.folder / "summary", {"SUITE": "quick/ik", "METHOD": "{name: ours, exec: [python3, solver.py]}",
                                                    "BASELINE": "no.json", "ARGUMENTS": "--trials 1"}

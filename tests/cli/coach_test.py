@@ -62,6 +62,7 @@ class Coach(EtudeCase):
         self.assertEqual(wrong("--mirror"), wrong("--mirror", "--recogniser", "coached"))
         self.assertTrue({"side_stretch", "side_kick", "robot"} <= set(wrong("--mirror")))
 
+    @heavy
     def test_who_stands_there_is_corrected(self):
         rows = self.take.read_text().splitlines()
         rows = [rows[0]] + [f"{i / 30:.6f}," + rows[1].split(",", 1)[1] for i in range(900)]

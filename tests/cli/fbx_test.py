@@ -15,6 +15,7 @@ import zlib
 
 import numpy
 import second_readers
+from etude_case import heavy
 from motion_file_case import MotionFileCase
 
 THREE = os.environ.get("ETUDE_THREE")
@@ -170,6 +171,7 @@ class Fbx(MotionFileCase):
                 worst = max(worst, numpy.linalg.norm(apart))
         return worst
 
+    @heavy
     def test_fbx_keys_of_three_axes_that_are_not_at_one_time(self):
         for late_ticks in (0, 1, 80, 1000, 46186):  # at most a microsecond
             path, places = self.fbx("late.fbx", 1, "y", late_ticks=late_ticks)

@@ -203,6 +203,7 @@ class Gate(EtudeCase):
         self.ends(0, "report", self.now, "--no-video")
         self.assertIn("24 without an answer", (self.now / "report" / "summary.md").read_text())
 
+    @heavy
     def test_a_reversed_answer_is_said_first_and_last(self):
         solver = (EXAMPLES / "ik_dls.py").read_text()
         suite = ("scenario: ik\nquestion: Is mine better?\ntask: ik\ntrials: 12\nmax_sweeps: 1000\njoint_noise_deg: 15\n"

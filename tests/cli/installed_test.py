@@ -24,6 +24,7 @@ class Installed(EtudeCase):
         for name in ("cells.jsonl", "summary.json"):
             self.assertEqual((here / name).read_bytes(), (out / name).read_bytes(), name)
 
+    @heavy
     def test_a_prefix_that_was_moved_finds_what_it_ships(self):
         prefix, moved, empty = self.folder / "prefix", self.folder / "moved", self.folder / "empty"
         subprocess.run(["cmake", "--install", BUILD, "--prefix", prefix], check=True, stdout=subprocess.DEVNULL)

@@ -75,6 +75,7 @@ class Interrupts(EtudeCase):
         self.assertEqual(before, (page.read_bytes(), (video / "convergence.mp4").read_bytes()))
         self.assertEqual(self.left(), [])
 
+    @heavy
     def test_a_clip_s_film_likewise(self):
         film = self.folder / "clip.mp4"
         said = self.interrupt(["clip", "render", WALK, "-o", film], lambda _: self.left())
@@ -101,6 +102,7 @@ class Interrupts(EtudeCase):
         self.assertLess(time.monotonic() - sent_at[-1], 5, "the first signal ends it")
         self.assertEqual([path.name for path in self.folder.iterdir()], ["long.yaml"])
 
+    @heavy
     def test_a_replay_says_that_it_was_stopped(self):
         many = self.write("many.yaml", IK.replace("trials: 4", "trials: 300"))
         self.run_suite(many)

@@ -6,7 +6,7 @@ import re
 import subprocess
 import unittest
 
-from etude_case import ETUDE, EtudeCase
+from etude_case import ETUDE, EtudeCase, heavy
 
 BUILD = pathlib.Path(ETUDE).resolve().parent
 EXAMPLES = pathlib.Path(__file__).resolve().parents[2] / "examples" / "library"
@@ -65,6 +65,7 @@ class Library(EtudeCase):
             places = [[float(row[table[0].index(joint)]) for row in table[1:]] for table in tables]
             self.assertLess(max(abs(a - b) for a, b in zip(*places)), 0.02, joint)
 
+    @heavy
     def test_sensors_see_a_clip(self):
         told = []
         for name in "a", "b":

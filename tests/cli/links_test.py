@@ -5,7 +5,7 @@ import pathlib
 import shutil
 import unittest
 
-from etude_case import IK, EtudeCase, ik_scenario
+from etude_case import IK, EtudeCase, heavy, ik_scenario
 
 SCENARIO = ik_scenario(trials=2) + "video: {compare: [fixed, least-squares], trials: [1]}\n"
 
@@ -110,6 +110,7 @@ class Links(EtudeCase):
             self.refuse(journal, "merge", shard, self.folder / "2", "-o", self.folder / "merged")
             self.assertEqual(kept.read_text(), text)
 
+    @heavy
     def test_take_no_last_words_of_programs(self):
         program = self.write("method.py", """import sys
 input()

@@ -98,6 +98,7 @@ class Machine(EtudeCase):
             self.assert_same_results(whole, self.out)
         self.assertIn(3, codes)
 
+    @heavy
     def test_the_manifest_is_the_same_in_any_address_space(self):
         """Earlier, the manifest lacked LLVM in a small address space, so --resume reported changed libraries."""
         whole, codes = self.folder / "whole", []
@@ -109,6 +110,7 @@ class Machine(EtudeCase):
                 self.assertEqual((self.out / "manifest.json").read_bytes(), (whole / "manifest.json").read_bytes())
         self.assertEqual(set(codes), {0, 3})
 
+    @heavy
     def test_a_small_stack_is_made_larger_or_told(self):
         scenario = self.write("ik.yaml", IK)
         for kib in (64, 256):
@@ -136,6 +138,7 @@ class Machine(EtudeCase):
             self.assert_same_results(whole, self.out)
         self.assertIn(3, codes)
 
+    @heavy
     def test_what_the_machine_refuses_is_refused_with_its_cause_and_nothing_is_written(self):
         (self.folder / "file").touch()
         (self.folder / "relative").mkdir()
@@ -176,6 +179,7 @@ class Machine(EtudeCase):
                 self.assertFalse(self.out.exists())
         self.run_suite(self.outside)  # the control
 
+    @heavy
     def test_gl_is_reached_as_it_is_told_and_the_manifest_tells_how(self):
         wrong = self.run_here(self.capture, "-o", self.out, environment={"ETUDE_GL": "glx"})
         self.assertEqual(wrong.returncode, 2)
@@ -191,6 +195,7 @@ class Machine(EtudeCase):
             cells.add((self.folder / way / "cells.jsonl").read_bytes())
         self.assertEqual(len(cells), 1, "the ways draw other pixels")
 
+    @heavy
     def test_what_it_refuses_in_mid_run_is_not_run_and_resuming_runs_it(self):
         folder = self.folder / "temporary"
         folder.mkdir()
@@ -207,6 +212,7 @@ class Machine(EtudeCase):
         self.run_suite(scenario, "--resume")
         self.assert_same_results(whole, self.out)
 
+    @heavy
     @unittest.skipUnless(shutil.which("strace"), "needs strace")
     def test_where_there_are_no_locks_a_run_goes_on_and_says_so(self):
         scenario, whole = self.write("ik.yaml", IK), self.folder / "whole"

@@ -211,6 +211,7 @@ class OwnMetrics(EtudeCase):
         self.assertIn(f"stopped; 6 finished cells were kept in {self.out};", said)
         self.assertEqual(len(self.run_suite(scenario, "--resume")), 6)
 
+    @heavy
     def test_it_is_versioned_asked_again_by_replay_and_verify_and_only_where_that_is_allowed(self):
         self.assertEqual(len({row["mine"] for row in self.told}), 4)
         manifest = json.loads((self.whole / "manifest.json").read_text())
@@ -247,6 +248,7 @@ class OwnMetrics(EtudeCase):
     def test_it_sees_its_own_folder_and_not_the_scenario(self):
         self.assertEqual({row["looks"] for row in self.told}, {1.0})
 
+    @heavy
     def test_vectors_are_checked_before_the_first_cell(self):
         for expected, manner, says in (("249.5", "good", "expected 249.5, found 250"),
                                        ("null", "good", "expected null, found 250"),
@@ -282,6 +284,7 @@ class OwnMetrics(EtudeCase):
         self.assertEqual([file for folder in (self.out, self.folder / "run") for file in folder.rglob("*")
                           if file.is_file() and b"0123456789abcdef" in file.read_bytes()], [])
 
+    @heavy
     def test_cells_of_tasks_that_judge_files_are_measured_too(self):
         """The oracle is our own metric: all joints are moved by 10 cm."""
         (self.folder / "m.py").write_text(FILES_METRIC)

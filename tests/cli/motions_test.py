@@ -8,7 +8,7 @@ import unittest
 
 import file_table
 import numpy
-from etude_case import png_size
+from etude_case import heavy, png_size
 from kinect_rows import arms, kinect
 from motion_file_case import MotionFileCase
 
@@ -120,6 +120,7 @@ class Motions(MotionFileCase):
         turned = self.write("turned.json", json.dumps(recording, separators=(",", ":")))
         self.assertIn("'joints': ", self.refusal("clip", "info", turned))
 
+    @heavy
     def test_angles_give_the_body_back_through_their_model(self):
         for clip, is_rigid in (("builtin:aerobic", True), (CMU, False), (f"{self.run_folder}#capture/-/000@a", False)):
             out = self.folder / "angles.mot"
@@ -182,6 +183,7 @@ class Motions(MotionFileCase):
         self.assertLess(limits["hip_flexion_r"][0], 0)
         self.assertEqual(set(limits) - set(rows[0]), set())
 
+    @heavy
     def test_joints_lie_where_second_readers_put_them(self):
         glb = self.folder / "own.glb"
         self.ends(0, "clip", "convert", CMU, glb)
@@ -193,6 +195,7 @@ class Motions(MotionFileCase):
         facts["body"]["metres_per_unit"] *= 1.01  # the control: with a unit wrong by 1 % the check must fail
         self.assertGreater(file_table.worst_mm(path, facts)[0], 5)
 
+    @heavy
     def test_a_rate_that_is_told(self):
         for command, said in ((("clip", "info", CMU, "--json"), None), (("bridge", CMU, "builtin:wave", "--json"), None)):
             own, told = (json.loads(self.etude(*command, *more).stdout) for more in ((), ("--rate", 60)))

@@ -76,6 +76,7 @@ class OutsideMethods(EtudeCase):
                 self.assertEqual(row["status"], "bad_output")
                 self.assertIn(wrong[row["method"]][1], row["reason"])
 
+    @heavy
     def test_a_fence_changes_no_result_and_is_told_of(self):
         suite = self.write("suite.yaml", IK + outside("good", EXAMPLES / "ik_dls.py") + outside("crashes", HOSTILE, "crashes"))
         self.run_suite(suite, "--jobs", 2, code=1)
@@ -103,6 +104,7 @@ class OutsideMethods(EtudeCase):
             self.assertIn(f"outside methods ran without a sandbox (fence): none ({words})", run.stderr)
             self.assertEqual(json.loads((self.out / "host.json").read_text())["fence"], f"none ({words})")
 
+    @heavy
     def test_programs_that_a_manifest_a_run_or_a_pack_names_need_leave(self):
         mark = self.folder / "started"
         program = self.folder / "method.sh"

@@ -62,6 +62,7 @@ metrics: [position_error_cm, {{name: rate, exec: [python3, {self.folder}/ours/me
         for number in (1, 2):
             self.assertEqual(self.run_shard(number).returncode, 0)
 
+    @heavy
     def test_whatever_changes_in_a_program_is_refused_with_both_versions(self):
         self.run_shards()
         self.ends(0, "merge", *self.shards, "-o", self.out)  # the control: nothing has changed
@@ -137,6 +138,7 @@ metrics: [position_error_cm, {{name: rate, exec: [python3, {self.folder}/ours/me
         self.assertIn("except the versions of its programs, which the etude of that run did not record", read)
         self.assertNotIn("differs  manifest.json", read)
 
+    @heavy
     def test_every_kind_of_program_is_named(self):
         kinds = {
             "coach": ("task: coach\nclips: ['builtin:clap', 'builtin:sway']\nsession_s: 10\n", ", seat: policy"),
@@ -159,6 +161,7 @@ metrics: [position_error_cm, {{name: rate, exec: [python3, {self.folder}/ours/me
         self.run_suite(self.write("ik.yaml", IK))
         self.assertNotIn("programs", (self.out / "manifest.json").read_text())
 
+    @heavy
     def test_a_misspelt_program_is_bad_input_wherever_it_is_named(self):
         for exec_words, words in ((f"[python3, {self.folder}/ours/slover.py]", f"there is no file '{self.folder}/ours/slover.py'; "
                                    f"did you mean '{self.folder}/ours/solver.py'?"),
@@ -174,6 +177,7 @@ metrics: [position_error_cm, {{name: rate, exec: [python3, {self.folder}/ours/me
         self.ends(1, "check-method", "--task", "ik", "--", "python3", "-c", "print(1) # x.py")
         self.assertEqual(self.etude("run", self.scenario, "--dry-run", "--no-fence").returncode, 0)
 
+    @heavy
     def test_a_program_that_cannot_start_ends_a_run_and_a_dry_run_before_anything_runs(self):
         file = self.write("dies.yaml", IK + f"  - {{name: mine, exec: [python3, {self.write('dies.py', 'import no_such_module')}]}}\n")
         for more in (["-o", self.out], ["--dry-run"]):
@@ -198,6 +202,7 @@ metrics: [position_error_cm, {{name: rate, exec: [python3, {self.folder}/ours/me
         self.assertEqual(self.run_shard(1, "--overwrite").returncode, 0)
         self.assertTrue((first / "host.json").exists())
 
+    @heavy
     def test_a_finished_shard_is_called_finished(self):
         self.assertEqual(self.run_shard(1).returncode, 0)
         said = self.run_shard(1)

@@ -50,6 +50,7 @@ class Rivals(EtudeCase):
         for name in there:
             self.assertLess(errors[name], 2 * errors["numpy"], errors)
 
+    @heavy
     def test_without_the_package_the_method_says_what_to_install(self):
         names = [name for name, package in PACKAGES.items() if not importlib.util.find_spec(package)]
         for row in self.run_suite(self.scenario(names)):

@@ -4,7 +4,7 @@ import signal
 import subprocess
 import unittest
 
-from etude_case import ETUDE, IK, EtudeCase, cells_in_journal
+from etude_case import ETUDE, IK, EtudeCase, cells_in_journal, heavy
 
 
 def children_of(pid):
@@ -28,6 +28,7 @@ class Runs(EtudeCase):
             self.run_suite(path, "--jobs", jobs, out=folder)
         self.assert_same_results(*folders)
 
+    @heavy
     def test_functions_that_the_processor_chooses_change_no_byte(self):
         scenario = self.cut_scenario("builtin:sway", "/usr/share/assimp/models/BVH/01_03.bvh", trials=2)
         # glibc's sin and exp differ in the last bit on processors with fused multiply-add.
@@ -43,6 +44,7 @@ class Runs(EtudeCase):
             self.assert_same_results(self.folder / "any", self.folder / name)
             self.assertEqual((self.folder / "any.csv").read_bytes(), (self.folder / f"{name}.csv").read_bytes())
 
+    @heavy
     def test_no_variable_of_a_shell_changes_a_byte_or_stops_the_program(self):
         scenario = self.write("c.yaml", """scenario: c
 question: Does it run?

@@ -107,6 +107,7 @@ class SecretWorlds(EtudeCase):
         self.assertIn("--seed", self.refuse("run", self.scenario, "-o", self.out, "--seed-file", self.key, "--seed", 1))
         self.assertFalse(self.out.exists())
 
+    @heavy
     def test_it_is_gone_on_with_and_replayed_by_its_key_alone(self):
         self.run_suite(self.scenario, "--seed-file", self.key, "--reuse-key")
         (self.folder / "plain").mkdir()
@@ -191,6 +192,7 @@ class SecretWorlds(EtudeCase):
         used = pathlib.Path(f"{key}.used")
         return key, lambda: [json.loads(line) for line in used.read_text().splitlines()] if used.exists() else []
 
+    @heavy
     def test_a_key_is_used_once(self):
         key, used = self.key_of_its_own()
         asked = ["--seed-file", key]
@@ -265,6 +267,7 @@ class SecretWorlds(EtudeCase):
         self.assertLess(scored.returncode, 2, scored.stderr)
         self.assertEqual([line["command"] for line in used()], ["export", "score"])
 
+    @heavy
     def test_what_is_interrupted_or_hindered_goes_on_with_its_key(self):
         key, used = self.key_of_its_own()
         scenario = self.write("ik.yaml", ik_scenario(trials=400))

@@ -8,7 +8,7 @@ import shutil
 import subprocess
 import unittest
 
-from etude_case import EtudeCase, ik_scenario
+from etude_case import EtudeCase, heavy, ik_scenario
 
 SCENARIO = ik_scenario(trials=6, question="Is it true?") + """expect: [{metric: iterations, of: fixed, at_most: 1000}]
 video: {compare: [fixed, least-squares], trials: [1]}
@@ -147,6 +147,7 @@ class Verify(EtudeCase):
             shutil.rmtree(self.out)
             shutil.copytree(self.whole, self.out)
 
+    @heavy
     def test_a_sample_tells_its_dice_and_what_it_misses(self):
         def facts(*more):
             return self.facts("verify", self.out, "--sample", 7, *more)["sample"]
@@ -206,6 +207,7 @@ class Verify(EtudeCase):
         self.verify("--sample", 0, "--sign", other, expect=1)
         self.assertFalse((self.out / "signed.b2").exists())
 
+    @heavy
     def test_rows_that_no_cell_can_confirm_are_counted_by_method(self):
         shutil.rmtree(self.out)
         hello = '{"type": "hello", "protocol": 1, "name": "m", "version": "1"}'  # it never answers
@@ -261,6 +263,7 @@ class Forgers(EtudeCase):
             return text if cell // 2 in spared else text.replace(f'{{"cell":{cell},', f'{{"cell":{cell ^ 1},', 1)
         self.merge_forged(swap)
 
+    @heavy
     def test_cannot_foresee_which_cells_are_run_again(self):
         self.merge_forged(lambda cell, text: text)
         honest = self.verdict()

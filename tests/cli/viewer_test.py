@@ -26,6 +26,7 @@ class Viewer(EtudeCase):
         result = cls.etude(*arguments)
         assert result.returncode == 0, result.stderr
 
+    @heavy
     def test_it_opens_by_keys_plays_and_has_its_errors_as_a_table(self):
         with Browser() as page:
             page.set(prefers_reduced_motion="reduce")

@@ -187,6 +187,7 @@ class Metrics(EtudeCase):
         self.assertIn(f"{len(self.vectors())} vectors of {len(self.catalogue['metrics'])} metrics, 0 disagreements",
                       result.stdout)
 
+    @heavy
     def test_a_wrong_expectation_is_reported(self):
         for name, change in {"value": {"expected": 2.1}, "null": {"expected": None}}.items():
             with self.subTest(name):

@@ -96,6 +96,7 @@ class RecordedSupport(EtudeCase):
         for name, requests in seen.items():
             self.assertGreater(requests, 0, f"a wrong {name} would be seen")
 
+    @heavy
     def test_a_second_program_finds_the_same_requests_supported(self):
         self.compare(trials=6)
 
