@@ -47,8 +47,13 @@ Result<OpenOptions> ReadOptions(const ClipReading& reading) {
   }
   options.body.keep_floor = reading.keep_floor;
   options.marker_set = reading.marker_set;
-  if (!reading.up.empty()) options.body.up = reading.up == "z" ? UpAxis::kZ : UpAxis::kY;
+  options.body.up = UpAxisOf(reading.up);
   return options;
+}
+
+std::optional<UpAxis> UpAxisOf(const std::string& name) {
+  if (name.empty()) return std::nullopt;
+  return name == "z" ? UpAxis::kZ : UpAxis::kY;
 }
 
 Result<std::optional<TimeSpan>> ReadTrim(const std::string& text) {
