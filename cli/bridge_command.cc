@@ -48,7 +48,7 @@ Result<BridgeLibrary> LoadLibrary(const BridgeCommandOptions& options) {
                        .reading = {},
                        .on_progress = ProgressOf("clips read")};
   ASSIGN_OR_RETURN(bridge.system, ReadFuzzy(options.fuzzy));
-  ASSIGN_OR_RETURN(bridge.reading, ReadOptions(options.reading));
+  ASSIGN_OR_RETURN(bridge.reading, ReadOptionsTellingDoubts(options.reading));
   return LoadBridgeLibrary(bridge);
 }
 

@@ -105,7 +105,7 @@ Result<std::vector<bool>> ChooseHeldOut(const std::vector<std::string>& names, c
 
 Result<Split> LoadSplit(const TrainOptions& options) {
   // Load the clips.
-  ASSIGN_OR_RETURN(const auto reading, ReadOptions(options.reading));
+  ASSIGN_OR_RETURN(const auto reading, ReadOptionsTellingDoubts(options.reading));
   ASSIGN_OR_RETURN(const auto references, ExpandReferences(options.clips));
   ASSIGN_OR_RETURN(auto library, LoadClips(references, {}, reading, ProgressOf("clips read")));
   std::vector<std::string> names;
@@ -266,7 +266,7 @@ constexpr const char* kHeader =
 
 Result<Trained> TrainLearnt(const TrainOptions& options) {
   ASSIGN_OR_RETURN(const auto references, ExpandReferences(options.clips));
-  ASSIGN_OR_RETURN(const auto reading, ReadOptions(options.reading));
+  ASSIGN_OR_RETURN(const auto reading, ReadOptionsTellingDoubts(options.reading));
   ASSIGN_OR_RETURN(const ClipLibrary library, LoadClips(references, {}, reading, ProgressOf("clips read")));
   const Repertoire repertoire = RepertoireOf(library);
   if (repertoire.taught.size() < 2) {

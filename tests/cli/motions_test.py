@@ -233,6 +233,25 @@ class Motions(MotionFileCase):
         z_up.write_text("".join(",".join(row) + "\n" for row in rows))
         return y_up, z_up, "the body stands along Z, but Y is the convention of joint CSV; --up sets another axis"
 
+    def test_commands_that_read_clips_tell_the_doubts_once(self):
+        y_up, z_up, doubt = self.with_z_up()
+        for more, count in (((), 1), (("--up", "z"), 0)):
+            for k, command in enumerate((("clip", "grades", z_up), ("clip", "contacts", z_up, "-o", self.folder / "c.svg", "--overwrite"),
+                                         ("bridge", z_up, y_up), ("transition", z_up, z_up, "--at", 0.5, "-o", self.folder / "t.csv", "--overwrite"))):
+                told = self.etude(*command, *more).stderr
+                self.assertEqual(told.count(f"{z_up}: {doubt}\n"), count, told)
+                self.assertEqual(told.count(doubt), count, told)
+        # The actor of a TRC enters after half a second.
+        late = self.folder / "late.trc"
+        self.ends(0, "clip", "convert", "builtin:clap", late)
+        lines = late.read_text().split("\n")
+        first = next(k for k, line in enumerate(lines) if line.startswith("1\t"))
+        for k in range(first, first + 15):
+            lines[k] = "\t".join(lines[k].split("\t")[:2]) + "\t" * 60
+        late.write_text("\n".join(lines))
+        told = self.ends(0, "transition", late, "builtin:wave", "--at", 0.8, "-o", self.folder / "late.csv").stderr
+        self.assertRegex(told, rf"^{late}: Etude uses only frames 16 to (\d+) of \1, because joints are missing before and after")
+
     def test_the_up_axis_of_a_recording_is_doubted_or_stated(self):
         y_up, z_up, doubt = self.with_z_up()
         told, moves = {}, {}
