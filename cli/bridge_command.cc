@@ -48,7 +48,7 @@ Result<BridgeLibrary> LoadLibrary(const BridgeCommandOptions& options) {
                        .reading = {},
                        .on_progress = ProgressOf("clips read")};
   ASSIGN_OR_RETURN(bridge.system, ReadFuzzy(options.fuzzy));
-  ASSIGN_OR_RETURN(bridge.reading, ReadOptions(options.reading));
+  ASSIGN_OR_RETURN(bridge.reading, ReadOptionsTellingDoubts(options.reading));
   ASSIGN_OR_RETURN(auto loaded, LoadBridgeLibrary(bridge));
   for (const Error& copy : loaded.copies) fmt::print(stderr, "left out: {}\n", ToString(copy));
   return loaded;

@@ -189,7 +189,7 @@ struct ClipContactsOptions {
 
 Result<int> ClipContactsCommand(const ClipContactsOptions& options) {
   RETURN_IF_ERROR(CheckOutput(options.output, options.overwrite, ".svg"));
-  ASSIGN_OR_RETURN(const auto reading, ReadOptions(options.reading));
+  ASSIGN_OR_RETURN(const auto reading, ReadOptionsTellingDoubts(options.reading));
   ASSIGN_OR_RETURN(const auto clips, LoadClips({options.clip}, {}, reading));
   if (clips.clips.size() != 1) {
     return Fail({}, "'{}' matches {} clips; allowed: one clip", options.clip, clips.clips.size());

@@ -90,7 +90,7 @@ Json FactsOf(const ClipLibrary& clips, const std::vector<FuzzyMotion>& motions, 
 Result<int> ClipGradesCommand(const ClipGradesOptions& options) {
   RETURN_IF_ERROR(CheckOutput(options.output, options.overwrite, ".csv"));
   ASSIGN_OR_RETURN(const auto system, ReadFuzzy(options.fuzzy));
-  ASSIGN_OR_RETURN(const auto reading, ReadOptions(options.reading));
+  ASSIGN_OR_RETURN(const auto reading, ReadOptionsTellingDoubts(options.reading));
   ASSIGN_OR_RETURN(const auto clips, LoadClips(options.clips, {}, reading));
   if (!options.output.empty() && clips.clips.size() != 1) {
     return Fail({options.output}, "can only contain the grades of one clip; found {} clips", clips.clips.size());

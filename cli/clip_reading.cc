@@ -1,6 +1,11 @@
 #include "cli/clip_reading.h"
 
+#include <fmt/core.h>
+
 #include <CLI/CLI.hpp>
+#include <memory>
+#include <set>
+#include <utility>
 
 #include "bench/run/recorded_motions.h"
 #include "cli/arguments.h"
@@ -47,8 +52,22 @@ Result<OpenOptions> ReadOptions(const ClipReading& reading) {
   }
   options.body.keep_floor = reading.keep_floor;
   options.marker_set = reading.marker_set;
-  if (!reading.up.empty()) options.body.up = reading.up == "z" ? UpAxis::kZ : UpAxis::kY;
+  options.body.up = UpAxisOf(reading.up);
   return options;
+}
+
+Result<OpenOptions> ReadOptionsTellingDoubts(const ClipReading& reading) {
+  ASSIGN_OR_RETURN(auto options, ReadOptions(reading));
+  const auto told = std::make_shared<std::set<std::pair<std::string, std::string>>>();
+  options.on_doubt = [told](const std::string& clip, const std::string& doubt) {
+    if (told->emplace(clip, doubt).second) fmt::print(stderr, "{}: {}\n", clip, doubt);
+  };
+  return options;
+}
+
+std::optional<UpAxis> UpAxisOf(const std::string& name) {
+  if (name.empty()) return std::nullopt;
+  return name == "z" ? UpAxis::kZ : UpAxis::kY;
 }
 
 Result<std::optional<TimeSpan>> ReadTrim(const std::string& text) {

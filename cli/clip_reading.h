@@ -31,6 +31,13 @@ void AddClipReading(CLI::App& command, ClipReading& reading, const std::string& 
 /// Converts `reading` to OpenOptions. Fails if a file or a value cannot be read.
 Result<OpenOptions> ReadOptions(const ClipReading& reading);
 
+/// Like ReadOptions, for commands that do not print the changes of clips: each doubt about a clip is printed once, on
+/// standard error.
+Result<OpenOptions> ReadOptionsTellingDoubts(const ClipReading& reading);
+
+/// Returns the axis that "y" or "z" names; nullopt for "".
+std::optional<UpAxis> UpAxisOf(const std::string& name);
+
 /// Parses the value of --trim (ParseTimeSpan); returns nullopt for "".
 Result<std::optional<TimeSpan>> ReadTrim(const std::string& text);
 

@@ -62,7 +62,7 @@ Viewpoint ViewNamed(const std::string& name) {
 }
 
 Result<std::vector<ClipActor>> Cast(const ClipRenderOptions& options) {
-  ASSIGN_OR_RETURN(const auto reading, ReadOptions(options.reading));
+  ASSIGN_OR_RETURN(const auto reading, ReadOptionsTellingDoubts(options.reading));
   ASSIGN_OR_RETURN(const auto trim, ReadTrim(options.trim));
   ASSIGN_OR_RETURN(const auto references, ExpandReferences(options.clips));
   std::vector<ClipActor> actors;

@@ -11,6 +11,7 @@
 #include <string>
 #include <vector>
 
+#include "cli/clip_reading.h"
 #include "cli/commands.h"
 #include "cli/output_file.h"
 #include "engine/coaching/policy.h"
@@ -46,6 +47,7 @@ struct CoachCommandOptions {
   std::string choice = "played";
   std::string join = "planted-feet";
   std::string filter = "none";
+  std::string up;        ///< the axis of the stream that points up: "y", "z" or "" (not stated)
   bool mirror = false;   ///< true: players mirror the coach
   bool reflect = false;  ///< true: the stream is mirrored, so X is negated
   bool now = false;      ///< true: the coach begins to dance without waiting for a clap
@@ -174,7 +176,8 @@ Result<int> CoachCommand(const CoachCommandOptions& options) {
   fmt::print("{}\n", head);
   StreamReading reading{.rate_hz = options.rate_hz};
   if (!options.format.empty()) reading.format = FindStreamFormat(options.format);
-  LiveStream stream(is_live ? "the stream" : options.stream, reading, {.reflects = options.reflect});
+  LiveStream stream(is_live ? "the stream" : options.stream, reading,
+                    {.reflects = options.reflect, .up = UpAxisOf(options.up)});
   coach.on_remark = [&](const std::string& remark) { fmt::print(stderr, "{}\n", remark); };
   LiveCoach live(transitions, *recogniser, coach, PrintLine);
   RETURN_IF_ERROR(live.Follow(is_live ? std::cin : file, stream));
@@ -222,6 +225,8 @@ void DefineCoach(CLI::App& app, Action& action) {
   command->add_option("--rate", options->rate_hz, "Frame rate of a stream without times, in Hz (default: 30)")
       ->check(NumberWithin(1, 1000, "rate in Hz"));
   command->add_flag("--reflect", options->reflect, "Negate X, for a mirrored stream");
+  command->add_option("--up", options->up, "Axis of a CSV stream that points up: y or z (default: y)")
+      ->check(OneOf({"y", "z"}));
   AddOverwrite(*command, options->overwrite);
   command->footer(kCoachText);
   command->callback([=, &action] { action = [=] { return Finish(CoachCommand(*options)); }; });

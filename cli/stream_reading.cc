@@ -55,6 +55,8 @@ Result<OpenOptions> StreamArguments::ClipOptions() const {
   return ReadOptions(all);
 }
 
-StreamOptions StreamArguments::Options() const { return {.levels = level == "auto", .reflects = reflect}; }
+StreamOptions StreamArguments::Options() const {
+  return {.levels = level == "auto", .reflects = reflect, .up = UpAxisOf(clips.up)};
+}
 
 }  // namespace etude

@@ -133,7 +133,7 @@ Result<void> LeaveOutCopies(std::vector<LibraryClip>& clips, std::vector<bool>& 
 
 Result<Split> LoadSplit(const TrainOptions& options) {
   // Load the clips.
-  ASSIGN_OR_RETURN(const auto reading, ReadOptions(options.reading));
+  ASSIGN_OR_RETURN(const auto reading, ReadOptionsTellingDoubts(options.reading));
   ASSIGN_OR_RETURN(const auto references, ExpandReferences(options.clips));
   ASSIGN_OR_RETURN(auto library, LoadClips(references, {}, reading, ProgressOf("clips read")));
   // A pattern can hold out a copy of a clip that is learnt from; a share is drawn from clips without copies.
@@ -300,7 +300,7 @@ constexpr const char* kHeader =
 
 Result<Trained> TrainLearnt(const TrainOptions& options) {
   ASSIGN_OR_RETURN(const auto references, ExpandReferences(options.clips));
-  ASSIGN_OR_RETURN(const auto reading, ReadOptions(options.reading));
+  ASSIGN_OR_RETURN(const auto reading, ReadOptionsTellingDoubts(options.reading));
   ASSIGN_OR_RETURN(const ClipLibrary library, LoadClips(references, {}, reading, ProgressOf("clips read")));
   const Repertoire repertoire = RepertoireOf(library);
   if (repertoire.taught.size() < 2) {

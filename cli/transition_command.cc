@@ -38,7 +38,7 @@ Result<int> TransitionCommand(TransitionCommandOptions asked) {
   TransitionFileOptions& options = asked.transition;
   // Make the transition; WriteTransition writes nothing if there is none.
   RETURN_IF_ERROR(CheckOutput(options.output, asked.overwrite));
-  ASSIGN_OR_RETURN(options.reading, ReadOptions(asked.reading));
+  ASSIGN_OR_RETURN(options.reading, ReadOptionsTellingDoubts(asked.reading));
   ASSIGN_OR_RETURN(const TransitionFile made, WriteTransition(options));
   if (made.branch == Branch::kNone) {
     Complain({{},

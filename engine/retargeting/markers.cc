@@ -249,9 +249,7 @@ std::optional<MarkerBody> BodyAt(double scale, const MarkerMotion& markers, cons
   // Rotate upright. Files that Etude wrote have Y up; arrays of other layouts only borrow the names of Etude's joints.
   UpRule rule = options.up;
   const bool is_borrowed = !options.layout.empty() && (options.layout != "etude" || options.is_of_camera);
-  if (set.is_own && !is_borrowed && rule.evidence == UpEvidence::kPosture) {
-    rule = {.axis = {0, 1, 0}, .evidence = UpEvidence::kFile, .source = "the convention of Etude's own joints"};
-  }
+  if (set.is_own && !is_borrowed && rule.evidence == UpEvidence::kPosture) rule = OwnJointsUp();
   const std::string name = set.is_own && is_borrowed ? "layout " + options.layout : set.name;
   MarkerBody body{.name = "", .motion = {.rate_hz = markers.rate_hz, .poses = {}}, .up = {}, .changes = {name}};
   for (const Role role : AllRoles()) body.markers[Index(role)] = NamesOf(role, set, columns, markers);
@@ -275,7 +273,7 @@ std::optional<MarkerBody> BodyAt(double scale, const MarkerMotion& markers, cons
   // Describe the corrections.
   if (filled > 0) body.changes.push_back(fmt::format("{} positions interpolated in gaps", filled));
   if (body.motion.poses.size() < frames.size()) {
-    body.changes.push_back(DescribeStretches(stretches, longest, frames.size(), options.keeps_others));
+    body.Doubt(DescribeStretches(stretches, longest, frames.size(), options.keeps_others));
   }
   if (!centres.empty()) body.changes.push_back(centres);
   std::vector<std::string> guessed;
@@ -285,12 +283,12 @@ std::optional<MarkerBody> BodyAt(double scale, const MarkerMotion& markers, cons
   if (!guessed.empty()) body.changes.push_back("placed by rule: " + Join(guessed));
   if (!markers.remark.empty()) body.changes.push_back(markers.remark);
   if (std::string turn = DescribeTurn(body.up); !turn.empty()) body.changes.push_back(std::move(turn));
-  if (!body.up.doubt.empty()) body.changes.push_back(body.up.doubt);
+  body.Doubt(body.up.doubt);
   if (Determines(set, columns, Role::kLeftFoot) && Determines(set, columns, Role::kRightFoot) &&
       PointFeetBackwards(body.motion.poses)) {
-    body.changes.push_back("the feet point backwards: left and right are exchanged, or an axis is mirrored");
+    body.Doubt("the feet point backwards: left and right are exchanged, or an axis is mirrored");
   }
-  if (!crossing.empty()) body.changes.push_back(crossing);
+  body.Doubt(crossing);
   StandOnFloor(options.keep_floor, set.is_own, body);
   if (!options.keeps_shown) return body;
   body.shown = AsShown(scale, markers, set, columns, seen, body.up.axis);
@@ -316,8 +314,7 @@ Result<std::optional<MarkerBody>> BodyOf(const MarkerMotion& markers, const Mark
   const double told = MedianStature(body->motion.poses);
   if (told >= kMinStature && told <= kMaxStature) {
     const bool is_odd = !DescribeImpossibleHeight(body->motion.poses).empty();
-    std::string likely = is_odd ? DescribeLikelyUnit(told, told_scale * markers.metres_per_unit) : "";
-    if (!likely.empty()) body->changes.push_back(std::move(likely));
+    if (is_odd) body->Doubt(DescribeLikelyUnit(told, told_scale * markers.metres_per_unit));
     return body;
   }
   // A body that is far too small is measured at a thousand times its size, where rules in metres hardly matter.
@@ -408,8 +405,7 @@ Result<std::vector<MarkerBody>> FindMarkerBodies(MarkerMotion markers, const std
     if (!person.remark.empty()) body->changes.push_back(person.remark);
     for (const MarkerPerson& other : people) {
       if (&other == &person) continue;
-      const std::string said = DescribeExchangedMarkers(markers, person.columns, other.columns);
-      if (!said.empty()) body->changes.push_back(said);
+      body->Doubt(DescribeExchangedMarkers(markers, person.columns, other.columns));
     }
     bodies.push_back(std::move(*body));
   }

@@ -49,11 +49,19 @@ struct MarkerBody {
   std::vector<BodyStretch> others = {};
   /// The name of the marker set, then a text for users about each correction of the file's data.
   std::vector<std::string> changes;
+  std::vector<std::string> doubts = {};  ///< the entries of `changes` that state what looks wrong in the file
   /// The markers exactly as the file shows them, in all its frames: gaps are not filled, no joint is placed by a rule,
   /// and the floor is not moved. First come the person's markers under their own names without prefix. The joints that
   /// the set computes from several markers follow, named by role. Metres, Y up. RawMotion::notes names the set and the
   /// assumptions. There are no frames unless MarkerOptions::keeps_shown is set.
   RawMotion shown = {};
+
+  /// Appends `text` to `doubts` and to `changes`, unless it is empty.
+  void Doubt(const std::string& text) {
+    if (text.empty()) return;
+    doubts.push_back(text);
+    changes.push_back(text);
+  }
 
   /// Returns `changes` as one line, separated by semicolons.
   std::string Note() const { return Join(changes, "; "); }

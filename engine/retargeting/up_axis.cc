@@ -21,14 +21,33 @@ constexpr double kHardlyEver = 0.05;
 /// Returns true if the body travels perpendicular to the axis while one foot stands.
 bool Walks(const AxisStance& stance) { return stance.way > 0.5 && stance.steps > 0.4; }
 
+/// Returns true if the lowest joint is near height 0.
+bool IsNearFloor(const AxisStance& stance) {
+  constexpr double kBelow = -0.03, kAbove = 0.08;
+  return stance.bottom > kBelow && stance.bottom < kAbove;
+}
+
 /// Returns true if the motion shows that the body stands or sits along the axis: it walks, its lowest joint is near
 /// height 0, it sits, or it moves over a floor that stays at one height.
 bool ShowsStanding(const AxisStance& stance) {
-  constexpr double kBelow = -0.03, kAbove = 0.08, kStillFloor = 0.05, kMostly = 0.75;
+  constexpr double kStillFloor = 0.05, kMostly = 0.75;
   constexpr double kSteps = 0.12, kRise = 0.08, kSway = 0.02;
-  if (Walks(stance) || (stance.bottom > kBelow && stance.bottom < kAbove) || stance.seated > kMostly) return true;
+  if (Walks(stance) || IsNearFloor(stance) || stance.seated > kMostly) return true;
   return stance.floor < kStillFloor &&
          (stance.ankle_way > kSteps || stance.hip_rise > kRise || (stance.balanced > kMostly && stance.sway > kSway));
+}
+
+/// Returns true if a body that is never upright along the usual axis squats or bows along the axis of `other`, over
+/// feet at one height. A body that squats lowers its hips. A body that only bows may do sit-ups along the usual axis,
+/// unless its lowest joint is away from height 0 there; if the usual axis is a guess, the feet must also be near height
+/// 0.
+bool Bends(const AxisStance& other, const AxisStance& usual, const UpRule& rule) {
+  constexpr double kPart = 0.3, kStillFloor = 0.05, kLowers = 0.08;
+  const bool stands = other.upright > kPart && other.balanced > kPart && other.floor < kStillFloor;
+  if (rule.is_of_rest || !stands || usual.upright >= kHardlyEver) return false;
+  if (other.hip_rise > kLowers) return true;
+  return other.shoulder_rise > kLowers && !IsNearFloor(usual) &&
+         (rule.evidence != UpEvidence::kPosture || IsNearFloor(other));
 }
 
 /// Returns true if the motion is sufficient evidence that the axis of `other` points up instead of the axis of `usual`.
@@ -41,6 +60,7 @@ bool Overrules(const AxisStance& other, const AxisStance& usual, bool is_opposit
   if (other.upright >= kNow && other.floor < kStillFloor && usual.floor > std::max(kFloorless, 3 * other.floor)) {
     return true;
   }
+  if (!is_opposite && Bends(other, usual, rule)) return true;
   if (other.upright < kMostly || usual.upright >= kHardlyEver) return false;
   // Accept the opposite axis: along the usual axis the body would stand on its head, but nobody does so without using
   // the hands. Do not accept it here if the usual axis is only a guess (kPosture), because the body may then lie along
@@ -195,6 +215,8 @@ UpRule CameraUp() { return {.evidence = UpEvidence::kFormat, .source = "the up a
 UpRule RawArraysUp() { return {.evidence = UpEvidence::kFormat, .source = "the convention of Etude's arrays"}; }
 
 UpRule JointCsvUp() { return {.evidence = UpEvidence::kFormat, .source = "the convention of joint CSV"}; }
+
+UpRule OwnJointsUp() { return {.evidence = UpEvidence::kFile, .source = "the convention of Etude's own joints"}; }
 
 UpRule MotiveUp() {
   return {.evidence = UpEvidence::kFormat,

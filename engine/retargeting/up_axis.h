@@ -38,9 +38,13 @@ struct UpFinding {
 
 /// Finds the axis that points up (ours). The result is the rule's axis, unless the rule's evidence is kPosture and the
 /// whole motion is evidence for another axis. If the file or its format states the axis, evidence for another axis only
-/// sets `doubt`; but UpRule::yields_to_walking. The motion is evidence for another axis in two cases:
+/// sets `doubt`; but UpRule::yields_to_walking. The motion is evidence for another axis in three cases:
 /// - Along the other axis, the body is upright in a tenth of the frames and the lowest joint stays at one height. Along
 ///   the usual axis, this height varies. In the other frames, people may lie, crawl or stand on their hands.
+/// - The body squats or bows in one place: along the other axis, it is upright in three tenths of the frames, with its
+///   weight over its feet, the lowest joint stays at one height, and hips or shoulders come down. Along the usual axis,
+///   it is never upright. If only the shoulders come down, the lowest joint is not near height 0 along the usual axis, as
+///   it is in sit-ups; if the usual axis is a guess, the lowest joint is near height 0 along the other axis.
 /// - The body is upright in four fifths of the frames along the other axis, and hardly ever along the usual axis. In
 ///   addition, one of these is true:
 ///   - the body walks: it travels perpendicular to the other axis while one foot stands;
@@ -74,6 +78,7 @@ UpRule ArrayUp();
 UpRule CameraUp();     ///< for arrays that JointsOfSam has already rotated
 UpRule RawArraysUp();  ///< for arrays that ReadRawNpz has already rotated
 UpRule JointCsvUp();
+UpRule OwnJointsUp();  ///< for the joints of files that Etude wrote, such as TRC
 UpRule MotiveUp();
 UpRule AmassUp();
 UpRule GltfUp();

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <utility>
 
 #include "engine/formats/joint_csv.h"
@@ -30,11 +31,6 @@ bool MayCountLessThanSeconds(const StreamRecording& recording) {
 
 bool ShowsTrunk(const RecordedFrame& frame) {
   return frame.places[Index(Role::kHipCentre)] && frame.places[Index(Role::kShoulderCentre)];
-}
-
-/// Returns a remark if frames are rotated upright, or if trunks are far from upright; else "".
-std::string RemarkOn(const StreamLevel& level) {
-  return level.turn_deg != 0 || level.trunk_deg != 0 ? Describe(level) : "";
 }
 
 }  // namespace
@@ -72,8 +68,9 @@ Result<void> LiveStream::Take(std::string_view line, std::vector<SensedFrame>& s
 }
 
 Result<void> LiveStream::Finish(std::vector<SensedFrame>& stream) {
-  if (maker_) return {};
-  return Start(true, stream);
+  if (!maker_) RETURN_IF_ERROR(Start(true, stream));
+  Doubt({}, true);
+  return {};
 }
 
 // Estimates the stream's properties from the lines read so far; does nothing if too few of these lines show a body.
@@ -92,6 +89,7 @@ Result<void> LiveStream::Start(bool at_end, std::vector<SensedFrame>& stream) {
     ASSIGN_OR_RETURN(const JointCsv csv, ReadJointCsv(first_lines_, name_));
     columns_ = csv.columns;
   }
+  if (options_.up && !recording.is_level) return Fail({name_}, "--up is {}", kWhereUpIsAllowed);
   const auto wanted = static_cast<std::ptrdiff_t>(kJudgedRateHz);
   const auto shown = std::ranges::count_if(recording.frames, ShowsTrunk);
   if (!recording.is_level && shown < (at_end ? 1 : wanted / 2)) {
@@ -100,10 +98,12 @@ Result<void> LiveStream::Start(bool at_end, std::vector<SensedFrame>& stream) {
   }
   if (!recording.is_level) RETURN_IF_ERROR(ToMetres(recording, name_));
   // Estimate up direction and floor, then convert the lines read so far.
-  if (options_.levels && !recording.is_level) level_ = EstimateLevel(recording.frames, recording.rate_hz);
+  level_ = LevelOf(recording, options_);
   maker_.emplace(level_, options_, name_);
+  doubts_.emplace(StatedUp(recording, options_), options_.rate_hz);
   remarks_ = recording.remarks;
-  for (std::string remark : {RateDoubt(recording), RemarkOn(level_)}) {
+  for (std::string remark :
+       {RateDoubt(recording), DescribeAssumedRate(recording), recording.is_level ? std::string() : Describe(level_)}) {
     if (!remark.empty()) remarks_.push_back(std::move(remark));
   }
   std::vector<RecordedFrame> frames = std::move(recording.frames);
@@ -176,7 +176,14 @@ Result<void> LiveStream::Add(RecordedFrame frame, std::vector<SensedFrame>& stre
     has_jumped_ = true;
     remarks_.push_back(jumps_.Describe() + "; Etude does not report later jumps");
   }
-  return maker_->Add(frame, stream);
+  const std::size_t before = stream.size();
+  RETURN_IF_ERROR(maker_->Add(frame, stream));
+  Doubt(std::span(stream).subspan(before), false);
+  return {};
+}
+
+void LiveStream::Doubt(std::span<const SensedFrame> frames, bool at_end) {
+  std::ranges::move(doubts_->Take(frames, at_end), std::back_inserter(remarks_));
 }
 
 // Reads one line in the format detected at the start.

@@ -9,6 +9,7 @@
 #include "engine/base/result.h"
 #include "engine/formats/joint_csv.h"
 #include "engine/streams/body_jumps.h"
+#include "engine/streams/stream_doubts.h"
 #include "engine/streams/stream_maker.h"
 
 namespace etude {
@@ -28,15 +29,15 @@ class LiveStream {
   /// after the row before. Fails, with the line, for the errors of ReadStreamRecording, for more than 30 damaged rows
   /// that follow each other, for formats that do not consist of rows, and after ten minutes without a body.
   Result<void> Take(std::string_view line, std::vector<SensedFrame>& stream);
-  /// Ends the stream: appends the frames of a stream that is shorter than a second.
+  /// Ends the stream: appends the frames of a stream that is shorter than a second, and judges it (LiveDoubts).
   Result<void> Finish(std::vector<SensedFrame>& stream);
 
   /// Returns the format, units and clock that were detected; nullopt before the first frames are returned.
   const std::optional<StreamRecording>& Meaning() const { return meaning_; }
-  /// Returns the remarks for users since the last call: with the first frames, those of the reader of the format, and
-  /// one if the frames were rotated upright or if trunks are far from upright; later one about the first row whose time
-  /// is earlier than that of the row before, one each about the first damaged row and the first jump of the clock, and
-  /// one about the first jump of the body (BodyJumps).
+  /// Returns the remarks for users since the last call: with the first frames, those of the reader of the format,
+  /// and the assumed rate, up direction and floor; later one about the first row whose time is earlier than that of the
+  /// row before, one each about the first damaged row and the first jump of the clock, one about the first jump of the
+  /// body (BodyJumps), and the doubts of LiveDoubts.
   std::vector<std::string> TakeRemarks();
 
  private:
@@ -44,6 +45,7 @@ class LiveStream {
   Result<void> LeaveOut(Error error);
   double SteadyTime(double time_s);
   Result<void> Add(RecordedFrame frame, std::vector<SensedFrame>& stream);
+  void Doubt(std::span<const SensedFrame> frames, bool at_end);
   Result<RecordedFrame> Read(std::string_view line);
 
   std::string name_;
@@ -64,6 +66,7 @@ class LiveStream {
   std::optional<StreamRecording> meaning_;  // the recording's properties, without frames
   StreamLevel level_;
   std::optional<StreamMaker> maker_;
+  std::optional<LiveDoubts> doubts_;
   std::optional<JointCsvColumns> columns_;  // columns of a CSV stream, from its heading
 };
 

@@ -48,7 +48,7 @@ struct StreamRecording {
   StreamFormat format = StreamFormat::kEtudeCsv;
   bool records_states = false;  ///< false: every joint that has a position counts as tracked
   bool records_times = false;   ///< false: frames are one period of `rate_hz` apart
-  bool is_level = false;      ///< Y points up and the floor is at 0, because Etude wrote the file
+  bool is_level = false;        ///< Y points up and the floor is at 0, by the convention of the format
   double rate_hz = kJudgedRateHz;
   double seconds_per_count = 1;            ///< the unit of the clock's column, seconds
   double first_count = 0;                  ///< the number in the clock's column at 0 s

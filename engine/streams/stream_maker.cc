@@ -123,7 +123,7 @@ int QuartersOfSensor(std::span<const RecordedFrame> frames) {
 }
 
 /// Estimates the level of a sensor that is neither in portrait nor upside down.
-StreamLevel LevelOf(std::span<const RecordedFrame> frames, double rate_hz) {
+StreamLevel LevelOfSensor(std::span<const RecordedFrame> frames, double rate_hz) {
   // Choose the evidence for the up direction: feet if they agree with the trunk, otherwise the trunk.
   StreamLevel level;
   const auto trunk = UpOfTrunk(frames), feet = UpOfFeet(PlantedFeet(frames, rate_hz));
@@ -184,12 +184,24 @@ StreamLevel EstimateLevel(std::span<const RecordedFrame> frames, double rate_hz)
         if (place) *place = R_TF * *place;
       }
     }
-    StreamLevel level = LevelOf(turned, rate_hz);
+    StreamLevel level = LevelOfSensor(turned, rate_hz);
     level.R_WF = level.R_WF * R_TF;
     level.turn_deg = 90 * quarters;
     return level;
   }
-  return LevelOf(frames, rate_hz);
+  return LevelOfSensor(frames, rate_hz);
+}
+
+StreamLevel LevelOf(const StreamRecording& recording, const StreamOptions& options) {
+  if (!recording.is_level) return options.levels ? EstimateLevel(recording.frames, recording.rate_hz) : StreamLevel{};
+  StreamLevel level;
+  const UpAxis up = options.up.value_or(UpAxis::kY);
+  for (int axis = 0; axis < 3; ++axis) level.R_WF[axis] = Upright(level.R_WF[axis], up);
+  return level;
+}
+
+std::string DescribeAssumedRate(const StreamRecording& recording) {
+  return recording.records_times ? "" : fmt::format("without a clock (Etude assumes {:g} Hz)", recording.rate_hz);
 }
 
 std::string Describe(const StreamLevel& level) {
@@ -263,7 +275,7 @@ Result<MadeStream> MakeStream(const StreamRecording& recording, const std::strin
   MadeStream made;
   made.stream.rate_hz = options.rate_hz;
   made.start_s = recording.frames.front().time_s;
-  if (options.levels && !recording.is_level) made.level = EstimateLevel(recording.frames, recording.rate_hz);
+  made.level = LevelOf(recording, options);
   StreamMaker maker(made.level, options, file);
   for (const RecordedFrame& frame : recording.frames) RETURN_IF_ERROR(maker.Add(frame, made.stream.frames));
   made.lost_frames = static_cast<std::size_t>(

@@ -8,6 +8,7 @@
 
 #include "engine/base/result.h"
 #include "engine/recognition/skeleton_stream.h"
+#include "engine/retargeting/orientation.h"
 #include "engine/streams/recording.h"
 
 namespace etude {
@@ -41,6 +42,9 @@ struct StreamLevel {
 /// the lower foot's height. `rate_hz` > 0 is the frames' rate.
 StreamLevel EstimateLevel(std::span<const RecordedFrame> frames, double rate_hz);
 
+/// Returns "without a clock (Etude assumes 30 Hz)" for a recording without times; otherwise "".
+std::string DescribeAssumedRate(const StreamRecording& recording);
+
 /// Describes a level for users: "up by the trunk (6.3 degrees), floor 0.83 m below the sensor". Also mentions a sensor
 /// in portrait or upside down, and a trunk that is far from the file's up.
 std::string Describe(const StreamLevel& level);
@@ -49,7 +53,18 @@ struct StreamOptions {
   bool levels = true;     ///< true: estimate gravity and floor if the file does not define them; false: keep the file's
   bool reflects = false;  ///< true: X is negated, for files whose X axis points the other way and mirrors bodies
   double rate_hz = kJudgedRateHz;
+  /// The axis of the file that points up, for formats that state the axis (StreamRecording::is_level); nullopt: Y.
+  std::optional<UpAxis> up = {};
 };
+
+/// Returns the level of a recording: by the convention of its format (StreamRecording::is_level) and StreamOptions::up;
+/// otherwise estimated from its frames, unless StreamOptions::levels forbids it.
+StreamLevel LevelOf(const StreamRecording& recording, const StreamOptions& options);
+
+/// The rule about StreamOptions::up, as the end of a message to users.
+inline constexpr const char* kWhereUpIsAllowed =
+    "allowed only for clips and for recordings in CSV or TRC, but this is a recording of a sensor, whose up axis Etude "
+    "estimates (--level)";
 
 /// Resamples recorded frames online to a constant rate: frame k is k / rate_hz seconds after the first frame. Between
 /// two recorded frames at most 0.2 s apart, joints are interpolated linearly; over a longer gap the body is lost. A

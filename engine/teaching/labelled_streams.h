@@ -22,6 +22,7 @@ struct NamedStream {
   double start_s = 0;                     ///< time of the first frame by the file's own clock
   std::string description;                ///< one line for users: format, length, tracking states, StreamLevel, remarks
   std::optional<BodyMotion> motion = {};  ///< the true motion; known for clips only
+  bool takes_up = false;                  ///< true for a recording whose format states the up axis (StreamOptions::up)
 };
 
 /// Returns the person that a file name states, for known data sets: NTU's "P003" in "S001C002P003R002A013", MSRC-12's

@@ -2,6 +2,7 @@
 
 #include <array>
 #include <cstdint>
+#include <functional>
 #include <optional>
 #include <set>
 #include <string>
@@ -54,6 +55,7 @@ struct MadeBody {
   std::optional<double> start_s = {};  ///< the first frame's time by the file's own clock, if the file states times
   std::vector<BodyStretch> others = {};  ///< MarkerBody::others
   std::array<std::vector<std::string>, kRoleCount> markers = {};  ///< MarkerBody::markers; all empty: not of markers
+  std::vector<std::string> doubts = {};  ///< the entries of `changes` that state what looks wrong in the file
 };
 
 /// The content of a motion file.
@@ -82,6 +84,8 @@ struct OpenOptions {
   bool keeps_others = false;  ///< if true, MadeBody::others is also filled for marker files
   /// Reads "RUN#CELL@NAME"; null = a reference of this form is treated as a file.
   const RecordedMotions* recorded = nullptr;
+  /// Receives each doubt about the body of a clip (BodyConversion::doubts); `clip` is SourceClip::source.
+  std::function<void(const std::string& clip, const std::string& doubt)> on_doubt = {};
 };
 
 /// The maximum size of a file, or of a .gltf with its buffers, bytes. A larger file is refused before memory is

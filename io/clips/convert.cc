@@ -136,7 +136,9 @@ Result<Converted> ConvertOwnSkeletons(std::vector<SourceClip> sources, MotionFor
   }
   // Report what the file's reader found, and, if the body is understood, doubts about the body.
   const auto say = [&](const std::vector<std::string>& texts) {
-    converted.changes.insert(converted.changes.end(), texts.begin(), texts.end());
+    for (const std::string& text : texts) {
+      if (std::ranges::find(converted.changes, text) == converted.changes.end()) converted.changes.push_back(text);
+    }
   };
   if (sources.front().made) say(sources.front().made->changes);
   say(sources.front().remarks);

@@ -54,7 +54,7 @@ Result<ClipFile> FileOfMarkers(ClipFormat format, MarkerMotion markers, const st
     const double cut_s = static_cast<double>(body.first_frame) / body.motion.rate_hz;
     const auto start_s = file_start_s ? std::optional(*file_start_s + cut_s) : std::nullopt;
     file.bodies.push_back({body.changes, body.up, body.floor, body.is_floor_known, body.first_frame, start_s,
-                           std::move(body.others), std::move(body.markers)});
+                           std::move(body.others), std::move(body.markers), std::move(body.doubts)});
     if (options.keeps_shown) file.shown.push_back(std::move(body.shown));
   }
   file.figure.skeleton = file.clips.front().skeleton;

@@ -123,6 +123,7 @@ Result<OpenedClip> UnderstandBuiltin(SourceClip source, const BodyOptions& optio
   opened.body = {.metres_per_unit = 1, .unit = "metre", .motion = {}};
   if (opened.source.made) {
     opened.body.changes = opened.source.made->changes;
+    opened.body.doubts = opened.source.made->doubts;
     opened.body.found_up = opened.source.made->up;
     opened.body.floor = opened.source.made->floor_m;
   } else {
@@ -160,6 +161,31 @@ Result<OpenedClip> UnderstandBuiltin(SourceClip source, const BodyOptions& optio
   }
   opened.body.Doubt(DescribeImpossibleHeight(opened.body.motion.poses));
   return opened;
+}
+
+/// Opens a clip of a skeleton or of a body, without telling its doubts.
+Result<OpenedClip> Understand(SourceClip source, const OpenOptions& options) {
+  const bool is_body = source.format == ClipFormat::kBuiltin || source.made.has_value();
+  BodyOptions told = options.body;
+  told.up = ToldUp(options);
+  told.metres_per_unit = ToldUnit(options);
+  told.keep_floor = KeepsFloor(options);
+  told.up_rule = UpRuleOf(source.format);
+  told.states_metres = IsOfAnimations(source.format);
+  if (is_body) return UnderstandBuiltin(std::move(source), told);
+  RootAtHips(source.clip, source.character != nullptr, source.remarks);
+  ASSIGN_OR_RETURN(auto chosen,
+                   ChooseBody(source.clip, source.source, TaughtBy(options, source.roles), source.skinned));
+  // The ground that all clips of the file share has priority over the ground of this one clip.
+  if (source.ground) {
+    if (!told.up) told.found_up = source.ground->found_up;
+    told.floor = source.ground->floor;
+    told.stature = source.ground->stature;
+  }
+  ASSIGN_OR_RETURN(auto body, ToBodyMotion(source.clip, chosen.map, source.source, told));
+  body.changes.insert(body.changes.end(), source.remarks.begin(), source.remarks.end());
+  body.Doubt(chosen.doubt);
+  return OpenedClip{std::move(source), std::move(chosen.map), std::move(body)};
 }
 
 }  // namespace
@@ -252,27 +278,10 @@ Result<SourceClip> ReadOneClip(const std::string& reference, const OpenOptions& 
 }
 
 Result<OpenedClip> UnderstandClip(SourceClip source, const OpenOptions& options) {
-  const bool is_body = source.format == ClipFormat::kBuiltin || source.made.has_value();
-  BodyOptions told = options.body;
-  told.up = ToldUp(options);
-  told.metres_per_unit = ToldUnit(options);
-  told.keep_floor = KeepsFloor(options);
-  told.up_rule = UpRuleOf(source.format);
-  told.states_metres = IsOfAnimations(source.format);
-  if (is_body) return UnderstandBuiltin(std::move(source), told);
-  RootAtHips(source.clip, source.character != nullptr, source.remarks);
-  ASSIGN_OR_RETURN(auto chosen,
-                   ChooseBody(source.clip, source.source, TaughtBy(options, source.roles), source.skinned));
-  // The ground that all clips of the file share has priority over the ground of this one clip.
-  if (source.ground) {
-    if (!told.up) told.found_up = source.ground->found_up;
-    told.floor = source.ground->floor;
-    told.stature = source.ground->stature;
-  }
-  ASSIGN_OR_RETURN(auto body, ToBodyMotion(source.clip, chosen.map, source.source, told));
-  body.changes.insert(body.changes.end(), source.remarks.begin(), source.remarks.end());
-  body.Doubt(chosen.doubt);
-  return OpenedClip{std::move(source), std::move(chosen.map), std::move(body)};
+  auto opened = Understand(std::move(source), options);
+  if (!opened || !options.on_doubt) return opened;
+  for (const std::string& doubt : opened->body.doubts) options.on_doubt(opened->source.source, doubt);
+  return opened;
 }
 
 }  // namespace etude

@@ -10,7 +10,7 @@
 #include "engine/base/names.h"
 #include "engine/base/text.h"
 #include "engine/recognition/recognise.h"
-#include "engine/retargeting/exchanged_sides.h"
+#include "engine/streams/stream_doubts.h"
 #include "io/clips/open_clip.h"
 #include "io/clips/references.h"
 #include "io/files/files.h"
@@ -30,27 +30,18 @@ bool IsClip(const std::string& reference) {
   return split.animation || std::ranges::find(kOfClips, ending) != kOfClips.end();
 }
 
-std::string Describe(const StreamRecording& recording, const MadeStream& made) {
+std::string Describe(const StreamRecording& recording, const MadeStream& made, const StreamOptions& options) {
   const std::size_t frames = made.stream.frames.size();
   std::string text =
       fmt::format("{}, {:.1f} s, {} tracking states", StreamFormatName(recording.format),
                   static_cast<double>(frames) / made.stream.rate_hz, recording.records_states ? "with" : "no");
-  if (!recording.records_times) text += fmt::format(", without a clock (Etude assumes {:g} Hz)", recording.rate_hz);
+  if (const std::string rate = DescribeAssumedRate(recording); !rate.empty()) text += ", " + rate;
   if (!recording.is_level) text += "; " + Describe(made.level);
   if (made.lost_frames > 0) text += fmt::format("; nobody is visible in {} of {} frames", made.lost_frames, frames);
   for (const std::string& remark : recording.remarks) text += "; " + remark;
-  std::vector<JointPositions> tracked;
-  for (const SensedFrame& frame : made.stream.frames) {
-    JointPositions& places = tracked.emplace_back();
-    for (std::size_t i = 0; i < kRoleCount; ++i) {
-      if (frame.joints[i].state == TrackingState::kTracked) places[i] = frame.joints[i].position;
-    }
+  for (const std::string& doubt : DoubtsOf(made.stream, StatedUp(recording, options))) {
+    if (!doubt.empty()) text += "; " + doubt;
   }
-  const std::string exchanged = DescribeExchangedJoints(tracked, made.stream.rate_hz);
-  if (!exchanged.empty()) text += "; " + exchanged;
-  constexpr double kBackwards = -0.35;  // the threshold that CheckSides uses for clips
-  const auto feet = FeetForward(made.stream);
-  if (feet && *feet < kBackwards) text += "; the feet point backwards, so the stream may be mirrored (--reflect)";
   return text;
 }
 
@@ -94,6 +85,22 @@ Result<void> AddFolder(const std::string& folder, const StreamReading& reading, 
       continue;
     }
     std::ranges::move(*streams, std::back_inserter(loaded.streams));
+  }
+  return {};
+}
+
+/// Checks that options for clips apply to at least one clip, and the up axis to at least one clip, CSV or TRC.
+Result<void> CheckClipOptions(const std::vector<NamedStream>& streams, const OpenOptions& clips) {
+  const auto is_clip = [](const NamedStream& stream) { return stream.motion.has_value(); };
+  if (streams.empty() || std::ranges::any_of(streams, is_clip)) return {};
+  const std::string& source = streams.front().source;
+  if (clips.body.metres_per_unit || (clips.roles && !clips.roles->joints.empty())) {
+    return Fail({source},
+                "--joint-map and --unit are allowed only for clips, but this is a recording, whose format determines "
+                "the unit and the joints");
+  }
+  if (clips.body.up && std::ranges::none_of(streams, &NamedStream::takes_up)) {
+    return Fail({source}, "--up is {}", kWhereUpIsAllowed);
   }
   return {};
 }
@@ -167,7 +174,8 @@ Result<std::vector<NamedStream>> LoadStream(const std::string& reference, const 
                      .person = PersonInName(name),
                      .stream = {},
                      .start_s = made.start_s,
-                     .description = Describe(recording, made)});
+                     .description = Describe(recording, made, options),
+                     .takes_up = recording.is_level});
   streams.back().stream = std::move(made.stream);
   return streams;
 }
@@ -195,14 +203,7 @@ Result<LoadedStreams> LoadStreams(const std::vector<std::string>& references, co
       std::ranges::move(*streams, std::back_inserter(loaded.streams));
     }
   }
-  // Options for clips must apply to at least one clip.
-  const bool is_told = clips.body.metres_per_unit || clips.body.up || (clips.roles && !clips.roles->joints.empty());
-  const auto is_clip = [](const NamedStream& stream) { return stream.motion.has_value(); };
-  if (is_told && !loaded.streams.empty() && std::ranges::none_of(loaded.streams, is_clip)) {
-    return Fail({loaded.streams.front().source},
-                "--joint-map, --unit and --up are allowed only for clips, but this is a recording of a sensor, whose "
-                "format determines the unit and the joints");
-  }
+  RETURN_IF_ERROR(CheckClipOptions(loaded.streams, clips));
   if (!loaded.streams.empty()) return loaded;
   if (!loaded.refused.empty()) return tl::unexpected(loaded.refused.front());
   return Fail({references.empty() ? "" : references.front()}, "no recordings of skeletons");

@@ -28,8 +28,8 @@ struct LoadedStreams {
   std::vector<Error> refused;
   int passed_over = 0;  ///< number of files, found in folders, that are not recordings
 };
-/// Loads recordings. Fails if there are none, and if `clips` gives a joint map, a unit or an axis but no reference is a
-/// clip.
+/// Loads recordings. Fails if there are none, if `clips` gives a joint map or a unit but no reference is a clip,
+/// and if it gives an axis but no reference is a clip or a recording whose format states the axis (CSV, TRC).
 Result<LoadedStreams> LoadStreams(const std::vector<std::string>& references, const StreamReading& reading,
                                   const StreamOptions& options, const OpenOptions& clips = {});
 

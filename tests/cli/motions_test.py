@@ -220,9 +220,54 @@ class Motions(MotionFileCase):
         moves = self.folder / "moves.yaml"
         self.assertIn("with the given unit", self.refusal("teach", CMU, "--unit", "mm", "-o", moves))
         take = self.write("take.txt", kinect(arms(100)))
-        self.assertIn("--unit and --up are allowed only for clips", self.refusal("teach", take, "--unit", "cm", "-o", moves))
+        self.assertIn("--joint-map and --unit are allowed only for clips", self.refusal("teach", take, "--unit", "cm", "-o", moves))
         roles = self.write("roles.yaml", "roles:\n  left_hand: RightHand\n")
         self.assertIn("the role left_hand has the joint", self.refusal("teach", CMU, "--map", roles, "-o", moves))
+
+    def with_z_up(self):
+        """Returns two CSV files of one motion, the second with Z up, and the doubt about the second."""
+        y_up, z_up = self.folder / "y.csv", self.folder / "z.csv"
+        self.ends(0, "clip", "convert", "builtin:clap", y_up)
+        rows = [line.split(",") for line in y_up.read_text().splitlines()]
+        at = [k for k, name in enumerate(rows[0]) if name.endswith("_y_m")]
+        for row in rows[1:]:
+            for k in at:  # the turn (x, y, z) → (x, −z, y), whose inverse makes Z up to Y up
+                row[k], row[k + 1] = str(-float(row[k + 1])), row[k]
+        z_up.write_text("".join(",".join(row) + "\n" for row in rows))
+        return y_up, z_up, "the body stands along Z, but Y is the convention of joint CSV; --up sets another axis"
+
+    def test_commands_that_read_clips_tell_the_doubts_once(self):
+        y_up, z_up, doubt = self.with_z_up()
+        for more, count in (((), 1), (("--up", "z"), 0)):
+            for k, command in enumerate((("clip", "grades", z_up), ("clip", "contacts", z_up, "-o", self.folder / "c.svg", "--overwrite"),
+                                         ("bridge", z_up, y_up), ("transition", z_up, z_up, "--at", 0.5, "-o", self.folder / "t.csv", "--overwrite"))):
+                told = self.etude(*command, *more).stderr
+                self.assertEqual(told.count(f"{z_up}: {doubt}\n"), count, told)
+                self.assertEqual(told.count(doubt), count, told)
+        # The actor of a TRC enters after half a second.
+        late = self.folder / "late.trc"
+        self.ends(0, "clip", "convert", "builtin:clap", late)
+        lines = late.read_text().split("\n")
+        first = next(k for k, line in enumerate(lines) if line.startswith("1\t"))
+        for k in range(first, first + 15):
+            lines[k] = "\t".join(lines[k].split("\t")[:2]) + "\t" * 60
+        late.write_text("\n".join(lines))
+        told = self.ends(0, "transition", late, "builtin:wave", "--at", 0.8, "-o", self.folder / "late.csv").stderr
+        self.assertRegex(told, rf"^{late}: Etude uses only frames 16 to (\d+) of \1, because joints are missing before and after")
+
+    def test_the_up_axis_of_a_recording_is_doubted_or_stated(self):
+        y_up, z_up, doubt = self.with_z_up()
+        told, moves = {}, {}
+        for name, take, more in (("y", y_up, ()), ("z", z_up, ()), ("stated", z_up, ("--up", "z"))):
+            path = self.folder / f"{name}.yaml"
+            told[name] = self.ends(0, "teach", take, *more, "-o", path).stderr
+            moves[name] = path.read_text().replace("'z'", "'y'")  # a move has the name of its file
+        self.assertEqual([doubt in text for text in told.values()], [False, True, False])
+        self.assertEqual(moves["stated"], moves["y"])
+        live = [self.etude("recognise", "-", "--moves", self.folder / "y.yaml", *more, text=z_up.read_text()).stderr for more in ((), ("--up", "z"))]
+        self.assertEqual([text.count("standard input: " + doubt) for text in live], [1, 0])
+        take = self.write("take.txt", kinect(arms(100)))
+        self.assertIn("--up is allowed only for clips and for recordings in CSV or TRC", self.refusal("teach", take, "--up", "z", "-o", self.folder / "k.yaml"))
 
     def test_a_picture_of_roles_also_where_some_are_missing(self):
         def pixels(path):  # the two colours: roles found by names, and by proportions

@@ -256,6 +256,34 @@ BodyPose Squatting(double time_s) {
   return pose;
 }
 
+/// Bends the hips from 0° to 60°.
+BodyPose Bowing(double time_s) {
+  BodyPose pose = Standing();
+  const double bow = 30 - 30 * std::cos(2 * time_s);
+  for (glm::dvec3& joint : pose.joints) {
+    const glm::dvec3 hips = {0, .9, 0};
+    if (joint.y > .7) joint = Bowed(joint - hips, bow) + hips;
+    joint += glm::dvec3(0, 0, 2);
+  }
+  return pose;
+}
+
+BodyPose SquattingOnTheFloor(double time_s) {
+  BodyPose pose = Squatting(time_s);
+  Move(pose, [](const glm::dvec3& p) { return p + glm::dvec3(0, 1.6, 0); });
+  return pose;
+}
+
+/// Lies on the back and lifts head and shoulders by up to 45°.
+BodyPose DoingSitUps(double time_s) {
+  BodyPose pose = Standing();
+  const double lift = 22.5 - 22.5 * std::cos(2 * time_s);
+  for (glm::dvec3& joint : pose.joints) {
+    joint = Bowed(joint - glm::dvec3(0, .9, 0), joint.y > .89 ? lift - 90 : -90) + glm::dvec3(0, .1, 1.5);
+  }
+  return pose;
+}
+
 BodyPose SittingBelow(double time_s) {
   BodyPose pose = Sitting(time_s);
   Move(pose, [](const glm::dvec3& p) { return p - glm::dvec3(0, 1.2, 0); });
@@ -367,6 +395,31 @@ TEST(FloorWork, IsNotSeenInPeopleWhoStandSitClimbJumpOrLean) {
         EXPECT_EQ(AxisName(found.axis), is_z_up ? "Z" : "Y") << act.name;
         EXPECT_EQ(found.doubt, "") << act.name << ", quarters: " << quarters;
       }
+    }
+  }
+}
+
+TEST(FloorWork, PeopleWhoSquatOrBowInOnePlaceAreUprightWhateverTheirFacing) {
+  for (const Act& act :
+       {Act{"squats", &Squatting}, Act{"squats on the floor", &SquattingOnTheFloor}, Act{"bows", &Bowing}}) {
+    for (int quarters = 0; quarters < 4; ++quarters) {
+      const std::vector<BodyPose> z_up = Film(act, quarters, true);
+      for (const UpRule& rule : {JointCsvUp(), OwnJointsUp()}) {
+        EXPECT_EQ(FindUp(z_up, kRate_hz, rule).doubt,
+                  "the body stands along Z, but Y is " + rule.source + "; --up sets another axis")
+            << act.name << quarters;
+        EXPECT_EQ(FindUp(Film(act, quarters, false), kRate_hz, rule).doubt, "") << act.name << quarters;
+      }
+      EXPECT_EQ(AxisName(FindUp(z_up, kRate_hz, TrcUp()).axis), "Z") << act.name << quarters;
+    }
+  }
+  // Controls: sit-ups have the shape of bows, and a raised chest, too, but the body is near the floor.
+  for (const Act& act :
+       {Act{"sit-ups", &DoingSitUps}, Act{"cobra", &LiftingTheChest}, Act{"knees", &LyingWithRaisedKnees},
+        Act{"push-ups", &PushingUp}, Act{"bench press", &PressingOnABench}}) {
+    for (int quarters = 0; quarters < 4; ++quarters) {
+      EXPECT_EQ(FindUp(Film(act, quarters, false), kRate_hz, JointCsvUp()).doubt, "") << act.name << quarters;
+      EXPECT_EQ(AxisName(FindUp(Film(act, quarters, false), kRate_hz, TrcUp()).axis), "Y") << act.name << quarters;
     }
   }
 }
