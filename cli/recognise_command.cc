@@ -7,6 +7,7 @@
 #include <map>
 #include <memory>
 #include <nlohmann/json.hpp>
+#include <string>
 
 #include "bench/tasks/detection/label_scores.h"
 #include "cli/commands.h"
@@ -196,18 +197,21 @@ Result<int> RecogniseFiles(const RecogniseCommandOptions& options, const Taught&
   if (!options.labels.empty()) {
     ASSIGN_OR_RETURN(parts, LoadParts(options.labels, loaded.streams));
     if (const std::size_t taught_with = CountTaught(loaded.streams, parts, taught.moves); taught_with > 0) {
-      fmt::print(stderr, "{} of {} performances are examples of these moves, so the scores are no test of them\n",
+      fmt::print(stderr,
+                 "these moves were taught with {} of the {} performances, so the scores do not show how well Etude "
+                 "recognises other performances\n",
                  taught_with, parts.size());
     }
   }
+  std::map<std::string, int> named;
+  for (const NamedStream& one : loaded.streams) ++named[one.name];
   std::size_t spotted = 0;
   LabelScores scores(taught.moves, *taught.recogniser, taught.watch);
   for (std::size_t s = 0; s < loaded.streams.size(); ++s) {
     const NamedStream& stream = loaded.streams[s];
     const auto spottings = Watch(stream.stream, *taught.recogniser, taught.moves.size(), taught.watch);
     spotted += spottings.size();
-    const bool is_unique = std::ranges::count(loaded.streams, stream.name, &NamedStream::name) == 1;
-    const std::string name = loaded.streams.size() == 1 ? "" : is_unique ? stream.name : stream.source;
+    const std::string name = loaded.streams.size() == 1 ? "" : named[stream.name] == 1 ? stream.name : stream.source;
     for (const Spotting& spotting : spottings) PrintSpotting(spotting, taught, stream.stream.rate_hz, name);
     std::vector<LabelledPart> own;
     std::ranges::copy_if(parts, std::back_inserter(own), [&](const LabelledPart& p) { return p.stream == s; });

@@ -107,8 +107,8 @@ void PrintAnswers(const RunData& run) {
   PrintList("\nAnswers:", answers);
 }
 
-/// Returns ", 191 unsolved (no answer, or an answer that missed the goal), 2 skipped, 4 not measured" without the
-/// counts that are 0.
+/// Returns ", 191 unsolved (no answer, or an answer that missed the goal), 2 skipped, 4 could not be measured" without
+/// the counts that are 0.
 std::string OthersInWords(const RunData& run) {
   int unsolved = 0, skipped = 0, broken = 0;
   for (const ScenarioSummary& scenario : run.scenarios) {

@@ -110,24 +110,16 @@ Result<void> LeaveOutCopies(std::vector<LibraryClip>& clips, std::vector<bool>& 
   std::vector<Places> places;
   for (const LibraryClip& clip : clips) places.push_back(PlacesOf(clip.motion));
   const auto equals = FindEqual(places);
-  std::vector<LibraryClip> kept;
-  std::vector<bool> kept_out;
   for (std::size_t i = 0; i < clips.size(); ++i) {
-    if (!equals[i]) {
-      kept_out.push_back(held_out[i]);
-      continue;
-    }
+    if (!equals[i]) continue;
     const std::string& first = clips[*equals[i]].source;
     if (held_out[i] != held_out[*equals[i]]) {
       return Fail({clips[i].source}, "shows the same motion as {}, but only one of the two is held out", first);
     }
     fmt::print(stderr, "left out: {}\n", ToString(Error{{clips[i].source}, "shows the same motion as " + first}));
   }
-  for (std::size_t i = 0; i < clips.size(); ++i) {
-    if (!equals[i]) kept.push_back(std::move(clips[i]));
-  }
-  clips = std::move(kept);
-  held_out = std::move(kept_out);
+  EraseEqual(clips, equals);
+  EraseEqual(held_out, equals);
   return {};
 }
 

@@ -10,8 +10,9 @@
 
 namespace etude {
 
-/// A time ratio is judged only if the median time of both methods is at least this long. A cell is timed once, and a
-/// method that runs after another method first pays for cold caches, about 0.1 ms. In 0.5 ms, this is a fifth.
+/// A time ratio is met only if the median time of `over` is at least this long, and unmet only if that of `of` is. A
+/// cell is timed once, and a method that runs after another method first pays for cold caches, about 0.1 ms. In 0.5 ms,
+/// this is a fifth.
 inline constexpr double kMinJudgedSeconds = 0.0005;
 
 struct RatioResult {
@@ -26,7 +27,7 @@ struct RatioResult {
   /// (times vary on a busy machine), if too few worlds have the times of both methods, or if a method's times are too
   /// short to judge. Otherwise met.
   ClaimOutcome outcome = ClaimOutcome::kUndecided;
-  /// The shorter one of the methods' median times, if it is below kMinJudgedSeconds.
+  /// The median time that decides (kMinJudgedSeconds), if it is too short.
   std::optional<double> too_short_s = {};
 };
 

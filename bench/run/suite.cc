@@ -82,7 +82,7 @@ Result<void> RefuseDoubles(const std::vector<std::string>& references, const Pla
     for (const std::string& one : *expanded) {
       const SplitReference split = Split(one);
       std::error_code none;
-      const auto path = std::filesystem::canonical(split.path, none);
+      const auto path = std::filesystem::canonical(FileOf(split.path), none);
       const auto [first, is_new] = known.emplace(std::pair(none ? split.path : path.string(), split.animation), one);
       if (is_new) continue;
       return Fail(place, "the clips contain a motion twice: '{}' and '{}' (from '{}'); list each motion once",

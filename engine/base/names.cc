@@ -46,7 +46,7 @@ constexpr MarkedLetters kMarkedLetters[] = {
     {"\u0308", "AEIOUYaeiouy", "ÄËÏÖÜŸäëïöüÿ"},
     {"\u030a", "AUau", "ÅŮåů"},
     {"\u030b", "OUou", "ŐŰőű"},
-    {"\u030c", "CDELNRSTZcdelnrstz", "ČĎĚĽŇŘŠŤŽčďěľňřšťž"},
+    {"\u030c", "ACDEGIKLNORSTUZacdegiklnorstuz", "ǍČĎĚǦǏǨĽŇǑŘŠŤǓŽǎčďěǧǐǩľňǒřšťǔž"},
     {"\u0326", "STst", "ȘȚșț"},
     {"\u0327", "CGKLNRSTcgklnrst", "ÇĢĶĻŅŖŞŢçģķļņŗşţ"},
     {"\u0328", "AEIUaeiu", "ĄĘĮŲąęįų"},

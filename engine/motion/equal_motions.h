@@ -36,4 +36,11 @@ std::vector<std::optional<std::size_t>> FindEqual(std::size_t count,
 /// The same for motions that are at hand.
 std::vector<std::optional<std::size_t>> FindEqual(const std::vector<Places>& motions);
 
+/// Removes the entry of each motion that equals an earlier one (FindEqual).
+template <typename List>
+void EraseEqual(List& list, const std::vector<std::optional<std::size_t>>& equals) {
+  std::size_t m = 0;
+  std::erase_if(list, [&](const auto&) { return equals[m++].has_value(); });
+}
+
 }  // namespace etude

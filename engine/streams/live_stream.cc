@@ -102,8 +102,8 @@ Result<void> LiveStream::Start(bool at_end, std::vector<SensedFrame>& stream) {
   maker_.emplace(level_, options_, name_);
   doubts_.emplace(StatedUp(recording, options_), options_.rate_hz);
   remarks_ = recording.remarks;
-  for (std::string remark :
-       {RateDoubt(recording), DescribeAssumedRate(recording), recording.is_level ? std::string() : Describe(level_)}) {
+  for (std::string remark : {RateDoubt(recording), reading_.rate_hz ? std::string() : DescribeAssumedRate(recording),
+                             recording.is_level || !options_.levels ? std::string() : Describe(level_)}) {
     if (!remark.empty()) remarks_.push_back(std::move(remark));
   }
   std::vector<RecordedFrame> frames = std::move(recording.frames);

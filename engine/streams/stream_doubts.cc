@@ -69,7 +69,11 @@ std::vector<std::string> LiveDoubts::Take(std::span<const SensedFrame> frames, b
   std::vector<std::string> said;
   const auto longest = static_cast<std::size_t>(std::lround(kLongest_s * shown_.rate_hz));
   if (judged_at_ > longest) return said;
-  std::ranges::copy_if(frames, std::back_inserter(shown_.frames), &SensedFrame::body_seen);
+  // One frame without a body stands for each gap, so that no joint seems to jump across the gap.
+  for (const SensedFrame& frame : frames) {
+    const bool ends_body = !shown_.frames.empty() && shown_.frames.back().body_seen;
+    if (frame.body_seen || ends_body) shown_.frames.push_back(frame);
+  }
   if (shown_.frames.empty() || (shown_.frames.size() < judged_at_ && !at_end)) return said;
   std::array<std::string, 3> doubts = DoubtsOf(shown_, up_);
   for (std::size_t kind = 0; kind < doubts.size(); ++kind) {

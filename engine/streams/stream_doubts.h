@@ -32,7 +32,7 @@ class LiveDoubts {
 
  private:
   std::optional<UpRule> up_;
-  SkeletonStream shown_;   // the frames with a body so far
+  SkeletonStream shown_;   // the frames with a body so far, and one for each gap
   std::size_t judged_at_;  // the number of frames at which the stream is judged next
   std::array<bool, 3> is_said_{};
 };

@@ -54,9 +54,11 @@ Result<std::size_t> CopyOf(std::size_t first, std::size_t second, const std::vec
   }
   if (AreAmong(of_second, of_first)) return second;
   if (AreAmong(of_first, of_second)) return first;
-  return Fail({NameOf(streams[second])},
-              "shows the same motion as {}, but as other performances; allowed: each motion once",
-              NameOf(streams[first]));
+  return Fail(
+      {NameOf(streams[second])},
+      "shows the same motion as {}, but the labels (without labels, the files' names) state other performances; "
+      "allowed: each motion once",
+      NameOf(streams[first]));
 }
 
 }  // namespace

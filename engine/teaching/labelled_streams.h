@@ -47,8 +47,8 @@ bool IsSamePerformance(const LabelledPart& a, const LabelledPart& b);
 /// Finds the frames of `streams` to which the labels refer, sorted by stream and then by time. Labels of other
 /// recordings are left out. Fails, with the label's line, if a performance or an action point begins more than half
 /// a second before the recording or after its last frame, or if a performance ends before the recording or more than
-/// half a second after it. Also fails if two labels name one performance, if one label can belong to two recordings,
-/// and if no label belongs to any of the recordings.
+/// half a second after it. Also fails if two labels name one performance, if one label can belong to two recordings of
+/// other motions, and if no label belongs to any of the recordings.
 Result<std::vector<LabelledPart>> MatchLabels(const std::vector<Label>& labels, const std::string& file,
                                               const std::vector<NamedStream>& streams);
 

@@ -7,6 +7,7 @@
 #include <pybind11/stl.h>
 #include <pybind11/stl/filesystem.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstring>
 #include <glm/glm.hpp>
@@ -38,8 +39,8 @@ using Array = py::array_t<double, py::array::c_style | py::array::forcecast>;
 
 namespace pybind11::detail {
 
-/// Converts any array, or a list of arrays, to doubles. Masked entries of a numpy.ma.MaskedArray, whose numbers mean
-/// nothing, become NaN.
+/// Converts any array, or a list or tuple of arrays, to doubles. Masked entries of a numpy.ma.MaskedArray, whose
+/// numbers mean nothing, become NaN.
 template <>
 struct pyobject_caster<etude::engine::Array> {
   using type = etude::engine::Array;
@@ -48,7 +49,8 @@ struct pyobject_caster<etude::engine::Array> {
     if (!convert && !type::check_(source)) return false;
     object array = reinterpret_borrow<object>(source);
     try {
-      if (isinstance<list>(array) && !array.cast<list>().empty() && hasattr(array.cast<list>()[0], "filled"))
+      const auto is_masked = [](handle one) { return hasattr(one, "filled"); };
+      if ((isinstance<list>(array) || isinstance<tuple>(array)) && std::any_of(array.begin(), array.end(), is_masked))
         array = module_::import("numpy").attr("ma").attr("array")(array);  // numpy.array would forget the masks
       if (isinstance<pybind11::array>(array) && hasattr(array, "filled"))
         array = array.attr("astype")("float64").attr("filled")(std::numeric_limits<double>::quiet_NaN());

@@ -51,7 +51,7 @@ def _judged(found, code, printed, said):
     if code == 0:
         return found
     lines = [line.strip() for line in (said + printed).splitlines()]
-    causes = [line for line in lines if "ok or unsolved" in line or " × " in line]
+    causes = [line for line in lines if "has an answer" in line or " × " in line]
     if causes:
         raise EtudeError("; ".join(dict.fromkeys(causes)), code, printed + said, found)
     warnings.warn(next((line for line in lines if "cells ok" in line), "no cell is ok"), stacklevel=3)

@@ -132,7 +132,7 @@ class Motions(unittest.TestCase):
         still = np.ma.masked_array(np.repeat(standing()[None], 3, axis=0), mask=False)
         np.testing.assert_array_equal(engine.Motion(still).positions_m, still.data)
         still[1, 4, 2] = np.ma.masked
-        for masked in (still, still.astype(np.float32), list(still)):
+        for masked in (still, still.astype(np.float32), list(still), tuple(still), [still.data[0], *still[1:]]):
             with self.assertRaisesRegex(engine.BadInput, "positions_m: value 74 is not finite"):
                 engine.Motion(masked)
 

@@ -63,13 +63,9 @@ void LeaveOutCopies(BridgeLibrary& loaded, std::vector<BodyMotion>& motions) {
     index[c] = static_cast<int>(kept++);
   }
   if (loaded.copies.empty()) return;
-  const auto erase = [&](auto& of_clips) {
-    std::size_t c = 0;
-    std::erase_if(of_clips, [&](const auto&) { return equals[c++].has_value(); });
-  };
-  erase(motions);
-  erase(loaded.library.names);
-  erase(loaded.sources);
+  EraseEqual(motions, equals);
+  EraseEqual(loaded.library.names, equals);
+  EraseEqual(loaded.sources, equals);
   std::set<int> corrective;
   for (const int c : loaded.corrective) corrective.insert(index[static_cast<std::size_t>(c)]);
   loaded.corrective.assign(corrective.begin(), corrective.end());

@@ -39,8 +39,8 @@ struct TwinMatch {
 std::optional<TwinMatch> AlignTwin(const JointRecording& recording, const TwinMotion& twin);
 
 /// Returns the RMS residual that other shifts leave, metres: the median over shifts at least a second from the shift of
-/// `match`, at which half of the shorter recording overlaps. Another motion than the twin's fits at the best shift
-/// hardly better than at these. Returns nullopt if there are fewer than three such shifts.
+/// `match`, at which at least half of the shorter recording overlaps. Another motion than the twin's fits at the best
+/// shift hardly better than at these. Returns nullopt if there are fewer than three such shifts.
 std::optional<double> ChanceRms(const JointRecording& recording, const TwinMotion& twin, const TwinMatch& match);
 
 /// Aligns a recording that differs little from an aligned one: starts from `start`, and searches only shifts within

@@ -150,6 +150,24 @@ double SizeOf(std::size_t frames, const PlaceOf& place) {
   return count > 0 ? sum / count : 0;
 }
 
+/// Returns the RMS distance of the joints from their mean positions, metres.
+double MovementOf(const std::vector<RolePositions>& frames) {
+  double squares = 0, count = 0;
+  for (std::size_t j = 0; j < kRoleCount; ++j) {
+    glm::dvec3 sum(0);
+    double own = 0, seen = 0;
+    for (const RolePositions& places : frames) {
+      if (!places[j]) continue;
+      sum += *places[j];
+      own += glm::dot(*places[j], *places[j]);
+      ++seen;
+    }
+    if (seen > 0) squares += own - glm::dot(sum, sum) / seen;
+    count += seen;
+  }
+  return count > 0 ? std::sqrt(std::max(0.0, squares / count)) : 0;
+}
+
 }  // namespace
 
 std::optional<RealRecording> MakeRealRecording(JointRecording recording, TwinMotion twin) {
@@ -160,7 +178,7 @@ std::optional<RealRecording> MakeRealRecording(JointRecording recording, TwinMot
 
 std::string DescribeMismatch(const RealRecording& real) {
   constexpr double kMaxRatio = 2, kMax_m = 0.3, kMinMirror_m = 0.05, kMirror = 0.5;
-  constexpr double kMinChance_m = 0.1, kClearly = 0.7;
+  constexpr double kMinMovement_m = 0.1, kClearly = 0.7;
   using Places = std::optional<glm::dvec3>;
   const auto& [recording, twin, match] = real;
   // Compare the sizes by the joints that both show.
@@ -194,11 +212,11 @@ std::string DescribeMismatch(const RealRecording& real) {
           1000 * rms_m, 1000 * image->alignment.rms_m);
     }
   }
-  // Of a body that hardly moves, all shifts leave about the same.
+  // All shifts leave about the same of a body that hardly moves.
   const auto chance = ChanceRms(recording, twin, match);
-  if (chance && *chance > kMinChance_m && rms_m > kClearly * *chance) {
+  if (chance && MovementOf(match.truth) > kMinMovement_m && rms_m > kClearly * *chance) {
     return fmt::format(
-        "the RMS distance after alignment is {:.1f} mm, but shifts of a second or more leave only {:.1f} mm; if the "
+        "the RMS distance after alignment is {:.1f} mm, hardly less than at other shifts in time ({:.1f} mm); if the "
         "motion is the same, the frame rate of one file may be wrong (--rate, --reference-rate)",
         1000 * rms_m, 1000 * *chance);
   }

@@ -6,6 +6,7 @@
 #include <filesystem>
 
 #include "bench/tasks/evaluation/find_files.h"
+#include "engine/base/text.h"
 #include "io/clips/open_clip.h"
 #include "io/clips/raw_motions.h"
 #include "io/clips/references.h"
@@ -45,9 +46,10 @@ void ForEachWindow(std::size_t frames, int window, int offset, const Visit& visi
 std::string IdentityOf(const std::string& reference) {
   const SplitReference split = Split(reference);
   const std::string animation = '#' + split.animation.value_or("");
-  // The motion of a .gltf file is in another file, so two such files with the same bytes may hold different motions.
+  // Motions of .gltf and .amc files need a second file, so such files with the same bytes may hold different motions.
+  const std::string ending = InLowerCase(std::filesystem::path(split.path).extension().string());
   const auto digest = DigestOfFile(reference, {});
-  if (digest && !split.path.ends_with(".gltf")) return *digest + animation;
+  if (digest && ending != ".gltf" && ending != ".amc") return *digest + animation;
   std::error_code none;
   const auto path = std::filesystem::canonical(FileOf(split.path), none);
   return (none ? split.path : path.string()) + animation;

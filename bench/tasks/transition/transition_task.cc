@@ -48,14 +48,6 @@ class TransitionTask final : public Task {
 
 /// Refuses keys of the condition that cannot have an effect with these clips and methods.
 void CheckEffects(TaskInput& input, const TransitionCondition& condition, std::span<const TransitionMethod> methods) {
-  const Node* min_clips = input.condition.Raw("min_clips");
-  const std::size_t clips = input.clips.clips.size();
-  if (min_clips != nullptr && clips > 0 && static_cast<std::size_t>(condition.stage.min_clips) > clips) {
-    input.condition.Complain(min_clips->place,
-                             fmt::format("'min_clips' is {}, but there are only {} clips, so no frame "
-                                         "can be a bridge frame",
-                                         condition.stage.min_clips, clips));
-  }
   const Node* threshold = input.condition.Raw("threshold");
   bool is_read = false;
   for (std::size_t m = 0; m < methods.size(); ++m) {

@@ -74,7 +74,8 @@ TEST_F(EqualStreams, TwoPeopleOrOtherPerformancesAreRefused) {
   parts_ = {{.stream = 0, .move = "m", .fault = "", .person = "", .begin = 5, .end = 50},
             {.stream = 1, .move = "m", .fault = "half", .person = "", .begin = 5, .end = 50}};
   EXPECT_EQ(LeaveOut(),
-            "refused: b.csv: shows the same motion as a.csv, but as other performances; allowed: each motion once");
+            "refused: b.csv: shows the same motion as a.csv, but the labels (without labels, the files' names) state "
+            "other performances; allowed: each motion once");
   parts_[1].fault = "";
   EXPECT_EQ(LeaveOut(), "b.csv: shows the same motion as a.csv\n");
 }

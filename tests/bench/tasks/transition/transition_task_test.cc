@@ -71,12 +71,10 @@ TEST_F(TransitionTaskTest, GoesThroughAnInBetweenWhereNothingMatches) {
 }
 
 TEST_F(TransitionTaskTest, RefusesKeysOfTheScenarioThatCannotHaveAnEffect) {
-  const ClipLibrary library = SmallLibrary();  // three clips
+  const ClipLibrary library = SmallLibrary();
   const auto refusal = [&](const std::string& yaml) { return testing::Refusal(Make(yaml, library)); };
   const std::string fuzzy = "methods: [{name: a}]\n", now = "methods: [{name: a, choice: now}]\n",
                     own = "methods: [{name: a, threshold: 1}]\n";
-  EXPECT_THAT(refusal(fuzzy + "min_clips: 4"), HasSubstr("2:12: 'min_clips' is 4, but there are only 3 clips"));
-  EXPECT_TRUE(Make(fuzzy + "min_clips: 3", library));
   for (const std::string& methods : {now, own}) {
     EXPECT_THAT(refusal(methods + "threshold: 0.5"), HasSubstr("2:12: 'threshold' has no effect here"));
   }
