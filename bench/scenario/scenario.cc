@@ -214,7 +214,7 @@ const FieldTable<Scenario>& ScenarioFields() {
           std::vector<std::string> swept;
           for (const SweptValue& value : s.conditions.front().swept) swept.push_back(value.key);
           const Node* across = fields.Raw("across");
-          if (across != nullptr && swept.empty()) {
+          if (across != nullptr && !across->items.empty() && swept.empty()) {
             fields.Complain(across->place, "'across' names swept parameters, but this scenario has no sweep");
           }
           s.across = ReadNames(fields, "across", swept);
