@@ -46,8 +46,8 @@ class TransitionTask final : public Task {
   mutable LearntWeights learnt_;
 };
 
-/// Refuses keys of the condition that cannot have an effect with these clips and methods.
-void CheckEffects(TaskInput& input, const TransitionCondition& condition, std::span<const TransitionMethod> methods) {
+/// Refuses the condition's key `threshold` if no method reads it.
+void CheckThreshold(TaskInput& input, std::span<const TransitionMethod> methods) {
   const Node* threshold = input.condition.Raw("threshold");
   bool is_read = false;
   for (std::size_t m = 0; m < methods.size(); ++m) {
@@ -67,7 +67,7 @@ Result<std::unique_ptr<Task>> MakeTransitionTask(TaskInput& input) {
   start.way.rules.threshold = condition.threshold;
   start.wait_s = condition.wait_s;
   ASSIGN_OR_RETURN(auto methods, ReadMethods(input, "transition", TransitionMethodFields(), start));
-  CheckEffects(input, condition, methods);
+  CheckThreshold(input, methods);
   if (!input.condition.ok()) return tl::unexpected(input.condition.Finish().error());
   Stage stage = SetStage(input.clips, condition.stage);
   ASSIGN_OR_RETURN(auto training,
