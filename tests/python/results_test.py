@@ -17,18 +17,24 @@ import etude
 
 @etude.method(task="ik", name="moody")
 def moody(problem):
-    if problem.start_angles_deg[0] > 0:
-        raise etude.NoAnswer("not in the mood")
-    return problem.start_angles_deg
+    raise etude.NoAnswer("not in the mood")
 
 
 class Results(PythonCase):
     @classmethod
     def setUpClass(cls):
         cls.out = cls.shared_folder() / "run"
-        cls.run_ = etude.run(SCENARIO, methods=[moody], output=cls.out, jobs=1, progress=False)
+        try:
+            etude.run(SCENARIO, methods=[moody], output=cls.out, jobs=1, progress=False)
+            raise AssertionError("a method without an answer is no error")
+        except etude.EtudeError as error:
+            cls.error, cls.run_ = error, error.run
         etude.report(cls.run_, video=False, progress=False)
         cls.rows = rows_of(cls.out)
+
+    def test_a_method_that_never_answers_is_an_error_with_the_run(self):
+        self.assertEqual(self.error.exit_code, 1)
+        self.assertIn("none of the 12 cells of moody has an answer", self.error.text)
 
     def test_a_table_has_the_values_of_the_rows_and_no_null_column(self):
         self.assertEqual((list(self.run_), len(self.run_), "ik" in self.run_), (["ik"], 1, True))
