@@ -24,13 +24,13 @@ function file(left, right) {  // within a second the left arm turns by 90 degree
   const joints = ['hips', 'hips/left', `hips/left/${left}`, 'hips/right', `hips/right/${right}`].map((name) => `"${name}"`).join(', ');
   return `#usda 1.0
 (
-    defaultPrim = "root"
+    defaultPrim = "person"
     metersPerUnit = 1
     timeCodesPerSecond = 10
     upAxis = "Y"
 )
 
-def SkelRoot "root"
+def SkelRoot "person"
 {
     def Skeleton "skeleton" (
         prepend apiSchemas = ["SkelBindingAPI"]
@@ -39,7 +39,7 @@ def SkelRoot "root"
         uniform matrix4d[] bindTransforms = [${[at(0, 1), at(1, 1), at(2, 1), at(-1, 1), at(-2, 1)].join(', ')}]
         uniform token[] joints = [${joints}]
         uniform matrix4d[] restTransforms = [${[at(0, 1), at(1, 0), at(1, 0), at(-1, 0), at(-1, 0)].join(', ')}]
-        rel skel:animationSource = </root/skeleton/motion>
+        rel skel:animationSource = </person/skeleton/motion>
 
         def SkelAnimation "motion"
         {
@@ -68,7 +68,7 @@ def SkelRoot "root"
             elementSize = 1
             interpolation = "vertex"
         )
-        rel skel:skeleton = </root/skeleton>
+        rel skel:skeleton = </person/skeleton>
     }
 }
 `;

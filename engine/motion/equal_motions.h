@@ -27,8 +27,8 @@ std::vector<glm::dvec3> SketchOf(const Places& places, std::size_t max_frames = 
 bool AreEqual(const Places& a, const Places& b);
 
 /// Finds equal motions among `count` ones. Returns, for each, the first motion that it equals; nothing for the first
-/// one itself and for motions without an equal. Compares the sketches (SketchOf) first; `are_equal` must then compare
-/// the motions entirely. An empty sketch equals no other.
+/// one itself and for motions without an equal. Two motions are equal if their sketches (SketchOf) are equal and
+/// `are_equal` returns true, which must compare all frames. An empty sketch equals no other.
 std::vector<std::optional<std::size_t>> FindEqual(std::size_t count,
                                                   const std::function<std::vector<glm::dvec3>(std::size_t)>& sketch_of,
                                                   const std::function<bool(std::size_t, std::size_t)>& are_equal);

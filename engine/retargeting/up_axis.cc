@@ -38,9 +38,9 @@ bool ShowsStanding(const AxisStance& stance) {
 }
 
 /// Returns true if a body that is never upright along the usual axis squats or bows along the axis of `other`, over
-/// feet at one height. A body that squats lowers its hips. A body that only bows may do sit-ups along the usual axis,
-/// unless its lowest joint is away from height 0 there; if the usual axis is a guess, the feet must also be near height
-/// 0.
+/// feet at one height. A squat lowers the hips. A bow has the shape of a sit-up along the usual axis, so it counts only
+/// if the lowest joint is not near height 0 along that axis. If the usual axis is a guess, the lowest joint must also
+/// be near height 0 along the axis of `other`.
 bool Bends(const AxisStance& other, const AxisStance& usual, const UpRule& rule) {
   constexpr double kPart = 0.3, kStillFloor = 0.05, kLowers = 0.08;
   const bool stands = other.upright > kPart && other.balanced > kPart && other.floor < kStillFloor;

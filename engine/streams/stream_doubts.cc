@@ -14,7 +14,7 @@ using enum Role;
 bool IsTracked(const SensedFrame& frame, Role role) { return frame[role].state == TrackingState::kTracked; }
 
 /// Returns the poses of the frames that show all joints but toes and hands. A missing toe is placed at its ankle, and a
-/// missing hand at its wrist, as FindUp needs it.
+/// missing hand at its wrist, because FindUp needs all joints.
 std::vector<BodyPose> ShownPoses(const SkeletonStream& stream) {
   constexpr std::pair<Role, Role> kTips[] = {
       {kLeftFoot, kLeftAnkle}, {kRightFoot, kRightAnkle}, {kLeftHand, kLeftWrist}, {kRightHand, kRightWrist}};

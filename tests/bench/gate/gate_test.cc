@@ -108,7 +108,7 @@ TEST(Gate, FailsAMethodThatGaveNoAnswerAnywhere) {
                                           "is s/joint_noise_deg=1/000/b; 48 × failed: ended with exit code 1"));
   run.data.rows.back().result = CellResult::Ended(Status::kUnsolved, "too far");  // b's; an answer
   EXPECT_EQ(GateVerdictOf(*JudgeRun(run, nullptr, "")), GateVerdict::kPassed);
-  // A program that answers `no_answer` in every world has no answer, although its cells are unsolved.
+  // A cell whose program answered `no_answer` is unsolved, too, but it is no answer.
   run.data.rows.back().result = CellResult::Ended(Status::kUnsolved, "gave no answer: 'no'");
   EXPECT_EQ(GateVerdictOf(*JudgeRun(run, nullptr, "")), GateVerdict::kRegressed);
 }
