@@ -511,12 +511,12 @@ def tell_of_memory(how, mb):
         victimise(f"held {mb:.0f} MB {how}")
 
 
-def in_children(fills, meanwhile=lambda: None):
+def in_children(fills, meanwhile=lambda: None, life_s=15):
     """Returns the sum of the functions' results; each runs in a process that keeps its memory."""
     reading, writing = os.pipe()
     for fill in fills:
         if os.fork() == 0:
-            signal.alarm(15)
+            signal.alarm(life_s)
             try:
                 filled = fill()
             except (OSError, MemoryError):
@@ -762,6 +762,7 @@ def holds_watches(problem):
 
 def forks_eighty_idle_children(problem):
     """Harmless: the children hold nothing of their own."""
+    signal.alarm(90)  # forking may take longer than LIFE_S on a busy machine
     for _ in range(80):
         if os.fork() == 0:
             signal.alarm(8)
@@ -772,7 +773,8 @@ def forks_eighty_idle_children(problem):
 
 def splits_memory_in_seventeen_of_seventy_children(problem):
     """Harmless: more mappings than most programs have, but less memory than the limit."""
-    in_children([splits_memory] * 17 + [lambda: 0] * 53)
+    signal.alarm(90)
+    in_children([splits_memory] * 17 + [lambda: 0] * 53, life_s=90)
     time.sleep(1)
 
 

@@ -184,7 +184,7 @@ class Zoo(unittest.TestCase):
 
     def release(self, name, *options, memory_mb=400, time_s=None):
         """Runs a specimen; returns its statuses, what it did to others and to files elsewhere, and what survived."""
-        time_s = time_s or (60 if name.startswith(("opens_all", "forks_eighty")) else
+        time_s = time_s or (60 if name.startswith(("opens_all", "forks_eighty", "splits_memory_in")) else
                             15 if name.startswith(("hides", "splits", "holds", "takes")) else 3)
         with tempfile.TemporaryDirectory(prefix="zoo-test-victim-") as others:
             victim = Victim(pathlib.Path(others))
