@@ -1,12 +1,12 @@
 #!/usr/bin/env bash
-# @galacean/engine-math 1.6.13 gives every small turn a rotation vector of the length 2: the axis that belongs to the
-# angle is too long.
+# @galacean/engine-math 1.6.13 gives every turn from 0.115 to 60 degrees a rotation vector of about the length 2: the
+# axis that belongs to the angle is too long.
 #
 # Quaternion.getAxisAngle() divides the vector part of the quaternion by its squared length instead of its length, so
 # that the axis is 1 / sin(angle / 2) long; no comment says so. Axis times angle, the rotation vector that angular
-# velocities and means of rotations need, has about 2 radians for all turns up to 60 degrees. A joint whose speed is
-# computed from one frame to the next at 60 Hz turns at about 6900 degrees a second, whether it is fast or slow; below
-# 0.115 degrees a frame it stands still. The angle alone is right, and at 180 degrees the axis is, too.
+# velocities and means of rotations need, then has about 2 radians. A joint whose speed is computed from one frame to
+# the next at 60 Hz turns at about 6900 degrees a second, whether it is fast or slow. The angle alone is right, and at
+# 180 degrees the axis is, too. Below 0.115 degrees a frame the angle is 0, and the joint stands still.
 # rotationAxisAngle() normalizes its axis, so a round trip hides the fault.
 #
 # Needs: npm and node (18 or later). Downloads 0.2 MB, writes to a temporary folder only.
@@ -45,4 +45,4 @@ cat > expected <<'SAID'
 10800 degrees/s: axis 1.0 long, angle 180.0 a frame, both x 60 Hz: 10800 degrees/s
 SAID
 diff expected said
-echo 'As described: all speeds are the same.'
+echo 'As described: 60 degrees a second and 1800 have nearly the same speed.'

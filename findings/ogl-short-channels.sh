@@ -42,7 +42,7 @@ const file = {
     { sampler: 0, target: { node: 0, path: 'translation' } }, { sampler: 1, target: { node: 0, path: 'rotation' } },
     { sampler: 2, target: { node: 1, path: 'translation' } }] }] };
 
-// Stands for a WebGL that draws nothing and reports no errors.
+// OGL's loader needs a WebGL context. This one draws nothing and reports no errors.
 const answers = { [Symbol.toPrimitive]: () => 0, getShaderInfoLog: () => '', getProgramInfoLog: () => '' };
 const gl = new Proxy(() => gl, { get: (_, name) => answers[name] ?? gl });
 const { nodes: [hand, hips], animations: [{ animation }] } = await GLTFLoader.parse(gl, file, '');

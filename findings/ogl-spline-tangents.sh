@@ -28,7 +28,8 @@ function accessor(type, rows) {
     min: extreme(Math.min), max: extreme(Math.max) }) - 1;
 }
 const metres = (x) => [x, 0, 0];
-// Each spline has two keys, a time and a position, and a speed at each.
+// Each spline goes from position 0 at 0 s to the given position at the given time. The last two numbers are its speeds
+// there.
 const splines = [['hips, keys 0.1 s apart', 0.1, 0.12, 1.2, 1.2], ['hips, keys 1 s apart', 1, 1.2, 1.2, 1.2],
   ['hips, keys 2 s apart', 2, 2.4, 1.2, 1.2], ['a sway, keys 1 s apart', 1, 0, 1, 0]];
 const samplers = splines.map(([, end, last, out, into]) => ({ interpolation: 'CUBICSPLINE',
@@ -42,7 +43,7 @@ const file = {
   bufferViews, accessors, animations: samplers.map((sampler) => ({ samplers: [sampler],
     channels: [{ sampler: 0, target: { node: 0, path: 'translation' } }] })) };
 
-// Stands for a WebGL that draws nothing and reports no errors.
+// OGL's loader needs a WebGL context. This one draws nothing and reports no errors.
 const answers = { [Symbol.toPrimitive]: () => 0, getShaderInfoLog: () => '', getProgramInfoLog: () => '' };
 const gl = new Proxy(() => gl, { get: (_, name) => answers[name] ?? gl });
 const { nodes: [joint], animations } = await GLTFLoader.parse(gl, file, '');

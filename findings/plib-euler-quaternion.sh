@@ -25,7 +25,8 @@ cat > angles.cc <<'CODE'
 #include <cstdio>
 #include <plib/sg.h>
 
-// Prints the turn of a matrix about the one of x, y and z that it keeps; a row is where PLIB moves an axis.
+// Prints the axis about which a matrix turns (x, y or z), and the angle in degrees. Row i of a matrix of PLIB is the
+// image of axis i.
 static void Turn(const char* what, const sgMat4 m) {
   for (int axis = 0; axis < 3; ++axis) {
     const int a = (axis + 1) % 3, b = (axis + 2) % 3;

@@ -23,7 +23,7 @@ function smooth(method, signal) {
   const data = Array.from({ length }, (_, i) => [i, signal(i)]);
   return new Series(data)[method]({ period }).data.map(([, value]) => value);
 }
-// What the definitions give, for a long signal.
+// By definition, each average of a long signal has this lag, in samples, and keeps this share of the tremor.
 const m = 2 / (period + 1);
 const right = { ma: [(period - 1) / 2, 0], lwma: [(period - 1) / 3, 1 / (period + 1)], ema: [1 / m - 1, m / (2 - m)] };
 for (const method of ['ma', 'lwma', 'ema']) {

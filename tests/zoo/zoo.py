@@ -512,7 +512,7 @@ def tell_of_memory(how, mb):
 
 
 def in_children(fills, meanwhile=lambda: None, life_s=15):
-    """Returns the sum of the functions' results; each runs in a process that keeps its memory."""
+    """Returns the sum of the functions' results; each runs in a process that keeps its memory for at most life_s."""
     reading, writing = os.pipe()
     for fill in fills:
         if os.fork() == 0:
@@ -773,7 +773,7 @@ def forks_eighty_idle_children(problem):
 
 def splits_memory_in_seventeen_of_seventy_children(problem):
     """Harmless: more mappings than most programs have, but less memory than the limit."""
-    signal.alarm(90)
+    signal.alarm(90)  # filling may take longer than LIFE_S on a busy machine
     in_children([splits_memory] * 17 + [lambda: 0] * 53, life_s=90)
     time.sleep(1)
 
