@@ -8,6 +8,7 @@
 #include <iostream>
 #include <map>
 #include <string_view>
+#include <variant>
 
 #include "bench/results/folder.h"
 #include "bench/run/outside_programs.h"
@@ -16,7 +17,7 @@
 #include "engine/base/names.h"
 #include "engine/base/text.h"
 #include "engine/retargeting/marker_sets.h"
-#include "io/process/pinned_environment.h"
+#include "io/process/closed_environment.h"
 
 namespace etude {
 namespace {
@@ -321,65 +322,78 @@ std::function<std::string(const std::string&)> NumberWithin(double low, double h
 
 namespace {
 
-/// Puts the commands that `etude --help` lists into groups. The help lists groups in the order in which their first
-/// commands were defined.
-void GroupCommands(CLI::App& app) {
-  struct CommandGroup {
-    const char* name;
-    std::vector<std::string> commands;
-  };
-  const CommandGroup groups[] = {{"Run and judge",
-                                  {"run", "evaluate", "scenario", "list", "report", "rows", "blind", "compare", "gate", "replay",
-                                   "verify", "merge", "check-method"}},
-                                 {"Your motions", {"clip", "bridge", "transition", "train", "crowd"}},
-                                 {"Your recordings of people", {"teach", "recognise", "coach", "sensor"}},
-                                 {"Your cameras", {"calibrate", "forecast", "capture"}},
-                                 {"Share", {"cite", "export", "score", "completion"}}};
-  for (const CommandGroup& group : groups) {
-    for (const std::string& command : group.commands) app.get_subcommand(command)->group(group.name);
-  }
+using Define = void (*)(CLI::App&, Action&);
+/// Defines a command whose command line is recorded in host.json.
+using DefineRecorded = void (*)(CLI::App&, const std::string& command_line, Action&);
+
+struct Command {
+  std::string_view name;
+  const char* group;  // the heading in `etude --help`; "" hides the command
+  std::variant<Define, DefineRecorded> define;
+};
+
+void DefineWorker(CLI::App& app, Action& action) {
+  app.add_subcommand("worker", "For internal use")->callback([&action] {
+    action = [] { return RunWorker(std::cin, std::cout); };
+  });
 }
+
+constexpr const char *kJudge = "Run and judge", *kMotions = "Your motions", *kPeople = "Your recordings of people",
+                     *kCameras = "Your cameras", *kShare = "Share";
+
+/// The commands in the order of the help, which lists groups in the order of their first commands.
+constexpr Command kCommands[] = {
+    {"run", kJudge, DefineRun},
+    {"evaluate", kJudge, DefineEvaluate},
+    {"scenario", kJudge, DefineScenario},
+    {"merge", kJudge, DefineMerge},
+    {"report", kJudge, DefineReport},
+    {"rows", kJudge, DefineRows},
+    {"blind", kJudge, DefineBlind},
+    {"replay", kJudge, DefineReplay},
+    {"verify", kJudge, DefineVerify},
+    {"gate", kJudge, DefineGate},
+    {"compare", kJudge, DefineCompare},
+    {"check-method", kJudge, DefineCheckMethod},
+    {"list", kJudge, DefineList},
+    {"clip", kMotions, DefineClip},
+    {"bridge", kMotions, DefineBridge},
+    {"transition", kMotions, DefineTransition},
+    {"crowd", kMotions, DefineCrowd},
+    {"train", kMotions, DefineTrain},
+    {"teach", kPeople, DefineTeach},
+    {"recognise", kPeople, DefineRecognise},
+    {"coach", kPeople, DefineCoach},
+    {"sensor", kPeople, DefineSensor},
+    {"calibrate", kCameras, DefineCalibrate},
+    {"forecast", kCameras, DefineForecast},
+    {"capture", kCameras, DefineCapture},
+    {"cite", kShare, DefineCite},
+    {"export", kShare, DefineExport},
+    {"score", kShare, DefineScore},
+    {"completion", kShare, DefineCompletion},
+    {"man", "", DefineManual},
+    {"worker", "", DefineWorker},
+};
+/// The commands that print every command's options.
+constexpr std::string_view kNeedAll[] = {"completion", "man"};
 
 }  // namespace
 
-void DefineCommands(CLI::App& app, const std::string& command_line, Action& action) {
+void DefineCommands(CLI::App& app, std::string_view wanted, const std::string& command_line, Action& action) {
   app.require_subcommand(1);
   app.option_defaults()->always_capture_default();  // the help shows every default
-  // Define the commands that run scenarios and judge results.
-  DefineRun(app, command_line, action);
-  DefineEvaluate(app, command_line, action);
-  DefineScenario(app, action);
-  DefineMerge(app, command_line, action);
-  DefineReport(app, action);
-  DefineRows(app, action);
-  DefineBlind(app, action);
-  DefineReplay(app, action);
-  DefineVerify(app, action);
-  DefineGate(app, action);
-  DefineCompare(app, action);
-  DefineCheckMethod(app, action);
-  // Define the commands that list names for scenarios, and the commands for motion clips.
-  DefineList(app, action);
-  DefineClip(app, action);
-  DefineBridge(app, action);
-  DefineTransition(app, action);
-  DefineCrowd(app, action);
-  DefineTrain(app, action);
-  DefineTeach(app, action);
-  DefineRecognise(app, action);
-  DefineCoach(app, action);
-  DefineSensor(app, action);
-  DefineCalibrate(app, action);
-  DefineForecast(app, command_line, action);
-  DefineCapture(app, command_line, action);
-  DefineCite(app, action);
-  DefineExport(app, action);
-  DefineScore(app, command_line, action);
-  DefineOptionTree(app, action);
-  CLI::App* worker = app.add_subcommand("worker", "For internal use");
-  worker->group("");  // hidden in the help
-  worker->callback([&action] { action = [] { return RunWorker(std::cin, std::cout); }; });
-  GroupCommands(app);
+  const bool is_one = std::ranges::find(kCommands, wanted, &Command::name) != std::end(kCommands) &&
+                      std::ranges::find(kNeedAll, wanted) == std::end(kNeedAll);
+  for (const Command& command : kCommands) {
+    if (is_one && command.name != wanted) continue;
+    if (const auto* define = std::get_if<Define>(&command.define)) {
+      (*define)(app, action);
+    } else {
+      std::get<DefineRecorded>(command.define)(app, command_line, action);
+    }
+    app.get_subcommand(std::string(command.name))->group(command.group);
+  }
   RefuseEmptyValues(app);
   AddExamples(app);
 }

@@ -5,6 +5,7 @@
 #include <functional>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "bench/run/secret_key.h"
@@ -23,9 +24,10 @@ enum class Sealing;
 /// Runs the chosen command; returns the command's exit code.
 using Action = std::function<int()>;
 
-/// Defines every command with its options. When `app` parses a command line, the chosen command is stored in `action`.
-/// `command_line` is recorded in host.json.
-void DefineCommands(CLI::App& app, const std::string& command_line, Action& action);
+/// Defines the command `wanted` with its options, or every command if there is no such command or if it prints all
+/// commands. When `app` parses a command line, the chosen command is stored in `action`. `command_line` is recorded in
+/// host.json.
+void DefineCommands(CLI::App& app, std::string_view wanted, const std::string& command_line, Action& action);
 
 // The functions below add options that several commands share.
 

@@ -117,8 +117,10 @@ void DefineCapture(CLI::App& app, const std::string& command_line, Action& actio
 void DefineForecast(CLI::App& app, const std::string& command_line, Action& action);
 /// `etude coach`: coaches a song live from a skeleton stream.
 void DefineCoach(CLI::App& app, Action& action);
-/// `etude completion SHELL`, and the hidden command with which the Debian package makes manual pages.
-void DefineOptionTree(CLI::App& app, Action& action);
+/// `etude completion SHELL`: prints a script for a shell.
+void DefineCompletion(CLI::App& app, Action& action);
+/// `etude man`, hidden in the help: writes the manual pages, for the Debian package.
+void DefineManual(CLI::App& app, Action& action);
 /// `etude crowd`: solves the poses of a crowd on one core, reports the time per frame, and makes a film of the crowd.
 void DefineCrowd(CLI::App& app, Action& action);
 

@@ -28,7 +28,7 @@
 #include "engine/base/names.h"
 #include "engine/base/utf8.h"
 #include "io/drawing/escape.h"
-#include "io/process/pinned_environment.h"
+#include "io/process/closed_environment.h"
 #include "sim/render/renderer.h"
 
 namespace etude {
@@ -96,15 +96,6 @@ int ComplainOfArguments(const CLI::App& app, const CLI::ParseError& error) {
         UnknownName(extras.front().starts_with("-") ? "option" : "argument", extras.front(), KnownWords(*command));
   }
   return Complain(Error{{}, fmt::format("{} (etude {}--help explains)", message, words)});
-}
-
-/// Returns true for commands whose results need not be identical on all machines: these commands print existing data,
-/// or draw pages, sheets and films as fast as this machine can.
-bool RunsUnpinned(const CLI::App& app) {
-  if (app.got_subcommand("list") || app.got_subcommand("rows") || app.got_subcommand("cite") ||
-      app.got_subcommand("completion") || app.got_subcommand("man") || app.got_subcommand("report"))
-    return true;
-  return app.got_subcommand("clip") && app.get_subcommand("clip")->got_subcommand("render");
 }
 
 /// Formats help identically in every run and with every version of CLI11. CLI11 orders excluded options by memory
@@ -186,6 +177,14 @@ void KeepFreedMemory() {
 }
 
 int Main(int argc, char** argv) {
+  // The launcher sets the environment before this program starts, so that results do not depend on the shell's
+  // variables.
+  if (const std::string other = FirstDifferenceFromClosed(); !other.empty()) {
+    return Complain({{},
+                     fmt::format("the environment is not the one that the program `etude` sets ('{}'); start `etude`, "
+                                 "which starts this program",
+                                 other)});
+  }
   if (auto named = CheckNames({argv, static_cast<std::size_t>(argc)}); !named) return Complain(named.error());
   CLI::App app(kAbout, "etude");
   app.formatter(std::make_shared<OrderedHelp>());
@@ -199,7 +198,8 @@ int Main(int argc, char** argv) {
   std::string command_line = "etude";
   for (int i = 1; i < argc; ++i) command_line += " " + ShellWord(argv[i]);
   Action action;
-  DefineCommands(app, command_line, action);
+  const std::string_view command = argc > 1 ? argv[1] : "", subcommand = argc > 2 ? argv[2] : "";
+  DefineCommands(app, command, command_line, action);
   // Parse the command line. Unknown words are an error even after --help.
   try {
     app.parse(argc, argv);
@@ -210,10 +210,7 @@ int Main(int argc, char** argv) {
     return ComplainOfArguments(app, error);
   }
   if (auto choice = CheckRendererChoice(); !choice) return Complain(choice.error());
-  // Restart in the pinned environment, so that results do not depend on the shell's variables.
-  if (!RunsUnpinned(app)) {
-    if (auto pinned = EnterPinnedEnvironment(); !pinned) return Complain(pinned.error());
-  }
+  if (command == "report" || (command == "clip" && subcommand == "render")) DrawAsFastAsPossible();
   EndWhenInterrupted();
   return action();
 }

@@ -246,28 +246,31 @@ std::string CommandsPage(const CLI::App& app) {
 
 }  // namespace
 
-void DefineOptionTree(CLI::App& app, Action& action) {
-  const CLI::App* program = &app;
-  auto shell = std::make_shared<std::string>(), folder = std::make_shared<std::string>();
-  auto as_page = std::make_shared<bool>(false);
+void DefineCompletion(CLI::App& app, Action& action) {
+  auto shell = std::make_shared<std::string>();
   CLI::App* completion =
       app.add_subcommand("completion", "Print a script with which a shell completes commands and options of etude");
   completion->add_option(kShellArgument, *shell, "bash, zsh or fish")->required()->check(OneOf(Shells()));
-  completion->callback([=, &action] {
-    action = [=] {
-      fmt::print("{}", *shell == "bash"  ? BashCompletion(*program)
-                       : *shell == "zsh" ? ZshCompletion(*program)
-                                         : FishCompletion(*program));
+  completion->callback([shell, &app, &action] {
+    action = [shell, &app] {
+      fmt::print("{}", *shell == "bash"  ? BashCompletion(app)
+                       : *shell == "zsh" ? ZshCompletion(app)
+                                         : FishCompletion(app));
       return kSuccess;
     };
   });
-  CLI::App* manual = app.add_subcommand("man", "Write the manual pages into a folder")->group("")->require_option(1);
+}
+
+void DefineManual(CLI::App& app, Action& action) {
+  auto folder = std::make_shared<std::string>();
+  auto as_page = std::make_shared<bool>(false);
+  CLI::App* manual = app.add_subcommand("man", "Write the manual pages into a folder")->require_option(1);
   manual->add_option("folder", *folder);
   manual->add_flag("--markdown", *as_page, "Print all manual pages as a single page instead");
-  manual->callback([=, &action] {
-    action = [=]() -> int {
-      if (!*as_page) return Finish(WriteManual(*program, *folder));
-      fmt::print("{}", CommandsPage(*program));
+  manual->callback([=, &app, &action] {
+    action = [=, &app]() -> int {
+      if (!*as_page) return Finish(WriteManual(app, *folder));
+      fmt::print("{}", CommandsPage(app));
       return kSuccess;
     };
   });

@@ -5,11 +5,11 @@ include(CMakePackageConfigHelpers)
 set(CMAKE_INSTALL_DEFAULT_COMPONENT_NAME program)
 set(ETUDE_MODULES "${CMAKE_INSTALL_LIBDIR}/etude")
 file(RELATIVE_PATH modules_from_program "/${CMAKE_INSTALL_BINDIR}" "/${ETUDE_MODULES}")
-# In the build folder, modules are beside the program; after installation they have their own folder. Both paths have
-# the same length, because CMake would pad the shorter one with empty names, which the loader reads as the working
-# folder.
-set_target_properties(etude PROPERTIES INSTALL_RPATH "$ORIGIN/${modules_from_program};$ORIGIN" BUILD_WITH_INSTALL_RPATH ON)
+# `etude` starts etude_program, which is beside its modules: in the build folder, and in their folder after installation.
+set_target_properties(etude_program PROPERTIES INSTALL_RPATH "$ORIGIN" BUILD_WITH_INSTALL_RPATH ON)
+target_compile_definitions(etude PRIVATE ETUDE_MODULES_FROM_PROGRAM="${modules_from_program}")
 install(TARGETS etude RUNTIME DESTINATION "${CMAKE_INSTALL_BINDIR}")
+install(TARGETS etude_program RUNTIME DESTINATION "${ETUDE_MODULES}")
 install(TARGETS etude_training_pagmo etude_clips_assimp LIBRARY DESTINATION "${ETUDE_MODULES}")
 if(TARGET etude_boards_opencv)  # optional, and not in packages, because it would require all of OpenCV
   install(TARGETS etude_boards_opencv LIBRARY DESTINATION "${ETUDE_MODULES}" COMPONENT boards)

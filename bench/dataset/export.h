@@ -42,7 +42,7 @@ struct ExportOutcome {
 ///
 /// The names and the order of secret worlds do not reveal their trials, and the index leaves out trial and clip. The
 /// data set is written completely and synced to disk, or not at all. Fails before writing if the folder is not empty or
-/// another export is writing it. The process must have the pinned environment (io/process/pinned_environment.h), so
+/// another export is writing it. The process must have the pinned environment (io/process/closed_environment.h), so
 /// that pictures are the same on every machine. `on_progress` counts three steps per world: problem made, problem
 /// written, truth written.
 Result<ExportOutcome> ExportSuite(const ExportOptions& options, const OnProgress& on_progress);

@@ -13,6 +13,7 @@
 #include "engine/base/digest.h"
 #include "io/files/files.h"
 #include "io/files/json.h"
+#include "io/files/own_files.h"
 #include "io/process/clock.h"
 
 namespace etude {

@@ -42,7 +42,7 @@ struct ScoreOutcome {
 /// Scores answers from files and writes an ordinary result folder. The answers are those of one more method, which is
 /// the last method of each scenario and is compared with the scenario's first method. Worker processes run the
 /// scenarios' own methods. With `alone`, these methods are not run, nothing is compared, and no expectation is
-/// judged. The calling process must have the pinned environment (io/process/pinned_environment.h), because it judges
+/// judged. The calling process must have the pinned environment (io/process/closed_environment.h), because it judges
 /// the answers itself.
 Result<ScoreOutcome> ScorePredictions(const ScoreOptions& options,
                                       const std::function<void(const Progress&)>& on_progress);

@@ -6,6 +6,7 @@
 #include <fstream>
 
 #include "engine/base/names.h"
+#include "io/files/own_files.h"
 #include "io/process/fence.h"
 
 namespace etude {
@@ -183,14 +184,8 @@ Result<void> CheckNames(const std::vector<std::string>& command, const std::vect
 }
 
 fs::path PythonFolder() {
-  std::error_code error;
-  const auto holds_package = [&](const fs::path& folder) { return fs::exists(folder / "etude/__init__.py", error); };
-  fs::path above = fs::read_symlink("/proc/self/exe", error).parent_path();
-  if (const fs::path installed = above.parent_path() / "share/etude/python"; holds_package(installed)) return installed;
-  for (; above.has_relative_path(); above = above.parent_path()) {
-    if (holds_package(above / "python")) return above / "python";
-  }
-  return {};
+  const fs::path folder = FolderWith("python/etude/__init__.py");
+  return folder.empty() ? folder : folder / "python";
 }
 
 }  // namespace etude

@@ -11,6 +11,7 @@
 #include "bench/run/supervisor.h"
 #include "io/clips/references.h"
 #include "io/files/files.h"
+#include "io/files/own_files.h"
 #include "io/files/temporary_folder.h"
 
 namespace etude {

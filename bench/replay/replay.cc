@@ -13,6 +13,7 @@
 #include "engine/base/digest.h"
 #include "engine/base/names.h"
 #include "io/files/files.h"
+#include "io/files/own_files.h"
 #include "io/files/temporary_folder.h"
 
 namespace etude {

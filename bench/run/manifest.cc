@@ -22,7 +22,8 @@
 #include "engine/base/names.h"
 #include "io/clips/raw_motions.h"
 #include "io/files/files.h"
-#include "io/process/pinned_environment.h"
+#include "io/process/closed_environment.h"
+#include "io/process/loaded_libraries.h"
 #include "sim/render/renderer.h"
 
 namespace etude {

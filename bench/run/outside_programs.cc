@@ -10,8 +10,10 @@
 
 #include "bench/outside/program_view.h"
 #include "bench/run/outside_metrics.h"
+#include "bench/run/shipped.h"
 #include "engine/base/digest.h"
 #include "engine/base/machine.h"
+#include "io/files/own_files.h"
 #include "io/files/temporary_folder.h"
 #include "io/process/child_process.h"
 
@@ -243,9 +245,11 @@ Result<Fence> FenceFor(std::span<const PreparedScenario> scenarios, const Outsid
   }
   // Hide the installed program and scenarios of Etude, but not the examples, because methods import them. Also hide the
   // clips that are publicly available.
-  const fs::path program = fs::read_symlink("/proc/self/exe", error);
-  fence.Hide(program);
-  fence.Hide(program.parent_path().parent_path() / "share/etude/scenarios");
+  fence.Hide(ThisProgram());
+  if (const fs::path shipped = ShippedFolder(); shipped.parent_path().filename() == "share") {
+    fence.Hide(shipped / "scenarios");
+    fence.Hide(shipped.parent_path().parent_path() / "bin/etude");
+  }
   fence.Hide("/usr/share/assimp");
   if (!folder.empty()) fence.Hide(fs::absolute(folder).lexically_normal());
   if (key && !key->file.empty()) fence.Hide(Canonical(key->file));

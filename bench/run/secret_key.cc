@@ -6,7 +6,7 @@
 #include <cstring>
 
 #include "io/files/files.h"
-#include "io/process/pinned_environment.h"
+#include "io/process/closed_environment.h"
 
 namespace etude {
 namespace {

@@ -4,6 +4,7 @@
 
 #include "engine/base/names.h"
 #include "io/files/files.h"
+#include "io/files/own_files.h"
 
 namespace etude {
 namespace {
@@ -13,11 +14,6 @@ namespace fs = std::filesystem;
 constexpr const char* kSuites[] = {"quick", "paper", "full"};
 constexpr const char* kScenarioFolder = "scenarios";
 constexpr const char* kEnding = ".yaml";
-
-bool HoldsSuites(const fs::path& folder) {
-  std::error_code none;
-  return fs::is_directory(folder / kScenarioFolder / kSuites[0], none);
-}
 
 /// Returns the paths of the *.yaml files in a folder, sorted.
 std::vector<fs::path> ScenarioFilesIn(const fs::path& folder) {
@@ -32,17 +28,7 @@ std::vector<fs::path> ScenarioFilesIn(const fs::path& folder) {
 
 }  // namespace
 
-fs::path ShippedFolder() {
-  std::error_code error;
-  const fs::path program = fs::read_symlink("/proc/self/exe", error);
-  const fs::path folder = program.parent_path();
-  const fs::path installed = folder.parent_path() / "share" / "etude";
-  if (HoldsSuites(installed)) return installed;
-  for (fs::path above = folder; above.has_relative_path(); above = above.parent_path()) {
-    if (HoldsSuites(above)) return above;
-  }
-  return {};
-}
+fs::path ShippedFolder() { return FolderWith(fs::path(kScenarioFolder) / kSuites[0]); }
 
 std::vector<std::string> ShippedScenarios() {
   std::vector<std::string> names;

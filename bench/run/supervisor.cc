@@ -433,6 +433,4 @@ int WorkerCount(int jobs) {
   return jobs > 0 ? jobs : std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
 }
 
-std::string ThisProgram() { return std::filesystem::read_symlink("/proc/self/exe").string(); }
-
 }  // namespace etude

@@ -57,6 +57,4 @@ bool HasOutsideMetrics(const Plan& plan);
 /// Returns the number of workers for the option `jobs`; 0 = one per processor.
 int WorkerCount(int jobs);
 
-std::string ThisProgram();
-
 }  // namespace etude

@@ -19,7 +19,7 @@
 #include "engine/base/text.h"
 #include "io/clips/fbx_rotations.h"
 #include "io/clips/fbx_takes.h"
-#include "io/process/pinned_environment.h"
+#include "io/process/loaded_libraries.h"
 
 namespace etude {
 namespace {

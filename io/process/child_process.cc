@@ -24,7 +24,7 @@
 #include <utility>
 
 #include "engine/base/machine.h"
-#include "io/process/pinned_environment.h"
+#include "io/process/closed_environment.h"
 
 namespace etude {
 namespace {

@@ -15,6 +15,7 @@ sys.path.append(str(pathlib.Path(__file__).resolve().parents[1] / "support"))
 from json_schema import complaints, load_schema  # noqa: E402
 
 ETUDE = os.environ["ETUDE"]
+PROGRAM = pathlib.Path(ETUDE).resolve().with_name("etude_program")  # the program that ETUDE starts
 HEAVY = bool(os.environ.get("ETUDE_HEAVY"))  # set by scripts/test --full
 heavy = unittest.skipUnless(HEAVY, "heavy")  # takes too long for every change
 os.environ["PATH"] = "/usr/bin:" + os.environ["PATH"]  # a fence shows no Python in a home folder

@@ -1,5 +1,6 @@
 """Tests the libraries that the program loads, and how it is hardened."""
 
+import json
 import os
 import pathlib
 import re
@@ -8,7 +9,7 @@ import subprocess
 import tempfile
 import unittest
 
-from etude_case import ETUDE
+from etude_case import ETUDE, PROGRAM
 
 # Each library is used on purpose; any other was linked by accident.
 LIBRARIES = {
@@ -24,8 +25,8 @@ LIBRARIES = {
 }
 
 
-def sections(flag):
-    return subprocess.run(["readelf", "-W", flag, ETUDE], capture_output=True, text=True, check=True).stdout
+def sections(flag, program=PROGRAM):
+    return subprocess.run(["readelf", "-W", flag, program], capture_output=True, text=True, check=True).stdout
 
 
 def needed(text):
@@ -70,7 +71,8 @@ class Program(unittest.TestCase):
 
         self.assertNotIn("libpagmo", needed(sections("-d")))
         with tempfile.TemporaryDirectory() as folder:
-            program = shutil.copy(ETUDE, folder)  # without the module beside it
+            program = shutil.copy(ETUDE, folder)
+            shutil.copy(PROGRAM, folder)  # without the module beside it
             adaptive, genetic = train(program, folder, "adaptive"), train(program, folder, "genetic")
             self.assertEqual(genetic.returncode, 2)
             self.assertIn("the genetic algorithm cannot be loaded: etude_training_pagmo.so", genetic.stderr)
@@ -79,17 +81,33 @@ class Program(unittest.TestCase):
             shutil.copy(pathlib.Path(ETUDE).parent / "etude_training_pagmo.so", folder)
             self.assertNotIn("cannot be loaded", train(program, folder, "genetic").stderr)
 
-    def test_what_only_prints_starts_once(self):
-        """A restarted program prints no statistics of the loader, because LD_DEBUG is not passed on."""
-        def starts_once(*arguments):
-            told = subprocess.run([ETUDE, *arguments], capture_output=True, text=True, check=True,
-                                  env=os.environ | {"LD_DEBUG": "statistics"})
-            self.assertIn("startup time", told.stderr)
-            return "final number of relocations" in told.stderr
+    def test_libraries_are_loaded_once(self):
+        self.assertEqual(needed(sections("-d", ETUDE)), ["libc"])
+        told = subprocess.run([ETUDE, "clip", "info", "builtin:clap"], capture_output=True, text=True, check=True,
+                              env=os.environ | {"LD_DEBUG": "statistics"})
+        self.assertEqual(told.stderr.count("startup time"), 2, "once for each program")
 
-        for arguments in (["--version"], ["list", "clips"], ["list", "metrics"], ["list", "keys"]):
-            self.assertTrue(starts_once(*arguments), arguments)
-        self.assertFalse(starts_once("clip", "info", "builtin:clap"), "what computes is pinned")
+    def test_the_program_behind_the_launcher_refuses_another_environment(self):
+        with tempfile.TemporaryDirectory() as folder:
+            subprocess.run([ETUDE, "run", "quick/ik", "--trials", "1", "-o", folder + "/ik"], check=True, capture_output=True)
+            pinned = json.loads(pathlib.Path(folder, "ik", "host.json").read_text())["pinned_environment"]
+
+        def start(*settings):
+            return subprocess.run([PROGRAM, "list", "clips"], env=dict(one.split("=", 1) for one in settings),
+                                  capture_output=True, text=True)
+
+        self.assertEqual(start(*pinned, "PATH=/usr/bin").returncode, 0)
+        for number, setting in enumerate(pinned):
+            refused = start(*pinned[:number], *pinned[number + 1:])
+            self.assertEqual((refused.returncode, refused.stdout), (2, ""))
+            self.assertIn(f"('{setting}')", refused.stderr)
+        self.assertIn("('LP_PERF')", start(*pinned, "LP_PERF=no_blend").stderr)
+
+    def test_a_launcher_without_its_program_says_where_it_must_be(self):
+        with tempfile.TemporaryDirectory() as folder:
+            alone = subprocess.run([shutil.copy(ETUDE, folder), "--version"], cwd=folder, capture_output=True, text=True)
+            self.assertEqual((alone.returncode, alone.stdout), (3, ""))
+            self.assertRegex(alone.stderr, rf"^etude: cannot start etude_program: .*; it must be '{folder}/etude_program' or '.*'\n$")
 
     def test_what_the_loader_has_put_into_place_stays(self):
         self.assertRegex(sections("-l"), r"GNU_RELRO")
@@ -98,7 +116,7 @@ class Program(unittest.TestCase):
         self.assertRegex(sections("-l"), r"GNU_STACK.* RW ")
 
     def test_where_bytes_of_others_come_in_stacks_are_guarded_and_the_c_library_checks_lengths(self):
-        symbols = subprocess.run(["nm", "-D", ETUDE], capture_output=True, text=True, check=True).stdout
+        symbols = subprocess.run(["nm", "-D", PROGRAM], capture_output=True, text=True, check=True).stdout
         self.assertIn("__stack_chk_fail", symbols)
         self.assertRegex(symbols, r"U __\w+_chk@")
 

@@ -56,7 +56,7 @@ methods: [{name: hue}]
 """)
         self.run_suite(scenario, out=self.folder / "plain")
         shell = dict(os.environ, LP_PERF="no_blend,no_tex", LP_NATIVE_VECTOR_WIDTH="512", GALLIUM_DRIVER="softpipe",
-                     GALLIUM_OVERRIDE_CPU_CAPS="avx512", LC_ALL="tr_TR.UTF-8", ETUDE_RESTARTED="1")
+                     GALLIUM_OVERRIDE_CPU_CAPS="avx512", LC_ALL="tr_TR.UTF-8")
         subprocess.run([ETUDE, "run", scenario, "-o", self.folder / "shell"], env=shell, check=True, capture_output=True)
         self.assert_same_results(self.folder / "plain", self.folder / "shell")
 

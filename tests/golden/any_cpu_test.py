@@ -14,6 +14,7 @@ import tempfile
 from concurrent.futures import ThreadPoolExecutor
 
 ETUDE = os.environ["ETUDE"]
+PROGRAM = pathlib.Path(ETUDE).resolve().with_name("etude_program")  # an emulator would not emulate what ETUDE starts
 LANE_TESTS = [os.environ["SOLVER_TESTS"], "--gtest_filter=GaussNewtonBatch.*LastBit:GaussNewton.Is*"]
 # Intel's CPUs that introduced AVX (SandyBridge), F16C (IvyBridge), FMA and AVX2 (Haswell), ADX (Broadwell); AMD's with FMA4
 # (Opteron_G4) and AVX2 (EPYC); all that the emulator supports (max). The oldest one is x86-64-v2.
@@ -103,7 +104,7 @@ def set_up(scratch):
 def cells(launcher, setup, orders, environment):
     """Returns the cells of every world as a worker wrote them, without their usage and checksums."""
     lines = [json.dumps({"setup": setup, "error_folder": "", "fence": {"program": "", "hidden": [], "kept": [], "groups": "", "programs": 1}}), *map(json.dumps, orders)]
-    result = subprocess.run([*launcher, ETUDE, "worker"], input="\n".join(lines) + "\n", env=environment,
+    result = subprocess.run([*launcher, PROGRAM, "worker"], input="\n".join(lines) + "\n", env=environment,
                             capture_output=True, text=True)
     worlds = result.stdout.split("built\n")[1:]
     assert len(worlds) == len(orders), f"{launcher}: {len(worlds)} worlds; {result.stderr[-500:]}"

@@ -120,7 +120,8 @@ class Lookup(unittest.TestCase):
         keys, method = TASKS[task]
         den = pathlib.Path(tempfile.mkdtemp(prefix="attacker-", dir=self.folder))
         shutil.copy(LOOKUP, den)
-        shutil.copy(ETUDE, den / "etude")
+        for name in ("etude", "etude_program"):
+            shutil.copy(ETUDE.with_name(name), den / name)
         head = f"scenario: lookup\nquestion: Can it be looked up?\ntask: {task.split('/')[0]}\n{keys}methods:\n"
         words = lambda *more: ", ".join(f"'{word}'" for word in (PYTHON, *more))
         own = head

@@ -15,7 +15,7 @@
 #include <string>
 #include <vector>
 
-#include "io/process/pinned_environment.h"
+#include "io/process/closed_environment.h"
 #include "tests/support/results.h"
 
 namespace etude {
@@ -246,7 +246,7 @@ TEST(ChildProcess, RunsInThePinnedEnvironmentWhateverOursIs) {
 TEST(ChildProcess, TakesNothingFromTheShellThatIsNotOnTheList) {
   const std::vector<std::string> knobs = {
       "LP_PERF",          "GALLIUM_DRIVER", "LP_NATIVE_VECTOR_WIDTH", "OPENBLAS_NUM_THREADS", "LD_BIND_NOW",
-      "MALLOC_ARENA_MAX", "LANG",           "ETUDE_RESTARTED"};
+      "MALLOC_ARENA_MAX", "LANG"};
   for (const std::string& name : knobs) ::setenv(name.c_str(), "1", 1);
   ::setenv("TERM", "dumb", 1);
   ChildProcess child = Shell("env");

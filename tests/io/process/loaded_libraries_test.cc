@@ -1,4 +1,4 @@
-#include "io/process/pinned_environment.h"
+#include "io/process/loaded_libraries.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
