@@ -13,8 +13,8 @@ const std::vector<std::string>& PinnedEnvironment();
 inline constexpr const char* kKeyVariable = "ETUDE_SEED_KEY";
 
 /// Returns the complete environment of every process that computes, outside methods included: the pinned settings, and
-/// the user's variables for folders, the user, the terminal, GL and sanitizers. None of these variables affects a result
-/// except ETUDE_GL, which the manifest records. No other variable of the user's shell can change a result.
+/// the user's variables for folders, the user, the terminal, GL and sanitizers. None of these variables affects a
+/// result except ETUDE_GL, which the manifest records. No other variable of the user's shell can change a result.
 std::vector<std::string> ClosedEnvironment();
 
 /// Returns "" if this process has the closed environment, and perhaps the key of secret worlds. Otherwise returns the

@@ -245,8 +245,8 @@ TEST(ChildProcess, RunsInThePinnedEnvironmentWhateverOursIs) {
 // Variables that configure the renderer, the loader or libraries do not pass; two lists define the environment.
 TEST(ChildProcess, TakesNothingFromTheShellThatIsNotOnTheList) {
   const std::vector<std::string> knobs = {
-      "LP_PERF",          "GALLIUM_DRIVER", "LP_NATIVE_VECTOR_WIDTH", "OPENBLAS_NUM_THREADS", "LD_BIND_NOW",
-      "MALLOC_ARENA_MAX", "LANG"};
+      "LP_PERF", "GALLIUM_DRIVER", "LP_NATIVE_VECTOR_WIDTH", "OPENBLAS_NUM_THREADS", "LD_BIND_NOW", "MALLOC_ARENA_MAX",
+      "LANG"};
   for (const std::string& name : knobs) ::setenv(name.c_str(), "1", 1);
   ::setenv("TERM", "dumb", 1);
   ChildProcess child = Shell("env");
