@@ -82,7 +82,7 @@ class Program(unittest.TestCase):
             self.assertNotIn("cannot be loaded", train(program, folder, "genetic").stderr)
 
     def test_libraries_are_loaded_once(self):
-        self.assertEqual(needed(sections("-d", ETUDE)), ["libc"])
+        self.assertEqual(set(needed(sections("-d", ETUDE))) - {"ld-linux-x86-64"}, {"libc"})
         told = subprocess.run([ETUDE, "clip", "info", "builtin:clap"], capture_output=True, text=True, check=True,
                               env=os.environ | {"LD_DEBUG": "statistics"})
         self.assertEqual(told.stderr.count("startup time"), 2, "once for each program")
