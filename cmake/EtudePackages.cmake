@@ -11,6 +11,7 @@ find_package(LibXml2 REQUIRED)
 find_package(Pagmo REQUIRED)
 find_package(assimp REQUIRED)
 find_package(yaml-cpp REQUIRED)
+find_package(tomlplusplus REQUIRED)
 find_package(nlohmann_json REQUIRED)
 find_package(CLI11 REQUIRED)
 find_package(TinyGLTF REQUIRED)
@@ -41,7 +42,7 @@ string(CONCAT ETUDE_PACKAGES
   "OpenEXR ${OpenEXR_VERSION}, Pagmo ${Pagmo_VERSION}, TinyGLTF ${TinyGLTF_VERSION}, cairo ${CAIRO_VERSION}, "
   "fmt ${fmt_VERSION}, glm ${glm_VERSION}, libjpeg ${JPEG_VERSION}, libpng ${PNG_VERSION_STRING}, "
   "libxml2 ${LIBXML2_VERSION_STRING}, nlohmann_json ${nlohmann_json_VERSION}, xxHash ${XXHASH_VERSION}, "
-  "yaml-cpp ${yaml-cpp_VERSION}")
+  "toml++ ${tomlplusplus_VERSION}, yaml-cpp ${yaml-cpp_VERSION}")
 
 # yaml-cpp 0.7 exports a bare name instead of a namespaced target.
 if(NOT TARGET yaml-cpp::yaml-cpp)

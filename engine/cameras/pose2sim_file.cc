@@ -1,11 +1,13 @@
 #include "engine/cameras/pose2sim_file.h"
 
 #include <fmt/format.h>
+#include <toml++/toml.h>
 
 #include <algorithm>
 #include <cmath>
 #include <glm/gtc/quaternion.hpp>
 #include <map>
+#include <utility>
 
 #include "engine/base/angles.h"
 #include "engine/base/text.h"
@@ -29,19 +31,38 @@ glm::dvec3 RodriguesOf(const glm::dmat3& R) {
   return sine > 0 ? 2 * std::atan2(sine, q.w) / sine * axis : glm::dvec3(0);
 }
 
+/// Returns a text in TOML's quotes.
+std::string Quoted(const std::string& text) {
+  const toml::value<std::string> value(text);
+  std::ostringstream quoted;
+  quoted << toml::toml_formatter(value, toml::format_flags::none);
+  return quoted.str();
+}
+
+/// Returns the name of a table: without quotes if TOML allows that.
+std::string KeyOf(const std::string& name) {
+  constexpr const char* kBare = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789_-";
+  return !name.empty() && name.find_first_not_of(kBare) == std::string::npos ? name : Quoted(name);
+}
+
 std::string Table(const NamedCamera& named) {
   const OpenCvParameters p = ParametersOf(named.camera);
   const std::vector<double>& K = p.camera_matrix;
   const std::size_t all = p.distortion.size(), coefficients = all == 5 && p.distortion[4] == 0 ? 4 : all;
   const glm::dvec3 rotation = RodriguesOf(p.R * kYUpOfZUp);
   const auto row = [&](std::size_t i) { return Vector(std::span(K).subspan(3 * i, 3)); };
-  return fmt::format("[{0}]\nname = \"{0}\"\nsize = {1}\nmatrix = [ {2}, {3}, {4}]\n", named.name,
+  return fmt::format("[{}]\nname = {}\nsize = {}\nmatrix = [ {}, {}, {}]\n", KeyOf(named.name), Quoted(named.name),
                      Vector(std::array{p.width, p.height}), row(0), row(1), row(2)) +
          fmt::format("distortions = {}\nrotation = {}\ntranslation = {}\nfisheye = {}\n\n",
                      Vector(std::span(p.distortion).first(coefficients)),
                      Vector(std::array{rotation.x, rotation.y, rotation.z}), Vector(std::array{p.T.x, p.T.y, p.T.z}),
                      p.is_fisheye);
 }
+
+Place PlaceOf(const toml::source_region& region) {
+  return {.file = {}, .line = static_cast<int>(region.begin.line), .column = static_cast<int>(region.begin.column)};
+}
+Place PlaceOf(const toml::node& node) { return PlaceOf(node.source()); }
 
 /// Returns the rotation nearest to `R`, by Newton's iteration, if `R` is a rotation but for rounding of its numbers.
 /// Otherwise returns `R` unchanged.
@@ -56,54 +77,47 @@ glm::dmat3 Orthonormal(const glm::dmat3& R) {
   return near;
 }
 
-/// Returns a line without its comment.
-std::string_view WithoutComment(std::string_view line) {
-  bool in_string = false;
-  for (std::size_t i = 0; i < line.size(); ++i) {
-    if (line[i] == '"') in_string = !in_string;
-    if (line[i] == '#' && !in_string) return line.substr(0, i);
+/// Adds the numbers of a value, which is a number or a list of lists of numbers. Returns false if it has anything else.
+bool AddNumbers(const toml::node& value, std::vector<double>& numbers) {
+  if (const auto number = value.value<double>()) {
+    numbers.push_back(*number);
+    return true;
   }
-  return line;
+  const toml::array* list = value.as_array();
+  return list != nullptr && std::ranges::all_of(*list, [&](const auto& one) { return AddNumbers(one, numbers); });
 }
-
-/// Reads all numbers of a text such as "[ [1., 0], [2e-3]]"; returns nullopt if it contains anything else.
-std::optional<std::vector<double>> NumbersOf(std::string_view text) {
-  constexpr std::string_view kBetween = " \t\r\n,[]";
-  std::vector<double> numbers;
-  while (true) {
-    text.remove_prefix(std::min(text.find_first_not_of(kBetween), text.size()));
-    if (text.empty()) return numbers;
-    const auto value = TakeNumber(text);
-    if (!value || !(text.empty() || kBetween.find(text.front()) != std::string_view::npos)) return std::nullopt;
-    numbers.push_back(*value);
-  }
-}
-
-using Keys = std::map<std::string, std::string, std::less<>>;
 
 using Values = std::map<std::string, std::vector<double>>;
 
-/// Parses the lists of numbers that a camera's table must have. A count of 0 allows lists of any length.
-Result<Values> ValuesOf(const std::string& name, const Keys& keys, const std::map<std::string, std::size_t>& counts,
-                        const Place& place) {
+/// Returns the lists of numbers that a camera's table must have. A count of 0 allows lists of any length.
+Result<Values> ValuesOf(const std::string& name, const toml::table& keys,
+                        const std::map<std::string, std::size_t>& counts) {
   Values values;
   for (const auto& [key, count] : counts) {
-    const auto found = keys.find(key);
-    if (found == keys.end()) return Fail(place, "camera {} has no {}", name, key);
-    const auto numbers = NumbersOf(found->second);
-    if (!numbers) return Fail(place, "camera {}: '{}' must be a list of numbers, found {}", name, key, found->second);
-    if (count != 0 && numbers->size() != count) {
-      return Fail(place, "camera {}: {} has {} numbers; allowed: {}", name, key, numbers->size(), count);
+    const toml::node* value = keys.get(key);
+    if (value == nullptr) return Fail(PlaceOf(keys), "camera {} has no {}", name, key);
+    std::vector<double>& numbers = values[key];
+    if (!AddNumbers(*value, numbers)) {
+      return Fail(PlaceOf(*value), "camera {}: '{}' must be a list of numbers", name, key);
     }
-    values[key] = *numbers;
+    if (count != 0 && numbers.size() != count) {
+      return Fail(PlaceOf(*value), "camera {}: {} has {} numbers; allowed: {}", name, key, numbers.size(), count);
+    }
   }
   return values;
 }
 
+/// Returns the value of a key that is true or false; `otherwise` if the table does not have the key.
+Result<bool> TruthOf(const std::string& name, const toml::table& keys, const char* key, bool otherwise) {
+  const toml::node* value = keys.get(key);
+  if (value == nullptr) return otherwise;
+  if (const auto truth = value->value_exact<bool>()) return *truth;
+  return Fail(PlaceOf(*value), "camera {}: '{}' must be true or false", name, key);
+}
+
 /// Reads the table of a planned camera: its lens has no distortion, and its picture is upright.
-Result<OpenCvParameters> ReadPlanned(const std::string& name, const Keys& keys, const Place& place) {
-  ASSIGN_OR_RETURN(Values values,
-                   ValuesOf(name, keys, {{"size", 2}, {"fov_deg", 1}, {"position", 3}, {"look_at", 3}}, place));
+Result<OpenCvParameters> ReadPlanned(const std::string& name, const toml::table& keys) {
+  ASSIGN_OR_RETURN(Values values, ValuesOf(name, keys, {{"size", 2}, {"fov_deg", 1}, {"position", 3}, {"look_at", 3}}));
   const auto point = [&](const char* key) {
     const auto& v = values[key];
     return kYUpOfZUp * glm::dvec3(v[0], v[1], v[2]);
@@ -112,10 +126,10 @@ Result<OpenCvParameters> ReadPlanned(const std::string& name, const Keys& keys, 
   const double fov = values["fov_deg"][0], width = values["size"][0], height = values["size"][1];
   constexpr double kMinFov = 1, kMaxFov = 170, kVertical = 1e-6;
   if (!(fov >= kMinFov && fov <= kMaxFov)) {
-    return Fail(place, "camera {}: 'fov_deg' is {:g}; allowed: {:g} to {:g}", name, fov, kMinFov, kMaxFov);
+    return Fail(PlaceOf(keys), "camera {}: 'fov_deg' is {:g}; allowed: {:g} to {:g}", name, fov, kMinFov, kMaxFov);
   }
   if (!(glm::length(glm::cross(p_WT - p_WC, glm::dvec3(0, 1, 0))) > kVertical)) {
-    return Fail(place,
+    return Fail(PlaceOf(keys),
                 "camera {}: 'look_at' is at, above or below the camera's position; allowed: a point at another "
                 "horizontal position",
                 name);
@@ -131,41 +145,58 @@ Result<OpenCvParameters> ReadPlanned(const std::string& name, const Keys& keys, 
 }
 
 /// Reads the table of a calibrated camera.
-Result<OpenCvParameters> ReadCalibrated(const std::string& name, const Keys& keys, const Place& place) {
+Result<OpenCvParameters> ReadCalibrated(const std::string& name, const toml::table& keys) {
   ASSIGN_OR_RETURN(
       Values values,
-      ValuesOf(name, keys, {{"size", 2}, {"matrix", 9}, {"distortions", 0}, {"rotation", 0}, {"translation", 3}},
-               place));
-  const auto& t = values["translation"];
-  const auto fisheye = keys.find("fisheye");
-  if (fisheye != keys.end() && fisheye->second != "true" && fisheye->second != "false") {
-    return Fail(place, "camera {}: 'fisheye' is {}; allowed: true, false", name, fisheye->second);
-  }
+      ValuesOf(name, keys, {{"size", 2}, {"matrix", 9}, {"distortions", 0}, {"rotation", 0}, {"translation", 3}}));
+  ASSIGN_OR_RETURN(const bool is_fisheye, TruthOf(name, keys, "fisheye", false));
   const auto R = RotationOf(values["rotation"], "rotation");
-  if (!R) return Fail(place, "camera {}: {}", name, R.error().message);
+  if (!R) return Fail(PlaceOf(*keys.get("rotation")), "camera {}: {}", name, R.error().message);
+  const auto& t = values["translation"];
   return OpenCvParameters{.width = values["size"][0],
                           .height = values["size"][1],
                           .camera_matrix = values["matrix"],
                           .distortion = values["distortions"],
                           .R = Orthonormal(*R) * glm::transpose(kYUpOfZUp),
                           .T = {t[0], t[1], t[2]},
-                          .is_fisheye = fisheye != keys.end() && fisheye->second == "true"};
+                          .is_fisheye = is_fisheye};
 }
 
-// Reads one camera's table, which began at `line`.
-Result<NamedCamera> ReadTable(const std::string& name, const Keys& keys, int line) {
-  const Place place{.file = {}, .line = line, .column = 1};
-  const bool is_planned = keys.contains("look_at");
-  ASSIGN_OR_RETURN(const OpenCvParameters p,
-                   is_planned ? ReadPlanned(name, keys, place) : ReadCalibrated(name, keys, place));
-  const auto camera = CameraOf(p);
-  if (!camera) return Fail(place, "camera {}: {}", name, camera.error().message);
-  // Prefer the name under the table's own key `name`.
-  std::string shown = name;
-  if (const auto own = keys.find("name"); own != keys.end() && own->second.size() >= 2 && own->second.front() == '"') {
-    shown = own->second.substr(1, own->second.size() - 2);
+struct CameraTable {
+  std::string name;
+  const toml::table* keys;
+};
+
+/// Adds the tables that describe cameras, at any depth. `name` is the path of `node` in the file.
+void AddCameraTables(const toml::node& node, const std::string& name, std::vector<CameraTable>& tables) {
+  const auto below = [&](const auto& key) {
+    return name.empty() ? fmt::format("{}", key) : fmt::format("{}.{}", name, key);
+  };
+  if (const toml::table* keys = node.as_table()) {
+    if (keys->contains("matrix") || keys->contains("rotation") || keys->contains("look_at")) {
+      // Caliscope's tables are named cameras.0, cameras.1, …
+      constexpr std::string_view kOf = "cameras.";
+      tables.push_back({name.starts_with(kOf) ? "cam_" + name.substr(kOf.size()) : name, keys});
+      return;
+    }
+    for (const auto& [key, value] : *keys) AddCameraTables(value, below(key.str()), tables);
+  } else if (const toml::array* list = node.as_array()) {
+    for (std::size_t i = 0; i < list->size(); ++i) AddCameraTables((*list)[i], below(i), tables);
   }
-  return NamedCamera{shown, *camera};
+}
+
+Result<NamedCamera> ReadTable(const CameraTable& table) {
+  const auto& [name, keys] = table;
+  ASSIGN_OR_RETURN(const OpenCvParameters p,
+                   keys->contains("look_at") ? ReadPlanned(name, *keys) : ReadCalibrated(name, *keys));
+  const auto camera = CameraOf(p);
+  if (!camera) return Fail(PlaceOf(*keys), "camera {}: {}", name, camera.error().message);
+  // Prefer the name under the table's own key `name`.
+  const toml::node* own = keys->get("name");
+  if (own == nullptr) return NamedCamera{name, *camera};
+  const auto shown = own->value_exact<std::string>();
+  if (!shown) return Fail(PlaceOf(*own), "camera {}: 'name' must be a text in quotes", name);
+  return NamedCamera{*shown, *camera};
 }
 
 }  // namespace
@@ -177,44 +208,25 @@ std::string WritePose2SimCalibration(std::span<const NamedCamera> cameras) {
 }
 
 Result<std::vector<NamedCamera>> ReadPose2SimCalibration(std::string_view text) {
-  std::vector<NamedCamera> cameras;
-  std::string name;
-  Keys keys;
-  int line = 0, table_line = 0;
-  // Ends a table; if the table describes a camera, adds the camera.
-  const auto finish = [&]() -> Result<void> {
-    const auto ignored = keys.find("ignore");  // a key that Caliscope writes
-    const bool is_ignored = ignored != keys.end() && ignored->second == "true";
-    if (!is_ignored && (keys.contains("matrix") || keys.contains("rotation") || keys.contains("look_at"))) {
-      ASSIGN_OR_RETURN(auto camera, ReadTable(name, keys, table_line));
-      cameras.push_back(std::move(camera));
-    }
-    keys.clear();
-    return {};
-  };
-  const auto next_line = [&] { return Trimmed(WithoutComment(TakeLine(text, line))); };
-  while (!text.empty()) {
-    const std::string_view here = next_line();
-    if (here.empty()) continue;
-    const std::size_t equals = here.find('=');
-    if (here.front() == '[' && here.back() == ']' && equals == std::string_view::npos) {
-      RETURN_IF_ERROR(finish());
-      name = here.substr(1, here.size() - 2);
-      // Caliscope's tables are named cameras.0, cameras.1, …
-      if (constexpr std::string_view kOf = "cameras."; name.starts_with(kOf)) name = "cam_" + name.substr(kOf.size());
-      table_line = line;
-      continue;
-    }
-    if (equals == std::string_view::npos)
-      return Fail({{}, line, 1}, "found {}; allowed: a table ([name]) or a key (name = value)", here);
-    std::string& value = keys[std::string(Trimmed(here.substr(0, equals)))];
-    value = Trimmed(here.substr(equals + 1));
-    // A list may continue over several lines.
-    while (value.starts_with('[') && std::ranges::count(value, '[') > std::ranges::count(value, ']') && !text.empty()) {
-      value += std::string(" ").append(next_line());
-    }
+  toml::table file;
+  try {
+    file = toml::parse(text);
+  } catch (const toml::parse_error& error) {
+    return Fail(PlaceOf(error.source()), "is not valid TOML: {}", error.description());
   }
-  RETURN_IF_ERROR(finish());
+  std::vector<CameraTable> tables;
+  AddCameraTables(file, "", tables);
+  // The library sorts tables by their names; restore their order in the file.
+  std::ranges::stable_sort(tables, {}, [](const CameraTable& one) {
+    const toml::source_position at = one.keys->source().begin;
+    return std::pair(at.line, at.column);
+  });
+  std::vector<NamedCamera> cameras;
+  for (const CameraTable& table : tables) {
+    ASSIGN_OR_RETURN(const bool is_ignored, TruthOf(table.name, *table.keys, "ignore", false));  // Caliscope's key
+    if (is_ignored) continue;
+    ASSIGN_OR_RETURN(cameras.emplace_back(), ReadTable(table));
+  }
   if (cameras.empty()) return Fail({}, "no camera");
   return cameras;
 }

@@ -17,7 +17,7 @@ LIBRARIES = {
     "libjpeg": "pictures that were compressed",
     "libcairo": "draws sheets and films",
     "libtinygltf": "figures", "libzip": "motions of AMASS",
-    "libxml2": "tags, calibrations", "libyaml-cpp": "scenarios",
+    "libxml2": "tags, calibrations", "libtomlplusplus": "calibrations", "libyaml-cpp": "scenarios",
     "libceres": "least squares; part of the program on Debian 12", "libglog": "Ceres's", "libcholmod": "Ceres's", "libcxsparse": "Ceres's", "libspqr": "Ceres's",
     "liblapack": "Ceres's", "libblas": "Ceres's",
     "libhwy": "vectors", "libfmt": "text", "libxxhash": "digests", "libsodium": "signatures",

@@ -35,6 +35,7 @@ FOLDERS = LAYERS + ["tests", "docs", "scripts", "scenarios", "examples", "cmake"
 # Heavy libraries, by the beginning of their includes, and the only folders that may include them.
 DOORS = {
     "yaml-cpp/": ["engine/document"],
+    "toml++/": ["engine/cameras"],
     "EGL/": ["sim/render"],
     "GL/": ["sim/render"],
     "tiny_gltf.h": ["engine/formats/gltf"],

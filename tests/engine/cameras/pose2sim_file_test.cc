@@ -39,6 +39,13 @@ TEST(Pose2SimFile, GivesItsCamerasBack) {
   }
 }
 
+TEST(Pose2SimFile, GivesNamesBackThatTomlMustQuote) {
+  for (const char* name : {"left cam", "a.b", "3 \"x\" \\", "it's", "Käthe", ""}) {
+    ASSERT_OK(back, ReadPose2SimCalibration(WritePose2SimCalibration(std::vector{NamedCamera{name, Plain().camera}})));
+    EXPECT_EQ(back->front().name, name);
+  }
+}
+
 TEST(Pose2SimFile, KeepsAThirdRadialCoefficientWhereThereIsOne) {
   NamedCamera camera = Plain();
   camera.camera.distortion = {.k1 = 0.1, .k3 = 0.03};
@@ -112,6 +119,53 @@ TEST(Pose2SimFile, ReadsFisheyesMatricesAndListsOverLines) {
   EXPECT_EQ(caliscope->front().name, "cam_3");
   // The file has Z up; the camera looks along its x, which is our z.
   EXPECT_LT(glm::distance(caliscope->front().camera.p_WC, glm::dvec3(0, 0, -2)), 1e-12);
+}
+
+/// Returns the names of a file's cameras, or the complaint about the file.
+std::string NamesIn(const std::string& text) {
+  const auto rig = ReadPose2SimCalibration(text);
+  if (!rig) return ToString(rig.error());
+  std::string names;
+  for (const NamedCamera& camera : *rig) names += camera.name + ";";
+  return names;
+}
+
+TEST(Pose2SimFile, ReadsEveryFormOfTomlInTheFilesOrder) {
+  const std::string keys =
+      "size = [640, 480]\nmatrix = [[600, 0, 320], [0, 600, 240], [0, 0, 1]]\ndistortions = []\n"
+      "rotation = [0, 0, 0.5]\ntranslation = [0, 0, 2]\n";
+  EXPECT_EQ(NamesIn("[b]\n" + keys + "[a]\r\n" + keys + "[metadata]\nerror = 0.1\n"), "b;a;");
+  EXPECT_EQ(NamesIn("\xEF\xBB\xBF[a]\nname = 'left #1 = \"x\"' # literal\n" + keys), "left #1 = \"x\";");
+  EXPECT_EQ(NamesIn("[a]\nname = \"left \\\"#1\\\\\" # basic\n" + keys), "left \"#1\\;");
+  EXPECT_EQ(
+      NamesIn("[ 'a b' ]\n'size' = [6_40, 0x1e0]\n" + keys.substr(keys.find('\n') + 1) + "[cameras.\"2\"]\n" + keys),
+      "a b;cam_2;");
+  EXPECT_EQ(NamesIn("[[cameras]]\n" + keys + "[[cameras]]\nname = 'z'\n" + keys), "cam_0;z;");
+  std::string inner = keys;
+  for (char& c : inner) c = c == '\n' ? ',' : c;
+  inner.pop_back();
+  EXPECT_EQ(NamesIn("c = {" + inner + "}\n"), "c;");
+  EXPECT_EQ(NamesIn("c.size = [640, 480]\nc.matrix = [600, 0, 320, 0, 600, 240, 0, 0, 1]\nc.distortions = []\n"
+                    "c.rotation = [0, 0, 0.5]\nc.translation = [0, 0, 2]\n"),
+            "c;");
+}
+
+TEST(Pose2SimFile, RefusesWhatIsNotTomlOrNoCamera) {
+  const std::string keys =
+      "size = [640, 480]\nmatrix = [[600, 0, 320], [0, 600, 240], [0, 0, 1]]\ndistortions = []\n"
+      "rotation = [0, 0, 0.5]\ntranslation = [0, 0, 2]\n";
+  for (const auto& [text, said] :
+       {std::pair("[a]\n" + keys + "translation = [0, 0, 3]\n", ":7:15: is not valid TOML: "),
+        {"[a]\n" + keys + "\"size\" = [0, 3]\n", "is not valid TOML: "},
+        {"[a]\n" + keys + "[a]\n" + keys, ":7:1: is not valid TOML: "},
+        {"[a]\n" + keys + "x = 1.\n", ":7:7: is not valid TOML: "},
+        {"[a]\nname = 7\n" + keys, ":2:8: camera a: 'name' must be a text in quotes"},
+        {"[a]\nfisheye = 'true'\n" + keys, ":2:11: camera a: 'fisheye' must be true or false"},
+        {"[a]\n" + keys.substr(keys.find('\n') + 1) + "size = [640, '480']\n",
+         ":6:8: camera a: 'size' must be a list of numbers"},
+        {"[metadata]\nerror = 1\n", "no camera"}}) {
+    EXPECT_NE((":" + NamesIn(text)).find(said), std::string::npos) << NamesIn(text);
+  }
 }
 
 TEST(Pose2SimFile, ReadsPlannedCameras) {

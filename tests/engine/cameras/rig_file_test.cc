@@ -164,8 +164,8 @@ TEST(RigFile, RefusesAMirroredCameraInEveryFormatWithAMatrix) {
 
 TEST(RigFile, RefusesALensThatItCannotRead) {
   const std::string toml = WritePose2SimCalibration(TwoCameras());
-  EXPECT_THAT(testing::Message(ReadRig(testing::Replaced(toml, "fisheye = false", "fisheye = yes"), "rig")),
-              HasSubstr("'fisheye' is yes; allowed: true, false"));
+  EXPECT_THAT(testing::Message(ReadRig(testing::Replaced(toml, "fisheye = false", "fisheye = 'yes'"), "rig")),
+              HasSubstr("'fisheye' must be true or false"));
 }
 
 std::string OpenCvMatrix(const std::string& name, std::size_t rows, const std::vector<double>& values) {
