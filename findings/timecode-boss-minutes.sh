@@ -3,8 +3,8 @@
 #
 # At 29.97 frames a second, timecode leaves out the labels 00 and 01 at the start of each minute, except every tenth; at
 # 59.94 the labels 00 to 03 (SMPTE ST 12-1). Each other label belongs to one frame. timecode-boss counts 1798 frames for
-# the first of ten minutes too, which has 1800: the last two frames of each minute get the labels of two later frames. At
-# 59.94, the last four get labels that do not exist. From a Date it reads the digits of the milliseconds as a decimal
+# the first of ten minutes too, which has 1800: the last two frames of each minute get the labels of two later frames.
+# At 59.94, the last four get labels that do not exist. From a Date it reads the digits of the milliseconds as a decimal
 # fraction, so 40 and 400 ms are the same time. A motion that is matched to a video by such timecodes is moved by some
 # frames. smpte-timecode 1.3.6 labels the same frames and dates correctly.
 #

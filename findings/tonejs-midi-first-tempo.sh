@@ -1,11 +1,12 @@
 #!/usr/bin/env bash
-# @tonejs/midi 2.0.28 moves all beats after a MIDI file's first tempo, forward or back, if that tempo is not at the start.
+# @tonejs/midi 2.0.28 moves all beats after a MIDI file's first tempo, forward or back, if that tempo is not at the
+# start.
 #
 # Where a MIDI file gives no tempo, it plays at 120 beats a minute (Standard MIDI Files 1.0). @tonejs/midi gives the
 # notes before the first tempo these times. But it computes the time of the first tempo as if that tempo had applied
 # from the start. If the fifth beat sets 60 beats a minute, it is at 4 s instead of 2 s; if it sets 240, it is at 1 s,
-# before the third and fourth beat. Files that set a tempo at the start are read correctly. midi-player-js 2.0.17 reads
-# all of them correctly.
+# before the third and fourth beat. Files that set a tempo at the start are read correctly. midi-player-js reads all
+# files correctly.
 #
 # Needs: npm and node (18 or later). Downloads less than 1 MB, writes to a temporary folder only.
 set -euo pipefail
