@@ -28,7 +28,7 @@ function labels(rate) {
   const perSecond = Math.round(rate), leftOut = rate % 1 ? perSecond / 15 : 0, all = [];
   for (let second = 0; second < 3600; ++second)
     for (let frame = second % 60 === 0 && second % 600 !== 0 ? leftOut : 0; frame < perSecond; ++frame)
-      all.push(['00', ...[second / 60, second % 60, frame].map((n) => String(Math.floor(n)).padStart(2, '0'))].join(':'));
+      all.push([0, second / 60, second % 60, frame].map((n) => String(Math.floor(n)).padStart(2, '0')).join(':'));
   return all;
 }
 for (const [name, label] of Object.entries(readers)) {

@@ -1,6 +1,5 @@
 #!/usr/bin/env bash
-# @tonejs/midi 2.0.28 moves all beats after a MIDI file's first tempo, forward or back, if that tempo is not at the
-# start.
+# @tonejs/midi 2.0.28 moves all beats after a MIDI file's first tempo if that tempo is not at the start.
 #
 # Where a MIDI file gives no tempo, it plays at 120 beats a minute (Standard MIDI Files 1.0). @tonejs/midi gives the
 # notes before the first tempo these times. But it computes the time of the first tempo as if that tempo had applied
